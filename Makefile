@@ -1,0 +1,20 @@
+# make demo and make test need Debian 12, git and make; scripts/setup.sh installs the rest.
+
+.PHONY: build demo test clean help
+
+build: ## the programs, optimised, in build/release
+	scripts/setup.sh build
+	scripts/build.sh
+
+demo: build ## a picture of a room: out/room.png and out/room.exr
+	scripts/demo.sh
+
+test: ## builds and runs all tests and checks (docs/testing.md)
+	scripts/setup.sh test
+	scripts/test.sh
+
+clean: ## removes build/ and out/
+	rm -rf build out
+
+help: ## this list
+	@sed -nE 's/^([a-z]+):[^#]*## (.*)/make \1\t\2/p' $(MAKEFILE_LIST)

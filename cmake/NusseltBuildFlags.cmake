@@ -1,0 +1,25 @@
+# What all our own programs, modules and tests are compiled with. The installed library imposes none of it.
+if(PROJECT_IS_TOP_LEVEL)
+    if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CXX_FLAGS)
+        set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo or MinSizeRel" FORCE)
+    endif()
+    find_program(CCACHE ccache)
+    if(CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+        set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+    endif()
+endif()
+
+add_library(nusselt_build_flags INTERFACE)
+target_compile_features(nusselt_build_flags INTERFACE cxx_std_20)
+target_include_directories(nusselt_build_flags INTERFACE ${PROJECT_SOURCE_DIR}/src)
+target_compile_options(nusselt_build_flags INTERFACE
+    # The baseline. The packet kernels add AVX2 and AVX-512 units of their own, chosen at run time.
+    -march=x86-64-v2
+    # fma is written where it is meant: scalars, packs and GPUs shall round alike.
+    -ffp-contract=off
+    # Nobody reads errno; without this a sqrt is a call.
+    -fno-math-errno
+    -Wall -Wextra -Wpedantic -Wshadow
+    # GCC 12 warns of every `"text" + std::string` (GCC bug 105651).
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+    $<$<BOOL:${NUSSELT_WARNINGS_AS_ERRORS}>:-Werror>)

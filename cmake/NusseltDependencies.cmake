@@ -1,0 +1,43 @@
+# Finds the packages that the renderer and the tests use, and names all missing ones in one message.
+
+# Appends to `missing` what is not found; arguments are the name for find_package and that of the Debian package.
+macro(nusselt_find name debian_package)
+    # Debian's Imath reports Python bindings, which nobody asked for, as not installed.
+    set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
+    find_package(${name} ${ARGN} CONFIG QUIET)
+    unset(CMAKE_MESSAGE_LOG_LEVEL)
+    if(NOT ${name}_FOUND)
+        list(APPEND missing ${debian_package})
+    endif()
+endmacro()
+
+function(nusselt_report_missing what alternative missing)
+    if(missing)
+        list(JOIN missing " " packages)
+        message(FATAL_ERROR "${what} cannot be built, these Debian packages are missing: ${packages}\n"
+            "`make test` and `make demo` install what they need on Debian 12. ${alternative}")
+    endif()
+endfunction()
+
+macro(nusselt_require_renderer_dependencies)
+    set(missing)
+    nusselt_find(embree libembree-dev 3.13)
+    nusselt_find(TBB libtbb-dev)
+    nusselt_find(OpenEXR libopenexr-dev 3)
+    nusselt_find(CLI11 libcli11-dev)
+    nusselt_find(fmt libfmt-dev)
+    nusselt_find(spdlog libspdlog-dev)
+    nusselt_find(nlohmann_json nlohmann-json3-dev)
+    find_library(STB_LIBRARY stb)
+    if(NOT STB_LIBRARY)
+        list(APPEND missing libstb-dev)
+    endif()
+    nusselt_report_missing("The renderer" "-DNUSSELT_BUILD_RENDERER=OFF builds the library alone." "${missing}")
+endmacro()
+
+macro(nusselt_require_test_dependencies)
+    set(missing)
+    nusselt_find(GTest libgtest-dev)
+    nusselt_find(benchmark libbenchmark-dev)
+    nusselt_report_missing("The tests" "-DNUSSELT_BUILD_TESTS=OFF leaves the tests out." "${missing}")
+endmacro()

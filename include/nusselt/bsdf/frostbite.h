@@ -1,0 +1,132 @@
+#pragma once
+/// The Frostbite BRDF: Disney diffuse, renormalised, plus GGX with height-correlated Smith and Schlick.
+///
+/// S. Lagarde, C. de Rousiers 2014, Moving Frostbite to Physically Based Rendering, SIGGRAPH course, Sec. 3.1
+/// (Eq. 10 and Listings 1 to 3). Its parts: D from Walter et al. 2007, Microfacet Models for Refraction,
+/// doi:10.2312/EGWR/EGSR07/195-206, Eq. 33; masking from Heitz 2014, JCGT 3(2), Eq. 99; Fresnel from Schlick
+/// 1994, doi:10.1111/1467-8659.1330233, Eq. 15; diffuse from Burley 2012, Physically-Based Shading at Disney.
+
+#include <nusselt/core/trig.h>
+#include <nusselt/core/vec.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// Smallest GGX alpha. Rounding turns a half vector of float directions by about 6e-8: lobes must be much
+/// wider for their values to mean something, and the peak 1 / (pi alpha^2) stays far from overflow.
+inline constexpr double kSmallestGgxAlpha = 1e-4;
+
+/// Smallest denominator of the visibility term. Only directions whose cosines sum to less than 1e-16 reach
+/// it, where the BRDF (though not its product with the cosine) would leave the range of float.
+inline constexpr double kSmallestVisibilityDenominator = 1e-20;
+
+/// One surface point seen from one direction: the constructor does what does not depend on the light.
+///
+/// All directions are unit vectors in shading space, pointing away from the surface; z is the cosine. Values
+/// are those of the BRDF, without the cosine [1/sr]. They are 0 where wi.z <= 0 or wo.z <= 0, exactly equal
+/// after swapping wo and wi, never NaN and at most 1.7e27 (specular) or 0.8 (diffuse) for albedo and f0 up to
+/// 1; eval_specular(wi) times wi.z is at most 1.6e11.
+///
+/// The parts do not know of each other: with albedo 1 and f0 0.04, or albedo 0 and f0 1, a surface reflects
+/// less than it receives; with both large it may reflect more.
+///
+/// \tparam Real float, double, long double or a pack with one surface point per lane.
+template <class Real>
+class Frostbite {
+    using Scalar = scalar_t<Real>;
+
+public:
+    /// \param wo        unit direction to the eye; parallel to the normal is fine.
+    /// \param albedo    of the diffuse part, in [0, 1].
+    /// \param f0        reflectance of the specular part at normal incidence, in [0, 1].
+    /// \param roughness perceptual ("linear") roughness, clamped to [0, 1]; the alpha of GGX is its square,
+    /// but
+    ///                  at least kSmallestGgxAlpha.
+    NUSSELT_HD Frostbite(const Vec3<Real>& wo, const Vec3<Real>& albedo, const Vec3<Real>& f0,
+                         const Real& roughness) noexcept
+        : wo_(wo), f0_(f0), roughness_(min(max(roughness, Real(0)), Real(1))) {
+        const Real alpha = max(roughness_ * roughness_, Real(Scalar(kSmallestGgxAlpha)));
+        alpha2_ = alpha * alpha;
+        slant_o_ = slant(wo.z);
+        grazing_o_ = fifth_power_of_complement(wo.z);
+        // The factor E_f of Lagarde and de Rousiers goes from 1 to 1 / 1.51.
+        const Real energy = Real(1) - roughness_ * Real(1 - 1 / Scalar(1.51L));
+        diffuse_ = (energy * Real(1 / kPi<Scalar>)) * albedo;
+    }
+
+    NUSSELT_HD Vec3<Real> eval(const Vec3<Real>& wi) const noexcept {
+        const HalfVector half(wo_ + wi);
+        return diffuse(wi, half) + specular(wi, half);
+    }
+
+    /// The diffuse part of eval().
+    NUSSELT_HD Vec3<Real> eval_diffuse(const Vec3<Real>& wi) const noexcept {
+        return diffuse(wi, HalfVector(wo_ + wi));
+    }
+
+    /// The specular part of eval().
+    NUSSELT_HD Vec3<Real> eval_specular(const Vec3<Real>& wi) const noexcept {
+        return specular(wi, HalfVector(wo_ + wi));
+    }
+
+private:
+    /// wo + wi has twice the length of the cosine between each of them and the half vector.
+    struct HalfVector {
+        NUSSELT_HD explicit HalfVector(const Vec3<Real>& sum) noexcept
+            : scaled(reciprocal_power_of_two(max(max(abs(sum.x), abs(sum.y)), abs(sum.z))) * sum),
+              cos2(min(Real(Scalar(0.25)) * dot(sum, sum), Real(1))) {}
+
+        Vec3<Real> scaled; ///< of a length near one even if the directions almost oppose each other
+        Real cos2;         ///< squared cosine between the half vector and either direction
+    };
+
+    NUSSELT_HD static Real fifth_power_of_complement(const Real& x) noexcept {
+        const Real y = max(Real(1) - x, Real(0));
+        const Real y2 = y * y;
+        return y2 * y2 * y;
+    }
+
+    /// The root in the Smith terms.
+    NUSSELT_HD Real slant(const Real& cosine) const noexcept {
+        return sqrt(cosine * cosine * (Real(1) - alpha2_) + alpha2_);
+    }
+
+    NUSSELT_HD Vec3<Real> where_lit(const Vec3<Real>& wi, const Real& factor,
+                                    const Vec3<Real>& f) const noexcept {
+        const auto lit = (wo_.z > Real(0)) & (wi.z > Real(0));
+        return select(lit, factor, Real(0)) * f;
+    }
+
+    NUSSELT_HD Vec3<Real> diffuse(const Vec3<Real>& wi, const HalfVector& half) const noexcept {
+        const Real bias = roughness_ * (Real(Scalar(0.5)) + Real(2) * half.cos2) - Real(1);
+        const Real scatter_i = Real(1) + bias * fifth_power_of_complement(wi.z);
+        const Real scatter_o = Real(1) + bias * grazing_o_;
+        return where_lit(wi, scatter_i * scatter_o, diffuse_);
+    }
+
+    NUSSELT_HD Vec3<Real> specular(const Vec3<Real>& wi, const HalfVector& half) const noexcept {
+        // The textbook's (n.h)^2 (alpha^2 - 1) + 1 cancels in the narrow lobes: with h not normalised it is a
+        // sum of positive terms over |h|^2.
+        const Vec3<Real>& h = half.scaled;
+        const Real plane2 = h.x * h.x + h.y * h.y;
+        const Real height2 = h.z * h.z;
+        const Real ratio = (plane2 + height2) / (plane2 + alpha2_ * height2);
+        const Real distribution = alpha2_ * ratio * ratio * Real(1 / kPi<Scalar>);
+        const Real denominator = wi.z * slant_o_ + wo_.z * slant(wi.z);
+        const Real visibility =
+            Real(Scalar(0.5)) / max(denominator, Real(Scalar(kSmallestVisibilityDenominator)));
+        const Real grazing = fifth_power_of_complement(sqrt(half.cos2));
+        const Vec3<Real> fresnel{f0_.x + (Real(1) - f0_.x) * grazing, f0_.y + (Real(1) - f0_.y) * grazing,
+                                 f0_.z + (Real(1) - f0_.z) * grazing};
+        return where_lit(wi, distribution * visibility, fresnel);
+    }
+
+    Vec3<Real> wo_;
+    Vec3<Real> f0_;
+    Vec3<Real> diffuse_; ///< albedo with all factors that do not depend on directions
+    Real roughness_;
+    Real alpha2_;
+    Real slant_o_;
+    Real grazing_o_; ///< (1 - wo.z)^5
+};
+
+NUSSELT_NAMESPACE_END

@@ -1,0 +1,37 @@
+#pragma once
+/// Namespaces and function qualifiers shared by every header of the library.
+
+/// Functions carry NUSSELT_HD so that CUDA compiles them for host and device.
+#if defined(__clang__) && defined(__CUDA__)
+#define NUSSELT_HD __attribute__((host)) __attribute__((device))
+#elif defined(__CUDACC__)
+#define NUSSELT_HD __host__ __device__
+#else
+#define NUSSELT_HD
+#endif
+
+/// Everything lives in an inline namespace named after the instruction set of the translation unit.
+/// A program may compile the library for several instruction sets; without distinct names the linker would
+/// merge their inline functions and could give the baseline a copy that needs AVX-512.
+#if defined(__CUDA_ARCH__)
+#define NUSSELT_ISA isa_cuda
+#elif defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+#define NUSSELT_ISA isa_avx512
+#elif defined(__AVX2__) && defined(__FMA__)
+#define NUSSELT_ISA isa_avx2
+#elif defined(__SSE4_2__)
+#define NUSSELT_ISA isa_sse42
+#else
+#define NUSSELT_ISA isa_generic
+#endif
+
+#define NUSSELT_NAMESPACE_BEGIN                                                                              \
+    namespace nusselt {                                                                                      \
+    inline namespace NUSSELT_ISA {
+#define NUSSELT_NAMESPACE_END                                                                                \
+    }                                                                                                        \
+    }
+
+#if defined(__FAST_MATH__)
+#error "nusselt relies on IEEE arithmetic (error-free products, infinities): compile without -ffast-math"
+#endif

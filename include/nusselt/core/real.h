@@ -1,0 +1,133 @@
+#pragma once
+/// What the library asks of a number type. `Real` is float, double, long double, or a pack of float or
+/// double with one independent lane per light and shading point.
+///
+/// Templates use the operations below by unqualified name: this header has them for scalars, simd/pack.h
+/// for packs (found by argument-dependent lookup). Comparisons give a mask: bool for scalars.
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include <nusselt/core/config.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// Maps a number type to its scalar, its mask and its number of lanes. simd/pack.h specialises it.
+template <class Real>
+struct RealTraits {
+    static_assert(std::is_floating_point_v<Real>,
+                  "Real must be float, double, long double or a Pack of them");
+    using Scalar = Real;
+    using Mask = bool;
+    static constexpr int kLanes = 1;
+};
+
+template <class Real>
+using scalar_t = typename RealTraits<Real>::Scalar;
+template <class Real>
+using mask_t = typename RealTraits<Real>::Mask;
+
+template <class T>
+using EnableScalar = std::enable_if_t<std::is_floating_point_v<T>, int>;
+
+/// a where the mask is set, else b. Both are evaluated.
+template <class T, EnableScalar<T> = 0>
+NUSSELT_HD constexpr T select(bool mask, T a, T b) noexcept {
+    return mask ? a : b;
+}
+NUSSELT_HD constexpr bool any(bool mask) noexcept { return mask; }
+NUSSELT_HD constexpr bool all(bool mask) noexcept { return mask; }
+
+template <class T, EnableScalar<T> = 0>
+NUSSELT_HD inline T sqrt(T x) noexcept {
+    return std::sqrt(x);
+}
+template <class T, EnableScalar<T> = 0>
+NUSSELT_HD inline T abs(T x) noexcept {
+    return std::fabs(x);
+}
+template <class T, EnableScalar<T> = 0>
+NUSSELT_HD inline T floor(T x) noexcept {
+    return std::floor(x);
+}
+template <class T, EnableScalar<T> = 0>
+NUSSELT_HD inline T copysign(T magnitude, T sign) noexcept {
+    return std::copysign(magnitude, sign);
+}
+
+/// b if either operand is NaN or both are zeros, as the x86 instructions: max(x, 0) removes a NaN in x.
+template <class T, EnableScalar<T> = 0>
+NUSSELT_HD constexpr T max(T a, T b) noexcept {
+    return a > b ? a : b;
+}
+/// b if either operand is NaN or both are zeros.
+template <class T, EnableScalar<T> = 0>
+NUSSELT_HD constexpr T min(T a, T b) noexcept {
+    return a < b ? a : b;
+}
+
+/// a * b + c, rounded once. Without the instruction, float goes through double: the product is exact there
+/// and the result differs from a true fma by at most one rounding in 2^29 cases, while the library routine
+/// would take a hundred nanoseconds.
+NUSSELT_HD inline float fma(float a, float b, float c) noexcept {
+#if defined(__FMA__) || defined(__ARM_FEATURE_FMA) || defined(__CUDA_ARCH__)
+    return std::fma(a, b, c);
+#else
+    return static_cast<float>(static_cast<double>(a) * static_cast<double>(b) + static_cast<double>(c));
+#endif
+}
+NUSSELT_HD inline double fma(double a, double b, double c) noexcept { return std::fma(a, b, c); }
+NUSSELT_HD inline long double fma(long double a, long double b, long double c) noexcept {
+    return std::fma(a, b, c);
+}
+
+/// Whether x is neither NaN nor infinite.
+template <class T, EnableScalar<T> = 0>
+NUSSELT_HD inline bool is_finite(T x) noexcept {
+    return abs(x) <= std::numeric_limits<T>::max();
+}
+
+/// A power of two within a factor of two of 1 / x, for x > 0; clamped to normal numbers, so that x times the
+/// result is of order one unless x is denormal or above 2^126. Multiplying by it introduces no rounding.
+NUSSELT_HD inline float reciprocal_power_of_two(float x) noexcept {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    std::uint32_t exponent = (bits >> 23) & 0xffu;
+    exponent = exponent < 1u ? 1u : exponent > 253u ? 253u : exponent;
+    bits = (254u - exponent) << 23;
+    float result = 0;
+    std::memcpy(&result, &bits, sizeof bits);
+    return result;
+}
+/// \copydoc reciprocal_power_of_two(float)
+NUSSELT_HD inline double reciprocal_power_of_two(double x) noexcept {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    std::uint64_t exponent = (bits >> 52) & 0x7ffu;
+    exponent = exponent < 1u ? 1u : exponent > 2045u ? 2045u : exponent;
+    bits = (2046u - exponent) << 52;
+    double result = 0;
+    std::memcpy(&result, &bits, sizeof bits);
+    return result;
+}
+/// \copydoc reciprocal_power_of_two(float)
+inline long double reciprocal_power_of_two(long double x) noexcept {
+    int exponent = 0;
+    std::frexp(x, &exponent);
+    constexpr int kLimit = std::numeric_limits<long double>::max_exponent - 2;
+    exponent = exponent < -kLimit ? -kLimit : exponent > kLimit ? kLimit : exponent;
+    return std::ldexp(1.0L, -exponent);
+}
+
+/// x, or the largest number below one: brings the result of an inversion back to [0, 1). A negative x or NaN
+/// becomes 0.
+template <class Real>
+NUSSELT_HD inline Real below_one(const Real& x) noexcept {
+    constexpr scalar_t<Real> kLargest = 1 - std::numeric_limits<scalar_t<Real>>::epsilon() / 2;
+    return min(max(x, Real(0)), Real(kLargest));
+}
+
+NUSSELT_NAMESPACE_END

@@ -1,0 +1,129 @@
+#pragma once
+/// Trigonometric functions on the ranges that the techniques need.
+///
+/// Single precision, scalar or pack, evaluates polynomials (minimax, fitted for this library) with fma, so
+/// that scalar, SIMD and GPU code give the same bits. Double and long double call the standard library.
+/// The error bounds are those that tests/unit/core/trig_test.cpp enforces.
+
+#include <nusselt/core/real.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+template <class Real>
+inline constexpr Real kPi = Real(3.141592653589793238462643383279502884L);
+
+/// Whether Real has single precision and therefore uses polynomials.
+template <class Real>
+inline constexpr bool kIsSingle = std::is_same_v<scalar_t<Real>, float>;
+
+namespace detail {
+
+/// f(x, y) for scalars, lane by lane for packs.
+template <class Real, class Function>
+NUSSELT_HD inline Real for_each_lane(const Real& x, const Real& y, Function f) noexcept {
+    if constexpr (RealTraits<Real>::kLanes == 1) {
+        return f(x, y);
+    } else {
+        Real result = x;
+        for (int i = 0; i < RealTraits<Real>::kLanes; ++i) result.set_lane(i, f(x.lane(i), y.lane(i)));
+        return result;
+    }
+}
+
+/// Angles of both quadrants from the arctangent of the ratio smaller / larger of |x| and y.
+template <class Real>
+NUSSELT_HD inline Real unfold_octants(const Real& y, const Real& x, const Real& octant) noexcept {
+    const Real quadrant = select(y > abs(x), Real(kPi<float> / 2) - octant, octant);
+    return select(x < Real(0), Real(kPi<float>) - quadrant, quadrant);
+}
+
+} // namespace detail
+
+/// Angle of the point (x, y) with y >= 0, in [0, pi]; 0 for the origin. A negative or NaN y counts as 0.
+/// Single precision: relative error at most 3e-7. Finite arguments below 1e38.
+template <class Real>
+NUSSELT_HD inline Real atan2_positive(const Real& y_in, const Real& x) noexcept {
+    const Real y = max(y_in, Real(0));
+    if constexpr (kIsSingle<Real>) {
+        const Real ax = abs(x);
+        const Real small = min(ax, y);
+        const Real large = max(ax, y);
+        // Beyond pi / 8 turn by pi / 4, so that the polynomial sees at most tan(pi / 8).
+        const mask_t<Real> turn = small > Real(0.41421356237f) * large;
+        const Real numerator = select(turn, small - large, small);
+        const Real denominator = select(turn, small + large, select(large > Real(0), large, Real(1)));
+        const Real q = numerator / denominator;
+        const Real s = q * q;
+        Real p = fma(Real(-6.0832240e-2f), s, Real(1.05959155e-1f));
+        p = fma(p, s, Real(-1.42438378e-1f));
+        p = fma(p, s, Real(1.99984885e-1f));
+        p = fma(p, s, Real(-3.33333155e-1f));
+        const Real angle = fma(q * s, p, q);
+        return detail::unfold_octants(y, x, select(turn, Real(kPi<float> / 4) + angle, angle));
+    } else {
+        return detail::for_each_lane(y, x,
+                                     [](auto b, auto a) { return b > 0 || a < 0 ? std::atan2(b, a) : b; });
+    }
+}
+
+/// As atan2_positive with an absolute error of at most 1.3e-5 rad in every precision: for the biased variant
+/// of Peters 2021 (polygonal lights), Sec. 6.4.
+template <class Real>
+NUSSELT_HD inline Real atan2_positive_fast(const Real& y_in, const Real& x) noexcept {
+    const Real y = max(y_in, Real(0));
+    const Real ax = abs(x);
+    const Real large = max(ax, y);
+    const Real q = min(ax, y) / select(large > Real(0), large, Real(1));
+    const Real s = q * q;
+    Real p = fma(Real(2.0845112e-2f), s, Real(-8.5156346e-2f));
+    p = fma(p, s, Real(1.80159291e-1f));
+    p = fma(p, s, Real(-3.30304785e-1f));
+    p = fma(p, s, Real(9.99866329e-1f));
+    return detail::unfold_octants(y, x, p * q);
+}
+
+template <class Real>
+struct SinCos {
+    Real sin, cos;
+};
+
+/// Sine and cosine of an angle in [0, pi]. Single precision: sine with a relative error of at most 2e-7
+/// except within 1e-4 of pi, where it is absolute, cosine with an absolute error of at most 1.2e-7.
+template <class Real>
+NUSSELT_HD inline SinCos<Real> sincos_half_turn(const Real& angle) noexcept {
+    if constexpr (kIsSingle<Real>) {
+        // r = angle - k pi / 2 in two steps: the first constant has few bits, so that its product is exact.
+        const Real k = floor(fma(angle, Real(2 / kPi<float>), Real(0.5f)));
+        const Real r = fma(k, Real(-4.83826792e-4f), fma(k, Real(-1.5703125f), angle));
+        const Real s = r * r;
+        Real ps = fma(Real(-1.95169776e-4f), s, Real(8.33217585e-3f));
+        ps = fma(ps, s, Real(-1.66666549e-1f));
+        const Real sin_r = fma(r * s, ps, r);
+        Real pc = fma(Real(2.44380910e-5f), s, Real(-1.38873645e-3f));
+        pc = fma(pc, s, Real(4.16666468e-2f));
+        const Real cos_r = fma(s * s, pc, fma(s, Real(-0.5f), Real(1)));
+        const mask_t<Real> quarter = abs(k - Real(1)) < Real(0.5f);
+        const mask_t<Real> half = k > Real(1.5f);
+        return {select(quarter, cos_r, select(half, -sin_r, sin_r)),
+                select(quarter, -sin_r, select(half, -cos_r, cos_r))};
+    } else {
+        return {detail::for_each_lane(angle, angle, [](auto a, auto) { return std::sin(a); }),
+                detail::for_each_lane(angle, angle, [](auto a, auto) { return std::cos(a); })};
+    }
+}
+
+/// x - sin(x) with full relative precision on [0, pi], given sin(x).
+template <class Real>
+NUSSELT_HD inline Real x_minus_sin(const Real& x, const Real& sin_x) noexcept {
+    // Nested Taylor series x^3/6 (1 - x^2/20 (1 - x^2/42 (...))); the terms suffice for x < 1.
+    constexpr int kTerms = kIsSingle<Real> ? 4 : std::is_same_v<scalar_t<Real>, double> ? 8 : 10;
+    const Real s = x * x;
+    Real series = Real(1);
+    for (int i = kTerms; i >= 1; --i) {
+        const scalar_t<Real> divisor = static_cast<scalar_t<Real>>((2 * i + 2) * (2 * i + 3));
+        series = fma(s * Real(-1 / divisor), series, Real(1));
+    }
+    return select(x < Real(1), x * s * Real(scalar_t<Real>(1) / 6) * series, x - sin_x);
+}
+
+NUSSELT_NAMESPACE_END

@@ -1,0 +1,124 @@
+#pragma once
+/// Vectors of two and three components over any Real, and products that keep full relative precision.
+
+#include <nusselt/core/real.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+template <class Real>
+struct Vec2 {
+    Real x, y;
+};
+
+template <class Real>
+struct Vec3 {
+    Real x, y, z;
+};
+
+template <class Real>
+NUSSELT_HD constexpr Vec2<Real> operator+(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
+    return {a.x + b.x, a.y + b.y};
+}
+template <class Real>
+NUSSELT_HD constexpr Vec2<Real> operator-(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
+    return {a.x - b.x, a.y - b.y};
+}
+template <class Real>
+NUSSELT_HD constexpr Vec2<Real> operator*(const Real& s, const Vec2<Real>& a) noexcept {
+    return {s * a.x, s * a.y};
+}
+template <class Real>
+NUSSELT_HD constexpr Real dot(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
+    return a.x * b.x + a.y * b.y;
+}
+
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real> operator+(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real> operator-(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real> operator-(const Vec3<Real>& a) noexcept {
+    return {-a.x, -a.y, -a.z};
+}
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real> operator*(const Real& s, const Vec3<Real>& a) noexcept {
+    return {s * a.x, s * a.y, s * a.z};
+}
+template <class Real>
+NUSSELT_HD constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class Real>
+NUSSELT_HD constexpr Vec2<Real> xy(const Vec3<Real>& a) noexcept {
+    return {a.x, a.y};
+}
+
+template <class Real>
+NUSSELT_HD constexpr Vec2<Real> select(const mask_t<Real>& mask, const Vec2<Real>& a,
+                                       const Vec2<Real>& b) noexcept {
+    return {select(mask, a.x, b.x), select(mask, a.y, b.y)};
+}
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real> select(const mask_t<Real>& mask, const Vec3<Real>& a,
+                                       const Vec3<Real>& b) noexcept {
+    return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+}
+
+/// a * b - c * d with an error of at most 1.5 ulp barring under- and overflow, and never the wrong sign
+/// (Kahan's algorithm; Jeannerod, Louvet, Muller 2013, doi:10.1090/S0025-5718-2013-02679-8).
+template <class Real>
+NUSSELT_HD inline Real difference_of_products(const Real& a, const Real& b, const Real& c,
+                                              const Real& d) noexcept {
+    const Real cd = c * d;
+    const Real error = fma(c, d, -cd);
+    return fma(a, b, -cd) - error;
+}
+
+/// Determinant of the matrix with columns a, b; accurate to 1.5 ulp, exact sign.
+template <class Real>
+NUSSELT_HD inline Real det(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
+    return difference_of_products(a.x, b.y, a.y, b.x);
+}
+
+/// Each component accurate to 1.5 ulp, exact signs.
+template <class Real>
+NUSSELT_HD inline Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+            difference_of_products(a.x, b.y, a.y, b.x)};
+}
+
+/// Euclidean norm without over- or underflow of the squares; 0 for the zero vector.
+template <class Real>
+NUSSELT_HD inline Real length(const Vec3<Real>& a) noexcept {
+    const Real extent = max(max(abs(a.x), abs(a.y)), abs(a.z));
+    const Real down = reciprocal_power_of_two(extent);
+    const Vec3<Real> scaled = down * a;
+    return sqrt(dot(scaled, scaled)) / down;
+}
+
+/// Unit vector, or the zero vector if a is zero; any finite length is fine.
+template <class Real>
+NUSSELT_HD inline Vec3<Real> normalize(const Vec3<Real>& a) noexcept {
+    const Real extent = max(max(abs(a.x), abs(a.y)), abs(a.z));
+    const Vec3<Real> scaled = reciprocal_power_of_two(extent) * a;
+    const Real squared = dot(scaled, scaled);
+    const Real factor = select(squared > Real(0), Real(1) / sqrt(squared), Real(0));
+    return factor * scaled;
+}
+
+/// The same vector in every lane of a pack, or in another precision.
+template <class Real, class Single>
+NUSSELT_HD constexpr Vec3<Real> broadcast(const Vec3<Single>& a) noexcept {
+    return {Real(a.x), Real(a.y), Real(a.z)};
+}
+/// \copydoc broadcast
+template <class Real, class Single>
+NUSSELT_HD constexpr Vec2<Real> broadcast(const Vec2<Single>& a) noexcept {
+    return {Real(a.x), Real(a.y)};
+}
+
+NUSSELT_NAMESPACE_END

@@ -1,0 +1,75 @@
+#pragma once
+/// Closed forms for the area, solid angle and projected solid angle of convex polygons.
+
+#include <nusselt/core/trig.h>
+#include <nusselt/geometry/clip_polygon.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// Area [m^2]; 0 for degenerate polygons.
+template <class Real, int N>
+NUSSELT_HD inline Real area(const ConvexPolygon<Real, N>& polygon) noexcept {
+    return Real(0.5) * length(doubled_area_normal(polygon));
+}
+
+/// Scales a polygon by an exact power of two so that its farthest vertex is at a distance of order one.
+/// Directions, solid angles and projected solid angles do not change; products of coordinates stay in range.
+template <class Real, int N>
+NUSSELT_HD inline ConvexPolygon<Real, N> with_unit_extent(ConvexPolygon<Real, N> polygon) noexcept {
+    Real extent = Real(0);
+    for (int j = 0; j < N; ++j) {
+        const Vec3<Real>& v = polygon.vertex[j];
+        extent = max(extent, max(max(abs(v.x), abs(v.y)), abs(v.z)));
+    }
+    const Real scale = reciprocal_power_of_two(extent);
+    for (int j = 0; j < N; ++j) {
+        polygon.vertex[j] = scale * polygon.vertex[j];
+        polygon.edge[j] = scale * polygon.edge[j];
+    }
+    return polygon;
+}
+
+/// Solid angle [sr] seen from the origin by a polygon, clipped or not, in any frame; 0 if the origin lies in
+/// its plane. Triangle fan with the formula of van Oosterom and Strackee (Peters 2021, polygonal lights, Eq.
+/// 13).
+template <class Real, int N>
+NUSSELT_HD inline Real solid_angle(const ConvexPolygon<Real, N>& world) noexcept {
+    const ConvexPolygon<Real, N> polygon = with_unit_extent(world);
+    const Real distance = abs(dot(polygon.normal, polygon.vertex[0]));
+    Vec3<Real> offset = polygon.edge[0];
+    Real total = Real(0);
+    const Vec3<Real>& c = polygon.vertex[0];
+    const Real rc = sqrt(dot(c, c));
+    for (int j = 1; j < N - 1; ++j) {
+        const Vec3<Real>& a = polygon.vertex[j];
+        const Vec3<Real>& b = polygon.vertex[j + 1];
+        const Real doubled_area = abs(dot(polygon.normal, cross(offset, polygon.edge[j])));
+        const Real ra = sqrt(dot(a, a));
+        const Real rb = sqrt(dot(b, b));
+        // Eq. 13 times the product of the three distances. The triple product is twice the area of the
+        // triangle times the distance of its plane and cancels nowhere.
+        const Real cosines = rc * ra * rb + dot(a, b) * rc + dot(a, c) * rb + dot(b, c) * ra;
+        total = total + Real(2) * atan2_positive(distance * doubled_area, cosines);
+        offset = offset + polygon.edge[j];
+    }
+    return total;
+}
+
+/// Projected solid angle [sr] of the part of a polygon above the horizon, in shading space: Lambert's
+/// formula.
+template <class Real, int N>
+NUSSELT_HD inline Real projected_solid_angle(const ConvexPolygon<Real, N>& polygon) noexcept {
+    const ConvexPolygon<Real, N + 1> clipped = with_unit_extent(clip_to_horizon(polygon));
+    Real doubled = Real(0);
+    for (int j = 0; j <= N; ++j) {
+        const Vec3<Real>& v = clipped.vertex[j];
+        const Vec3<Real>& w = clipped.vertex[j < N ? j + 1 : 0];
+        const Vec3<Real> n = cross(v, clipped.edge[j]);
+        const Real sine = sqrt(dot(n, n));
+        const Real angle = atan2_positive(sine, dot(v, w));
+        doubled = doubled + n.z * angle / select(sine > Real(0), sine, Real(1));
+    }
+    return Real(0.5) * abs(doubled);
+}
+
+NUSSELT_NAMESPACE_END

@@ -1,0 +1,93 @@
+#pragma once
+/// Uniform sampling of the solid angle of a linear light, for surfaces and for volumes.
+///
+/// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Sec. 3.1,
+/// Eq. 1. Deviations: everything is expressed by the end points, so that nothing cancels for short or distant
+/// lights; neither preparation nor sampling needs inverse trigonometry beyond one arctangent.
+
+#include <nusselt/geometry/clip_line.h>
+#include <nusselt/sampling/light_sample.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// \tparam Real float, double, long double or a pack of float or double, one light and shading point per
+/// lane.
+///
+/// Measure: pdf is the density of wi in solid angle times the radius of the cylinder that tends to 0 [m/sr],
+/// the constant 1 / measure(). The emission of the light is radiance times radius, so that the radius
+/// cancels. Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
+/// Edge cases: no length, or origin on the infinite line: pdf = 0, measure 0.
+template <class Real>
+class LineSolidAngle {
+public:
+    /// \param light relative to the shading point [m].
+    NUSSELT_HD explicit LineSolidAngle(const LineSegment<Real>& light) noexcept
+        : LineSolidAngle(scale_of(light), make_line_extent(scaled(light, scale_of(light)))) {}
+
+    /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
+    template <class Single>
+    NUSSELT_HD explicit LineSolidAngle(const LineSolidAngle<Single>& single) noexcept
+        : extent_(broadcast<Real>(single.extent_)),
+          inverse_scale_(single.inverse_scale_),
+          measure_(single.measure_),
+          pdf_(single.pdf_) {}
+
+    /// \param u in [0, 1); increasing u moves from the begin of the light to its end.
+    NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
+        const LinePoint<Real> point = extent_.point_at(extent_.tan_half_at_fraction(u));
+        return {extent_.direction(point), pdf_, inverse_scale_ * extent_.position(point)};
+    }
+
+    /// Constant on the light; the caller knows that wi hits it.
+    NUSSELT_HD Real pdf(const Vec3<Real>&) const noexcept { return pdf_; }
+
+    /// The random number for which sample() returns wi, a unit direction on the light.
+    NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
+        const Real whole = extent_.sine_extent();
+        const Real part = extent_.sine_from_begin(extent_.point_in(wi));
+        return below_one(part / select(extent_.visible, whole, Real(1)));
+    }
+
+    /// Solid angle per radius, in the limit of a thin cylinder [sr/m].
+    NUSSELT_HD Real measure() const noexcept { return measure_; }
+
+protected:
+    /// \param scale by which the extent is larger than the light.
+    NUSSELT_HD LineSolidAngle(const Real& scale, const LineExtent<Real>& extent) noexcept
+        : extent_(extent), inverse_scale_(Real(1) / scale) {
+        // Eq. 1 in the limit of a radius of 0.
+        const Real solid_angle = Real(2) * extent.sine_extent();
+        const Real measure = solid_angle / select(extent.visible, extent.distance, Real(1)) * scale;
+        const Real density = extent.distance / select(extent.visible, solid_angle, Real(1)) * inverse_scale_;
+        const auto lit = extent.visible & is_finite(measure) & is_finite(density) & (density > Real(0)) &
+                         (measure > Real(0));
+        measure_ = select(lit, measure, Real(0));
+        pdf_ = select(lit, density, Real(0));
+    }
+
+private:
+    template <class>
+    friend class LineSolidAngle;
+
+    LineExtent<Real> extent_; ///< scaled to an extent of order one
+    Real inverse_scale_;
+    Real measure_;
+    Real pdf_;
+};
+
+/// Uniform sampling of the solid angle of the part of a linear light above the horizon, in shading space.
+/// \copydetails LineSolidAngle
+template <class Real>
+class LineClippedSolidAngle : public LineSolidAngle<Real> {
+public:
+    /// \param light in shading space [m].
+    NUSSELT_HD explicit LineClippedSolidAngle(const LineSegment<Real>& light) noexcept
+        : LineSolidAngle<Real>(scale_of(light), clipped_extent(scaled(light, scale_of(light)))) {}
+
+    /// \copydoc LineSolidAngle::LineSolidAngle(const LineSolidAngle<Single>&)
+    template <class Single>
+    NUSSELT_HD explicit LineClippedSolidAngle(const LineClippedSolidAngle<Single>& single) noexcept
+        : LineSolidAngle<Real>(static_cast<const LineSolidAngle<Single>&>(single)) {}
+};
+
+NUSSELT_NAMESPACE_END

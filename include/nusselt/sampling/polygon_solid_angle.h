@@ -1,0 +1,229 @@
+#pragma once
+/// Uniform sampling of the solid angle of a convex polygon, for surfaces and for volumes.
+///
+/// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672:
+/// Sec. 5, supplement C re-derived. The map equals that of Arvo 1995. Deviations: the triple product is the
+/// area of the triangle times the distance of its plane, which cancels nowhere, instead of a Householder
+/// reflection; the hit point comes from barycentric coordinates.
+
+#include <nusselt/geometry/clip_polygon.h>
+#include <nusselt/geometry/polygon_measures.h>
+#include <nusselt/sampling/light_sample.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// \tparam Real float, double, long double or a pack of float or double, one light and shading point per
+/// lane. \tparam N    bound on the number of vertices, 3 to 9.
+///
+/// Measure: pdf is the density of wi with respect to solid angle [1/sr], the constant 1 / measure().
+/// Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
+/// Edge cases: no area, or origin in the plane of the polygon: pdf = 0, measure 0.
+template <class Real, int N>
+class PolygonSolidAngle {
+    static constexpr int kTriangles = N - 2;
+
+public:
+    /// \param light relative to the shading point, either winding [m].
+    NUSSELT_HD explicit PolygonSolidAngle(const ConvexPolygon<Real, N>& light) noexcept {
+        const ConvexPolygon<Real, N> polygon = with_unit_extent(light);
+        for (int j = 0; j < N; ++j) {
+            vertex_[j] = light.vertex[j];
+            // A vertex at the origin implies that no triangle has a solid angle; any direction will do.
+            direction_[j] = normalize(light.vertex[j]);
+            const Real distance = length(polygon.vertex[j]);
+            inverse_distance_[j] = Real(1) / select(distance > Real(0), distance, Real(1));
+        }
+        const Real signed_distance = dot(polygon.normal, polygon.vertex[0]);
+        const Real plane_distance = abs(signed_distance);
+        counterclockwise_ = signed_distance >= Real(0);
+        Vec3<Real> offset = polygon.edge[0];
+        total_ = Real(0);
+        for (int j = 0; j < kTriangles; ++j) {
+            const Vec3<Real>& a = direction_[j + 1];
+            const Vec3<Real>& c = direction_[0];
+            const Vec3<Real>& b = direction_[j + 2];
+            const Real doubled_area = abs(dot(polygon.normal, cross(offset, polygon.edge[j + 1])));
+            g0_[j] = plane_distance * doubled_area * inverse_distance_[0] * inverse_distance_[j + 1] *
+                     inverse_distance_[j + 2];
+            g1_[j] = dot(a, b) + dot(c, b);
+            g2_[j] = Real(1) + dot(a, c);
+            solid_angle_[j] = Real(2) * atan2_positive(g0_[j], g1_[j] + g2_[j]);
+            solid_angle_[j] = select(g0_[j] > Real(0), solid_angle_[j], Real(0));
+            total_ = total_ + solid_angle_[j];
+            offset = offset + polygon.edge[j + 1];
+        }
+    }
+
+    /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
+    template <class Single>
+    NUSSELT_HD explicit PolygonSolidAngle(const PolygonSolidAngle<Single, N>& single) noexcept
+        : total_(single.total_), counterclockwise_(single.counterclockwise_) {
+        for (int j = 0; j < N; ++j) {
+            vertex_[j] = broadcast<Real>(single.vertex_[j]);
+            direction_[j] = broadcast<Real>(single.direction_[j]);
+            inverse_distance_[j] = Real(single.inverse_distance_[j]);
+        }
+        for (int j = 0; j < kTriangles; ++j) {
+            g0_[j] = Real(single.g0_[j]);
+            g1_[j] = Real(single.g1_[j]);
+            g2_[j] = Real(single.g2_[j]);
+            solid_angle_[j] = Real(single.solid_angle_[j]);
+        }
+    }
+
+    /// \param u in [0, 1)^2; x selects the great circle through vertex 0, y the point on it, beginning at
+    /// vertex 0.
+    NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        const Real target = u.x * total_;
+        Triangle t = triangle(0);
+        Real before = Real(0);
+        Real begin = Real(0);
+        for (int j = 0; j < kTriangles; ++j) {
+            const auto reached = (solid_angle_[j] > Real(0)) & (target >= before);
+            t = select_triangle(reached, triangle(j), t);
+            begin = select(reached, before, begin);
+            before = before + solid_angle_[j];
+        }
+        const Real part = min(max(target - begin, Real(0)), t.solid_angle);
+
+        // The corner v of the sub-triangle (a, c, v) with that solid angle, v on the arc from a to b.
+        const SinCos<Real> half = sincos_half_turn(Real(0.5) * part);
+        Real x = fma(t.g0, half.cos, -t.g1 * half.sin);
+        Real y = t.g2 * half.sin;
+        const Real scale = reciprocal_power_of_two(max(abs(x), abs(y)));
+        x = scale * x;
+        y = scale * y;
+        const Real cosine = dot(t.a, t.b);
+        const Real squared = fma(x, x, fma(y, y, Real(2) * x * y * cosine));
+        const Real inverse = Real(1) / select(squared > Real(0), squared, Real(1));
+        const Real weight_a = (x - y) * (x + y) * inverse;
+        const Real weight_b = Real(2) * y * fma(y, cosine, x) * inverse;
+        const Vec3<Real> v = weight_a * t.a + weight_b * t.b;
+
+        // The point on the arc from c to v, whose cosine with c is uniform.
+        const Vec3<Real> chord = v - direction_[0];
+        const Real depth = Real(0.5) * dot(chord, chord); // 1 - cosine of the arc
+        const Real room = Real(2) - depth;
+        const Real tau =
+            sqrt(max(u.y * fma(-u.y, depth, Real(2)) / select(room > Real(0), room, Real(1)), Real(0)));
+        const Real weight_c = (Real(1) - tau) + depth * (tau - u.y);
+        const Vec3<Real> wi = normalize(weight_c * direction_[0] + tau * v);
+
+        // The same weights divided by the distances are barycentric coordinates up to their sum.
+        const Real at_a = max(tau * weight_a, Real(0)) * t.inverse_a;
+        const Real at_b = max(tau * weight_b, Real(0)) * t.inverse_b;
+        const Real at_c = max(weight_c, Real(0)) * inverse_distance_[0];
+        const Real sum = at_a + at_b + at_c;
+        const Real normalisation = Real(1) / select(sum > Real(0), sum, Real(1));
+        const Vec3<Real> p = (at_a * normalisation) * t.pa + (at_b * normalisation) * t.pb +
+                             (at_c * normalisation) * vertex_[0];
+        return {wi, pdf(wi), p};
+    }
+
+    /// Constant on the light; the caller knows that wi hits it.
+    NUSSELT_HD Real pdf(const Vec3<Real>&) const noexcept {
+        const auto lit = total_ > Real(0);
+        const Real density = Real(1) / select(lit, total_, Real(1));
+        return select(lit & is_finite(density), density, Real(0));
+    }
+
+    /// The random numbers for which sample() returns wi, a unit direction on the light; (0, 0) at vertex 0.
+    NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
+        const Vec3<Real>& c = direction_[0];
+        const Vec3<Real> n = cross(c, wi); // of the great circle through c and wi
+        auto found = total_ <= Real(0);
+        Vec2<Real> u{Real(0), Real(0)};
+        for (int j = 0; j < kTriangles; ++j) {
+            const Vec3<Real>& a = direction_[j + 1];
+            const Vec3<Real>& b = direction_[j + 2];
+            const Real to_b = select(counterclockwise_, dot(n, b), -dot(n, b));
+            const Real from_a = select(counterclockwise_, -dot(n, a), dot(n, a));
+            const auto here =
+                (!found) & (solid_angle_[j] > Real(0)) & ((to_b > Real(0)) | (j + 1 == kTriangles));
+            // The arc meets the edge at v = (weight_a a + weight_b b) / |...|.
+            const Real weight_a = max(to_b, Real(0));
+            const Real weight_b = max(from_a, Real(0));
+            const Vec3<Real> sum = weight_a * a + weight_b * b;
+            const Real norm = sqrt(dot(sum, sum));
+            const Real inverse = Real(1) / select(norm > Real(0), norm, Real(1));
+            const Vec3<Real> v = inverse * sum;
+            const Real partial = Real(2) * atan2_positive(g0_[j] * weight_b * inverse,
+                                                          Real(1) + dot(a, c) + dot(a, v) + dot(c, v));
+            const Vec3<Real> to_wi = wi - c;
+            const Vec3<Real> to_v = v - c;
+            const Real whole = dot(to_v, to_v);
+            u.x = u.x + select(here, min(partial, solid_angle_[j]), select(found, Real(0), solid_angle_[j]));
+            u.y = select(here, dot(to_wi, to_wi) / select(whole > Real(0), whole, Real(1)), u.y);
+            found = found | here;
+        }
+        return {below_one(u.x / select(total_ > Real(0), total_, Real(1))), below_one(u.y)};
+    }
+
+    /// Solid angle of the light [sr].
+    NUSSELT_HD Real measure() const noexcept { return total_; }
+
+private:
+    template <class, int>
+    friend class PolygonSolidAngle;
+
+    /// A triangle of the fan; c is vertex 0 of the polygon, a and b are consecutive vertices.
+    struct Triangle {
+        Vec3<Real> a, b;              ///< unit directions
+        Vec3<Real> pa, pb;            ///< vertices
+        Real inverse_a, inverse_b;    ///< reciprocal distances
+        Real g0, g1, g2, solid_angle; ///< terms of Eq. 13 and its result
+    };
+
+    NUSSELT_HD Triangle triangle(int j) const noexcept {
+        return {direction_[j + 1],
+                direction_[j + 2],
+                vertex_[j + 1],
+                vertex_[j + 2],
+                inverse_distance_[j + 1],
+                inverse_distance_[j + 2],
+                g0_[j],
+                g1_[j],
+                g2_[j],
+                solid_angle_[j]};
+    }
+    NUSSELT_HD static Triangle select_triangle(const mask_t<Real>& mask, const Triangle& a,
+                                               const Triangle& b) noexcept {
+        return {select(mask, a.a, b.a),
+                select(mask, a.b, b.b),
+                select(mask, a.pa, b.pa),
+                select(mask, a.pb, b.pb),
+                select(mask, a.inverse_a, b.inverse_a),
+                select(mask, a.inverse_b, b.inverse_b),
+                select(mask, a.g0, b.g0),
+                select(mask, a.g1, b.g1),
+                select(mask, a.g2, b.g2),
+                select(mask, a.solid_angle, b.solid_angle)};
+    }
+
+    Vec3<Real> vertex_[N];
+    Vec3<Real> direction_[N];  ///< unit vectors to the vertices
+    Real inverse_distance_[N]; ///< of the vertices, in units of the extent of the polygon
+    Real g0_[kTriangles];      ///< triple product of the directions
+    Real g1_[kTriangles];
+    Real g2_[kTriangles];
+    Real solid_angle_[kTriangles];
+    Real total_;
+    mask_t<Real> counterclockwise_; ///< winding as seen along a ray from the origin through the polygon
+};
+
+/// Uniform sampling of the solid angle of the part of a polygon above the horizon, in shading space.
+/// \copydetails PolygonSolidAngle
+template <class Real, int N>
+class PolygonClippedSolidAngle : public PolygonSolidAngle<Real, N + 1> {
+public:
+    /// \param light in shading space, either winding [m].
+    NUSSELT_HD explicit PolygonClippedSolidAngle(const ConvexPolygon<Real, N>& light) noexcept
+        : PolygonSolidAngle<Real, N + 1>(clip_to_horizon(light)) {}
+
+    /// \copydoc PolygonSolidAngle::PolygonSolidAngle(const PolygonSolidAngle<Single, N>&)
+    template <class Single>
+    NUSSELT_HD explicit PolygonClippedSolidAngle(const PolygonClippedSolidAngle<Single, N>& single) noexcept
+        : PolygonSolidAngle<Real, N + 1>(static_cast<const PolygonSolidAngle<Single, N + 1>&>(single)) {}
+};
+
+NUSSELT_NAMESPACE_END

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# File hygiene. Usage: scripts/check-files.sh format|length|paths [ROOT]
+#   format  sources agree with .clang-format (clang-format-14, or the program named by CLANG_FORMAT)
+#   length  no source file is longer than 600 lines
+#   paths   no text file names an absolute path that exists on one machine only
+set -euo pipefail
+cd "${2:-$(dirname "$0")/..}"
+
+sources() { find include src apps tests bench \( -name '*.h' -o -name '*.cpp' -o -name '*.cu' \) -print0; }
+all_files() { find . \( -path ./build -o -path ./out -o -path ./.git \) -prune -o -type f -print0; }
+
+case "${1:-}" in
+    format) sources | xargs -0r "${CLANG_FORMAT:-clang-format-14}" --dry-run --Werror ;;
+    length)
+        sources | xargs -0r awk 'FNR == 601 { print FILENAME ": longer than 600 lines"; bad = 1 } END { exit bad }'
+        ;;
+    paths)
+        found=$(all_files | xargs -0r grep -nIoE "(^|[ \"'=(<])/[A-Za-z][A-Za-z0-9_]*/[A-Za-z0-9_.-]+" |
+            grep -vE ":[^/]?/(bin|dev|etc|proc|sys|tmp|usr)/" || true)
+        [ -z "$found" ] || { echo "absolute paths of one machine:"; echo "$found"; exit 1; }
+        ;;
+    *) echo "usage: scripts/check-files.sh format|length|paths [ROOT]" >&2; exit 2 ;;
+esac

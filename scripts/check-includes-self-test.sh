@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Shows that scripts/check-includes.sh accepts each allowed kind of #include and finds each wrong kind.
+set -euo pipefail
+check=$(cd "$(dirname "$0")" && pwd)/check-includes.sh
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+
+# Whether the check passes on a tree whose only source file is $1 with the line `#include $2`.
+passes() {
+    rm -rf "${tree:?}"/*
+    mkdir -p "$tree"/{include,src,apps} "$tree/$(dirname "$1")"
+    printf '#pragma once\n#include %s\n' "$2" >"$tree/$1"
+    "$check" "$tree" >"$tree/report"
+}
+
+failed=0
+while read -r verdict file include; do
+    if passes "$file" "$include"; then found=right; else found=wrong; fi
+    [ "$found" = wrong ] && ! grep -q "^$file:2: " "$tree/report" && found="wrong, without file and line"
+    [ "$found" = "$verdict" ] && continue
+    echo "$file with #include $include: expected $verdict, found $found"
+    failed=1
+done <<'CASES'
+right include/nusselt/core/a.h <cmath>
+right include/nusselt/sampling/a.h <nusselt/core/vec.h>
+right include/nusselt/sampling/a.h <nusselt/sampling/b.h>
+right include/nusselt/estimate/a.h <nusselt/related/b.h>
+right include/nusselt/simd/a.h <immintrin.h>
+right include/nusselt/nusselt.h <nusselt/sampling/b.h>
+right src/visibility/a.cpp "scene/scene.h"
+right src/render_cpu/a.cpp <nusselt/simd/pack.h>
+right src/render_cpu/a.cpp <embree3/rtcore.h>
+right apps/nusselt/a.cpp "experiments/b.h"
+right apps/nusselt/a.cpp "commands.h"
+wrong include/nusselt/core/a.h <nusselt/geometry/b.h>
+wrong include/nusselt/core/a.h <nusselt/nusselt.h>
+wrong include/nusselt/geometry/a.h <nusselt/simd/pack.h>
+wrong include/nusselt/sampling/a.h <nusselt/related/b.h>
+wrong include/nusselt/sampling/a.h <nusselt/estimate/b.h>
+wrong include/nusselt/nusselt.h <nusselt/simd/pack.h>
+wrong include/nusselt/core/a.h <nusselt/unheard_of/b.h>
+wrong include/nusselt/core/a.h "vec.h"
+wrong include/nusselt/core/a.h "scene/scene.h"
+wrong include/nusselt/core/a.h <immintrin.h>
+wrong include/nusselt/core/a.h <fmt/core.h>
+wrong include/nusselt/core/a.h "../geometry/b.h"
+wrong src/image/a.cpp "scene/scene.h"
+wrong src/scene/a.cpp "visibility/b.h"
+wrong src/visibility/a.cpp "render_cpu/b.h"
+wrong src/render_cpu/a.cpp "experiments/b.h"
+wrong src/render_cpu/a.cpp "local.h"
+wrong src/render_cpu/a.cpp "nusselt/core/vec.h"
+wrong src/experiments/a.cpp "nusselt_app/commands.h"
+wrong src/scene/a.cpp "tests/b.h"
+CASES
+exit $failed

@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# Fails where an #include runs against the arrows of the design: a layer includes only itself, what the table
+# below allows, and system headers; the library includes nothing but the standard library and itself.
+# Usage: scripts/check-includes.sh [ROOT]
+set -euo pipefail
+cd "${1:-$(dirname "$0")/..}"
+
+find include src apps -name '*.h' -o -name '*.cpp' | LC_ALL=C sort | xargs awk '
+BEGIN {
+    # Layer, then the layers that it may include besides itself. "library" is all of include/nusselt.
+    # simd is a leaf: templates see packs through the operations that core names.
+    allow("include/core", "")
+    allow("include/simd", "include/core")
+    allow("include/geometry", "include/core")
+    below = "include/core include/geometry"
+    allow("include/random", below)
+    allow("include/bsdf", below)
+    allow("include/ltc", below)
+    below = below " include/random include/bsdf include/ltc"
+    allow("include/sampling", below)
+    allow("include/related", below)
+    allow("include/line_samples", below)
+    below = below " include/sampling include/related include/line_samples"
+    allow("include/estimate", below)
+    allow("include/all", below " include/estimate")
+
+    allow("src/image", "library")
+    allow("src/scene", "library")
+    allow("src/visibility", "library src/scene")
+    allow("src/render_cpu", "library src/image src/scene src/visibility")
+    below = "library src/image src/scene src/visibility src/render_cpu"
+    allow("src/experiments", below)
+    allow("apps/nusselt", below " src/experiments")
+}
+
+function allow(layer, others,    names, count, i) {
+    known[layer] = 1
+    allowed[layer, layer] = 1
+    count = split(others, names, " ")
+    for (i = 1; i <= count; ++i) allowed[layer, names[i]] = 1
+}
+
+function report(message) {
+    printf "%s:%d: %s\n", FILENAME, FNR, message
+    failed = 1
+}
+
+# The layer of a file, from its path: include/nusselt/core/vec.h is in include/core, the headers directly
+# in include/nusselt are in include/all.
+function layer_of(path,    parts, count) {
+    count = split(path, parts, "/")
+    if (parts[1] == "include") return count == 3 ? "include/all" : "include/" parts[3]
+    return parts[1] "/" parts[2]
+}
+
+function check(from, to,    layer) {
+    if (!(to in known)) return report("no layer " to "; new layers are entered in scripts/check-includes.sh")
+    layer = from !~ /^include/ && to ~ /^include/ ? "library" : to
+    if (!((from, layer) in allowed)) report(from " must not include " to)
+}
+
+FNR == 1 {
+    from = layer_of(FILENAME)
+    if (!(from in known)) report("no layer " from "; new layers are entered in scripts/check-includes.sh")
+}
+
+/^[ \t]*#[ \t]*include[ \t]*[<"]/ {
+    name = $0
+    sub(/^[^<"]*/, "", name)
+    quoted = substr(name, 1, 1) == "\""
+    sub(/[>"][^>"]*$/, "", name)
+    name = substr(name, 2)
+    in_library = from ~ /^include/
+
+    if (name ~ /^\.\.?\//) report("relative #include of " name)
+    else if (name ~ /^nusselt\//) {
+        if (quoted) report("write <" name ">")
+        check(from, layer_of("include/" name))
+    } else if (quoted && in_library) report("the library includes itself as <nusselt/...>")
+    else if (quoted && name ~ /\//) check(from, "src/" substr(name, 1, index(name, "/") - 1))
+    else if (quoted && from !~ /^apps/) report("write \"module/" name "\"")
+    else if (!quoted && in_library && name ~ /[.\/]/ && !(from == "include/simd" && name == "immintrin.h"))
+        report("the library uses the standard library only, not <" name ">")
+}
+
+END { exit failed }'

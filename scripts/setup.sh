@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# Installs the Debian packages of scripts/debian-packages.txt that are missing.
+# Usage: scripts/setup.sh build|test    (build: what the programs need; test: also what the tests need)
+set -euo pipefail
+cd "$(dirname "$0")"
+
+fail() {
+    echo "setup: $*" >&2
+    exit 1
+}
+
+case "${1:-}" in
+    build) wanted='build' ;;
+    test) wanted='build|test' ;;
+    *) fail "usage: scripts/setup.sh build|test" ;;
+esac
+
+system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-}") || system=unknown
+[ "$system" = "debian 12" ] || fail "this set-up knows Debian 12 only, not '$system'. Install the equivalents of" \
+    "the packages listed in scripts/debian-packages.txt, then run: cmake --preset release && cmake --build --preset release"
+
+missing=()
+while read -r group package _; do
+    [[ $group =~ ^($wanted)$ ]] || continue
+    state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) || state=absent
+    [ "$state" = installed ] || missing+=("$package")
+done <debian-packages.txt
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || fail "missing packages, and neither root nor sudo to install them." \
+        "As root: apt-get update && apt-get install ${missing[*]}"
+    as_root=(sudo)
+fi
+echo "setup: installing ${#missing[@]} Debian packages and what they depend on: ${missing[*]}"
+"${as_root[@]}" apt-get update -qq || fail "apt-get update failed (see above); the packages cannot be installed"
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq -o Dpkg::Use-Pty=0 --no-install-recommends "${missing[@]}" >/dev/null ||
+    fail "apt-get install failed (see above). Missing: ${missing[*]}"

@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Builds everything and runs all tests, stage by stage; docs/testing.md says what each stage proves.
+# The last line sums up: `N passed, N failed`, with `, N skipped` where tests were skipped.
+# With CI=true in the environment compiler warnings are errors.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+
+if [ "${CI:-}" = true ]; then warnings_as_errors=ON; else warnings_as_errors=OFF; fi
+jobs=$(nproc)
+results=build/test-results
+rm -rf "$results"
+mkdir -p "$results"
+passed=0 failed=0 skipped=0
+times=()
+
+# Runs a command as a stage and notes its time.
+stage() {
+    local name=$1 start=$SECONDS status=0
+    shift
+    echo "== $name"
+    "$@" || status=$?
+    times+=("$(printf '%5d s  %s' $((SECONDS - start)) "$name")")
+    return $status
+}
+
+build() {
+    cmake --preset "$1" -DNUSSELT_BUILD_TESTS=ON -DNUSSELT_WARNINGS_AS_ERRORS="$2" >"$results/$1-configure.log" 2>&1 ||
+        { cat "$results/$1-configure.log"; return 1; }
+    cmake --build --preset "$1"
+}
+
+# Lines of passed tests are left out: there are thousands.
+run_tests() {
+    ctest --preset "$1" -j "$jobs" --output-junit "$2" | grep -vE '^ *Start +[0-9]+:|Passed +[0-9.]+ sec *$'
+}
+
+# The number in attribute $2 of the test suite in the report $1.
+count() { grep -m 1 -oE "^\s+$2=\"[0-9]+\"" "$1" | grep -oE "[0-9]+"; }
+
+# Builds a preset, runs its tests and adds up the results. A build that fails counts as one failed test.
+build_and_test() {
+    local preset=$1 report=$PWD/$results/$1.xml
+    if ! stage "$preset: build" build "$preset" "$2"; then
+        failed=$((failed + 1))
+        return
+    fi
+    stage "$preset: tests" run_tests "$preset" "$report"
+    local all bad ignored
+    all=$(count "$report" tests) bad=$(count "$report" failures)
+    if [ "${all:-0}" -eq 0 ]; then
+        echo "no test ran"
+        failed=$((failed + 1))
+        return
+    fi
+    ignored=$(($(count "$report" skipped) + $(count "$report" disabled)))
+    passed=$((passed + all - bad - ignored)) failed=$((failed + bad)) skipped=$((skipped + ignored))
+}
+
+build_and_test release "$warnings_as_errors"
+# GCC's sanitizers cause false warnings of their own, so warnings are no errors here.
+build_and_test asan-ubsan OFF
+
+echo "== times"
+printf '%s\n' "${times[@]}"
+summary="$passed passed, $failed failed"
+[ "$skipped" -eq 0 ] || summary+=", $skipped skipped"
+echo "$summary" | tee "$results/summary"
+[ "$failed" -eq 0 ]

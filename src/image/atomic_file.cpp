@@ -1,0 +1,68 @@
+#include "image/atomic_file.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <unistd.h>
+
+namespace nusselt::image {
+
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& problem) {
+    throw std::runtime_error("cannot write '" + path.string() + "': " + problem);
+}
+
+/// Unique among the processes and threads that may write into one folder at the same time.
+std::filesystem::path temporary_path(const std::filesystem::path& path) {
+    static std::atomic<unsigned> counter = 0;
+    const std::string unique = std::to_string(::getpid()) + "-" + std::to_string(counter++);
+    return path.parent_path() / ("." + path.filename().string() + "." + unique + ".tmp");
+}
+
+/// Removes the file at the end of the scope; without effect once the file was renamed.
+class RemoveAtExit {
+public:
+    explicit RemoveAtExit(const std::filesystem::path& path) : path_(path) {}
+    RemoveAtExit(const RemoveAtExit&) = delete;
+    RemoveAtExit& operator=(const RemoveAtExit&) = delete;
+    ~RemoveAtExit() {
+        std::error_code ignored;
+        std::filesystem::remove(path_, ignored);
+    }
+
+private:
+    const std::filesystem::path& path_;
+};
+
+} // namespace
+
+void write_atomically(const std::filesystem::path& path, const std::function<void(std::ofstream&)>& write) {
+    std::error_code error;
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder, error))
+        fail(path, "there is no folder '" + folder.string() + "'; create it or choose another path");
+    if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+        fail(path, "this is a folder or a device; give the name of a file");
+
+    const std::filesystem::path temporary = temporary_path(path);
+    std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+    if (!stream) {
+        fail(path, "no file can be created in '" + folder.string() + "' (" + std::strerror(errno) +
+                       "); check its permissions or choose another folder");
+    }
+    const RemoveAtExit remove_temporary(temporary);
+    try {
+        write(stream);
+    } catch (...) {
+        if (stream) throw; // what a failed stream made `write` throw is reported below
+    }
+    stream.close();
+    if (!stream) fail(path, "the data did not fit or could not be stored; check the free space of the disk");
+    std::filesystem::rename(temporary, path, error);
+    if (error) fail(path, "the finished file could not be renamed (" + error.message() + ")");
+}
+
+} // namespace nusselt::image

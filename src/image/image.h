@@ -1,0 +1,28 @@
+#pragma once
+/// An RGB image in memory, the meeting point of renderers, files and metrics.
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace nusselt::image {
+
+/// Linear RGB, three floats per pixel. Row 0 is the top row. Infinities and NaN are legal contents.
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<float>
+        pixels; ///< 3 * width * height floats: r, g, b of the pixel (x, y) from 3 * (y * width + x)
+};
+
+/// An image of the given size, all zero. Both sizes must be positive.
+inline Image make_image(int width, int height) {
+    const std::size_t float_count = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    return {width, height, std::vector<float>(float_count)};
+}
+
+/// Settings that travel with an image: keys and values are free text.
+using Metadata = std::map<std::string, std::string>;
+
+} // namespace nusselt::image

@@ -1,0 +1,109 @@
+#include "image/io.h"
+
+#include "image/atomic_file.h"
+#include "image/codecs.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+namespace nusselt::image {
+
+namespace {
+
+std::string lower_case_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : char(c); });
+    return extension;
+}
+
+[[noreturn]] void fail_to_read(const std::filesystem::path& path, const std::string& problem) {
+    throw std::runtime_error("cannot read '" + path.string() + "': " + problem);
+}
+
+std::ifstream open_for_reading(const std::filesystem::path& path) {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error))
+        fail_to_read(path, "this is a folder; give the name of a file");
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream)
+        fail_to_read(path, std::string(std::strerror(errno)) + "; check the path and its permissions");
+    return stream;
+}
+
+/// Runs a decoder on the file and adds the path to its errors.
+template <class Decoder>
+auto decode_file(const std::filesystem::path& path, const Decoder& decode) {
+    std::ifstream stream = open_for_reading(path);
+    try {
+        return decode(stream);
+    } catch (const std::bad_alloc&) {
+        fail_to_read(path, "the image needs more memory than there is");
+    } catch (const std::exception& error) {
+        fail_to_read(path, error.what());
+    }
+}
+
+void check_before_writing(const Image& image, const Metadata& metadata) {
+    const std::size_t expected = 3 * std::size_t(image.width) * std::size_t(image.height);
+    if (image.width <= 0 || image.height <= 0 || image.pixels.size() != expected) {
+        throw std::invalid_argument("an image cannot have " + std::to_string(image.width) + " x " +
+                                    std::to_string(image.height) + " pixels and " +
+                                    std::to_string(image.pixels.size()) + " floats");
+    }
+    for (const auto& [key, value] : metadata) {
+        // 255 bytes is the limit of attribute names in EXR; readers cut off at a zero byte.
+        if (key.empty() || key.size() > 200 || key.find('\0') != std::string::npos)
+            throw std::invalid_argument("metadata key '" + key + "' must have 1 to 200 bytes, none zero");
+    }
+}
+
+} // namespace
+
+void check_size(std::int64_t width, std::int64_t height) {
+    if (width > 0 && height > 0 && width <= kMaxPixelCount / height) return;
+    throw std::runtime_error("a size of " + std::to_string(width) + " x " + std::to_string(height) +
+                             " pixels is not supported; both must be positive, the product at most 2^28");
+}
+
+void write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
+                 double exposure) {
+    check_before_writing(image, metadata);
+    const std::string extension = lower_case_extension(path);
+    if (extension == ".exr") {
+        write_atomically(path,
+                         [&](std::ofstream& stream) { encode_exr(stream, path.string(), image, metadata); });
+    } else if (extension == ".png") {
+        write_atomically(path,
+                         [&](std::ofstream& stream) { encode_png(stream, image, std::exp2(exposure)); });
+    } else if (extension == ".hdr") {
+        write_atomically(path, [&](std::ofstream& stream) { encode_hdr(stream, image); });
+    } else {
+        throw std::runtime_error("cannot write '" + path.string() + "': unknown extension '" + extension +
+                                 "'; use .exr, .png or .hdr");
+    }
+}
+
+Image read_image(const std::filesystem::path& path) {
+    const std::string extension = lower_case_extension(path);
+    if (extension == ".exr") {
+        return decode_file(path, [&](std::ifstream& stream) { return decode_exr(stream, path.string()); });
+    }
+    if (extension == ".hdr") return decode_file(path, decode_hdr);
+    if (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".tga")
+        return decode_file(path, decode_srgb);
+    fail_to_read(path, "unknown extension '" + extension + "'; use .exr, .hdr, .png, .jpg, .jpeg or .tga");
+}
+
+Metadata read_exr_metadata(const std::filesystem::path& path) {
+    return decode_file(path,
+                       [&](std::ifstream& stream) { return decode_exr_metadata(stream, path.string()); });
+}
+
+} // namespace nusselt::image

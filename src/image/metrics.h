@@ -1,0 +1,57 @@
+#pragma once
+/// How far is an image from a reference?
+
+#include "image/image.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace nusselt::image {
+
+/// A pixel with a channel that is NaN or infinite.
+struct InvalidPixel {
+    int x = 0;
+    int y = 0;
+    std::array<float, 3> rgb = {};
+};
+
+/// The invalid pixels of one image.
+struct InvalidPixels {
+    std::int64_t count = 0;          ///< pixels with at least one channel that is NaN or infinite
+    std::int64_t nan_count = 0;      ///< those among them with at least one NaN
+    std::vector<InvalidPixel> first; ///< at most kListedInvalidPixels, from top to bottom, left to right
+};
+
+inline constexpr std::size_t kListedInvalidPixels = 10;
+
+/// Added to the squared reference in the denominator of the relative MSE, so that black pixels count, but do
+/// not dominate.
+inline constexpr double kRelativeMseEpsilon = 0.01;
+
+/// All averages run over the three channels of the pixels that are valid in both images. They are NaN if
+/// there are no such pixels.
+struct Comparison {
+    double mse = 0;           ///< mean of (a - b)^2
+    double rmse = 0;          ///< square root of mse
+    double relative_rmse = 0; ///< rmse / mean_b; infinite or NaN for a black reference
+    double rel_mse = 0;       ///< mean of (a - b)^2 / (b^2 + kRelativeMseEpsilon)
+    double mean_a = 0;
+    double mean_b = 0;
+    std::int64_t compared_pixels = 0; ///< valid in both images
+    InvalidPixels invalid_a;
+    InvalidPixels invalid_b;
+};
+
+/// Compares image a with a reference b in double precision.
+/// \throws std::runtime_error  naming both sizes, if they differ
+[[nodiscard]] Comparison compare(const Image& a, const Image& reference);
+
+/// \throws std::runtime_error  naming both sizes, if they differ
+void require_same_size(const Image& a, const Image& reference);
+
+/// Whether none of the three channels of the pixel that starts here is NaN or infinite.
+[[nodiscard]] bool is_valid_pixel(const float* rgb);
+
+} // namespace nusselt::image

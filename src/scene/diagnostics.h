@@ -1,0 +1,71 @@
+#pragma once
+/// Positions in scene files, errors and warnings that name them.
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+namespace nusselt::scene {
+
+/// The bytes of a file. The memory is not zeroed before it is read.
+class FileBytes {
+public:
+    FileBytes() = default;
+    /// Throws std::runtime_error with the reason if `path` is no readable regular file.
+    explicit FileBytes(const std::filesystem::path& path);
+    std::string_view view() const { return {data_.get(), size_}; }
+
+private:
+    std::unique_ptr<char[]> data_;
+    std::size_t size_ = 0;
+};
+
+/// A scene text. Tokens, parameters and locations point into it.
+struct SourceFile {
+    std::filesystem::path path;
+    FileBytes bytes;
+};
+
+struct Location {
+    const SourceFile* file = nullptr;
+    int line = 0; ///< counts from 1
+};
+
+/// The shortest decimal text of a number.
+std::string to_text(double value);
+/// "file:line"
+std::string to_string(const Location& location);
+
+/// An error in the user's scene: what() is "file:line: message".
+class SceneError : public std::runtime_error {
+public:
+    SceneError(const Location& location, std::string_view message);
+};
+
+/// Collects warnings, the first of each kind only.
+class Warnings {
+public:
+    /// \param kind  warnings of equal kind count as repetitions
+    void add(const Location& location, std::string kind, std::string_view message);
+    /// The message is its own kind.
+    void add(const Location& location, std::string_view message);
+    /// Takes over the warnings of `other` in their order.
+    void append(const Warnings& other);
+    std::vector<std::string> lines() const;
+
+private:
+    struct Entry {
+        std::string kind;
+        std::string line;
+    };
+    void add_entry(Entry entry);
+
+    std::vector<Entry> entries_;
+    std::unordered_set<std::string> kinds_;
+};
+
+} // namespace nusselt::scene

@@ -1,0 +1,31 @@
+#pragma once
+/// Directives of a scene file: graphics state, options, lists of what the file describes.
+
+#include "scene/camera.h"
+#include "scene/materials.h"
+#include "scene/shapes.h"
+#include "scene/textures.h"
+
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace nusselt::scene {
+
+/// A scene file after parsing; meshes and images are still to be read.
+struct SceneDescription {
+    std::deque<SourceFile> sources; ///< all locations point into these
+    std::vector<ShapeDirective> shapes;
+    std::vector<Material> materials; ///< used ones; diffuse_texture is an index into images
+    std::vector<ImageRequest> images;
+    CameraDirective camera;
+    Film film;
+    Warnings warnings;
+};
+
+/// Reads a scene file and what it includes. Throws SceneError, or std::runtime_error if `path` cannot be
+/// read.
+SceneDescription parse_scene(const std::filesystem::path& path);
+
+} // namespace nusselt::scene

@@ -1,0 +1,102 @@
+#include "scene/polygon.h"
+
+#include "scene/diagnostics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nusselt::scene {
+
+namespace {
+
+double largest_coordinate(const std::vector<Double3>& vertices) {
+    double result = 0;
+    for (const Double3& v : vertices)
+        result = std::max({result, std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+    return result;
+}
+
+double extent(const std::vector<Double3>& vertices) {
+    double result = 0;
+    for (const Double3& v : vertices) result = std::max(result, length(v - vertices[0]));
+    return result;
+}
+
+Double3 centroid(const std::vector<Double3>& vertices) {
+    Double3 sum;
+    for (const Double3& v : vertices) sum = sum + v;
+    return (1 / static_cast<double>(vertices.size())) * sum;
+}
+
+} // namespace
+
+Double3 area_vector(const std::vector<Double3>& vertices) {
+    Double3 sum;
+    for (std::size_t i = 1; i + 1 < vertices.size(); ++i)
+        sum = sum + cross(vertices[i] - vertices[0], vertices[i + 1] - vertices[0]);
+    return sum;
+}
+
+std::optional<std::string> find_polygon_defect(const std::vector<Double3>& vertices) {
+    const std::size_t n = vertices.size();
+    if (n < 3 || n > kMaxPolygonVertices)
+        return "it must have 3 to " + std::to_string(kMaxPolygonVertices) + " vertices, found " +
+               std::to_string(n);
+    const double tolerance = 1e-5 * extent(vertices) + 1e-6 * largest_coordinate(vertices);
+    for (std::size_t i = 0; i < n; ++i)
+        if (length(vertices[(i + 1) % n] - vertices[i]) <= tolerance)
+            return "vertices " + std::to_string(i) + " and " + std::to_string((i + 1) % n) + " coincide";
+    const Double3 normal = normalized(area_vector(vertices));
+    if (length(normal) == 0) return "its area is zero";
+
+    const Double3 center = centroid(vertices);
+    std::size_t worst = 0;
+    double worst_height = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double height = std::fabs(dot(vertices[i] - center, normal));
+        if (height <= worst_height) continue;
+        worst = i;
+        worst_height = height;
+    }
+    if (worst_height > tolerance)
+        return "vertex " + std::to_string(worst) + " is " + to_text(worst_height) +
+               " m off the plane of the others";
+
+    // Each vertex must lie on the inner side of each edge; unlike a test of the corners this finds stars too.
+    for (std::size_t i = 0; i < n; ++i) {
+        const Double3 edge = vertices[(i + 1) % n] - vertices[i];
+        const Double3 inwards = normalized(cross(normal, edge));
+        for (std::size_t j = 0; j < n; ++j) {
+            const double depth = dot(vertices[j] - vertices[i], inwards);
+            if (depth < -tolerance)
+                return "it is not convex: vertex " + std::to_string(j) + " is " + to_text(-depth) +
+                       " m outside the edge from vertex " + std::to_string(i) + " to " +
+                       std::to_string((i + 1) % n);
+        }
+    }
+    if (length(area_vector(vertices)) <= tolerance * extent(vertices)) return "its vertices lie on a line";
+    return std::nullopt;
+}
+
+std::vector<Float3> without_collinear_vertices(const std::vector<Float3>& vertices) {
+    // Relative to the product of the edge lengths, i.e. the sine of the angle by which the outline turns.
+    constexpr double kMinTurn = 1e-5;
+    std::vector<Float3> result = vertices;
+    for (std::size_t i = 0; i < result.size() && result.size() > 3;) {
+        const std::size_t n = result.size();
+        const Double3 previous = to_double(result[(i + n - 1) % n]);
+        const Double3 current = to_double(result[i]);
+        const Double3 a = current - previous;
+        const Double3 b = to_double(result[(i + 1) % n]) - current;
+        if (length(cross(a, b)) <= kMinTurn * length(a) * length(b)) {
+            result.erase(result.begin() + static_cast<std::ptrdiff_t>(i));
+            // The turn at the previous vertex has changed.
+            i = i > 0 ? i - 1 : 0;
+        } else {
+            ++i;
+        }
+    }
+    return result;
+}
+
+} // namespace nusselt::scene

@@ -1,0 +1,222 @@
+#include "image/difference.h"
+#include "image/metrics.h"
+#include "image/srgb.h"
+#include "temporary_folder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nusselt::image::test {
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// An image with r = g = b.
+Image grey_image(int width, int height, const std::vector<float>& values) {
+    Image image{width, height, {}};
+    for (const float value : values) image.pixels.insert(image.pixels.end(), 3, value);
+    return image;
+}
+
+TEST(Metrics, KnownPair) {
+    // Differences 1, 0, -1, 2, 0, 0; by hand: squares 1, 0, 1, 4, 0, 0 with references 0, 1, 3, 1, 1, 0.
+    const Image a = {2, 1, {1, 1, 2, 3, 1, 0}};
+    const Image b = {2, 1, {0, 1, 3, 1, 1, 0}};
+    const Comparison comparison = compare(a, b);
+    EXPECT_DOUBLE_EQ(comparison.mse, 1.0);
+    EXPECT_DOUBLE_EQ(comparison.rmse, 1.0);
+    EXPECT_DOUBLE_EQ(comparison.relative_rmse, 1.0);
+    EXPECT_DOUBLE_EQ(comparison.rel_mse, (1 / 0.01 + 1 / 9.01 + 4 / 1.01) / 6);
+    EXPECT_DOUBLE_EQ(comparison.mean_a, 8.0 / 6);
+    EXPECT_DOUBLE_EQ(comparison.mean_b, 1.0);
+    EXPECT_EQ(comparison.compared_pixels, 2);
+    EXPECT_EQ(comparison.invalid_a.count, 0);
+    EXPECT_EQ(comparison.invalid_b.count, 0);
+}
+
+TEST(Metrics, ConstantOffsetAndIdenticalImages) {
+    const Comparison offset = compare(grey_image(2, 1, {2.5f, 2.5f}), grey_image(2, 1, {2, 2}));
+    EXPECT_DOUBLE_EQ(offset.mse, 0.25);
+    EXPECT_DOUBLE_EQ(offset.rmse, 0.5);
+    EXPECT_DOUBLE_EQ(offset.relative_rmse, 0.25);
+    EXPECT_DOUBLE_EQ(offset.rel_mse, 0.25 / 4.01);
+    const Image image = random_image(30, 20, 1);
+    const Comparison same = compare(image, image);
+    EXPECT_EQ(same.mse, 0);
+    EXPECT_EQ(same.rel_mse, 0);
+    EXPECT_EQ(same.mean_a, same.mean_b);
+}
+
+TEST(Metrics, RandomImagesAgainstMomentsInLongDouble) {
+    const Image a = random_image(123, 77, 1);
+    const Image b = random_image(123, 77, 2);
+    const auto mean = [&](auto term) {
+        long double sum = 0;
+        for (std::size_t i = a.pixels.size(); i-- > 0;)
+            sum += term(static_cast<long double>(a.pixels[i]), static_cast<long double>(b.pixels[i]));
+        return double(sum / static_cast<long double>(a.pixels.size()));
+    };
+    using Real = long double;
+    // E[(a - b)^2] = E[a^2] - 2 E[ab] + E[b^2]
+    const double mse = mean([](Real x, Real) { return x * x; }) -
+                       2 * mean([](Real x, Real y) { return x * y; }) +
+                       mean([](Real, Real y) { return y * y; });
+    const double mean_b = mean([](Real, Real y) { return y; });
+    const Comparison comparison = compare(a, b);
+    EXPECT_NEAR(comparison.mse, mse, 1e-12);
+    EXPECT_NEAR(comparison.rmse * comparison.rmse, mse, 1e-12);
+    EXPECT_NEAR(comparison.relative_rmse, std::sqrt(mse) / mean_b, 1e-12);
+    EXPECT_NEAR(comparison.mean_a, mean([](Real x, Real) { return x; }), 1e-12);
+    EXPECT_NEAR(comparison.mean_b, mean_b, 1e-12);
+    EXPECT_NEAR(comparison.rel_mse,
+                mean([](Real x, Real y) { return std::pow(std::hypot(x - y, 0.0L), 2) / (y * y + 0.01L); }),
+                1e-11);
+}
+
+TEST(Metrics, SumsAreDouble) {
+    // In float, the squares overflow and the sum of 25 million values stalls.
+    const Comparison large = compare(grey_image(2, 1, {2e30f, 2e30f}), grey_image(2, 1, {1e30f, 1e30f}));
+    EXPECT_NEAR(large.rmse / 1e30, 1, 1e-6);
+    const Image a = grey_image(4096, 2048, std::vector<float>(4096 * 2048, 1.1f));
+    EXPECT_NEAR(compare(a, a).mean_a, double(1.1f), 1e-9);
+}
+
+TEST(Metrics, InvalidPixelsAreCountedLocatedAndLeftOut) {
+    Image a = random_image(10, 6, 1);
+    Image b = random_image(10, 6, 2);
+    Image valid_a = a;
+    Image valid_b = b;
+    a.pixels[3 * 25 + 1] = kNan;      // x 5 y 2
+    a.pixels[3 * 30 + 2] = kInfinity; // x 0 y 3
+    a.pixels[3 * 30 + 0] = kNan;      // again, a pixel with both
+    b.pixels[3 * 25 + 0] = -kInfinity;
+    b.pixels[3 * 59 + 2] = -kInfinity; // x 9 y 5
+    const Comparison comparison = compare(a, b);
+    EXPECT_EQ(comparison.invalid_a.count, 2);
+    EXPECT_EQ(comparison.invalid_a.nan_count, 2);
+    EXPECT_EQ(comparison.invalid_b.count, 2);
+    EXPECT_EQ(comparison.invalid_b.nan_count, 0);
+    ASSERT_EQ(comparison.invalid_a.first.size(), 2u);
+    EXPECT_EQ(comparison.invalid_a.first[0].x, 5);
+    EXPECT_EQ(comparison.invalid_a.first[0].y, 2);
+    EXPECT_EQ(comparison.invalid_a.first[1].x, 0);
+    EXPECT_EQ(comparison.invalid_a.first[1].y, 3);
+    EXPECT_EQ(comparison.invalid_a.first[1].rgb[2], kInfinity);
+    ASSERT_EQ(comparison.invalid_b.first.size(), 2u);
+    EXPECT_EQ(comparison.invalid_b.first[1].x, 9);
+    EXPECT_EQ(comparison.invalid_b.first[1].y, 5);
+    EXPECT_EQ(comparison.compared_pixels, 57);
+
+    for (const std::size_t pixel : {59u, 30u, 25u}) {
+        for (Image* image : {&valid_a, &valid_b}) {
+            const auto begin = image->pixels.begin() + std::ptrdiff_t(3 * pixel);
+            image->pixels.erase(begin, begin + 3);
+        }
+    }
+    valid_a.width = valid_b.width = 57;
+    valid_a.height = valid_b.height = 1;
+    const Comparison valid = compare(valid_a, valid_b);
+    EXPECT_EQ(comparison.mse, valid.mse);
+    EXPECT_EQ(comparison.rel_mse, valid.rel_mse);
+    EXPECT_EQ(comparison.mean_a, valid.mean_a);
+    EXPECT_EQ(comparison.mean_b, valid.mean_b);
+}
+
+TEST(Metrics, OnlyInvalidPixels) {
+    const Image a = grey_image(5, 5, std::vector<float>(25, kNan));
+    const Comparison comparison = compare(a, grey_image(5, 5, std::vector<float>(25, 1)));
+    EXPECT_EQ(comparison.invalid_a.count, 25);
+    EXPECT_EQ(comparison.invalid_a.first.size(), 10u);
+    EXPECT_EQ(comparison.compared_pixels, 0);
+    EXPECT_TRUE(std::isnan(comparison.mse));
+    EXPECT_TRUE(std::isnan(comparison.mean_b));
+}
+
+TEST(Metrics, DifferentSizesAreBothNamed) {
+    const Image a = random_image(4, 3, 1);
+    const Image b = random_image(3, 4, 1);
+    for (const std::string& error :
+         {error_of([&] { (void)compare(a, b); }), error_of([&] { (void)difference_scale(a, b); }),
+          error_of([&] { (void)signed_difference_image(a, b, 1); })}) {
+        EXPECT_NE(error.find("4 x 3"), std::string::npos) << error;
+        EXPECT_NE(error.find("3 x 4"), std::string::npos) << error;
+    }
+}
+
+TEST(DifferenceScale, IsThe99thPercentile) {
+    // |differences| 1 to 1000 in some order, with both signs and in different channels.
+    Image a = make_image(100, 10);
+    const Image b = make_image(100, 10);
+    for (std::size_t i = 0; i < 1000; ++i) {
+        const std::size_t shuffled = i * 37 % 1000;
+        a.pixels[3 * i + i % 3] = float(shuffled + 1) * (i % 2 == 0 ? 1.0f : -1.0f);
+        a.pixels[3 * i + (i + 1) % 3] = 0.5f;
+    }
+    EXPECT_NEAR(difference_scale(a, b), 990, 1);
+}
+
+TEST(DifferenceScale, FallsBackToTheLargestThenToOne) {
+    Image a = make_image(100, 10);
+    const Image b = make_image(100, 10);
+    EXPECT_EQ(difference_scale(a, b), 1);
+    a.pixels[777] = -0.125f;
+    EXPECT_EQ(difference_scale(a, b), 0.125);
+    a.pixels[777] = kNan;
+    EXPECT_EQ(difference_scale(a, b), 1);
+}
+
+/// The colours for grey differences t = -1, ..., 1 at scale 1.
+std::vector<std::array<double, 3>> color_scale() {
+    const Image a = grey_image(5, 1, {-1, -0.5f, 0, 0.5f, 1});
+    const Image colors = signed_difference_image(a, make_image(5, 1), 1);
+    std::vector<std::array<double, 3>> result;
+    for (std::size_t i = 0; i < 15; i += 3)
+        result.push_back({colors.pixels[i], colors.pixels[i + 1], colors.pixels[i + 2]});
+    return result;
+}
+
+TEST(SignedDifference, BlueWhiteRed) {
+    const auto colors = color_scale();
+    for (const std::size_t negative : {0u, 1u}) EXPECT_GT(colors[negative][2], 1.2 * colors[negative][0]);
+    for (const std::size_t positive : {3u, 4u}) EXPECT_GT(colors[positive][0], 1.2 * colors[positive][2]);
+    for (const double channel : colors[2]) EXPECT_NEAR(channel, 1, 1e-6);
+    for (const auto& color : colors) {
+        for (const double channel : color) {
+            EXPECT_GE(channel, 0);
+            EXPECT_LE(channel, 1 + 1e-6);
+        }
+    }
+}
+
+TEST(SignedDifference, EqualErrorsAreEquallyLight) {
+    // Lightness L* of CIELAB, another colour space than the one that made the colours.
+    const auto lightness = [](const std::array<double, 3>& rgb) {
+        return 116 * std::cbrt(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]) - 16;
+    };
+    const auto colors = color_scale();
+    EXPECT_NEAR(lightness(colors[0]), lightness(colors[4]), 6);
+    EXPECT_NEAR(lightness(colors[1]), lightness(colors[3]), 6);
+    EXPECT_LT(lightness(colors[0]), lightness(colors[1]) - 20);
+    EXPECT_LT(lightness(colors[1]), lightness(colors[2]) - 20);
+}
+
+TEST(SignedDifference, ScaleSaturatesAndTheLargestChannelDecides) {
+    const Image zero = make_image(1, 1);
+    const auto color = [&](std::vector<float> rgb, double scale) {
+        return signed_difference_image(Image{1, 1, std::move(rgb)}, zero, scale).pixels;
+    };
+    EXPECT_EQ(color({5, 5, 5}, 1), color({1, 1, 1}, 1));
+    EXPECT_EQ(color({-5, -5, -5}, 1), color({-1, -1, -1}, 1));
+    EXPECT_EQ(color({0.5f, 0.5f, 0.5f}, 2), color({0.25f, 0.25f, 0.25f}, 1));
+    EXPECT_EQ(color({0.25f, -0.5f, 0.25f}, 1), color({-0.5f, -0.5f, -0.5f}, 1));
+    EXPECT_NE(color({0.5f, 0.5f, 0.5f}, 1), color({0.25f, 0.25f, 0.25f}, 1));
+    for (const float bad : {kNan, kInfinity, -kInfinity})
+        EXPECT_EQ(color({0, bad, 0}, 1), (std::vector<float>{0, 0, 0}));
+}
+
+} // namespace
+
+} // namespace nusselt::image::test
