@@ -42,7 +42,12 @@ private:
 void write_atomically(const std::filesystem::path& path, const std::function<void(std::ofstream&)>& write) {
     std::error_code error;
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder, error))
+    const std::filesystem::file_status folder_status = std::filesystem::status(folder, error);
+    if (!std::filesystem::status_known(folder_status)) {
+        fail(path, "the folder '" + folder.string() + "' cannot be reached (" + error.message() +
+                       "); check the permissions of the folders above it or choose another path");
+    }
+    if (!std::filesystem::is_directory(folder_status))
         fail(path, "there is no folder '" + folder.string() + "'; create it or choose another path");
     if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
         fail(path, "this is a folder or a device; give the name of a file");

@@ -3,6 +3,7 @@
 #include "image/metrics.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 

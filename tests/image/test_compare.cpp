@@ -9,7 +9,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cstdlib>
 #include <limits>
+#include <map>
+#include <sstream>
 
 namespace nusselt::image::test {
 

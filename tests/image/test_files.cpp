@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <cstring>
+#include <limits>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -123,24 +124,38 @@ TEST_F(Files, DevicesAreNotReplaced) {
     EXPECT_TRUE(std::filesystem::is_symlink(in_folder("null.hdr")));
 }
 
+/// Gives up the rights of root, whom permissions do not stop, until the end of the scope.
+class WithoutRoot {
+public:
+    WithoutRoot() {
+        constexpr uid_t kNobody = 65534;
+        if (user_ == 0 && ::seteuid(kNobody) != 0) throw std::runtime_error("cannot give up root");
+    }
+    WithoutRoot(const WithoutRoot&) = delete;
+    WithoutRoot& operator=(const WithoutRoot&) = delete;
+    ~WithoutRoot() {
+        if (user_ == 0 && ::seteuid(user_) != 0) std::abort();
+    }
+
+private:
+    uid_t user_ = ::geteuid();
+};
+
 TEST_F(Files, FolderWithoutPermission) {
-    using std::filesystem::perms;
-    const perms read_only = perms::owner_read | perms::owner_exec | perms::others_read | perms::others_exec;
-    std::filesystem::create_directory(in_folder("locked"));
-    std::filesystem::permissions(in_folder("locked"), read_only);
-    std::filesystem::permissions(in_folder("."), read_only | perms::owner_write);
-    const uid_t user = ::geteuid();
-    constexpr uid_t kNobody = 65534; // permissions do not stop root
-    if (user == 0) {
-        ASSERT_EQ(::seteuid(kNobody), 0);
+    const std::filesystem::path locked = in_folder("locked");
+    std::filesystem::create_directories(locked / "inner");
+    std::filesystem::permissions(in_folder("."), std::filesystem::perms(0755));
+    for (const auto& [mode, path] : {std::pair{0555, locked / "a.exr"}, {0, locked / "inner" / "a.exr"}}) {
+        std::filesystem::permissions(locked, std::filesystem::perms(mode));
+        std::string error;
+        {
+            const WithoutRoot without_root;
+            error = error_of_writing(path);
+        }
+        expect_mentions(error, path.string());
+        expect_mentions(error, "permissions");
     }
-    const std::string error = error_of_writing(in_folder("locked") / "a.exr");
-    if (user == 0) {
-        ASSERT_EQ(::seteuid(user), 0);
-    }
-    expect_mentions(error, (in_folder("locked") / "a.exr").string());
-    expect_mentions(error, "permissions");
-    std::filesystem::permissions(in_folder("locked"), perms::owner_all);
+    std::filesystem::permissions(locked, std::filesystem::perms(0755));
 }
 
 TEST_F(Files, MissingFileAndUnknownExtension) {

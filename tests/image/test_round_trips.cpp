@@ -10,6 +10,7 @@
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -162,7 +163,7 @@ TEST_F(RoundTrip, PngIsWithinHalfACodeValue) {
 }
 
 TEST_F(RoundTrip, PngCodesAreKnown) {
-    // 0.2140 is the linear value of the code 127.5; the other values follow from the definition of sRGB.
+    // By hand from the definition of sRGB: 0.2158605 is the linear value of the code 128.
     Image image = make_image(3, 1);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinity = std::numeric_limits<float>::infinity();
