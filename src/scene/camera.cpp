@@ -11,7 +11,9 @@ CameraDirective read_camera(std::string_view type, ParameterList& parameters,
     if (type != "perspective")
         throw SceneError(location,
                          "camera \"" + std::string(type) + "\" is not supported; use \"perspective\"");
-    CameraDirective camera{location, camera_from_world};
+    CameraDirective camera;
+    camera.location = location;
+    camera.camera_from_world = camera_from_world;
     camera.fov_degrees = parameters.real("fov", 90);
     if (const auto half = parameters.optional_real("halffov")) camera.fov_degrees = 2 * *half;
     if (!(camera.fov_degrees > 0 && camera.fov_degrees < 180))

@@ -151,7 +151,8 @@ SceneDescription Parser::run() {
     state_.warn_if_open(scene_.warnings);
     const Location begin{&scene_.sources.front(), 1};
     if (!camera_) scene_.warnings.add(begin, "there is no Camera, it looks from the origin along +z");
-    scene_.camera = camera_.value_or(CameraDirective{begin, {}, 90, {}, {}});
+    if (!camera_) camera_.emplace().location = begin;
+    scene_.camera = *camera_;
     scene_.images = textures_.requests();
     return std::move(scene_);
 }

@@ -23,11 +23,12 @@ inline constexpr double kSmallestVisibilityDenominator = 1e-20;
 ///
 /// All directions are unit vectors in shading space, pointing away from the surface; z is the cosine. Values
 /// are those of the BRDF, without the cosine [1/sr]. They are 0 where wi.z <= 0 or wo.z <= 0, exactly equal
-/// after swapping wo and wi, never NaN and at most 1.7e27 (specular) or 0.8 (diffuse) for albedo and f0 up to
-/// 1; eval_specular(wi) times wi.z is at most 1.6e11.
+/// after swapping wo and wi, never NaN and at most 1.7e27 (specular) or 1.32 (diffuse) for albedo and f0 up
+/// to 1; eval_specular(wi) times wi.z is at most 1.6e11.
 ///
-/// The parts do not know of each other: with albedo 1 and f0 0.04, or albedo 0 and f0 1, a surface reflects
-/// less than it receives; with both large it may reflect more.
+/// The specular part alone reflects at most what it receives. The parts do not know of each other: with
+/// albedo 1 and f0 0.04 their sum stays below 1 up to 1.2 rad from the normal, then grows to 1.117 at
+/// roughness 1 towards the horizon; with both albedo and f0 large it is larger.
 ///
 /// \tparam Real float, double, long double or a pack with one surface point per lane.
 template <class Real>

@@ -10,9 +10,9 @@
 #define NUSSELT_HD
 #endif
 
-/// Everything lives in an inline namespace named after the instruction set of the translation unit.
-/// A program may compile the library for several instruction sets; without distinct names the linker would
-/// merge their inline functions and could give the baseline a copy that needs AVX-512.
+/// Everything lives in an inline namespace named after the instruction set of the translation unit. A program
+/// may compile the library for several instruction sets; without distinct names the linker would merge their
+/// inline functions and could give the baseline a copy that needs AVX-512.
 #if defined(__CUDA_ARCH__)
 #define NUSSELT_ISA isa_cuda
 #elif defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)

@@ -1,9 +1,9 @@
 #pragma once
-/// What the library asks of a number type. `Real` is float, double, long double, or a pack of float or
-/// double with one independent lane per light and shading point.
+/// What the library asks of a number type. `Real` is float, double, long double, or a pack of float or double
+/// with one independent lane per light and shading point.
 ///
-/// Templates use the operations below by unqualified name: this header has them for scalars, simd/pack.h
-/// for packs (found by argument-dependent lookup). Comparisons give a mask: bool for scalars.
+/// Templates use the operations below by unqualified name: this header has them for scalars, simd/pack.h for
+/// packs (found by argument-dependent lookup). Comparisons give a mask: bool for scalars.
 
 #include <cmath>
 #include <cstdint>

@@ -2,8 +2,8 @@
 /// Trigonometric functions on the ranges that the techniques need.
 ///
 /// Single precision, scalar or pack, evaluates polynomials (minimax, fitted for this library) with fma, so
-/// that scalar, SIMD and GPU code give the same bits. Double and long double call the standard library.
-/// The error bounds are those that tests/unit/core/trig_test.cpp enforces.
+/// that scalar, SIMD and GPU code give the same bits. Double and long double call the standard library. The
+/// error bounds are those that tests/unit/core/trig_test.cpp enforces.
 
 #include <nusselt/core/real.h>
 

@@ -13,7 +13,7 @@ struct UInt4 {
 };
 
 /// Hash of four words, the pcg4d of M. Jarzynski, M. Olano 2020, Hash Functions for GPU Rendering, JCGT 9(3).
-/// A bijection. Its high bits are the better ones.
+/// A bijection. The high bits of the result are the better ones, the highest bit of a key is the worst.
 NUSSELT_HD constexpr UInt4 pcg4d(UInt4 v) noexcept {
     constexpr std::uint32_t kFactor = 1664525u;
     constexpr std::uint32_t kIncrement = 1013904223u;

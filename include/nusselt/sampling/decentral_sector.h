@@ -98,7 +98,9 @@ struct DecentralSector {
             Real best_residual = Real(std::numeric_limits<scalar_t<Real>>::max());
             for (int i = 0;; ++i) {
                 const Real missing = target - doubled_area_to<Angles>(w);
-                const auto inside = (det(s0, w) >= Real(0)) & (det(w, s1) >= Real(0));
+                const Real from_s0 = det(s0, w);
+                const Real to_s1 = det(w, s1);
+                const auto inside = (from_s0 >= Real(0)) & (to_s1 >= Real(0));
                 const auto better = inside & (abs(missing) < best_residual);
                 best = select(better, w, best);
                 best_residual = select(better, abs(missing), best_residual);

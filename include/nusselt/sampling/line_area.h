@@ -8,7 +8,7 @@
 NUSSELT_NAMESPACE_BEGIN
 
 /// \tparam Real float, double, long double or a pack of float or double, one light and shading point per
-/// lane.
+///              lane.
 ///
 /// Measure: pdf is the density of wi in solid angle times the radius of the cylinder that tends to 0 [m/sr]:
 /// |p|^2 / (2 length |wi x s|). The emission of the light is radiance times radius, so that the radius

@@ -19,8 +19,7 @@ template <class Real>
 inline constexpr int kLineIterations = kIsSingle<Real> ? 2 : 4;
 
 /// \tparam Real       float, double, long double or a pack of float or double: one light and shading point
-/// per
-///                    lane, or many samples of one light (see the broadcasting constructor).
+///                    per lane, or many samples of one light (see the broadcasting constructor).
 /// \tparam Iterations steps of the iteration per sample.
 ///
 /// Measure: pdf is the density of wi in solid angle times the radius of the cylinder that tends to 0 [m/sr],

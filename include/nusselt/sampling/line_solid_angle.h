@@ -11,7 +11,7 @@
 NUSSELT_NAMESPACE_BEGIN
 
 /// \tparam Real float, double, long double or a pack of float or double, one light and shading point per
-/// lane.
+///              lane.
 ///
 /// Measure: pdf is the density of wi in solid angle times the radius of the cylinder that tends to 0 [m/sr],
 /// the constant 1 / measure(). The emission of the light is radiance times radius, so that the radius

@@ -10,7 +10,8 @@
 NUSSELT_NAMESPACE_BEGIN
 
 /// \tparam Real float, double, long double or a pack of float or double, one light and shading point per
-/// lane. \tparam N    bound on the number of vertices, 3 to 8.
+///              lane.
+/// \tparam N    bound on the number of vertices, 3 to 8.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr], |p|^2 / (area cos_light).
 /// Space: any frame with the shading point as origin; no clipping, so that wi may point below the horizon.

@@ -21,8 +21,7 @@ template <class Real>
 inline constexpr int kPolygonIterations = kIsSingle<Real> ? 2 : 3;
 
 /// \tparam Real       float, double, long double or a pack of float or double: one light and shading point
-/// per
-///                    lane, or many samples of one light (see the broadcasting constructor).
+///                    per lane, or many samples of one light (see the broadcasting constructor).
 /// \tparam N          bound on the number of vertices before clipping, 3 to 8.
 /// \tparam Iterations steps of the iteration per sample in the decentral case.
 /// \tparam Angles     PreciseAngles, or FastAngles for the biased variant.
@@ -71,8 +70,7 @@ public:
     }
 
     /// \param u in [0, 1)^2; x selects the azimuth, y the inclination. Continuous, up to the cyclic start in
-    /// the
-    ///          central case, so that stratification survives.
+    ///          the central case, so that stratification survives.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         const Selection selection = select_sector(u.x);
         Vec3<Real> wi{Real(0), Real(0), Real(1)};

@@ -13,7 +13,8 @@
 NUSSELT_NAMESPACE_BEGIN
 
 /// \tparam Real float, double, long double or a pack of float or double, one light and shading point per
-/// lane. \tparam N    bound on the number of vertices, 3 to 9.
+///              lane.
+/// \tparam N    bound on the number of vertices, 3 to 9.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr], the constant 1 / measure().
 /// Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
@@ -72,7 +73,7 @@ public:
     }
 
     /// \param u in [0, 1)^2; x selects the great circle through vertex 0, y the point on it, beginning at
-    /// vertex 0.
+    ///          vertex 0.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         const Real target = u.x * total_;
         Triangle t = triangle(0);

@@ -2,6 +2,7 @@
 /// Great circles through the edges of a polygon, projected to the tangent plane of the surface.
 
 #include <nusselt/core/trig.h>
+#include <nusselt/core/vec.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -47,8 +48,8 @@ struct FastAngles {
     }
 };
 
-/// Twice the area of an ellipse within the sector from s0 counterclockwise to s1, at most half a turn
-/// (Peters 2021, polygonal lights, Prop. 1). Lengths of s0 and s1 do not matter.
+/// Twice the area of an ellipse within the sector from s0 counterclockwise to s1, at most half a turn (Peters
+/// 2021, polygonal lights, Prop. 1). Lengths of s0 and s1 do not matter.
 /// \param determinant det(s0, s1), which the caller may know more accurately; clamped at 0.
 template <class Angles, class Real>
 NUSSELT_HD inline Real doubled_sector_area(const ProjectedEllipse<Real>& ellipse, const Vec2<Real>& s0,

@@ -1,0 +1,72 @@
+#include "bench_samplers.h"
+
+#include "experiments/sampler_timing.h"
+#include "image/atomic_file.h"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <memory>
+
+namespace nusselt::app {
+
+namespace {
+
+void print_table(const std::vector<experiments::SamplerTiming>& rows) {
+    fmt::print(
+        "One thread; ns per light (with clipping and one sample) and per further sample, medians with the\n"
+        "baseline subtracted. Lanes: 1 is scalar code, else lights per packet; times are per lane.\n\n");
+    fmt::print("{:<34}{:<34}{:>8}{:>6}{:>10}{:>10}{:>9}\n", "technique", "lights", "isa", "lanes", "prepare",
+               "sample", "spread");
+    for (const auto& row : rows)
+        fmt::print("{:<34}{:<34}{:>8}{:>6}{:>10.2f}{:>10.2f}{:>8.0f}%\n", row.technique, row.configuration,
+                   row.isa, row.lanes, row.prepare_ns, row.sample_ns, 100 * row.spread);
+}
+
+std::string to_json(const std::vector<experiments::SamplerTiming>& rows) {
+    nlohmann::json json = nlohmann::json::array();
+    for (const auto& row : rows)
+        json.push_back({{"technique", row.technique},
+                        {"lights", row.configuration},
+                        {"isa", row.isa},
+                        {"lanes", row.lanes},
+                        {"prepare_ns", row.prepare_ns},
+                        {"sample_ns", row.sample_ns},
+                        {"spread", row.spread}});
+    return json.dump(2) + "\n";
+}
+
+} // namespace
+
+int run_bench_samplers(const BenchSamplersOptions& options) {
+    const auto rows = experiments::time_samplers({options.repetitions, options.isa});
+    if (options.json && *options.json == "-") {
+        fmt::print("{}", to_json(rows));
+        return 0;
+    }
+    print_table(rows);
+    if (options.json)
+        image::write_atomically(*options.json, [&](std::ofstream& file) { file << to_json(rows); });
+    return 0;
+}
+
+void setup_bench_samplers(CLI::App& bench, int& exit_code) {
+    const auto options = std::make_shared<BenchSamplersOptions>();
+    CLI::App* command = bench.add_subcommand("samplers", "Cost of preparing and of sampling each technique");
+    command
+        ->add_option("--repetitions", options->repetitions,
+                     "Interleaved repetitions, of which the median counts")
+        ->check(CLI::Range(1, 10001))
+        ->capture_default_str();
+    command
+        ->add_option("--isa", options->isa,
+                     "Instruction set: auto (the best of this CPU), sse42, avx2 or avx512")
+        ->check(CLI::IsMember({"auto", "sse42", "avx2", "avx512"}))
+        ->capture_default_str();
+    command->add_option("--json", options->json,
+                        "Write the table as JSON to this file; - for the standard output");
+    command->callback([options, &exit_code] { exit_code = run_bench_samplers(*options); });
+}
+
+} // namespace nusselt::app

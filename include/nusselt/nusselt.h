@@ -1,0 +1,13 @@
+#pragma once
+/// All techniques. Packs of SIMD lanes are an extra: include <nusselt/simd/pack.h> as well.
+
+#include <nusselt/bsdf/frostbite.h>
+#include <nusselt/bsdf/lambert.h>
+#include <nusselt/estimate/backward_error.h>
+#include <nusselt/random/light_random.h>
+#include <nusselt/sampling/line_area.h>
+#include <nusselt/sampling/line_projected_solid_angle.h>
+#include <nusselt/sampling/line_solid_angle.h>
+#include <nusselt/sampling/polygon_area.h>
+#include <nusselt/sampling/polygon_projected_solid_angle.h>
+#include <nusselt/sampling/polygon_solid_angle.h>

@@ -1,0 +1,30 @@
+#pragma once
+/// Cost of preparing and of sampling each technique, on one thread (Table 1 of both papers of Peters 2021).
+
+#include <string>
+#include <vector>
+
+namespace nusselt::experiments {
+
+/// Cost of one technique for one class of lights. Times have the baseline subtracted: a technique of
+/// practically no cost run through the same loops over the same lights.
+struct SamplerTiming {
+    std::string technique;     ///< class name
+    std::string configuration; ///< "decentral, 4 vertices"
+    std::string isa;           ///< instruction set the code was compiled for
+    int lanes = 1;             ///< 1: scalar code
+    double prepare_ns = 0;     ///< per light, with clipping and one sample [ns], median
+    double sample_ns = 0;      ///< per further sample of the same light [ns], median
+    double spread = 0;         ///< half the interquartile range of prepare_ns over its median
+};
+
+struct SamplerTimingSettings {
+    int repetitions = 31;     ///< of the interleaved series; odd numbers give true medians
+    std::string isa = "auto"; ///< "auto": the best that the CPU has; "sse42", "avx2", "avx512"
+};
+
+/// Times all techniques, interleaved, so that a drift of the clock rate hits all alike.
+/// \throws std::runtime_error for an instruction set that is unknown or that the CPU lacks.
+std::vector<SamplerTiming> time_samplers(const SamplerTimingSettings& settings);
+
+} // namespace nusselt::experiments

@@ -1,0 +1,283 @@
+/// The random numbers of a renderer: uniform over pixels, stratified in pixels, independent between
+/// everything that should be, and the same in lanes.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <nusselt/random/light_random.h>
+#include <nusselt/random/sobol.h>
+
+#include "random_statistics.h"
+
+namespace {
+
+using nusselt::camera_random;
+using nusselt::camera_random_lanes;
+using nusselt::light_random;
+using nusselt::light_random_lanes;
+using nusselt::owen_scrambled_sobol;
+using nusselt::pcg4d;
+using nusselt::Sampler;
+using nusselt::to_unit;
+using nusselt::UInt4;
+using nusselt::Vec2;
+using nusselt::test::CellCounts;
+using nusselt::test::sidak_level;
+
+constexpr Sampler kSamplers[] = {Sampler::independent, Sampler::sobol, Sampler::jittered};
+constexpr std::uint32_t kWidth = 256;
+constexpr std::uint32_t kSamples = 16;
+
+struct Pixel {
+    std::uint32_t x, y;
+};
+
+/// p-value that a function of the pixel is uniform on the unit square, over an image.
+double p_value_over_pixels(const std::function<Vec2<double>(Pixel)>& f) {
+    CellCounts counts;
+    for (std::uint32_t y = 0; y < kWidth; ++y) {
+        for (std::uint32_t x = 0; x < kWidth; ++x) {
+            const Vec2<double> u = f({x, y});
+            counts.add(u.x, u.y);
+        }
+    }
+    return counts.p_value();
+}
+
+/// A sample of light 3, with the stratum of jittered samples stretched to the unit interval.
+Vec2<double> stretched(Sampler kind, Pixel p, std::uint32_t sample) {
+    Vec2<double> u = light_random<double>(kind, 11, p.x, p.y, sample, kSamples, 3);
+    if (kind == Sampler::jittered) u.x = u.x * kSamples - sample;
+    return u;
+}
+
+TEST(LightRandom, EachSampleIsUniformOverPixels) {
+    constexpr std::uint32_t kChecked[] = {0, 1, 2, 7, 15};
+    const double level = sidak_level(3 * 5);
+    for (const Sampler kind : kSamplers)
+        for (const std::uint32_t sample : kChecked)
+            EXPECT_GT(p_value_over_pixels([&](Pixel p) { return stretched(kind, p, sample); }), level)
+                << static_cast<int>(kind) << " sample " << sample;
+}
+
+TEST(LightRandom, TestOfUniformityRejectsBias) {
+    const double level = sidak_level(3 * 5);
+    for (const Sampler kind : kSamplers) {
+        // The last 64th of the interval is missing.
+        EXPECT_LT(p_value_over_pixels([&](Pixel p) {
+                      const Vec2<double> u = stretched(kind, p, 1);
+                      return Vec2<double>{u.x * (63.0 / 64), u.y};
+                  }),
+                  level);
+        // Denser near 0.
+        EXPECT_LT(p_value_over_pixels([&](Pixel p) {
+                      const Vec2<double> u = stretched(kind, p, 1);
+                      return Vec2<double>{u.x, u.y * u.y};
+                  }),
+                  level);
+    }
+}
+
+TEST(CameraRandom, IsUniformOverPixels) {
+    for (const Sampler kind : kSamplers)
+        EXPECT_GT(p_value_over_pixels([&](Pixel p) { return camera_random<double>(kind, 5, p.x, p.y, 3); }),
+                  sidak_level(3));
+}
+
+/// Pairs of numbers that must be independent of each other, as functions of the pixel.
+struct NamedPair {
+    const char* name;
+    std::function<Vec2<double>(Sampler, Pixel)> numbers;
+};
+
+double x_of(Sampler kind, std::uint32_t seed, Pixel p, std::uint32_t light, std::uint32_t pair = 0) {
+    const double u = light_random<double>(kind, seed, p.x, p.y, 5, kSamples, light, pair).x;
+    return kind == Sampler::jittered ? u * kSamples - 5 : u;
+}
+
+const std::vector<NamedPair>& independent_pairs() {
+    static const std::vector<NamedPair> pairs{
+        {"lights",
+         [](Sampler s, Pixel p) {
+             return Vec2<double>{x_of(s, 1, p, 0), x_of(s, 1, p, 1)};
+         }},
+        {"far lights",
+         [](Sampler s, Pixel p) {
+             return Vec2<double>{x_of(s, 1, p, 2), x_of(s, 1, p, 65538)};
+         }},
+        {"pixels in a row",
+         [](Sampler s, Pixel p) {
+             return Vec2<double>{x_of(s, 1, p, 0), x_of(s, 1, {p.x + 1, p.y}, 0)};
+         }},
+        {"pixels in a column",
+         [](Sampler s, Pixel p) {
+             return Vec2<double>{x_of(s, 1, p, 0), x_of(s, 1, {p.x, p.y + 1}, 0)};
+         }},
+        {"transposed pixels",
+         [](Sampler s, Pixel p) {
+             return Vec2<double>{x_of(s, 1, p, 0), x_of(s, 1, {p.y + 1000, p.x}, 0)};
+         }},
+        {"seeds",
+         [](Sampler s, Pixel p) {
+             return Vec2<double>{x_of(s, 1, p, 0), x_of(s, 2, p, 0)};
+         }},
+        {"seed and light",
+         [](Sampler s, Pixel p) {
+             return Vec2<double>{x_of(s, 1, p, 2), x_of(s, 2, p, 1)};
+         }},
+        {"pairs of dimensions",
+         [](Sampler s, Pixel p) {
+             return Vec2<double>{x_of(s, 1, p, 0, 0), x_of(s, 1, p, 0, 1)};
+         }},
+        {"light and pair",
+         [](Sampler s, Pixel p) {
+             return Vec2<double>{x_of(s, 1, p, 1, 0), x_of(s, 1, p, 0, 1)};
+         }},
+        {"camera and light",
+         [](Sampler s, Pixel p) {
+             return Vec2<double>{x_of(s, 1, p, 0), camera_random<double>(s, 1, p.x, p.y, 5).x};
+         }},
+    };
+    return pairs;
+}
+
+TEST(LightRandom, NumbersAreIndependentOverPixels) {
+    const double level = sidak_level(3 * static_cast<int>(independent_pairs().size()));
+    for (const NamedPair& pair : independent_pairs())
+        for (const Sampler kind : kSamplers)
+            EXPECT_GT(p_value_over_pixels([&](Pixel p) { return pair.numbers(kind, p); }), level)
+                << pair.name << ", sampler " << static_cast<int>(kind);
+}
+
+TEST(LightRandom, TestOfIndependenceRejectsReuse) {
+    for (const Sampler kind : kSamplers) {
+        // One seed for two lights, once with a shift.
+        EXPECT_LT(p_value_over_pixels([&](Pixel p) {
+                      return Vec2<double>{x_of(kind, 1, p, 0), x_of(kind, 1, p, 0)};
+                  }),
+                  sidak_level(30));
+        EXPECT_LT(p_value_over_pixels([&](Pixel p) {
+                      const double u = x_of(kind, 1, p, 0);
+                      return Vec2<double>{u, u < 0.618 ? u + 0.382 : u - 0.618};
+                  }),
+                  sidak_level(30));
+    }
+}
+
+TEST(LightRandom, IndependentSamplesAreIndependent) {
+    for (std::uint32_t sample = 0; sample < 8; ++sample) {
+        EXPECT_GT(p_value_over_pixels([&](Pixel p) {
+                      return Vec2<double>{stretched(Sampler::independent, p, sample).x,
+                                          stretched(Sampler::independent, p, sample + 1).x};
+                  }),
+                  sidak_level(8));
+    }
+}
+
+/// Average over pixels of the chi-square statistic of 64 points, each made of one coordinate from each of two
+/// padded pairs, in 8 x 8 cells.
+double statistic_of_padding(const std::function<Vec2<double>(Pixel, std::uint32_t)>& f) {
+    constexpr int kPixels = 400;
+    double sum = 0;
+    for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel) {
+        int counts[64] = {};
+        for (std::uint32_t k = 0; k < 64; ++k) {
+            const Vec2<double> u = f({pixel, 3}, k);
+            ++counts[static_cast<int>(u.x * 8) * 8 + static_cast<int>(u.y * 8)];
+        }
+        for (const int count : counts) sum += (count - 1.0) * (count - 1.0);
+    }
+    return sum / kPixels;
+}
+
+// Of each eight consecutive samples, both coordinates have one in each eighth. If their orders are
+// independent, the counts are sums of eight independent random permutation matrices: the expectation is 64 *
+// 7 / 8 = 56.
+TEST(LightRandom, SobolPairsHaveIndependentOrders) {
+    const double statistic = statistic_of_padding([](Pixel p, std::uint32_t k) {
+        return Vec2<double>{light_random<double>(Sampler::sobol, 1, p.x, p.y, k, 64, 0).x,
+                            light_random<double>(Sampler::sobol, 1, p.x, p.y, k, 64, 1).x};
+    });
+    EXPECT_NEAR(statistic, 56, 5);
+    const double same_order = statistic_of_padding([](Pixel p, std::uint32_t k) {
+        const UInt4 key = pcg4d({p.x, p.y, 0, 1});
+        return Vec2<double>{to_unit<double>(owen_scrambled_sobol(k, {9, key.x, 0}).x),
+                            to_unit<double>(owen_scrambled_sobol(k, {9, key.y, 0}).x)};
+    });
+    EXPECT_GT(same_order, 200);
+}
+
+TEST(LightRandom, PowersOfTwoSobolSamplesAreStratified) {
+    for (const std::uint32_t n : {1u, 4u, 16u, 64u}) {
+        for (std::uint32_t pixel = 0; pixel < 100; ++pixel) {
+            std::vector<int> columns(n), rows(n);
+            for (std::uint32_t k = 0; k < n; ++k) {
+                const Vec2<float> u = light_random(Sampler::sobol, 2, pixel, 9, k, n, 1);
+                ++columns[static_cast<std::size_t>(u.x * static_cast<float>(n))];
+                ++rows[static_cast<std::size_t>(u.y * static_cast<float>(n))];
+            }
+            EXPECT_EQ(columns, std::vector<int>(n, 1));
+            EXPECT_EQ(rows, std::vector<int>(n, 1));
+        }
+    }
+}
+
+TEST(LightRandom, JitteredSamplesShareTheirOffset) {
+    for (const std::uint32_t n : {1u, 3u, 16u, 100u}) {
+        for (std::uint32_t pixel = 0; pixel < 100; ++pixel) {
+            const float first = light_random(Sampler::jittered, 2, pixel, 9, 0, n, 1).x;
+            for (std::uint32_t k = 0; k < n; ++k) {
+                const float x = light_random(Sampler::jittered, 2, pixel, 9, k, n, 1).x;
+                EXPECT_NEAR(x, first + static_cast<float>(k) / static_cast<float>(n), 1.2e-7f);
+                EXPECT_GE(x, static_cast<float>(k) / static_cast<float>(n));
+                EXPECT_LT(x, static_cast<float>(k + 1) / static_cast<float>(n));
+            }
+        }
+    }
+}
+
+TEST(LightRandom, StaysBelowOne) {
+    for (const Sampler kind : kSamplers) {
+        for (std::uint32_t i = 0; i < 300000; ++i) {
+            const Vec2<float> u = light_random(kind, 0, i, 0, i % 64, 64, 0);
+            ASSERT_TRUE(0 <= u.x && u.x < 1 && 0 <= u.y && u.y < 1) << i;
+        }
+    }
+}
+
+template <class Scalar, int N>
+void expect_lanes_equal_scalars() {
+    std::uint32_t x[N], y[N], sample[N];
+    for (std::uint32_t i = 0; i < N; ++i) {
+        x[i] = i % 4 + 100;
+        y[i] = i / 4 + (i == 1 ? 0xfffffff0u : 0u);
+        sample[i] = i * 5 % 16;
+    }
+    for (const Sampler kind : kSamplers) {
+        Scalar light_x[N], light_y[N], camera_x[N], camera_y[N];
+        light_random_lanes(kind, 77, x, y, sample, 16, 4, 2, light_x, light_y);
+        camera_random_lanes(kind, 77, x, y, sample, camera_x, camera_y);
+        for (int i = 0; i < N; ++i) {
+            const Vec2<Scalar> light = light_random<Scalar>(kind, 77, x[i], y[i], sample[i], 16, 4, 2);
+            const Vec2<Scalar> camera = camera_random<Scalar>(kind, 77, x[i], y[i], sample[i]);
+            EXPECT_EQ(light_x[i], light.x);
+            EXPECT_EQ(light_y[i], light.y);
+            EXPECT_EQ(camera_x[i], camera.x);
+            EXPECT_EQ(camera_y[i], camera.y);
+        }
+    }
+}
+
+TEST(LightRandom, LanesEqualScalars) {
+    expect_lanes_equal_scalars<float, 4>();
+    expect_lanes_equal_scalars<float, 8>();
+    expect_lanes_equal_scalars<float, 16>();
+    expect_lanes_equal_scalars<double, 2>();
+    expect_lanes_equal_scalars<double, 8>();
+}
+
+} // namespace

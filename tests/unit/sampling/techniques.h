@@ -1,0 +1,131 @@
+#pragma once
+/// The techniques under test, each as a type from which a test picks the instantiation that it wants.
+
+#include <cstring>
+#include <type_traits>
+
+#include <nusselt/sampling/line_area.h>
+#include <nusselt/sampling/line_projected_solid_angle.h>
+#include <nusselt/sampling/line_solid_angle.h>
+#include <nusselt/sampling/polygon_area.h>
+#include <nusselt/sampling/polygon_projected_solid_angle.h>
+#include <nusselt/sampling/polygon_solid_angle.h>
+
+namespace nusselt_test {
+
+enum class Measure { kArea, kSolidAngle, kProjectedSolidAngle };
+enum class Horizon { kIgnored, kClipped };
+
+struct PolygonKind {
+    template <class Real>
+    using Light = nusselt::ConvexPolygon<Real, 4>;
+    template <class Real>
+    using Random = nusselt::Vec2<Real>;
+};
+struct LineKind {
+    template <class Real>
+    using Light = nusselt::LineSegment<Real>;
+    template <class Real>
+    using Random = Real;
+};
+
+template <class Kind>
+inline constexpr bool kIsPolygon = std::is_base_of_v<PolygonKind, Kind>;
+
+struct PolygonAreaKind : PolygonKind {
+    template <class Real>
+    using Technique = nusselt::PolygonArea<Real, 4>;
+    static constexpr const char* kName = "PolygonArea";
+    static constexpr Measure kMeasure = Measure::kArea;
+    static constexpr Horizon kHorizon = Horizon::kIgnored;
+};
+struct PolygonSolidAngleKind : PolygonKind {
+    template <class Real>
+    using Technique = nusselt::PolygonSolidAngle<Real, 4>;
+    static constexpr const char* kName = "PolygonSolidAngle";
+    static constexpr Measure kMeasure = Measure::kSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kIgnored;
+};
+struct PolygonClippedSolidAngleKind : PolygonKind {
+    template <class Real>
+    using Technique = nusselt::PolygonClippedSolidAngle<Real, 4>;
+    static constexpr const char* kName = "PolygonClippedSolidAngle";
+    static constexpr Measure kMeasure = Measure::kSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kClipped;
+};
+struct PolygonProjectedSolidAngleKind : PolygonKind {
+    template <class Real>
+    using Technique = nusselt::PolygonProjectedSolidAngle<Real, 4>;
+    static constexpr const char* kName = "PolygonProjectedSolidAngle";
+    static constexpr Measure kMeasure = Measure::kProjectedSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kClipped;
+};
+struct PolygonBiasedKind : PolygonKind {
+    template <class Real>
+    using Technique = nusselt::PolygonProjectedSolidAngleBiased<Real, 4>;
+    static constexpr const char* kName = "PolygonProjectedSolidAngleBiased";
+    static constexpr Measure kMeasure = Measure::kProjectedSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kClipped;
+};
+struct LineAreaKind : LineKind {
+    template <class Real>
+    using Technique = nusselt::LineArea<Real>;
+    static constexpr const char* kName = "LineArea";
+    static constexpr Measure kMeasure = Measure::kArea;
+    static constexpr Horizon kHorizon = Horizon::kIgnored;
+};
+struct LineSolidAngleKind : LineKind {
+    template <class Real>
+    using Technique = nusselt::LineSolidAngle<Real>;
+    static constexpr const char* kName = "LineSolidAngle";
+    static constexpr Measure kMeasure = Measure::kSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kIgnored;
+};
+struct LineClippedSolidAngleKind : LineKind {
+    template <class Real>
+    using Technique = nusselt::LineClippedSolidAngle<Real>;
+    static constexpr const char* kName = "LineClippedSolidAngle";
+    static constexpr Measure kMeasure = Measure::kSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kClipped;
+};
+struct LineProjectedSolidAngleKind : LineKind {
+    template <class Real>
+    using Technique = nusselt::LineProjectedSolidAngle<Real>;
+    static constexpr const char* kName = "LineProjectedSolidAngle";
+    static constexpr Measure kMeasure = Measure::kProjectedSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kClipped;
+};
+
+/// A technique and the number type that it is instantiated with: the parameter of typed tests.
+template <class KindType, class RealType>
+struct Instance {
+    using Kind = KindType;
+    using Real = RealType;
+    using Scalar = nusselt::scalar_t<Real>;
+    using Technique = typename Kind::template Technique<Real>;
+    using ScalarTechnique = typename Kind::template Technique<Scalar>;
+    using Light = typename Kind::template Light<Real>;
+    using ScalarLight = typename Kind::template Light<Scalar>;
+    using Random = typename Kind::template Random<Real>;
+    using ScalarRandom = typename Kind::template Random<Scalar>;
+    static constexpr int kLanes = nusselt::RealTraits<Real>::kLanes;
+};
+
+/// Writes one lane of a struct whose members are all of type Pack, or the struct itself for scalars.
+template <class Packed, class Single>
+void set_lane(Packed& packed, int lane, const Single& single) {
+    static_assert(std::is_trivially_copyable_v<Packed> && std::is_trivially_copyable_v<Single>);
+    constexpr std::size_t kLanes = sizeof(Packed) / sizeof(Single);
+    static_assert(sizeof(Packed) == kLanes * sizeof(Single));
+    // Both consist of numbers of one size only; a pack is an array of lanes in memory.
+    constexpr std::size_t kSize = nusselt::RealTraits<std::decay_t<decltype(first_number(single))>>::kLanes *
+                                  sizeof(first_number(single));
+    auto* target = reinterpret_cast<unsigned char*>(&packed);
+    const auto* source = reinterpret_cast<const unsigned char*>(&single);
+    for (std::size_t i = 0; i < sizeof(Single) / kSize; ++i) {
+        std::memcpy(target + (i * kLanes + static_cast<std::size_t>(lane)) * kSize, source + i * kSize,
+                    kSize);
+    }
+}
+
+} // namespace nusselt_test
