@@ -1,10 +1,15 @@
 #pragma once
 /// The Frostbite BRDF: Disney diffuse, renormalised, plus GGX with height-correlated Smith and Schlick.
 ///
-/// S. Lagarde, C. de Rousiers 2014, Moving Frostbite to Physically Based Rendering, SIGGRAPH course, Sec. 3.1
-/// (Eq. 10 and Listings 1 to 3). Its parts: D from Walter et al. 2007, Microfacet Models for Refraction,
-/// doi:10.2312/EGWR/EGSR07/195-206, Eq. 33; masking from Heitz 2014, JCGT 3(2), Eq. 99; Fresnel from Schlick
-/// 1994, doi:10.1111/1467-8659.1330233, Eq. 15; diffuse from Burley 2012, Physically-Based Shading at Disney.
+/// S. Lagarde, C. de Rousiers 2014, Moving Frostbite to Physically Based Rendering, SIGGRAPH course,
+/// Sec. 3.1:
+///   diffuse  albedo E / pi (1 + (F90 - 1)(1 - n.l)^5) (1 + (F90 - 1)(1 - n.v)^5),
+///            F90 = r / 2 + 2 r (l.h)^2,  E = 1 - r (1 - 1 / 1.51)
+///   specular D V F,  D = a^2 / (pi ((n.h)^2 (a^2 - 1) + 1)^2),  F = f0 + (1 - f0)(1 - l.h)^5,
+///            V = 1 / 2 / (n.l sqrt((n.v)^2 (1 - a^2) + a^2) + n.v sqrt((n.l)^2 (1 - a^2) + a^2))
+/// with perceptual roughness r and a = r^2. The diffuse lobe is Burley's (2012, Physically-Based Shading at
+/// Disney) but for F90 and E; D is Eq. 33 of Walter et al. 2007, doi:10.2312/EGWR/EGSR07/195-206; V is Eq. 99
+/// of Heitz 2014, JCGT 3(2), over 4 n.l n.v; F is from Schlick 1994, doi:10.1111/1467-8659.1330233.
 
 #include <nusselt/core/trig.h>
 #include <nusselt/core/vec.h>

@@ -39,6 +39,30 @@ NUSSELT_HD inline Real unfold_octants(const Real& y, const Real& x, const Real& 
 
 } // namespace detail
 
+/// tan(pi / 8): up to this tangent one_minus_atan_ratio() is accurate.
+inline constexpr double kSmallTangent = 0.41421356237309505;
+
+/// 1 - atan(t) / t with full relative precision, given s = t^2 in [0, kSmallTangent^2]. Single precision:
+/// relative error at most 3e-7.
+template <class Real>
+NUSSELT_HD inline Real one_minus_atan_ratio(const Real& s) noexcept {
+    if constexpr (kIsSingle<Real>) {
+        Real p = fma(Real(6.0832240e-2f), s, Real(-1.05959155e-1f));
+        p = fma(p, s, Real(1.42438378e-1f));
+        p = fma(p, s, Real(-1.99984885e-1f));
+        return s * fma(p, s, Real(3.33333155e-1f));
+    } else {
+        // Taylor series; each term has 2.5 bits more than the one before.
+        constexpr int kTerms = std::is_same_v<scalar_t<Real>, double> ? 20 : 24;
+        Real p = Real(0);
+        for (int i = kTerms; i >= 1; --i) {
+            const scalar_t<Real> term = scalar_t<Real>(1) / static_cast<scalar_t<Real>>(2 * i + 1);
+            p = fma(p, s, Real(i % 2 == 1 ? term : -term));
+        }
+        return s * p;
+    }
+}
+
 /// Angle of the point (x, y) with y >= 0, in [0, pi]; 0 for the origin. A negative or NaN y counts as 0.
 /// Single precision: relative error at most 3e-7. Finite arguments below 1e38.
 template <class Real>
@@ -49,16 +73,11 @@ NUSSELT_HD inline Real atan2_positive(const Real& y_in, const Real& x) noexcept 
         const Real small = min(ax, y);
         const Real large = max(ax, y);
         // Beyond pi / 8 turn by pi / 4, so that the polynomial sees at most tan(pi / 8).
-        const mask_t<Real> turn = small > Real(0.41421356237f) * large;
+        const mask_t<Real> turn = small > Real(kSmallTangent) * large;
         const Real numerator = select(turn, small - large, small);
         const Real denominator = select(turn, small + large, select(large > Real(0), large, Real(1)));
         const Real q = numerator / denominator;
-        const Real s = q * q;
-        Real p = fma(Real(-6.0832240e-2f), s, Real(1.05959155e-1f));
-        p = fma(p, s, Real(-1.42438378e-1f));
-        p = fma(p, s, Real(1.99984885e-1f));
-        p = fma(p, s, Real(-3.33333155e-1f));
-        const Real angle = fma(q * s, p, q);
+        const Real angle = fma(-q, one_minus_atan_ratio(q * q), q);
         return detail::unfold_octants(y, x, select(turn, Real(kPi<float> / 4) + angle, angle));
     } else {
         return detail::for_each_lane(y, x,
@@ -81,6 +100,22 @@ NUSSELT_HD inline Real atan2_positive_fast(const Real& y_in, const Real& x) noex
     p = fma(p, s, Real(9.99866329e-1f));
     return detail::unfold_octants(y, x, p * q);
 }
+
+/// Arctangents as precise as the type allows, for templates that can do with less.
+struct PreciseAngles {
+    template <class Real>
+    NUSSELT_HD static Real atan2_positive(const Real& y, const Real& x) noexcept {
+        return nusselt::atan2_positive(y, x);
+    }
+};
+
+/// Arctangents with an error of up to 1.3e-5 rad.
+struct FastAngles {
+    template <class Real>
+    NUSSELT_HD static Real atan2_positive(const Real& y, const Real& x) noexcept {
+        return nusselt::atan2_positive_fast(y, x);
+    }
+};
 
 template <class Real>
 struct SinCos {

@@ -12,21 +12,31 @@ NUSSELT_HD inline Real area(const ConvexPolygon<Real, N>& polygon) noexcept {
     return Real(0.5) * length(doubled_area_normal(polygon));
 }
 
-/// Scales a polygon by an exact power of two so that its farthest vertex is at a distance of order one.
-/// Directions, solid angles and projected solid angles do not change; products of coordinates stay in range.
+/// The power of two by which a polygon must be scaled to bring its farthest vertex to a distance of order
+/// one. Scaling by it is exact, and directions, solid angles and projected solid angles do not change;
+/// products of coordinates then stay in range.
 template <class Real, int N>
-NUSSELT_HD inline ConvexPolygon<Real, N> with_unit_extent(ConvexPolygon<Real, N> polygon) noexcept {
+NUSSELT_HD inline Real unit_extent_scale(const ConvexPolygon<Real, N>& polygon) noexcept {
     Real extent = Real(0);
     for (int j = 0; j < N; ++j) {
         const Vec3<Real>& v = polygon.vertex[j];
         extent = max(extent, max(max(abs(v.x), abs(v.y)), abs(v.z)));
     }
-    const Real scale = reciprocal_power_of_two(extent);
+    return reciprocal_power_of_two(extent);
+}
+
+template <class Real, int N>
+NUSSELT_HD inline ConvexPolygon<Real, N> scaled(ConvexPolygon<Real, N> polygon, const Real& scale) noexcept {
     for (int j = 0; j < N; ++j) {
         polygon.vertex[j] = scale * polygon.vertex[j];
         polygon.edge[j] = scale * polygon.edge[j];
     }
     return polygon;
+}
+
+template <class Real, int N>
+NUSSELT_HD inline ConvexPolygon<Real, N> with_unit_extent(const ConvexPolygon<Real, N>& polygon) noexcept {
+    return scaled(polygon, unit_extent_scale(polygon));
 }
 
 /// Solid angle [sr] seen from the origin by a polygon, clipped or not, in any frame; 0 if the origin lies in

@@ -23,11 +23,9 @@ enum class Sampler {
     /// Owen-scrambled Sobol' points: stratified in x, in y and in two dimensions, best for powers of two.
     sobol,
     /// Uniform jittered: x of sample k is (xi + k) / n with one xi, the choice for linear lights
-    /// (Ramamoorthi,
-    /// Anderson, Meyer, Nowrouzezahrai 2012, A Theory of Monte Carlo Visibility Sampling). For polygonal
-    /// lights,
-    /// y is the bit-reversed k with one random shift: a Hammersley point set, the same up to shifts
-    /// everywhere.
+    /// (Ramamoorthi, Anderson, Meyer, Nowrouzezahrai 2012, A Theory of Monte Carlo Visibility Sampling). For
+    /// polygonal lights, y is the bit-reversed k with one random shift: a Hammersley point set, the same up
+    /// to shifts everywhere.
     jittered,
 };
 

@@ -3,7 +3,7 @@
 ///
 /// Every aligned block of 2^m points is a (0, m, 2)-net in base 2: each of the 2^m boxes of any one shape
 /// 2^-i x 2^(i - m) holds one point. Further dimensions are padded: pairs with scrambles and orders of their
-/// own (B. Burley 2020, Practical Hash-based Owen Scrambling, JCGT 9(4), Sec. 5).
+/// own (B. Burley 2020, Practical Hash-based Owen Scrambling, JCGT 9(4)).
 
 #include <cstdint>
 
@@ -41,7 +41,7 @@ NUSSELT_HD constexpr std::uint32_t sobol_y_reversed(std::uint32_t index) noexcep
 
 /// A random permutation that may flip a bit depending on the lower bits, never on higher ones.
 ///
-/// After S. Laine, T. Karras 2011, Stratified Sampling for Stochastic Transparency, Sec. 4.2; structure and
+/// After S. Laine, T. Karras 2011, Stratified Sampling for Stochastic Transparency; structure and
 /// constants are those of N. Vegdahl 2021, "Building a Better LK Hash" (section "The final hash").
 /// \param seed should itself be random in all bits.
 NUSSELT_HD constexpr std::uint32_t permute_upwards(std::uint32_t x, std::uint32_t seed) noexcept {

@@ -1,115 +1,187 @@
 #pragma once
-/// Inversion of the area between two ellipses: the azimuth of a sample when the zenith lies outside of the
-/// polygon (Peters 2021, polygonal lights, Sec. 3.3 to 3.6).
+/// Area between two projected great circles and its inversion: the azimuth of a sample when the zenith lies
+/// outside of the polygon (Peters 2021, polygonal lights, Sec. 3.1 and 3.3 to 3.6).
+///
+/// The paper describes both circles by ellipses in the tangent plane and directions by homogeneous vectors.
+/// Here the unknown is the position on a chord, and the second circle is given by its height above that
+/// chord. The formulas are equivalent, step by step, but everything is a difference of neighbouring points: a
+/// small light far away keeps the relative precision that the paper loses to the difference of two
+/// arctangents.
 
-#include <nusselt/sampling/projected_ellipse.h>
+#include <nusselt/core/trig.h>
+#include <nusselt/core/vec.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// The region between two ellipses, counterclockwise from s0 to s1.
+/// The region of the tangent plane between an outer and an inner great circle, projected, within an azimuth
+/// range. Points of the range are x in [0, 1] on a chord of the outer circle's plane.
 template <class Real>
 struct DecentralSector {
-    Vec2<Real> s0, s1; ///< unit vectors
-    ProjectedEllipse<Real> inner, outer;
+    Vec3<Real> begin;      ///< a point in the plane of the outer circle, at the begin of the range
+    Vec3<Real> chord;      ///< from there to the end of the range, counterclockwise around the zenith
+    Real begin_gap;        ///< height of the plane of the inner circle above the chord at its begin, >= 0
+    Real end_gap;          ///< the same at its end
+    Real doubled_triangle; ///< det(begin, chord) in the tangent plane, > 0
 
-    /// Twice the area between the ellipses from s0 to w.
-    template <class Angles>
-    NUSSELT_HD Real doubled_area_to(const Vec2<Real>& w) const noexcept {
-        const Real determinant = det(s0, w);
-        return max(doubled_sector_area<Angles>(outer, s0, w, determinant) -
-                       doubled_sector_area<Angles>(inner, s0, w, determinant),
-                   Real(0));
+    /// At a point of the chord: the quadratic forms of both ellipses, i.e. squared distances from the origin.
+    struct Forms {
+        Vec3<Real> outer_point;
+        Real gap;   ///< height of the inner circle's plane above the chord
+        Real outer; ///< form of the outer ellipse
+        Real rise;  ///< form of the inner ellipse minus that, >= 0
+    };
+
+    NUSSELT_HD Forms at(const Real& x) const noexcept {
+        Forms f;
+        f.outer_point = begin + x * chord;
+        f.gap = fma(x, end_gap - begin_gap, begin_gap);
+        f.outer = dot(f.outer_point, f.outer_point);
+        f.rise = f.gap * fma(Real(2), f.outer_point.z, f.gap);
+        return f;
     }
 
-    /// Samples two quads that approximate the sector (Sec. 3.4; the quadratic form re-derives supplement
-    /// A.4). \param fraction of the area that shall lie between s0 and the result. \return a direction of
-    /// arbitrary length and sign.
-    NUSSELT_HD Vec2<Real> initial_direction(const Real& fraction) const noexcept {
-        const Vec2<Real> middle = s0 + s1;
-        const auto reach = [](const ProjectedEllipse<Real>& l, const Vec2<Real>& s) {
-            return Real(1) / sqrt(l.form(s));
-        };
-        const Real inner_0 = reach(inner, s0), inner_h = reach(inner, middle), inner_1 = reach(inner, s1);
-        const Real outer_0 = reach(outer, s0), outer_h = reach(outer, middle), outer_1 = reach(outer, s1);
-        // The determinants det(s0, middle) and det(middle, s1) are equal and cancel in the choice of the
-        // quad.
-        const Real quad_0 = outer_0 * outer_h - inner_0 * inner_h;
-        const Real quad_1 = outer_1 * outer_h - inner_1 * inner_h;
+    /// Twice the area from the begin to x (Prop. 1 for both ellipses). Each ellipse contributes the
+    /// determinant of its end points times angle / sine; the determinants are equal.
+    template <class Angles>
+    NUSSELT_HD Real doubled_area_to(const Real& x) const noexcept {
+        const Real turn = end_gap - begin_gap;
+        // Normals of the planes through the origin and the segments from begin to x, divided by x.
+        const Vec3<Real> outer_normal = cross(begin, chord);
+        const Vec3<Real> lift{fma(turn, begin.y, -begin_gap * chord.y),
+                              fma(begin_gap, chord.x, -turn * begin.x), Real(0)};
+        const Vec3<Real> inner_normal = outer_normal + lift;
+        const Real outer_squared = dot(outer_normal, outer_normal);
+        const Real inner_squared = dot(inner_normal, inner_normal);
+        // Cosines, not normalised; the sines are x times the lengths of the normals.
+        const Real outer_cosine = dot(begin, begin + x * chord);
+        const Real gap = fma(x, turn, begin_gap);
+        const Real rise = fma(begin_gap, fma(x, chord.z, begin.z) + gap, begin.z * gap);
+        const Real inner_cosine = outer_cosine + rise;
+
+        const Real x2 = x * x;
+        const Real limit = Real(kSmallTangent * kSmallTangent);
+        const auto outer_narrow = x2 * outer_squared <= limit * outer_cosine * outer_cosine;
+        const auto inner_narrow = x2 * inner_squared <= limit * inner_cosine * inner_cosine;
+        const auto narrow = (outer_cosine > Real(0)) & outer_narrow & inner_narrow;
+
+        // angle / sine = (1 - k) / cosine with k of the order of the squared angle.
+        const Real inverse_outer = Real(1) / select(narrow, outer_cosine, Real(1));
+        const Real inverse_inner = Real(1) / select(narrow, inner_cosine, Real(1));
+        const Real outer_k =
+            one_minus_atan_ratio(select(narrow, x2 * outer_squared * inverse_outer * inverse_outer, Real(0)));
+        const Real inner_k =
+            one_minus_atan_ratio(select(narrow, x2 * inner_squared * inverse_inner * inverse_inner, Real(0)));
+        Real difference = inverse_inner * fma(rise * inverse_outer, Real(1) - outer_k, inner_k - outer_k);
+        if (!all(narrow)) {
+            const Real outer_sine = x * sqrt(outer_squared);
+            const Real inner_sine = x * sqrt(inner_squared);
+            const auto usable = (outer_sine > Real(0)) & (inner_sine > Real(0));
+            const Real more = x2 * dot(lift, outer_normal + inner_normal) /
+                              select(usable, inner_sine + outer_sine, Real(1));
+            const Real inner_angle = Angles::atan2_positive(inner_sine, inner_cosine);
+            const Real numerator = fma(outer_sine, rise, -more * outer_cosine);
+            const Real angle = Angles::atan2_positive(
+                abs(numerator), fma(outer_cosine, inner_cosine, outer_sine * inner_sine));
+            const Real wide = fma(copysign(angle, numerator), inner_sine, inner_angle * more) /
+                              select(usable, outer_sine * inner_sine, Real(1));
+            difference = select(narrow, difference, select(usable, wide, Real(0)));
+        }
+        return max(x * doubled_triangle * difference, Real(0));
+    }
+
+    /// Samples two quads that approximate the sector (Sec. 3.4): each lies between the chords of both
+    /// ellipses from one end of the range to its middle. \param fraction of the area that shall lie before
+    /// the result.
+    NUSSELT_HD Real initial_position(const Real& fraction) const noexcept {
+        // The direction to the middle is the sum of the unit directions to both ends.
+        const Vec3<Real> end = begin + chord;
+        const Real r0 = sqrt(fma(begin.x, begin.x, begin.y * begin.y));
+        const Real r1 = sqrt(fma(end.x, end.x, end.y * end.y));
+        const Real radii = r0 + r1;
+        const Real middle = r0 / select(radii > Real(0), radii, Real(1));
+        const Forms f0 = at(Real(0));
+        const Forms fh = at(middle);
+        const Forms f1 = at(Real(1));
+
+        // Roots of products of forms at both ends of each chord, and what the inner one has more.
+        const Real outer_0 = sqrt(f0.outer * fh.outer);
+        const Real outer_1 = sqrt(f1.outer * fh.outer);
+        const Real inner_0 = sqrt((f0.outer + f0.rise) * (fh.outer + fh.rise));
+        const Real inner_1 = sqrt((f1.outer + f1.rise) * (fh.outer + fh.rise));
+        const Real more_0 = fma(f0.rise, fh.outer + fh.rise, f0.outer * fh.rise) / (inner_0 + outer_0);
+        const Real more_1 = fma(f1.rise, fh.outer + fh.rise, f1.outer * fh.rise) / (inner_1 + outer_1);
+        const Real quad_0 = middle * more_0 / (outer_0 * inner_0);
+        const Real quad_1 = (Real(1) - middle) * more_1 / (outer_1 * inner_1);
         const Real rest = fma(fraction, quad_1, fma(fraction, quad_0, -quad_0));
         const auto first = rest <= Real(0);
-        const Vec2<Real> s = select(first, s0, s1);
-        const Real inner_s = select(first, inner_0, inner_1);
-        const Real outer_s = select(first, outer_0, outer_1);
-        const Real doubled_area = (rest + select(first, quad_0, -quad_1)) * abs(det(middle, s));
-        // Chords of the ellipses between s and middle: normal r, offset d.
-        const Vec2<Real> r_inner = inner.times(inner_h * middle + inner_s * s);
-        const Vec2<Real> r_outer = outer.times(outer_h * middle + outer_s * s);
-        const Real d_inner = inner_h * dot(r_inner, middle);
-        const Real d_outer = outer_h * dot(r_outer, middle);
-        const Vec2<Real> turned{-s.y, s.x};
-        const Vec2<Real> a = (outer_s * d_outer) * turned;
-        const Vec2<Real> b = (inner_s * d_inner) * turned + doubled_area * r_inner;
-        return homogeneous_root(a.x * r_inner.x - b.x * r_outer.x,
-                                Real(0.5) *
-                                    (a.x * r_inner.y + a.y * r_inner.x - b.x * r_outer.y - b.y * r_outer.x),
-                                a.y * r_inner.y - b.y * r_outer.y);
+
+        // With v in [0, 1] from the end to the middle, the areas below the chords of the ellipses up to v are
+        // v / (form (1 - v) + root v); their difference is a quadratic in v.
+        const Forms f = {select(first, f0.outer_point, f1.outer_point), Real(0),
+                         select(first, f0.outer, f1.outer), select(first, f0.rise, f1.rise)};
+        const Real width = select(first, middle, Real(1) - middle);
+        const Real target = max(select(first, rest + quad_0, quad_1 - rest), Real(0)) /
+                            select(width > Real(0), width, Real(1));
+        const Real outer_slope = select(first, outer_0, outer_1) - f.outer;
+        const Real inner_form = f.outer + f.rise;
+        const Real inner_slope = select(first, inner_0, inner_1) - inner_form;
+        const Real more = select(first, more_0, more_1);
+        const Real a = more - f.rise - target * outer_slope * inner_slope;
+        const Real b = Real(0.5) * (f.rise - target * fma(f.outer, inner_slope, outer_slope * inner_form));
+        const Real v = min(max(root_near_zero(a, b, -target * f.outer * inner_form), Real(0)), Real(1));
+        return select(first, v * width, Real(1) - v * width);
     }
 
-    /// One step of the iteration (Sec. 3.3): replaces the ellipses by their tangents at w.
-    /// \param missing twice the area that shall lie between w and the result.
-    NUSSELT_HD Vec2<Real> step(const Vec2<Real>& w, const Real& missing) const noexcept {
-        const Vec2<Real> ci = inner.times(w);
-        const Vec2<Real> co = outer.times(w);
-        // ci - co without the common part w, which would cancel near the horizon.
-        const Vec2<Real> gap = dot(inner.u, w) * inner.u - dot(outer.u, w) * outer.u;
-        const Vec2<Real> turned{-w.y, w.x};
-        return homogeneous_root(
-            turned.x * gap.x - missing * ci.x * co.x,
-            Real(0.5) * (turned.x * gap.y + turned.y * gap.x - missing * (ci.x * co.y + ci.y * co.x)),
-            turned.y * gap.y - missing * ci.y * co.y);
+    /// One step of the iteration (Sec. 3.3): replaces both ellipses by their tangents at x. The error is
+    /// cubed. \param missing twice the area that shall lie between x and the result.
+    NUSSELT_HD Real step(const Real& x, const Real& missing) const noexcept {
+        const Forms f = at(x);
+        const Real turn = end_gap - begin_gap;
+        const Real inner = f.outer + f.rise;
+        const Real outer_slope = dot(f.outer_point, chord);
+        const Real rise_slope = fma(f.gap, chord.z, (f.outer_point.z + f.gap) * turn);
+        const Real inner_slope = outer_slope + rise_slope;
+        const Real a = fma(doubled_triangle, rise_slope, -missing * outer_slope * inner_slope);
+        const Real b = Real(0.5) * fma(doubled_triangle, f.rise,
+                                       -missing * fma(f.outer, inner_slope, inner * outer_slope));
+        return min(max(x + root_near_zero(a, b, -missing * f.outer * inner), Real(0)), Real(1));
     }
 
-    /// Turns a homogeneous solution into the half-plane of the sector and brings it to a length of order one
-    /// by an exact power of two. Whatever is not a direction becomes `fallback`.
-    NUSSELT_HD Vec2<Real> oriented(const Vec2<Real>& w, const Vec2<Real>& fallback) const noexcept {
-        const Real extent = abs(w.x) + abs(w.y);
-        const auto usable = (extent > Real(0)) & is_finite(extent);
-        const Vec2<Real> scaled = select(usable, reciprocal_power_of_two(extent) * w, fallback);
-        const Real sign = copysign(Real(1), dot(scaled, s0 + s1));
-        return sign * scaled;
-    }
-
-    /// The direction w such that the given fraction of the area lies between s0 and w; of order one in
-    /// length, within the sector up to rounding.
+    /// The position before which the given fraction of the area lies.
     ///
     /// The plain iteration diverges where both ellipses meet on the horizon at an end of the sector, which is
-    /// usual for polygons that cross the horizon. So the best direction so far is kept, judged by the
-    /// residual area; the worst backward error in exact arithmetic is then 4e-5 after two steps. Within 1e-5
-    /// of the ends of the sector the start is better than what the iteration makes of it in single precision.
-    /// \param doubled_total twice the area of the sector.
+    /// usual for polygons that cross the horizon. So the best position so far is kept, judged by the area
+    /// that is missing; the worst backward error in exact arithmetic is then 4e-5 after two steps. \param
+    /// doubled_total twice the area of the sector.
     template <int Iterations, class Angles>
-    NUSSELT_HD Vec2<Real> direction(const Real& fraction, const Real& doubled_total) const noexcept {
-        Vec2<Real> w = oriented(initial_direction(fraction), s0 + s1);
+    NUSSELT_HD Real position(const Real& fraction, const Real& doubled_total) const noexcept {
+        Real x = initial_position(fraction);
         if constexpr (Iterations > 0) {
             const Real target = fraction * doubled_total;
-            const auto near_end = (fraction < Real(1e-5)) | (fraction > Real(1 - 1e-5));
-            const Vec2<Real> start = w;
-            Vec2<Real> best = w;
-            Real best_residual = Real(std::numeric_limits<scalar_t<Real>>::max());
+            Real best = x;
+            Real least = Real(std::numeric_limits<scalar_t<Real>>::max());
             for (int i = 0;; ++i) {
-                const Real missing = target - doubled_area_to<Angles>(w);
-                const Real from_s0 = det(s0, w);
-                const Real to_s1 = det(w, s1);
-                const auto inside = (from_s0 >= Real(0)) & (to_s1 >= Real(0));
-                const auto better = inside & (abs(missing) < best_residual);
-                best = select(better, w, best);
-                best_residual = select(better, abs(missing), best_residual);
+                const Real missing = target - doubled_area_to<Angles>(x);
+                const auto better = abs(missing) < least;
+                best = select(better, x, best);
+                least = select(better, abs(missing), least);
                 if (i == Iterations) break;
-                w = oriented(step(w, missing), best);
+                x = step(x, missing);
             }
-            w = select(near_end, start, best);
+            x = best;
         }
-        return w;
+        return x;
+    }
+
+private:
+    /// The root of a x^2 + 2 b x + c = 0 that goes to 0 with c while b > 0, continued (Blinn 2006; Peters
+    /// 2021, Eq. 6). A negative discriminant counts as 0.
+    NUSSELT_HD static Real root_near_zero(const Real& a, const Real& b, const Real& c) noexcept {
+        const Real root = sqrt(max(fma(b, b, -a * c), Real(0)));
+        const auto forward = b >= Real(0);
+        const Real numerator = select(forward, -c, root - b);
+        const Real denominator = select(forward, b + root, a);
+        return numerator / select(denominator != Real(0), denominator, Real(1));
     }
 };
 

@@ -4,9 +4,9 @@
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672:
 /// Sec. 3 (areas of sectors Prop. 1, central case Sec. 3.2, decentral case Sec. 3.3 to 3.7), Sec. 6.4 for the
-/// biased variant. Deviations: edge normals come from edges rather than from differences of vertices; the
-/// central case interpolates along the great circle of the edge; the height of a sample comes from the
-/// ellipses instead of 1 - x^2 - y^2, which cancels at the horizon; the iteration keeps its best result.
+/// biased variant. Deviations: the decentral case works with positions on the edges instead of directions in
+/// the tangent plane (decentral_sector.h), so that small lights keep their precision; the central case
+/// interpolates along the great circle of the edge; the iteration keeps its best result.
 
 #include <nusselt/geometry/clip_polygon.h>
 #include <nusselt/geometry/polygon_measures.h>
@@ -43,7 +43,9 @@ public:
         plane_.farthest = farthest;
         mirror_ = copysign(Real(1), plane_.distance);
 
-        ConvexPolygon<Real, kSectors> polygon = with_unit_extent(clip_to_horizon(light));
+        const ConvexPolygon<Real, kSectors> clipped = clip_to_horizon(light);
+        scale_ = unit_extent_scale(clipped);
+        ConvexPolygon<Real, kSectors> polygon = scaled(clipped, scale_);
         // The method wants the winding that is clockwise as seen from the origin: mirror y otherwise.
         for (int j = 0; j < kSectors; ++j) {
             polygon.vertex[j].y = mirror_ * polygon.vertex[j].y;
@@ -58,12 +60,14 @@ public:
         const PolygonProjectedSolidAngle<Single, N, Iterations, Angles>& single) noexcept
         : plane_(broadcast<Real>(single.plane_)),
           mirror_(single.mirror_),
+          scale_(single.scale_),
           central_(single.central_),
           doubled_total_(single.doubled_total_) {
         for (int k = 0; k < kSectors; ++k) {
-            vertex_[k] = broadcast<Real>(single.vertex_[k]);
-            outer_[k].u = broadcast<Real>(single.outer_[k].u);
-            inner_[k].u = broadcast<Real>(single.inner_[k].u);
+            begin_[k] = broadcast<Real>(single.begin_[k]);
+            chord_[k] = broadcast<Real>(single.chord_[k]);
+            begin_gap_[k] = Real(single.begin_gap_[k]);
+            end_gap_[k] = Real(single.end_gap_[k]);
             sweep_[k] = Real(single.sweep_[k]);
             doubled_area_[k] = Real(single.doubled_area_[k]);
         }
@@ -73,11 +77,17 @@ public:
     ///          the central case, so that stratification survives.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         const Selection selection = select_sector(u.x);
-        Vec3<Real> wi{Real(0), Real(0), Real(1)};
-        if (any(central_)) wi = sample_central(selection, u.y);
-        if (!all(central_)) wi = select(central_, wi, sample_decentral(selection, u.y));
-        wi.y = mirror_ * wi.y;
-        return {wi, pdf(wi), plane_.distance_along(wi) * wi};
+        LightSample<Real> s{{Real(0), Real(0), Real(1)}, Real(0), {Real(0), Real(0), Real(1)}};
+        if (any(central_)) s = sample_central(selection, u.y);
+        if (!all(central_)) {
+            const LightSample<Real> other = sample_decentral(selection, u.y);
+            s.wi = select(central_, s.wi, other.wi);
+            s.p = select(central_, s.p, other.p);
+        }
+        s.wi.y = mirror_ * s.wi.y;
+        s.p.y = mirror_ * s.p.y;
+        s.pdf = pdf(s.wi);
+        return s;
     }
 
     /// \param wi a unit direction towards the light.
@@ -95,17 +105,19 @@ public:
         Real area = Real(0); // doubled, before w
         Real height = Real(0);
         for (int k = 0; k < kSectors; ++k) {
-            const Vec2<Real> s0 = xy(vertex_[k]);
-            const Vec2<Real> s1 = xy(vertex_[successor(k)]);
-            const Real from_s0 = det(s0, w);
-            const auto here = (!found) & (doubled_area_[k] > Real(0)) & (det(w, s1) > Real(0)) &
-                              ((!central_) | (from_s0 >= Real(0)));
-            const Real outer_area = doubled_sector_area<Angles>(outer_[k], s0, w, from_s0);
-            const Real inner_area =
-                select(central_, Real(0), doubled_sector_area<Angles>(inner_[k], s0, w, from_s0));
-            const Real partial = min(max(outer_area - inner_area, Real(0)), doubled_area_[k]);
-            area = area + select(here, partial, select(found, Real(0), doubled_area_[k]));
-            height = select(here, relative_height(outer_[k], inner_[k], w, wi.z), height);
+            const DecentralSector<Real> sector = decentral_sector(k);
+            const Real from_begin = det(xy(sector.begin), w);
+            const Real to_end = det(w, xy(sector.begin + sector.chord));
+            const auto after_begin = (!central_) | (from_begin >= Real(0));
+            const auto here = (!found) & (doubled_area_[k] > Real(0)) & (to_end > Real(0)) & after_begin;
+            // The chord meets the ray along w.
+            const Real slope = det(w, xy(sector.chord));
+            const Real x = min(max(from_begin / select(slope > Real(0), slope, Real(1)), Real(0)), Real(1));
+            const Real partial =
+                select(central_, central_area_to(sector, x, k), sector.template doubled_area_to<Angles>(x));
+            area =
+                area + select(here, min(partial, doubled_area_[k]), select(found, Real(0), doubled_area_[k]));
+            height = select(here, relative_height(sector, x, w, wi.z), height);
             found = found | here;
         }
         const Real total = select(doubled_total_ > Real(0), doubled_total_, Real(1));
@@ -121,20 +133,24 @@ private:
 
     /// The sector that a random number falls into.
     struct Selection {
-        Vec3<Real> v0, v1;
-        ProjectedEllipse<Real> outer, inner;
+        DecentralSector<Real> sector;
         Real sweep, doubled_area, fraction;
     };
 
     /// A vertex and what begins there when going counterclockwise around the zenith.
     struct Event {
         Vec3<Real> vertex;
-        Vec2<Real> offset; ///< from vertex 0, accurate relative to the size of the light
-        ProjectedEllipse<Real> ellipse;
-        Real kind; ///< 1: an outer ellipse, -1: an inner one, 0: none
+        Vec3<Real> offset; ///< from vertex 0, accurate relative to the size of the light
+        Vec3<Real> data;   ///< outer edge: the edge; inner edge: upward normal of its plane with the origin
+        Real kind;         ///< 1: an outer edge begins, -1: an inner one, 0: neither
     };
 
     static constexpr int successor(int k) noexcept { return k + 1 < kSectors ? k + 1 : 0; }
+
+    /// Sector k. In the central case the gaps mean nothing.
+    NUSSELT_HD DecentralSector<Real> decentral_sector(int k) const noexcept {
+        return {begin_[k], chord_[k], begin_gap_[k], end_gap_[k], det(xy(begin_[k]), xy(chord_[k]))};
+    }
 
     NUSSELT_HD void prepare(const ConvexPolygon<Real, kSectors>& polygon) noexcept {
         Vec3<Real> n[kSectors];
@@ -148,17 +164,17 @@ private:
             is_outer[j] = (!steep) & (n[j].z > Real(0));
             is_inner[j] = (!steep) & (n[j].z < Real(0));
             decentral = decentral | is_inner[j];
-            const Real inverse = Real(1) / select(is_outer[j] | is_inner[j], n[j].z, Real(1));
-            outer_[j].u = select(steep, Vec2<Real>{Real(0), Real(0)}, inverse * xy(n[j]));
-            inner_[j].u = {Real(0), Real(0)};
-            vertex_[j] = polygon.vertex[j];
+            begin_[j] = polygon.vertex[j];
+            chord_[j] = polygon.edge[j];
+            begin_gap_[j] = Real(0);
+            end_gap_[j] = Real(0);
             sweep_[j] = Real(0);
             doubled_area_[j] = Real(0);
         }
         central_ = !decentral;
-        doubled_total_ = Real(0);
         if (any(central_)) prepare_central(n, is_outer);
-        if (any(decentral)) prepare_decentral(polygon, is_outer, is_inner);
+        if (any(decentral)) prepare_decentral(polygon, n, is_outer, is_inner);
+        doubled_total_ = Real(0);
         for (int j = 0; j < kSectors; ++j) doubled_total_ = doubled_total_ + doubled_area_[j];
     }
 
@@ -167,92 +183,107 @@ private:
         for (int j = 0; j < kSectors; ++j) {
             const Real sine = sqrt(dot(n[j], n[j]));
             const auto present = central_ & is_outer[j] & (sine > Real(0));
-            sweep_[j] = Angles::atan2_positive(sine, dot(vertex_[j], vertex_[successor(j)]));
+            sweep_[j] = Angles::atan2_positive(sine, dot(begin_[j], begin_[successor(j)]));
             doubled_area_[j] = select(present, n[j].z * sweep_[j] / select(present, sine, Real(1)), Real(0));
         }
     }
 
-    /// Sorts the vertices by azimuth and pairs outer and inner ellipses (Sec. 3.7).
-    NUSSELT_HD void prepare_decentral(const ConvexPolygon<Real, kSectors>& polygon,
+    /// Sorts the vertices by azimuth and pairs outer and inner edges (Sec. 3.7).
+    NUSSELT_HD void prepare_decentral(const ConvexPolygon<Real, kSectors>& polygon, const Vec3<Real>* n,
                                       const mask_t<Real>* is_outer, const mask_t<Real>* is_inner) noexcept {
         const auto decentral = !central_;
+        const Vec3<Real> zero{Real(0), Real(0), Real(0)};
         Event event[kSectors];
-        // At the clockwise end of the polygon an outer and an inner ellipse begin at the same vertex: the
-        // inner one is kept aside.
-        ProjectedEllipse<Real> inner{{Real(0), Real(0)}};
-        auto has_inner = mask_t<Real>(false);
-        Vec2<Real> offset{Real(0), Real(0)};
+        // At the clockwise end of the polygon an outer and an inner edge begin at the same vertex: the inner
+        // one is kept aside.
+        Event inner{zero, zero, zero, Real(0)};
+        Event outer = inner;
+        Vec3<Real> offset = zero;
         for (int j = 0; j < kSectors; ++j) {
             const int before = j > 0 ? j - 1 : kSectors - 1;
-            const auto both = is_outer[j] & is_inner[before];
-            inner = select(both, outer_[before], inner);
-            has_inner = has_inner | both;
-            event[j] = {polygon.vertex[j], offset, select(is_outer[j], outer_[j], outer_[before]),
+            const Vec3<Real> upward = -n[before];
+            const Event begins_inner{polygon.vertex[j], offset, upward, Real(-1)};
+            inner = select_event(is_outer[j] & is_inner[before], begins_inner, inner);
+            event[j] = {polygon.vertex[j], offset, select(is_outer[j], polygon.edge[j], upward),
                         select(is_outer[j], Real(1), select(is_inner[before], Real(-1), Real(0)))};
-            offset = offset + xy(polygon.edge[j]);
+            offset = offset + polygon.edge[j];
         }
         sort_bitonic<kSectors>([&](int low, int high) {
             Event& a = event[low];
             Event& b = event[high];
-            const auto swap = det(xy(a.vertex), b.offset - a.offset) < Real(0);
+            const auto swap = det(xy(a.vertex), xy(b.offset - a.offset)) < Real(0);
             const Event c = a;
             a = select_event(swap, b, a);
             b = select_event(swap, c, b);
         });
-        ProjectedEllipse<Real> outer{{Real(0), Real(0)}};
-        auto has_outer = mask_t<Real>(false);
-        for (int k = 0; k < kSectors; ++k) {
-            const auto begins_outer = event[k].kind > Real(0);
-            const auto begins_inner = event[k].kind < Real(0);
-            outer = select(begins_outer, event[k].ellipse, outer);
-            inner = select(begins_inner, event[k].ellipse, inner);
-            has_outer = has_outer | begins_outer;
-            has_inner = has_inner | begins_inner;
-            vertex_[k] = select(decentral, event[k].vertex, vertex_[k]);
-            outer_[k] = select(decentral, outer, outer_[k]);
-            inner_[k] = select(decentral, inner, inner_[k]);
-            if (k + 1 == kSectors) break;
-            const Vec2<Real> s0 = xy(event[k].vertex);
-            const Vec2<Real> s1 = xy(event[k + 1].vertex);
-            const Real determinant = det(s0, event[k + 1].offset - event[k].offset);
-            const Real difference = doubled_sector_area<Angles>(outer, s0, s1, determinant) -
-                                    doubled_sector_area<Angles>(inner, s0, s1, determinant);
-            const auto present = decentral & has_outer & has_inner & (difference > Real(0));
-            doubled_area_[k] = select(present, difference, doubled_area_[k]);
+        for (int k = 0; k + 1 < kSectors; ++k) {
+            outer = select_event(event[k].kind > Real(0), event[k], outer);
+            inner = select_event(event[k].kind < Real(0), event[k], inner);
+            const auto paired = decentral & (outer.kind > Real(0)) & (inner.kind < Real(0));
+            DecentralSector<Real> sector;
+            const Real begin = crossing(outer, event[k]);
+            const Real end = max(crossing(outer, event[k + 1]), begin);
+            sector.begin = outer.vertex + begin * outer.data;
+            sector.chord = (end - begin) * outer.data;
+            sector.begin_gap = gap(outer, begin, inner);
+            sector.end_gap = gap(outer, end, inner);
+            sector.doubled_triangle = det(xy(sector.begin), xy(sector.chord));
+            const Real doubled = sector.template doubled_area_to<Angles>(Real(1));
+            begin_[k] = select(decentral, sector.begin, begin_[k]);
+            chord_[k] = select(decentral, sector.chord, chord_[k]);
+            begin_gap_[k] = select(decentral, sector.begin_gap, begin_gap_[k]);
+            end_gap_[k] = select(decentral, sector.end_gap, end_gap_[k]);
+            doubled_area_[k] = select(paired & is_finite(doubled), doubled, doubled_area_[k]);
         }
+    }
+
+    /// Where, as a share of the edge, the azimuth of a vertex meets an outer edge.
+    NUSSELT_HD static Real crossing(const Event& outer, const Event& at) noexcept {
+        const Real slope = det(xy(at.vertex), xy(outer.data));
+        const Real distance = det(xy(at.vertex), xy(at.offset - outer.offset));
+        // det(vertex, outer.vertex + x edge) = 0, with outer.vertex = vertex - (offset - outer.offset).
+        return min(max(distance / select(slope > Real(0), slope, Real(1)), Real(0)), Real(1));
+    }
+
+    /// Height of the plane of an inner edge above a point of an outer edge.
+    NUSSELT_HD static Real gap(const Event& outer, const Real& x, const Event& inner) noexcept {
+        const Vec3<Real> from_inner = (outer.offset - inner.offset) + x * outer.data;
+        const auto usable = inner.data.z > Real(0);
+        return max(-dot(inner.data, from_inner) / select(usable, inner.data.z, Real(1)), Real(0));
     }
 
     NUSSELT_HD static Event select_event(const mask_t<Real>& mask, const Event& a, const Event& b) noexcept {
         return {select(mask, a.vertex, b.vertex), select(mask, a.offset, b.offset),
-                select(mask, a.ellipse, b.ellipse), select(mask, a.kind, b.kind)};
+                select(mask, a.data, b.data), select(mask, a.kind, b.kind)};
     }
 
     NUSSELT_HD Selection select_sector(const Real& u) const noexcept {
         const Real target = u * doubled_total_;
-        Selection s{vertex_[0], vertex_[1], outer_[0], inner_[0], sweep_[0], doubled_area_[0], Real(0)};
+        Selection s{decentral_sector(0), sweep_[0], doubled_area_[0], Real(0)};
         Real before = Real(0);
-        Real begin = Real(0);
+        Real first = Real(0);
         for (int k = 0; k < kSectors; ++k) {
             const auto reached = (doubled_area_[k] > Real(0)) & (target >= before);
-            s.v0 = select(reached, vertex_[k], s.v0);
-            s.v1 = select(reached, vertex_[successor(k)], s.v1);
-            s.outer = select(reached, outer_[k], s.outer);
-            s.inner = select(reached, inner_[k], s.inner);
+            s.sector.begin = select(reached, begin_[k], s.sector.begin);
+            s.sector.chord = select(reached, chord_[k], s.sector.chord);
+            s.sector.begin_gap = select(reached, begin_gap_[k], s.sector.begin_gap);
+            s.sector.end_gap = select(reached, end_gap_[k], s.sector.end_gap);
             s.sweep = select(reached, sweep_[k], s.sweep);
             s.doubled_area = select(reached, doubled_area_[k], s.doubled_area);
-            begin = select(reached, before, begin);
+            first = select(reached, before, first);
             before = before + doubled_area_[k];
         }
-        const Real fraction = (target - begin) / select(s.doubled_area > Real(0), s.doubled_area, Real(1));
+        s.sector.doubled_triangle = det(xy(s.sector.begin), xy(s.sector.chord));
+        const Real fraction = (target - first) / select(s.doubled_area > Real(0), s.doubled_area, Real(1));
         s.fraction = min(max(fraction, Real(0)), Real(1));
         return s;
     }
 
     /// Sec. 3.2 in three dimensions: equal areas between the zenith and the edge are equal angles on its
     /// circle.
-    NUSSELT_HD Vec3<Real> sample_central(const Selection& s, const Real& u) const noexcept {
-        const Vec3<Real> a = normalize(s.v0);
-        const Vec3<Real> b = normalize(s.v1);
+    NUSSELT_HD LightSample<Real> sample_central(const Selection& s, const Real& u) const noexcept {
+        const Vec3<Real> a = normalize(s.sector.begin);
+        const Vec3<Real> b = normalize(s.sector.begin + s.sector.chord);
         const SinCos<Real> to_q = sincos_half_turn(s.fraction * s.sweep);
         const SinCos<Real> from_q = sincos_half_turn(s.sweep - s.fraction * s.sweep);
         const SinCos<Real> whole = sincos_half_turn(s.sweep);
@@ -260,46 +291,66 @@ private:
         const Real inverse = Real(1) / select(wide | (whole.sin <= Real(0)), Real(1), whole.sin);
         Vec3<Real> q = (from_q.sin * inverse) * a + (to_q.sin * inverse) * b;
         if (any(wide)) {
-            const Vec3<Real> tangent = normalize(cross(normalize(cross(s.v0, s.v1)), a));
-            q = select(wide, to_q.cos * a + to_q.sin * tangent, q);
+            const Vec3<Real> n = normalize(cross(s.sector.begin, s.sector.chord));
+            q = select(wide, to_q.cos * a + to_q.sin * normalize(cross(n, a)), q);
         }
         const Real root = sqrt(u);
-        return {root * q.x, root * q.y, sqrt(fma(u, q.z * q.z, Real(1) - u))};
+        LightPlane<Real> plane = plane_;
+        plane.normal.y = mirror_ * plane.normal.y;
+        const Vec3<Real> wi{root * q.x, root * q.y, sqrt(fma(u, q.z * q.z, Real(1) - u))};
+        return {wi, Real(0), plane.distance_along(wi) * wi};
     }
 
-    NUSSELT_HD Vec3<Real> sample_decentral(const Selection& s, const Real& u) const noexcept {
-        const DecentralSector<Real> sector{unit(xy(s.v0)), unit(xy(s.v1)), s.inner, s.outer};
-        const Vec2<Real> w = sector.template direction<Iterations, Angles>(s.fraction, s.doubled_area);
-        // The squared radius is uniform between the ellipses; on an ellipse z = |u.w| / sqrt(w^T C w).
-        const Real inner = (Real(1) - u) / s.inner.form(w);
-        const Real outer = u / s.outer.form(w);
-        const Real radius = sqrt(inner + outer);
-        const Real inner_height = dot(s.inner.u, w);
-        const Real outer_height = dot(s.outer.u, w);
-        return {radius * w.x, radius * w.y,
-                sqrt(inner * inner_height * inner_height + outer * outer_height * outer_height)};
+    NUSSELT_HD LightSample<Real> sample_decentral(const Selection& s, const Real& u) const noexcept {
+        const Real x = s.sector.template position<Iterations, Angles>(s.fraction, s.doubled_area);
+        const auto forms = s.sector.at(x);
+        // The squared radius is uniform between the ellipses: the reciprocal of the form is. The form of the
+        // circle through the sample gives its height above the outer point, in the same azimuth.
+        const Real inner = forms.outer + forms.rise;
+        const Real v = Real(1) - u;
+        const Real mixed = fma(u, inner, v * forms.outer);
+        const Real rise = v * forms.outer * forms.rise / select(mixed > Real(0), mixed, Real(1));
+        const Real z = forms.outer_point.z;
+        const Real top = z + sqrt(fma(z, z, rise));
+        const Real lift = min(rise / select(top > Real(0), top, Real(1)), forms.gap);
+        const Vec3<Real> direction{forms.outer_point.x, forms.outer_point.y, z + lift};
+        const Real squared = forms.outer + rise;
+        const Real inverse = Real(1) / sqrt(select(squared > Real(0), squared, Real(1)));
+        // The lifted point lies on the ray to the sample; scale it to the plane of the light, but not beyond
+        // the farthest vertex.
+        const Real distance = plane_.distance * scale_;
+        const Real lifted = fma(lift, plane_.normal.z, distance);
+        const auto usable = distance * lifted > Real(0);
+        const Real stretch = select(usable, distance / select(usable, lifted, Real(1)), Real(1));
+        const Real along = min(stretch / scale_, plane_.farthest * inverse);
+        return {inverse * direction, Real(0), along * direction};
+    }
+
+    /// Twice the area of central sector k from its begin to x.
+    NUSSELT_HD Real central_area_to(const DecentralSector<Real>& sector, const Real& x,
+                                    int k) const noexcept {
+        const Vec3<Real> n = x * cross(sector.begin, sector.chord);
+        const Real sine = sqrt(dot(n, n));
+        const Real angle = Angles::atan2_positive(sine, dot(sector.begin, sector.begin + x * sector.chord));
+        return doubled_area_[k] * angle / select(sweep_[k] > Real(0), sweep_[k], Real(1));
     }
 
     /// Where between the inner ellipse (0; the zenith in the central case) and the outer one (1) a direction
-    /// with the projection w and height z lies, in squared radii.
-    NUSSELT_HD Real relative_height(const ProjectedEllipse<Real>& outer, const ProjectedEllipse<Real>& inner,
-                                    const Vec2<Real>& w, const Real& z) const noexcept {
-        // With |w|^2 + z^2 = 1 the form of an ellipse at w is 1 - z^2 + height^2.
-        const Real outer_height = abs(dot(outer.u, w));
-        const Real inner_height = abs(dot(inner.u, w));
-        const Real outer_form = outer.form(w);
-        const Real width = (inner_height - outer_height) * (inner_height + outer_height);
-        const Real above_inner = (inner_height - z) * (inner_height + z) * outer_form;
-        return select(central_, outer_form, above_inner / select(width > Real(0), width, Real(1)));
-    }
-
-    /// Unit vector along s, whatever its length; (1, 0) for the zero vector.
-    NUSSELT_HD static Vec2<Real> unit(const Vec2<Real>& s) noexcept {
-        const Real extent = abs(s.x) + abs(s.y);
-        const auto usable = extent > Real(0);
-        const Vec2<Real> scaled =
-            select(usable, reciprocal_power_of_two(extent) * s, Vec2<Real>{Real(1), Real(0)});
-        return (Real(1) / sqrt(dot(scaled, scaled))) * scaled;
+    /// with the projection w and height z above x lies, in squared radii.
+    NUSSELT_HD Real relative_height(const DecentralSector<Real>& sector, const Real& x, const Vec2<Real>& w,
+                                    const Real& z) const noexcept {
+        const auto forms = sector.at(x);
+        const Real across = dot(xy(forms.outer_point), xy(forms.outer_point));
+        const Real radius = sqrt(dot(w, w));
+        // Height and form of the direction above the outer point.
+        const Real height = sqrt(across) * z / select(radius > Real(0), radius, Real(1));
+        const Real form = fma(height, height, across);
+        const Real from_inner = forms.outer_point.z + forms.gap - height;
+        const Real below = from_inner * (forms.outer_point.z + forms.gap + height);
+        const auto usable = (form > Real(0)) & (forms.rise > Real(0));
+        const Real decentral = forms.outer * below / select(usable, form * forms.rise, Real(1));
+        const Real central = forms.outer / select(form > Real(0), form, Real(1));
+        return select(central_, select(radius > Real(0), central, Real(0)), decentral);
     }
 
     static constexpr scalar_t<Real> steepest() noexcept {
@@ -311,14 +362,16 @@ private:
     static constexpr scalar_t<Real> kSteepest = steepest();
 
     LightPlane<Real> plane_;
-    Real mirror_;                            ///< -1 if y is mirrored to get the expected winding
-    mask_t<Real> central_;                   ///< the zenith is in the polygon or on its boundary
-    Real doubled_total_;                     ///< twice the projected solid angle
-    Vec3<Real> vertex_[kSectors];            ///< sector k begins at vertex k; sorted in the decentral case
-    ProjectedEllipse<Real> outer_[kSectors]; ///< far boundary of each sector
-    ProjectedEllipse<Real> inner_[kSectors]; ///< near boundary, decentral case only
-    Real sweep_[kSectors];                   ///< angle of the edge on its great circle, central case only
-    Real doubled_area_[kSectors];            ///< twice the area of each sector, 0 for those without light
+    Real mirror_;                ///< -1 if y is mirrored to get the expected winding
+    Real scale_;                 ///< from the light to the coordinates below
+    mask_t<Real> central_;       ///< the zenith is in the polygon or on its boundary
+    Real doubled_total_;         ///< twice the projected solid angle
+    Vec3<Real> begin_[kSectors]; ///< where the outer edge of each sector begins, in order of azimuth
+    Vec3<Real> chord_[kSectors]; ///< the part of the edge in the sector
+    Real begin_gap_[kSectors];   ///< see DecentralSector; decentral case only
+    Real end_gap_[kSectors];
+    Real sweep_[kSectors];        ///< angle of the edge on its great circle, central case only
+    Real doubled_area_[kSectors]; ///< twice the area of each sector, 0 for those without light
 };
 
 /// The biased variant (Sec. 6.4): no iteration, fast arctangents. The backward error is below 0.05 for 99 %
