@@ -3,13 +3,13 @@
 #include "scene/load.h"
 #include "scene/vector_math.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 
 namespace nusselt::app {
@@ -105,7 +105,7 @@ void setup_info(CLI::App& app, int& exit_code) {
     command->callback([options, &exit_code] { exit_code = run_info(*options); });
 }
 
-int run_info(const InfoOptions& options) {
+int run_info(const InfoOptions& options) try {
     const auto begin = std::chrono::steady_clock::now();
     const scene::Scene scene = scene::load_scene(options.scene);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
@@ -118,6 +118,9 @@ int run_info(const InfoOptions& options) {
     for (const std::string& warning : scene.warnings) fmt::print("  {}\n", warning);
     fmt::print("\nloaded in {:.3f} s\n", elapsed.count());
     return 0;
+} catch (const std::runtime_error& error) {
+    fmt::print(stderr, "nusselt info: {}\n", error.what());
+    return 1;
 }
 
 } // namespace nusselt::app

@@ -1,11 +1,9 @@
 #pragma once
 /// `nusselt info SCENE`: what the importer makes of a scene file.
 
-#include <filesystem>
+#include <CLI/CLI.hpp>
 
-namespace CLI {
-class App;
-}
+#include <filesystem>
 
 namespace nusselt::app {
 
@@ -13,11 +11,13 @@ struct InfoOptions {
     std::filesystem::path scene;
 };
 
-/// Adds the subcommand; its callback stores the exit code.
+/// Adds the subcommand. Its callback stores the result of run_info() in exit_code, which must live until the
+/// command line was parsed.
 void setup_info(CLI::App& app, int& exit_code);
 
 /// Prints geometry, materials, textures, lights, camera, film, warnings and the time for loading to standard
-/// output. Returns the exit code of the process; throws what load_scene() throws.
+/// output.
+/// \returns 0, or 1 after an error, which was printed to the standard error output in one line
 int run_info(const InfoOptions& options);
 
 } // namespace nusselt::app

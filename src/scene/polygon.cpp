@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nusselt::scene {
 
@@ -22,10 +23,41 @@ double extent(const std::vector<Double3>& vertices) {
     return result;
 }
 
-Double3 centroid(const std::vector<Double3>& vertices) {
-    Double3 sum;
-    for (const Double3& v : vertices) sum = sum + v;
-    return (1 / static_cast<double>(vertices.size())) * sum;
+/// The plane that fits a polygon: through its centroid, orthogonal to its area vector.
+class Plane {
+public:
+    explicit Plane(const std::vector<Double3>& vertices) : normal_(normalized(area_vector(vertices))) {
+        for (const Double3& v : vertices) center_ = center_ + (1 / static_cast<double>(vertices.size())) * v;
+    }
+    double distance(const Double3& p) const { return std::fabs(dot(p - center_, normal_)); }
+    double largest_distance(const std::vector<Double3>& points) const {
+        double result = 0;
+        for (const Double3& p : points) result = std::max(result, distance(p));
+        return result;
+    }
+
+private:
+    Double3 normal_;
+    Double3 center_;
+};
+
+std::vector<Double3> without(std::vector<Double3> vertices, std::size_t i) {
+    vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(i));
+    return vertices;
+}
+
+/// The vertex without which the others are closest to one plane; among equals, as in a quad, the last one.
+std::size_t odd_vertex_out(const std::vector<Double3>& vertices, double tolerance) {
+    std::size_t odd = vertices.size() - 1;
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t i = vertices.size(); i-- > 0;) {
+        const std::vector<Double3> others = without(vertices, i);
+        const double deviation = Plane(others).largest_distance(others);
+        if (deviation >= least - tolerance) continue;
+        odd = i;
+        least = deviation;
+    }
+    return odd;
 }
 
 } // namespace
@@ -49,18 +81,12 @@ std::optional<std::string> find_polygon_defect(const std::vector<Double3>& verti
     const Double3 normal = normalized(area_vector(vertices));
     if (length(normal) == 0) return "its area is zero";
 
-    const Double3 center = centroid(vertices);
-    std::size_t worst = 0;
-    double worst_height = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const double height = std::fabs(dot(vertices[i] - center, normal));
-        if (height <= worst_height) continue;
-        worst = i;
-        worst_height = height;
-    }
-    if (worst_height > tolerance)
-        return "vertex " + std::to_string(worst) + " is " + to_text(worst_height) +
+    if (Plane(vertices).largest_distance(vertices) > tolerance) {
+        const std::size_t odd = odd_vertex_out(vertices, tolerance);
+        const double distance = Plane(without(vertices, odd)).distance(vertices[odd]);
+        return "vertex " + std::to_string(odd) + " is " + to_text(distance) +
                " m off the plane of the others";
+    }
 
     // Each vertex must lie on the inner side of each edge; unlike a test of the corners this finds stars too.
     for (std::size_t i = 0; i < n; ++i) {

@@ -1,0 +1,14 @@
+#include "commands.h"
+
+#include <CLI/CLI.hpp>
+
+namespace nusselt::app {
+
+void setup_bench(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("bench", "Measure how long rays and samples take");
+    command->require_subcommand(1);
+    setup_bench_rays(*command, exit_code);
+    setup_bench_samplers(*command, exit_code);
+}
+
+} // namespace nusselt::app

@@ -1,0 +1,66 @@
+#pragma once
+/// The subcommands of `nusselt`. Each setup function adds one to the command line; its callback stores the exit
+/// code in exit_code, which must live until the command line was parsed.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace nusselt::app {
+
+struct RenderOptions {
+    std::filesystem::path scene;
+    std::vector<std::filesystem::path> outputs; ///< empty: named after the film or the scene
+    int samples = 1;
+    std::string technique = "projected_solid_angle";
+    std::string sampler = "sobol";
+    std::optional<int> camera_rays;
+    std::string pixel_position = "jittered";
+    std::string brdf = "material";
+    std::uint32_t seed = 0;
+    std::optional<int> threads;
+    std::optional<std::string> resolution; ///< "WIDTHxHEIGHT"
+    double exposure = 0;
+    bool quiet = false;
+    std::optional<std::string> json; ///< "-" is the standard output
+    std::optional<std::string> isa;
+};
+
+struct BenchRaysOptions {
+    std::filesystem::path scene;
+    int samples = 1;
+    int repetitions = 9;
+    std::optional<int> threads;
+    std::optional<std::string> resolution; ///< "WIDTHxHEIGHT"
+    std::optional<std::string> json;       ///< "-" is the standard output, instead of the table
+    std::optional<std::string> isa;
+};
+
+void setup_render(CLI::App& app, int& exit_code);
+void setup_info(CLI::App& app, int& exit_code);
+void setup_techniques(CLI::App& app, int& exit_code);
+void setup_compare(CLI::App& app, int& exit_code);
+void setup_bench(CLI::App& app, int& exit_code);
+void setup_reproduce(CLI::App& app, int& exit_code);
+
+// Below `bench`.
+void setup_bench_rays(CLI::App& bench, int& exit_code);
+void setup_bench_samplers(CLI::App& bench, int& exit_code);
+
+/// Renders and writes the images.
+/// \returns 0, or 130 if it was interrupted
+int run_render(const RenderOptions& options);
+
+/// Prints the table of techniques.
+int run_techniques();
+
+/// Compares the time of rendering with that of tracing the same rays.
+int run_bench_rays(const BenchRaysOptions& options);
+
+} // namespace nusselt::app

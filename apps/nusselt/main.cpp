@@ -1,0 +1,35 @@
+#include "commands.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <exception>
+
+int main(int argc, char** argv) {
+    using namespace nusselt::app;
+    CLI::App app("Nusselt: renders direct light of polygonal and linear lights with little noise.\n"
+                 "`nusselt COMMAND --help` tells more.");
+    app.name("nusselt");
+    app.require_subcommand(1);
+    app.set_help_all_flag("--help-all", "Print the help of all commands and exit");
+    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+        return fmt::format("nusselt: {}; see --help\n", error.what());
+    });
+    int exit_code = 0;
+    setup_render(app, exit_code);
+    setup_info(app, exit_code);
+    setup_techniques(app, exit_code);
+    setup_compare(app, exit_code);
+    setup_bench(app, exit_code);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        const bool is_help = error.get_exit_code() == 0;
+        app.exit(error);
+        return is_help ? 0 : 2;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "nusselt: error: {}\n", error.what());
+        return 1;
+    }
+    return exit_code;
+}

@@ -1,0 +1,211 @@
+#include "commands.h"
+#include "progress.h"
+#include "render_setup.h"
+
+#include "image/atomic_file.h"
+#include "image/io.h"
+#include "render_cpu/film.h"
+#include "render_cpu/renderer.h"
+#include "scene/load.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <stdexcept>
+
+namespace nusselt::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers may only touch lock-free atomics");
+
+/// While this lives, the first Ctrl-C asks to stop and the second one ends the program.
+class InterruptGuard {
+public:
+    InterruptGuard() {
+        interrupted = false;
+        std::signal(SIGINT, [](int) {
+            interrupted = true;
+            std::signal(SIGINT, SIG_DFL);
+        });
+    }
+    ~InterruptGuard() { std::signal(SIGINT, SIG_DFL); }
+    InterruptGuard(const InterruptGuard&) = delete;
+    InterruptGuard& operator=(const InterruptGuard&) = delete;
+};
+
+render_cpu::RenderSettings make_settings(const RenderOptions& options) {
+    render_cpu::RenderSettings settings;
+    settings.technique = from_name(render_cpu::kTechniques, options.technique);
+    settings.sample_order = from_name(render_cpu::kSampleOrders, options.sampler);
+    settings.brdf = from_name(render_cpu::kBrdfChoices, options.brdf);
+    settings.pixel_position = from_name(render_cpu::kPixelPositions, options.pixel_position);
+    settings.samples = options.samples;
+    settings.camera_rays = options.camera_rays;
+    settings.seed = options.seed;
+    render_cpu::validate(settings);
+    return settings;
+}
+
+std::vector<std::filesystem::path> output_paths(const RenderOptions& options, const scene::Film& film) {
+    if (!options.outputs.empty()) return options.outputs;
+    const bool is_named = !film.filename.empty();
+    const std::filesystem::path name = is_named ? std::filesystem::path(film.filename) : options.scene;
+    return {name.filename().replace_extension(".exr")};
+}
+
+struct Times {
+    double load = 0;
+    double write = 0;
+    double total = 0;
+};
+
+nlohmann::ordered_json timing_json(const RenderOptions& options, const scene::Scene& scene,
+                                   const render_cpu::RenderStatistics& statistics, const Times& times) {
+    const auto rate = [](std::uint64_t rays, double seconds) {
+        return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
+    };
+    return {
+        {"scene", options.scene.string()},
+        {"triangles", scene.triangles.size()},
+        {"width", scene.film.width},
+        {"height", scene.film.height},
+        {"technique", options.technique},
+        {"samples", options.samples},
+        {"threads", statistics.threads},
+        {"seconds",
+         {{"load", times.load},
+          {"bvh", statistics.build_seconds},
+          {"render", statistics.render_seconds},
+          {"write", times.write},
+          {"total", times.total}}},
+        {"thread_seconds",
+         {{"primary_rays", statistics.primary_seconds},
+          {"shading", statistics.shading_seconds},
+          {"shadow_rays", statistics.shadow_seconds}}},
+        {"rays", {{"primary", statistics.primary_rays}, {"shadow", statistics.shadow_rays}}},
+        {"rays_per_thread_second",
+         {{"primary", rate(statistics.primary_rays, statistics.primary_seconds)},
+          {"shadow", rate(statistics.shadow_rays, statistics.shadow_seconds)}}},
+        {"rays_per_second",
+         rate(statistics.primary_rays + statistics.shadow_rays, statistics.render_seconds)},
+    };
+}
+
+void write_timings(const std::string& target, const nlohmann::ordered_json& timings) {
+    // Paths may hold bytes that are not UTF-8.
+    const std::string text = timings.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    if (target == "-") {
+        fmt::print("{}\n", text);
+    } else {
+        image::write_atomically(target, [&](std::ostream& stream) { stream << text << "\n"; });
+    }
+}
+
+} // namespace
+
+void setup_render(CLI::App& app, int& exit_code) {
+    const auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = app.add_subcommand(
+        "render", "Render direct light of a scene. Ctrl-C stops early and writes what is finished, the rest\n"
+                  "black; the exit code is then 130.");
+    command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
+    command
+        ->add_option("-o,--output", options->outputs,
+                     "Image to write: .exr (all settings in its metadata), .png or .hdr. May be repeated.\n"
+                     "Default: the file name of the film, else of the scene, with .exr, in the current folder")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--spp", options->samples,
+                     fmt::format("Samples per pixel and light, 1 to {}", render_cpu::kMaxSamples))
+        ->check(CLI::Range(1, render_cpu::kMaxSamples))
+        ->capture_default_str();
+    command->add_option("--technique", options->technique, "How lights are sampled; see `nusselt techniques`")
+        ->check(CLI::IsMember(names_of(render_cpu::kTechniques)))
+        ->capture_default_str();
+    command
+        ->add_option("--sampler", options->sampler,
+                     "Random numbers: independent, Owen-scrambled Sobol' points, or uniform jittered (best\n"
+                     "for linear lights)")
+        ->check(CLI::IsMember(names_of(render_cpu::kSampleOrders)))
+        ->capture_default_str();
+    command
+        ->add_option("--camera-rays", options->camera_rays,
+                     "Camera rays per pixel, a divisor of --spp. Default: as --spp, but 1 with --pixel-center")
+        ->check(CLI::Range(1, render_cpu::kMaxSamples));
+    command->add_flag_callback(
+        "--pixel-center",
+        [options] { options->pixel_position = render_cpu::name_of(render_cpu::PixelPosition::center); },
+        "Send all camera rays through pixel centres, to measure noise. Default: random positions in\n"
+        "the pixel");
+    command
+        ->add_option("--brdf", options->brdf, "BRDFs of the materials, or Lambertian ones with their albedo")
+        ->check(CLI::IsMember(names_of(render_cpu::kBrdfChoices)))
+        ->capture_default_str();
+    command->add_option("--seed", options->seed, "Chooses the random numbers, 0 to 2^32 - 1")
+        ->capture_default_str();
+    add_machine_options(*command, options->threads, options->isa);
+    add_resolution_option(*command, options->resolution);
+    command
+        ->add_option("--exposure", options->exposure, "Brightens PNG images by this many stops, -64 to 64")
+        ->check(CLI::Range(-64.0, 64.0))
+        ->capture_default_str();
+    command->add_flag("-q,--quiet", options->quiet, "Print errors only, no warnings and no progress");
+    command->add_option("--json", options->json,
+                        "Write times and numbers of rays as JSON to a file, or with - to the standard output.\n"
+                        "Default: none");
+    command->callback([options, &exit_code] { exit_code = run_render(*options); });
+}
+
+int run_render(const RenderOptions& options) {
+    const auto begin = Clock::now();
+    const render_cpu::RenderSettings settings = make_settings(options);
+    const render_cpu::Isa isa = render_cpu::choose_isa(options.isa);
+
+    scene::Scene scene = scene::load_scene(options.scene);
+    apply_resolution(options.resolution, scene);
+    Times times;
+    times.load = seconds_since(begin);
+    if (!options.quiet)
+        for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+
+    const int threads = options.threads.value_or(render_cpu::default_thread_count());
+    const render_cpu::Renderer renderer(scene, threads);
+
+    const InterruptGuard guard;
+    Progress progress;
+    render_cpu::RenderMonitor monitor;
+    monitor.cancel = &interrupted;
+    if (!options.quiet) monitor.progress = [&](double fraction) { progress.update(fraction); };
+    const render_cpu::RenderResult result = renderer.render(settings, isa, monitor);
+    progress.finish();
+
+    const auto write_begin = Clock::now();
+    image::Metadata metadata = render_cpu::make_metadata(settings, isa, result);
+    metadata["scene"] = options.scene.filename().string();
+    for (const std::filesystem::path& path : output_paths(options, scene.film)) {
+        image::write_image(path, result.image, metadata, options.exposure);
+        if (!options.quiet && options.json != "-") fmt::print("{}\n", path.string());
+    }
+    times.write = seconds_since(write_begin);
+    times.total = seconds_since(begin);
+    if (options.json) write_timings(*options.json, timing_json(options, scene, result.statistics, times));
+    if (result.finished_fraction == 1) return 0;
+    if (!options.quiet)
+        fmt::print(stderr, "stopped after {:.1f} % of the pixels\n", 100 * result.finished_fraction);
+    return 130;
+}
+
+} // namespace nusselt::app

@@ -1,0 +1,40 @@
+#pragma once
+/// Options that several commands share.
+
+#include "scene/scene.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace nusselt::app {
+
+/// Names of the values of an enumeration, see render_cpu/settings.h.
+template <class Values>
+std::vector<std::string> names_of(const Values& values) {
+    std::vector<std::string> names;
+    for (const auto value : values) names.emplace_back(name_of(value));
+    return names;
+}
+
+/// The value of that name. \throws std::invalid_argument if there is none
+template <class Values>
+auto from_name(const Values& values, const std::string& name) {
+    for (const auto value : values)
+        if (name_of(value) == name) return value;
+    throw std::invalid_argument("unknown setting '" + name + "'");
+}
+
+/// Adds --threads and --isa.
+void add_machine_options(CLI::App& command, std::optional<int>& threads, std::optional<std::string>& isa);
+
+/// Adds --resolution.
+void add_resolution_option(CLI::App& command, std::optional<std::string>& resolution);
+
+/// Resizes the film as --resolution asks, if it is given.
+void apply_resolution(const std::optional<std::string>& resolution, scene::Scene& scene);
+
+} // namespace nusselt::app

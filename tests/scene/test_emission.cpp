@@ -1,0 +1,121 @@
+// Which side emits, and what an emitter is.
+
+#include "scene_fixture.h"
+
+namespace nusselt::scene {
+namespace {
+
+class EmissionSide : public SceneTest {
+protected:
+    Scene light(const std::string& state, const std::string& shape) const {
+        return load("Camera \"perspective\"\nWorldBegin\nAreaLightSource \"diffuse\" \"rgb L\" [2 2 2]\n" +
+                    state + "\n" + shape);
+    }
+    /// z component of the emitting side's normal; also checks that the triangles are oriented alike.
+    float side(const std::string& state, const std::string& shape) const {
+        const Scene scene = light(state, shape);
+        EXPECT_EQ(scene.polygon_lights.size(), 1u);
+        const Float3 normal = emitting_normal(scene.polygon_lights.at(0));
+        for (const Triangle& triangle : scene.triangles) {
+            PolygonLight as_light;
+            for (const std::uint32_t vertex : triangle.vertex)
+                as_light.vertices.push_back(scene.positions[vertex]);
+            expect_near(emitting_normal(as_light), normal, 1e-6f);
+        }
+        return normal.z;
+    }
+};
+
+constexpr const char* kQuad = "Shape \"quad\" \"point o\" [0 0 0] \"vector u\" [1 0 0] \"vector v\" [0 1 0]";
+constexpr const char* kPolygon = "Shape \"polygon\" \"point3 P\" [0 0 0 1 0 0 1 1 0 0 1 0]";
+constexpr const char* kMesh =
+    "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1 1 0 0 1 0] \"integer indices\" [0 1 2 0 2 3]";
+
+TEST_F(EmissionSide, RightHandRuleInObjectSpace) {
+    for (const std::string shape : {kQuad, kPolygon, kMesh}) {
+        EXPECT_EQ(side("", shape), 1) << shape;
+        EXPECT_EQ(side("ReverseOrientation", shape), -1) << shape;
+        EXPECT_EQ(side("ReverseOrientation ReverseOrientation", shape), 1) << shape;
+    }
+}
+
+TEST_F(EmissionSide, TheSideMovesWithTheObjectUnderReflections) {
+    for (const std::string shape : {kQuad, kPolygon, kMesh}) {
+        EXPECT_EQ(side("Scale -1 1 1", shape), 1) << shape;
+        EXPECT_EQ(side("Scale 1 1 -1", shape), -1) << shape; // the vertices stay, the normal moves
+        EXPECT_EQ(side("Scale -1 -1 1", shape), 1) << shape;
+        EXPECT_EQ(side("Scale -1 1 1 ReverseOrientation", shape), -1) << shape;
+        EXPECT_EQ(side("Rotate 180 1 0 0", shape), -1) << shape;
+    }
+}
+
+TEST_F(EmissionSide, ShadingNormalsDecideIfThereAreAny) {
+    const std::string up = std::string(kMesh) + " \"normal N\" [0 0 1 0 0 1 0 0 1 0 0 1]";
+    const std::string down = std::string(kMesh) + " \"normal N\" [0 0 -1 0 0 -1 0 0 -1 0 0 -1]";
+    EXPECT_EQ(side("", up), 1);
+    EXPECT_EQ(side("", down), -1);
+    EXPECT_EQ(side("ReverseOrientation", up), -1);
+    EXPECT_EQ(side("Scale -1 1 1", down), -1);
+    EXPECT_EQ(side("Scale 1 1 -1", up), -1); // normals move with the surface
+}
+
+TEST_F(EmissionSide, SurfacesTurnTheirNormalsToo) {
+    const Scene scene =
+        load("ReverseOrientation " + std::string(kMesh) + " \"normal N\" [0 0 1 0 0 1 0 0 1 0 0 1]");
+    EXPECT_EQ(scene.normals[0].z, -1);
+}
+
+class Emitters : public SceneTest {};
+
+TEST_F(Emitters, RadianceIsColourTimesScale) {
+    const Scene scene = load(
+        "AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] \"float scale\" 10 \"bool twosided\" true\n" +
+        std::string(kTriangle) + "AreaLightSource \"diffuse\" \"color L\" [1 2 3] \"rgb scale\" [3 2 1]\n" +
+        std::string(kTriangle) + "AreaLightSource \"diffuse\"\n" + std::string(kTriangle));
+    ASSERT_EQ(scene.polygon_lights.size(), 3u);
+    expect_near(scene.polygon_lights[0].radiance, {10, 20, 30}, 0);
+    EXPECT_TRUE(scene.polygon_lights[0].two_sided);
+    expect_near(scene.polygon_lights[1].radiance, {3, 4, 3}, 0);
+    expect_near(scene.polygon_lights[2].radiance, {1, 1, 1}, 0);
+    EXPECT_FALSE(scene.polygon_lights[2].two_sided);
+}
+
+TEST_F(Emitters, BlackOnesAreSurfaces) {
+    const Scene scene = load("AreaLightSource \"diffuse\" \"rgb L\" [0 0 0]\n" + std::string(kTriangle));
+    EXPECT_TRUE(scene.polygon_lights.empty());
+    ASSERT_EQ(scene.triangles.size(), 1u);
+    EXPECT_EQ(scene.triangle_light[0], -1);
+}
+
+TEST_F(Emitters, OnInvisibleSurfacesAreBlackSurfaces) {
+    const Scene scene =
+        load("Material \"interface\"\n" + std::string(kTriangle) + "AreaLightSource \"diffuse\"\n" +
+             std::string(kTriangle) + std::string(kTriangle));
+    ASSERT_EQ(scene.triangles.size(), 2u);
+    ASSERT_EQ(scene.materials.size(), 1u);
+    EXPECT_EQ(scene.materials[0].diffuse.x, 0);
+    EXPECT_EQ(scene.polygon_lights.size(), 2u);
+}
+
+TEST_F(Emitters, ErrorsAndWarnings) {
+    EXPECT_EQ(error("\nAreaLightSource \"diffuse\" \"rgb L\" [-1 0 0]"),
+              "scene.pbrt:2: AreaLightSource: radiance must be finite and not negative, found -1");
+    const std::string rest = "\nCamera \"perspective\"\n" + std::string(kTriangle);
+    EXPECT_EQ(warning(load("AreaLightSource \"diffuse\" \"float power\" 100" + rest)),
+              "scene.pbrt:1: AreaLightSource: power is ignored, L and scale give the radiance");
+    EXPECT_EQ(warning(load("AreaLightSource \"diffuse\" \"string filename\" \"x.png\"" + rest)),
+              "scene.pbrt:1: AreaLightSource: images of emission are ignored, L is used");
+    EXPECT_EQ(warning(load("AreaLightSource \"laser\"" + rest)),
+              "scene.pbrt:1: AreaLightSource \"laser\" is not supported and ignored");
+    EXPECT_EQ(warning(load("AreaLightSource \"diffuse\" \"blackbody L\" 5000" + rest)),
+              "scene.pbrt:1: spectra are not supported: \"blackbody L\" is replaced by its default; give rgb "
+              "instead");
+    const Scene spectrum = load("AreaLightSource \"diffuse\" \"spectrum L\" [400 1 700 3]" + rest);
+    EXPECT_EQ(spectrum.polygon_lights.at(0).radiance.x, 2);
+    EXPECT_EQ(warning(spectrum),
+              "scene.pbrt:1: spectra are not supported: \"spectrum L\" becomes the grey 2; give rgb "
+              "for colour");
+}
+
+} // namespace
+} // namespace nusselt::scene

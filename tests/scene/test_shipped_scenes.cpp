@@ -1,0 +1,103 @@
+// The scenes that come with the project load silently and are built as their comments say.
+
+#include "scene_fixture.h"
+
+#include <cmath>
+
+namespace nusselt::scene {
+namespace {
+
+const std::filesystem::path kFolder = std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes";
+
+Scene shipped(const std::string& name) {
+    Scene scene = load_scene(kFolder / name);
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    return scene;
+}
+
+Double3 vertex(const Scene& scene, std::size_t triangle, std::size_t i) {
+    return to_double(scene.positions[scene.triangles[triangle].vertex[i]]);
+}
+
+/// Whether the right-hand side of triangles [begin, end) is towards a point.
+void expect_facing(const Scene& scene, std::size_t begin, std::size_t end, const Double3& point) {
+    for (std::size_t i = begin; i < end; ++i) {
+        const Double3 p = vertex(scene, i, 0);
+        EXPECT_GT(dot(cross(vertex(scene, i, 1) - p, vertex(scene, i, 2) - p), point - p), 0)
+            << "triangle " << i;
+    }
+}
+
+/// Volume inside of a closed surface, positive if its normals point outwards.
+double volume(const Scene& scene) {
+    double result = 0;
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i)
+        result += dot(vertex(scene, i, 0), cross(vertex(scene, i, 1), vertex(scene, i, 2))) / 6;
+    return result;
+}
+
+class Parts : public SceneTest {};
+
+TEST_F(Parts, AreClosedAndPointOutwards) {
+    const std::string include = "Camera \"perspective\" WorldBegin Include \"";
+    EXPECT_NEAR(volume(load(include + (kFolder / "shapes/box.pbrt").string() + '"')), 1, 1e-6);
+    // An octagon of circumscribed radius 1/2 has the area 2 sqrt(2) / 4.
+    EXPECT_NEAR(volume(load(include + (kFolder / "shapes/prism.pbrt").string() + '"')), std::sqrt(0.5), 1e-5);
+}
+
+TEST(ShippedScenes, CornellTube) {
+    const Scene scene = shipped("cornell-tube.pbrt");
+    expect_facing(scene, 0, 10, {0, 1, 0.9});
+    EXPECT_EQ(scene.triangles.size(), 10u + 2 * 12u);
+    for (const Material& material : scene.materials) EXPECT_EQ(material.model, BrdfModel::lambert);
+    ASSERT_EQ(scene.line_lights.size(), 1u);
+    EXPECT_TRUE(scene.polygon_lights.empty());
+    EXPECT_GT(scene.line_lights[0].begin.y, 1.9f);
+    EXPECT_LT(scene.line_lights[0].begin.y + scene.line_lights[0].radius, 2.0f);
+    EXPECT_EQ(scene.film.width, 512);
+    // The red wall is on the left of the image: there the camera looks to smaller x.
+    EXPECT_LT(scene.camera.corner.x, 0);
+    EXPECT_GT(scene.camera.right.x, 0);
+    EXPECT_LT(scene.camera.down.y, 0);
+}
+
+TEST(ShippedScenes, CornellPanel) {
+    const Scene scene = shipped("cornell-panel.pbrt");
+    expect_facing(scene, 0, 10, {0, 1, 0.9});
+    for (const Material& material : scene.materials) {
+        EXPECT_EQ(material.model, BrdfModel::frostbite);
+        EXPECT_EQ(material.roughness, 1);
+    }
+    ASSERT_EQ(scene.polygon_lights.size(), 1u);
+    EXPECT_EQ(scene.polygon_lights[0].vertices.size(), 4u);
+    EXPECT_TRUE(scene.polygon_lights[0].two_sided);
+}
+
+TEST(ShippedScenes, Bollards) {
+    const Scene scene = shipped("bollards.pbrt");
+    // Ground, puddle and wall come first; the camera sees their right-hand sides.
+    expect_facing(scene, 0, 9, to_double(scene.camera.origin));
+    EXPECT_EQ(scene.line_lights.size(), 1u);
+    EXPECT_EQ(scene.film.width, 1280);
+    EXPECT_EQ(scene.film.height, 720);
+}
+
+TEST(ShippedScenes, Room) {
+    const Scene scene = shipped("room.pbrt");
+    expect_facing(scene, 0, 12, to_double(scene.camera.origin));
+    ASSERT_EQ(scene.line_lights.size(), 1u);
+    ASSERT_EQ(scene.polygon_lights.size(), 2u);
+    EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).y, -1);
+    EXPECT_EQ(emitting_normal(scene.polygon_lights[1]).y, 1);
+    // Nothing sticks out of the room.
+    for (const Float3& p : scene.positions) {
+        EXPECT_LE(std::fabs(p.x), 2.4f);
+        EXPECT_GE(p.y, 0);
+        EXPECT_LE(p.y, 2.5f);
+        EXPECT_GE(p.z, -2);
+        EXPECT_LE(p.z, 3.6f);
+    }
+}
+
+} // namespace
+} // namespace nusselt::scene

@@ -1,0 +1,199 @@
+// Tokens, parameters, directives, blocks and includes, good and bad.
+
+#include "scene_fixture.h"
+
+namespace nusselt::scene {
+namespace {
+
+class Syntax : public SceneTest {};
+
+TEST_F(Syntax, CommentsBracketsAndWhiteSpaceAreFree) {
+    const Scene scene = load("# a comment with \"quotes\" and [ brackets\n"
+                             "WorldBegin Shape\"trianglemesh\"\"point3   P\"[0 0 0 1 0 0 0 1 0]# end\r\n"
+                             "\t\"integer indices\"[ 0 1 2 ]");
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_EQ(scene.warnings.size(), 1u); // no camera
+}
+
+TEST_F(Syntax, ByteOrderMarkIsSkipped) {
+    EXPECT_EQ(load("\xef\xbb\xbf" + std::string(kTriangle)).triangles.size(), 1u);
+}
+
+TEST_F(Syntax, NumbersInAllSpellings) {
+    const Scene scene =
+        load(R"(Shape "trianglemesh" "point3 P" [ +1 -4.65661e-010 .5  1.e2 -0 7E-1  1e-60 2 3 ])");
+    ASSERT_EQ(scene.positions.size(), 3u);
+    EXPECT_FLOAT_EQ(scene.positions[0].x, 1);
+    EXPECT_FLOAT_EQ(scene.positions[0].y, -4.65661e-10f);
+    EXPECT_FLOAT_EQ(scene.positions[0].z, 0.5f);
+    EXPECT_FLOAT_EQ(scene.positions[1].x, 100);
+    EXPECT_FLOAT_EQ(scene.positions[1].z, 0.7f);
+    EXPECT_EQ(scene.positions[2].x, 0); // far below the smallest float
+}
+
+TEST_F(Syntax, BadNumbersNameFileLineAndValue) {
+    EXPECT_EQ(error("\nShape \"trianglemesh\"\n\"point3 P\" [0 0 zero]"),
+              "scene.pbrt:3: expected a number, found 'zero'");
+    EXPECT_EQ(error("Translate 1 2 1e999"), "scene.pbrt:1: number out of range: '1e999'");
+    EXPECT_EQ(error("Translate 1 2 nan"), "scene.pbrt:1: number out of range: 'nan'");
+    EXPECT_EQ(error("Translate 1 2 1x"), "scene.pbrt:1: expected a number, found '1x'");
+    EXPECT_EQ(error("Translate 1 2"), "scene.pbrt:1: expected a number, found the end of the file");
+    EXPECT_EQ(error("Translate 1 \"2\" 3"), "scene.pbrt:1: expected a number, found \"2\"");
+    EXPECT_EQ(error("Shape \"trianglemesh\" \"point3 P\" [0 0 0\nShape \"sphere\""),
+              "scene.pbrt:2: expected a number, found 'Shape'");
+}
+
+TEST_F(Syntax, BadTokensAndLists) {
+    EXPECT_EQ(error("Shape \"tri\nanglemesh\""), "scene.pbrt:1: string without closing quote: \"tri");
+    EXPECT_EQ(error("Shape trianglemesh"), "scene.pbrt:1: expected a quoted string, found 'trianglemesh'");
+    EXPECT_EQ(error("Shape \"trianglemesh\" \"P\" [0]"),
+              "scene.pbrt:1: expected a parameter \"type name\", found \"P\"");
+    EXPECT_EQ(error("Shape \"trianglemesh\" \"point3 P\" [0 0 0"),
+              "scene.pbrt:1: parameter \"point3 P\": ']' is missing");
+    EXPECT_EQ(error("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1]"),
+              "scene.pbrt:1: parameter \"point3 P\": 4 values cannot be grouped into 3 components each");
+    EXPECT_EQ(error("Shape \"trianglemesh\" \"point3 P\" [[0 0 0]]"),
+              "scene.pbrt:1: parameter \"point3 P\": expected a number, found '['");
+    EXPECT_EQ(error("\n\n17 4"), "scene.pbrt:3: expected a directive, found '17'");
+    EXPECT_EQ(error("]"), "scene.pbrt:1: expected a directive, found ']'");
+    EXPECT_EQ(error("Material \"matte\" \"rgb Kd\" [1 2] " + std::string(kTriangle)),
+              "scene.pbrt:1: parameter \"rgb Kd\": expected 3 numbers, found 2");
+    EXPECT_EQ(error("Film \"rgb\" \"integer xresolution\" [2.5]"),
+              "scene.pbrt:1: parameter \"integer xresolution\": expected an integer, found 2.5");
+    EXPECT_EQ(error("Film \"rgb\" \"integer xresolution\" [2 3]"),
+              "scene.pbrt:1: parameter \"integer xresolution\": expected 1 value(s), found 2");
+    EXPECT_EQ(error("Film \"rgb\" \"string filename\" [2]"),
+              "scene.pbrt:1: parameter \"string filename\": expected a quoted string, found '2'");
+    EXPECT_EQ(error("AreaLightSource \"diffuse\" \"bool twosided\" [yes]"),
+              "scene.pbrt:1: parameter \"bool twosided\": expected true or false, found 'yes'");
+}
+
+TEST_F(Syntax, BooleansOfBothVersions) {
+    for (const std::string value : {"true", "[ true ]", "\"true\"", "[ \"true\" ]"}) {
+        const Scene scene =
+            load("AreaLightSource \"diffuse\" \"bool twosided\" " + value + "\n" + std::string(kTriangle));
+        ASSERT_EQ(scene.polygon_lights.size(), 1u);
+        EXPECT_TRUE(scene.polygon_lights[0].two_sided) << value;
+    }
+}
+
+TEST_F(Syntax, StringsResolveEscapes) {
+    EXPECT_EQ(load("Film \"rgb\" \"string filename\" \"a\\\"b\\\\c\\q.exr\"").film.filename,
+              "a\"b\\c\\q.exr");
+}
+
+TEST_F(Syntax, UnknownThingsAreWarnedOfOnceWithTheirLine) {
+    const Scene scene =
+        load("Camera \"perspective\"\n"
+             "Mystery \"x\" [1 2] 3 true \"float y\" 4\n"
+             "Mystery \"x\"\n"
+             "Sampler \"halton\" \"integer pixelsamples\" 4 Integrator \"path\" Accelerator \"bvh\"\n"
+             "ColorSpace \"srgb\" Option \"string msereferenceimage\" \"x\"\n"
+             "LightSource \"infinite\" \"rgb L\" [1 1 1]\n"
+             "Shape \"sphere\" \"float radius\" 2\n"
+             "Shape \"sphere\" \"float radius\" 3\n" +
+             std::string(kTriangle) + "\"float fuzz\" 3 \"spline knots\" [1 2]\n");
+    ASSERT_EQ(scene.warnings.size(), 5u);
+    EXPECT_EQ(without_folder(scene.warnings[0]), "scene.pbrt:2: directive 'Mystery' is unknown and skipped");
+    EXPECT_EQ(without_folder(scene.warnings[1]),
+              "scene.pbrt:6: LightSource \"infinite\" is not supported and ignored");
+    EXPECT_EQ(without_folder(scene.warnings[2]),
+              "scene.pbrt:7: shape \"sphere\" is not supported and left out");
+    EXPECT_EQ(without_folder(scene.warnings[3]),
+              "scene.pbrt:10: shape \"trianglemesh\": parameter \"float fuzz\" is unknown and ignored");
+    EXPECT_EQ(without_folder(scene.warnings[4]),
+              "scene.pbrt:10: shape \"trianglemesh\": parameter \"spline knots\" is unknown and ignored");
+    EXPECT_EQ(scene.triangles.size(), 1u);
+}
+
+TEST_F(Syntax, BlocksRestoreWhatTheyPromise) {
+    const Scene scene =
+        load("Camera \"perspective\" WorldBegin\n"
+             "AttributeBegin\n"
+             "  AreaLightSource \"diffuse\" Translate 1 0 0 ReverseOrientation\n"
+             "  TransformBegin Translate 10 0 0 Material \"matte\" \"rgb Kd\" [1 0 0] TransformEnd\n" +
+             std::string(kTriangle) + "AttributeEnd\n" + std::string(kTriangle) + "WorldEnd\n");
+    EXPECT_TRUE(scene.warnings.empty());
+    ASSERT_EQ(scene.triangles.size(), 2u);
+    // The transform block keeps its material but not its translation, the attribute block keeps nothing.
+    EXPECT_EQ(scene.positions[0].x, 1);
+    EXPECT_EQ(scene.positions[3].x, 0);
+    EXPECT_EQ(scene.materials[scene.triangle_material[0]].diffuse.y, 0);
+    EXPECT_EQ(scene.materials[scene.triangle_material[1]].diffuse.y, 0.5f);
+    EXPECT_EQ(scene.triangle_light[0], 0);
+    EXPECT_EQ(scene.triangle_light[1], -1);
+    EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).z, -1);
+}
+
+TEST_F(Syntax, BlocksMustNest) {
+    EXPECT_EQ(error("\nAttributeEnd"), "scene.pbrt:2: AttributeEnd without AttributeBegin");
+    EXPECT_EQ(error("TransformBegin\nAttributeEnd"),
+              "scene.pbrt:2: AttributeEnd inside of the Transform block begun at scene.pbrt:1");
+    EXPECT_EQ(warning(load("Camera \"perspective\"\nAttributeBegin\n" + std::string(kTriangle))),
+              "scene.pbrt:2: AttributeBegin is never ended");
+}
+
+TEST_F(Syntax, IncludesAreRelativeToTheirFile) {
+    write("parts/all.pbrt", "Include \"one.pbrt\"\nInclude \"parts/two.pbrt\"\n");
+    write("parts/one.pbrt", kTriangle);
+    write("parts/two.pbrt", kTriangle);
+    EXPECT_EQ(load("Include \"parts/all.pbrt\"").triangles.size(), 2u);
+}
+
+TEST_F(Syntax, ErrorsInIncludesNameTheIncludedFile) {
+    write("part.pbrt", "\n\nTranslate 1 a 2");
+    EXPECT_EQ(error("Include \"part.pbrt\""), "part.pbrt:3: expected a number, found 'a'");
+    EXPECT_EQ(error("\nInclude \"missing.pbrt\""), "scene.pbrt:2: scene file 'missing.pbrt': no such file");
+    EXPECT_EQ(error("Include \".\""), "scene.pbrt:1: scene file '.': not a regular file");
+}
+
+TEST_F(Syntax, EndlessIncludesEnd) {
+    EXPECT_EQ(error("Include \"scene.pbrt\""),
+              "scene.pbrt:1: more than 32 nested includes; does 'scene.pbrt' include itself?");
+}
+
+TEST_F(Syntax, ImportLeavesTheStateAlone) {
+    write("part.pbrt", "Translate 5 0 0\n" + std::string(kTriangle));
+    const Scene scene = load("Import \"part.pbrt\"\n" + std::string(kTriangle));
+    EXPECT_EQ(scene.positions[0].x, 5);
+    EXPECT_EQ(scene.positions[3].x, 0);
+}
+
+TEST_F(Syntax, MissingMainFile) { EXPECT_THROW(load_scene(folder_ / "nothing.pbrt"), std::runtime_error); }
+
+TEST_F(Syntax, EmptySceneIsLegal) {
+    const Scene scene = load("Camera \"perspective\"");
+    EXPECT_EQ(warning(scene), "scene.pbrt:1: the scene is empty");
+    EXPECT_EQ(scene.radius, 0);
+}
+
+TEST_F(Syntax, ObjectsAreLeftOut) {
+    const Scene scene =
+        load("Camera \"perspective\"\nObjectBegin \"chair\" Translate 1 1 1\n" + std::string(kTriangle) +
+             "ObjectEnd ObjectInstance \"chair\"\n" + std::string(kTriangle));
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_EQ(scene.positions[0].x, 0);
+    EXPECT_EQ(warning(scene),
+              "scene.pbrt:2: object instances are not supported: shapes of object \"chair\" are left out");
+}
+
+TEST_F(Syntax, MotionIsRefused) {
+    EXPECT_EQ(load("ActiveTransform All\n" + std::string(kTriangle)).triangles.size(), 1u);
+    EXPECT_EQ(error("\nActiveTransform EndTime"),
+              "scene.pbrt:2: ActiveTransform EndTime: moving objects are not "
+              "supported, remove the transforms for one time");
+}
+
+TEST_F(Syntax, OnlyABoxOfOnePixelFiltersSilently) {
+    const std::string rest = "\nCamera \"perspective\"\n" + std::string(kTriangle);
+    EXPECT_TRUE(load("PixelFilter \"box\"" + rest).warnings.empty());
+    EXPECT_TRUE(
+        load("PixelFilter \"box\" \"float xradius\" 0.5 \"float ywidth\" 0.5" + rest).warnings.empty());
+    EXPECT_EQ(warning(load("PixelFilter \"box\" \"float xwidth\" 1" + rest)),
+              "scene.pbrt:1: PixelFilter \"box\": a box of one pixel is used");
+    EXPECT_EQ(warning(load("PixelFilter \"gaussian\"" + rest)),
+              "scene.pbrt:1: PixelFilter \"gaussian\": a box of one pixel is used");
+}
+
+} // namespace
+} // namespace nusselt::scene
