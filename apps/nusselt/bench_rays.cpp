@@ -132,9 +132,12 @@ RaysRow measure(const render_cpu::Renderer& renderer, const render_cpu::RenderSe
 RaysRow measure(const render_cpu::Renderer& renderer, const render_cpu::RenderSettings& settings,
                 render_cpu::Isa isa, tbb::task_arena& arena, int repetitions) {
     switch (isa) {
-    case render_cpu::Isa::sse42: return measure<4>(renderer, settings, isa, arena, repetitions);
-    case render_cpu::Isa::avx2: return measure<8>(renderer, settings, isa, arena, repetitions);
-    case render_cpu::Isa::avx512: break;
+    case render_cpu::Isa::sse42:
+        return measure<4>(renderer, settings, isa, arena, repetitions);
+    case render_cpu::Isa::avx2:
+        return measure<8>(renderer, settings, isa, arena, repetitions);
+    case render_cpu::Isa::avx512:
+        break;
     }
     return measure<16>(renderer, settings, isa, arena, repetitions);
 }
@@ -149,14 +152,10 @@ std::string json_text(const BenchRaysOptions& options, const scene::Scene& scene
                         {"trace_seconds", row.trace_seconds},
                         {"render_seconds", row.render_seconds},
                         {"ratio", row.ratio()}});
-    const nlohmann::ordered_json json = {{"scene", options.scene.string()},
-                                         {"width", scene.film.width},
-                                         {"height", scene.film.height},
-                                         {"samples", options.samples},
-                                         {"repetitions", options.repetitions},
-                                         {"threads", threads},
-                                         {"isa", render_cpu::name_of(isa)},
-                                         {"techniques", list}};
+    const nlohmann::ordered_json json = {{"scene", options.scene.string()},    {"width", scene.film.width},
+                                         {"height", scene.film.height},        {"samples", options.samples},
+                                         {"repetitions", options.repetitions}, {"threads", threads},
+                                         {"isa", render_cpu::name_of(isa)},    {"techniques", list}};
     // Paths may hold bytes that are not UTF-8.
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -166,8 +165,9 @@ std::string json_text(const BenchRaysOptions& options, const scene::Scene& scene
 void setup_bench_rays(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchRaysOptions>();
     CLI::App* command = bench.add_subcommand(
-        "rays", "For each technique: time of the render phase against the time that Embree alone takes for the\n"
-                "same rays in the same packets. Medians of runs in turn.");
+        "rays",
+        "For each technique: time of the render phase against the time that Embree alone takes for the\n"
+        "same rays in the same packets. Medians of runs in turn.");
     command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
     command->add_option("--spp", options->samples, "Samples per pixel and light, 1 to 64")
         ->check(CLI::Range(1, 64))
@@ -177,9 +177,10 @@ void setup_bench_rays(CLI::App& bench, int& exit_code) {
         ->capture_default_str();
     add_machine_options(*command, options->threads, options->isa);
     add_resolution_option(*command, options->resolution);
-    command->add_option("--json", options->json,
-                        "Write the numbers as JSON to a file, or with - to the standard output instead of the\n"
-                        "table. Default: none");
+    command->add_option(
+        "--json", options->json,
+        "Write the numbers as JSON to a file, or with - to the standard output instead of the\n"
+        "table. Default: none");
     command->callback([options, &exit_code] { exit_code = run_bench_rays(*options); });
 }
 

@@ -1,8 +1,9 @@
-#include "bench_samplers.h"
+#include "commands.h"
 
 #include "experiments/sampler_timing.h"
 #include "image/atomic_file.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The subcommands of `nusselt`. Each setup function adds one to the command line; its callback stores the exit
-/// code in exit_code, which must live until the command line was parsed.
+/// The subcommands of `nusselt`. Each setup function adds one to the command line; its callback stores the
+/// exit code in exit_code, which must live until the command line was parsed.
 
 #include <cstdint>
 #include <filesystem>
@@ -42,6 +42,21 @@ struct BenchRaysOptions {
     std::optional<std::string> isa;
 };
 
+struct BenchSamplersOptions {
+    int repetitions = 31;
+    std::string isa = "auto";
+    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
+};
+
+struct ReproduceOptions {
+    std::vector<std::string> experiments; ///< empty: all
+    std::filesystem::path output = "out/reproduce";
+    std::filesystem::path scenes = "scenes";
+    int reference_samples = 0; ///< 0: as the experiments say
+    int width = 0;             ///< of the images in pixels; 0: as the scenes say
+    std::optional<int> threads;
+};
+
 void setup_render(CLI::App& app, int& exit_code);
 void setup_info(CLI::App& app, int& exit_code);
 void setup_techniques(CLI::App& app, int& exit_code);
@@ -62,5 +77,12 @@ int run_techniques();
 
 /// Compares the time of rendering with that of tracing the same rays.
 int run_bench_rays(const BenchRaysOptions& options);
+
+/// Measures the cost of each technique and prints or writes the table.
+int run_bench_samplers(const BenchSamplersOptions& options);
+
+/// Runs experiments, prints their tables and writes a page for each.
+/// \returns 0, or 1 if an expectation does not hold
+int run_reproduce(const ReproduceOptions& options);
 
 } // namespace nusselt::app

@@ -45,8 +45,9 @@ void Progress::update(double fraction) {
 
 void Progress::draw_bar(double fraction, double seconds_left) {
     const int filled = static_cast<int>(fraction * kBarWidth);
-    fmt::print(stderr, "\r[{:<{}}] {:3.0f} %  {} left  \033[K", std::string(static_cast<std::size_t>(filled), '='),
-               kBarWidth, 100 * fraction, duration_text(seconds_left));
+    fmt::print(stderr, "\r[{:<{}}] {:3.0f} %  {} left  \033[K",
+               std::string(static_cast<std::size_t>(filled), '='), kBarWidth, 100 * fraction,
+               duration_text(seconds_left));
     std::fflush(stderr);
     has_bar_ = true;
 }

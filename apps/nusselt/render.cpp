@@ -123,9 +123,10 @@ void setup_render(CLI::App& app, int& exit_code) {
                   "black; the exit code is then 130.");
     command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
     command
-        ->add_option("-o,--output", options->outputs,
-                     "Image to write: .exr (all settings in its metadata), .png or .hdr. May be repeated.\n"
-                     "Default: the file name of the film, else of the scene, with .exr, in the current folder")
+        ->add_option(
+            "-o,--output", options->outputs,
+            "Image to write: .exr (all settings in its metadata), .png or .hdr. May be repeated.\n"
+            "Default: the file name of the film, else of the scene, with .exr, in the current folder")
         ->allow_extra_args(false);
     command
         ->add_option("--spp", options->samples,
@@ -142,8 +143,9 @@ void setup_render(CLI::App& app, int& exit_code) {
         ->check(CLI::IsMember(names_of(render_cpu::kSampleOrders)))
         ->capture_default_str();
     command
-        ->add_option("--camera-rays", options->camera_rays,
-                     "Camera rays per pixel, a divisor of --spp. Default: as --spp, but 1 with --pixel-center")
+        ->add_option(
+            "--camera-rays", options->camera_rays,
+            "Camera rays per pixel, a divisor of --spp. Default: as --spp, but 1 with --pixel-center")
         ->check(CLI::Range(1, render_cpu::kMaxSamples));
     command->add_flag_callback(
         "--pixel-center",
@@ -158,14 +160,14 @@ void setup_render(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     add_machine_options(*command, options->threads, options->isa);
     add_resolution_option(*command, options->resolution);
-    command
-        ->add_option("--exposure", options->exposure, "Brightens PNG images by this many stops, -64 to 64")
+    command->add_option("--exposure", options->exposure, "Brightens PNG images by this many stops, -64 to 64")
         ->check(CLI::Range(-64.0, 64.0))
         ->capture_default_str();
     command->add_flag("-q,--quiet", options->quiet, "Print errors only, no warnings and no progress");
-    command->add_option("--json", options->json,
-                        "Write times and numbers of rays as JSON to a file, or with - to the standard output.\n"
-                        "Default: none");
+    command->add_option(
+        "--json", options->json,
+        "Write times and numbers of rays as JSON to a file, or with - to the standard output.\n"
+        "Default: none");
     command->callback([options, &exit_code] { exit_code = run_render(*options); });
 }
 

@@ -34,8 +34,8 @@ constexpr TechniqueRow kRows[] = {
      "line_projected_solid_angle.h"},
     {Technique::projected_solid_angle_biased, "polygon", "projected solid angle, roughly",
      "Peters 2021a, Sec. 6.4", "polygon_projected_solid_angle.h"},
-    {Technique::projected_solid_angle_biased, "line", "projected solid angle", "Peters 2021b, Sec. 3, Alg. 1, 2",
-     "line_projected_solid_angle.h"},
+    {Technique::projected_solid_angle_biased, "line", "projected solid angle",
+     "Peters 2021b, Sec. 3, Alg. 1, 2", "line_projected_solid_angle.h"},
 };
 
 } // namespace
@@ -50,7 +50,8 @@ int run_techniques() {
     constexpr const char* kFormat = "{:<30}{:<9}{:<31}{:<33}{}\n";
     fmt::print(kFormat, "technique", "light", "density proportional to", "paper", "nusselt/sampling/");
     for (const TechniqueRow& row : kRows)
-        fmt::print(kFormat, render_cpu::name_of(row.technique), row.light, row.density, row.paper, row.header);
+        fmt::print(kFormat, render_cpu::name_of(row.technique), row.light, row.density, row.paper,
+                   row.header);
     fmt::print("\n"
                "Turk 1992     G. Turk, Generating Random Points in Triangles, Graphics Gems I\n"
                "Peters 2021a  C. Peters, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4),\n"

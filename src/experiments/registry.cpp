@@ -45,10 +45,10 @@ std::vector<Experiment> make_experiments() {
          reference(),
          one_sample_each({Technique::area, Technique::solid_angle, Technique::clipped_solid_angle,
                           Technique::projected_solid_angle}),
-         {AtMost{Metric::rmse_outside_penumbrae, "projected-solid-angle", 1e-4},
+         {AtMost{Metric::rmse_outside_penumbrae, "projected_solid_angle", 1e-4},
           Falling{Metric::rmse_outside_penumbrae,
-                  {"area", "solid-angle", "clipped-solid-angle", "projected-solid-angle"}},
-          Falling{Metric::rmse, {"area", "solid-angle", "clipped-solid-angle", "projected-solid-angle"}}}},
+                  {"area", "solid_angle", "clipped_solid_angle", "projected_solid_angle"}},
+          Falling{Metric::rmse, {"area", "solid_angle", "clipped_solid_angle", "projected_solid_angle"}}}},
         {"polygon-diffuse",
          "Peters 2021, polygonal lights, Fig. 12",
          "A Cornell box of roughness one with a panel stretching through it, one sample per pixel.",
@@ -57,8 +57,8 @@ std::vector<Experiment> make_experiments() {
          one_sample_each({Technique::area, Technique::solid_angle, Technique::clipped_solid_angle,
                           Technique::projected_solid_angle, Technique::projected_solid_angle_biased}),
          {Falling{Metric::rmse_outside_penumbrae,
-                  {"area", "solid-angle", "clipped-solid-angle", "projected-solid-angle"}},
-          Falling{Metric::rmse, {"area", "solid-angle", "clipped-solid-angle", "projected-solid-angle"}}}},
+                  {"area", "solid_angle", "clipped_solid_angle", "projected_solid_angle"}},
+          Falling{Metric::rmse, {"area", "solid_angle", "clipped_solid_angle", "projected_solid_angle"}}}},
     };
 }
 

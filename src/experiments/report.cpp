@@ -43,7 +43,7 @@ void write_report(const ExperimentResult& result, const std::filesystem::path& f
                     "<h1>{0}</h1>\n<p>{2}. {3} Reference: {4} samples per pixel; mean radiance {5:.4g}; "
                     "{6:.1f} % of the pixels lie outside penumbrae.</p>\n",
                     experiment.name, kStyle, experiment.source, experiment.description,
-                    experiment.reference.samples, result.mean, 100 * result.share_outside_penumbrae);
+                    result.reference_settings.samples, result.mean, 100 * result.share_outside_penumbrae);
     html += table(result) + "<ul>\n";
     for (const ExpectationResult& e : result.expectations)
         html += fmt::format("<li{}>{}: {}\n", e.holds ? "" : " class=\"no\"", e.text,

@@ -27,6 +27,7 @@ struct ExpectationResult {
 
 struct ExperimentResult {
     const Experiment* experiment = nullptr;
+    render_cpu::RenderSettings reference_settings;
     image::Image reference;
     double mean = 0;                    ///< of the reference
     double share_outside_penumbrae = 0; ///< of the pixels
@@ -37,6 +38,7 @@ struct ExperimentResult {
 struct RunSettings {
     std::filesystem::path scenes; ///< folder with the shipped scenes
     int reference_samples = 0;    ///< per pixel and light; 0: as the experiment says
+    int width = 0;                ///< of the images in pixels; 0: as the scene says
     int threads = 0;              ///< 0: all cores
 };
 

@@ -1,9 +1,6 @@
-/// Kernels that use the library on a device: closed forms of polygons, and each technique for polygons.
+/// Kernels that use the library on a device: closed forms, each technique, BRDFs and random numbers.
 
-#include <nusselt/geometry/polygon_measures.h>
-#include <nusselt/sampling/polygon_area.h>
-#include <nusselt/sampling/polygon_projected_solid_angle.h>
-#include <nusselt/sampling/polygon_solid_angle.h>
+#include <nusselt/nusselt.h>
 
 /// One shading point and two random numbers per thread.
 struct Inputs {
@@ -15,35 +12,87 @@ struct Inputs {
 
 __device__ inline int thread_index() { return static_cast<int>(__nvvm_read_ptx_sreg_tid_x()); }
 
-__device__ inline nusselt::ConvexPolygon<float, 4> local_light(const Inputs& inputs, int i) {
+__device__ inline nusselt::ConvexPolygon<float, 4> local_polygon(const Inputs& inputs, int i) {
     const auto frame = nusselt::Frame<float>::from_normal(inputs.normals[i]);
     return nusselt::to_shading_space(nusselt::make_polygon<4>(inputs.corners, 4), inputs.points[i], frame);
 }
 
-/// Everything that the contract of a technique has.
-template <class Technique>
-__device__ void use(const Inputs& inputs, float* result) {
-    const int i = thread_index();
-    const Technique technique(local_light(inputs, i));
-    const auto sample = technique.sample(inputs.u[i]);
-    const auto u = technique.invert(sample.wi);
-    result[i] = u.x + u.y + technique.pdf(sample.wi) - sample.pdf + sample.p.z + technique.measure();
+__device__ inline nusselt::LineSegment<float> local_line(const Inputs& inputs, int i) {
+    const auto frame = nusselt::Frame<float>::from_normal(inputs.normals[i]);
+    return nusselt::to_shading_space(nusselt::make_line(inputs.corners[0], inputs.corners[1]),
+                                     inputs.points[i], frame);
 }
 
-__global__ void polygon_measures(Inputs inputs, float* result) {
+/// Everything that the contract of a technique has.
+template <class Technique, class Light, class Random>
+__device__ float use(const Light& light, const Random& u) {
+    const Technique technique(light);
+    const auto sample = technique.sample(u);
+    return nusselt::backward_error(technique, u, sample.wi) + technique.pdf(sample.wi) - sample.pdf +
+           sample.p.z + technique.measure();
+}
+
+__global__ void measures(Inputs inputs, float* result) {
     const int i = thread_index();
-    const auto light = local_light(inputs, i);
-    result[i] = nusselt::area(light) + nusselt::solid_angle(light) + nusselt::projected_solid_angle(light);
+    const auto polygon = local_polygon(inputs, i);
+    const auto line = local_line(inputs, i);
+    result[i] = nusselt::area(polygon) + nusselt::solid_angle(polygon) +
+                nusselt::projected_solid_angle(polygon) + nusselt::solid_angle(line) +
+                nusselt::projected_solid_angle(line);
+}
+
+template <class Technique>
+__device__ void use_polygon(const Inputs& inputs, float* result) {
+    const int i = thread_index();
+    result[i] = use<Technique>(local_polygon(inputs, i), inputs.u[i]);
+}
+
+template <class Technique>
+__device__ void use_line(const Inputs& inputs, float* result) {
+    const int i = thread_index();
+    result[i] = use<Technique>(local_line(inputs, i), inputs.u[i].x);
 }
 
 __global__ void polygon_area(Inputs inputs, float* result) {
-    use<nusselt::PolygonArea<float, 4>>(inputs, result);
+    use_polygon<nusselt::PolygonArea<float, 4>>(inputs, result);
 }
 
 __global__ void polygon_solid_angle(Inputs inputs, float* result) {
-    use<nusselt::PolygonSolidAngle<float, 4>>(inputs, result);
+    use_polygon<nusselt::PolygonSolidAngle<float, 4>>(inputs, result);
+}
+
+__global__ void polygon_clipped_solid_angle(Inputs inputs, float* result) {
+    use_polygon<nusselt::PolygonClippedSolidAngle<float, 4>>(inputs, result);
 }
 
 __global__ void polygon_projected_solid_angle(Inputs inputs, float* result) {
-    use<nusselt::PolygonProjectedSolidAngle<float, 4>>(inputs, result);
+    use_polygon<nusselt::PolygonProjectedSolidAngle<float, 4>>(inputs, result);
+}
+
+__global__ void polygon_projected_solid_angle_biased(Inputs inputs, float* result) {
+    use_polygon<nusselt::PolygonProjectedSolidAngleBiased<float, 4>>(inputs, result);
+}
+
+__global__ void line_area(Inputs inputs, float* result) {
+    use_line<nusselt::LineArea<float>>(inputs, result);
+}
+
+__global__ void line_solid_angle(Inputs inputs, float* result) {
+    use_line<nusselt::LineSolidAngle<float>>(inputs, result);
+}
+
+__global__ void line_clipped_solid_angle(Inputs inputs, float* result) {
+    use_line<nusselt::LineClippedSolidAngle<float>>(inputs, result);
+}
+
+__global__ void line_projected_solid_angle(Inputs inputs, float* result) {
+    use_line<nusselt::LineProjectedSolidAngle<float>>(inputs, result);
+}
+
+__global__ void shade(Inputs inputs, float* result) {
+    const int i = thread_index();
+    const nusselt::Frostbite<float> brdf(inputs.normals[i], inputs.points[i], inputs.points[i], 0.5f);
+    const auto u =
+        nusselt::light_random(nusselt::Sampler::sobol, 1u, static_cast<unsigned>(i), 2u, 3u, 4u, 5u);
+    result[i] = brdf.eval(inputs.points[i]).x + u.x + u.y;
 }

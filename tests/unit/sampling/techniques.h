@@ -111,21 +111,33 @@ struct Instance {
     static constexpr int kLanes = nusselt::RealTraits<Real>::kLanes;
 };
 
-/// Writes one lane of a struct whose members are all of type Pack, or the struct itself for scalars.
-template <class Packed, class Single>
+/// Writes one lane of a struct of packs of T, or of a pack. A pack lies in memory as an array of its lanes.
+template <class T, class Packed, class Single>
 void set_lane(Packed& packed, int lane, const Single& single) {
     static_assert(std::is_trivially_copyable_v<Packed> && std::is_trivially_copyable_v<Single>);
     constexpr std::size_t kLanes = sizeof(Packed) / sizeof(Single);
-    static_assert(sizeof(Packed) == kLanes * sizeof(Single));
-    // Both consist of numbers of one size only; a pack is an array of lanes in memory.
-    constexpr std::size_t kSize = nusselt::RealTraits<std::decay_t<decltype(first_number(single))>>::kLanes *
-                                  sizeof(first_number(single));
-    auto* target = reinterpret_cast<unsigned char*>(&packed);
+    static_assert(sizeof(Packed) == kLanes * sizeof(Single) && sizeof(Single) % sizeof(T) == 0);
+    auto* target = reinterpret_cast<unsigned char*>(&packed) + static_cast<std::size_t>(lane) * sizeof(T);
     const auto* source = reinterpret_cast<const unsigned char*>(&single);
-    for (std::size_t i = 0; i < sizeof(Single) / kSize; ++i) {
-        std::memcpy(target + (i * kLanes + static_cast<std::size_t>(lane)) * kSize, source + i * kSize,
-                    kSize);
+    for (std::size_t i = 0; i < sizeof(Single); i += sizeof(T)) {
+        std::memcpy(target + i * kLanes, source + i, sizeof(T));
     }
+}
+
+/// Reads one lane of a struct of packs of T, or of a pack.
+template <class T, class Single, class Packed>
+Single get_lane(const Packed& packed, int lane) {
+    static_assert(std::is_trivially_copyable_v<Packed> && std::is_trivially_copyable_v<Single>);
+    constexpr std::size_t kLanes = sizeof(Packed) / sizeof(Single);
+    static_assert(sizeof(Packed) == kLanes * sizeof(Single) && sizeof(Single) % sizeof(T) == 0);
+    Single single;
+    auto* target = reinterpret_cast<unsigned char*>(&single);
+    const auto* source =
+        reinterpret_cast<const unsigned char*>(&packed) + static_cast<std::size_t>(lane) * sizeof(T);
+    for (std::size_t i = 0; i < sizeof(Single); i += sizeof(T)) {
+        std::memcpy(target + i, source + i * kLanes, sizeof(T));
+    }
+    return single;
 }
 
 } // namespace nusselt_test

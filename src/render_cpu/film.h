@@ -1,0 +1,13 @@
+#pragma once
+/// Change of the image size.
+
+#include "scene/scene.h"
+
+namespace nusselt::render_cpu {
+
+/// Gives the film another size in pixels as pbrt would: the viewing direction, the aspect ratio of pixels and
+/// the field of view of the shorter axis stay.
+/// \throws std::invalid_argument unless both lie between 1 and 65536
+void resize_film(scene::Scene& scene, int width, int height);
+
+} // namespace nusselt::render_cpu

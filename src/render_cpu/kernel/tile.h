@@ -1,0 +1,149 @@
+#pragma once
+/// Rendering of a tile: camera rays, what they hit, and what that emits and reflects.
+
+#include "render_cpu/kernel.h"
+#include "render_cpu/kernel/direct_light.h"
+#include "render_cpu/kernel/lanes.h"
+#include "render_cpu/kernel/surface.h"
+
+NUSSELT_NAMESPACE_BEGIN
+namespace kernel {
+
+// The pixels of a packet form a block, so that its rays stay close together.
+inline constexpr int kBlockWidth = kLanes >= 8 ? 4 : 2;
+inline constexpr int kBlockHeight = kLanes / kBlockWidth;
+
+class TileRenderer {
+public:
+    TileRenderer(const render_cpu::RenderJob& job, const render_cpu::Tile& tile,
+                 render_cpu::TileStatistics& statistics) noexcept
+        : job_(job), tile_(tile), statistics_(statistics),
+          add_polygon4_(polygon_function<4>(job.technique)), add_polygon8_(polygon_function<8>(job.technique)),
+          add_line_(line_function(job.technique)) {}
+
+    void render() noexcept {
+        for (std::int32_t y = tile_.y_begin; y < tile_.y_end; y += kBlockHeight)
+            for (std::int32_t x = tile_.x_begin; x < tile_.x_end; x += kBlockWidth) render_block(x, y);
+    }
+
+private:
+    void render_block(std::int32_t x_begin, std::int32_t y_begin) noexcept {
+        const std::uint64_t begin = __builtin_ia32_rdtsc();
+        const std::uint64_t traced_before = statistics_.primary_ticks + statistics_.shadow_ticks;
+        const PixelBlock block = make_block(x_begin, y_begin);
+        CompensatedSum sum;
+        for (std::uint32_t i = 0; i < job_.camera_rays; ++i) sum.add(radiance(block, i));
+        write(block, Real(1.0f / static_cast<float>(job_.camera_rays)) * sum.sum);
+        const std::uint64_t traced = statistics_.primary_ticks + statistics_.shadow_ticks - traced_before;
+        statistics_.shading_ticks += __builtin_ia32_rdtsc() - begin - traced;
+    }
+
+    PixelBlock make_block(std::int32_t x_begin, std::int32_t y_begin) const noexcept {
+        PixelBlock block;
+        std::uint32_t inside = 0;
+        for (int i = 0; i < kLanes; ++i) {
+            const std::int32_t x = x_begin + i % kBlockWidth;
+            const std::int32_t y = y_begin + i / kBlockWidth;
+            block.x[i] = static_cast<std::uint32_t>(x);
+            block.y[i] = static_cast<std::uint32_t>(y);
+            inside |= static_cast<std::uint32_t>(x < tile_.x_end && y < tile_.y_end) << i;
+        }
+        block.inside = LaneMask::from_bits(inside);
+        return block;
+    }
+
+    Vector camera_direction(const PixelBlock& block, std::uint32_t camera_ray) const noexcept {
+        const Vec2<Real> raster = raster_positions(job_, block, camera_ray);
+        const scene::Camera& camera = job_.scene.camera;
+        return broadcast<Real>(to_vec(camera.corner)) + raster.x * broadcast<Real>(to_vec(camera.right)) +
+               raster.y * broadcast<Real>(to_vec(camera.down));
+    }
+
+    /// Radiance that arrives at the camera along one ray per pixel.
+    Vector radiance(const PixelBlock& block, std::uint32_t camera_ray) noexcept {
+        const Vector direction = camera_direction(block, camera_ray);
+        const visibility::HitPacket<kLanes> hits = trace(block.inside.bits(), direction);
+        std::uint32_t on_triangle = 0;
+        for (int i = 0; i < kLanes; ++i) on_triangle |= static_cast<std::uint32_t>(hits.triangle[i] >= 0) << i;
+        const Vector emitted = emission(hits, direction);
+        if (on_triangle == 0) return emitted;
+
+        const Surface surface =
+            make_surface(job_.scene, hits, LaneMask::from_bits(on_triangle), -normalize(direction));
+        DirectLight light(job_, block, surface, camera_ray, statistics_);
+        for (std::int32_t i = 0; i < job_.scene.polygon_light_count; ++i) {
+            const bool is_small = job_.scene.polygon_lights[i].slots == 4;
+            (light.*(is_small ? add_polygon4_ : add_polygon8_))(i);
+        }
+        for (std::int32_t i = 0; i < job_.scene.line_light_count; ++i) (light.*add_line_)(i);
+        return emitted + light.radiance();
+    }
+
+    visibility::HitPacket<kLanes> trace(std::uint32_t active, const Vector& direction) noexcept {
+        visibility::RayPacket<kLanes> rays;
+        const Vec3<float> origin = to_vec(job_.scene.camera.origin);
+        Real(origin.x).store(rays.origin[0]);
+        Real(origin.y).store(rays.origin[1]);
+        Real(origin.z).store(rays.origin[2]);
+        direction.x.store(rays.direction[0]);
+        direction.y.store(rays.direction[1]);
+        direction.z.store(rays.direction[2]);
+        Real(std::numeric_limits<float>::infinity()).store(rays.t_far);
+        visibility::HitPacket<kLanes> hits;
+        const visibility::PacketTracer<kLanes>& tracer = job_.tracer;
+        const std::uint64_t begin = __builtin_ia32_rdtsc();
+        tracer.intersect(job_.tracer.context, active, rays, hits);
+        statistics_.primary_ticks += __builtin_ia32_rdtsc() - begin;
+        statistics_.primary_rays += static_cast<std::uint64_t>(__builtin_popcount(active));
+        return hits;
+    }
+
+    /// Radiance that the camera sees of lights themselves.
+    Vector emission(const visibility::HitPacket<kLanes>& hits, const Vector& direction) const noexcept {
+        Indices polygon;
+        bool any_light = false;
+        for (int i = 0; i < kLanes; ++i) {
+            polygon.lane[i] = hits.triangle[i] < 0 ? -1 : job_.scene.triangle_light[hits.triangle[i]];
+            any_light |= (polygon.lane[i] >= 0) | (hits.tube[i] >= 0);
+        }
+        Lanes result{};
+        if (!any_light) return load(result);
+        const Lanes d = store(direction);
+        for (int i = 0; i < kLanes; ++i) {
+            scene::Float3 emitted{0, 0, 0};
+            if (hits.tube[i] >= 0) emitted = job_.scene.line_lights[hits.tube[i]].radiance;
+            if (polygon.lane[i] >= 0) {
+                const render_cpu::PolygonLightRecord& light = job_.scene.polygon_lights[polygon.lane[i]];
+                const Vec3<float> ray{d.x[i], d.y[i], d.z[i]};
+                if (light.two_sided != 0 || dot(to_vec(light.normal), ray) < 0) emitted = light.radiance;
+            }
+            result.x[i] = emitted.x;
+            result.y[i] = emitted.y;
+            result.z[i] = emitted.z;
+        }
+        return load(result);
+    }
+
+    void write(const PixelBlock& block, const Vector& rgb) noexcept {
+        const Lanes lanes = store(rgb);
+        const std::uint32_t inside = block.inside.bits();
+        for (int i = 0; i < kLanes; ++i) {
+            if ((inside >> i & 1u) == 0) continue;
+            const auto width = static_cast<std::uint64_t>(job_.width);
+            float* pixel = job_.pixels + 3 * (block.y[i] * width + block.x[i]);
+            pixel[0] = lanes.x[i];
+            pixel[1] = lanes.y[i];
+            pixel[2] = lanes.z[i];
+        }
+    }
+
+    const render_cpu::RenderJob& job_;
+    render_cpu::Tile tile_;
+    render_cpu::TileStatistics& statistics_;
+    AddLight add_polygon4_;
+    AddLight add_polygon8_;
+    AddLight add_line_;
+};
+
+} // namespace kernel
+NUSSELT_NAMESPACE_END

@@ -1,0 +1,106 @@
+#include "render_cpu/kernel_arrays.h"
+
+#include <nusselt/geometry/convex_polygon.h>
+#include <nusselt/geometry/line_segment.h>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace nusselt::render_cpu {
+
+namespace {
+
+constexpr std::size_t kMaxFloats = std::numeric_limits<std::int32_t>::max();
+
+void check_float_count(std::size_t count, const std::string& what) {
+    if (count > kMaxFloats)
+        throw std::runtime_error(what + ": " + std::to_string(count) + " numbers are more than the " +
+                                 std::to_string(kMaxFloats) + " that can be addressed");
+}
+
+Vec3<float> to_vec(const scene::Float3& v) { return {v.x, v.y, v.z}; }
+scene::Float3 to_float3(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
+scene::Float3 times(float factor, const scene::Float3& v) { return {factor * v.x, factor * v.y, factor * v.z}; }
+
+MaterialRow make_row(const scene::Material& material) {
+    return {{material.diffuse.x, material.diffuse.y, material.diffuse.z},
+            {material.f0.x, material.f0.y, material.f0.z},
+            material.roughness,
+            material.model == scene::BrdfModel::frostbite ? 1.0f : 0.0f};
+}
+
+template <int N>
+void set_polygon(const std::vector<scene::Float3>& vertices, PolygonLightRecord& record) {
+    Vec3<float> corners[N];
+    for (std::size_t j = 0; j < vertices.size(); ++j) corners[j] = to_vec(vertices[j]);
+    const auto polygon = make_polygon<N>(corners, static_cast<int>(vertices.size()));
+    for (int j = 0; j < N; ++j) {
+        record.vertex[j] = to_float3(polygon.vertex[j]);
+        record.edge[j] = to_float3(polygon.edge[j]);
+    }
+    record.normal = to_float3(polygon.normal);
+    record.slots = N;
+}
+
+PolygonLightRecord make_record(const scene::PolygonLight& light) {
+    const std::size_t count = light.vertices.size();
+    if (count < 3 || count > 8)
+        throw std::runtime_error("light " + light.name + ": polygonal lights have 3 to 8 vertices, not " +
+                                 std::to_string(count));
+    PolygonLightRecord record{};
+    if (count <= 4)
+        set_polygon<4>(light.vertices, record);
+    else
+        set_polygon<8>(light.vertices, record);
+    record.radiance = light.radiance;
+    record.two_sided = light.two_sided ? 1 : 0;
+    return record;
+}
+
+LineLightRecord make_record(const scene::LineLight& light) {
+    const auto line = make_line(to_vec(light.begin), to_vec(light.end));
+    return {to_float3(line.p0), to_float3(line.s), line.length, light.radiance,
+            times(light.radius, light.radiance)};
+}
+
+} // namespace
+
+KernelArrays::KernelArrays(const scene::Scene& scene) : scene_(scene) {
+    check_float_count(3 * scene.positions.size(), "vertices");
+    check_float_count(8 * scene.materials.size(), "materials");
+    for (const scene::Material& material : scene.materials) {
+        materials_.push_back(make_row(material));
+        lambert_materials_.push_back(materials_.back());
+        lambert_materials_.back().is_frostbite = 0;
+        material_texture_.push_back(material.diffuse_texture);
+    }
+    for (const scene::Texture& texture : scene.textures) {
+        check_float_count(texture.texels.size(), "texture " + texture.name);
+        textures_.push_back({texture.texels.data(), texture.width, texture.height});
+    }
+    for (const scene::PolygonLight& light : scene.polygon_lights) polygon_lights_.push_back(make_record(light));
+    for (const scene::LineLight& light : scene.line_lights) line_lights_.push_back(make_record(light));
+}
+
+KernelScene KernelArrays::view(BrdfChoice brdf) const {
+    KernelScene view{};
+    view.positions = scene_.positions.data();
+    view.normals = scene_.normals.data();
+    view.uvs = scene_.uvs.data();
+    view.triangles = scene_.triangles.data();
+    view.triangle_material = scene_.triangle_material.data();
+    view.triangle_light = scene_.triangle_light.data();
+    view.materials = (brdf == BrdfChoice::lambert ? lambert_materials_ : materials_).data();
+    view.material_texture = material_texture_.data();
+    view.textures = textures_.data();
+    view.polygon_lights = polygon_lights_.data();
+    view.line_lights = line_lights_.data();
+    view.polygon_light_count = static_cast<std::int32_t>(polygon_lights_.size());
+    view.line_light_count = static_cast<std::int32_t>(line_lights_.size());
+    view.camera = scene_.camera;
+    view.radius = static_cast<float>(scene_.radius);
+    return view;
+}
+
+} // namespace nusselt::render_cpu

@@ -1,0 +1,11 @@
+#include "render_cpu/kernel/tile.h"
+
+namespace nusselt::render_cpu {
+
+static_assert(nusselt::kernel::kLanes == 8, "compiled for another instruction set than the name says");
+
+void render_tile_avx2(const RenderJob& job, const Tile& tile, TileStatistics& statistics) {
+    kernel::TileRenderer(job, tile, statistics).render();
+}
+
+} // namespace nusselt::render_cpu

@@ -1,0 +1,74 @@
+#pragma once
+/// Renders direct light of a scene with all cores.
+
+#include "image/image.h"
+#include "render_cpu/isa.h"
+#include "render_cpu/kernel_arrays.h"
+#include "render_cpu/settings.h"
+#include "scene/scene.h"
+#include "visibility/embree_scene.h"
+
+#include <atomic>
+#include <functional>
+
+namespace nusselt::render_cpu {
+
+/// How a rendering talks to its surroundings while it runs. All members may be left empty.
+struct RenderMonitor {
+    /// Called with the share of finished pixels, in (0, 1], from any thread, never by two at once.
+    std::function<void(double fraction)> progress;
+    /// Once this is true, no further tile is begun.
+    const std::atomic<bool>* cancel = nullptr;
+};
+
+struct RenderStatistics {
+    double build_seconds = 0;  ///< of the bounding volume hierarchy
+    double render_seconds = 0; ///< wall clock, from first to last tile
+    // Sums over all threads [s].
+    double primary_seconds = 0; ///< tracing of camera rays
+    double shading_seconds = 0; ///< all but tracing
+    double shadow_seconds = 0;  ///< tracing of shadow rays
+    std::uint64_t primary_rays = 0;
+    std::uint64_t shadow_rays = 0;
+    int threads = 0;
+};
+
+struct RenderResult {
+    image::Image image; ///< pixels that were not rendered are black
+    RenderStatistics statistics;
+    double finished_fraction = 0; ///< of the pixels; below 1 if it was cancelled
+};
+
+/// A scene that is ready for rendering. Several renderings may run at once.
+class Renderer {
+public:
+    /// Builds the bounding volume hierarchy.
+    /// \param scene        must outlive the renderer; its film gives the size of images
+    /// \param thread_count at least 1
+    /// \throws std::runtime_error see EmbreeScene and KernelArrays
+    Renderer(const scene::Scene& scene, int thread_count);
+
+    /// \throws std::invalid_argument see validate()
+    RenderResult render(const RenderSettings& settings, Isa isa, const RenderMonitor& monitor = {}) const;
+
+    /// As above with another way to trace rays, which must behave like that of the scene.
+    RenderResult render(const RenderSettings& settings, Isa isa, const visibility::RayTracer& tracer,
+                        const RenderMonitor& monitor = {}) const;
+
+    const visibility::EmbreeScene& visibility() const { return embree_; }
+
+private:
+    const scene::Scene& scene_;
+    int thread_count_;
+    double build_seconds_ = 0;
+    KernelArrays arrays_;
+    visibility::EmbreeScene embree_;
+};
+
+/// Number of threads that the machine runs at once.
+int default_thread_count();
+
+/// Settings and program version for the metadata of image files.
+image::Metadata make_metadata(const RenderSettings& settings, Isa isa, const RenderResult& result);
+
+} // namespace nusselt::render_cpu

@@ -1,0 +1,62 @@
+#pragma once
+/// What a user can choose about a rendering.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace nusselt::render_cpu {
+
+/// How directions towards lights are sampled.
+enum class Technique : std::uint32_t {
+    area,
+    solid_angle,
+    clipped_solid_angle,
+    projected_solid_angle,
+    projected_solid_angle_biased, ///< for line lights the same as projected_solid_angle
+};
+
+/// How the samples of a pixel and light relate to each other; see nusselt::Sampler.
+enum class SampleOrder : std::uint32_t { independent, sobol, jittered };
+
+/// Where camera rays pass through their pixel.
+enum class PixelPosition : std::uint32_t { jittered, center };
+
+/// Which BRDF all surfaces have.
+enum class BrdfChoice : std::uint32_t {
+    material, ///< that of the scene file
+    lambert,  ///< diffuse albedo / pi
+};
+
+struct RenderSettings {
+    Technique technique = Technique::projected_solid_angle;
+    int samples = 1;                 ///< per pixel and light, 1 to 2^20
+    std::optional<int> camera_rays;  ///< per pixel, a divisor of samples; default: see camera_ray_count()
+    PixelPosition pixel_position = PixelPosition::jittered;
+    SampleOrder sample_order = SampleOrder::sobol;
+    BrdfChoice brdf = BrdfChoice::material;
+    std::uint32_t seed = 0;
+};
+
+inline constexpr int kMaxSamples = 1 << 20;
+
+/// Camera rays per pixel: as given, else one for each sample if their positions differ, else one.
+int camera_ray_count(const RenderSettings& settings);
+
+/// \throws std::invalid_argument naming the first setting out of range, its value and the range
+void validate(const RenderSettings& settings);
+
+// All values in the order in which they are listed to users, and their names.
+inline constexpr std::array kTechniques = {Technique::area, Technique::solid_angle, Technique::clipped_solid_angle,
+                                           Technique::projected_solid_angle,
+                                           Technique::projected_solid_angle_biased};
+inline constexpr std::array kSampleOrders = {SampleOrder::independent, SampleOrder::sobol, SampleOrder::jittered};
+inline constexpr std::array kPixelPositions = {PixelPosition::jittered, PixelPosition::center};
+inline constexpr std::array kBrdfChoices = {BrdfChoice::material, BrdfChoice::lambert};
+std::string_view name_of(Technique technique);
+std::string_view name_of(SampleOrder order);
+std::string_view name_of(PixelPosition position);
+std::string_view name_of(BrdfChoice brdf);
+
+} // namespace nusselt::render_cpu

@@ -1,0 +1,36 @@
+#pragma once
+/// Ray queries against the surfaces of a scene, by Embree.
+
+#include "scene/scene.h"
+#include "visibility/ray_packets.h"
+
+#include <memory>
+
+namespace nusselt::visibility {
+
+/// Rays are valid if no coordinate of origin and direction is NaN or larger than this in magnitude, t_far is
+/// not NaN and not negative. Embree of Debian aborts the process otherwise.
+inline constexpr float kLargestRayCoordinate = 1e18f;
+
+/// The bounding volume hierarchy of a scene. Shadow rays see all triangles (emitters included), camera rays
+/// also the tubes of line lights. Immutable, usable from several threads at once.
+class EmbreeScene {
+public:
+    /// Builds the hierarchy. Copies the geometry that it needs; the scene may be destroyed afterwards.
+    /// \param thread_count threads that build, at least 1
+    /// \throws std::runtime_error if Embree reports an error (such as a lack of memory) or was built without
+    ///         ray masks
+    EmbreeScene(const scene::Scene& scene, int thread_count);
+    ~EmbreeScene();
+    EmbreeScene(EmbreeScene&&) noexcept;
+    EmbreeScene& operator=(EmbreeScene&&) noexcept;
+
+    /// Functions that trace this scene; valid as long as it lives.
+    RayTracer tracer() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace nusselt::visibility

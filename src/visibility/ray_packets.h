@@ -1,0 +1,43 @@
+#pragma once
+/// Packets of rays and hits, and the table of functions through which kernels trace them.
+///
+/// Plain data without functions: baseline code and kernels compiled for other instruction sets share it.
+
+#include <cstdint>
+
+namespace nusselt::visibility {
+
+/// N rays origin + t * direction, 0 <= t <= t_far, in world space [m]. Directions need no unit length.
+template <int N>
+struct RayPacket {
+    alignas(4 * N) float origin[3][N];
+    float direction[3][N];
+    float t_far[N];
+};
+
+/// The closest hits of N rays. A ray meets a triangle of the scene, the tube of a line light or neither.
+template <int N>
+struct HitPacket {
+    std::int32_t triangle[N]; ///< index into Scene::triangles, -1 for none
+    std::int32_t tube[N];     ///< index into Scene::line_lights, -1 for none
+    /// Barycentric coordinates: the hit is v0 + u (v1 - v0) + v (v2 - v0). Meaningless without a triangle.
+    alignas(4 * N) float u[N];
+    float v[N];
+};
+
+/// Functions that trace packets of N rays. Bit i of `active` is lane i. Lanes that are not active, or whose ray
+/// is invalid (see EmbreeScene), hit nothing.
+template <int N>
+struct PacketTracer {
+    /// Closest hits of coherent rays that see tubes.
+    void (*intersect)(const void* context, std::uint32_t active, const RayPacket<N>& rays, HitPacket<N>& hits);
+    /// Bits of those active lanes whose ray meets a triangle; invalid rays count as blocked.
+    std::uint32_t (*occluded)(const void* context, std::uint32_t active, const RayPacket<N>& rays);
+};
+
+/// A way to trace rays: `static_cast<const PacketTracer<16>&>(tracer)` for packets of 16.
+struct RayTracer : PacketTracer<4>, PacketTracer<8>, PacketTracer<16> {
+    const void* context; ///< first argument of all functions
+};
+
+} // namespace nusselt::visibility

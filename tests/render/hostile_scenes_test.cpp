@@ -1,0 +1,120 @@
+/// Degenerate geometry, lights and views: every pixel stays finite and is not negative.
+
+#include "scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace nusselt::render_test {
+namespace {
+
+constexpr int kSize = 24;
+
+void expect_sane_images(const scene::Scene& scene) {
+    const render_cpu::Renderer renderer(scene, 2);
+    for (const render_cpu::Isa isa : {render_cpu::Isa::sse42, render_cpu::Isa::avx2, render_cpu::Isa::avx512}) {
+        if (!is_supported(isa)) continue;
+        for (const auto technique : render_cpu::kTechniques) {
+            render_cpu::RenderSettings settings;
+            settings.technique = technique;
+            settings.samples = 4;
+            const image::Image image = renderer.render(settings, isa).image;
+            for (const float value : image.pixels)
+                ASSERT_TRUE(std::isfinite(value) && value >= 0)
+                    << value << " with " << render_cpu::name_of(technique) << ", " << name_of(isa);
+        }
+    }
+}
+
+TEST(HostileScenes, Nothing) {
+    scene::Scene scene;
+    set_camera(scene, {0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0.5, kSize, kSize);
+    expect_sane_images(scene);
+}
+
+TEST(HostileScenes, DegenerateTriangles) {
+    scene::Scene scene = make_box_scene(kSize);
+    const Float3 p{0, 0, 1};
+    add_quad(scene, {p, p, p, p}, 0);
+    add_quad(scene, {Float3{-1, 0, 1}, Float3{0, 0, 1}, Float3{1, 0, 1}, Float3{0.5f, 0, 1}}, 0);
+    add_quad(scene, {Float3{-1, 0, 1}, Float3{1, 0, 1}, Float3{1, 0, 1 + 1e-7f}, Float3{-1, 0, 1 + 1e-7f}}, 1);
+    expect_sane_images(scene);
+}
+
+TEST(HostileScenes, DegenerateLights) {
+    scene::Scene scene = make_box_scene(kSize);
+    const Float3 radiance{3, 3, 3};
+    const Float3 p{0, 0, 1};
+    add_polygon_light(scene, {p, p, p, p}, radiance, true, 0);
+    add_polygon_light(scene, {p, Float3{0.5f, 0, 1}, Float3{1, 0, 1}, Float3{0.2f, 0, 1}}, radiance, true, 0);
+    // On the floor, and through it.
+    add_polygon_light(scene,
+                      {Float3{-0.5f, -0.5f, 0}, Float3{0.5f, -0.5f, 0}, Float3{0.5f, 0.5f, 0}, Float3{-0.5f, 0.5f, 0}},
+                      radiance, true, 1);
+    add_polygon_light(scene,
+                      {Float3{0, -0.5f, -1}, Float3{0, 0.5f, -1}, Float3{0, 0.5f, 1}, Float3{0, -0.5f, 1}},
+                      radiance, true, 1);
+    scene.line_lights.push_back({"point", p, p, 0.01f, radiance});
+    scene.line_lights.push_back({"no radius", p, {1, 0, 1}, 0, radiance});
+    scene.line_lights.push_back({"on the floor", {-1, -1, 0}, {1, 1, 0}, 0.01f, radiance});
+    scene.line_lights.push_back({"through the floor", {0.3f, 0.2f, -1}, {0.3f, 0.2f, 1}, 0.01f, radiance});
+    expect_sane_images(scene);
+}
+
+TEST(HostileScenes, LightWithEightCornersOneOfThemRepeated) {
+    scene::Scene scene = make_floor(kSize);
+    scene::PolygonLight light;
+    for (int j = 0; j < 7; ++j) {
+        const float angle = 0.897f * static_cast<float>(j);
+        light.vertices.push_back({std::cos(angle), std::sin(angle), 0.5f});
+    }
+    light.vertices.push_back(light.vertices.back());
+    light.radiance = {1, 1, 1};
+    light.two_sided = true;
+    scene.polygon_lights.push_back(light);
+    expect_sane_images(scene);
+}
+
+TEST(HostileScenes, CameraInThePlaneOfALight) {
+    scene::Scene scene = make_box_scene(kSize);
+    add_polygon_light(scene,
+                      {Float3{-0.5f, -1.5f, 1}, Float3{0.5f, -1.5f, 1}, Float3{0.5f, 1, 1}, Float3{-0.5f, 1, 1}},
+                      {2, 2, 2}, true, 0);
+    set_camera(scene, {0, -4, 1}, {0, 0, 1}, {0, 0, 1}, 0.3, kSize, kSize);
+    expect_sane_images(scene);
+    // And on the light.
+    set_camera(scene, {0, -1, 1}, {0, 0, 1}, {0, 0, 1}, 0.3, kSize, kSize);
+    expect_sane_images(scene);
+}
+
+TEST(HostileScenes, ShadingNormalsOfAllKinds) {
+    scene::Scene scene = make_box_scene(kSize);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const Float3 kinds[] = {{0, 0, 0}, {0, 0, -1}, {1, 0, 0}, {nan, 0, 1}, {1e-30f, 1e-30f, 1e-30f}, {1e30f, 0, 1}};
+    for (std::size_t i = 0; i < scene.normals.size(); ++i) scene.normals[i] = kinds[i * 7 % std::size(kinds)];
+    expect_sane_images(scene);
+}
+
+TEST(HostileScenes, TextureCoordinatesOfAllKinds) {
+    scene::Scene scene = make_box_scene(kSize);
+    scene.textures.push_back({"checker", 2, 1, {1, 1, 1, 0, 0, 0}});
+    for (scene::Material& material : scene.materials) material.diffuse_texture = 0;
+    const float infinity = std::numeric_limits<float>::infinity();
+    const float kinds[] = {0, -1e-9f, 1e9f, -infinity, infinity, std::nanf(""), 0.5f};
+    for (std::size_t i = 0; i < scene.uvs.size(); ++i)
+        scene.uvs[i] = {kinds[i % std::size(kinds)], kinds[i * 3 % std::size(kinds)]};
+    expect_sane_images(scene);
+}
+
+TEST(HostileScenes, SizesThatFillNoTile) {
+    for (const auto& [width, height] : {std::pair{1, 1}, {17, 3}, {3, 33}}) {
+        scene::Scene scene = make_box_scene(kSize);
+        set_camera(scene, {0, -4, 1}, {0, 0, 1}, {0, 0, 1}, 0.3, width, height);
+        expect_sane_images(scene);
+    }
+}
+
+} // namespace
+} // namespace nusselt::render_test

@@ -1,0 +1,88 @@
+/// What must not change the image: threads, instruction sets, the unit of length.
+
+#include "scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nusselt::render_test {
+namespace {
+
+constexpr int kSize = 64;
+
+image::Image render(const scene::Scene& scene, int threads, render_cpu::Isa isa,
+                    render_cpu::Technique technique) {
+    render_cpu::RenderSettings settings;
+    settings.technique = technique;
+    settings.samples = 4;
+    return render_cpu::Renderer(scene, threads).render(settings, isa).image;
+}
+
+/// Share of pixels with a channel that differs by more than a relative tolerance.
+double differing_share(const image::Image& a, const image::Image& b, double tolerance) {
+    std::size_t count = 0;
+    for (std::size_t pixel = 0; pixel < a.pixels.size(); pixel += 3) {
+        bool differs = false;
+        for (std::size_t i = pixel; i < pixel + 3; ++i)
+            differs |= !(std::fabs(a.pixels[i] - b.pixels[i]) <=
+                         tolerance * std::max(std::fabs(a.pixels[i]), std::fabs(b.pixels[i])));
+        count += differs ? 1 : 0;
+    }
+    return static_cast<double>(count) / static_cast<double>(a.pixels.size() / 3);
+}
+
+TEST(Invariance, ThreadCountChangesNoBit) {
+    const scene::Scene scene = make_box_scene(kSize);
+    const render_cpu::Isa isa = render_cpu::choose_isa();
+    for (const auto technique : render_cpu::kTechniques) {
+        const image::Image one = render(scene, 1, isa, technique);
+        for (const int threads : {2, 5})
+            EXPECT_EQ(one.pixels, render(scene, threads, isa, technique).pixels)
+                << render_cpu::name_of(technique) << ", " << threads << " threads";
+    }
+}
+
+class IsaInvariance : public testing::TestWithParam<render_cpu::Isa> {};
+
+TEST_P(IsaInvariance, HardlyAnyPixelDiffers) {
+    if (!is_supported(GetParam())) GTEST_SKIP() << "this processor does not support it";
+    const scene::Scene scene = make_box_scene(4 * kSize);
+    for (const auto technique : render_cpu::kTechniques) {
+        const image::Image baseline = render(scene, 2, render_cpu::Isa::sse42, technique);
+        const image::Image other = render(scene, 2, GetParam(), technique);
+        EXPECT_LE(differing_share(baseline, other, 1e-4), 1e-4) << render_cpu::name_of(technique);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllIsas, IsaInvariance,
+                         testing::Values(render_cpu::Isa::avx2, render_cpu::Isa::avx512),
+                         [](const auto& test) { return std::string(name_of(test.param)); });
+
+/// Multiplication by powers of two rounds nothing.
+TEST(Invariance, PowersOfTwoAsUnitOfLengthChangeNoBit) {
+    const scene::Scene scene = make_box_scene(kSize);
+    const render_cpu::Isa isa = render_cpu::choose_isa();
+    for (const auto technique : render_cpu::kTechniques) {
+        const image::Image reference = render(scene, 2, isa, technique);
+        for (const float factor : {0x1p-10f, 0x1p10f})
+            EXPECT_EQ(reference.pixels, render(scaled(scene, factor), 2, isa, technique).pixels)
+                << render_cpu::name_of(technique) << ", " << factor;
+    }
+}
+
+/// Other factors round coordinates: shadow rays that graze an edge may fall on its other side.
+TEST(Invariance, UnitOfLengthChangesNextToNothing) {
+    const scene::Scene scene = make_box_scene(kSize);
+    const render_cpu::Isa isa = render_cpu::choose_isa();
+    for (const auto technique : render_cpu::kTechniques) {
+        const image::Image reference = render(scene, 2, isa, technique);
+        for (const float factor : {1e-3f, 1e3f})
+            EXPECT_LE(differing_share(reference, render(scaled(scene, factor), 2, isa, technique), 1e-3), 2e-3)
+                << render_cpu::name_of(technique) << ", " << factor;
+    }
+}
+
+} // namespace
+} // namespace nusselt::render_test

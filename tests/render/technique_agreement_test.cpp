@@ -1,0 +1,65 @@
+/// All techniques have the same expectation, also with occluders and glossy surfaces.
+
+#include "lossy_tracer.h"
+#include "scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace nusselt::render_test {
+namespace {
+
+using render_cpu::Technique;
+
+constexpr int kSize = 32;
+constexpr int kSamples = 16;
+
+class TechniqueAgreement : public testing::Test {
+protected:
+    TechniqueAgreement() : scene_(make_box_scene(kSize)), renderer_(scene_, 2) {
+        settings_.samples = kSamples;
+        settings_.camera_rays = 1;
+        // Stratified in the pixel, camera rays are noisier than light samples: they cancel in differences.
+        settings_.pixel_position = render_cpu::PixelPosition::center;
+    }
+
+    std::vector<std::vector<double>> rows(Technique technique, const visibility::RayTracer& tracer) {
+        settings_.technique = technique;
+        return render_region_means(renderer_, settings_, kSeeds, tracer);
+    }
+
+    scene::Scene scene_;
+    render_cpu::Renderer renderer_;
+    render_cpu::RenderSettings settings_;
+};
+
+TEST_F(TechniqueAgreement, SameExpectation) {
+    const auto tracer = renderer_.visibility().tracer();
+    for (const auto order : render_cpu::kSampleOrders) {
+        settings_.sample_order = order;
+        const auto reference = rows(Technique::projected_solid_angle, tracer);
+        for (const Technique technique : {Technique::area, Technique::solid_angle, Technique::clipped_solid_angle})
+            EXPECT_LT(largest_t(rows(technique, tracer), reference), kLargestT)
+                << render_cpu::name_of(technique) << ", " << render_cpu::name_of(order);
+    }
+}
+
+TEST_F(TechniqueAgreement, ManyCameraRaysHaveTheSameExpectation) {
+    const auto tracer = renderer_.visibility().tracer();
+    settings_.pixel_position = render_cpu::PixelPosition::jittered;
+    settings_.camera_rays = kSamples;
+    const auto one_light_sample = rows(Technique::projected_solid_angle, tracer);
+    settings_.camera_rays = kSamples / 4;
+    const auto four_light_samples = rows(Technique::solid_angle, tracer);
+    EXPECT_LT(largest_t(one_light_sample, four_light_samples), kLargestT);
+}
+
+/// The test of the test: three per cent of the light of one technique are missing.
+TEST_F(TechniqueAgreement, RejectsATechniqueThatIsTooDark) {
+    const auto tracer = renderer_.visibility().tracer();
+    const LossyTracer mutant(tracer, 0.03);
+    const auto reference = rows(Technique::projected_solid_angle, tracer);
+    EXPECT_GT(largest_t(rows(Technique::solid_angle, mutant.tracer()), reference), kLargestT);
+}
+
+} // namespace
+} // namespace nusselt::render_test

@@ -1,0 +1,12 @@
+/// Polygons, area and solid angle techniques, on hostile lights.
+
+#include "hostile_test.h"
+
+namespace nusselt_test {
+
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonArea, HostileTest, HostileTypes<PolygonAreaKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonSolidAngle, HostileTest, HostileTypes<PolygonSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonClippedSolidAngle, HostileTest,
+                               HostileTypes<PolygonClippedSolidAngleKind>);
+
+} // namespace nusselt_test

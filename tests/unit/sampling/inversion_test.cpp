@@ -1,0 +1,147 @@
+/// invert(sample(u)) == u, density() of a sample and hit points, for each technique and scalar.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "lights.h"
+
+namespace nusselt_test {
+namespace {
+
+/// Budgets in units of the rounding error of T; one table for all techniques, since the condition of the lights
+/// dominates: a direction has an error of one rounding, and the random number changes by the reciprocal of the
+/// angular width of the light, about 100 for the small ones, per change of the direction.
+template <class T>
+constexpr T kInversionBudget = 2000 * std::numeric_limits<T>::epsilon();
+template <class T>
+constexpr T kDirectionBudget = 16 * std::numeric_limits<T>::epsilon();
+template <class T>
+constexpr T kPdfBudget = 600 * std::numeric_limits<T>::epsilon();
+template <class T>
+constexpr T kUnitBudget = 4 * std::numeric_limits<T>::epsilon();
+template <class T>
+constexpr T kHitBudget = 100 * std::numeric_limits<T>::epsilon();
+
+/// Whether one component of a random number came back. Where it hardly moves the direction (a fan of rays
+/// meets in a vertex or at the zenith, two boundaries meet at the end of a sector), the direction decides; so
+/// it does for the azimuth 0 or 1 in the central case, which is cyclic.
+template <class Technique, class T>
+bool recovered(const Technique& technique, const nusselt::Vec2<T>& u, T error,
+               const nusselt::Vec2<T>& with_error) {
+    return std::fabs(error) <= kInversionBudget<T> ||
+           length(technique.sample(with_error).wi - technique.sample(u).wi) <= kDirectionBudget<T>;
+}
+
+template <class T>
+std::vector<T> coordinates() {
+    return {T(0), T(1e-3), T(0.125), T(0.3), T(0.5), T(0.71), T(0.9), T(0.999), kLargestBelowOne<T>};
+}
+
+template <class Test>
+class InversionTest : public ::testing::Test {};
+
+template <class Test>
+using Scalars =
+    ::testing::Types<Instance<Test, float>, Instance<Test, double>, Instance<Test, long double>>;
+
+TYPED_TEST_SUITE_P(InversionTest);
+
+TYPED_TEST_P(InversionTest, ReturnsTheRandomNumber) {
+    using T = typename TypeParam::Real;
+    using Kind = typename TypeParam::Kind;
+    for (const auto& light : cases<Kind>()) {
+        const typename TypeParam::Technique technique(make_light<T>(light));
+        for (const T x : coordinates<T>()) {
+            for (const T y : coordinates<T>()) {
+                const auto u = random_of<Kind>(x, y);
+                const auto inverse = technique.invert(technique.sample(u).wi);
+                if constexpr (kIsPolygon<Kind>) {
+                    EXPECT_TRUE(recovered(technique, u, inverse.x - x, {inverse.x, y}))
+                        << light.name << " at " << x << ", " << y << " x is " << inverse.x;
+                    EXPECT_TRUE(recovered(technique, u, inverse.y - y, {x, inverse.y}))
+                        << light.name << " at " << x << ", " << y << " y is " << inverse.y;
+                } else {
+                    EXPECT_LE(std::fabs(inverse - x), kInversionBudget<T>) << light.name << " at " << x;
+                }
+            }
+        }
+    }
+}
+
+TYPED_TEST_P(InversionTest, SampleReturnsItsDensity) {
+    using T = typename TypeParam::Real;
+    using Kind = typename TypeParam::Kind;
+    for (const auto& light : cases<Kind>()) {
+        const typename TypeParam::Technique technique(make_light<T>(light));
+        for (const auto& u : midpoints<Kind, T>(7)) {
+            const auto sample = technique.sample(u);
+            EXPECT_GT(sample.pdf, 0) << light.name;
+            EXPECT_NEAR(technique.pdf(sample.wi) / sample.pdf, 1, kPdfBudget<T>) << light.name;
+        }
+    }
+}
+
+TYPED_TEST_P(InversionTest, HitPointLiesInTheDirectionOfTheSample) {
+    using T = typename TypeParam::Real;
+    using Kind = typename TypeParam::Kind;
+    for (const auto& light : cases<Kind>()) {
+        const auto local = make_light<T>(light);
+        const typename TypeParam::Technique technique(local);
+        for (const auto& u : midpoints<Kind, T>(7)) {
+            const auto sample = technique.sample(u);
+            EXPECT_NEAR(length(sample.wi), 1, kUnitBudget<T>) << light.name;
+            EXPECT_LE(length(cross(sample.p, sample.wi)), kHitBudget<T> * length(sample.p)) << light.name;
+            EXPECT_GT(dot(sample.p, sample.wi), 0) << light.name;
+        }
+    }
+}
+
+/// How far a point is from a polygon: from its plane or beyond an edge.
+template <class T>
+T distance_to(const nusselt::ConvexPolygon<T, 4>& polygon, const nusselt::Vec3<T>& p) {
+    T distance = std::fabs(dot(polygon.normal, p - polygon.vertex[0]));
+    for (int j = 0; j < 4; ++j) {
+        const auto inwards = cross(polygon.normal, normalize(polygon.edge[j]));
+        distance = std::max(distance, -dot(inwards, p - polygon.vertex[j]));
+    }
+    return distance;
+}
+
+template <class T>
+T distance_to(const nusselt::LineSegment<T>& line, const nusselt::Vec3<T>& p) {
+    const T along = std::clamp(dot(p - line.p0, line.s), T(0), line.length);
+    return length(p - line.p0 - along * line.s);
+}
+
+TYPED_TEST_P(InversionTest, HitPointLiesOnTheLight) {
+    using T = typename TypeParam::Real;
+    using Kind = typename TypeParam::Kind;
+    for (const auto& light : cases<Kind>()) {
+        const auto local = make_light<T>(light);
+        const typename TypeParam::Technique technique(local);
+        for (const auto& u : midpoints<Kind, T>(7)) {
+            const auto sample = technique.sample(u);
+            EXPECT_LE(distance_to(local, sample.p), kHitBudget<T> * length(sample.p)) << light.name;
+            if (Kind::kHorizon == Horizon::kClipped) {
+                EXPECT_GT(sample.wi.z, 0) << light.name;
+            }
+        }
+    }
+}
+
+REGISTER_TYPED_TEST_SUITE_P(InversionTest, ReturnsTheRandomNumber, SampleReturnsItsDensity,
+                            HitPointLiesInTheDirectionOfTheSample, HitPointLiesOnTheLight);
+
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonArea, InversionTest, Scalars<PolygonAreaKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonSolidAngle, InversionTest, Scalars<PolygonSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonClippedSolidAngle, InversionTest, Scalars<PolygonClippedSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonProjectedSolidAngle, InversionTest,
+                               Scalars<PolygonProjectedSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(LineArea, InversionTest, Scalars<LineAreaKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(LineSolidAngle, InversionTest, Scalars<LineSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(LineClippedSolidAngle, InversionTest, Scalars<LineClippedSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(LineProjectedSolidAngle, InversionTest, Scalars<LineProjectedSolidAngleKind>);
+
+} // namespace
+} // namespace nusselt_test
