@@ -1,0 +1,190 @@
+// Runs the program as a user does: exit codes, messages and files.
+
+#include "image/io.h"
+#include "image/metrics.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+
+namespace nusselt {
+
+namespace {
+
+const std::string kScenes = std::string(NUSSELT_SOURCE_DIR) + "/scenes";
+
+struct Outcome {
+    int exit_code;
+    std::string out;
+    std::string err;
+};
+
+class CommandLine : public testing::Test {
+protected:
+    CommandLine() {
+        std::string name = (std::filesystem::temp_directory_path() / "nusselt_app_XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr)
+            throw std::runtime_error("cannot create a folder like " + name);
+        folder_ = name;
+    }
+    ~CommandLine() override { std::filesystem::remove_all(folder_); }
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+    std::string read(const std::string& name) const {
+        std::ifstream stream(folder_ / name);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+
+    /// \param arguments as typed in a shell, after the name of the program.
+    /// \param prefix    such as an environment variable.
+    Outcome run(const std::string& arguments, const std::string& prefix = "") const {
+        const std::string command = "cd '" + folder_.string() + "' && " + prefix + " '" NUSSELT_PROGRAM "' " +
+                                    arguments + " >out.txt 2>err.txt </dev/null";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
+    }
+
+private:
+    std::filesystem::path folder_;
+};
+
+/// One line, from the program, that has this text.
+void expect_message(const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+    EXPECT_EQ(text.rfind("nusselt: ", 0), 0u) << text;
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+}
+
+TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
+    for (const char* command : {"", "render", "info", "techniques", "compare", "bench", "bench rays",
+                                "bench samplers", "reproduce"}) {
+        const Outcome help = run(std::string(command) + " --help");
+        EXPECT_EQ(help.exit_code, 0) << command;
+        EXPECT_NE(help.out.find("Usage:"), std::string::npos) << command;
+    }
+}
+
+TEST_F(CommandLine, WrongUsageExitsWithTwo) {
+    expect_message(run("").err, "subcommand");
+    for (const char* arguments :
+         {"", "polish", "render", "render a.pbrt --spp 0", "render a.pbrt --technique magic",
+          "render a.pbrt --spp", "compare a.exr", "bench samplers --isa mmx", "reproduce no-such-experiment",
+          "render a.pbrt --frobnicate"}) {
+        const Outcome wrong = run(arguments);
+        EXPECT_EQ(wrong.exit_code, 2) << arguments;
+        expect_message(wrong.err, "--help");
+    }
+}
+
+TEST_F(CommandLine, ErrorsExitWithOneAndOneLine) {
+    const Outcome missing = run("render no-such-scene.pbrt");
+    EXPECT_EQ(missing.exit_code, 1);
+    expect_message(missing.err, "no-such-scene.pbrt");
+
+    const Outcome isa = run("render '" + kScenes + "/cornell-tube.pbrt'", "NUSSELT_ISA=mmx");
+    EXPECT_EQ(isa.exit_code, 1);
+    expect_message(isa.err, "mmx");
+
+    const Outcome folder =
+        run("render '" + kScenes + "/cornell-tube.pbrt' --resolution 16x16 -q -o no/such/folder/a.exr");
+    EXPECT_EQ(folder.exit_code, 1);
+    expect_message(folder.err, "no/such/folder");
+
+    const Outcome odd = run("render '" + kScenes + "/cornell-tube.pbrt' --spp 4 --camera-rays 3");
+    EXPECT_NE(odd.exit_code, 0);
+    expect_message(odd.err, "3");
+}
+
+TEST_F(CommandLine, RendersToAllFormatsAndTellsHowLongItTook) {
+    const Outcome render =
+        run("render '" + kScenes +
+            "/room.pbrt' --resolution 64x36 --spp 4 -o a.exr -o a.png -o a.hdr -q --json -");
+    ASSERT_EQ(render.exit_code, 0) << render.err;
+    EXPECT_EQ(render.err, "");
+    const auto json = nlohmann::json::parse(render.out);
+    EXPECT_EQ(json["width"], 64);
+    EXPECT_EQ(json["height"], 36);
+    EXPECT_EQ(json["rays"]["primary"], 4 * 64 * 36);
+    for (const char* phase : {"load", "bvh", "render", "write", "total"})
+        EXPECT_GE(json["seconds"][phase], 0.0) << phase;
+
+    const image::Image exr = image::read_image(path("a.exr"));
+    const image::Image hdr = image::read_image(path("a.hdr"));
+    EXPECT_EQ(exr.width, 64);
+    EXPECT_EQ(exr.height, 36);
+    EXPECT_LT(image::compare(hdr, exr).relative_rmse, 0.02);
+    EXPECT_EQ(image::read_image(path("a.png")).width, 64);
+    const image::Metadata metadata = image::read_exr_metadata(path("a.exr"));
+    EXPECT_EQ(metadata.at("technique"), "projected_solid_angle");
+    EXPECT_EQ(metadata.at("scene"), "room.pbrt");
+}
+
+TEST_F(CommandLine, TheSameCommandGivesTheSameImageAndAnotherSeedDoesNot) {
+    const std::string render = "render '" + kScenes + "/cornell-panel.pbrt' --resolution 48x48 -q ";
+    for (const char* rest : {"-o a.exr", "-o b.exr", "-o c.exr --seed 7"})
+        ASSERT_EQ(run(render + rest).exit_code, 0);
+    const Outcome same = run("compare a.exr b.exr --json -");
+    ASSERT_EQ(same.exit_code, 0) << same.err;
+    EXPECT_EQ(nlohmann::json::parse(same.out)["mse"], 0.0);
+    const Outcome other = run("compare a.exr c.exr --json -");
+    ASSERT_EQ(other.exit_code, 0) << other.err;
+    EXPECT_GT(nlohmann::json::parse(other.out)["mse"], 0.0);
+}
+
+TEST_F(CommandLine, TellsWhatASceneAndTheProgramContain) {
+    const Outcome info = run("info '" + kScenes + "/cornell-tube.pbrt'");
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_NE(info.out.find("line"), std::string::npos) << info.out;
+    const Outcome techniques = run("techniques");
+    EXPECT_EQ(techniques.exit_code, 0);
+    for (const char* name : {"area", "solid_angle", "clipped_solid_angle", "projected_solid_angle",
+                             "projected_solid_angle_biased"})
+        EXPECT_NE(techniques.out.find(name), std::string::npos) << name;
+    const Outcome list = run("reproduce --list");
+    EXPECT_EQ(list.exit_code, 0);
+    EXPECT_NE(list.out.find("line-diffuse"), std::string::npos) << list.out;
+}
+
+TEST_F(CommandLine, ReproduceWritesAPage) {
+    const Outcome reproduce =
+        run("reproduce line-diffuse --width 48 --reference-spp 64 --scenes '" + kScenes + "' -o pages");
+    EXPECT_EQ(reproduce.exit_code, 0) << reproduce.out << reproduce.err;
+    EXPECT_NE(read("pages/index.html").find("line-diffuse/index.html"), std::string::npos);
+    EXPECT_NE(read("pages/line-diffuse/index.html").find("reference.png"), std::string::npos);
+}
+
+TEST_F(CommandLine, CtrlCWritesWhatIsThere) {
+    const std::string output = path("stopped.exr");
+    const std::string scene = kScenes + "/room.pbrt";
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        ::execl(NUSSELT_PROGRAM, "nusselt", "render", scene.c_str(), "--spp", "8192", "-q", "-o",
+                output.c_str(), static_cast<char*>(nullptr));
+        std::_Exit(127);
+    }
+    // Long enough for the scene to be loaded; the rendering itself would take minutes.
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+    ASSERT_EQ(::kill(child, SIGINT), 0);
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_EQ(image::read_image(output).width, 1280);
+    EXPECT_LT(std::stod(image::read_exr_metadata(output).at("finished_fraction")), 1.0);
+}
+
+} // namespace
+
+} // namespace nusselt

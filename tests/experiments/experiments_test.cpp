@@ -1,0 +1,113 @@
+#include "experiments/run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+namespace nusselt::experiments {
+
+namespace {
+
+const std::filesystem::path kScenes = std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes";
+
+const Experiment& experiment(const std::string& name) {
+    const auto& all = all_experiments();
+    return *std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return e.name == name; });
+}
+
+/// Small images, to be quick.
+RunSettings small_run() {
+    RunSettings settings;
+    settings.scenes = kScenes;
+    settings.width = 64;
+    settings.reference_samples = 256;
+    return settings;
+}
+
+ExperimentResult run(const Experiment& e) {
+    return run_experiment(e, small_run(), [](std::string_view) {});
+}
+
+bool all_hold(const ExperimentResult& result) {
+    return std::all_of(result.expectations.begin(), result.expectations.end(),
+                       [](const ExpectationResult& e) { return e.holds; });
+}
+
+std::vector<std::string> expected_variants(const Expectation& expectation) {
+    if (const auto* limit = std::get_if<AtMost>(&expectation)) return {limit->variant};
+    return std::get<Falling>(expectation).variants;
+}
+
+TEST(Registry, NamesAreUniqueScenesExistAndExpectationsReferToVariants) {
+    std::set<std::string> names;
+    for (const Experiment& e : all_experiments()) {
+        EXPECT_TRUE(names.insert(e.name).second) << e.name;
+        EXPECT_TRUE(std::filesystem::exists(kScenes / e.scene)) << e.scene;
+        EXPECT_FALSE(e.expectations.empty()) << e.name;
+        std::set<std::string> labels;
+        for (const Variant& v : e.variants) EXPECT_TRUE(labels.insert(v.label).second) << v.label;
+        for (const Expectation& expectation : e.expectations)
+            for (const std::string& label : expected_variants(expectation))
+                EXPECT_EQ(labels.count(label), 1u) << label;
+    }
+}
+
+TEST(Run, ExpectationsHoldInSmallImages) {
+    for (const Experiment& e : all_experiments()) {
+        const ExperimentResult result = run(e);
+        EXPECT_EQ(result.reference.width, 64);
+        EXPECT_GT(result.share_outside_penumbrae, 0.5) << e.name;
+        EXPECT_LT(result.share_outside_penumbrae, 0.99) << e.name << " should have penumbrae";
+        for (const VariantResult& v : result.variants) EXPECT_EQ(v.invalid_pixels, 0) << v.label;
+        for (const ExpectationResult& expectation : result.expectations)
+            EXPECT_TRUE(expectation.holds) << e.name << ": " << expectation.text;
+    }
+}
+
+// Solid angle sampling posing as projected solid angle sampling must be noticed.
+TEST(Run, ExpectationsFailForAnImpostor) {
+    Experiment mutant = experiment("line-diffuse");
+    for (Variant& v : mutant.variants) v.settings.technique = render_cpu::Technique::solid_angle;
+    const ExperimentResult result = run(mutant);
+    for (const ExpectationResult& expectation : result.expectations)
+        EXPECT_FALSE(expectation.holds) << expectation.text;
+}
+
+TEST(Run, NamesTheMissingScene) {
+    Experiment lost = experiment("line-diffuse");
+    lost.scene = "no-such-scene.pbrt";
+    try {
+        run(lost);
+        FAIL() << "no exception";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("no-such-scene.pbrt"), std::string::npos) << error.what();
+    }
+}
+
+TEST(Report, HasATableRowAndAnImagePerVariant) {
+    const ExperimentResult result = run(experiment("line-diffuse"));
+    EXPECT_TRUE(all_hold(result));
+    std::string name = (std::filesystem::temp_directory_path() / "nusselt_report_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    const std::filesystem::path folder = std::filesystem::path(name) / "page";
+    write_report(result, folder);
+    std::ifstream stream(folder / "index.html");
+    const std::string html{std::istreambuf_iterator<char>(stream), {}};
+    for (const VariantResult& v : result.variants) {
+        EXPECT_NE(html.find("<td>" + v.label + "<td>"), std::string::npos) << v.label;
+        EXPECT_NE(html.find("src=\"" + v.label + ".png\""), std::string::npos) << v.label;
+        for (const char* suffix : {".png", ".exr", "-difference.png"})
+            EXPECT_GT(std::filesystem::file_size(folder / (v.label + suffix)), 100u) << v.label << suffix;
+    }
+    EXPECT_EQ(html.find("does not hold"), std::string::npos);
+    std::filesystem::remove_all(name);
+}
+
+} // namespace
+
+} // namespace nusselt::experiments
