@@ -59,22 +59,27 @@ struct DecentralSector {
         const Real inner_cosine = outer_cosine + rise;
 
         const Real x2 = x * x;
-        const Real limit = Real(kSmallTangent * kSmallTangent);
-        const auto outer_narrow = x2 * outer_squared <= limit * outer_cosine * outer_cosine;
-        const auto inner_narrow = x2 * inner_squared <= limit * inner_cosine * inner_cosine;
+        const Real outer_sine2 = x2 * outer_squared;
+        const Real inner_sine2 = x2 * inner_squared;
+        // Both angles are at most an eighth of a turn.
+        const auto outer_narrow = outer_sine2 <= outer_cosine * outer_cosine;
+        const auto inner_narrow = inner_sine2 <= inner_cosine * inner_cosine;
         const auto narrow = (outer_cosine > Real(0)) & outer_narrow & inner_narrow;
-
-        // angle / sine = (1 - k) / cosine with k of the order of the squared angle.
-        const Real inverse_outer = Real(1) / select(narrow, outer_cosine, Real(1));
-        const Real inverse_inner = Real(1) / select(narrow, inner_cosine, Real(1));
-        const Real outer_k =
-            one_minus_atan_ratio(select(narrow, x2 * outer_squared * inverse_outer * inverse_outer, Real(0)));
-        const Real inner_k =
-            one_minus_atan_ratio(select(narrow, x2 * inner_squared * inverse_inner * inverse_inner, Real(0)));
-        Real difference = inverse_inner * fma(rise * inverse_outer, Real(1) - outer_k, inner_k - outer_k);
+        Real difference = Real(0);
+        if (any(narrow)) {
+            // angle / sine = (1 - k) / cosine with k of the order of the squared angle.
+            const Real inverse = Real(1) / select(narrow, outer_cosine * inner_cosine, Real(1));
+            const Real outer_inverse = inverse * inner_cosine;
+            const Real inner_inverse = inverse * outer_cosine;
+            const Real outer_k =
+                one_minus_atan_ratio(min(outer_sine2 * outer_inverse * outer_inverse, Real(1)));
+            const Real inner_k =
+                one_minus_atan_ratio(min(inner_sine2 * inner_inverse * inner_inverse, Real(1)));
+            difference = fma(rise * inverse, Real(1) - outer_k, inner_inverse * (inner_k - outer_k));
+        }
         if (!all(narrow)) {
-            const Real outer_sine = x * sqrt(outer_squared);
-            const Real inner_sine = x * sqrt(inner_squared);
+            const Real outer_sine = sqrt(outer_sine2);
+            const Real inner_sine = sqrt(inner_sine2);
             const auto usable = (outer_sine > Real(0)) & (inner_sine > Real(0));
             const Real more = x2 * dot(lift, outer_normal + inner_normal) /
                               select(usable, inner_sine + outer_sine, Real(1));
@@ -108,10 +113,10 @@ struct DecentralSector {
         const Real outer_1 = sqrt(f1.outer * fh.outer);
         const Real inner_0 = sqrt((f0.outer + f0.rise) * (fh.outer + fh.rise));
         const Real inner_1 = sqrt((f1.outer + f1.rise) * (fh.outer + fh.rise));
-        const Real more_0 = fma(f0.rise, fh.outer + fh.rise, f0.outer * fh.rise) / (inner_0 + outer_0);
-        const Real more_1 = fma(f1.rise, fh.outer + fh.rise, f1.outer * fh.rise) / (inner_1 + outer_1);
-        const Real quad_0 = middle * more_0 / (outer_0 * inner_0);
-        const Real quad_1 = (Real(1) - middle) * more_1 / (outer_1 * inner_1);
+        const Real squares_0 = fma(f0.rise, fh.outer + fh.rise, f0.outer * fh.rise);
+        const Real squares_1 = fma(f1.rise, fh.outer + fh.rise, f1.outer * fh.rise);
+        const Real quad_0 = middle * squares_0 / (outer_0 * inner_0 * (inner_0 + outer_0));
+        const Real quad_1 = (Real(1) - middle) * squares_1 / (outer_1 * inner_1 * (inner_1 + outer_1));
         const Real rest = fma(fraction, quad_1, fma(fraction, quad_0, -quad_0));
         const auto first = rest <= Real(0);
 
@@ -122,10 +127,12 @@ struct DecentralSector {
         const Real width = select(first, middle, Real(1) - middle);
         const Real target = max(select(first, rest + quad_0, quad_1 - rest), Real(0)) /
                             select(width > Real(0), width, Real(1));
-        const Real outer_slope = select(first, outer_0, outer_1) - f.outer;
+        const Real outer_root = select(first, outer_0, outer_1);
+        const Real inner_root = select(first, inner_0, inner_1);
+        const Real outer_slope = outer_root - f.outer;
         const Real inner_form = f.outer + f.rise;
-        const Real inner_slope = select(first, inner_0, inner_1) - inner_form;
-        const Real more = select(first, more_0, more_1);
+        const Real inner_slope = inner_root - inner_form;
+        const Real more = select(first, squares_0, squares_1) / (inner_root + outer_root);
         const Real a = more - f.rise - target * outer_slope * inner_slope;
         const Real b = Real(0.5) * (f.rise - target * fma(f.outer, inner_slope, outer_slope * inner_form));
         const Real v = min(max(root_near_zero(a, b, -target * f.outer * inner_form), Real(0)), Real(1));

@@ -141,8 +141,8 @@ private:
     struct Event {
         Vec3<Real> vertex;
         Vec3<Real> offset; ///< from vertex 0, accurate relative to the size of the light
-        Vec3<Real> data;   ///< outer edge: the edge; inner edge: upward normal of its plane with the origin
-        Real kind;         ///< 1: an outer edge begins, -1: an inner one, 0: neither
+        Vec3<Real> data; ///< outer edge: the edge; inner edge: normal (x, y, 1) of its plane with the origin
+        Real kind;       ///< 1: an outer edge begins, -1: an inner one, 0: neither
     };
 
     static constexpr int successor(int k) noexcept { return k + 1 < kSectors ? k + 1 : 0; }
@@ -201,7 +201,8 @@ private:
         Vec3<Real> offset = zero;
         for (int j = 0; j < kSectors; ++j) {
             const int before = j > 0 ? j - 1 : kSectors - 1;
-            const Vec3<Real> upward = -n[before];
+            const Real inverse = Real(1) / select(is_inner[before], n[before].z, Real(1));
+            const Vec3<Real> upward{inverse * n[before].x, inverse * n[before].y, Real(1)};
             const Event begins_inner{polygon.vertex[j], offset, upward, Real(-1)};
             inner = select_event(is_outer[j] & is_inner[before], begins_inner, inner);
             event[j] = {polygon.vertex[j], offset, select(is_outer[j], polygon.edge[j], upward),
@@ -216,13 +217,17 @@ private:
             a = select_event(swap, b, a);
             b = select_event(swap, c, b);
         });
+        // Both edges of a sector go on in the next one or meet another edge at the boundary: only the ends of
+        // sectors need to be computed.
+        Real begin = Real(0);
         for (int k = 0; k + 1 < kSectors; ++k) {
-            outer = select_event(event[k].kind > Real(0), event[k], outer);
+            const auto begins_outer = event[k].kind > Real(0);
+            outer = select_event(begins_outer, event[k], outer);
             inner = select_event(event[k].kind < Real(0), event[k], inner);
+            begin = select(begins_outer, Real(0), begin);
             const auto paired = decentral & (outer.kind > Real(0)) & (inner.kind < Real(0));
-            DecentralSector<Real> sector;
-            const Real begin = crossing(outer, event[k]);
             const Real end = max(crossing(outer, event[k + 1]), begin);
+            DecentralSector<Real> sector;
             sector.begin = outer.vertex + begin * outer.data;
             sector.chord = (end - begin) * outer.data;
             sector.begin_gap = gap(outer, begin, inner);
@@ -234,6 +239,7 @@ private:
             begin_gap_[k] = select(decentral, sector.begin_gap, begin_gap_[k]);
             end_gap_[k] = select(decentral, sector.end_gap, end_gap_[k]);
             doubled_area_[k] = select(paired & is_finite(doubled), doubled, doubled_area_[k]);
+            begin = end;
         }
     }
 
@@ -248,8 +254,7 @@ private:
     /// Height of the plane of an inner edge above a point of an outer edge.
     NUSSELT_HD static Real gap(const Event& outer, const Real& x, const Event& inner) noexcept {
         const Vec3<Real> from_inner = (outer.offset - inner.offset) + x * outer.data;
-        const auto usable = inner.data.z > Real(0);
-        return max(-dot(inner.data, from_inner) / select(usable, inner.data.z, Real(1)), Real(0));
+        return max(-dot(inner.data, from_inner), Real(0));
     }
 
     NUSSELT_HD static Event select_event(const mask_t<Real>& mask, const Event& a, const Event& b) noexcept {
