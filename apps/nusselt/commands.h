@@ -48,6 +48,11 @@ struct BenchSamplersOptions {
     std::optional<std::string> json; ///< "-" is the standard output, instead of the table
 };
 
+struct BenchAccuracyOptions {
+    int count = 10000;
+    std::optional<std::filesystem::path> markdown;
+};
+
 struct ReproduceOptions {
     std::vector<std::string> experiments; ///< empty: all
     std::filesystem::path output = "out/reproduce";
@@ -67,6 +72,7 @@ void setup_reproduce(CLI::App& app, int& exit_code);
 // Below `bench`.
 void setup_bench_rays(CLI::App& bench, int& exit_code);
 void setup_bench_samplers(CLI::App& bench, int& exit_code);
+void setup_bench_accuracy(CLI::App& bench, int& exit_code);
 
 /// Renders and writes the images.
 /// \returns 0, or 130 if it was interrupted
@@ -80,6 +86,9 @@ int run_bench_rays(const BenchRaysOptions& options);
 
 /// Measures the cost of each technique and prints or writes the table.
 int run_bench_samplers(const BenchSamplersOptions& options);
+
+/// Measures the accuracy of each technique and prints or writes the tables.
+int run_bench_accuracy(const BenchAccuracyOptions& options);
 
 /// Runs experiments, prints their tables and writes a page for each.
 /// \returns 0, or 1 if an expectation does not hold

@@ -168,7 +168,12 @@ void setup_render(CLI::App& app, int& exit_code) {
         "--json", options->json,
         "Write times and numbers of rays as JSON to a file, or with - to the standard output.\n"
         "Default: none");
-    command->callback([options, &exit_code] { exit_code = run_render(*options); });
+    command->callback([options, &exit_code] {
+        if (options->camera_rays && options->samples % *options->camera_rays != 0)
+            throw CLI::ValidationError("--camera-rays", fmt::format("{} does not divide --spp, which is {}",
+                                                                    *options->camera_rays, options->samples));
+        exit_code = run_render(*options);
+    });
 }
 
 int run_render(const RenderOptions& options) {

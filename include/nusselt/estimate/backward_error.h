@@ -1,0 +1,35 @@
+#pragma once
+/// How wrong a sample is: the change of the random number that would explain it.
+///
+/// C. Peters 2021, BRDF Importance Sampling for Linear Lights, Sec. 3.4, and BRDF Importance Sampling for
+/// Polygonal Lights, Sec. 3.6. An error of a direction says little where directions are dense; an error of
+/// the random number is directly comparable to the spacing of random numbers.
+
+#include <nusselt/core/vec.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// Backward error of a technique for lines.
+/// \param u  the random number that was given to sample().
+/// \param wi the direction that sample() returned.
+/// \return |invert(wi) - u|, with the precision of invert() in Real: use long double to judge a method, Real
+/// as
+///         in rendering to judge rounding. For a technique without light, |u|.
+template <class Technique, class Real>
+NUSSELT_HD inline Real backward_error(const Technique& technique, const Real& u,
+                                      const Vec3<Real>& wi) noexcept {
+    return abs(technique.invert(wi) - u);
+}
+
+/// Backward error of a technique for polygons: of the first random number, the azimuth, which is what the
+/// projected solid angle technique iterates for; the second one follows in closed form. Relative to the whole
+/// light, where the papers use the sector that the sample falls into. Where the zenith lies in the light,
+/// azimuths are cyclic and rounding may exchange 0 for almost 1. \copydetails backward_error(const
+/// Technique&, const Real&, const Vec3<Real>&)
+template <class Technique, class Real>
+NUSSELT_HD inline Real backward_error(const Technique& technique, const Vec2<Real>& u,
+                                      const Vec3<Real>& wi) noexcept {
+    return abs(technique.invert(wi).x - u.x);
+}
+
+NUSSELT_NAMESPACE_END
