@@ -18,8 +18,9 @@ using render_cpu::Technique;
 constexpr int kSize = 40;
 constexpr float kRadiance = 5;
 
-const std::array<Float3, 4> kPanel = {Float3{-0.4f, -0.3f, 0.9f}, Float3{-0.4f, 0.5f, 0.7f},
-                                      Float3{0.6f, 0.5f, 0.7f}, Float3{0.6f, -0.3f, 0.9f}};
+/// All of the floor that the camera sees lies in front of it.
+const std::array<Float3, 4> kPanel = {Float3{-0.4f, -0.3f, 0.7f}, Float3{-0.4f, 0.5f, 0.9f},
+                                      Float3{0.6f, 0.5f, 0.9f}, Float3{0.6f, -0.3f, 0.7f}};
 
 scene::Scene make_panel_scene() {
     scene::Scene scene = make_floor(kSize);
@@ -76,13 +77,12 @@ std::vector<double> reference(const scene::Scene& scene, const image::Image& see
     for (int y = 0; y < kSize; ++y)
         for (int x = 0; x < kSize; ++x) {
             const auto& camera = scene.camera;
-            const Vec3<double> direction = to_vec(camera.corner) + (x + 0.5) * to_vec(camera.right) +
-                                           (y + 0.5) * to_vec(camera.down);
+            const Vec3<double> direction =
+                to_vec(camera.corner) + (x + 0.5) * to_vec(camera.right) + (y + 0.5) * to_vec(camera.down);
             const Vec3<double> eye = to_vec(camera.origin);
             const Vec3<double> point = eye + (-eye.z / direction.z) * direction;
-            const bool on_floor =
-                direction.z < 0 && std::fabs(point.x) < 4 && std::fabs(point.y) < 4 &&
-                seen_lights.pixels[3 * static_cast<std::size_t>(y * kSize + x)] == 0;
+            const bool on_floor = direction.z < 0 && std::fabs(point.x) < 4 && std::fabs(point.y) < 4 &&
+                                  seen_lights.pixels[3 * static_cast<std::size_t>(y * kSize + x)] == 0;
             result.push_back(on_floor ? floor_radiance(point) : std::nan(""));
         }
     return result;
@@ -179,7 +179,8 @@ TEST_P(ClosedForm, ProjectedSolidAngleHasNoVariance) {
 
 /// Its bias is small, but not zero.
 TEST_P(ClosedForm, BiasedVariantIsClose) {
-    for (const auto& row : ratio_rows(Technique::projected_solid_angle_biased, renderer_.visibility().tracer()))
+    for (const auto& row :
+         ratio_rows(Technique::projected_solid_angle_biased, renderer_.visibility().tracer()))
         for (const double ratio : row) ASSERT_NEAR(ratio, 1, 1e-2);
 }
 

@@ -14,7 +14,8 @@ constexpr int kSize = 24;
 
 void expect_sane_images(const scene::Scene& scene) {
     const render_cpu::Renderer renderer(scene, 2);
-    for (const render_cpu::Isa isa : {render_cpu::Isa::sse42, render_cpu::Isa::avx2, render_cpu::Isa::avx512}) {
+    for (const render_cpu::Isa isa :
+         {render_cpu::Isa::sse42, render_cpu::Isa::avx2, render_cpu::Isa::avx512}) {
         if (!is_supported(isa)) continue;
         for (const auto technique : render_cpu::kTechniques) {
             render_cpu::RenderSettings settings;
@@ -39,7 +40,8 @@ TEST(HostileScenes, DegenerateTriangles) {
     const Float3 p{0, 0, 1};
     add_quad(scene, {p, p, p, p}, 0);
     add_quad(scene, {Float3{-1, 0, 1}, Float3{0, 0, 1}, Float3{1, 0, 1}, Float3{0.5f, 0, 1}}, 0);
-    add_quad(scene, {Float3{-1, 0, 1}, Float3{1, 0, 1}, Float3{1, 0, 1 + 1e-7f}, Float3{-1, 0, 1 + 1e-7f}}, 1);
+    add_quad(scene, {Float3{-1, 0, 1}, Float3{1, 0, 1}, Float3{1, 0, 1 + 1e-7f}, Float3{-1, 0, 1 + 1e-7f}},
+             1);
     expect_sane_images(scene);
 }
 
@@ -50,9 +52,10 @@ TEST(HostileScenes, DegenerateLights) {
     add_polygon_light(scene, {p, p, p, p}, radiance, true, 0);
     add_polygon_light(scene, {p, Float3{0.5f, 0, 1}, Float3{1, 0, 1}, Float3{0.2f, 0, 1}}, radiance, true, 0);
     // On the floor, and through it.
-    add_polygon_light(scene,
-                      {Float3{-0.5f, -0.5f, 0}, Float3{0.5f, -0.5f, 0}, Float3{0.5f, 0.5f, 0}, Float3{-0.5f, 0.5f, 0}},
-                      radiance, true, 1);
+    add_polygon_light(
+        scene,
+        {Float3{-0.5f, -0.5f, 0}, Float3{0.5f, -0.5f, 0}, Float3{0.5f, 0.5f, 0}, Float3{-0.5f, 0.5f, 0}},
+        radiance, true, 1);
     add_polygon_light(scene,
                       {Float3{0, -0.5f, -1}, Float3{0, 0.5f, -1}, Float3{0, 0.5f, 1}, Float3{0, -0.5f, 1}},
                       radiance, true, 1);
@@ -79,9 +82,9 @@ TEST(HostileScenes, LightWithEightCornersOneOfThemRepeated) {
 
 TEST(HostileScenes, CameraInThePlaneOfALight) {
     scene::Scene scene = make_box_scene(kSize);
-    add_polygon_light(scene,
-                      {Float3{-0.5f, -1.5f, 1}, Float3{0.5f, -1.5f, 1}, Float3{0.5f, 1, 1}, Float3{-0.5f, 1, 1}},
-                      {2, 2, 2}, true, 0);
+    add_polygon_light(
+        scene, {Float3{-0.5f, -1.5f, 1}, Float3{0.5f, -1.5f, 1}, Float3{0.5f, 1, 1}, Float3{-0.5f, 1, 1}},
+        {2, 2, 2}, true, 0);
     set_camera(scene, {0, -4, 1}, {0, 0, 1}, {0, 0, 1}, 0.3, kSize, kSize);
     expect_sane_images(scene);
     // And on the light.
@@ -92,7 +95,8 @@ TEST(HostileScenes, CameraInThePlaneOfALight) {
 TEST(HostileScenes, ShadingNormalsOfAllKinds) {
     scene::Scene scene = make_box_scene(kSize);
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    const Float3 kinds[] = {{0, 0, 0}, {0, 0, -1}, {1, 0, 0}, {nan, 0, 1}, {1e-30f, 1e-30f, 1e-30f}, {1e30f, 0, 1}};
+    const Float3 kinds[] = {{0, 0, 0},    {0, 0, -1}, {1, 0, 0}, {nan, 0, 1}, {1e-30f, 1e-30f, 1e-30f},
+                            {1e30f, 0, 1}};
     for (std::size_t i = 0; i < scene.normals.size(); ++i) scene.normals[i] = kinds[i * 7 % std::size(kinds)];
     expect_sane_images(scene);
 }

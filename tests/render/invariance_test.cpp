@@ -79,7 +79,8 @@ TEST(Invariance, UnitOfLengthChangesNextToNothing) {
     for (const auto technique : render_cpu::kTechniques) {
         const image::Image reference = render(scene, 2, isa, technique);
         for (const float factor : {1e-3f, 1e3f})
-            EXPECT_LE(differing_share(reference, render(scaled(scene, factor), 2, isa, technique), 1e-3), 2e-3)
+            EXPECT_LE(differing_share(reference, render(scaled(scene, factor), 2, isa, technique), 1e-3),
+                      2e-3)
                 << render_cpu::name_of(technique) << ", " << factor;
     }
 }

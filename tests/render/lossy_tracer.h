@@ -16,7 +16,8 @@ public:
 
     /// Valid as long as this object.
     visibility::RayTracer tracer() const {
-        return {{intersect<4>, occluded<4>}, {intersect<8>, occluded<8>}, {intersect<16>, occluded<16>}, this};
+        return {
+            {intersect<4>, occluded<4>}, {intersect<8>, occluded<8>}, {intersect<16>, occluded<16>}, this};
     }
 
 private:

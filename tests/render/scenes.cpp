@@ -22,8 +22,9 @@ void add_box(scene::Scene& scene, const Float3& low, const Float3& high, int mat
     const auto corner = [&](int i) {
         return Float3{i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
     };
-    for (const std::array<int, 4>& face : {std::array{0, 1, 5, 4}, std::array{1, 3, 7, 5}, std::array{3, 2, 6, 7},
-                                           std::array{2, 0, 4, 6}, std::array{4, 5, 7, 6}})
+    for (const std::array<int, 4>& face :
+         {std::array{0, 1, 5, 4}, std::array{1, 3, 7, 5}, std::array{3, 2, 6, 7}, std::array{2, 0, 4, 6},
+          std::array{4, 5, 7, 6}})
         add_quad(scene, {corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])}, material);
 }
 
@@ -85,8 +86,8 @@ void add_polygon_light(scene::Scene& scene, const std::array<Float3, 4>& corners
     add_quad(scene, corners, material, index);
 }
 
-void set_camera(scene::Scene& scene, const Float3& eye, const Float3& target, const Float3& up, double tangent,
-                int width, int height) {
+void set_camera(scene::Scene& scene, const Float3& eye, const Float3& target, const Float3& up,
+                double tangent, int width, int height) {
     const Float3 forward = unit(minus(target, eye));
     const Float3 right = unit(cross(forward, up));
     const Float3 down = cross(forward, right);
@@ -94,8 +95,8 @@ void set_camera(scene::Scene& scene, const Float3& eye, const Float3& target, co
     scene.camera.origin = eye;
     scene.camera.right = times(pixel, right);
     scene.camera.down = times(pixel, down);
-    scene.camera.corner = plus(forward, plus(times(-0.5 * width, scene.camera.right),
-                                             times(-0.5 * height, scene.camera.down)));
+    scene.camera.corner =
+        plus(forward, plus(times(-0.5 * width, scene.camera.right), times(-0.5 * height, scene.camera.down)));
     scene.film.width = width;
     scene.film.height = height;
 }
@@ -113,7 +114,8 @@ void set_radius(scene::Scene& scene) {
         include(light.end);
     }
     const Float3 diagonal = minus(high, low);
-    scene.radius = 0.5 * std::sqrt(diagonal.x * diagonal.x + diagonal.y * diagonal.y + diagonal.z * diagonal.z);
+    scene.radius =
+        0.5 * std::sqrt(diagonal.x * diagonal.x + diagonal.y * diagonal.y + diagonal.z * diagonal.z);
 }
 
 scene::Scene scaled(scene::Scene scene, float factor) {
@@ -173,7 +175,8 @@ std::vector<double> region_means(const image::Image& image, int regions_per_axis
             const auto row = static_cast<std::size_t>(y * regions_per_axis / image.height);
             const auto region = row * n + static_cast<std::size_t>(x * regions_per_axis / image.width);
             const std::size_t pixel = 3 * static_cast<std::size_t>(y * image.width + x);
-            for (std::size_t channel = 0; channel < 3; ++channel) sums[region] += image.pixels[pixel + channel];
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                sums[region] += image.pixels[pixel + channel];
             counts[region] += 3;
         }
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= counts[i];

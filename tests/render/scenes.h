@@ -20,8 +20,8 @@ void add_polygon_light(scene::Scene& scene, const std::array<Float3, 4>& corners
                        bool two_sided, int material);
 
 /// A pinhole camera with square pixels. \param tangent of half the field of view along the height
-void set_camera(scene::Scene& scene, const Float3& eye, const Float3& target, const Float3& up, double tangent,
-                int width, int height);
+void set_camera(scene::Scene& scene, const Float3& eye, const Float3& target, const Float3& up,
+                double tangent, int width, int height);
 
 /// Sets Scene::radius from all coordinates.
 void set_radius(scene::Scene& scene);
@@ -55,8 +55,8 @@ double t_statistic(const std::vector<double>& a, const std::vector<double>& b);
 double largest_t(const std::vector<std::vector<double>>& rows, const std::vector<double>& expected);
 double largest_t(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b);
 
-/// Student's t with at least 31 degrees of freedom exceeds this with a probability of 1e-5, Sidak-corrected for
-/// the number of regions (and below 1e-3 for all tests of this folder together).
+/// Student's t with at least 31 degrees of freedom exceeds this with a probability of 1e-5, Sidak-corrected
+/// for the number of regions (and below 1e-3 for all tests of this folder together).
 inline constexpr double kLargestT = 6.3;
 inline constexpr int kSeeds = 32;
 

@@ -37,7 +37,8 @@ TEST_F(TechniqueAgreement, SameExpectation) {
     for (const auto order : render_cpu::kSampleOrders) {
         settings_.sample_order = order;
         const auto reference = rows(Technique::projected_solid_angle, tracer);
-        for (const Technique technique : {Technique::area, Technique::solid_angle, Technique::clipped_solid_angle})
+        for (const Technique technique :
+             {Technique::area, Technique::solid_angle, Technique::clipped_solid_angle})
             EXPECT_LT(largest_t(rows(technique, tracer), reference), kLargestT)
                 << render_cpu::name_of(technique) << ", " << render_cpu::name_of(order);
     }

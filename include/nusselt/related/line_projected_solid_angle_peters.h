@@ -6,8 +6,8 @@
 /// and 2 with Eq. 1 to 3. Use LineProjectedSolidAngle instead: this one loses its precision for short and
 /// distant lights, and gives NaN where the light points at the shading point or lies in the horizon.
 
+#include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/line_segment.h>
-#include <nusselt/sampling/light_sample.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

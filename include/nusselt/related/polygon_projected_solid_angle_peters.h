@@ -7,8 +7,8 @@
 /// network, as suits scalar code. Use PolygonProjectedSolidAngle instead: this one loses small lights to the
 /// difference of two arctangents, and its iteration diverges at some corners on the horizon.
 
+#include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/convex_polygon.h>
-#include <nusselt/sampling/light_sample.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

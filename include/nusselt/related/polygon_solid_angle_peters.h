@@ -6,8 +6,8 @@
 /// Sec. 5, with the determinant by a Householder reflection. Use PolygonSolidAngle instead: this one takes
 /// small lights from their rounded directions.
 
+#include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/convex_polygon.h>
-#include <nusselt/sampling/light_sample.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

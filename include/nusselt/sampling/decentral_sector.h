@@ -165,6 +165,7 @@ struct DecentralSector {
         Real x = initial_position(fraction);
         if constexpr (Iterations > 0) {
             const Real target = fraction * doubled_total;
+            const Real tolerance = Real(std::numeric_limits<scalar_t<Real>>::epsilon()) * doubled_total;
             Real best = x;
             Real least = Real(std::numeric_limits<scalar_t<Real>>::max());
             for (int i = 0;; ++i) {
@@ -172,7 +173,7 @@ struct DecentralSector {
                 const auto better = abs(missing) < least;
                 best = select(better, x, best);
                 least = select(better, abs(missing), least);
-                if (i == Iterations) break;
+                if (i == Iterations || !any(least > tolerance)) break;
                 x = step(x, missing);
             }
             x = best;

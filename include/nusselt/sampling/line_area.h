@@ -2,8 +2,8 @@
 /// Uniform sampling of the length of a linear light. It needs no trigonometry, but is noisy close to the
 /// light.
 
+#include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/line_segment.h>
-#include <nusselt/sampling/light_sample.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

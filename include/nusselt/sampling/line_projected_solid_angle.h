@@ -8,8 +8,8 @@
 /// from the begin of the light; the iteration also runs near the ends, where it needs no exception in this
 /// form.
 
+#include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_line.h>
-#include <nusselt/sampling/light_sample.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

@@ -5,8 +5,8 @@
 /// Eq. 1. Deviations: everything is expressed by the end points, so that nothing cancels for short or distant
 /// lights; neither preparation nor sampling needs inverse trigonometry beyond one arctangent.
 
+#include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_line.h>
-#include <nusselt/sampling/light_sample.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

@@ -4,8 +4,8 @@
 ///
 /// G. Turk 1992, Generating Random Points in Triangles, Graphics Gems I, for each triangle of a fan.
 
+#include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/convex_polygon.h>
-#include <nusselt/sampling/light_sample.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

@@ -8,11 +8,11 @@
 /// the tangent plane (decentral_sector.h), so that small lights keep their precision; the central case
 /// interpolates along the great circle of the edge; the iteration keeps its best result.
 
+#include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_polygon.h>
 #include <nusselt/geometry/polygon_measures.h>
 #include <nusselt/geometry/sorting_network.h>
 #include <nusselt/sampling/decentral_sector.h>
-#include <nusselt/sampling/light_sample.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -137,12 +137,12 @@ private:
         Real sweep, doubled_area, fraction;
     };
 
-    /// A vertex and what begins there when going counterclockwise around the zenith.
+    /// A vertex and the edge that begins there when going counterclockwise around the zenith.
     struct Event {
         Vec3<Real> vertex;
         Vec3<Real> offset; ///< from vertex 0, accurate relative to the size of the light
-        Vec3<Real> data; ///< outer edge: the edge; inner edge: normal (x, y, 1) of its plane with the origin
-        Real kind;       ///< 1: an outer edge begins, -1: an inner one, 0: neither
+        Vec3<Real> edge;   ///< counterclockwise
+        Real kind;         ///< 1: an outer edge begins, -1: an inner one, 0: neither
     };
 
     static constexpr int successor(int k) noexcept { return k + 1 < kSectors ? k + 1 : 0; }
@@ -173,7 +173,7 @@ private:
         }
         central_ = !decentral;
         if (any(central_)) prepare_central(n, is_outer);
-        if (any(decentral)) prepare_decentral(polygon, n, is_outer, is_inner);
+        if (any(decentral)) prepare_decentral(polygon, is_outer, is_inner);
         doubled_total_ = Real(0);
         for (int j = 0; j < kSectors; ++j) doubled_total_ = doubled_total_ + doubled_area_[j];
     }
@@ -189,7 +189,7 @@ private:
     }
 
     /// Sorts the vertices by azimuth and pairs outer and inner edges (Sec. 3.7).
-    NUSSELT_HD void prepare_decentral(const ConvexPolygon<Real, kSectors>& polygon, const Vec3<Real>* n,
+    NUSSELT_HD void prepare_decentral(const ConvexPolygon<Real, kSectors>& polygon,
                                       const mask_t<Real>* is_outer, const mask_t<Real>* is_inner) noexcept {
         const auto decentral = !central_;
         const Vec3<Real> zero{Real(0), Real(0), Real(0)};
@@ -201,11 +201,10 @@ private:
         Vec3<Real> offset = zero;
         for (int j = 0; j < kSectors; ++j) {
             const int before = j > 0 ? j - 1 : kSectors - 1;
-            const Real inverse = Real(1) / select(is_inner[before], n[before].z, Real(1));
-            const Vec3<Real> upward{inverse * n[before].x, inverse * n[before].y, Real(1)};
-            const Event begins_inner{polygon.vertex[j], offset, upward, Real(-1)};
+            const Vec3<Real> backward = -polygon.edge[before];
+            const Event begins_inner{polygon.vertex[j], offset, backward, Real(-1)};
             inner = select_event(is_outer[j] & is_inner[before], begins_inner, inner);
-            event[j] = {polygon.vertex[j], offset, select(is_outer[j], polygon.edge[j], upward),
+            event[j] = {polygon.vertex[j], offset, select(is_outer[j], polygon.edge[j], backward),
                         select(is_outer[j], Real(1), select(is_inner[before], Real(-1), Real(0)))};
             offset = offset + polygon.edge[j];
         }
@@ -221,45 +220,70 @@ private:
         // sectors need to be computed.
         Real begin = Real(0);
         for (int k = 0; k + 1 < kSectors; ++k) {
-            const auto begins_outer = event[k].kind > Real(0);
+            const auto begins_outer = (event[k].kind > Real(0)) & leads_further(event[k], outer);
+            const auto begins_inner = (event[k].kind < Real(0)) & leads_further(event[k], inner);
             outer = select_event(begins_outer, event[k], outer);
-            inner = select_event(event[k].kind < Real(0), event[k], inner);
+            inner = select_event(begins_inner, event[k], inner);
             begin = select(begins_outer, Real(0), begin);
             const auto paired = decentral & (outer.kind > Real(0)) & (inner.kind < Real(0));
             const Real end = max(crossing(outer, event[k + 1]), begin);
-            DecentralSector<Real> sector;
-            sector.begin = outer.vertex + begin * outer.data;
-            sector.chord = (end - begin) * outer.data;
-            sector.begin_gap = gap(outer, begin, inner);
-            sector.end_gap = gap(outer, end, inner);
-            sector.doubled_triangle = det(xy(sector.begin), xy(sector.chord));
-            const Real doubled = sector.template doubled_area_to<Angles>(Real(1));
-            begin_[k] = select(decentral, sector.begin, begin_[k]);
-            chord_[k] = select(decentral, sector.chord, chord_[k]);
-            begin_gap_[k] = select(decentral, sector.begin_gap, begin_gap_[k]);
-            end_gap_[k] = select(decentral, sector.end_gap, end_gap_[k]);
-            doubled_area_[k] = select(paired & is_finite(doubled), doubled, doubled_area_[k]);
+            // Repeated vertices and unused slots make sectors without width.
+            const auto present = paired & (end > begin);
+            if (any(present)) {
+                DecentralSector<Real> sector;
+                const Vec3<Real> upward = slope_of(inner);
+                sector.begin = outer.vertex + begin * outer.edge;
+                sector.chord = (end - begin) * outer.edge;
+                sector.begin_gap = gap(outer, begin, inner, upward);
+                sector.end_gap = gap(outer, end, inner, upward);
+                sector.doubled_triangle = det(xy(sector.begin), xy(sector.chord));
+                const Real doubled = sector.template doubled_area_to<Angles>(Real(1));
+                begin_[k] = select(present, sector.begin, begin_[k]);
+                chord_[k] = select(present, sector.chord, chord_[k]);
+                begin_gap_[k] = select(present, sector.begin_gap, begin_gap_[k]);
+                end_gap_[k] = select(present, sector.end_gap, end_gap_[k]);
+                doubled_area_[k] = select(present & is_finite(doubled), doubled, doubled_area_[k]);
+            }
             begin = end;
         }
     }
 
+    /// Whether an edge ends at a larger azimuth than the one that it would replace. Where the edge at an end
+    /// of the polygon has practically one azimuth, rounding may sort its ends the wrong way round; it must
+    /// not replace the long edge that follows it.
+    NUSSELT_HD static mask_t<Real> leads_further(const Event& next, const Event& current) noexcept {
+        const Vec3<Real> end = current.vertex + current.edge;
+        const Vec3<Real> beyond = (next.offset - current.offset) + (next.edge - current.edge);
+        const Real turn = det(xy(end), xy(beyond));
+        return (current.kind == Real(0)) | (turn > Real(0));
+    }
+
     /// Where, as a share of the edge, the azimuth of a vertex meets an outer edge.
     NUSSELT_HD static Real crossing(const Event& outer, const Event& at) noexcept {
-        const Real slope = det(xy(at.vertex), xy(outer.data));
+        const Real slope = det(xy(at.vertex), xy(outer.edge));
         const Real distance = det(xy(at.vertex), xy(at.offset - outer.offset));
         // det(vertex, outer.vertex + x edge) = 0, with outer.vertex = vertex - (offset - outer.offset).
         return min(max(distance / select(slope > Real(0), slope, Real(1)), Real(0)), Real(1));
     }
 
+    /// The normal of the plane through the origin and an inner edge, scaled to z = 1.
+    NUSSELT_HD static Vec3<Real> slope_of(const Event& inner) noexcept {
+        const Vec3<Real> n = cross(inner.vertex, inner.edge);
+        const Real inverse = Real(1) / select(n.z > Real(0), n.z, Real(1));
+        return {inverse * n.x, inverse * n.y, Real(1)};
+    }
+
     /// Height of the plane of an inner edge above a point of an outer edge.
-    NUSSELT_HD static Real gap(const Event& outer, const Real& x, const Event& inner) noexcept {
-        const Vec3<Real> from_inner = (outer.offset - inner.offset) + x * outer.data;
-        return max(-dot(inner.data, from_inner), Real(0));
+    /// \param upward of slope_of(inner).
+    NUSSELT_HD static Real gap(const Event& outer, const Real& x, const Event& inner,
+                               const Vec3<Real>& upward) noexcept {
+        const Vec3<Real> from_inner = (outer.offset - inner.offset) + x * outer.edge;
+        return max(-dot(upward, from_inner), Real(0));
     }
 
     NUSSELT_HD static Event select_event(const mask_t<Real>& mask, const Event& a, const Event& b) noexcept {
         return {select(mask, a.vertex, b.vertex), select(mask, a.offset, b.offset),
-                select(mask, a.data, b.data), select(mask, a.kind, b.kind)};
+                select(mask, a.edge, b.edge), select(mask, a.kind, b.kind)};
     }
 
     NUSSELT_HD Selection select_sector(const Real& u) const noexcept {

@@ -6,9 +6,9 @@
 /// area of the triangle times the distance of its plane, which cancels nowhere, instead of a Householder
 /// reflection; the hit point comes from barycentric coordinates.
 
+#include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_polygon.h>
 #include <nusselt/geometry/polygon_measures.h>
-#include <nusselt/sampling/light_sample.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

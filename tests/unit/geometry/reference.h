@@ -130,12 +130,13 @@ Polygon vertices_of(const nusselt::ConvexPolygon<T, N>& polygon) {
 }
 
 template <class T>
-Point begin_of(const nusselt::LineSegment<T>& line) {
+Point widened_begin(const nusselt::LineSegment<T>& line) {
     return nusselt::broadcast<long double>(line.p0);
 }
 template <class T>
-Point end_of(const nusselt::LineSegment<T>& line) {
-    return begin_of(line) + static_cast<long double>(line.length) * nusselt::broadcast<long double>(line.s);
+Point widened_end(const nusselt::LineSegment<T>& line) {
+    return widened_begin(line) +
+           static_cast<long double>(line.length) * nusselt::broadcast<long double>(line.s);
 }
 
 } // namespace nusselt_test

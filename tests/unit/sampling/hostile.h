@@ -151,8 +151,10 @@ private:
         case 1: // collinear vertices; no area if it is a triangle
             v[j] = 0.5 * (v[before] + v[next]);
             break;
-        case 2: // no area
-            for (Vec& p : v) p = v[0] + random_.uniform() * (v[1] - v[0]);
+        case 2: // no area: along a line and back
+            for (int i = 2; i < count; ++i) {
+                v[static_cast<std::size_t>(i)] = v[0] + (count - i) / (count - 1.0) * (v[1] - v[0]);
+            }
             break;
         case 3: // point on a vertex
             translate(v, -v[j]);
@@ -182,15 +184,27 @@ private:
         case 10: { // wall with vertical edges, standing on the horizon or crossing it
             const double top = random_.log_between(1e-3, 1e3);
             const double bottom = random_.index(2) == 0 ? 0 : random_.between(-1, 1) * top;
-            v = {{v[0].x, v[0].y, bottom}, {v[1].x, v[1].y, bottom}, {v[1].x, v[1].y, top}, {v[0].x, v[0].y, top}};
+            v = {{v[0].x, v[0].y, bottom},
+                 {v[1].x, v[1].y, bottom},
+                 {v[1].x, v[1].y, top},
+                 {v[0].x, v[0].y, top}};
             break;
         }
-        case 11: // in the plane of the horizon, or parallel to it
-            for (Vec& p : v) p.z = random_.index(2) == 0 ? 0 : v[0].z;
+        case 11: { // in the plane of the horizon, or parallel to it
+            const double z = random_.index(2) == 0 ? 0 : v[0].z;
+            for (Vec& p : v) p.z = z;
             break;
-        default: // straight edge along the horizon
-            for (Vec& p : v) p.z -= middle.z;
+        }
+        default: { // shear that puts an edge on the horizon
+            const Vec along = v[next] - v[j];
+            const double slope = along.z / (along.x * along.x + along.y * along.y + 1e-300);
+            const Vec begin = v[j];
+            for (Vec& p : v) {
+                const Vec offset = p - begin;
+                p.z = offset.z - slope * (offset.x * along.x + offset.y * along.y);
+            }
             v[j].z = v[next].z = 0;
+        }
         }
     }
 

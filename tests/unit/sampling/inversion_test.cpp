@@ -9,11 +9,13 @@
 namespace nusselt_test {
 namespace {
 
-/// Budgets in units of the rounding error of T; one table for all techniques, since the condition of the lights
-/// dominates: a direction has an error of one rounding, and the random number changes by the reciprocal of the
-/// angular width of the light, about 100 for the small ones, per change of the direction.
+/// Budgets in units of the rounding error of T; one table for all techniques, since the condition of the
+/// lights dominates: a direction has an error of one rounding, and the random number changes by the
+/// reciprocal of the angular width of the light, about 100 for the small ones, per change of the direction.
 template <class T>
 constexpr T kInversionBudget = 2000 * std::numeric_limits<T>::epsilon();
+/// What the default number of iterations leaves in exact arithmetic; matters for long double only.
+constexpr double kIterationBudget = 1e-12;
 template <class T>
 constexpr T kDirectionBudget = 16 * std::numeric_limits<T>::epsilon();
 template <class T>
@@ -21,7 +23,7 @@ constexpr T kPdfBudget = 600 * std::numeric_limits<T>::epsilon();
 template <class T>
 constexpr T kUnitBudget = 4 * std::numeric_limits<T>::epsilon();
 template <class T>
-constexpr T kHitBudget = 100 * std::numeric_limits<T>::epsilon();
+constexpr T kHitBudget = 200 * std::numeric_limits<T>::epsilon();
 
 /// Whether one component of a random number came back. Where it hardly moves the direction (a fan of rays
 /// meets in a vertex or at the zenith, two boundaries meet at the end of a sector), the direction decides; so
@@ -29,7 +31,7 @@ constexpr T kHitBudget = 100 * std::numeric_limits<T>::epsilon();
 template <class Technique, class T>
 bool recovered(const Technique& technique, const nusselt::Vec2<T>& u, T error,
                const nusselt::Vec2<T>& with_error) {
-    return std::fabs(error) <= kInversionBudget<T> ||
+    return std::fabs(error) <= kInversionBudget<T> + T(kIterationBudget) ||
            length(technique.sample(with_error).wi - technique.sample(u).wi) <= kDirectionBudget<T>;
 }
 
@@ -42,8 +44,7 @@ template <class Test>
 class InversionTest : public ::testing::Test {};
 
 template <class Test>
-using Scalars =
-    ::testing::Types<Instance<Test, float>, Instance<Test, double>, Instance<Test, long double>>;
+using Scalars = ::testing::Types<Instance<Test, float>, Instance<Test, double>, Instance<Test, long double>>;
 
 TYPED_TEST_SUITE_P(InversionTest);
 
@@ -62,7 +63,8 @@ TYPED_TEST_P(InversionTest, ReturnsTheRandomNumber) {
                     EXPECT_TRUE(recovered(technique, u, inverse.y - y, {x, inverse.y}))
                         << light.name << " at " << x << ", " << y << " y is " << inverse.y;
                 } else {
-                    EXPECT_LE(std::fabs(inverse - x), kInversionBudget<T>) << light.name << " at " << x;
+                    EXPECT_LE(std::fabs(inverse - x), kInversionBudget<T> + T(kIterationBudget))
+                        << light.name << " at " << x;
                 }
             }
         }
@@ -135,7 +137,8 @@ REGISTER_TYPED_TEST_SUITE_P(InversionTest, ReturnsTheRandomNumber, SampleReturns
 
 INSTANTIATE_TYPED_TEST_SUITE_P(PolygonArea, InversionTest, Scalars<PolygonAreaKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(PolygonSolidAngle, InversionTest, Scalars<PolygonSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(PolygonClippedSolidAngle, InversionTest, Scalars<PolygonClippedSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonClippedSolidAngle, InversionTest,
+                               Scalars<PolygonClippedSolidAngleKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(PolygonProjectedSolidAngle, InversionTest,
                                Scalars<PolygonProjectedSolidAngleKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(LineArea, InversionTest, Scalars<LineAreaKind>);

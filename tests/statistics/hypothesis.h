@@ -1,0 +1,101 @@
+#pragma once
+/// Goodness-of-fit tests. A test of many samples answers with a p-value: the probability that a correct
+/// sampler looks at least as wrong as this one.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace nusselt_test {
+
+/// Probability that a chi-square variable exceeds a value: the regularised upper incomplete gamma function.
+inline double chi_square_p_value(double statistic, int degrees_of_freedom) {
+    const double a = 0.5 * degrees_of_freedom;
+    const double x = 0.5 * statistic;
+    if (x <= 0) return 1;
+    const double factor = std::exp(a * std::log(x) - x - std::lgamma(a));
+    if (x < a + 1) { // power series of the lower function
+        double term = 1 / a;
+        double sum = term;
+        for (int n = 1; term > 1e-17 * sum; ++n) {
+            term *= x / (a + n);
+            sum += term;
+        }
+        return 1 - factor * sum;
+    }
+    // Continued fraction, evaluated from the back.
+    double fraction = 0;
+    for (int n = 500; n >= 1; --n) fraction = n * (n - a) / (2 * n + 1 + x - a - fraction);
+    return factor / (1 + x - a - fraction);
+}
+
+/// p-value of Pearson's test. Cells with few expected samples are pooled; a sample in a cell that must be
+/// empty counts as a proof of error.
+inline double chi_square_test(const std::vector<double>& expected,
+                              const std::vector<std::int64_t>& observed) {
+    constexpr double kLeastExpected = 10;
+    double statistic = 0;
+    int cells = 0;
+    double pooled_expected = 0;
+    double pooled_observed = 0;
+    const auto add = [&](double e, double o) {
+        statistic += (o - e) * (o - e) / e;
+        ++cells;
+    };
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        const auto count = static_cast<double>(observed[i]);
+        if (expected[i] >= kLeastExpected) {
+            add(expected[i], count);
+        } else {
+            pooled_expected += expected[i];
+            pooled_observed += count;
+        }
+    }
+    if (pooled_expected >= kLeastExpected) {
+        add(pooled_expected, pooled_observed);
+    } else if (pooled_observed > pooled_expected + 5 * std::sqrt(kLeastExpected) + kLeastExpected) {
+        return 0;
+    }
+    return chi_square_p_value(statistic, cells - 1);
+}
+
+/// p-value of the test of Kolmogorov and Smirnov for values that shall be uniform in [0, 1].
+inline double kolmogorov_smirnov_test(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const auto count = static_cast<double>(values.size());
+    double largest = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto rank = static_cast<double>(i);
+        largest = std::max({largest, values[i] - rank / count, (rank + 1) / count - values[i]});
+    }
+    const double lambda = (std::sqrt(count) + 0.12 + 0.11 / std::sqrt(count)) * largest;
+    if (lambda < 0.2) return 1;
+    double sum = 0;
+    for (int k = 1; k <= 100; ++k) {
+        sum += (k % 2 == 1 ? 2 : -2) * std::exp(-2.0 * k * k * lambda * lambda);
+    }
+    return std::clamp(sum, 0.0, 1.0);
+}
+
+/// Whether the smallest of several independent p-values is too small, at a significance of 0.1 % for all
+/// tests together (Šidák's correction). Seeds are fixed: a correct sampler passes always or never.
+inline bool reject(const std::vector<double>& p_values) {
+    const double smallest = *std::min_element(p_values.begin(), p_values.end());
+    const double count = static_cast<double>(p_values.size());
+    return smallest < 1 - std::pow(1 - 1e-3, 1 / count);
+}
+
+/// Uniform random numbers in [0, 1) with the resolution of float.
+class UniformFloats {
+public:
+    explicit UniformFloats(std::uint64_t seed) : engine_(seed) {}
+    float operator()() { return static_cast<float>(engine_() >> 40) * 0x1p-24f; }
+
+private:
+    std::mt19937_64 engine_;
+};
+
+} // namespace nusselt_test

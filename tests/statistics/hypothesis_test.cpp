@@ -1,0 +1,47 @@
+/// The tests of the tests: p-values from tables, uniform samples pass, others do not.
+
+#include "hypothesis.h"
+
+#include <gtest/gtest.h>
+
+namespace nusselt_test {
+namespace {
+
+TEST(HypothesisTest, ChiSquareValuesFromTables) {
+    EXPECT_NEAR(chi_square_p_value(3.841459, 1), 0.05, 1e-6);
+    EXPECT_NEAR(chi_square_p_value(18.307038, 10), 0.05, 1e-6);
+    EXPECT_NEAR(chi_square_p_value(3.940299, 10), 0.95, 1e-6);
+    EXPECT_NEAR(chi_square_p_value(124.342113, 100), 0.05, 1e-6);
+    EXPECT_NEAR(chi_square_p_value(149.449, 100), 0.001, 1e-6);
+    EXPECT_EQ(chi_square_p_value(0, 5), 1);
+}
+
+TEST(HypothesisTest, ChiSquareComparesCounts) {
+    EXPECT_NEAR(chi_square_test({50, 50}, {60, 40}), chi_square_p_value(4, 1), 1e-12);
+    // The last two cells are one.
+    EXPECT_NEAR(chi_square_test({50, 41, 5, 5}, {60, 31, 10, 0}), chi_square_p_value(4.0 / 2 + 100.0 / 41, 2),
+                1e-12);
+    EXPECT_EQ(chi_square_test({50, 50, 0}, {30, 30, 40}), 0);
+}
+
+TEST(HypothesisTest, KolmogorovSmirnov) {
+    UniformFloats random(1);
+    std::vector<double> uniform(20'000);
+    for (double& x : uniform) x = random();
+    EXPECT_GT(kolmogorov_smirnov_test(uniform), 0.01);
+    // The critical value for 5 % is 1.3581 / sqrt(n).
+    std::vector<double> shifted;
+    for (int i = 0; i < 10'000; ++i) shifted.push_back((i + 0.5) / 10'000 + 0.013581 - 0.5 / 10'000);
+    EXPECT_NEAR(kolmogorov_smirnov_test(shifted), 0.05, 1e-3);
+    for (double& x : uniform) x *= x;
+    EXPECT_LT(kolmogorov_smirnov_test(uniform), 1e-10);
+}
+
+TEST(HypothesisTest, CorrectsForTheNumberOfTests) {
+    EXPECT_TRUE(reject({0.5, 0.0004, 0.9}) == false);
+    EXPECT_TRUE(reject({0.5, 0.0003, 0.9}));
+    EXPECT_TRUE(reject({0.0009}));
+}
+
+} // namespace
+} // namespace nusselt_test

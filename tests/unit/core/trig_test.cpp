@@ -1,0 +1,161 @@
+/// The error bounds that core/trig.h promises, on dense grids, and packs against scalars bit for bit.
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <nusselt/core/trig.h>
+#include <nusselt/simd/pack.h>
+
+namespace nusselt_test {
+namespace {
+
+constexpr long double kPi = 3.141592653589793238462643383279502884L;
+
+struct Largest {
+    long double error = 0;
+    float at = 0;
+    void add(long double candidate, float argument) {
+        if (candidate > error) error = candidate, at = argument;
+    }
+};
+
+/// Calls f with the sides of a right triangle for angles all over [0, pi], dense near multiples of pi / 8
+/// where formulas change, and at tiny angles.
+template <class Function>
+void for_each_direction(const Function& f) {
+    for (int i = 1; i < 400'000; ++i) {
+        const long double angle = kPi * i / 400'000;
+        f(static_cast<float>(std::sin(angle)), static_cast<float>(std::cos(angle)));
+    }
+    for (int k = 0; k <= 8; ++k) {
+        for (int i = -2000; i <= 2000; ++i) {
+            const long double angle = k * kPi / 8 + i * 1e-7L;
+            f(std::max(static_cast<float>(std::sin(angle)), 0.0f), static_cast<float>(std::cos(angle)));
+        }
+    }
+    for (float tiny = 1e-37f; tiny < 1; tiny *= 1.37f) {
+        f(tiny, 1);
+        f(1, tiny);
+        f(1, -tiny);
+        f(tiny, -1);
+        f(1e38f * tiny, 1e30f);
+    }
+}
+
+TEST(TrigTest, ArctangentIsPreciseInFloat) {
+    Largest relative;
+    for_each_direction([&](float y, float x) {
+        const long double exact = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
+        const long double error = std::fabs(nusselt::atan2_positive(y, x) - exact);
+        if (exact > 0) relative.add(error / exact, y / x);
+    });
+    EXPECT_LE(relative.error, 3e-7L) << "at the tangent " << relative.at;
+    EXPECT_GT(relative.error, 1e-8L);
+}
+
+TEST(TrigTest, FastArctangentHasTheDocumentedError) {
+    Largest absolute;
+    for_each_direction([&](float y, float x) {
+        const long double exact = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
+        absolute.add(std::fabs(nusselt::atan2_positive_fast(y, x) - exact), y / x);
+        absolute.add(std::fabs(nusselt::atan2_positive_fast(double{y}, double{x}) - exact), y / x);
+    });
+    EXPECT_LE(absolute.error, 1.3e-5L) << "at the tangent " << absolute.at;
+    EXPECT_GT(absolute.error, 1e-6L);
+}
+
+template <class T>
+class ArctangentTest : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double, long double>;
+TYPED_TEST_SUITE(ArctangentTest, Scalars);
+
+TYPED_TEST(ArctangentTest, SpecialArguments) {
+    using T = TypeParam;
+    const T pi = nusselt::kPi<T>;
+    EXPECT_EQ(nusselt::atan2_positive(T(0), T(0)), 0);
+    EXPECT_EQ(nusselt::atan2_positive(T(0), T(1)), 0);
+    EXPECT_EQ(nusselt::atan2_positive(T(0), T(-1)), pi);
+    EXPECT_EQ(nusselt::atan2_positive(T(-1), T(1)), 0);
+    EXPECT_EQ(nusselt::atan2_positive(T(-1), T(-1)), pi);
+    EXPECT_EQ(nusselt::atan2_positive(std::numeric_limits<T>::quiet_NaN(), T(1)), 0);
+    EXPECT_NEAR(nusselt::atan2_positive(T(1), T(0)), pi / 2, std::numeric_limits<T>::epsilon());
+}
+
+TEST(TrigTest, SineAndCosineArePreciseInFloat) {
+    Largest relative_sine, absolute_sine, absolute_cosine;
+    for (int i = 0; i <= 2'000'000; ++i) {
+        const auto angle = std::min(static_cast<float>(kPi * i / 2'000'000), nusselt::kPi<float>);
+        const auto [sine, cosine] = nusselt::sincos_half_turn(angle);
+        const long double exact_sine = std::sin(static_cast<long double>(angle));
+        const long double error = std::fabs(sine - exact_sine);
+        if (kPi - angle > 1e-4L) {
+            if (angle > 0) relative_sine.add(error / exact_sine, angle);
+        } else {
+            absolute_sine.add(error, angle);
+        }
+        absolute_cosine.add(std::fabs(cosine - std::cos(static_cast<long double>(angle))), angle);
+    }
+    EXPECT_LE(relative_sine.error, 2e-7L) << "at " << relative_sine.at;
+    EXPECT_LE(absolute_sine.error, 2e-7L) << "at " << absolute_sine.at;
+    EXPECT_LE(absolute_cosine.error, 1.2e-7L) << "at " << absolute_cosine.at;
+}
+
+TYPED_TEST(ArctangentTest, AngleMinusSineKeepsItsPrecision) {
+    using T = TypeParam;
+    for (T x = T(1e-6); x < 3; x *= T(1.01)) {
+        const auto wide = static_cast<long double>(x);
+        // Six terms of the series for small angles, the definition for others.
+        long double term = wide * wide * wide / 6;
+        long double series = 0;
+        for (int k = 1; k < 30; ++k) {
+            series += term;
+            term *= -wide * wide / ((2 * k + 2) * (2 * k + 3));
+        }
+        const T actual = nusselt::x_minus_sin(x, nusselt::sincos_half_turn(x).sin);
+        EXPECT_NEAR(actual / series, 1, 10 * std::numeric_limits<T>::epsilon()) << x;
+    }
+}
+
+template <class Packed>
+class PackTrigTest : public ::testing::Test {};
+using Packs = ::testing::Types<nusselt::Pack<float, nusselt::kNativeLanes<float>>,
+                               nusselt::Pack<double, nusselt::kNativeLanes<double>>>;
+TYPED_TEST_SUITE(PackTrigTest, Packs);
+
+template <class T>
+bool same_bits(T a, T b) {
+    return std::memcmp(&a, &b, sizeof(T)) == 0;
+}
+
+TYPED_TEST(PackTrigTest, LanesEqualScalars) {
+    using T = nusselt::scalar_t<TypeParam>;
+    constexpr int kLanes = nusselt::RealTraits<TypeParam>::kLanes;
+    for (int round = 0; round < 2000; ++round) {
+        TypeParam y(T(0)), x(T(0)), angle(T(0));
+        for (int i = 0; i < kLanes; ++i) {
+            const T turn =
+                nusselt::kPi<T> * static_cast<T>(round * kLanes + i) / static_cast<T>(2000 * kLanes);
+            angle.set_lane(i, turn);
+            y.set_lane(i, std::sin(turn) * static_cast<T>(1 + i));
+            x.set_lane(i, std::cos(turn));
+        }
+        const TypeParam arctangent = nusselt::atan2_positive(y, x);
+        const TypeParam fast = nusselt::atan2_positive_fast(y, x);
+        const auto [sine, cosine] = nusselt::sincos_half_turn(angle);
+        const TypeParam difference = nusselt::x_minus_sin(angle, sine);
+        for (int i = 0; i < kLanes; ++i) {
+            EXPECT_PRED2(same_bits<T>, arctangent.lane(i), nusselt::atan2_positive(y.lane(i), x.lane(i)));
+            EXPECT_PRED2(same_bits<T>, fast.lane(i), nusselt::atan2_positive_fast(y.lane(i), x.lane(i)));
+            const auto scalar = nusselt::sincos_half_turn(angle.lane(i));
+            EXPECT_PRED2(same_bits<T>, sine.lane(i), scalar.sin);
+            EXPECT_PRED2(same_bits<T>, cosine.lane(i), scalar.cos);
+            EXPECT_PRED2(same_bits<T>, difference.lane(i), nusselt::x_minus_sin(angle.lane(i), scalar.sin));
+        }
+    }
+}
+
+} // namespace
+} // namespace nusselt_test

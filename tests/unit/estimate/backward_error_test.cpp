@@ -1,0 +1,206 @@
+/// The accuracy of the iterative techniques in exact arithmetic, as far as long double shows it: the figures
+/// of the papers and of the doc comments.
+
+#include <nusselt/estimate/backward_error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "geometry/reference.h"
+#include "sampling/hostile.h"
+#include "sampling/techniques.h"
+
+namespace nusselt_test {
+namespace {
+
+using Real = long double;
+using PolygonLight = nusselt::ConvexPolygon<Real, 4>;
+using LineLight = nusselt::LineSegment<Real>;
+template <int Iterations>
+using PolygonTechnique = nusselt::PolygonProjectedSolidAngle<Real, 4, Iterations>;
+template <int Iterations>
+using LineTechnique = nusselt::LineProjectedSolidAngle<Real, Iterations>;
+
+/// Random numbers close to the ends are the hard ones.
+Real hard_random_number(RandomSource& random) {
+    const double tail = random.log_between(1e-7, 0.5);
+    return random.index(2) == 0 ? tail : 1 - tail;
+}
+
+/// A planar triangle or quad of any orientation whose center is at distance 1; often cut by the horizon.
+PolygonLight random_polygon(RandomSource& random) {
+    const auto widen = [](const nusselt::Vec3<double>& v) { return nusselt::broadcast<Real>(v); };
+    const Point center = widen(random.direction());
+    const Point a = widen(random.direction());
+    const Point b = normalize(cross(a, widen(random.direction())));
+    const Real size = random.log_between(0.1, 30);
+    const int count = 3 + random.index(2);
+    const Real start = random.between(0, 6.3);
+    Point v[4];
+    for (int j = 0; j < count; ++j) {
+        const Real angle = start + 2 * kPi * (static_cast<Real>(j) + Real(0.8) * random.uniform()) / count;
+        v[j] = center + (size * std::cos(angle)) * a + (size * std::sin(angle)) * b;
+    }
+    return nusselt::make_polygon<4>(v, count);
+}
+
+LineLight random_line(RandomSource& random) {
+    const Real half = random.log_between(0.05, 100);
+    const Point middle = nusselt::broadcast<Real>(random.direction());
+    const Point direction = nusselt::broadcast<Real>(random.direction());
+    return nusselt::make_line(middle - half * direction, middle + half * direction);
+}
+
+/// Projected solid angle of the part of a polygon above the horizon within the azimuths counterclockwise from
+/// a to b, at most half a turn apart.
+Real within(const Polygon& polygon, const Point& a, const Point& b) {
+    return lambert(cut(cut(polygon, {-a.y, a.x, 0}), {b.y, -b.x, 0}));
+}
+
+/// The first random number of a direction from first principles: cut the polygon by the half-plane through
+/// the z axis and the direction and apply Lambert's formula.
+Real azimuth_fraction(const PolygonLight& light, const Point& wi) {
+    const Polygon polygon = above_horizon(vertices_of(light));
+    const bool counterclockwise = dot(light.normal, light.vertex[0]) >= 0;
+    // Begins at the first vertex after clipping in the central case, else at the end of the polygon.
+    Point begin = polygon.front();
+    Real smallest = 1;
+    Real inside = 1;
+    for (std::size_t j = 0; j < polygon.size(); ++j) {
+        const Point& next = polygon[(j + 1) % polygon.size()];
+        const Real turn = polygon[j].x * next.y - polygon[j].y * next.x;
+        inside = std::min(inside, counterclockwise ? turn : -turn);
+    }
+    if (inside < 0) {
+        for (const Point& v : polygon) {
+            Real worst = 1;
+            for (const Point& other : polygon) {
+                const Real turn = v.x * other.y - v.y * other.x;
+                worst = std::min(worst, counterclockwise ? turn : -turn);
+            }
+            if (smallest == 1 || worst > smallest) {
+                begin = v;
+                smallest = worst;
+            }
+        }
+    } else {
+        begin = nusselt::clip_to_horizon(light).vertex[0];
+    }
+    const Real total = lambert(polygon);
+    const auto turn = begin.x * wi.y - begin.y * wi.x;
+    const Real ahead = counterclockwise ? turn : -turn;
+    const Real to_wi = counterclockwise ? within(polygon, begin, wi) : within(polygon, wi, begin);
+    const Real from_wi = counterclockwise ? within(polygon, wi, begin) : within(polygon, begin, wi);
+    return ahead >= 0 ? to_wi / total : 1 - from_wi / total;
+}
+
+TEST(BackwardErrorTest, InversionOfPolygonsAgreesWithCuttingThem) {
+    RandomSource random(1);
+    int compared = 0;
+    while (compared < 3000) {
+        const PolygonLight light = random_polygon(random);
+        const PolygonTechnique<3> technique(light);
+        const nusselt::Vec2<Real> u{random.between(1e-4, 1 - 1e-4), random.between(0.01, 0.99)};
+        if (technique.measure() < 1e-2L) continue;
+        const Point wi = technique.sample(u).wi;
+        EXPECT_NEAR(technique.invert(wi).x, azimuth_fraction(light, wi), 1e-12L);
+        ++compared;
+    }
+}
+
+TEST(BackwardErrorTest, InversionOfLinesAgreesWithQuadrature) {
+    RandomSource random(2);
+    int compared = 0;
+    while (compared < 300) {
+        LineLight light = random_line(random);
+        if (light.length > 4 || light.p0.z < 0 || widened_end(light).z < 0) continue;
+        const LineTechnique<4> technique(light);
+        const auto sample = technique.sample(static_cast<Real>(random.uniform()));
+        const auto integrand = [&](const Point& p) {
+            const Real r = length(p);
+            return 2 * length(cross(p, light.s)) * p.z / (r * r * r * r);
+        };
+        const Real part = integrate(widened_begin(light), sample.p, integrand);
+        EXPECT_NEAR(technique.invert(sample.wi), part / technique.measure(), 1e-9L);
+        ++compared;
+    }
+}
+
+/// Backward errors for many random lights, sorted.
+class Errors {
+public:
+    void add(Real error) { errors_.push_back(error); }
+    int count() const { return static_cast<int>(errors_.size()); }
+    Real largest() const { return *std::max_element(errors_.begin(), errors_.end()); }
+    /// The error that a given fraction of the cases does not exceed.
+    Real quantile(double fraction) {
+        std::sort(errors_.begin(), errors_.end());
+        return errors_[static_cast<std::size_t>(fraction * count())];
+    }
+
+private:
+    std::vector<Real> errors_;
+};
+
+template <int Iterations, class RandomNumber>
+Errors polygon_errors(int count, const RandomNumber& random_number) {
+    RandomSource random(3);
+    Errors errors;
+    while (errors.count() < count) {
+        const PolygonTechnique<Iterations> technique(random_polygon(random));
+        const nusselt::Vec2<Real> u{random_number(random), random.between(0.01, 0.99)};
+        if (technique.measure() < 1e-2L) continue;
+        const Real error = nusselt::backward_error(technique, u, technique.sample(u).wi);
+        errors.add(std::min(error, 1 - error)); // cyclic where the zenith is in the light
+    }
+    return errors;
+}
+
+template <int Iterations>
+Errors line_errors(int count) {
+    RandomSource random(4);
+    Errors errors;
+    while (errors.count() < count) {
+        const LineTechnique<Iterations> technique(random_line(random));
+        const Real u = hard_random_number(random);
+        if (!(technique.measure() > 0)) continue;
+        errors.add(nusselt::backward_error(technique, u, technique.sample(u).wi));
+    }
+    return errors;
+}
+
+TEST(BackwardErrorTest, WorstCasesOfPolygons) {
+    EXPECT_LE(polygon_errors<2>(100'000, hard_random_number).largest(), 4e-5L);
+    // The bound means something: it takes both iterations.
+    EXPECT_GT(polygon_errors<1>(10'000, hard_random_number).largest(), 4e-5L);
+}
+
+TEST(BackwardErrorTest, PolygonsConvergeWithOrderThree) {
+    const auto uniform = [](RandomSource& random) -> Real { return random.uniform(); };
+    Errors start = polygon_errors<0>(20'000, uniform);
+    Errors one = polygon_errors<1>(20'000, uniform);
+    Errors two = polygon_errors<2>(20'000, uniform);
+    EXPECT_LE(start.largest(), 0.28L);
+    EXPECT_LE(start.quantile(0.99), 0.1L);
+    EXPECT_GT(start.largest(), 0.05L);
+    // The logarithm of the error triples from step to step, up to the constant factor.
+    constexpr double kQuantile = 0.9;
+    EXPECT_GT(std::log(one.quantile(kQuantile)) / std::log(start.quantile(kQuantile)), 2.5L);
+    EXPECT_GT(std::log(two.quantile(kQuantile)) / std::log(one.quantile(kQuantile)), 2.5L);
+}
+
+TEST(BackwardErrorTest, WorstCasesOfLines) {
+    EXPECT_GT(line_errors<0>(10'000).largest(), 0.05L);
+    EXPECT_LE(line_errors<2>(100'000).largest(), 1.6e-5L);
+    EXPECT_LE(line_errors<3>(20'000).largest(), 2e-7L);
+    EXPECT_LE(line_errors<4>(20'000).largest(), 3e-12L);
+    // The bounds mean something: each step is needed.
+    EXPECT_GT(line_errors<1>(10'000).largest(), 1.6e-5L);
+    EXPECT_GT(line_errors<2>(10'000).largest(), 2e-7L);
+}
+
+} // namespace
+} // namespace nusselt_test

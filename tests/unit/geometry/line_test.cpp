@@ -1,0 +1,116 @@
+/// Line segments: extents, closed forms against quadrature, clipping.
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <nusselt/geometry/clip_line.h>
+
+#include "geometry/reference.h"
+#include "sampling/hostile.h"
+#include "sampling/lights.h"
+
+namespace nusselt_test {
+namespace {
+
+template <class T>
+class LineTest : public ::testing::Test {
+protected:
+    static constexpr T kEpsilon = std::numeric_limits<T>::epsilon();
+};
+
+using Scalars = ::testing::Types<float, double, long double>;
+TYPED_TEST_SUITE(LineTest, Scalars);
+
+/// Solid angle per radius and length, seen from the origin; times the cosine for the projected one.
+struct LineIntegrand {
+    Point s;
+    long double solid_angle(const Point& p) const {
+        return 2 * length(cross(p, s)) / (dot(p, p) * length(p));
+    }
+    long double projected(const Point& p) const { return solid_angle(p) * p.z / length(p); }
+};
+
+TYPED_TEST(LineTest, ClosedFormsAgreeWithQuadrature) {
+    using T = TypeParam;
+    for (const LineCase& light : line_cases()) {
+        if (light.name == "long and close") continue; // beyond what a Gauss rule resolves
+        const auto line = make_light<T>(light);
+        const Point begin = widened_begin(line);
+        const Point end = widened_end(line);
+        const LineIntegrand integrand{nusselt::broadcast<long double>(line.s)};
+        const auto solid = [&](const Point& p) { return integrand.solid_angle(p); };
+        const auto projected = [&](const Point& p) { return integrand.projected(p); };
+        const T tolerance = std::max(20 * this->kEpsilon, T(1e-15));
+        EXPECT_NEAR(solid_angle(line) / integrate(begin, end, solid), 1, tolerance) << light.name;
+        // Cut at the horizon.
+        const Point crossing = begin + (begin.z / (begin.z - end.z)) * (end - begin);
+        const Point from = begin.z < 0 ? crossing : begin;
+        const Point to = end.z < 0 ? crossing : end;
+        EXPECT_NEAR(projected_solid_angle(line) / integrate(from, to, projected), 1, tolerance) << light.name;
+        const auto extent = clipped_extent(line);
+        EXPECT_NEAR(2 * extent.sine_extent() / extent.distance / integrate(from, to, solid), 1, tolerance)
+            << light.name;
+    }
+}
+
+TYPED_TEST(LineTest, ShortAndDistantLinesKeepTheirPrecision) {
+    using T = TypeParam;
+    // Almost on their axis, a thousand lengths away: the difference of the sines would have no digits left.
+    const auto line = make_light<T>(LineCase{"", {1000, 0.5, 3}, {1000.9, 0.5, 3.1}});
+    const LineIntegrand integrand{nusselt::broadcast<long double>(line.s)};
+    const long double expected = integrate(widened_begin(line), widened_end(line),
+                                           [&](const Point& p) { return integrand.projected(p); });
+    EXPECT_NEAR(projected_solid_angle(line) / expected, 1, std::max(20 * this->kEpsilon, T(1e-15)));
+}
+
+TYPED_TEST(LineTest, ExtentHasUnitVectors) {
+    using T = TypeParam;
+    HostileLights<T> hostile(1);
+    for (int i = 0; i < 20'000; ++i) {
+        const auto line = hostile.line();
+        const auto e = clipped_extent(scaled(line, scale_of(line)));
+        if (!e.visible) continue;
+        for (const auto& unit : {e.s, e.t, e.d0, e.d1}) EXPECT_NEAR(length(unit), 1, 16 * this->kEpsilon);
+        EXPECT_NEAR(dot(e.s, e.t), 0, 4 * this->kEpsilon);
+        EXPECT_GE(e.d0.z, 0);
+        EXPECT_GE(e.d1.z, 0);
+        EXPECT_GE(e.sweep, 0);
+        EXPECT_LE(e.sweep, nusselt::kPi<T>);
+        EXPECT_GE(e.c0, 0);
+        EXPECT_GE(e.c1, 0);
+    }
+}
+
+TYPED_TEST(LineTest, PointsOfTheExtentLieOnTheLine) {
+    using T = TypeParam;
+    for (const LineCase& light : line_cases()) {
+        const auto line = make_light<T>(light);
+        const auto e = make_line_extent(line);
+        for (int i = 0; i <= 10; ++i) {
+            const auto point = e.point_at(e.tan_half_sweep * static_cast<T>(i) / 10);
+            const auto p = e.position(point);
+            const auto direction = e.direction(point);
+            EXPECT_NEAR(length(direction), 1, 8 * this->kEpsilon) << light.name;
+            EXPECT_LE(length(cross(p, direction)), 64 * this->kEpsilon * length(p)) << light.name;
+            const T along = dot(p - line.p0, line.s);
+            EXPECT_LE(length(p - line.p0 - along * line.s), 64 * this->kEpsilon * length(p)) << light.name;
+            // Back from the direction to the angle.
+            EXPECT_NEAR(e.point_in(direction).sin, point.sin, 64 * this->kEpsilon) << light.name;
+        }
+    }
+}
+
+TYPED_TEST(LineTest, ShadingSpaceKeepsLengthAndDirection) {
+    using T = TypeParam;
+    const auto line = make_light<T>(LineCase{"", {40, 30, 20}, {40.001, 30.002, 20}});
+    const auto frame = nusselt::Frame<T>::from_normal(normalize(nusselt::Vec3<T>{1, -2, 3}));
+    const auto local = nusselt::to_shading_space(line, nusselt::Vec3<T>{1, 2, 3}, frame);
+    EXPECT_EQ(local.length, line.length);
+    EXPECT_NEAR(length(local.s), 1, 4 * this->kEpsilon);
+    EXPECT_NEAR(local.s.z, dot(frame.n, line.s), 4 * this->kEpsilon);
+}
+
+} // namespace
+} // namespace nusselt_test

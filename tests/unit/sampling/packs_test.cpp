@@ -1,0 +1,129 @@
+/// Every lane of a technique on packs against the same technique on scalars, bit for bit: with another light
+/// in each lane, with one light in all lanes, and with a neighbour lane full of NaN.
+
+#include <cstring>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "contract.h"
+#include "lights.h"
+
+namespace nusselt_test {
+namespace {
+
+template <class T>
+bool same_bits(const T& a, const T& b) {
+    return std::memcmp(&a, &b, sizeof(T)) == 0;
+}
+
+template <class Case>
+class PacksTest : public ::testing::Test {
+protected:
+    using Number = typename Case::Scalar;
+    using Random = typename Case::ScalarRandom;
+    using Sample = nusselt::LightSample<Number>;
+    using Outputs = nusselt_test::Outputs<Number, Random>;
+
+    static Outputs run_scalar(const typename Case::ScalarTechnique& technique, const Random& u) {
+        const Sample sample = technique.sample(u);
+        return {sample, technique.pdf(sample.wi), technique.invert(sample.wi), technique.measure()};
+    }
+
+    void expect_lane(const Outputs& expected, int lane) const {
+        const auto here = [&](const auto& packed, const auto& single) {
+            return get_lane<Number, std::decay_t<decltype(single)>>(packed, lane);
+        };
+        EXPECT_PRED2(same_bits<Sample>, here(sample_, expected.sample), expected.sample) << "lane " << lane;
+        EXPECT_PRED2(same_bits<Number>, here(pdf_, expected.pdf), expected.pdf) << "lane " << lane;
+        EXPECT_PRED2(same_bits<Random>, here(inverse_, expected.inverse), expected.inverse)
+            << "lane " << lane;
+        EXPECT_PRED2(same_bits<Number>, here(measure_, expected.measure), expected.measure)
+            << "lane " << lane;
+    }
+
+    void run(const typename Case::Technique& technique, const typename Case::Random& u) {
+        sample_ = technique.sample(u);
+        pdf_ = technique.pdf(sample_.wi);
+        inverse_ = technique.invert(sample_.wi);
+        measure_ = technique.measure();
+    }
+
+private:
+    nusselt::LightSample<typename Case::Real> sample_;
+    typename Case::Real pdf_, measure_;
+    typename Case::Random inverse_;
+};
+
+TYPED_TEST_SUITE_P(PacksTest);
+
+TYPED_TEST_P(PacksTest, LightPerLaneBesideNaN) {
+    using T = typename TypeParam::Scalar;
+    using Kind = typename TypeParam::Kind;
+    constexpr int kLanes = TypeParam::kLanes;
+    const auto ordinary = cases<Kind>();
+    HostileLights<T> hostile(3);
+    for (int round = 0; round < 3000 && !this->HasFailure(); ++round) {
+        const int poisoned = round % kLanes;
+        typename TypeParam::Light lights;
+        typename TypeParam::Random u;
+        typename TypeParam::ScalarLight light[kLanes];
+        typename TypeParam::ScalarRandom single_u[kLanes];
+        for (int i = 0; i < kLanes; ++i) {
+            // Half of the lights are ordinary: central and decentral cases, clipped and whole ones mix.
+            light[i] = i % 2 == 0
+                           ? make_light<T>(ordinary[static_cast<std::size_t>(round + i) % ordinary.size()])
+                           : hostile_light<Kind>(hostile);
+            single_u[i] = hostile_random<Kind>(hostile);
+            auto shown = light[i];
+            if (i == poisoned) std::memset(&shown, 0xff, sizeof shown); // quiet NaN in every number
+            set_lane<T>(lights, i, shown);
+            set_lane<T>(u, i, single_u[i]);
+        }
+        this->run(typename TypeParam::Technique(lights), u);
+        for (int i = 0; i < kLanes; ++i) {
+            if (i == poisoned) continue;
+            this->expect_lane(
+                TestFixture::run_scalar(typename TypeParam::ScalarTechnique(light[i]), single_u[i]), i);
+        }
+    }
+}
+
+TYPED_TEST_P(PacksTest, OneLightBroadcastToAllLanes) {
+    using T = typename TypeParam::Scalar;
+    using Kind = typename TypeParam::Kind;
+    constexpr int kLanes = TypeParam::kLanes;
+    HostileLights<T> hostile(4);
+    const auto ordinary = cases<Kind>();
+    for (std::size_t round = 0; round < 300 && !this->HasFailure(); ++round) {
+        const auto light =
+            round < ordinary.size() ? make_light<T>(ordinary[round]) : hostile_light<Kind>(hostile);
+        const typename TypeParam::ScalarTechnique single(light);
+        typename TypeParam::Random u;
+        typename TypeParam::ScalarRandom single_u[kLanes];
+        for (int i = 0; i < kLanes; ++i) {
+            single_u[i] = hostile_random<Kind>(hostile);
+            set_lane<T>(u, i, single_u[i]);
+        }
+        this->run(typename TypeParam::Technique(single), u);
+        for (int i = 0; i < kLanes; ++i) this->expect_lane(TestFixture::run_scalar(single, single_u[i]), i);
+    }
+}
+
+REGISTER_TYPED_TEST_SUITE_P(PacksTest, LightPerLaneBesideNaN, OneLightBroadcastToAllLanes);
+
+template <class Kind>
+using Packs = ::testing::Types<Instance<Kind, NativeFloat>, Instance<Kind, NativeDouble>>;
+
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonArea, PacksTest, Packs<PolygonAreaKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonSolidAngle, PacksTest, Packs<PolygonSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonClippedSolidAngle, PacksTest, Packs<PolygonClippedSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonProjectedSolidAngle, PacksTest, Packs<PolygonProjectedSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonBiased, PacksTest, Packs<PolygonBiasedKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(LineArea, PacksTest, Packs<LineAreaKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(LineSolidAngle, PacksTest, Packs<LineSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(LineClippedSolidAngle, PacksTest, Packs<LineClippedSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(LineProjectedSolidAngle, PacksTest, Packs<LineProjectedSolidAngleKind>);
+
+} // namespace
+} // namespace nusselt_test
