@@ -5,7 +5,8 @@
 namespace nusselt::app {
 
 void setup_bench(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("bench", "Measure how long rays and samples take, and how exact samples are");
+    CLI::App* command =
+        app.add_subcommand("bench", "Measure how long rays and samples take, and how exact samples are");
     command->require_subcommand(1);
     setup_bench_rays(*command, exit_code);
     setup_bench_samplers(*command, exit_code);

@@ -26,9 +26,12 @@ Isa parse_isa(std::string_view name, const std::string& origin) {
 
 std::string_view name_of(Isa isa) {
     switch (isa) {
-    case Isa::sse42: return "sse42";
-    case Isa::avx2: return "avx2";
-    case Isa::avx512: return "avx512";
+    case Isa::sse42:
+        return "sse42";
+    case Isa::avx2:
+        return "avx2";
+    case Isa::avx512:
+        return "avx512";
     }
     return {};
 }
@@ -41,8 +44,10 @@ bool is_supported(Isa isa) {
     const bool avx2 = sse42 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                       __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
     switch (isa) {
-    case Isa::sse42: return sse42;
-    case Isa::avx2: return avx2;
+    case Isa::sse42:
+        return sse42;
+    case Isa::avx2:
+        return avx2;
     case Isa::avx512:
         return avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
@@ -62,9 +67,12 @@ Isa choose_isa(std::optional<std::string_view> name) {
 
 RenderTile kernel_for(Isa isa) {
     switch (isa) {
-    case Isa::sse42: return render_tile_sse42;
-    case Isa::avx2: return render_tile_avx2;
-    case Isa::avx512: return render_tile_avx512;
+    case Isa::sse42:
+        return render_tile_sse42;
+    case Isa::avx2:
+        return render_tile_avx2;
+    case Isa::avx512:
+        return render_tile_avx512;
     }
     return nullptr;
 }

@@ -18,7 +18,8 @@ std::string_view name_of(Isa isa);
 bool is_supported(Isa isa);
 
 /// The instruction set to use.
-/// \param name its name; if absent, the environment variable NUSSELT_ISA, and if that is not set or empty, the
+/// \param name its name; if absent, the environment variable NUSSELT_ISA, and if that is not set or empty,
+/// the
 ///             largest one that is supported
 /// \throws std::runtime_error if the name is unknown or the instruction set not supported
 Isa choose_isa(std::optional<std::string_view> name = {});

@@ -21,7 +21,9 @@ void check_float_count(std::size_t count, const std::string& what) {
 
 Vec3<float> to_vec(const scene::Float3& v) { return {v.x, v.y, v.z}; }
 scene::Float3 to_float3(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
-scene::Float3 times(float factor, const scene::Float3& v) { return {factor * v.x, factor * v.y, factor * v.z}; }
+scene::Float3 times(float factor, const scene::Float3& v) {
+    return {factor * v.x, factor * v.y, factor * v.z};
+}
 
 MaterialRow make_row(const scene::Material& material) {
     return {{material.diffuse.x, material.diffuse.y, material.diffuse.z},
@@ -79,7 +81,8 @@ KernelArrays::KernelArrays(const scene::Scene& scene) : scene_(scene) {
         check_float_count(texture.texels.size(), "texture " + texture.name);
         textures_.push_back({texture.texels.data(), texture.width, texture.height});
     }
-    for (const scene::PolygonLight& light : scene.polygon_lights) polygon_lights_.push_back(make_record(light));
+    for (const scene::PolygonLight& light : scene.polygon_lights)
+        polygon_lights_.push_back(make_record(light));
     for (const scene::LineLight& light : scene.line_lights) line_lights_.push_back(make_record(light));
 }
 

@@ -3,7 +3,6 @@
 #include "render_cpu/flush_denormals.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 #include <x86intrin.h>
 
 #include <algorithm>
@@ -81,11 +80,20 @@ private:
 int default_thread_count() { return std::max(1, tbb::this_task_arena::max_concurrency()); }
 
 Renderer::Renderer(const scene::Scene& scene, int thread_count)
-    : scene_(scene), thread_count_(thread_count), arrays_(scene), embree_([&] {
+    : scene_(scene),
+      thread_count_(thread_count),
+      // By default oneTBB refuses more threads than the machine runs at once, with a message of its own.
+      thread_limit_(tbb::global_control::max_allowed_parallelism,
+                    static_cast<std::size_t>(std::max(thread_count, default_thread_count()))),
+      arena_(thread_count),
+      arrays_(scene),
+      embree_([&] {
           const auto begin = Clock::now();
-          visibility::EmbreeScene result(scene, thread_count);
-          build_seconds_ = seconds_since(begin);
-          return result;
+          return arena_.execute([&] {
+              visibility::EmbreeScene result(scene);
+              build_seconds_ = seconds_since(begin);
+              return result;
+          });
       }()) {}
 
 RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const RenderMonitor& monitor) const {
@@ -115,8 +123,7 @@ RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const vis
     const std::vector<Tile> tiles = make_tiles(job.width, job.height);
     Tally tally(result.image.pixels.size() / 3, monitor);
     const TickClock clock;
-    tbb::task_arena arena(thread_count_);
-    arena.execute([&] {
+    arena_.execute([&] {
         tbb::parallel_for(std::size_t(0), tiles.size(), [&](std::size_t i) {
             if (monitor.cancel != nullptr && *monitor.cancel) return;
             const FlushDenormals flush_denormals;
@@ -141,7 +148,8 @@ RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const vis
 }
 
 image::Metadata make_metadata(const RenderSettings& settings, Isa isa, const RenderResult& result) {
-    return {{"technique", std::string(name_of(settings.technique))},
+    return {{"version", NUSSELT_VERSION},
+            {"technique", std::string(name_of(settings.technique))},
             {"samples", std::to_string(settings.samples)},
             {"camera_rays", std::to_string(camera_ray_count(settings))},
             {"pixel_position", std::string(name_of(settings.pixel_position))},

@@ -8,6 +8,9 @@
 #include "scene/scene.h"
 #include "visibility/embree_scene.h"
 
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
 #include <atomic>
 #include <functional>
 
@@ -44,7 +47,7 @@ class Renderer {
 public:
     /// Builds the bounding volume hierarchy.
     /// \param scene        must outlive the renderer; its film gives the size of images
-    /// \param thread_count at least 1
+    /// \param thread_count threads for building and rendering, at least 1
     /// \throws std::runtime_error see EmbreeScene and KernelArrays
     Renderer(const scene::Scene& scene, int thread_count);
 
@@ -60,6 +63,8 @@ public:
 private:
     const scene::Scene& scene_;
     int thread_count_;
+    tbb::global_control thread_limit_;
+    mutable tbb::task_arena arena_;
     double build_seconds_ = 0;
     KernelArrays arrays_;
     visibility::EmbreeScene embree_;

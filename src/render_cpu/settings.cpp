@@ -24,36 +24,48 @@ void validate(const RenderSettings& settings) {
 
 std::string_view name_of(Technique technique) {
     switch (technique) {
-    case Technique::area: return "area";
-    case Technique::solid_angle: return "solid_angle";
-    case Technique::clipped_solid_angle: return "clipped_solid_angle";
-    case Technique::projected_solid_angle: return "projected_solid_angle";
-    case Technique::projected_solid_angle_biased: return "projected_solid_angle_biased";
+    case Technique::area:
+        return "area";
+    case Technique::solid_angle:
+        return "solid_angle";
+    case Technique::clipped_solid_angle:
+        return "clipped_solid_angle";
+    case Technique::projected_solid_angle:
+        return "projected_solid_angle";
+    case Technique::projected_solid_angle_biased:
+        return "projected_solid_angle_biased";
     }
     return {};
 }
 
 std::string_view name_of(SampleOrder order) {
     switch (order) {
-    case SampleOrder::independent: return "independent";
-    case SampleOrder::sobol: return "sobol";
-    case SampleOrder::jittered: return "jittered";
+    case SampleOrder::independent:
+        return "independent";
+    case SampleOrder::sobol:
+        return "sobol";
+    case SampleOrder::jittered:
+        return "jittered";
     }
     return {};
 }
 
 std::string_view name_of(PixelPosition position) {
     switch (position) {
-    case PixelPosition::jittered: return "jittered";
-    case PixelPosition::center: return "center";
+    case PixelPosition::jittered:
+        return "jittered";
+    case PixelPosition::center:
+        return "center";
     }
     return {};
 }
 
 std::string_view name_of(BrdfChoice brdf) {
     switch (brdf) {
-    case BrdfChoice::material: return "material";
-    case BrdfChoice::lambert: return "lambert";
+    case BrdfChoice::material:
+        return "material";
+    case BrdfChoice::lambert:
+        return "lambert";
     }
     return {};
 }

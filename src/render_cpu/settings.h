@@ -29,17 +29,17 @@ enum class BrdfChoice : std::uint32_t {
     lambert,  ///< diffuse albedo / pi
 };
 
+inline constexpr int kMaxSamples = 1 << 20;
+
 struct RenderSettings {
     Technique technique = Technique::projected_solid_angle;
-    int samples = 1;                 ///< per pixel and light, 1 to 2^20
-    std::optional<int> camera_rays;  ///< per pixel, a divisor of samples; default: see camera_ray_count()
+    int samples = 1;                ///< per pixel and light, 1 to kMaxSamples
+    std::optional<int> camera_rays; ///< per pixel, a divisor of samples; default: see camera_ray_count()
     PixelPosition pixel_position = PixelPosition::jittered;
     SampleOrder sample_order = SampleOrder::sobol;
     BrdfChoice brdf = BrdfChoice::material;
     std::uint32_t seed = 0;
 };
-
-inline constexpr int kMaxSamples = 1 << 20;
 
 /// Camera rays per pixel: as given, else one for each sample if their positions differ, else one.
 int camera_ray_count(const RenderSettings& settings);
@@ -48,10 +48,11 @@ int camera_ray_count(const RenderSettings& settings);
 void validate(const RenderSettings& settings);
 
 // All values in the order in which they are listed to users, and their names.
-inline constexpr std::array kTechniques = {Technique::area, Technique::solid_angle, Technique::clipped_solid_angle,
-                                           Technique::projected_solid_angle,
+inline constexpr std::array kTechniques = {Technique::area, Technique::solid_angle,
+                                           Technique::clipped_solid_angle, Technique::projected_solid_angle,
                                            Technique::projected_solid_angle_biased};
-inline constexpr std::array kSampleOrders = {SampleOrder::independent, SampleOrder::sobol, SampleOrder::jittered};
+inline constexpr std::array kSampleOrders = {SampleOrder::independent, SampleOrder::sobol,
+                                             SampleOrder::jittered};
 inline constexpr std::array kPixelPositions = {PixelPosition::jittered, PixelPosition::center};
 inline constexpr std::array kBrdfChoices = {BrdfChoice::material, BrdfChoice::lambert};
 std::string_view name_of(Technique technique);

@@ -16,11 +16,11 @@ inline constexpr float kLargestRayCoordinate = 1e18f;
 /// also the tubes of line lights. Immutable, usable from several threads at once.
 class EmbreeScene {
 public:
-    /// Builds the hierarchy. Copies the geometry that it needs; the scene may be destroyed afterwards.
-    /// \param thread_count threads that build, at least 1
-    /// \throws std::runtime_error if Embree reports an error (such as a lack of memory) or was built without
+    /// Builds the hierarchy with the threads of the caller's oneTBB arena. Copies the geometry that it needs;
+    /// the scene may be destroyed afterwards. \throws std::runtime_error if Embree reports an error (such as
+    /// a lack of memory) or was built without
     ///         ray masks
-    EmbreeScene(const scene::Scene& scene, int thread_count);
+    explicit EmbreeScene(const scene::Scene& scene);
     ~EmbreeScene();
     EmbreeScene(EmbreeScene&&) noexcept;
     EmbreeScene& operator=(EmbreeScene&&) noexcept;

@@ -25,12 +25,13 @@ struct HitPacket {
     float v[N];
 };
 
-/// Functions that trace packets of N rays. Bit i of `active` is lane i. Lanes that are not active, or whose ray
-/// is invalid (see EmbreeScene), hit nothing.
+/// Functions that trace packets of N rays. Bit i of `active` is lane i. Lanes that are not active, or whose
+/// ray is invalid (see EmbreeScene), hit nothing.
 template <int N>
 struct PacketTracer {
     /// Closest hits of coherent rays that see tubes.
-    void (*intersect)(const void* context, std::uint32_t active, const RayPacket<N>& rays, HitPacket<N>& hits);
+    void (*intersect)(const void* context, std::uint32_t active, const RayPacket<N>& rays,
+                      HitPacket<N>& hits);
     /// Bits of those active lanes whose ray meets a triangle; invalid rays count as blocked.
     std::uint32_t (*occluded)(const void* context, std::uint32_t active, const RayPacket<N>& rays);
 };

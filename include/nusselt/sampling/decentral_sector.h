@@ -165,7 +165,8 @@ struct DecentralSector {
         Real x = initial_position(fraction);
         if constexpr (Iterations > 0) {
             const Real target = fraction * doubled_total;
-            const Real tolerance = Real(std::numeric_limits<scalar_t<Real>>::epsilon()) * doubled_total;
+            // Rounding of the areas; nothing is gained below.
+            const Real tolerance = Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * doubled_total;
             Real best = x;
             Real least = Real(std::numeric_limits<scalar_t<Real>>::max());
             for (int i = 0;; ++i) {

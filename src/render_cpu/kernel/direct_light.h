@@ -25,7 +25,10 @@ public:
     /// \param camera_ray number of the camera rays of this packet, below job.camera_rays
     DirectLight(const render_cpu::RenderJob& job, const PixelBlock& block, const Surface& surface,
                 std::uint32_t camera_ray, render_cpu::TileStatistics& statistics) noexcept
-        : job_(job), block_(block), surface_(surface), first_sample_(camera_ray * job.light_samples),
+        : job_(job),
+          block_(block),
+          surface_(surface),
+          first_sample_(camera_ray * job.light_samples),
           statistics_(statistics) {}
 
     /// Adds the mean over the samples of one light: reflected radiance [W/(sr m^2)].
@@ -69,10 +72,12 @@ public:
 
 private:
     template <class SampleLight>
-    void add(LaneMask lit, std::uint32_t light, const Vec3<float>& emission, SampleLight sample_light) noexcept {
+    void add(LaneMask lit, std::uint32_t light, const Vec3<float>& emission,
+             SampleLight sample_light) noexcept {
         CompensatedSum sum;
         for (std::uint32_t i = 0; i < job_.light_samples; ++i) {
-            const LightSample<Real> sample = sample_light(random_for_light(job_, block_, first_sample_ + i, light));
+            const LightSample<Real> sample =
+                sample_light(random_for_light(job_, block_, first_sample_ + i, light));
             const LaneMask sampled = lit & (sample.pdf > Real(0)) & (sample.wi.z > Real(0));
             const Real cos_per_pdf = sample.wi.z / select(sampled, sample.pdf, Real(1));
             const Vector reflected = cos_per_pdf * surface_.brdf.eval(sample.wi);
@@ -140,24 +145,31 @@ using LinePsa = LineProjectedSolidAngle<Real>;
 template <int N>
 inline AddLight polygon_function(render_cpu::Technique technique) noexcept {
     switch (technique) {
-    case render_cpu::Technique::area: return &DirectLight::add_polygon<PolygonArea, N>;
-    case render_cpu::Technique::solid_angle: return &DirectLight::add_polygon<PolygonSolidAngle, N>;
+    case render_cpu::Technique::area:
+        return &DirectLight::add_polygon<PolygonArea, N>;
+    case render_cpu::Technique::solid_angle:
+        return &DirectLight::add_polygon<PolygonSolidAngle, N>;
     case render_cpu::Technique::clipped_solid_angle:
         return &DirectLight::add_polygon<PolygonClippedSolidAngle, N>;
     case render_cpu::Technique::projected_solid_angle_biased:
         return &DirectLight::add_polygon<PolygonProjectedSolidAngleBiased, N>;
-    case render_cpu::Technique::projected_solid_angle: break;
+    case render_cpu::Technique::projected_solid_angle:
+        break;
     }
     return &DirectLight::add_polygon<PolygonPsa, N>;
 }
 
 inline AddLight line_function(render_cpu::Technique technique) noexcept {
     switch (technique) {
-    case render_cpu::Technique::area: return &DirectLight::add_line<LineArea>;
-    case render_cpu::Technique::solid_angle: return &DirectLight::add_line<LineSolidAngle>;
-    case render_cpu::Technique::clipped_solid_angle: return &DirectLight::add_line<LineClippedSolidAngle>;
+    case render_cpu::Technique::area:
+        return &DirectLight::add_line<LineArea>;
+    case render_cpu::Technique::solid_angle:
+        return &DirectLight::add_line<LineSolidAngle>;
+    case render_cpu::Technique::clipped_solid_angle:
+        return &DirectLight::add_line<LineClippedSolidAngle>;
     case render_cpu::Technique::projected_solid_angle:
-    case render_cpu::Technique::projected_solid_angle_biased: break;
+    case render_cpu::Technique::projected_solid_angle_biased:
+        break;
     }
     return &DirectLight::add_line<LinePsa>;
 }

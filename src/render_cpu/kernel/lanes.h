@@ -1,8 +1,8 @@
 #pragma once
 /// The packs that kernels work with: as many lanes as the instruction set has, one pixel per lane.
 ///
-/// Everything in this folder is compiled once per instruction set. Standard containers and algorithms must not
-/// appear here: the linker would merge their inline functions across instruction sets.
+/// Everything in this folder is compiled once per instruction set. Standard containers and algorithms must
+/// not appear here: the linker would merge their inline functions across instruction sets.
 
 #include "scene/scene.h"
 

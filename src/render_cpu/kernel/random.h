@@ -38,7 +38,8 @@ inline Vec2<Real> with_sampler(render_cpu::SampleOrder order, Function function)
         return function(std::integral_constant<Sampler, Sampler::independent>());
     case render_cpu::SampleOrder::jittered:
         return function(std::integral_constant<Sampler, Sampler::jittered>());
-    case render_cpu::SampleOrder::sobol: break;
+    case render_cpu::SampleOrder::sobol:
+        break;
     }
     return function(std::integral_constant<Sampler, Sampler::sobol>());
 }

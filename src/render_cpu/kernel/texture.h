@@ -34,7 +34,8 @@ inline TexelPair texel_pair(const Real& coordinate, std::int32_t size) noexcept 
     return pair;
 }
 
-inline Vector bilinear(const render_cpu::TextureView& texture, const Vec2<Real>& uv, LaneMask active) noexcept {
+inline Vector bilinear(const render_cpu::TextureView& texture, const Vec2<Real>& uv,
+                       LaneMask active) noexcept {
     const TexelPair x = texel_pair(uv.x, texture.width);
     const TexelPair y = texel_pair(uv.y, texture.height);
     const auto texel = [&](const Indices& column, const Indices& row) {

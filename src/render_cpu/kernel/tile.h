@@ -17,8 +17,11 @@ class TileRenderer {
 public:
     TileRenderer(const render_cpu::RenderJob& job, const render_cpu::Tile& tile,
                  render_cpu::TileStatistics& statistics) noexcept
-        : job_(job), tile_(tile), statistics_(statistics),
-          add_polygon4_(polygon_function<4>(job.technique)), add_polygon8_(polygon_function<8>(job.technique)),
+        : job_(job),
+          tile_(tile),
+          statistics_(statistics),
+          add_polygon4_(polygon_function<4>(job.technique)),
+          add_polygon8_(polygon_function<8>(job.technique)),
           add_line_(line_function(job.technique)) {}
 
     void render() noexcept {
@@ -64,7 +67,8 @@ private:
         const Vector direction = camera_direction(block, camera_ray);
         const visibility::HitPacket<kLanes> hits = trace(block.inside.bits(), direction);
         std::uint32_t on_triangle = 0;
-        for (int i = 0; i < kLanes; ++i) on_triangle |= static_cast<std::uint32_t>(hits.triangle[i] >= 0) << i;
+        for (int i = 0; i < kLanes; ++i)
+            on_triangle |= static_cast<std::uint32_t>(hits.triangle[i] >= 0) << i;
         const Vector emitted = emission(hits, direction);
         if (on_triangle == 0) return emitted;
 
@@ -88,7 +92,8 @@ private:
         direction.x.store(rays.direction[0]);
         direction.y.store(rays.direction[1]);
         direction.z.store(rays.direction[2]);
-        Real(std::numeric_limits<float>::infinity()).store(rays.t_far);
+        constexpr float kInfinity = std::numeric_limits<float>::infinity();
+        Real(kInfinity).store(rays.t_far);
         visibility::HitPacket<kLanes> hits;
         const visibility::PacketTracer<kLanes>& tracer = job_.tracer;
         const std::uint64_t begin = __builtin_ia32_rdtsc();

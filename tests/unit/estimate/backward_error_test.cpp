@@ -180,9 +180,9 @@ TEST(BackwardErrorTest, WorstCasesOfPolygons) {
 
 TEST(BackwardErrorTest, PolygonsConvergeWithOrderThree) {
     const auto uniform = [](RandomSource& random) -> Real { return random.uniform(); };
-    Errors start = polygon_errors<0>(20'000, uniform);
-    Errors one = polygon_errors<1>(20'000, uniform);
-    Errors two = polygon_errors<2>(20'000, uniform);
+    Errors start = polygon_errors<0>(10'000, uniform);
+    Errors one = polygon_errors<1>(10'000, uniform);
+    Errors two = polygon_errors<2>(10'000, uniform);
     EXPECT_LE(start.largest(), 0.28L);
     EXPECT_LE(start.quantile(0.99), 0.1L);
     EXPECT_GT(start.largest(), 0.05L);

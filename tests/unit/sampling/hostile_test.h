@@ -80,7 +80,8 @@ TYPED_TEST_P(HostileTest, NeverFails) {
 
 TYPED_TEST_P(HostileTest, NeverFailsWithDenormalsFlushed) {
     const FlushDenormalsToZero flush;
-    expect_contract<TypeParam>(2, 100'000);
+    // The x87 unit of long double does not know this mode.
+    expect_contract<TypeParam>(2, sizeof(typename TypeParam::Scalar) <= 8 ? 100'000 : 1'000);
 }
 
 REGISTER_TYPED_TEST_SUITE_P(HostileTest, NeverFails, NeverFailsWithDenormalsFlushed);
