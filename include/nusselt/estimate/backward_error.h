@@ -12,9 +12,8 @@ NUSSELT_NAMESPACE_BEGIN
 /// Backward error of a technique for lines.
 /// \param u  the random number that was given to sample().
 /// \param wi the direction that sample() returned.
-/// \return |invert(wi) - u|, with the precision of invert() in Real: use long double to judge a method, Real
-/// as
-///         in rendering to judge rounding. For a technique without light, |u|.
+/// \return |invert(wi) - u| with the precision of invert() in Real: use long double to judge a method, the
+///         type of the renderer to judge rounding. For a technique without light, |u|.
 template <class Technique, class Real>
 NUSSELT_HD inline Real backward_error(const Technique& technique, const Real& u,
                                       const Vec3<Real>& wi) noexcept {
@@ -24,8 +23,7 @@ NUSSELT_HD inline Real backward_error(const Technique& technique, const Real& u,
 /// Backward error of a technique for polygons: of the first random number, the azimuth, which is what the
 /// projected solid angle technique iterates for; the second one follows in closed form. Relative to the whole
 /// light, where the papers use the sector that the sample falls into. Where the zenith lies in the light,
-/// azimuths are cyclic and rounding may exchange 0 for almost 1. \copydetails backward_error(const
-/// Technique&, const Real&, const Vec3<Real>&)
+/// azimuths are cyclic and rounding may exchange 0 for almost 1.
 template <class Technique, class Real>
 NUSSELT_HD inline Real backward_error(const Technique& technique, const Vec2<Real>& u,
                                       const Vec3<Real>& wi) noexcept {

@@ -41,11 +41,9 @@ NUSSELT_HD inline Vec3<Real> doubled_area_normal(const ConvexPolygon<Real, N>& p
 template <int N, class Real>
 NUSSELT_HD inline ConvexPolygon<Real, N> make_polygon(const Vec3<Real>* vertices, int count) noexcept {
     ConvexPolygon<Real, N> polygon;
-    for (int j = 0; j < N; ++j) {
-        polygon.vertex[j] = vertices[j < count ? j : count - 1];
-        const int next = j + 1 == N ? 0 : j + 1 < count ? j + 1 : count - 1;
-        polygon.edge[j] = vertices[next] - polygon.vertex[j];
-    }
+    polygon.vertex[0] = vertices[0];
+    for (int j = 1; j < N; ++j) polygon.vertex[j] = j < count ? vertices[j] : polygon.vertex[j - 1];
+    for (int j = 0; j < N; ++j) polygon.edge[j] = polygon.vertex[j + 1 < N ? j + 1 : 0] - polygon.vertex[j];
     polygon.normal = normalize(doubled_area_normal(polygon));
     return polygon;
 }

@@ -19,7 +19,7 @@ nusselt::ConvexPolygon<double, 4> random_quad(RandomSource& random) {
     const auto a = random.direction();
     const auto b = normalize(cross(a, random.direction()));
     const double size = random.log_between(0.1, 10);
-    nusselt::Vec3<double> v[4];
+    nusselt::Vec3<double> v[4] = {};
     for (int j = 0; j < 4; ++j) {
         const double angle = 6.283185307179586 * (j + 0.8 * random.uniform()) / 4;
         v[j] = center + (size * std::cos(angle)) * a + (size * std::sin(angle)) * b;

@@ -64,7 +64,7 @@ public:
         for (int i = 0; i < changes; ++i) deform(v);
         if (random_.index(2) == 0) std::reverse(v.begin(), v.end());
         const double unit = unit_of_length();
-        nusselt::Vec3<T> vertices[4];
+        nusselt::Vec3<T> vertices[4] = {};
         for (std::size_t j = 0; j < v.size(); ++j) vertices[j] = rounded(v[j], unit);
         return nusselt::make_polygon<4>(vertices, static_cast<int>(v.size()));
     }

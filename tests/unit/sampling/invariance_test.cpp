@@ -82,7 +82,7 @@ TYPED_TEST(InvarianceTest, UnusedSlotsChangeNothing) {
 TYPED_TEST(InvarianceTest, EightVertices) {
     // A regular octagon at height 1 with circumradius 1: eight times the triangle under one edge.
     using T = TypeParam;
-    nusselt::Vec3<T> vertices[8];
+    nusselt::Vec3<T> vertices[8] = {};
     for (int j = 0; j < 8; ++j) {
         const T angle = static_cast<T>(j) * nusselt::kPi<T> / 4;
         vertices[j] = {std::cos(angle), std::sin(angle), T(1)};

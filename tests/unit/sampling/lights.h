@@ -68,7 +68,7 @@ auto cases() {
 
 template <class T, int N = 4>
 nusselt::ConvexPolygon<T, N> make_light(const PolygonCase& polygon) {
-    std::array<nusselt::Vec3<T>, N> vertices;
+    std::array<nusselt::Vec3<T>, N> vertices = {};
     std::transform(polygon.vertices.begin(), polygon.vertices.end(), vertices.begin(),
                    [](const nusselt::Vec3<double>& v) { return nusselt::broadcast<T>(v); });
     return nusselt::make_polygon<N>(vertices.data(), static_cast<int>(polygon.vertices.size()));
