@@ -68,6 +68,17 @@ NUSSELT_HD constexpr Vec3<Real> select(const mask_t<Real>& mask, const Vec3<Real
     return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
 }
 
+/// The smaller one of each pair of components.
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real> min(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
+}
+/// The larger one of each pair of components.
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real> max(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
+}
+
 /// a * b - c * d with an error of at most 1.5 ulp barring under- and overflow, and never the wrong sign
 /// (Kahan's algorithm; Jeannerod, Louvet, Muller 2013, doi:10.1090/S0025-5718-2013-02679-8).
 template <class Real>

@@ -17,13 +17,21 @@ NUSSELT_HD inline LineSegment<Real> scaled(const LineSegment<Real>& line, const 
     return {scale * line.p0, line.s, scale * line.length};
 }
 
+/// The end of a segment, each component rounded once: where it is close to the origin, adding the length to
+/// the coordinate of the begin would turn its direction.
+template <class Real>
+NUSSELT_HD inline Vec3<Real> end_of(const LineSegment<Real>& line) noexcept {
+    return {fma(line.length, line.s.x, line.p0.x), fma(line.length, line.s.y, line.p0.y),
+            fma(line.length, line.s.z, line.p0.z)};
+}
+
 /// The extent of a whole segment, in any frame.
 template <class Real>
 NUSSELT_HD inline LineExtent<Real> make_line_extent(const LineSegment<Real>& line) noexcept {
     // Cross products with exact signs instead of p0 - (p0 . s) s, which loses the square of the distance.
     const Vec3<Real> moment = cross(line.p0, line.s);
     const Real begin = dot(line.p0, line.s);
-    return make_line_extent(line.s, cross(line.s, moment), length(moment), begin, begin + line.length,
+    return make_line_extent(line.s, cross(line.s, moment), length(moment), begin, dot(end_of(line), line.s),
                             line.length);
 }
 
@@ -33,22 +41,27 @@ template <class Real>
 NUSSELT_HD inline LineExtent<Real> clipped_extent(const LineSegment<Real>& line) noexcept {
     const Vec3<Real> moment = cross(line.p0, line.s);
     const Vec3<Real> closest = cross(line.s, moment);
+    const Real distance = length(moment);
+    const Vec3<Real> p1 = end_of(line);
     const Real begin = dot(line.p0, line.s);
-    const Real end = begin + line.length;
+    const Real end = dot(p1, line.s);
     const Real z0 = line.p0.z;
-    const Real z1 = fma(line.length, line.s.z, line.p0.z);
+    const Real z1 = p1.z;
     const auto rises = (z0 < Real(0)) & (z1 > Real(0));
     const auto falls = (z0 > Real(0)) & (z1 < Real(0));
     const auto crosses = rises | falls;
     const Real slope = select(crosses, line.s.z, Real(1));
-    const Real crossing = min(max(-closest.z / slope, begin), end);
     // What remains follows from the end above the horizon: the difference of coordinates would cancel.
     const Real remaining = min(select(rises, z1, z0) / abs(slope), line.length);
     const auto lit = (z0 > Real(0)) | (z1 > Real(0));
     const Real visible_length = select(lit, select(crosses, remaining, line.length), Real(0));
-    LineExtent<Real> extent =
-        make_line_extent(line.s, closest, length(moment), select(rises, crossing, begin),
-                         select(falls, crossing, end), visible_length);
+    // The first formula errs by rounding times the distance over the slope, the second by rounding times the
+    // length: the better one gives z = 0 up to rounding also near the axis of the light.
+    const auto steep = distance < abs(slope) * max(abs(begin), abs(end));
+    const Real crossing =
+        select(steep, -closest.z / slope, select(rises, end - remaining, begin + remaining));
+    LineExtent<Real> extent = make_line_extent(line.s, closest, distance, select(rises, crossing, begin),
+                                               select(falls, crossing, end), visible_length);
     extent.d0.z = select(rises, Real(0), max(extent.d0.z, Real(0)));
     extent.d1.z = select(falls, Real(0), max(extent.d1.z, Real(0)));
     return extent;

@@ -35,6 +35,17 @@ NUSSELT_HD inline Vec3<Real> doubled_area_normal(const ConvexPolygon<Real, N>& p
     return sum;
 }
 
+/// Signed distance of the origin from the plane of the polygon [m], positive if the normal points away from
+/// it. The nearest vertex decides: it has the smallest rounding error, none if it is the origin.
+template <class Real, int N>
+NUSSELT_HD inline Real plane_distance(const ConvexPolygon<Real, N>& polygon) noexcept {
+    const auto extent = [](const Vec3<Real>& v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); };
+    Vec3<Real> nearest = polygon.vertex[0];
+    for (int j = 1; j < N; ++j)
+        nearest = select(extent(polygon.vertex[j]) < extent(nearest), polygon.vertex[j], nearest);
+    return dot(polygon.normal, nearest);
+}
+
 /// The polygon with the given vertices [m].
 /// \param vertices convex and coplanar, in either winding; repeated and collinear vertices are fine.
 /// \param count    how many of them there are, 3 to N. Scalars only: a light has one vertex count.

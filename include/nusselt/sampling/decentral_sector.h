@@ -175,7 +175,8 @@ struct DecentralSector {
                 best = select(better, x, best);
                 least = select(better, abs(missing), least);
                 if (i == Iterations || !any(least > tolerance)) break;
-                x = step(x, missing);
+                // Lanes that are done keep their result: it must not depend on their neighbours.
+                x = select(least > tolerance, step(x, missing), x);
             }
             x = best;
         }

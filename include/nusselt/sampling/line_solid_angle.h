@@ -59,8 +59,11 @@ protected:
         const Real solid_angle = Real(2) * extent.sine_extent();
         const Real measure = solid_angle / select(extent.visible, extent.distance, Real(1)) * scale;
         const Real density = extent.distance / select(extent.visible, solid_angle, Real(1)) * inverse_scale_;
-        const auto lit = extent.visible & is_finite(measure) & is_finite(density) & (density > Real(0)) &
-                         (measure > Real(0));
+        const auto measure_fits =
+            (measure > Real(0)) & (measure <= Real(std::numeric_limits<scalar_t<Real>>::max()));
+        const auto density_fits =
+            (density > Real(0)) & (density <= Real(std::numeric_limits<scalar_t<Real>>::max()));
+        const auto lit = extent.visible & measure_fits & density_fits;
         measure_ = select(lit, measure, Real(0));
         pdf_ = select(lit, density, Real(0));
     }

@@ -85,6 +85,7 @@ public:
         const Vec3<Real> q = plane_.distance_along(wi) * wi - corner_;
         const Vec3<Real>& n = plane_.normal;
         auto found = doubled_total_ <= Real(0);
+        Real before = Real(0);
         Real area = Real(0);
         Real height = Real(0);
         for (int j = 0; j < kTriangles; ++j) {
@@ -92,16 +93,17 @@ public:
             const Vec3<Real>& b = side_[j + 1];
             const Real beyond_b = dot(n, cross(q, b));
             const auto usable = doubled_area_[j] > Real(0);
-            const auto here = (!found) & usable & ((beyond_b > Real(0)) | (j + 1 == kTriangles));
+            const auto here = (!found) & usable; // the last triangle also has what rounding moved beyond it
             const Real inverse = Real(1) / select(usable, doubled_area_[j], Real(1));
             // Barycentric coordinates of q: of b from the triangle (a, q), of a from (q, b).
             const Real along_b = max(dot(n, cross(a, q)) * inverse, Real(0));
             const Real along_a = max(beyond_b * inverse, Real(0));
             const Real sum = along_a + along_b;
             const Real share = along_b / select(sum > Real(0), sum, Real(1));
-            area = area + select(here, share * doubled_area_[j], select(found, Real(0), doubled_area_[j]));
+            area = select(here, before + share * doubled_area_[j], area);
             height = select(here, sum * sum, height);
-            found = found | here;
+            before = before + doubled_area_[j];
+            found = found | (here & (beyond_b > Real(0)));
         }
         const Real total = select(doubled_total_ > Real(0), doubled_total_, Real(1));
         return {below_one(area / total), below_one(height)};

@@ -37,9 +37,14 @@ public:
     /// \param light in shading space, either winding [m].
     NUSSELT_HD explicit PolygonProjectedSolidAngle(const ConvexPolygon<Real, N>& light) noexcept {
         plane_.normal = light.normal;
-        plane_.distance = dot(light.normal, light.vertex[0]);
+        plane_.distance = plane_distance(light);
         Real farthest = Real(0);
-        for (int j = 0; j < N; ++j) farthest = max(farthest, length(light.vertex[j]));
+        low_ = high_ = light.vertex[0];
+        for (int j = 0; j < N; ++j) {
+            farthest = max(farthest, length(light.vertex[j]));
+            low_ = min(low_, light.vertex[j]);
+            high_ = max(high_, light.vertex[j]);
+        }
         plane_.farthest = farthest;
         mirror_ = copysign(Real(1), plane_.distance);
 
@@ -59,6 +64,8 @@ public:
     NUSSELT_HD explicit PolygonProjectedSolidAngle(
         const PolygonProjectedSolidAngle<Single, N, Iterations, Angles>& single) noexcept
         : plane_(broadcast<Real>(single.plane_)),
+          low_(broadcast<Real>(single.low_)),
+          high_(broadcast<Real>(single.high_)),
           mirror_(single.mirror_),
           scale_(single.scale_),
           central_(single.central_),
@@ -86,6 +93,8 @@ public:
         }
         s.wi.y = mirror_ * s.wi.y;
         s.p.y = mirror_ * s.p.y;
+        // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
+        s.p = min(max(s.p, low_), high_);
         s.pdf = pdf(s.wi);
         return s;
     }
@@ -102,23 +111,31 @@ public:
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
         const Vec2<Real> w{wi.x, mirror_ * wi.y};
         auto found = doubled_total_ <= Real(0);
-        Real area = Real(0); // doubled, before w
+        Real before = Real(0); // doubled areas
+        Real area = Real(0);
         Real height = Real(0);
         for (int k = 0; k < kSectors; ++k) {
             const DecentralSector<Real> sector = decentral_sector(k);
             const Real from_begin = det(xy(sector.begin), w);
             const Real to_end = det(w, xy(sector.begin + sector.chord));
-            const auto after_begin = (!central_) | (from_begin >= Real(0));
-            const auto here = (!found) & (doubled_area_[k] > Real(0)) & (to_end > Real(0)) & after_begin;
+            // A sector also has what rounding moved beyond its ends: there may be no other one. In the
+            // decentral case, the order of the sectors takes care of that.
+            const Vec3<Real> end = sector.begin + sector.chord;
+            const Real tolerance =
+                Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * (abs(w.x) + abs(w.y));
+            const Real begin_slack = tolerance * (abs(sector.begin.x) + abs(sector.begin.y));
+            const Real end_slack = tolerance * (abs(end.x) + abs(end.y));
+            const auto inside = (from_begin >= -begin_slack) & (to_end >= -end_slack);
+            const auto here = (!found) & (doubled_area_[k] > Real(0)) & ((!central_) | inside);
             // The chord meets the ray along w.
             const Real slope = det(w, xy(sector.chord));
             const Real x = min(max(from_begin / select(slope > Real(0), slope, Real(1)), Real(0)), Real(1));
             const Real partial =
                 select(central_, central_area_to(sector, x, k), sector.template doubled_area_to<Angles>(x));
-            area =
-                area + select(here, min(partial, doubled_area_[k]), select(found, Real(0), doubled_area_[k]));
+            area = select(here, before + min(partial, doubled_area_[k]), area);
+            before = before + doubled_area_[k];
             height = select(here, relative_height(sector, x, w, wi.z), height);
-            found = found | here;
+            found = found | (here & (central_ | (to_end > Real(0))));
         }
         const Real total = select(doubled_total_ > Real(0), doubled_total_, Real(1));
         return {below_one(area / total), below_one(height)};
@@ -176,6 +193,7 @@ private:
         if (any(decentral)) prepare_decentral(polygon, is_outer, is_inner);
         doubled_total_ = Real(0);
         for (int j = 0; j < kSectors; ++j) doubled_total_ = doubled_total_ + doubled_area_[j];
+        doubled_total_ = select(plane_.distance == Real(0), Real(0), doubled_total_);
     }
 
     /// Each edge has a sector of its own: Prop. 1 simplifies to Lambert's formula.
@@ -323,6 +341,10 @@ private:
             const Vec3<Real> n = normalize(cross(s.sector.begin, s.sector.chord));
             q = select(wide, to_q.cos * a + to_q.sin * normalize(cross(n, a)), q);
         }
+        // Unit length also where rounding makes the sweep inconsistent with a and b.
+        const Real squared = dot(q, q);
+        const auto usable = squared > Real(0.01);
+        q = select(usable, (Real(1) / sqrt(select(usable, squared, Real(1)))) * q, a);
         const Real root = sqrt(u);
         LightPlane<Real> plane = plane_;
         plane.normal.y = mirror_ * plane.normal.y;
@@ -343,7 +365,7 @@ private:
         const Real top = z + sqrt(fma(z, z, rise));
         const Real lift = min(rise / select(top > Real(0), top, Real(1)), forms.gap);
         const Vec3<Real> direction{forms.outer_point.x, forms.outer_point.y, z + lift};
-        const Real squared = forms.outer + rise;
+        const Real squared = dot(direction, direction);
         const Real inverse = Real(1) / sqrt(select(squared > Real(0), squared, Real(1)));
         // The lifted point lies on the ray to the sample; scale it to the plane of the light, but not beyond
         // the farthest vertex.
@@ -391,6 +413,7 @@ private:
     static constexpr scalar_t<Real> kSteepest = steepest();
 
     LightPlane<Real> plane_;
+    Vec3<Real> low_, high_;      ///< axis-aligned box of the light
     Real mirror_;                ///< -1 if y is mirrored to get the expected winding
     Real scale_;                 ///< from the light to the coordinates below
     mask_t<Real> central_;       ///< the zenith is in the polygon or on its boundary
@@ -403,8 +426,8 @@ private:
     Real doubled_area_[kSectors]; ///< twice the area of each sector, 0 for those without light
 };
 
-/// The biased variant (Sec. 6.4): no iteration, fast arctangents. The backward error is below 0.05 for 99 %
-/// of random sectors and at most 0.28.
+/// The biased variant (Sec. 6.4): no iteration, fast arctangents. The backward error is below 0.1 for 99 % of
+/// random sectors and at most 0.28.
 template <class Real, int N>
 using PolygonProjectedSolidAngleBiased = PolygonProjectedSolidAngle<Real, N, 0, FastAngles>;
 

@@ -46,9 +46,17 @@ public:
             const Real doubled_area = abs(dot(polygon.normal, cross(offset, polygon.edge[j + 1])));
             g0_[j] = plane_distance * doubled_area * inverse_distance_[0] * inverse_distance_[j + 1] *
                      inverse_distance_[j + 2];
-            g1_[j] = dot(a, b) + dot(c, b);
-            g2_[j] = Real(1) + dot(a, c);
-            solid_angle_[j] = Real(2) * atan2_positive(g0_[j], g1_[j] + g2_[j]);
+            // Two of three directions may be almost opposite: cosines would lose what is left of their sum.
+            const Vec3<Real> ab = a + b;
+            const Vec3<Real> ac = a + c;
+            const Vec3<Real> bc = b + c;
+            const Real ab2 = dot(ab, ab);
+            const Real ac2 = dot(ac, ac);
+            const Real bc2 = dot(bc, bc);
+            const auto opposite = (ab2 < ac2) & (ab2 < bc2);
+            g1_[j] = select(opposite, fma(Real(0.5), ab2, dot(c, ab)), dot(ac, bc));
+            g2_[j] = max(Real(0.5) * ac2, Real(kOpposite));
+            solid_angle_[j] = Real(2) * atan2_positive(g0_[j], g1_[j]);
             solid_angle_[j] = select(g0_[j] > Real(0), solid_angle_[j], Real(0));
             total_ = total_ + solid_angle_[j];
             offset = offset + polygon.edge[j + 1];
@@ -89,26 +97,29 @@ public:
 
         // The corner v of the sub-triangle (a, c, v) with that solid angle, v on the arc from a to b.
         const SinCos<Real> half = sincos_half_turn(Real(0.5) * part);
-        Real x = fma(t.g0, half.cos, -t.g1 * half.sin);
+        const Vec3<Real> ab = t.a + t.b;
+        const Real one_plus_ab = max(Real(0.5) * dot(ab, ab), Real(kOpposite));
+        Real excess = max(fma(t.g0, half.cos, -t.g1 * half.sin), Real(0));
         Real y = t.g2 * half.sin;
-        const Real scale = reciprocal_power_of_two(max(abs(x), abs(y)));
-        x = scale * x;
+        const Real scale = reciprocal_power_of_two(max(excess, y));
+        excess = scale * excess;
         y = scale * y;
-        const Real cosine = dot(t.a, t.b);
-        const Real squared = fma(x, x, fma(y, y, Real(2) * x * y * cosine));
+        const Real squared = fma(excess, excess, Real(2) * one_plus_ab * y * (excess + y));
         const Real inverse = Real(1) / select(squared > Real(0), squared, Real(1));
-        const Real weight_a = (x - y) * (x + y) * inverse;
-        const Real weight_b = Real(2) * y * fma(y, cosine, x) * inverse;
-        const Vec3<Real> v = weight_a * t.a + weight_b * t.b;
+        const Real weight_a = excess * (excess + Real(2) * y) * inverse;
+        const Real weight_b = Real(2) * y * fma(y, one_plus_ab, excess) * inverse;
+        const Real difference = fma(excess, excess, Real(-2) * one_plus_ab * y * y) * inverse;
+        const Vec3<Real> v = difference * t.a + weight_b * ab;
 
         // The point on the arc from c to v, whose cosine with c is uniform.
         const Vec3<Real> chord = v - direction_[0];
+        const Vec3<Real> cv = v + direction_[0];
         const Real depth = Real(0.5) * dot(chord, chord); // 1 - cosine of the arc
-        const Real room = Real(2) - depth;
-        const Real tau =
-            sqrt(max(u.y * fma(-u.y, depth, Real(2)) / select(room > Real(0), room, Real(1)), Real(0)));
+        const Real room = max(Real(0.5) * dot(cv, cv), Real(kOpposite));
+        const Real tau = sqrt(u.y * fma(u.y, room, Real(2) * (Real(1) - u.y)) / room);
         const Real weight_c = (Real(1) - tau) + depth * (tau - u.y);
-        const Vec3<Real> wi = normalize(weight_c * direction_[0] + tau * v);
+        const Vec3<Real> wi =
+            normalize((fma(-tau, room, fma(-u.y, depth, Real(1)))) * direction_[0] + tau * cv);
 
         // The same weights divided by the distances are barycentric coordinates up to their sum.
         const Real at_a = max(tau * weight_a, Real(0)) * t.inverse_a;
@@ -134,13 +145,14 @@ public:
         const Vec3<Real> n = cross(c, wi); // of the great circle through c and wi
         auto found = total_ <= Real(0);
         Vec2<Real> u{Real(0), Real(0)};
+        Real before = Real(0);
         for (int j = 0; j < kTriangles; ++j) {
             const Vec3<Real>& a = direction_[j + 1];
             const Vec3<Real>& b = direction_[j + 2];
             const Real to_b = select(counterclockwise_, dot(n, b), -dot(n, b));
             const Real from_a = select(counterclockwise_, -dot(n, a), dot(n, a));
-            const auto here =
-                (!found) & (solid_angle_[j] > Real(0)) & ((to_b > Real(0)) | (j + 1 == kTriangles));
+            // The last triangle also has what rounding moved beyond it.
+            const auto here = (!found) & (solid_angle_[j] > Real(0));
             // The arc meets the edge at v = (weight_a a + weight_b b) / |...|.
             const Real weight_a = max(to_b, Real(0));
             const Real weight_b = max(from_a, Real(0));
@@ -153,9 +165,10 @@ public:
             const Vec3<Real> to_wi = wi - c;
             const Vec3<Real> to_v = v - c;
             const Real whole = dot(to_v, to_v);
-            u.x = u.x + select(here, min(partial, solid_angle_[j]), select(found, Real(0), solid_angle_[j]));
+            u.x = select(here, before + min(partial, solid_angle_[j]), u.x);
+            before = before + solid_angle_[j];
             u.y = select(here, dot(to_wi, to_wi) / select(whole > Real(0), whole, Real(1)), u.y);
-            found = found | here;
+            found = found | (here & (to_b > Real(0)));
         }
         return {below_one(u.x / select(total_ > Real(0), total_, Real(1))), below_one(u.y)};
     }
@@ -201,12 +214,16 @@ private:
                 select(mask, a.solid_angle, b.solid_angle)};
     }
 
+    /// Least value of 1 + the cosine of two directions: the sum of opposite ones is lost to rounding.
+    static constexpr scalar_t<Real> kOpposite =
+        std::numeric_limits<scalar_t<Real>>::epsilon() * std::numeric_limits<scalar_t<Real>>::epsilon();
+
     Vec3<Real> vertex_[N];
     Vec3<Real> direction_[N];  ///< unit vectors to the vertices
     Real inverse_distance_[N]; ///< of the vertices, in units of the extent of the polygon
     Real g0_[kTriangles];      ///< triple product of the directions
-    Real g1_[kTriangles];
-    Real g2_[kTriangles];
+    Real g1_[kTriangles];      ///< 1 + dot(a, b) + dot(a, c) + dot(b, c)
+    Real g2_[kTriangles];      ///< 1 + dot(a, c)
     Real solid_angle_[kTriangles];
     Real total_;
     mask_t<Real> counterclockwise_; ///< winding as seen along a ray from the origin through the polygon

@@ -39,7 +39,7 @@ PolygonLight random_polygon(RandomSource& random) {
     const Real size = random.log_between(0.1, 30);
     const int count = 3 + random.index(2);
     const Real start = random.between(0, 6.3);
-    Point v[4];
+    Point v[4] = {};
     for (int j = 0; j < count; ++j) {
         const Real angle = start + 2 * kPi * (static_cast<Real>(j) + Real(0.8) * random.uniform()) / count;
         v[j] = center + (size * std::cos(angle)) * a + (size * std::sin(angle)) * b;
