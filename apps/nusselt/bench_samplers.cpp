@@ -62,9 +62,10 @@ void setup_bench_samplers(CLI::App& bench, int& exit_code) {
         ->capture_default_str();
     command
         ->add_option("--isa", options->isa,
-                     "Instruction set: auto (the best of this CPU), sse42, avx2 or avx512")
-        ->check(CLI::IsMember({"auto", "sse42", "avx2", "avx512"}))
-        ->capture_default_str();
+                     "Instruction set: sse42, avx2 or avx512. Default: the environment variable NUSSELT_ISA, "
+                     "else the\n"
+                     "best one that the processor supports")
+        ->check(CLI::IsMember({"sse42", "avx2", "avx512"}));
     command->add_option("--json", options->json,
                         "Write the table as JSON to this file; - for the standard output");
     command->callback([options, &exit_code] { exit_code = run_bench_samplers(*options); });

@@ -1,5 +1,6 @@
 #pragma once
-/// All techniques. Packs of SIMD lanes are an extra: include <nusselt/simd/pack.h> as well.
+/// All techniques, with the BRDFs and random numbers that they are used with. Packs of SIMD lanes are an extra:
+/// include <nusselt/simd/pack.h> as well.
 
 #include <nusselt/bsdf/frostbite.h>
 #include <nusselt/bsdf/lambert.h>

@@ -1,6 +1,7 @@
 #include "experiments/run.h"
 
 #include "image/metrics.h"
+#include "render_cpu/film.h"
 #include "render_cpu/renderer.h"
 #include "scene/load.h"
 
@@ -92,13 +93,8 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunSettings&
                                 const std::function<void(std::string_view)>& progress) {
     scene::Scene scene = scene::load_scene(settings.scenes / experiment.scene);
     if (settings.width > 0) {
-        // Raster positions are pixels, so that fewer pixels are larger steps of the camera.
-        const float factor = static_cast<float>(scene.film.width) / static_cast<float>(settings.width);
-        for (scene::Float3* step : {&scene.camera.right, &scene.camera.down})
-            *step = {factor * step->x, factor * step->y, factor * step->z};
-        scene.film.height =
-            std::max(1, static_cast<int>(std::lround(static_cast<float>(scene.film.height) / factor)));
-        scene.film.width = settings.width;
+        const double height = static_cast<double>(scene.film.height) * settings.width / scene.film.width;
+        render_cpu::resize_film(scene, settings.width, std::max(1, static_cast<int>(std::lround(height))));
     }
     const int threads = settings.threads > 0 ? settings.threads : render_cpu::default_thread_count();
     const render_cpu::Renderer renderer(scene, threads);

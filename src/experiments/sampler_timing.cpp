@@ -7,9 +7,9 @@
 #include <memory>
 #include <numbers>
 #include <random>
-#include <stdexcept>
 
 #include "experiments/sampler_timing_kernel.h"
+#include "render_cpu/isa.h"
 
 namespace nusselt::experiments {
 
@@ -67,18 +67,16 @@ void make_lights(const Configuration& c, TimedLights& lights) {
     }
 }
 
-TimedTechniques techniques_for(std::string& isa) {
-    if (isa == "auto")
-        isa = __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") ? "avx512"
-              : __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")        ? "avx2"
-                                                                                       : "sse42";
-    if (isa == "sse42") return timed_techniques_sse42();
-    if (isa == "avx2" && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+TimedTechniques techniques_for(render_cpu::Isa isa) {
+    switch (isa) {
+    case render_cpu::Isa::sse42:
+        return timed_techniques_sse42();
+    case render_cpu::Isa::avx2:
         return timed_techniques_avx2();
-    if (isa == "avx512" && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-        return timed_techniques_avx512();
-    throw std::runtime_error("instruction set '" + isa +
-                             "' is unknown or not available on this CPU: use auto, sse42, avx2 or avx512");
+    case render_cpu::Isa::avx512:
+        break;
+    }
+    return timed_techniques_avx512();
 }
 
 /// One row in the making.
@@ -110,7 +108,7 @@ double quantile(std::vector<double> values, double share) {
 } // namespace
 
 std::vector<SamplerTiming> time_samplers(const SamplerTimingSettings& settings) {
-    std::string isa = settings.isa;
+    const render_cpu::Isa isa = render_cpu::choose_isa(settings.isa);
     const TimedTechniques techniques = techniques_for(isa);
     std::vector<Series> series;
     for (const Configuration& c : kConfigurations)
@@ -140,8 +138,8 @@ std::vector<SamplerTiming> time_samplers(const SamplerTimingSettings& settings) 
         }
         const Series& b = *baseline[packs];
         const double median = quantile(s.prepare_ns, 0.5);
-        rows.push_back({s.technique->name, s.configuration->name, isa, s.technique->lanes,
-                        median - quantile(b.prepare_ns, 0.5),
+        rows.push_back({s.technique->name, s.configuration->name, std::string(name_of(isa)),
+                        s.technique->lanes, median - quantile(b.prepare_ns, 0.5),
                         quantile(s.sample_ns, 0.5) - quantile(b.sample_ns, 0.5),
                         (quantile(s.prepare_ns, 0.75) - quantile(s.prepare_ns, 0.25)) / (2 * median)});
     }

@@ -1,6 +1,7 @@
 #pragma once
 /// Cost of preparing and of sampling each technique, on one thread (Table 1 of both papers of Peters 2021).
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,8 @@ struct SamplerTiming {
 };
 
 struct SamplerTimingSettings {
-    int repetitions = 31;     ///< of the interleaved series; odd numbers give true medians
-    std::string isa = "auto"; ///< "auto": the best that the CPU has; "sse42", "avx2", "avx512"
+    int repetitions = 31;           ///< of the interleaved series; odd numbers give true medians
+    std::optional<std::string> isa; ///< as render_cpu::choose_isa()
 };
 
 /// Times all techniques, interleaved, so that a drift of the clock rate hits all alike.

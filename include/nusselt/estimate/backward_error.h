@@ -13,7 +13,7 @@ NUSSELT_NAMESPACE_BEGIN
 /// \param u  the random number that was given to sample().
 /// \param wi the direction that sample() returned.
 /// \return |invert(wi) - u| with the precision of invert() in Real: use long double to judge a method, the
-///         type of the renderer to judge rounding. For a technique without light, |u|.
+///         type of the renderer to judge rounding. Without meaning where the sample has pdf = 0.
 template <class Technique, class Real>
 NUSSELT_HD inline Real backward_error(const Technique& technique, const Real& u,
                                       const Vec3<Real>& wi) noexcept {

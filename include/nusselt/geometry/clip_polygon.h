@@ -38,12 +38,20 @@ NUSSELT_HD inline ConvexPolygon<Real, N + 1> clip_to_horizon(const ConvexPolygon
         const Real share =
             max(a.z, b.z) / select(drop > Real(0), drop, Real(1)); // of the edge above the horizon
         const Vec3<Real> part{share * e.x, share * e.y, select(goes_down[j], -a.z, b.z)};
-        down = select(goes_down[j], Vec3<Real>{a.x + part.x, a.y + part.y, Real(0)}, down);
-        up = select(goes_up, Vec3<Real>{b.x - part.x, b.y - part.y, Real(0)}, up);
+        // A vertex on the horizon stays exactly where it is.
+        const Vec3<Real> end{select(b.z == Real(0), b.x, a.x + part.x),
+                             select(b.z == Real(0), b.y, a.y + part.y), Real(0)};
+        const Vec3<Real> begin{select(a.z == Real(0), a.x, b.x - part.x),
+                               select(a.z == Real(0), a.y, b.y - part.y), Real(0)};
+        down = select(goes_down[j], end, down);
+        up = select(goes_up, begin, up);
         edge[j] = select(above[j] & above[next], e, select(goes_down[j] | goes_up, part, zero));
         sum_of_edges = sum_of_edges + edge[j];
     }
-    const Vec3<Real> along_horizon{-sum_of_edges.x, -sum_of_edges.y, Real(0)};
+    // The sum is rounding where the polygon only touches the horizon.
+    const Mask touches = (down.x == up.x) & (down.y == up.y);
+    const Vec3<Real> along_horizon =
+        select(touches, zero, Vec3<Real>{-sum_of_edges.x, -sum_of_edges.y, Real(0)});
 
     ConvexPolygon<Real, N + 1> clipped;
     clipped.normal = polygon.normal;

@@ -131,6 +131,15 @@ inline constexpr Scalar kLargestTangent = [] {
     return result;
 }();
 
+/// 2^(minus half of the exponent range), for coordinates of order one: the square of a smaller distance would
+/// underflow.
+template <class Scalar>
+inline constexpr Scalar kSmallestDistance = [] {
+    Scalar result = 1;
+    for (int i = 0; i < std::numeric_limits<Scalar>::max_exponent / 2 - 4; ++i) result /= 2;
+    return result;
+}();
+
 /// The part of a segment between the coordinates l0 and l1 along its line.
 /// \param distance of the line from the origin; closest is the vector to its closest point.
 /// \param length   l1 - l0, which the caller may know more accurately.
@@ -139,7 +148,7 @@ NUSSELT_HD inline LineExtent<Real> make_line_extent(const Vec3<Real>& s, const V
                                                     const Real& distance, const Real& l0, const Real& l1,
                                                     const Real& length) noexcept {
     LineExtent<Real> e;
-    e.visible = (distance > Real(0)) & (length > Real(0));
+    e.visible = (distance > Real(kSmallestDistance<scalar_t<Real>>)) & (length > Real(0));
     e.s = s;
     e.t = (Real(1) / select(e.visible, distance, Real(1))) * closest;
     e.distance = distance;

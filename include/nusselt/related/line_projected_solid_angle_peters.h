@@ -6,6 +6,8 @@
 /// and 2 with Eq. 1 to 3. Use LineProjectedSolidAngle instead: this one loses its precision for short and
 /// distant lights, and gives NaN where the light points at the shading point or lies in the horizon.
 
+#include <cmath>
+
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/line_segment.h>
 
@@ -18,7 +20,7 @@ template <class Real>
 class LineProjectedSolidAnglePeters {
 public:
     /// \param light in shading space [m].
-    NUSSELT_HD explicit LineProjectedSolidAnglePeters(const LineSegment<Real>& light) noexcept
+    explicit LineProjectedSolidAnglePeters(const LineSegment<Real>& light) noexcept
         : l0_(light.p0), s_(light.s) {
         Real length = light.length;
         const Real begin_height = l0_.z;
@@ -33,9 +35,9 @@ public:
         }
         l0_s_ = dot(l0_, s_);
         const Real q2 = dot(l0_, l0_) - l0_s_ * l0_s_;
-        inverse_q_ = Real(1) / std::sqrt(q2);
-        begin_s_ = clamped(l0_s_ / std::sqrt(dot(l0_, l0_)));
-        end_s_ = clamped((l0_s_ + length) / std::sqrt((l0_s_ + length) * (l0_s_ + length) + q2));
+        inverse_q_ = Real(1) / sqrt(q2);
+        begin_s_ = clamped(l0_s_ / sqrt(dot(l0_, l0_)));
+        end_s_ = clamped((l0_s_ + length) / sqrt((l0_s_ + length) * (l0_s_ + length) + q2));
         n_s_ = s_.z;
         n_t_ = inverse_q_ * (l0_.z - n_s_ * l0_s_);
         begin_integral_ = integral(begin_s_);
@@ -43,9 +45,9 @@ public:
     }
 
     /// \param u in [0, 1).
-    NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
+    LightSample<Real> sample(const Real& u) const noexcept {
         Real w_s = clamped(begin_s_ + u * (end_s_ - begin_s_));
-        Real w_t = std::sqrt(Real(1) - w_s * w_s);
+        Real w_t = sqrt(Real(1) - w_s * w_s);
         if (u >= Real(1e-5) && u <= Real(1 - 1e-5)) {
             const Real target = u * total_ + begin_integral_;
             Real alpha = std::asin(w_s);
@@ -56,7 +58,7 @@ public:
                 const Real second = Real(2) * (n_s_ * w_t - n_t_ * w_s) * w_t - Real(2) * along * w_s;
                 // The root of smaller magnitude of second / 2 x^2 + first x + residual, or the extremum.
                 const Real discriminant = first * first - Real(2) * second * residual;
-                const Real root = std::sqrt(max(discriminant, Real(0)));
+                const Real root = sqrt(max(discriminant, Real(0)));
                 const Real step = Real(-2) * residual / (first >= Real(0) ? first + root : first - root);
                 alpha = min(max(alpha + step, Real(-kPi<Real> / 2)), Real(kPi<Real> / 2));
                 w_s = std::sin(alpha);
@@ -69,14 +71,14 @@ public:
     }
 
     /// Projected solid angle per radius of the part of the light above the horizon [sr/m].
-    NUSSELT_HD Real measure() const noexcept { return inverse_q_ * total_; }
+    Real measure() const noexcept { return inverse_q_ * total_; }
 
 private:
-    NUSSELT_HD static Real clamped(const Real& x) noexcept { return min(max(x, Real(-1)), Real(1)); }
+    static Real clamped(const Real& x) noexcept { return min(max(x, Real(-1)), Real(1)); }
 
     /// F of Eq. 3.
-    NUSSELT_HD Real integral(const Real& w_s) const noexcept {
-        return n_s_ * w_s * w_s + n_t_ * (std::sqrt(Real(1) - w_s * w_s) * w_s + std::asin(w_s));
+    Real integral(const Real& w_s) const noexcept {
+        return n_s_ * w_s * w_s + n_t_ * (sqrt(Real(1) - w_s * w_s) * w_s + std::asin(w_s));
     }
 
     Vec3<Real> l0_, s_;

@@ -7,6 +7,8 @@
 /// network, as suits scalar code. Use PolygonProjectedSolidAngle instead: this one loses small lights to the
 /// difference of two arctangents, and its iteration diverges at some corners on the horizon.
 
+#include <cmath>
+
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/convex_polygon.h>
 
@@ -20,7 +22,7 @@ template <class Real, int N>
 class PolygonProjectedSolidAnglePeters {
 public:
     /// \param light in shading space, either winding [m].
-    NUSSELT_HD explicit PolygonProjectedSolidAnglePeters(const ConvexPolygon<Real, N>& light) noexcept {
+    explicit PolygonProjectedSolidAnglePeters(const ConvexPolygon<Real, N>& light) noexcept {
         plane_ = {light.normal, dot(light.normal, light.vertex[0])};
         mirror_ = plane_.distance < Real(0) ? Real(-1) : Real(1);
         Vec3<Real> v[N + 1];
@@ -43,29 +45,29 @@ public:
     }
 
     /// \param u in [0, 1)^2.
-    NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+    LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         Real area = u.x * total_;
         int k = 0;
         while (k + 1 < count_ && area >= sector_[k].area) area -= sector_[k++].area;
         const Sector& s = sector_[k];
         Vec2<Real> w;
         if (central_) {
-            const Real root = std::sqrt(Real(1) + dot(s.outer, s.outer));
+            const Real root = sqrt(Real(1) + dot(s.outer, s.outer));
             const Vec2<Real> c = times(s.outer, s.s0);
             const Real angle = Real(2) * root * area;
             w = (root * std::cos(angle)) * s.s0 + std::sin(angle) * Vec2<Real>{-c.y, c.x};
-            w = std::sqrt(u.y / form(s.outer, w)) * w;
+            w = sqrt(u.y / form(s.outer, w)) * w;
         } else {
             w = invert_decentral(s, area);
             const Real squared = (Real(1) - u.y) / form(s.inner, w) + u.y / form(s.outer, w);
-            w = std::sqrt(squared) * w;
+            w = sqrt(squared) * w;
         }
-        const Vec3<Real> wi{w.x, mirror_ * w.y, std::sqrt(max(Real(1) - dot(w, w), Real(0)))};
+        const Vec3<Real> wi{w.x, mirror_ * w.y, sqrt(max(Real(1) - dot(w, w), Real(0)))};
         return {wi, wi.z / total_, (plane_.distance / dot(plane_.normal, wi)) * wi};
     }
 
     /// Projected solid angle of the part of the light above the horizon [sr].
-    NUSSELT_HD Real measure() const noexcept { return total_; }
+    Real measure() const noexcept { return total_; }
 
 private:
     struct Plane {
@@ -77,27 +79,25 @@ private:
         Real area;
     };
 
-    NUSSELT_HD static Vec2<Real> slope(const Vec3<Real>& n) noexcept { return (Real(1) / n.z) * xy(n); }
+    static Vec2<Real> slope(const Vec3<Real>& n) noexcept { return (Real(1) / n.z) * xy(n); }
     /// (I + u u^T) w.
-    NUSSELT_HD static Vec2<Real> times(const Vec2<Real>& u, const Vec2<Real>& w) noexcept {
-        return w + dot(u, w) * u;
-    }
-    NUSSELT_HD static Real form(const Vec2<Real>& u, const Vec2<Real>& w) noexcept {
+    static Vec2<Real> times(const Vec2<Real>& u, const Vec2<Real>& w) noexcept { return w + dot(u, w) * u; }
+    static Real form(const Vec2<Real>& u, const Vec2<Real>& w) noexcept {
         return dot(w, w) + dot(u, w) * dot(u, w);
     }
     /// Eq. 1.
-    NUSSELT_HD static Real area_of(const Vec2<Real>& u, const Vec2<Real>& s0, const Vec2<Real>& s1) noexcept {
-        const Real inverse_root = Real(1) / std::sqrt(Real(1) + dot(u, u));
+    static Real area_of(const Vec2<Real>& u, const Vec2<Real>& s0, const Vec2<Real>& s1) noexcept {
+        const Real inverse_root = Real(1) / sqrt(Real(1) + dot(u, u));
         return Real(0.5) * inverse_root *
                std::atan2(max(det(s0, s1), Real(0)), inverse_root * dot(s0, times(u, s1)));
     }
     /// Eq. 6 for the form with the matrix [[xx, xy], [xy, yy]].
-    NUSSELT_HD static Vec2<Real> root(const Real& xx, const Real& xy, const Real& yy) noexcept {
-        const Real r = std::sqrt(max(xy * xy - xx * yy, Real(0)));
+    static Vec2<Real> root(const Real& xx, const Real& xy, const Real& yy) noexcept {
+        const Real r = sqrt(max(xy * xy - xx * yy, Real(0)));
         return xy >= Real(0) ? Vec2<Real>{xy + r, -xx} : Vec2<Real>{yy, r - xy};
     }
 
-    NUSSELT_HD static int clip(const ConvexPolygon<Real, N>& light, Vec3<Real>* v) noexcept {
+    static int clip(const ConvexPolygon<Real, N>& light, Vec3<Real>* v) noexcept {
         int m = 0;
         for (int j = 0; j < N; ++j) {
             const Vec3<Real>& a = light.vertex[j];
@@ -111,8 +111,8 @@ private:
         return m;
     }
 
-    NUSSELT_HD void add_sector(const Vec2<Real>& s0, const Vec2<Real>& s1, const Vec2<Real>& outer,
-                               const Vec2<Real>& inner) noexcept {
+    void add_sector(const Vec2<Real>& s0, const Vec2<Real>& s1, const Vec2<Real>& outer,
+                    const Vec2<Real>& inner) noexcept {
         Real area = area_of(outer, s0, s1);
         if (!central_) area -= area_of(inner, s0, s1);
         if (!(area > Real(0)) || count_ > N) return;
@@ -121,7 +121,7 @@ private:
     }
 
     /// The outer edges run forwards from the clockwise end, the inner ones backwards.
-    NUSSELT_HD void walk(int m, const Vec3<Real>* v, const Vec3<Real>* n) noexcept {
+    void walk(int m, const Vec3<Real>* v, const Vec3<Real>* n) noexcept {
         int i = -1;
         for (int j = 0; j < m; ++j) {
             int k = (j + m - 1) % m;
@@ -145,12 +145,12 @@ private:
     }
 
     /// Sec. 3.4 and two steps of Sec. 3.3.
-    NUSSELT_HD static Vec2<Real> invert_decentral(const Sector& s, const Real& area) noexcept {
-        const Vec2<Real> s0 = (Real(1) / std::sqrt(dot(s.s0, s.s0))) * s.s0;
-        const Vec2<Real> s1 = (Real(1) / std::sqrt(dot(s.s1, s.s1))) * s.s1;
+    static Vec2<Real> invert_decentral(const Sector& s, const Real& area) noexcept {
+        const Vec2<Real> s0 = (Real(1) / sqrt(dot(s.s0, s.s0))) * s.s0;
+        const Vec2<Real> s1 = (Real(1) / sqrt(dot(s.s1, s.s1))) * s.s1;
         const Vec2<Real> sh = s0 + s1;
         const auto reach = [](const Vec2<Real>& u, const Vec2<Real>& w) {
-            return Real(1) / std::sqrt(form(u, w));
+            return Real(1) / sqrt(form(u, w));
         };
         const Real i0 = reach(s.inner, s0), ih = reach(s.inner, sh), i1 = reach(s.inner, s1);
         const Real o0 = reach(s.outer, s0), oh = reach(s.outer, sh), o1 = reach(s.outer, s1);
@@ -162,7 +162,7 @@ private:
         const Vec2<Real> sk = first ? s0 : s1;
         const Real ik = first ? i0 : i1;
         const Real ok = first ? o0 : o1;
-        quad_area = (first ? quad_area + quad_0 : quad_area - quad_1) * std::fabs(det(sh, sk));
+        quad_area = (first ? quad_area + quad_0 : quad_area - quad_1) * abs(det(sh, sk));
         const Vec2<Real> ri = times(s.inner, ih * sh + ik * sk);
         const Vec2<Real> ro = times(s.outer, oh * sh + ok * sk);
         const Vec2<Real> turned{-sk.y, sk.x};
@@ -174,7 +174,7 @@ private:
         const int iterations = fraction < Real(1e-5) || fraction > Real(1 - 1e-5) ? 0 : 2;
         for (int k = 0;; ++k) {
             if (dot(w, sh) < Real(0)) w = Real(-1) * w;
-            w = (Real(1) / (std::fabs(w.x) + std::fabs(w.y))) * w;
+            w = (Real(1) / (abs(w.x) + abs(w.y))) * w;
             if (k == iterations) return w;
             const Real missing = Real(2) * (area - area_of(s.outer, s0, w) + area_of(s.inner, s0, w));
             const Vec2<Real> ci = times(s.inner, w);

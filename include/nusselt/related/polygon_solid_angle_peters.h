@@ -6,6 +6,8 @@
 /// Sec. 5, with the determinant by a Householder reflection. Use PolygonSolidAngle instead: this one takes
 /// small lights from their rounded directions.
 
+#include <cmath>
+
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/convex_polygon.h>
 
@@ -19,13 +21,13 @@ template <class Real, int N>
 class PolygonSolidAnglePeters {
 public:
     /// \param light relative to the shading point, either winding [m].
-    NUSSELT_HD explicit PolygonSolidAnglePeters(const ConvexPolygon<Real, N>& light) noexcept {
+    explicit PolygonSolidAnglePeters(const ConvexPolygon<Real, N>& light) noexcept {
         plane_ = {light.normal, dot(light.normal, light.vertex[0])};
         for (int j = 0; j < N; ++j)
-            v_[j] = (Real(1) / std::sqrt(dot(light.vertex[j], light.vertex[j]))) * light.vertex[j];
+            v_[j] = (Real(1) / sqrt(dot(light.vertex[j], light.vertex[j]))) * light.vertex[j];
         for (int j = 0; j < N - 2; ++j) {
             const Vec3<Real>&a = v_[j + 1], &c = v_[0], &b = v_[j + 2];
-            g_[j][0] = std::fabs(determinant(a, c, b));
+            g_[j][0] = abs(determinant(a, c, b));
             g_[j][1] = dot(a, b) + dot(c, b);
             g_[j][2] = Real(1) + dot(a, c);
             solid_angle_[j] = Real(2) * std::atan2(g_[j][0], g_[j][1] + g_[j][2]);
@@ -34,7 +36,7 @@ public:
     }
 
     /// \param u in [0, 1)^2.
-    NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+    LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         Real part = u.x * total_;
         int j = 0;
         while (j < N - 3 && part >= solid_angle_[j]) part -= solid_angle_[j++];
@@ -45,13 +47,13 @@ public:
         const Vec3<Real> v = (Real(2) * dot(a, r) / dot(r, r)) * r - a;
         const Real s2 = dot(c, v);
         const Real s = (Real(1) - u.y) + s2 * u.y;
-        const Real t = std::sqrt(max((Real(1) - s * s) / (Real(1) - s2 * s2), Real(0)));
+        const Real t = sqrt(max((Real(1) - s * s) / (Real(1) - s2 * s2), Real(0)));
         const Vec3<Real> wi = (s - t * s2) * c + t * v;
         return {wi, Real(1) / total_, (plane_.distance / dot(plane_.normal, wi)) * wi};
     }
 
     /// Solid angle of the light [sr].
-    NUSSELT_HD Real measure() const noexcept { return total_; }
+    Real measure() const noexcept { return total_; }
 
 private:
     struct Plane {
@@ -60,10 +62,9 @@ private:
     };
 
     /// det(a, b, c) of unit vectors: a reflection maps a to an axis.
-    NUSSELT_HD static Real determinant(const Vec3<Real>& a, const Vec3<Real>& b,
-                                       const Vec3<Real>& c) noexcept {
+    static Real determinant(const Vec3<Real>& a, const Vec3<Real>& b, const Vec3<Real>& c) noexcept {
         const Real sign = a.x < Real(0) ? Real(-1) : Real(1);
-        const Real k = Real(1) / (Real(1) + std::fabs(a.x));
+        const Real k = Real(1) / (Real(1) + abs(a.x));
         const Real kb = k * (dot(a, b) + sign * b.x);
         const Real kc = k * (dot(a, c) + sign * c.x);
         return sign * ((b.y - kb * a.y) * (c.z - kc * a.z) - (b.z - kb * a.z) * (c.y - kc * a.y));

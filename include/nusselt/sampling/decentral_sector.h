@@ -94,9 +94,9 @@ struct DecentralSector {
         return max(x * doubled_triangle * difference, Real(0));
     }
 
-    /// Samples two quads that approximate the sector (Sec. 3.4): each lies between the chords of both
-    /// ellipses from one end of the range to its middle. \param fraction of the area that shall lie before
-    /// the result.
+    /// Samples two quads that approximate the sector (Sec. 3.4): each lies between the chords of both ellipses from
+    /// one end of the range to its middle.
+    /// \param fraction of the area that shall lie before the result.
     NUSSELT_HD Real initial_position(const Real& fraction) const noexcept {
         // The direction to the middle is the sum of the unit directions to both ends.
         const Vec3<Real> end = begin + chord;
@@ -139,8 +139,8 @@ struct DecentralSector {
         return select(first, v * width, Real(1) - v * width);
     }
 
-    /// One step of the iteration (Sec. 3.3): replaces both ellipses by their tangents at x. The error is
-    /// cubed. \param missing twice the area that shall lie between x and the result.
+    /// One step of the iteration (Sec. 3.3): replaces both ellipses by their tangents at x. The error is cubed.
+    /// \param missing twice the area that shall lie between x and the result.
     NUSSELT_HD Real step(const Real& x, const Real& missing) const noexcept {
         const Forms f = at(x);
         const Real turn = end_gap - begin_gap;
@@ -156,10 +156,12 @@ struct DecentralSector {
 
     /// The position before which the given fraction of the area lies.
     ///
-    /// The plain iteration diverges where both ellipses meet on the horizon at an end of the sector, which is
-    /// usual for polygons that cross the horizon. So the best position so far is kept, judged by the area
-    /// that is missing; the worst backward error in exact arithmetic is then 4e-5 after two steps. \param
-    /// doubled_total twice the area of the sector.
+    /// The plain iteration diverges where both ellipses meet on the horizon at an end of the sector, which is usual
+    /// for polygons that cross the horizon. So the best position so far is kept, judged by the area that is missing.
+    /// After two steps the largest backward error found in exact arithmetic is then 4e-5 where the area is at least
+    /// 1e-2, and 7.5e-5 from 1e-7 on.
+    /// \param fraction      in [0, 1].
+    /// \param doubled_total twice the area of the sector.
     template <int Iterations, class Angles>
     NUSSELT_HD Real position(const Real& fraction, const Real& doubled_total) const noexcept {
         Real x = initial_position(fraction);
