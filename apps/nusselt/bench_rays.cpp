@@ -5,16 +5,16 @@
 #include "render_cpu/flush_denormals.h"
 #include "render_cpu/renderer.h"
 #include "scene/load.h"
+#include "visibility/ray_recorder.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
+#include <functional>
 #include <memory>
 
 namespace nusselt::app {
@@ -27,89 +27,30 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
+/// Traces all recorded rays again with all threads of the arena.
+/// \returns the time of Embree's functions alone, the mean over the threads [s]
 template <int N>
-struct Query {
-    std::uint32_t active;
-    visibility::RayPacket<N> rays;
-};
-
-/// The rays that one thread traced for one tile after another.
-template <int N>
-struct Recording {
-    std::vector<Query<N>> primary;
-    std::vector<Query<N>> shadow;
-};
-
-/// Stands between a kernel and the scene, and remembers all rays.
-template <int N>
-class Recorder {
-public:
-    explicit Recorder(const visibility::RayTracer& tracer) : inner_(tracer) {}
-
-    visibility::RayTracer tracer() const {
-        visibility::RayTracer result = inner_;
-        static_cast<visibility::PacketTracer<N>&>(result) = {intersect, occluded};
-        result.context = this;
-        return result;
-    }
-
-    /// Traces all rays again and does nothing else, with all threads of the arena. Returns the time [s].
-    double replay(tbb::task_arena& arena) const {
-        const auto begin = std::chrono::steady_clock::now();
-        arena.execute([&] {
-            for (const Recording<N>& recording : recordings_) {
-                for_each_query(recording.primary, [&](const Query<N>& query) {
-                    visibility::HitPacket<N> hits;
-                    inner().intersect(inner_.context, query.active, query.rays, hits);
-                    return static_cast<std::uint32_t>(hits.triangle[0]);
-                });
-                for_each_query(recording.shadow, [&](const Query<N>& query) {
-                    return inner().occluded(inner_.context, query.active, query.rays);
-                });
-            }
-        });
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    }
-
-private:
-    const visibility::PacketTracer<N>& inner() const { return inner_; }
-
-    template <class Trace>
-    static void for_each_query(const std::vector<Query<N>>& queries, Trace trace) {
-        constexpr std::size_t kGrain = 64;
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), kGrain), [&](const auto& range) {
-            const render_cpu::FlushDenormals flush_denormals;
-            std::uint32_t used = 0;
-            for (std::size_t i = range.begin(); i < range.end(); ++i) used += trace(queries[i]);
-            // Keeps the compiler from dropping the calls.
-            [[maybe_unused]] volatile std::uint32_t sink = used;
-        });
-    }
-
-    static void intersect(const void* context, std::uint32_t active, const visibility::RayPacket<N>& rays,
-                          visibility::HitPacket<N>& hits) {
-        const auto& self = *static_cast<const Recorder*>(context);
-        self.recordings_.local().primary.push_back({active, rays});
-        self.inner().intersect(self.inner_.context, active, rays, hits);
-    }
-
-    static std::uint32_t occluded(const void* context, std::uint32_t active,
-                                  const visibility::RayPacket<N>& rays) {
-        const auto& self = *static_cast<const Recorder*>(context);
-        self.recordings_.local().shadow.push_back({active, rays});
-        return self.inner().occluded(self.inner_.context, active, rays);
-    }
-
-    visibility::RayTracer inner_;
-    mutable tbb::enumerable_thread_specific<Recording<N>> recordings_;
-};
+double replay(const visibility::RayRecorder<N>& recorder, tbb::task_arena& arena) {
+    const std::vector<const visibility::RayBatch<N>*> batches = recorder.batches();
+    const double thread_seconds = arena.execute([&] {
+        return tbb::parallel_reduce(
+            tbb::blocked_range<std::size_t>(0, batches.size()), 0.0,
+            [&](const auto& range, double sum) {
+                const render_cpu::FlushDenormals flush_denormals;
+                for (std::size_t i = range.begin(); i < range.end(); ++i) sum += recorder.replay(*batches[i]);
+                return sum;
+            },
+            std::plus<>());
+    });
+    return thread_seconds / arena.max_concurrency();
+}
 
 /// One technique: the same rays with and without everything else.
 struct RaysRow {
     render_cpu::Technique technique;
     std::uint64_t primary_rays = 0;
     std::uint64_t shadow_rays = 0;
-    double trace_seconds = 0;  ///< raw calls, median
+    double trace_seconds = 0;  ///< Embree's functions alone, see replay(), median
     double render_seconds = 0; ///< whole render phase, median
     double ratio() const { return render_seconds / trace_seconds; }
 };
@@ -117,12 +58,12 @@ struct RaysRow {
 template <int N>
 RaysRow measure(const render_cpu::Renderer& renderer, const render_cpu::RenderSettings& settings,
                 render_cpu::Isa isa, tbb::task_arena& arena, int repetitions) {
-    const Recorder<N> recorder(renderer.visibility().tracer());
+    visibility::RayRecorder<N> recorder(renderer.visibility());
     const render_cpu::RenderResult recorded = renderer.render(settings, isa, recorder.tracer());
     std::vector<double> trace_seconds;
     std::vector<double> render_seconds;
     for (int i = 0; i < repetitions; ++i) {
-        trace_seconds.push_back(recorder.replay(arena));
+        trace_seconds.push_back(replay(recorder, arena));
         render_seconds.push_back(renderer.render(settings, isa).statistics.render_seconds);
     }
     return {settings.technique, recorded.statistics.primary_rays, recorded.statistics.shadow_rays,
@@ -166,8 +107,8 @@ void setup_bench_rays(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchRaysOptions>();
     CLI::App* command = bench.add_subcommand(
         "rays",
-        "For each technique: time of the render phase against the time that Embree alone takes for the\n"
-        "same rays in the same packets. Medians of runs in turn.");
+        "For each technique: time of the render phase against the time that Embree's functions alone take\n"
+        "for the same rays in the same packets, without any conversion. Medians of runs in turn.");
     command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
     command->add_option("--spp", options->samples, "Samples per pixel and light, 1 to 64")
         ->check(CLI::Range(1, 64))

@@ -44,7 +44,7 @@ struct BenchRaysOptions {
 
 struct BenchSamplersOptions {
     int repetitions = 31;
-    std::string isa = "auto";
+    std::optional<std::string> isa;
     std::optional<std::string> json; ///< "-" is the standard output, instead of the table
 };
 

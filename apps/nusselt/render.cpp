@@ -24,6 +24,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// As shells report the end of a program by SIGINT.
+constexpr int kInterruptedExitCode = 130;
+
 double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
@@ -66,13 +69,22 @@ std::vector<std::filesystem::path> output_paths(const RenderOptions& options, co
     return {name.filename().replace_extension(".exr")};
 }
 
+/// Throws std::runtime_error if something could not be written after the work is done.
+void check_outputs(const RenderOptions& options) {
+    // The name that the scene may give to the default image is unknown yet, its folder is not.
+    for (const std::filesystem::path& path : output_paths(options, scene::Film()))
+        image::check_writable_image(path);
+    if (options.json && options.json != "-") image::check_writable(*options.json);
+}
+
 struct Times {
     double load = 0;
     double write = 0;
     double total = 0;
 };
 
-nlohmann::ordered_json timing_json(const RenderOptions& options, const scene::Scene& scene,
+nlohmann::ordered_json report_json(const RenderOptions& options, const render_cpu::RenderSettings& settings,
+                                   render_cpu::Isa isa, const scene::Scene& scene,
                                    const render_cpu::RenderStatistics& statistics, const Times& times) {
     const auto rate = [](std::uint64_t rays, double seconds) {
         return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
@@ -82,8 +94,14 @@ nlohmann::ordered_json timing_json(const RenderOptions& options, const scene::Sc
         {"triangles", scene.triangles.size()},
         {"width", scene.film.width},
         {"height", scene.film.height},
-        {"technique", options.technique},
-        {"samples", options.samples},
+        {"technique", render_cpu::name_of(settings.technique)},
+        {"samples", settings.samples},
+        {"camera_rays", render_cpu::camera_ray_count(settings)},
+        {"pixel_position", render_cpu::name_of(settings.pixel_position)},
+        {"sampler", render_cpu::name_of(settings.sample_order)},
+        {"brdf", render_cpu::name_of(settings.brdf)},
+        {"seed", settings.seed},
+        {"isa", render_cpu::name_of(isa)},
         {"threads", statistics.threads},
         {"seconds",
          {{"load", times.load},
@@ -96,6 +114,7 @@ nlohmann::ordered_json timing_json(const RenderOptions& options, const scene::Sc
           {"shading", statistics.shading_seconds},
           {"shadow_rays", statistics.shadow_seconds}}},
         {"rays", {{"primary", statistics.primary_rays}, {"shadow", statistics.shadow_rays}}},
+        {"rejected_samples", statistics.rejected_samples},
         {"rays_per_thread_second",
          {{"primary", rate(statistics.primary_rays, statistics.primary_seconds)},
           {"shadow", rate(statistics.shadow_rays, statistics.shadow_seconds)}}},
@@ -104,9 +123,9 @@ nlohmann::ordered_json timing_json(const RenderOptions& options, const scene::Sc
     };
 }
 
-void write_timings(const std::string& target, const nlohmann::ordered_json& timings) {
+void write_report(const std::string& target, const nlohmann::ordered_json& report) {
     // Paths may hold bytes that are not UTF-8.
-    const std::string text = timings.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    const std::string text = report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     if (target == "-") {
         fmt::print("{}\n", text);
     } else {
@@ -166,7 +185,7 @@ void setup_render(CLI::App& app, int& exit_code) {
     command->add_flag("-q,--quiet", options->quiet, "Print errors only, no warnings and no progress");
     command->add_option(
         "--json", options->json,
-        "Write times and numbers of rays as JSON to a file, or with - to the standard output.\n"
+        "Write settings, times and numbers of rays as JSON to a file, or with - to the standard output.\n"
         "Default: none");
     command->callback([options, &exit_code] {
         if (options->camera_rays && options->samples % *options->camera_rays != 0)
@@ -180,7 +199,9 @@ int run_render(const RenderOptions& options) {
     const auto begin = Clock::now();
     const render_cpu::RenderSettings settings = make_settings(options);
     const render_cpu::Isa isa = render_cpu::choose_isa(options.isa);
+    check_outputs(options);
 
+    const InterruptGuard guard;
     scene::Scene scene = scene::load_scene(options.scene);
     apply_resolution(options.resolution, scene);
     Times times;
@@ -190,8 +211,11 @@ int run_render(const RenderOptions& options) {
 
     const int threads = options.threads.value_or(render_cpu::default_thread_count());
     const render_cpu::Renderer renderer(scene, threads);
+    if (interrupted) {
+        if (!options.quiet) fmt::print(stderr, "stopped before the first pixel; no image is written\n");
+        return kInterruptedExitCode;
+    }
 
-    const InterruptGuard guard;
     Progress progress;
     render_cpu::RenderMonitor monitor;
     monitor.cancel = &interrupted;
@@ -208,11 +232,12 @@ int run_render(const RenderOptions& options) {
     }
     times.write = seconds_since(write_begin);
     times.total = seconds_since(begin);
-    if (options.json) write_timings(*options.json, timing_json(options, scene, result.statistics, times));
+    if (options.json)
+        write_report(*options.json, report_json(options, settings, isa, scene, result.statistics, times));
     if (result.finished_fraction == 1) return 0;
     if (!options.quiet)
         fmt::print(stderr, "stopped after {:.1f} % of the pixels\n", 100 * result.finished_fraction);
-    return 130;
+    return kInterruptedExitCode;
 }
 
 } // namespace nusselt::app

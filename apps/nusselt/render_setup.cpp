@@ -2,6 +2,7 @@
 
 #include "render_cpu/film.h"
 
+#include <algorithm>
 #include <charconv>
 
 namespace nusselt::app {
@@ -24,7 +25,13 @@ std::optional<Resolution> parse_resolution(const std::string& text) {
 }
 
 std::string check_resolution(const std::string& text) {
-    return parse_resolution(text) ? "" : "'" + text + "' is not of the form WIDTHxHEIGHT, such as 640x480";
+    const std::optional<Resolution> size = parse_resolution(text);
+    if (!size) return "'" + text + "' is not of the form WIDTHxHEIGHT, such as 640x480";
+    if (std::min(size->width, size->height) < 1 ||
+        std::max(size->width, size->height) > render_cpu::kMaxFilmSize)
+        return "'" + text + "' has a side that does not lie between 1 and " +
+               std::to_string(render_cpu::kMaxFilmSize);
+    return "";
 }
 
 } // namespace

@@ -64,6 +64,17 @@ void check_before_writing(const Image& image, const Metadata& metadata) {
     }
 }
 
+enum class OutputFormat { exr, png, hdr };
+
+OutputFormat output_format(const std::filesystem::path& path) {
+    const std::string extension = lower_case_extension(path);
+    if (extension == ".exr") return OutputFormat::exr;
+    if (extension == ".png") return OutputFormat::png;
+    if (extension == ".hdr") return OutputFormat::hdr;
+    throw std::runtime_error("cannot write '" + path.string() + "': unknown extension '" + extension +
+                             "'; use .exr, .png or .hdr");
+}
+
 } // namespace
 
 void check_size(std::int64_t width, std::int64_t height) {
@@ -75,19 +86,33 @@ void check_size(std::int64_t width, std::int64_t height) {
 void write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
                  double exposure) {
     check_before_writing(image, metadata);
-    const std::string extension = lower_case_extension(path);
-    if (extension == ".exr") {
+    switch (output_format(path)) {
+    case OutputFormat::exr:
         write_atomically(path,
                          [&](std::ofstream& stream) { encode_exr(stream, path.string(), image, metadata); });
-    } else if (extension == ".png") {
+        break;
+    case OutputFormat::png:
         write_atomically(path,
                          [&](std::ofstream& stream) { encode_png(stream, image, std::exp2(exposure)); });
-    } else if (extension == ".hdr") {
+        break;
+    case OutputFormat::hdr:
         write_atomically(path, [&](std::ofstream& stream) { encode_hdr(stream, image); });
-    } else {
-        throw std::runtime_error("cannot write '" + path.string() + "': unknown extension '" + extension +
-                                 "'; use .exr, .png or .hdr");
+        break;
     }
+}
+
+void check_writable(const std::filesystem::path& path) {
+    struct Abandoned {};
+    try {
+        write_atomically(path, [](std::ofstream&) { throw Abandoned(); });
+    } catch (const Abandoned&) {
+        // As it should be: a temporary file could be created and is gone again.
+    }
+}
+
+void check_writable_image(const std::filesystem::path& path) {
+    output_format(path);
+    check_writable(path);
 }
 
 Image read_image(const std::filesystem::path& path) {

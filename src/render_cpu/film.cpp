@@ -8,8 +8,6 @@ namespace nusselt::render_cpu {
 
 namespace {
 
-constexpr int kMaxSize = 65536;
-
 scene::Float3 scaled(double factor, const scene::Float3& v) {
     return {static_cast<float>(factor * v.x), static_cast<float>(factor * v.y),
             static_cast<float>(factor * v.z)};
@@ -19,8 +17,8 @@ scene::Float3 scaled(double factor, const scene::Float3& v) {
 
 void resize_film(scene::Scene& scene, int width, int height) {
     for (const int size : {width, height})
-        if (size < 1 || size > kMaxSize)
-            throw std::invalid_argument("image sizes lie between 1 and " + std::to_string(kMaxSize) +
+        if (size < 1 || size > kMaxFilmSize)
+            throw std::invalid_argument("image sizes lie between 1 and " + std::to_string(kMaxFilmSize) +
                                         ", found " + std::to_string(size));
     const scene::Film& film = scene.film;
     scene::Camera& camera = scene.camera;

@@ -88,6 +88,7 @@ struct TileStatistics {
     std::uint64_t shadow_ticks;
     std::uint64_t primary_rays;
     std::uint64_t shadow_rays;
+    std::uint64_t rejected_samples; ///< see RenderStatistics
 };
 
 /// Renders a tile and adds its work to the statistics. Any number of threads may render different tiles.

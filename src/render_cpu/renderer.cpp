@@ -57,6 +57,7 @@ public:
         work_.shadow_ticks += work.shadow_ticks;
         work_.primary_rays += work.primary_rays;
         work_.shadow_rays += work.shadow_rays;
+        work_.rejected_samples += work.rejected_samples;
         finished_pixels_ += static_cast<std::uint64_t>(tile.x_end - tile.x_begin) *
                             static_cast<std::uint64_t>(tile.y_end - tile.y_begin);
         if (monitor_.progress) monitor_.progress(finished_fraction());
@@ -142,6 +143,7 @@ RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const vis
     result.statistics.shadow_seconds = scale * static_cast<double>(work.shadow_ticks);
     result.statistics.primary_rays = work.primary_rays;
     result.statistics.shadow_rays = work.shadow_rays;
+    result.statistics.rejected_samples = work.rejected_samples;
     result.statistics.threads = thread_count_;
     result.finished_fraction = tally.finished_fraction();
     return result;

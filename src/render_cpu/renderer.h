@@ -33,6 +33,9 @@ struct RenderStatistics {
     double shadow_seconds = 0;  ///< tracing of shadow rays
     std::uint64_t primary_rays = 0;
     std::uint64_t shadow_rays = 0;
+    /// Light samples that count as black because their direction, density or reflected radiance is NaN or
+    /// infinite: 0 unless there is NaN or overflow in the scene, or a bug.
+    std::uint64_t rejected_samples = 0;
     int threads = 0;
 };
 

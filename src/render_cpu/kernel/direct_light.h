@@ -16,8 +16,15 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 
-/// Shadow rays end this far before the light, so that it does not shadow itself.
-inline constexpr float kShadowRayLength = 1 - 1e-4f;
+/// Share of the way to the light that shadow rays trace. They must stop before the light, which is in the scene
+/// itself: single precision puts the sampled point, and the triangles around it, up to some 1e-6 of the way
+/// off. Occluders within the last 1e-4 of the way are missed.
+inline constexpr float kShadowRayEnd = 1 - 1e-4f;
+
+/// Lanes whose components are neither NaN nor infinite.
+inline LaneMask is_finite(const Vector& v) noexcept {
+    return is_finite(v.x) & is_finite(v.y) & is_finite(v.z);
+}
 
 /// Estimates the light that one packet of shading points reflects to the eye.
 class DirectLight {
@@ -44,10 +51,11 @@ public:
         const auto local = to_shading_space(world, surface_.position, surface_.frame);
 
         LaneMask lit = surface_.valid & !is_part_of_light(index);
-        if (record.two_sided == 0) lit &= dot(local.normal, local.vertex[0]) < Real(0);
+        // Comparisons with NaN are false: negated they keep it, so that it is counted.
+        if (record.two_sided == 0) lit &= !(dot(local.normal, local.vertex[0]) >= Real(0));
         Real highest = local.vertex[0].z;
         for (int j = 1; j < N; ++j) highest = max(highest, local.vertex[j].z);
-        lit &= highest > Real(0);
+        lit &= !(highest <= Real(0));
         if (!any(lit)) return;
         const Technique<Real, N> technique(local);
         add(lit, static_cast<std::uint32_t>(index), to_vec(record.radiance),
@@ -61,7 +69,7 @@ public:
         const LineSegment<float> world{to_vec(record.begin), to_vec(record.direction), record.length};
         const auto local = to_shading_space(world, surface_.position, surface_.frame);
         const Real end = local.p0.z + local.length * local.s.z;
-        const LaneMask lit = surface_.valid & (max(local.p0.z, end) > Real(0));
+        const LaneMask lit = surface_.valid & !(max(local.p0.z, end) <= Real(0));
         if (!any(lit)) return;
         const Technique<Real> technique(local);
         add(lit, static_cast<std::uint32_t>(job_.scene.polygon_light_count + index),
@@ -78,11 +86,14 @@ private:
         for (std::uint32_t i = 0; i < job_.light_samples; ++i) {
             const LightSample<Real> sample =
                 sample_light(random_for_light(job_, block_, first_sample_ + i, light));
-            const LaneMask sampled = lit & (sample.pdf > Real(0)) & (sample.wi.z > Real(0));
+            const LaneMask sampled = lit & !(sample.pdf == Real(0)) & !(sample.wi.z <= Real(0));
             const Real cos_per_pdf = sample.wi.z / select(sampled, sample.pdf, Real(1));
             const Vector reflected = cos_per_pdf * surface_.brdf.eval(sample.wi);
+            const LaneMask sound = (sample.pdf > Real(0)) & is_finite(sample.pdf) & is_finite(sample.wi) &
+                                   is_finite(sample.p) & is_finite(reflected);
+            statistics_.rejected_samples += count_lanes(sampled & !sound);
             const Vector zero{Real(0), Real(0), Real(0)};
-            sum.add(select(visible(sampled, reflected, sample), reflected, zero));
+            sum.add(select(visible(sampled & sound, reflected, sample), reflected, zero));
         }
         const float scale = 1.0f / static_cast<float>(job_.light_samples);
         const Vec3<float> factor = scale * emission;
@@ -95,7 +106,7 @@ private:
         const Vector to_light = surface_.frame.to_world(sample.p);
         const auto above_surface = dot(surface_.geometric_normal, to_light) > Real(0);
         const Real largest = max(max(reflected.x, reflected.y), reflected.z);
-        const LaneMask needed = sampled & above_surface & (largest > Real(0)) & is_finite(largest);
+        const LaneMask needed = sampled & above_surface & (largest > Real(0));
         const std::uint32_t active = needed.bits();
         if (active == 0) return needed;
 
@@ -109,12 +120,12 @@ private:
         direction.x.store(rays.direction[0]);
         direction.y.store(rays.direction[1]);
         direction.z.store(rays.direction[2]);
-        Real(kShadowRayLength).store(rays.t_far);
+        Real(kShadowRayEnd).store(rays.t_far);
         const visibility::PacketTracer<kLanes>& tracer = job_.tracer;
         const std::uint64_t begin = __builtin_ia32_rdtsc();
         const std::uint32_t blocked = tracer.occluded(job_.tracer.context, active, rays);
         statistics_.shadow_ticks += __builtin_ia32_rdtsc() - begin;
-        statistics_.shadow_rays += static_cast<std::uint64_t>(__builtin_popcount(active));
+        statistics_.shadow_rays += count_lanes(needed);
         return LaneMask::from_bits(active & ~blocked);
     }
 

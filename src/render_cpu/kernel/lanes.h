@@ -43,6 +43,10 @@ inline Vector load(const Lanes& lanes) noexcept {
     return {Real::load(lanes.x), Real::load(lanes.y), Real::load(lanes.z)};
 }
 
+inline std::uint64_t count_lanes(LaneMask mask) noexcept {
+    return static_cast<std::uint64_t>(__builtin_popcount(mask.bits()));
+}
+
 inline Vec3<float> to_vec(const scene::Float3& v) noexcept { return {v.x, v.y, v.z}; }
 
 /// The entry `column` of rows of `stride` floats, for a row number per active lane; 0 in the others.

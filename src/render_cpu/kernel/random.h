@@ -16,32 +16,24 @@ struct PixelBlock {
     LaneMask inside; ///< the tile
 };
 
-/// \param pair_for returns the two numbers for the pixel (x, y)
-template <class PairFor>
-inline Vec2<Real> random_pairs(const PixelBlock& block, PairFor pair_for) noexcept {
-    float x[kLanes];
-    float y[kLanes];
-    for (int i = 0; i < kLanes; ++i) {
-        const Vec2<float> u = pair_for(block.x[i], block.y[i]);
-        x[i] = u.x;
-        y[i] = u.y;
+/// The same sample of all pixels of a packet.
+struct PacketSamples {
+    explicit PacketSamples(std::uint32_t sample) noexcept {
+        for (std::uint32_t& lane : number) lane = sample;
     }
-    return {Real::load(x), Real::load(y)};
-}
+    std::uint32_t number[kLanes];
+};
 
-/// Calls function with the Sampler as a compile-time constant: the compiler vectorises loops over lanes only
-/// if they do not branch on it.
-template <class Function>
-inline Vec2<Real> with_sampler(render_cpu::SampleOrder order, Function function) noexcept {
+inline Sampler sampler_of(render_cpu::SampleOrder order) noexcept {
     switch (order) {
     case render_cpu::SampleOrder::independent:
-        return function(std::integral_constant<Sampler, Sampler::independent>());
+        return Sampler::independent;
     case render_cpu::SampleOrder::jittered:
-        return function(std::integral_constant<Sampler, Sampler::jittered>());
+        return Sampler::jittered;
     case render_cpu::SampleOrder::sobol:
         break;
     }
-    return function(std::integral_constant<Sampler, Sampler::sobol>());
+    return Sampler::sobol;
 }
 
 /// For one sample of one light.
@@ -49,27 +41,30 @@ inline Vec2<Real> with_sampler(render_cpu::SampleOrder order, Function function)
 inline Vec2<Real> random_for_light(const render_cpu::RenderJob& job, const PixelBlock& block,
                                    std::uint32_t sample, std::uint32_t light) noexcept {
     const std::uint32_t count = job.camera_rays * job.light_samples;
-    return with_sampler(job.sample_order, [&](auto sampler) {
-        return random_pairs(block, [&](std::uint32_t x, std::uint32_t y) {
-            return light_random<float>(sampler.value, job.seed, x, y, sample, count, light);
-        });
-    });
+    const PacketSamples samples(sample);
+    float x[kLanes];
+    float y[kLanes];
+    light_random_lanes(sampler_of(job.sample_order), job.seed, block.x, block.y, samples.number, count, light,
+                       0, x, y);
+    return {Real::load(x), Real::load(y)};
 }
 
 /// Raster positions of camera rays, in pixels.
 inline Vec2<Real> raster_positions(const render_cpu::RenderJob& job, const PixelBlock& block,
                                    std::uint32_t camera_ray) noexcept {
-    const auto pixel = [](std::uint32_t x) { return static_cast<float>(static_cast<std::int32_t>(x)); };
-    if (job.pixel_position == render_cpu::PixelPosition::center)
-        return random_pairs(block, [&](std::uint32_t x, std::uint32_t y) {
-            return Vec2<float>{pixel(x) + 0.5f, pixel(y) + 0.5f};
-        });
-    return with_sampler(job.sample_order, [&](auto sampler) {
-        return random_pairs(block, [&](std::uint32_t x, std::uint32_t y) {
-            const Vec2<float> u = camera_random<float>(sampler.value, job.seed, x, y, camera_ray);
-            return Vec2<float>{pixel(x) + u.x, pixel(y) + u.y};
-        });
-    });
+    float x[kLanes];
+    float y[kLanes];
+    if (job.pixel_position == render_cpu::PixelPosition::center) {
+        for (int i = 0; i < kLanes; ++i) x[i] = y[i] = 0.5f;
+    } else {
+        const PacketSamples samples(camera_ray);
+        camera_random_lanes(sampler_of(job.sample_order), job.seed, block.x, block.y, samples.number, x, y);
+    }
+    for (int i = 0; i < kLanes; ++i) {
+        x[i] += static_cast<float>(static_cast<std::int32_t>(block.x[i]));
+        y[i] += static_cast<float>(static_cast<std::int32_t>(block.y[i]));
+    }
+    return {Real::load(x), Real::load(y)};
 }
 
 } // namespace kernel

@@ -52,7 +52,7 @@ TEST(BiasedTest, CentralCaseIsAlmostExact) {
     const auto light = make_light<double>(polygon_cases().front());
     const nusselt::PolygonProjectedSolidAngle<double, 4> exact(light);
     const nusselt::PolygonProjectedSolidAngleBiased<double, 4> biased(light);
-    for (const auto& u : midpoints<PolygonKind, double>(10)) {
+    for (const auto& u : midpoints<PolygonAreaKind, double>(10)) {
         EXPECT_LE(length(exact.sample(u).wi - biased.sample(u).wi), 2e-4);
     }
 }

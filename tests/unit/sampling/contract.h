@@ -39,8 +39,8 @@ struct Bounds {
     nusselt::Vec3<long double> low, high;
     long double extent;
 
-    template <class T>
-    explicit Bounds(const nusselt::ConvexPolygon<T, 4>& polygon) {
+    template <class T, int N>
+    explicit Bounds(const nusselt::ConvexPolygon<T, N>& polygon) {
         low = high = nusselt::broadcast<long double>(polygon.vertex[0]);
         for (const auto& v : polygon.vertex) include(nusselt::broadcast<long double>(v));
         finish();
@@ -117,7 +117,7 @@ std::string violation(const Outputs<T, Random>& out, const Bounds& bounds) {
 template <class Kind, class T>
 auto hostile_light(HostileLights<T>& lights) {
     if constexpr (kIsPolygon<Kind>) {
-        return lights.polygon();
+        return lights.template polygon<Kind::kVertices>();
     } else {
         return lights.line();
     }

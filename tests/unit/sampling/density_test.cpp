@@ -47,7 +47,7 @@ TYPED_TEST_P(DensityTest, IsTheReciprocalOfTheJacobian) {
     constexpr T kStep = sizeof(T) > sizeof(double) ? T(5e-7) : T(2e-5);
     constexpr T kTolerance = sizeof(T) > sizeof(double) ? T(2e-9) : T(2e-6);
     for (const auto& light : cases<Kind>()) {
-        const auto local = make_light<T>(light);
+        const auto local = light_for<Kind, T>(light);
         const typename TypeParam::Technique technique(local);
         for (const auto& u : midpoints<Kind, T>(8)) {
             const T pdf = technique.sample(u).pdf;
@@ -83,7 +83,7 @@ TYPED_TEST_P(DensityTest, EstimatesProjectedSolidAngle) {
     using Kind = typename TypeParam::Kind;
     const auto cosine = [](const nusselt::Vec3<T>& wi) { return std::max(wi.z, T(0)); };
     for (const auto& light : cases<Kind>()) {
-        const auto local = make_light<T>(light);
+        const auto local = light_for<Kind, T>(light);
         const typename TypeParam::Technique technique(local);
         const T expected = projected_solid_angle(local);
         const auto error = [&](int count) {
@@ -115,7 +115,7 @@ TYPED_TEST_P(DensityTest, EstimatesSolidAngle) {
             light.name.find("below") != std::string::npos || light.name == "octant") {
             continue;
         }
-        const auto local = make_light<T>(light);
+        const auto local = light_for<Kind, T>(light);
         const typename TypeParam::Technique technique(local);
         const T expected = solid_angle_above_horizon(local);
         const T estimated = estimate<Kind, T>(technique, kIsPolygon<Kind> ? 160 : 6000, one);
@@ -127,7 +127,7 @@ TYPED_TEST_P(DensityTest, MeasureIsTheClosedForm) {
     using T = typename TypeParam::Real;
     using Kind = typename TypeParam::Kind;
     for (const auto& light : cases<Kind>()) {
-        const auto local = make_light<T>(light);
+        const auto local = light_for<Kind, T>(light);
         const typename TypeParam::Technique technique(local);
         T expected = 0;
         if constexpr (Kind::kMeasure == Measure::kArea) {

@@ -57,16 +57,17 @@ public:
         }
     }
 
-    /// A triangle or quadrilateral in either winding.
-    nusselt::ConvexPolygon<T, 4> polygon() {
-        std::vector<Vec> v = random_.index(10) == 0 ? integer_quad() : round_polygon();
+    /// A polygon with 3 to N vertices in either winding.
+    template <int N = 4>
+    nusselt::ConvexPolygon<T, N> polygon() {
+        std::vector<Vec> v = random_.index(10) == 0 ? integer_quad() : round_polygon(N);
         const int changes = random_.index(3);
         for (int i = 0; i < changes; ++i) deform(v);
         if (random_.index(2) == 0) std::reverse(v.begin(), v.end());
         const double unit = unit_of_length();
-        nusselt::Vec3<T> vertices[4] = {};
+        nusselt::Vec3<T> vertices[N] = {};
         for (std::size_t j = 0; j < v.size(); ++j) vertices[j] = rounded(v[j], unit);
-        return nusselt::make_polygon<4>(vertices, static_cast<int>(v.size()));
+        return nusselt::make_polygon<N>(vertices, static_cast<int>(v.size()));
     }
 
     nusselt::LineSegment<T> line() {
@@ -104,13 +105,13 @@ private:
     }
 
     /// Inscribed in an ellipse of random orientation, of any size relative to its distance.
-    std::vector<Vec> round_polygon() {
+    std::vector<Vec> round_polygon(int largest_count) {
         const Vec center = random_.direction();
         const Vec a = random_.direction();
         const Vec b = normalize(cross(a, random_.direction()));
         const double size = random_.log_between(1e-6, 1e6);
         const double width = random_.index(4) == 0 ? random_.log_between(1e-8, 1) : 1;
-        const int count = 3 + random_.index(2);
+        const int count = 3 + random_.index(largest_count - 2);
         const double start = random_.between(0, 6.3);
         std::vector<Vec> v;
         for (int j = 0; j < count; ++j) {

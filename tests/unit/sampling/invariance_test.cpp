@@ -65,7 +65,7 @@ TYPED_TEST(InvarianceTest, UnusedSlotsChangeNothing) {
     HostileLights<T> hostile(5);
     for (int i = 0; i < 2000; ++i) {
         const auto light = hostile.polygon();
-        const auto u = hostile_random<PolygonKind>(hostile);
+        const auto u = hostile_random<PolygonAreaKind>(hostile);
         expect_same_with_unused_slots<nusselt::PolygonArea, T>(light, u);
         expect_same_with_unused_slots<nusselt::PolygonSolidAngle, T>(light, u);
         expect_same_with_unused_slots<nusselt::PolygonClippedSolidAngle, T>(light, u);
@@ -73,7 +73,7 @@ TYPED_TEST(InvarianceTest, UnusedSlotsChangeNothing) {
     // The sorting networks may order vertices differently whose azimuths are equal up to rounding, as those
     // of some hostile lights.
     for (const PolygonCase& light : polygon_cases()) {
-        for (const auto& u : midpoints<PolygonKind, T>(5)) {
+        for (const auto& u : midpoints<PolygonAreaKind, T>(5)) {
             expect_same_with_unused_slots<ProjectedSolidAngle, T>(make_light<T>(light), u);
         }
     }

@@ -52,7 +52,7 @@ TYPED_TEST_P(InversionTest, ReturnsTheRandomNumber) {
     using T = typename TypeParam::Real;
     using Kind = typename TypeParam::Kind;
     for (const auto& light : cases<Kind>()) {
-        const typename TypeParam::Technique technique(make_light<T>(light));
+        const typename TypeParam::Technique technique(light_for<Kind, T>(light));
         for (const T x : coordinates<T>()) {
             for (const T y : coordinates<T>()) {
                 const auto u = random_of<Kind>(x, y);
@@ -75,7 +75,7 @@ TYPED_TEST_P(InversionTest, SampleReturnsItsDensity) {
     using T = typename TypeParam::Real;
     using Kind = typename TypeParam::Kind;
     for (const auto& light : cases<Kind>()) {
-        const typename TypeParam::Technique technique(make_light<T>(light));
+        const typename TypeParam::Technique technique(light_for<Kind, T>(light));
         for (const auto& u : midpoints<Kind, T>(7)) {
             const auto sample = technique.sample(u);
             EXPECT_GT(sample.pdf, 0) << light.name;
@@ -88,7 +88,7 @@ TYPED_TEST_P(InversionTest, HitPointLiesInTheDirectionOfTheSample) {
     using T = typename TypeParam::Real;
     using Kind = typename TypeParam::Kind;
     for (const auto& light : cases<Kind>()) {
-        const auto local = make_light<T>(light);
+        const auto local = light_for<Kind, T>(light);
         const typename TypeParam::Technique technique(local);
         for (const auto& u : midpoints<Kind, T>(7)) {
             const auto sample = technique.sample(u);
@@ -120,7 +120,7 @@ TYPED_TEST_P(InversionTest, HitPointLiesOnTheLight) {
     using T = typename TypeParam::Real;
     using Kind = typename TypeParam::Kind;
     for (const auto& light : cases<Kind>()) {
-        const auto local = make_light<T>(light);
+        const auto local = light_for<Kind, T>(light);
         const typename TypeParam::Technique technique(local);
         for (const auto& u : midpoints<Kind, T>(7)) {
             const auto sample = technique.sample(u);

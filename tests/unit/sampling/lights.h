@@ -22,6 +22,15 @@ struct LineCase {
     nusselt::Vec3<double> begin, end;
 };
 
+/// Spanned by two vectors about a center; exact in every precision for short binary coordinates.
+inline std::vector<nusselt::Vec3<double>> octagon(const nusselt::Vec3<double>& center, const nusselt::Vec3<double>& a,
+                                                  const nusselt::Vec3<double>& b) {
+    std::vector<nusselt::Vec3<double>> vertices;
+    constexpr double kCoordinates[] = {1, 0.375, -0.375, -1, -1, -0.375, 0.375, 1};
+    for (int j = 0; j < 8; ++j) vertices.push_back(center + kCoordinates[(j + 1) % 8] * a + kCoordinates[(j + 7) % 8] * b);
+    return vertices;
+}
+
 /// Coordinates are such that vertices are coplanar in every precision.
 inline std::vector<PolygonCase> polygon_cases() {
     return {
@@ -43,6 +52,26 @@ inline std::vector<PolygonCase> polygon_cases() {
     };
 }
 
+/// Polygons that need more than four slots, and some that leave slots unused.
+inline std::vector<PolygonCase> many_vertex_cases() {
+    return {
+        {"pentagon around the zenith", {{-1, -0.5, 1}, {0.5, -1, 1}, {1.25, 0.25, 1}, {0.5, 1, 1}, {-0.75, 0.75, 1}}},
+        {"pentagon, one vertex below", {{0.5, 0, 0.875}, {1, -0.75, 0.3125}, {2, -0.25, -0.3125}, {1.75, 0.5, 0.0625}, {1, 0.75, 0.6875}}},
+        {"hexagon, zenith outside",
+         {{0.5, 0.25, 1}, {1, 0, 1}, {1.5, 0.25, 1}, {1.5, 0.75, 1}, {1, 1, 1}, {0.5, 0.75, 1}}},
+        {"hexagon, other winding",
+         {{0.5, 0.75, 1}, {1, 1, 1}, {1.5, 0.75, 1}, {1.5, 0.25, 1}, {1, 0, 1}, {0.5, 0.25, 1}}},
+        {"heptagonal wall through the floor",
+         {{1, -0.5, -0.75}, {1, 0.25, -1}, {1, 0.75, -0.5}, {1, 1, 0.25}, {1, 0.5, 1}, {1, -0.25, 1.25}, {1, -0.75, 0.5}}},
+        {"octagon around the zenith, clipped", octagon({0.25, 0.125, 0.5}, {1, 0, 1}, {0, 1, 0})},
+        {"octagon, zenith outside, clipped", octagon({1.5, 0.5, 0.25}, {1, 0, 0.5}, {0, 1, 0.25})},
+        {"octagon around the zenith", octagon({0.25, 0.125, 1}, {1, 0, 0.25}, {0, 1, -0.125})},
+        {"small octagon", octagon({1, 0.5, 2}, {0.03125, 0, 0}, {0, 0.03125, 0.015625})},
+        {"quadrilateral", {{-1, -0.75, 1}, {1.25, -0.75, 1}, {1, 1, 1}, {-1, 0.75, 1}}},
+        {"triangle", {{0.25, -1, 0.5}, {1.5, -0.25, 0.75}, {0.5, 1, 1.25}}},
+    };
+}
+
 inline std::vector<LineCase> line_cases() {
     return {
         {"symmetric", {-1, 0.5, 1}, {1, 0.5, 1}},
@@ -59,10 +88,12 @@ inline std::vector<LineCase> line_cases() {
 
 template <class Kind>
 auto cases() {
-    if constexpr (kIsPolygon<Kind>) {
+    if constexpr (!kIsPolygon<Kind>) {
+        return line_cases();
+    } else if constexpr (Kind::kVertices == 4) {
         return polygon_cases();
     } else {
-        return line_cases();
+        return many_vertex_cases();
     }
 }
 
@@ -77,6 +108,16 @@ nusselt::ConvexPolygon<T, N> make_light(const PolygonCase& polygon) {
 template <class T>
 nusselt::LineSegment<T> make_light(const LineCase& line) {
     return nusselt::make_line(nusselt::broadcast<T>(line.begin), nusselt::broadcast<T>(line.end));
+}
+
+/// The light of a case as a technique takes it.
+template <class Kind, class T, class Case>
+typename Kind::template Light<T> light_for(const Case& light) {
+    if constexpr (kIsPolygon<Kind>) {
+        return make_light<T, Kind::kVertices>(light);
+    } else {
+        return make_light<T>(light);
+    }
 }
 
 template <class T>

@@ -72,7 +72,7 @@ TYPED_TEST_P(PacksTest, LightPerLaneBesideNaN) {
         for (int i = 0; i < kLanes; ++i) {
             // Half of the lights are ordinary: central and decentral cases, clipped and whole ones mix.
             light[i] = i % 2 == 0
-                           ? make_light<T>(ordinary[static_cast<std::size_t>(round + i) % ordinary.size()])
+                           ? light_for<Kind, T>(ordinary[static_cast<std::size_t>(round + i) % ordinary.size()])
                            : hostile_light<Kind>(hostile);
             single_u[i] = hostile_random<Kind>(hostile);
             auto shown = light[i];
@@ -97,7 +97,7 @@ TYPED_TEST_P(PacksTest, OneLightBroadcastToAllLanes) {
     const auto ordinary = cases<Kind>();
     for (std::size_t round = 0; round < 300 && !this->HasFailure(); ++round) {
         const auto light =
-            round < ordinary.size() ? make_light<T>(ordinary[round]) : hostile_light<Kind>(hostile);
+            round < ordinary.size() ? light_for<Kind, T>(ordinary[round]) : hostile_light<Kind>(hostile);
         const typename TypeParam::ScalarTechnique single(light);
         typename TypeParam::Random u;
         typename TypeParam::ScalarRandom single_u[kLanes];

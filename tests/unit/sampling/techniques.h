@@ -16,11 +16,16 @@ namespace nusselt_test {
 enum class Measure { kArea, kSolidAngle, kProjectedSolidAngle };
 enum class Horizon { kIgnored, kClipped };
 
-struct PolygonKind {
-    template <class Real>
-    using Light = nusselt::ConvexPolygon<Real, 4>;
+struct AnyPolygonKind {
     template <class Real>
     using Random = nusselt::Vec2<Real>;
+};
+/// \tparam N bound on the number of vertices.
+template <int N>
+struct PolygonKind : AnyPolygonKind {
+    static constexpr int kVertices = N;
+    template <class Real>
+    using Light = nusselt::ConvexPolygon<Real, N>;
 };
 struct LineKind {
     template <class Real>
@@ -30,43 +35,54 @@ struct LineKind {
 };
 
 template <class Kind>
-inline constexpr bool kIsPolygon = std::is_base_of_v<PolygonKind, Kind>;
+inline constexpr bool kIsPolygon = std::is_base_of_v<AnyPolygonKind, Kind>;
 
-struct PolygonAreaKind : PolygonKind {
+template <int N>
+struct PolygonAreaKindOf : PolygonKind<N> {
     template <class Real>
-    using Technique = nusselt::PolygonArea<Real, 4>;
+    using Technique = nusselt::PolygonArea<Real, N>;
     static constexpr const char* kName = "PolygonArea";
     static constexpr Measure kMeasure = Measure::kArea;
     static constexpr Horizon kHorizon = Horizon::kIgnored;
 };
-struct PolygonSolidAngleKind : PolygonKind {
+template <int N>
+struct PolygonSolidAngleKindOf : PolygonKind<N> {
     template <class Real>
-    using Technique = nusselt::PolygonSolidAngle<Real, 4>;
+    using Technique = nusselt::PolygonSolidAngle<Real, N>;
     static constexpr const char* kName = "PolygonSolidAngle";
     static constexpr Measure kMeasure = Measure::kSolidAngle;
     static constexpr Horizon kHorizon = Horizon::kIgnored;
 };
-struct PolygonClippedSolidAngleKind : PolygonKind {
+template <int N>
+struct PolygonClippedSolidAngleKindOf : PolygonKind<N> {
     template <class Real>
-    using Technique = nusselt::PolygonClippedSolidAngle<Real, 4>;
+    using Technique = nusselt::PolygonClippedSolidAngle<Real, N>;
     static constexpr const char* kName = "PolygonClippedSolidAngle";
     static constexpr Measure kMeasure = Measure::kSolidAngle;
     static constexpr Horizon kHorizon = Horizon::kClipped;
 };
-struct PolygonProjectedSolidAngleKind : PolygonKind {
+template <int N>
+struct PolygonProjectedSolidAngleKindOf : PolygonKind<N> {
     template <class Real>
-    using Technique = nusselt::PolygonProjectedSolidAngle<Real, 4>;
+    using Technique = nusselt::PolygonProjectedSolidAngle<Real, N>;
     static constexpr const char* kName = "PolygonProjectedSolidAngle";
     static constexpr Measure kMeasure = Measure::kProjectedSolidAngle;
     static constexpr Horizon kHorizon = Horizon::kClipped;
 };
-struct PolygonBiasedKind : PolygonKind {
+template <int N>
+struct PolygonBiasedKindOf : PolygonKind<N> {
     template <class Real>
-    using Technique = nusselt::PolygonProjectedSolidAngleBiased<Real, 4>;
+    using Technique = nusselt::PolygonProjectedSolidAngleBiased<Real, N>;
     static constexpr const char* kName = "PolygonProjectedSolidAngleBiased";
     static constexpr Measure kMeasure = Measure::kProjectedSolidAngle;
     static constexpr Horizon kHorizon = Horizon::kClipped;
 };
+using PolygonAreaKind = PolygonAreaKindOf<4>;
+using PolygonSolidAngleKind = PolygonSolidAngleKindOf<4>;
+using PolygonClippedSolidAngleKind = PolygonClippedSolidAngleKindOf<4>;
+using PolygonProjectedSolidAngleKind = PolygonProjectedSolidAngleKindOf<4>;
+using PolygonBiasedKind = PolygonBiasedKindOf<4>;
+
 struct LineAreaKind : LineKind {
     template <class Real>
     using Technique = nusselt::LineArea<Real>;

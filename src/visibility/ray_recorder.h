@@ -1,0 +1,93 @@
+#pragma once
+/// Recording of rays, to measure what Embree alone takes for them.
+
+#include "visibility/embree_packets.h"
+#include "visibility/embree_scene.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+namespace nusselt::visibility {
+
+/// Consecutive queries of one thread, ready for Embree. Small enough for copies to stay in the cache.
+template <int N>
+struct RayBatch {
+    static constexpr std::size_t kCapacity = 32;
+    std::vector<ClosestHitQuery<N>> closest_hit;
+    std::vector<ShadowQuery<N>> shadow;
+};
+
+/// Traces packets of N rays as a scene does and remembers them.
+template <int N>
+class RayRecorder {
+public:
+    /// \param scene must outlive this object
+    explicit RayRecorder(const EmbreeScene& scene) : inner_(scene.tracer()) {}
+    RayRecorder(const RayRecorder&) = delete;
+    RayRecorder& operator=(const RayRecorder&) = delete;
+
+    /// Records packets of N, from any number of threads; no other width works. Valid as long as this object.
+    RayTracer tracer() {
+        RayTracer result{};
+        static_cast<PacketTracer<N>&>(result) = {intersect, occluded};
+        result.context = this;
+        return result;
+    }
+
+    /// What was recorded so far; not while something is recorded.
+    std::vector<const RayBatch<N>*> batches() const {
+        std::vector<const RayBatch<N>*> result;
+        for (const auto& of_thread : batches_)
+            for (const RayBatch<N>& batch : of_thread) result.push_back(&batch);
+        return result;
+    }
+
+    /// Traces a batch again. Embree overwrites packets, so this works on a copy; it is made, and with it the
+    /// rays enter the cache, before the clock starts.
+    /// \returns the time of Embree's functions alone [s]
+    double replay(const RayBatch<N>& batch) const {
+        RayBatch<N> copy = batch;
+        const RTCScene scene = embree_scene(inner_.context);
+        const auto begin = std::chrono::steady_clock::now();
+        for (ClosestHitQuery<N>& query : copy.closest_hit) query.trace(scene);
+        for (ShadowQuery<N>& query : copy.shadow) query.trace(scene);
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
+
+private:
+    const PacketTracer<N>& inner() const { return inner_; }
+
+    /// Where the calling thread records its next query.
+    RayBatch<N>& current_batch() {
+        std::vector<RayBatch<N>>& batches = batches_.local();
+        if (batches.empty() ||
+            batches.back().closest_hit.size() + batches.back().shadow.size() == RayBatch<N>::kCapacity)
+            batches.emplace_back();
+        return batches.back();
+    }
+
+    static RayRecorder& self(const void* context) {
+        return *static_cast<RayRecorder*>(const_cast<void*>(context));
+    }
+
+    static void intersect(const void* context, std::uint32_t active, const RayPacket<N>& rays,
+                          HitPacket<N>& hits) {
+        RayRecorder& recorder = self(context);
+        recorder.current_batch().closest_hit.emplace_back(active, rays);
+        recorder.inner().intersect(recorder.inner_.context, active, rays, hits);
+    }
+
+    static std::uint32_t occluded(const void* context, std::uint32_t active, const RayPacket<N>& rays) {
+        RayRecorder& recorder = self(context);
+        recorder.current_batch().shadow.emplace_back(active, rays);
+        return recorder.inner().occluded(recorder.inner_.context, active, rays);
+    }
+
+    RayTracer inner_;
+    tbb::enumerable_thread_specific<std::vector<RayBatch<N>>> batches_;
+};
+
+} // namespace nusselt::visibility
