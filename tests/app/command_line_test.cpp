@@ -10,12 +10,13 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <thread>
 
 namespace nusselt {
 
@@ -80,7 +81,8 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo) {
     for (const char* arguments :
          {"", "polish", "render", "render a.pbrt --spp 0", "render a.pbrt --technique magic",
           "render a.pbrt --spp", "compare a.exr", "bench samplers --isa mmx", "reproduce no-such-experiment",
-          "render a.pbrt --frobnicate"}) {
+          "render a.pbrt --frobnicate", "render a.pbrt --spp 4 --camera-rays 3",
+          "render a.pbrt --resolution 0x9", "render a.pbrt --resolution 9x65537"}) {
         const Outcome wrong = run(arguments);
         EXPECT_EQ(wrong.exit_code, 2) << arguments;
         expect_message(wrong.err, "--help");
@@ -101,9 +103,12 @@ TEST_F(CommandLine, ErrorsExitWithOneAndOneLine) {
     EXPECT_EQ(folder.exit_code, 1);
     expect_message(folder.err, "no/such/folder");
 
-    const Outcome odd = run("render '" + kScenes + "/cornell-tube.pbrt' --spp 4 --camera-rays 3");
-    EXPECT_NE(odd.exit_code, 0);
-    expect_message(odd.err, "3");
+    // Before the scene is read: otherwise the missing scene would be the error.
+    for (const char* output : {"-o no/such/folder/a.exr", "-o a.bmp", "--json no/such/folder/a.json"}) {
+        const Outcome early = run(std::string("render no-such-scene.pbrt ") + output);
+        EXPECT_EQ(early.exit_code, 1) << output;
+        expect_message(early.err, "cannot write");
+    }
 }
 
 TEST_F(CommandLine, RendersToAllFormatsAndTellsHowLongItTook) {
@@ -116,6 +121,12 @@ TEST_F(CommandLine, RendersToAllFormatsAndTellsHowLongItTook) {
     EXPECT_EQ(json["width"], 64);
     EXPECT_EQ(json["height"], 36);
     EXPECT_EQ(json["rays"]["primary"], 4 * 64 * 36);
+    EXPECT_EQ(json["rejected_samples"], 0);
+    EXPECT_EQ(json["sampler"], "sobol");
+    EXPECT_EQ(json["brdf"], "material");
+    EXPECT_EQ(json["pixel_position"], "jittered");
+    EXPECT_EQ(json["camera_rays"], 4);
+    EXPECT_EQ(json["seed"], 0);
     for (const char* phase : {"load", "bvh", "render", "write", "total"})
         EXPECT_GE(json["seconds"][phase], 0.0) << phase;
 
@@ -128,6 +139,7 @@ TEST_F(CommandLine, RendersToAllFormatsAndTellsHowLongItTook) {
     const image::Metadata metadata = image::read_exr_metadata(path("a.exr"));
     EXPECT_EQ(metadata.at("technique"), "projected_solid_angle");
     EXPECT_EQ(metadata.at("scene"), "room.pbrt");
+    EXPECT_EQ(metadata.at("isa"), json["isa"]);
 }
 
 TEST_F(CommandLine, TheSameCommandGivesTheSameImageAndAnotherSeedDoesNot) {
@@ -164,21 +176,37 @@ TEST_F(CommandLine, ReproduceWritesAPage) {
     EXPECT_NE(read("pages/line-diffuse/index.html").find("reference.png"), std::string::npos);
 }
 
+/// Reads up to the first line with this text. \returns false if there is none
+bool wait_for_line(std::FILE* stream, const char* text) {
+    char line[256];
+    while (std::fgets(line, sizeof line, stream) != nullptr)
+        if (std::strstr(line, text) != nullptr) return true;
+    return false;
+}
+
 TEST_F(CommandLine, CtrlCWritesWhatIsThere) {
     const std::string output = path("stopped.exr");
     const std::string scene = kScenes + "/room.pbrt";
+    int errors[2];
+    ASSERT_EQ(::pipe(errors), 0);
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-        ::execl(NUSSELT_PROGRAM, "nusselt", "render", scene.c_str(), "--spp", "8192", "-q", "-o",
-                output.c_str(), static_cast<char*>(nullptr));
+        ::dup2(errors[1], STDERR_FILENO);
+        ::close(errors[0]);
+        ::close(errors[1]);
+        ::execl(NUSSELT_PROGRAM, "nusselt", "render", scene.c_str(), "--spp", "64", "-o", output.c_str(),
+                static_cast<char*>(nullptr));
         std::_Exit(127);
     }
-    // Long enough for the scene to be loaded; the rendering itself would take minutes.
-    std::this_thread::sleep_for(std::chrono::seconds(3));
+    ::close(errors[1]);
+    std::FILE* const messages = ::fdopen(errors[0], "r");
+    ASSERT_NE(messages, nullptr);
+    EXPECT_TRUE(wait_for_line(messages, "% done"));
     ASSERT_EQ(::kill(child, SIGINT), 0);
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
+    std::fclose(messages);
     EXPECT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 130);
     EXPECT_EQ(image::read_image(output).width, 1280);

@@ -115,8 +115,9 @@ protected:
         settings_.technique = technique;
         for (int seed = 0; seed < kSeeds; ++seed) {
             settings_.seed = static_cast<std::uint32_t>(seed);
-            const image::Image image = renderer_.render(settings_, render_cpu::choose_isa(), tracer).image;
-            rows.push_back(mean_ratios(image));
+            const auto result = renderer_.render(settings_, render_cpu::choose_isa(), tracer);
+            EXPECT_EQ(result.statistics.rejected_samples, 0u) << render_cpu::name_of(technique);
+            rows.push_back(mean_ratios(result.image));
         }
         return rows;
     }

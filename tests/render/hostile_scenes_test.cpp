@@ -1,4 +1,5 @@
-/// Degenerate geometry, lights and views: every pixel stays finite and is not negative.
+/// Degenerate geometry, lights and views: every pixel is finite and not negative, and no sample was rejected to
+/// make it so.
 
 #include "scenes.h"
 
@@ -21,8 +22,10 @@ void expect_sane_images(const scene::Scene& scene) {
             render_cpu::RenderSettings settings;
             settings.technique = technique;
             settings.samples = 4;
-            const image::Image image = renderer.render(settings, isa).image;
-            for (const float value : image.pixels)
+            const render_cpu::RenderResult result = renderer.render(settings, isa);
+            ASSERT_EQ(result.statistics.rejected_samples, 0u)
+                << render_cpu::name_of(technique) << ", " << name_of(isa);
+            for (const float value : result.image.pixels)
                 ASSERT_TRUE(std::isfinite(value) && value >= 0)
                     << value << " with " << render_cpu::name_of(technique) << ", " << name_of(isa);
         }
@@ -118,6 +121,30 @@ TEST(HostileScenes, SizesThatFillNoTile) {
         set_camera(scene, {0, -4, 1}, {0, 0, 1}, {0, 0, 1}, 0.3, width, height);
         expect_sane_images(scene);
     }
+}
+
+/// The test of the test: NaN and infinity in materials do not reach the image, but are counted.
+TEST(HostileScenes, RejectedSamplesAreCounted) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float infinity = std::numeric_limits<float>::infinity();
+    void (*const mutations[])(scene::Scene&, float) = {
+        [](scene::Scene& scene, float bad) { scene.materials[0].diffuse.x = bad; },
+        [](scene::Scene& scene, float bad) { scene.materials[0].diffuse.z = bad; },
+    };
+    for (std::size_t i = 0; i < std::size(mutations); ++i)
+        for (const float bad : {nan, infinity}) {
+            scene::Scene scene = make_box_scene(kSize);
+            mutations[i](scene, bad);
+            const render_cpu::Renderer renderer(scene, 2);
+            for (const auto technique : render_cpu::kTechniques) {
+                render_cpu::RenderSettings settings;
+                settings.technique = technique;
+                const auto result = renderer.render(settings, render_cpu::choose_isa());
+                EXPECT_GT(result.statistics.rejected_samples, 0u)
+                    << "mutation " << i << " with " << bad << ", " << render_cpu::name_of(technique);
+                for (const float value : result.image.pixels) ASSERT_TRUE(std::isfinite(value));
+            }
+        }
 }
 
 } // namespace

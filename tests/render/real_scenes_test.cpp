@@ -32,8 +32,10 @@ TEST_P(RealScene, EachTechniqueGivesValidPixels) {
     for (const Technique technique : render_cpu::kTechniques) {
         render_cpu::RenderSettings settings;
         settings.technique = technique;
-        const image::Image image = renderer.render(settings, render_cpu::choose_isa()).image;
-        EXPECT_EQ(image::compare(image, image).invalid_a.count, 0) << render_cpu::name_of(technique);
+        const render_cpu::RenderResult result = renderer.render(settings, render_cpu::choose_isa());
+        EXPECT_EQ(result.statistics.rejected_samples, 0u) << render_cpu::name_of(technique);
+        EXPECT_EQ(image::compare(result.image, result.image).invalid_a.count, 0)
+            << render_cpu::name_of(technique);
     }
 }
 

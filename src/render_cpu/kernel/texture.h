@@ -15,9 +15,10 @@ struct TexelPair {
 
 inline TexelPair texel_pair(const Real& coordinate, std::int32_t size) noexcept {
     const Real count = Real(size);
-    const Real position = (coordinate - floor(coordinate)) * count - Real(0.5f);
+    // Coordinates that overflowed in the scene file or in interpolation count as 0.
+    const Real wrapped = select(is_finite(coordinate), coordinate - floor(coordinate), Real(0));
+    const Real position = wrapped * count - Real(0.5f);
     const Real below = floor(position);
-    // The outer max also turns NaN into a legal index.
     const Real first = max(min(select(below < Real(0), count - Real(1), below), count - Real(1)), Real(0));
     const Real next = first + Real(1);
     const Real second = select(next < count, next, Real(0));

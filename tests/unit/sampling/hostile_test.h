@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <xmmintrin.h>
 
+#include "aim.h"
 #include "contract.h"
 
 namespace nusselt_test {
@@ -53,7 +54,11 @@ void expect_contract(std::uint64_t seed, int configurations) {
             const Outputs<T, Random> out{get_lane<T, Sample>(sample, i), get_lane<T, T>(pdf, i),
                                          get_lane<T, Random>(inverse, i), get_lane<T, T>(measure, i)};
             lit += out.sample.pdf > 0;
-            const std::string problem = violation(out, Bounds(light[i]));
+            std::string problem = violation(out, Bounds(light[i]));
+            // Long double is slow: one lane of each pack.
+            if (problem.empty() && i == done / Test::kLanes % Test::kLanes) {
+                problem = aim_violation<typename Test::Kind>(light[i], single_u[i], out.sample);
+            }
             if (problem.empty()) continue;
             ++failures;
             ADD_FAILURE() << Test::Kind::kName << ": " << problem << "\n light: " << hexadecimal<T>(light[i])
@@ -67,6 +72,13 @@ void expect_contract(std::uint64_t seed, int configurations) {
     EXPECT_GT(lit, configurations / 4);
 }
 
+/// Fewer configurations of polygons with many vertices, which share their code with quadrilaterals and are slower.
+template <class Kind>
+constexpr int kShare = [] {
+    if constexpr (kIsPolygon<Kind>) return Kind::kVertices > 4 ? 10 : 1;
+    return 1;
+}();
+
 template <class Test>
 class HostileTest : public ::testing::Test {};
 TYPED_TEST_SUITE_P(HostileTest);
@@ -75,13 +87,14 @@ TYPED_TEST_P(HostileTest, NeverFails) {
     constexpr int kConfigurations = sizeof(typename TypeParam::Scalar) == 4   ? 1'000'000
                                     : sizeof(typename TypeParam::Scalar) == 8 ? 200'000
                                                                               : 20'000;
-    expect_contract<TypeParam>(1, kConfigurations);
+    expect_contract<TypeParam>(1, kConfigurations / kShare<typename TypeParam::Kind>);
 }
 
 TYPED_TEST_P(HostileTest, NeverFailsWithDenormalsFlushed) {
     const FlushDenormalsToZero flush;
     // The x87 unit of long double does not know this mode.
-    expect_contract<TypeParam>(2, sizeof(typename TypeParam::Scalar) <= 8 ? 100'000 : 1'000);
+    constexpr int kConfigurations = sizeof(typename TypeParam::Scalar) <= 8 ? 100'000 : 10'000;
+    expect_contract<TypeParam>(2, kConfigurations / kShare<typename TypeParam::Kind>);
 }
 
 REGISTER_TYPED_TEST_SUITE_P(HostileTest, NeverFails, NeverFailsWithDenormalsFlushed);

@@ -23,11 +23,12 @@ struct LineCase {
 };
 
 /// Spanned by two vectors about a center; exact in every precision for short binary coordinates.
-inline std::vector<nusselt::Vec3<double>> octagon(const nusselt::Vec3<double>& center, const nusselt::Vec3<double>& a,
-                                                  const nusselt::Vec3<double>& b) {
+inline std::vector<nusselt::Vec3<double>>
+octagon(const nusselt::Vec3<double>& center, const nusselt::Vec3<double>& a, const nusselt::Vec3<double>& b) {
     std::vector<nusselt::Vec3<double>> vertices;
     constexpr double kCoordinates[] = {1, 0.375, -0.375, -1, -1, -0.375, 0.375, 1};
-    for (int j = 0; j < 8; ++j) vertices.push_back(center + kCoordinates[(j + 1) % 8] * a + kCoordinates[(j + 7) % 8] * b);
+    for (int j = 0; j < 8; ++j)
+        vertices.push_back(center + kCoordinates[(j + 1) % 8] * a + kCoordinates[(j + 7) % 8] * b);
     return vertices;
 }
 
@@ -55,14 +56,22 @@ inline std::vector<PolygonCase> polygon_cases() {
 /// Polygons that need more than four slots, and some that leave slots unused.
 inline std::vector<PolygonCase> many_vertex_cases() {
     return {
-        {"pentagon around the zenith", {{-1, -0.5, 1}, {0.5, -1, 1}, {1.25, 0.25, 1}, {0.5, 1, 1}, {-0.75, 0.75, 1}}},
-        {"pentagon, one vertex below", {{0.5, 0, 0.875}, {1, -0.75, 0.3125}, {2, -0.25, -0.3125}, {1.75, 0.5, 0.0625}, {1, 0.75, 0.6875}}},
+        {"pentagon around the zenith",
+         {{-1, -0.5, 1}, {0.5, -1, 1}, {1.25, 0.25, 1}, {0.5, 1, 1}, {-0.75, 0.75, 1}}},
+        {"pentagon, one vertex below",
+         {{0.5, 0, 0.875}, {1, -0.75, 0.3125}, {2, -0.25, -0.3125}, {1.75, 0.5, 0.0625}, {1, 0.75, 0.6875}}},
         {"hexagon, zenith outside",
          {{0.5, 0.25, 1}, {1, 0, 1}, {1.5, 0.25, 1}, {1.5, 0.75, 1}, {1, 1, 1}, {0.5, 0.75, 1}}},
         {"hexagon, other winding",
          {{0.5, 0.75, 1}, {1, 1, 1}, {1.5, 0.75, 1}, {1.5, 0.25, 1}, {1, 0, 1}, {0.5, 0.25, 1}}},
         {"heptagonal wall through the floor",
-         {{1, -0.5, -0.75}, {1, 0.25, -1}, {1, 0.75, -0.5}, {1, 1, 0.25}, {1, 0.5, 1}, {1, -0.25, 1.25}, {1, -0.75, 0.5}}},
+         {{1, -0.5, -0.75},
+          {1, 0.25, -1},
+          {1, 0.75, -0.5},
+          {1, 1, 0.25},
+          {1, 0.5, 1},
+          {1, -0.25, 1.25},
+          {1, -0.75, 0.5}}},
         {"octagon around the zenith, clipped", octagon({0.25, 0.125, 0.5}, {1, 0, 1}, {0, 1, 0})},
         {"octagon, zenith outside, clipped", octagon({1.5, 0.5, 0.25}, {1, 0, 0.5}, {0, 1, 0.25})},
         {"octagon around the zenith", octagon({0.25, 0.125, 1}, {1, 0, 0.25}, {0, 1, -0.125})},

@@ -71,9 +71,10 @@ TYPED_TEST_P(PacksTest, LightPerLaneBesideNaN) {
         typename TypeParam::ScalarRandom single_u[kLanes];
         for (int i = 0; i < kLanes; ++i) {
             // Half of the lights are ordinary: central and decentral cases, clipped and whole ones mix.
-            light[i] = i % 2 == 0
-                           ? light_for<Kind, T>(ordinary[static_cast<std::size_t>(round + i) % ordinary.size()])
-                           : hostile_light<Kind>(hostile);
+            light[i] =
+                i % 2 == 0
+                    ? light_for<Kind, T>(ordinary[static_cast<std::size_t>(round + i) % ordinary.size()])
+                    : hostile_light<Kind>(hostile);
             single_u[i] = hostile_random<Kind>(hostile);
             auto shown = light[i];
             if (i == poisoned) std::memset(&shown, 0xff, sizeof shown); // quiet NaN in every number
