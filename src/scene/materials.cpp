@@ -100,7 +100,11 @@ private:
         material_.diffuse_texture = albedo.image;
     }
     void set_black() { material_.diffuse = {0, 0, 0}; }
-    void set_roughness(double fallback, double (*alpha_from_roughness)(double));
+    /// \param prefix of the names of the parameters: "" or "conductor."
+    void set_roughness(double fallback, double (*alpha_from_roughness)(double),
+                       const std::string& prefix = "");
+    /// Reflectances must not be negative; above 1 they would create energy and are clamped.
+    void check_reflectance(Float3& reflectance, std::string_view what);
     void set_conductor(const char* eta_name, const char* k_name);
     Float3 metal_constant(const char* name, Float3 NamedMetal::*constant,
                           std::string_view NamedMetal::*spectrum);
@@ -115,13 +119,27 @@ private:
     Material material_;
 };
 
-void Reduction::set_roughness(double fallback, double (*alpha_from_roughness)(double)) {
-    const double both = real("roughness", fallback);
-    const double u = real("uroughness", both);
-    const double v = real("vroughness", both);
+void Reduction::check_reflectance(Float3& reflectance, std::string_view what) {
+    bool is_clamped = false;
+    for (float* channel : {&reflectance.x, &reflectance.y, &reflectance.z}) {
+        if (!(*channel >= 0))
+            throw SceneError(parameters_.location(), "material \"" + material_.name +
+                                                         "\": " + std::string(what) +
+                                                         " must not be negative, found " + to_text(*channel));
+        is_clamped = is_clamped || *channel > 1;
+        *channel = std::min(*channel, 1.0f);
+    }
+    if (is_clamped) warn(std::string(what) + " above 1 is clamped to 1");
+}
+
+void Reduction::set_roughness(double fallback, double (*alpha_from_roughness)(double),
+                              const std::string& prefix) {
+    const double both = real(prefix + "roughness", fallback);
+    const double u = real(prefix + "uroughness", both);
+    const double v = real(prefix + "vroughness", both);
     for (const double r : {u, v})
         if (!(r >= 0))
-            throw SceneError(parameters_.location_of("roughness"),
+            throw SceneError(parameters_.location_of(prefix + "roughness"),
                              "material \"" + material_.name + "\": roughness must not be negative, found " +
                                  to_text(r));
     const bool remap = parameters_.boolean("remaproughness", true);
@@ -162,6 +180,7 @@ bool Reduction::diffuse() {
 bool Reduction::substrate() {
     material_.model = BrdfModel::frostbite;
     material_.f0 = colour("Ks", grey(0.5));
+    check_reflectance(material_.f0, "Ks");
     const Float3& f0 = material_.f0;
     set_albedo("Kd", 0.5, {1 - f0.x, 1 - f0.y, 1 - f0.z});
     set_roughness(0.1, alpha_from_roughness_v3);
@@ -226,9 +245,7 @@ bool Reduction::conductor() {
 bool Reduction::coated_conductor() {
     warn("its coating is ignored");
     set_conductor("conductor.eta", "conductor.k");
-    const double roughness = real("conductor.roughness", 0);
-    material_.roughness = roughness_from_alpha(
-        parameters_.boolean("remaproughness", true) ? alpha_from_roughness_v4(roughness) : roughness);
+    set_roughness(0, alpha_from_roughness_v4, "conductor.");
     return true;
 }
 
@@ -313,6 +330,8 @@ std::optional<Material> Reduction::run() {
         if (parameters_.texture(name) || !parameters_.string(name, "").empty())
             warnings_.add(parameters_.location_of(name), "bump", "bump and normal maps are ignored");
     }
+    check_reflectance(material_.diffuse, "diffuse reflectance");
+    check_reflectance(material_.f0, "specular reflectance");
     parameters_.ignore({"type"});
     if (is_known) parameters_.warn_unused("material \"" + type_ + '"', warnings_);
     return material_;

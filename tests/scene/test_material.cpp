@@ -205,9 +205,24 @@ TEST_F(Materials, RedefinitionAppliesFromThere) {
     EXPECT_EQ(scene.materials.at(1).diffuse.x, 1);
 }
 
+TEST_F(Materials, ReflectancesAboveOneAreClamped) {
+    const Scene scene = with("Material \"substrate\" \"rgb Ks\" [2 0.5 0.5] \"rgb Kd\" [1 1 1]");
+    EXPECT_EQ(scene.materials.at(0).f0.x, 1);
+    EXPECT_EQ(scene.materials.at(0).diffuse.x, 0);
+    EXPECT_EQ(scene.materials.at(0).diffuse.y, 0.5f);
+    EXPECT_NE(warning(scene).find("Ks above 1 is clamped to 1"), std::string::npos) << warning(scene);
+}
+
 TEST_F(Materials, ErrorsAndIgnoredParameters) {
     EXPECT_EQ(error("Material \"plastic\"\n\"float roughness\" -0.5\n" + std::string(kTriangle)),
               "scene.pbrt:2: material \"plastic\": roughness must not be negative, found -0.5");
+    EXPECT_NE(
+        error("Material \"coatedconductor\"\n\"float conductor.roughness\" -1\n" + std::string(kTriangle))
+            .find("roughness must not be negative, found -1"),
+        std::string::npos);
+    EXPECT_NE(error("Material \"matte\" \"rgb Kd\" [-1 5 2]\n" + std::string(kTriangle))
+                  .find("diffuse reflectance must not be negative, found -1"),
+              std::string::npos);
     warned("Material \"matte\" \"float Kd\" 0.5", "\"matte\": parameter \"float Kd\" is unknown and ignored");
     const Scene bumpy =
         with("Texture \"bump\" \"float\" \"constant\" Material \"matte\" \"texture bumpmap\" \"bump\"");
