@@ -53,8 +53,10 @@ public:
             const Real ab2 = dot(ab, ab);
             const Real ac2 = dot(ac, ac);
             const Real bc2 = dot(bc, bc);
-            const auto opposite = (ab2 < ac2) & (ab2 < bc2);
-            g1_[j] = select(opposite, fma(Real(0.5), ab2, dot(c, ab)), dot(ac, bc));
+            // Any two of the three sums have the product 1 + a b + a c + b c; the longest one would cancel most.
+            const Vec3<Real> s0 = select((ac2 >= ab2) & (ac2 >= bc2), ab, ac);
+            const Vec3<Real> s1 = select((bc2 > ab2) & (bc2 > ac2), ab, bc);
+            g1_[j] = dot(s0, s1);
             g2_[j] = max(Real(0.5) * ac2, Real(kOpposite));
             solid_angle_[j] = Real(2) * atan2_positive(g0_[j], g1_[j]);
             solid_angle_[j] = select(g0_[j] > Real(0), solid_angle_[j], Real(0));

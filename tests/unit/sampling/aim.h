@@ -86,7 +86,8 @@ long double apparent_size(const WideLight& wide) {
     }
 }
 
-/// Whether a random number is off the ends, where the light may meet the horizon: the density is 0 there.
+/// Whether a random number is off the ends, where the light may meet the horizon: the density is 0 there, and directions
+/// are as uncertain as for a light that is edge-on.
 template <class T>
 bool is_inner(T u) {
     return u > T(0.01) && u < T(0.99);
@@ -95,6 +96,12 @@ template <class T>
 bool is_inner(const nusselt::Vec2<T>& u) {
     return is_inner(u.x) && is_inner(u.y);
 }
+
+/// What the angles of a technique are wrong by apart from rounding: the bound on the error of FastAngles.
+template <class Kind>
+inline constexpr long double kAngleError = 0;
+template <int N>
+inline constexpr long double kAngleError<PolygonBiasedKindOf<N>> = 1.3e-5L;
 
 /// What is wrong with a sample of a light that is visible to any precision; empty if nothing is, or if the light is
 /// not of that kind.
@@ -106,15 +113,15 @@ std::string aim_violation(const Light& light, const Random& u, const nusselt::Li
     if (!(extent > 1e-9L && extent < 1e9L)) return "";
     const auto wide = widened(light);
     const long double sturdy = sturdiness(wide, extent);
-    // Up to a few roundings the light may as well be edge-on or without area.
-    if (!(sturdy > 16 * kEpsilon) || !(apparent_size<Kind>(wide) > 1e-3L)) return "";
-    if (!(sample.pdf > 0)) return is_inner(u) ? "no sample of a visible light" : "";
+    // Thinner or closer to edge-on, the effect of rounding is not proportional to it any more.
+    if (!(sturdy > 1e-3L) || !(apparent_size<Kind>(wide) > 1e-3L)) return "";
+    if (!is_inner(u)) return "";
+    if (!(sample.pdf > 0)) return "no sample of a visible light";
 
-    // Rounding of the vertices tilts the plane of the light by an angle of this order. The largest errors found in 1e5
+    // Rounding of the vertices tilts the plane of the light by an angle of this order. The largest errors found in 6e4
     // lights are 12 times that for the direction, 8 times the rounding error for hit points that come from weights.
-    const long double tilt = kEpsilon / sturdy;
+    const long double tilt = std::max(kEpsilon, kAngleError<Kind>) / sturdy;
     constexpr long double kFactor = 32;
-    if (tilt > 1e-4L) return "";
     const Point wi = nusselt::broadcast<long double>(sample.wi);
     const Point p = nusselt::broadcast<long double>(sample.p);
     if (Kind::kMeasure != Measure::kArea && !(miss(light, wi) <= kFactor * tilt))

@@ -53,6 +53,7 @@ TEST(BiasedTest, CentralCaseIsAlmostExact) {
     const nusselt::PolygonProjectedSolidAngle<double, 4> exact(light);
     const nusselt::PolygonProjectedSolidAngleBiased<double, 4> biased(light);
     for (const auto& u : midpoints<PolygonAreaKind, double>(10)) {
+        // An azimuth from up to five arctangents that err by 1.3e-5, and a few steps of interpolation: three times that.
         EXPECT_LE(length(exact.sample(u).wi - biased.sample(u).wi), 2e-4);
     }
 }

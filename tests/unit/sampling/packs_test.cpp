@@ -121,6 +121,9 @@ INSTANTIATE_TYPED_TEST_SUITE_P(PolygonSolidAngle, PacksTest, Packs<PolygonSolidA
 INSTANTIATE_TYPED_TEST_SUITE_P(PolygonClippedSolidAngle, PacksTest, Packs<PolygonClippedSolidAngleKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(PolygonProjectedSolidAngle, PacksTest, Packs<PolygonProjectedSolidAngleKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(PolygonBiased, PacksTest, Packs<PolygonBiasedKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(OctagonSolidAngle, PacksTest, Packs<PolygonSolidAngleKindOf<8>>);
+INSTANTIATE_TYPED_TEST_SUITE_P(OctagonProjectedSolidAngle, PacksTest,
+                               Packs<PolygonProjectedSolidAngleKindOf<8>>);
 INSTANTIATE_TYPED_TEST_SUITE_P(LineArea, PacksTest, Packs<LineAreaKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(LineSolidAngle, PacksTest, Packs<LineSolidAngleKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(LineClippedSolidAngle, PacksTest, Packs<LineClippedSolidAngleKind>);
