@@ -330,7 +330,8 @@ std::optional<Material> Reduction::run() {
         if (parameters_.texture(name) || !parameters_.string(name, "").empty())
             warnings_.add(parameters_.location_of(name), "bump", "bump and normal maps are ignored");
     }
-    check_reflectance(material_.diffuse, "diffuse reflectance");
+    // The factor of an image may exceed 1: the image is darker.
+    if (material_.diffuse_texture < 0) check_reflectance(material_.diffuse, "diffuse reflectance");
     check_reflectance(material_.f0, "specular reflectance");
     parameters_.ignore({"type"});
     if (is_known) parameters_.warn_unused("material \"" + type_ + '"', warnings_);

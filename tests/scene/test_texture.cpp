@@ -119,7 +119,8 @@ TEST_F(Textures, ConstantsAndProducts) {
     expect_near(constant("\"constant\" \"rgb value\" [0.1 0.2 0.3]"), {0.1f, 0.2f, 0.3f}, 0);
     expect_near(constant("\"scale\" \"texture tex1\" \"c\" \"texture tex2\" \"d\"", colours),
                 {0.25f, 0.125f, 0.5f}, 0);
-    expect_near(constant("\"scale\" \"texture tex\" \"c\" \"float scale\" 2", colours), {1, 0.5f, 2}, 0);
+    expect_near(constant("\"scale\" \"texture tex\" \"c\" \"float scale\" 0.5", colours),
+                {0.25f, 0.125f, 0.5f}, 0);
     expect_near(
         constant("\"mix\" \"texture tex1\" \"c\" \"rgb tex2\" [1 1 0] \"float amount\" 0.25", colours),
         {0.625f, 0.4375f, 0.75f}, 1e-6f);
