@@ -118,10 +118,10 @@ public:
         for (int k = 0; k < kSectors; ++k) {
             const DecentralSector<Real> sector = decentral_sector(k);
             const Real from_begin = det(xy(sector.begin), w);
-            const Real to_end = det(w, xy(sector.begin + sector.chord));
+            const Vec3<Real> end = sector.begin + sector.chord;
+            const Real to_end = det(w, xy(end));
             // A sector also has what rounding moved beyond its ends: there may be no other one. In the
             // decentral case, the order of the sectors takes care of that.
-            const Vec3<Real> end = sector.begin + sector.chord;
             const Real tolerance =
                 Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * (abs(w.x) + abs(w.y));
             const Real begin_slack = tolerance * (abs(sector.begin.x) + abs(sector.begin.y));
