@@ -53,6 +53,17 @@ struct BenchAccuracyOptions {
     std::optional<std::filesystem::path> markdown;
 };
 
+struct BenchWorstCaseOptions {
+    std::vector<std::string> targets; ///< empty: all
+    std::optional<double> seconds;
+    std::optional<std::uint64_t> starts; ///< per target, those in the state file included
+    std::optional<std::uint64_t> seed;
+    std::optional<int> threads;
+    std::optional<std::filesystem::path> state;
+    int convergence = 2000;          ///< random lights for the order of convergence
+    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
+};
+
 struct ReproduceOptions {
     std::vector<std::string> experiments; ///< empty: all
     std::filesystem::path output = "out/reproduce";
@@ -73,6 +84,7 @@ void setup_reproduce(CLI::App& app, int& exit_code);
 void setup_bench_rays(CLI::App& bench, int& exit_code);
 void setup_bench_samplers(CLI::App& bench, int& exit_code);
 void setup_bench_accuracy(CLI::App& bench, int& exit_code);
+void setup_bench_worst_case(CLI::App& bench, int& exit_code);
 
 /// Renders and writes the images.
 /// \returns 0, or 130 if it was interrupted
@@ -89,6 +101,10 @@ int run_bench_samplers(const BenchSamplersOptions& options);
 
 /// Measures the accuracy of each technique and prints or writes the tables.
 int run_bench_accuracy(const BenchAccuracyOptions& options);
+
+/// Searches for the largest errors of the iterations and prints or writes them.
+/// \returns 0, 1 if one is above its documented bound, or 130 if the search was interrupted
+int run_bench_worst_case(const BenchWorstCaseOptions& options);
 
 /// Runs experiments, prints their tables and writes a page for each.
 /// \returns 0, or 1 if an expectation does not hold

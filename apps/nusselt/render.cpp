@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "interrupt.h"
 #include "progress.h"
 #include "render_setup.h"
 
@@ -12,9 +13,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <memory>
 #include <stdexcept>
 
@@ -24,30 +23,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// As shells report the end of a program by SIGINT.
-constexpr int kInterruptedExitCode = 130;
-
 double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
-
-std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers may only touch lock-free atomics");
-
-/// While this lives, the first Ctrl-C asks to stop and the second one ends the program.
-class InterruptGuard {
-public:
-    InterruptGuard() {
-        interrupted = false;
-        std::signal(SIGINT, [](int) {
-            interrupted = true;
-            std::signal(SIGINT, SIG_DFL);
-        });
-    }
-    ~InterruptGuard() { std::signal(SIGINT, SIG_DFL); }
-    InterruptGuard(const InterruptGuard&) = delete;
-    InterruptGuard& operator=(const InterruptGuard&) = delete;
-};
 
 render_cpu::RenderSettings make_settings(const RenderOptions& options) {
     render_cpu::RenderSettings settings;
