@@ -17,6 +17,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 namespace nusselt {
 
@@ -69,7 +70,7 @@ void expect_message(const std::string& text, const std::string& part) {
 
 TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
     for (const char* command : {"", "render", "info", "techniques", "compare", "bench", "bench rays",
-                                "bench samplers", "bench accuracy", "reproduce"}) {
+                                "bench samplers", "bench accuracy", "bench worst-case", "reproduce"}) {
         const Outcome help = run(std::string(command) + " --help");
         EXPECT_EQ(help.exit_code, 0) << command;
         EXPECT_NE(help.out.find("Usage:"), std::string::npos) << command;
@@ -81,8 +82,9 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo) {
     for (const char* arguments :
          {"", "polish", "render", "render a.pbrt --spp 0", "render a.pbrt --technique magic",
           "render a.pbrt --spp", "compare a.exr", "bench samplers --isa mmx", "reproduce no-such-experiment",
-          "render a.pbrt --frobnicate", "render a.pbrt --spp 4 --camera-rays 3",
-          "render a.pbrt --resolution 0x9", "render a.pbrt --resolution 9x65537"}) {
+          "bench worst-case --target spheres", "bench worst-case --time 0", "render a.pbrt --frobnicate",
+          "render a.pbrt --spp 4 --camera-rays 3", "render a.pbrt --resolution 0x9",
+          "render a.pbrt --resolution 9x65537"}) {
         const Outcome wrong = run(arguments);
         EXPECT_EQ(wrong.exit_code, 2) << arguments;
         expect_message(wrong.err, "--help");
@@ -176,6 +178,43 @@ TEST_F(CommandLine, ReproduceWritesAPage) {
     EXPECT_NE(read("pages/line-diffuse/index.html").find("reference.png"), std::string::npos);
 }
 
+TEST_F(CommandLine, WorstCaseSearchGoesOnWhereItStopped) {
+    const std::string search = "bench worst-case --target lines --convergence 0 --json - ";
+    const auto found = [](const Outcome& outcome) {
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out).at("targets").at(0);
+    };
+    const auto at_once = found(run(search + "--starts 30 --seed 5"));
+    EXPECT_EQ(found(run(search + "--starts 10 --seed 5 --state search.json")).at("starts"), 10);
+    const std::string first = read("search.json");
+    // Another target leaves it alone; fewer starts than were made change nothing.
+    EXPECT_EQ(
+        run("bench worst-case --target biased --starts 1 --convergence 0 --state search.json").exit_code, 0);
+    EXPECT_EQ(found(run(search + "--starts 3 --state search.json")).at("starts"), 10);
+    const auto continued = found(run(search + "--starts 30 --threads 2 --state search.json"));
+    EXPECT_EQ(continued, at_once);
+    EXPECT_NE(read("search.json"), first);
+
+    const Outcome other_seed = run(search + "--starts 40 --seed 6 --state search.json");
+    EXPECT_EQ(other_seed.exit_code, 1);
+    expect_message(other_seed.err, "--seed");
+    std::ofstream(path("broken.json"))
+        << R"({"seed": 1, "targets": {"lines": {"starts": 1, "parameters": ["0xg"]}}})";
+    const Outcome broken = run(search + "--starts 40 --state broken.json");
+    EXPECT_EQ(broken.exit_code, 1);
+    expect_message(broken.err, "broken.json");
+    const Outcome no_folder = run(search + "--starts 40 --state missing/search.json");
+    EXPECT_EQ(no_folder.exit_code, 1);
+    expect_message(no_folder.err, "missing");
+}
+
+TEST_F(CommandLine, WorstCaseSearchPrintsTables) {
+    const Outcome outcome = run("bench worst-case --target lines --starts 3 --convergence 100");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    for (const char* text : {"lines", "tilt", "0x", "bound", "order"})
+        EXPECT_NE(outcome.out.find(text), std::string::npos) << text;
+}
+
 /// Reads up to the first line with this text. \returns false if there is none
 bool wait_for_line(std::FILE* stream, const char* text) {
     char line[256];
@@ -184,33 +223,45 @@ bool wait_for_line(std::FILE* stream, const char* text) {
     return false;
 }
 
-TEST_F(CommandLine, CtrlCWritesWhatIsThere) {
-    const std::string output = path("stopped.exr");
-    const std::string scene = kScenes + "/room.pbrt";
+/// Starts the program and interrupts it once it has reported progress.
+/// \returns its exit code
+int run_until_interrupted(std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), "nusselt");
+    arguments.push_back(nullptr);
     int errors[2];
-    ASSERT_EQ(::pipe(errors), 0);
+    if (::pipe(errors) != 0) return -1;
     const pid_t child = ::fork();
-    ASSERT_GE(child, 0);
     if (child == 0) {
         ::dup2(errors[1], STDERR_FILENO);
         ::close(errors[0]);
         ::close(errors[1]);
-        ::execl(NUSSELT_PROGRAM, "nusselt", "render", scene.c_str(), "--spp", "64", "-o", output.c_str(),
-                static_cast<char*>(nullptr));
+        ::execv(NUSSELT_PROGRAM, const_cast<char**>(arguments.data()));
         std::_Exit(127);
     }
     ::close(errors[1]);
     std::FILE* const messages = ::fdopen(errors[0], "r");
-    ASSERT_NE(messages, nullptr);
     EXPECT_TRUE(wait_for_line(messages, "% done"));
-    ASSERT_EQ(::kill(child, SIGINT), 0);
+    EXPECT_EQ(::kill(child, SIGINT), 0);
     int status = 0;
-    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(::waitpid(child, &status, 0), child);
     std::fclose(messages);
-    EXPECT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 130);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST_F(CommandLine, CtrlCWritesWhatIsThere) {
+    const std::string output = path("stopped.exr");
+    const std::string scene = kScenes + "/room.pbrt";
+    EXPECT_EQ(run_until_interrupted({"render", scene.c_str(), "--spp", "64", "-o", output.c_str()}), 130);
     EXPECT_EQ(image::read_image(output).width, 1280);
     EXPECT_LT(std::stod(image::read_exr_metadata(output).at("finished_fraction")), 1.0);
+}
+
+TEST_F(CommandLine, CtrlCKeepsWorstCases) {
+    const std::string state = path("stopped.json");
+    EXPECT_EQ(run_until_interrupted({"bench", "worst-case", "--time", "30", "--state", state.c_str()}), 130);
+    const auto targets = nlohmann::json::parse(read("stopped.json")).at("targets");
+    EXPECT_GT(targets.at("lines").at("starts"), 0);
+    EXPECT_EQ(targets.at("lines").at("parameters").size(), 4u);
 }
 
 } // namespace
