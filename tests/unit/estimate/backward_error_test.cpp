@@ -202,5 +202,71 @@ TEST(BackwardErrorTest, WorstCasesOfLines) {
     EXPECT_GT(line_errors<2>(10'000).largest(), 2e-7L);
 }
 
+/// A trapezoid with two vertical edges, which is a single sector: any sector can be had this way.
+PolygonLight wall(Real azimuth_range, Real inner_begin, Real inner_end, Real outer_begin, Real outer_end) {
+    const Real x = std::cos(azimuth_range);
+    const Real y = std::sin(azimuth_range);
+    const Point corners[4] = {{1, 0, outer_begin}, {x, y, outer_end}, {x, y, inner_end}, {1, 0, inner_begin}};
+    return nusselt::make_polygon<4>(corners, 4);
+}
+
+// The largest errors that `nusselt bench worst-case` has found, and their lights. They are properties of the methods:
+// double precision gives the same first ten digits as the 64 bits of x87 (rounding is 1e-16 relative to the random
+// number, 1e-11 relative to the error), so that the five digits below hold for any long double.
+constexpr Real kRelativeTolerance = 1e-5L;
+
+template <int Iterations>
+void expect_polygon_error(const PolygonLight& light, Real u, Real measure, Real error) {
+    const PolygonTechnique<Iterations> technique(light);
+    EXPECT_NEAR(technique.measure(), measure, 1e-3L * measure);
+    const nusselt::Vec2<Real> random_number{u, 0.5L};
+    const Point wi = technique.sample(random_number).wi;
+    EXPECT_NEAR(nusselt::backward_error(technique, random_number, wi), error, kRelativeTolerance * error);
+    EXPECT_NEAR(std::fabs(azimuth_fraction(light, wi) - u), error, kRelativeTolerance * error);
+}
+
+TEST(WorstCaseTest, PolygonWhereBothGreatCirclesMeetOnTheHorizon) {
+    const PolygonLight light = wall(0xf.e70d3b130ead443p-3L, 0xa.c3144faa5a49923p-26L, 0xa.df4c04a86e4e68p+2L,
+                                    0xe.8545de4d59a4388p-27L, 0xd.9d62058ea0f796cp+1L);
+    const Real u = 0xa.52132676180afe1p-18L;
+    expect_polygon_error<2>(light, u, 1e-2L, 1.96849e-5L);
+    expect_polygon_error<3>(light, u, 1e-2L, 3.59585e-7L);
+}
+
+TEST(WorstCaseTest, PolygonOfTinyArea) {
+    const PolygonLight light =
+        wall(0xa.c78458f2c2955b2p-2L, 0x9.2bcdaff757c912bp-18L, 0x9.9f23aca7c140135p+3L,
+             0x9.b30a387c9dbb42cp-49L, 0x9.9f23aca7b354869p+3L);
+    expect_polygon_error<2>(light, 0x8.884d2b7e7e01df2p-4L, 1e-7L, 7.28885e-5L);
+}
+
+TEST(WorstCaseTest, PolygonWithoutIteration) {
+    const PolygonLight light = wall(0xa.749080c6b4acb1ep-2L, 0xa.4779d3ac235448ap-2L, 0x8.879ae7a60bebef2p-7L,
+                                    0xa.4779c3c67c971c3p-2L, 0xb.fa79e260b2a1383p-29L);
+    expect_polygon_error<0>(light, 0x8.740766255fa4bacp-4L, 1e-2L, 2.71739e-1L);
+}
+
+TEST(WorstCaseTest, LineAlongItsAxisFromTheHorizon) {
+    // Angles from the direction of the closest point, which is tilted against the normal.
+    const Real tilt = 0xa.a22365919d7fcafp-16L;
+    const Real begin = -0xc.90a89906e9ff31bp-3L;
+    const Real end = -0xc.85f0c9951fccc0ep-3L;
+    const Real u = 0x8.169d6d9afc4a7dp-12L;
+    const Point s{std::cos(tilt), 0, std::sin(tilt)};
+    const Point t{-s.z, 0, s.x};
+    const LineTechnique<2> technique(LineLight{std::tan(begin) * s + t, s, std::tan(end) - std::tan(begin)});
+    const Point wi = technique.sample(u).wi;
+    constexpr Real kError = 1.57603e-5L;
+    EXPECT_NEAR(nusselt::backward_error(technique, u, wi), kError, kRelativeTolerance * kError);
+    // The integral of the paper; begin is on the horizon.
+    const auto integral = [&](Real angle) {
+        const Real sine = std::sin(angle);
+        return s.z * sine * sine + t.z * (sine * std::cos(angle) + angle);
+    };
+    const Real part = integral(std::atan2(dot(wi, s), dot(wi, t))) - integral(begin);
+    // Its terms of order one cancel to 1e-7: rounding is 1e-9 of the result in double, 1e-4 of the error.
+    EXPECT_NEAR(std::fabs(part / (integral(end) - integral(begin)) - u), kError, 1e-3L * kError);
+}
+
 } // namespace
 } // namespace nusselt_test
