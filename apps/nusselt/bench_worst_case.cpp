@@ -30,7 +30,7 @@ using experiments::WorstCaseSearch;
 
 constexpr double kDefaultSeconds = 60;
 constexpr double kSecondsBetweenSaves = 30;
-/// A tenth of a second or less, which is how long Ctrl-C waits.
+/// Some tenths of a second, which is how long Ctrl-C waits.
 constexpr std::uint64_t kStartsPerThread = 32;
 
 double seconds_since(Clock::time_point begin) {

@@ -258,7 +258,7 @@ TEST_F(CommandLine, CtrlCWritesWhatIsThere) {
 
 TEST_F(CommandLine, CtrlCKeepsWorstCases) {
     const std::string state = path("stopped.json");
-    EXPECT_EQ(run_until_interrupted({"bench", "worst-case", "--time", "30", "--state", state.c_str()}), 130);
+    EXPECT_EQ(run_until_interrupted({"bench", "worst-case", "--time", "15", "--state", state.c_str()}), 130);
     const auto targets = nlohmann::json::parse(read("stopped.json")).at("targets");
     EXPECT_GT(targets.at("lines").at("starts"), 0);
     EXPECT_EQ(targets.at("lines").at("parameters").size(), 4u);

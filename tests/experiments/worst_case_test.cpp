@@ -82,7 +82,7 @@ constexpr double kOrderTolerance = 0.01;
 
 void expect_cubic(const std::vector<ErrorSequence>& errors) {
     const std::vector<ConvergenceRow> rows = convergence_of(errors);
-    EXPECT_GT(rows[2].order_cases, 50u);
+    EXPECT_GE(rows[2].order_cases, 30u); // also where long double is double
     EXPECT_NEAR(rows[2].order, 3, kOrderTolerance);
     // Errors of random lights start below 0.1 and are below 1e-5 after one step and at rounding after two.
     EXPECT_LT(rows[0].median_error, 0.1);
@@ -91,9 +91,9 @@ void expect_cubic(const std::vector<ErrorSequence>& errors) {
     EXPECT_LT(rows[4].median_error, 100 * std::numeric_limits<Real>::epsilon());
 }
 
-TEST(Convergence, LinesHaveOrderThree) { expect_cubic(line_errors(500, 1)); }
+TEST(Convergence, LinesHaveOrderThree) { expect_cubic(line_errors(1000, 1)); }
 
-TEST(Convergence, SectorsHaveOrderThree) { expect_cubic(sector_errors(400, 1)); }
+TEST(Convergence, SectorsHaveOrderThree) { expect_cubic(sector_errors(500, 1)); }
 
 /// What the technique would be with Newton's method instead of Laguerre's, from the integral of the paper.
 ErrorSequence newton_errors(const LineCase<Real>& light) {
