@@ -226,11 +226,11 @@ void expect_polygon_error(const PolygonLight& light, Real u, Real measure, Real 
 }
 
 TEST(WorstCaseTest, PolygonWhereBothGreatCirclesMeetOnTheHorizon) {
-    const PolygonLight light = wall(0xf.e70d3b130ead443p-3L, 0xa.c3144faa5a49923p-26L, 0xa.df4c04a86e4e68p+2L,
-                                    0xe.8545de4d59a4388p-27L, 0xd.9d62058ea0f796cp+1L);
-    const Real u = 0xa.52132676180afe1p-18L;
-    expect_polygon_error<2>(light, u, 1e-2L, 1.96849e-5L);
-    expect_polygon_error<3>(light, u, 1e-2L, 3.59585e-7L);
+    const PolygonLight light = wall(0x8.2449b5a3e06cee5p-2L, 0xb.51625cb0a07279p+2L, 0xd.863d5d0c8c03d64p-26L,
+                                    0xd.d84085eb2d3475ap+1L, 0x8.8239ce5565cd1aep-26L);
+    const Real u = 0xf.ffd6b393acd7c48p-4L;
+    expect_polygon_error<2>(light, u, 1e-2L, 1.96926e-5L);
+    expect_polygon_error<3>(light, u, 1e-2L, 3.59709e-7L);
 }
 
 TEST(WorstCaseTest, PolygonOfTinyArea) {
@@ -241,9 +241,9 @@ TEST(WorstCaseTest, PolygonOfTinyArea) {
 }
 
 TEST(WorstCaseTest, PolygonWithoutIteration) {
-    const PolygonLight light = wall(0xa.749080c6b4acb1ep-2L, 0xa.4779d3ac235448ap-2L, 0x8.879ae7a60bebef2p-7L,
-                                    0xa.4779c3c67c971c3p-2L, 0xb.fa79e260b2a1383p-29L);
-    expect_polygon_error<0>(light, 0x8.740766255fa4bacp-4L, 1e-2L, 2.71739e-1L);
+    const PolygonLight light = wall(0xa.7ac8ec9340d09bep-2L, 0xa.49183e32433f3f8p-2L, 0x8.9b8b544716136c8p-7L,
+                                    0xa.4917eb5d6b5ca77p-2L, 0xa.7f457621045a819p-29L);
+    expect_polygon_error<0>(light, 0x8.7d663432b7d7b0ap-4L, 1e-2L, 2.71758e-1L);
 }
 
 TEST(WorstCaseTest, LineAlongItsAxisFromTheHorizon) {
