@@ -62,6 +62,9 @@ struct BenchWorstCaseOptions {
     std::optional<std::filesystem::path> state;
     int convergence = 2000;          ///< random lights for the order of convergence
     std::optional<std::string> json; ///< "-" is the standard output, instead of the table
+struct MapOptions {
+    std::string technique; ///< class name
+    std::filesystem::path output;
 };
 
 struct ReproduceOptions {
@@ -79,6 +82,7 @@ void setup_techniques(CLI::App& app, int& exit_code);
 void setup_compare(CLI::App& app, int& exit_code);
 void setup_bench(CLI::App& app, int& exit_code);
 void setup_reproduce(CLI::App& app, int& exit_code);
+void setup_map(CLI::App& app, int& exit_code);
 
 // Below `bench`.
 void setup_bench_rays(CLI::App& bench, int& exit_code);
@@ -105,6 +109,8 @@ int run_bench_accuracy(const BenchAccuracyOptions& options);
 /// Searches for the largest errors of the iterations and prints or writes them.
 /// \returns 0, 1 if one is above its documented bound, or 130 if the search was interrupted
 int run_bench_worst_case(const BenchWorstCaseOptions& options);
+/// Draws the map of a technique.
+int run_map(const MapOptions& options);
 
 /// Runs experiments, prints their tables and writes a page for each.
 /// \returns 0, or 1 if an expectation does not hold
