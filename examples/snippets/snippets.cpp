@@ -1,0 +1,94 @@
+// The code in README.md and in the second half of docs/porting.md, as functions. The tests compile this file and compare
+// what the functions return with closed forms.
+
+#include <cmath>
+#include <nusselt/simd/pack.h>
+
+#include <nusselt/nusselt.h>
+using namespace nusselt;
+
+namespace {
+
+using Vec = Vec3<float>;
+
+/// The BRDF of a Lambertian surface and its cosine-weighted sampling; in shading space.
+constexpr float kAlbedo = 0.5f;
+float brdf(const Vec&, const Vec&) { return kAlbedo / kPi<float>; }
+float brdf_pdf(const Vec&, const Vec& wi) { return wi.z > 0 ? wi.z / kPi<float> : 0.0f; }
+Vec sample_brdf(const Vec&, const Vec2<float>& u) {
+    const float radius = std::sqrt(u.x);
+    const float azimuth = 2 * kPi<float> * u.y;
+    return {radius * std::cos(azimuth), radius * std::sin(azimuth), std::sqrt(1 - u.x)};
+}
+
+/// There is nothing but the light.
+bool visible(const Vec&, const Vec&) { return true; }
+
+/// Whether a direction hits a polygon; in shading space.
+bool hits(const ConvexPolygon<float, 4>& light, const Vec& wi) {
+    const float side = plane_distance(light) < 0 ? -1.0f : 1.0f;
+    bool inside = side * dot(light.normal, wi) > 0;
+    for (int j = 0; j < 4; ++j) inside = inside && side * dot(cross(light.vertex[j], light.edge[j]), wi) >= 0;
+    return inside;
+}
+
+float direct_light(const Vec* corners, const Vec& point, const Vec& normal, float emitted, float u0,
+                   float u1) {
+    const Vec wo{0, 0, 1};
+    float radiance = 0;
+    const auto light = make_polygon<4>(corners, 4);       // once per light
+    const auto frame = Frame<float>::from_normal(normal); // at each shading point
+    const PolygonProjectedSolidAngle<float, 4> technique(to_shading_space(light, point, frame));
+    const auto s = technique.sample({u0, u1});
+    if (s.pdf > 0 && visible(point, point + frame.to_world(s.p)))
+        radiance += emitted * brdf(wo, s.wi) * s.wi.z / s.pdf;
+    return radiance;
+}
+
+/// \param light in shading space.
+float direct_light_mis(const ConvexPolygon<float, 4>& light, float emitted, const Vec2<float>& u,
+                       const Vec2<float>& v) {
+    const Vec wo{0, 0, 1}, point{0, 0, 0};
+    float radiance = 0;
+    const PolygonSolidAngle<float, 4> technique(light);
+    const auto s = technique.sample(u);
+    if (s.pdf > 0 && s.wi.z > 0 && visible(point, s.p))
+        radiance += emitted * brdf(wo, s.wi) * s.wi.z / (s.pdf + brdf_pdf(wo, s.wi));
+
+    const Vec wi = sample_brdf(wo, v);
+    const float pdf = brdf_pdf(wo, wi);
+    if (pdf > 0 && hits(light, wi)) radiance += emitted * brdf(wo, wi) * wi.z / (pdf + technique.pdf(wi));
+    return radiance;
+}
+
+/// Mean of wi.z / pdf over eight samples of one light.
+float mean_of_samples(const ConvexPolygon<float, 4>& light, const float* u0, const float* u1) {
+    using Real = Pack<float, 8>;
+    const PolygonProjectedSolidAngle<float, 4> single(light);
+    const PolygonProjectedSolidAngle<Real, 4> technique(single);
+    const auto s = technique.sample({Real::load(u0), Real::load(u1)});
+    const auto lit = s.pdf > Real(0);
+    const Real weight = select(lit, s.wi.z / select(lit, s.pdf, Real(1)), Real(0));
+
+    float sum = 0;
+    for (int i = 0; i < 8; ++i) sum += weight.lane(i);
+    return sum / 8;
+}
+
+/// Projected solid angles of one light at eight shading points.
+void projected_solid_angles(const ConvexPolygon<float, 4>& light, const Vec3<Pack<float, 8>>& points,
+                            const Frame<Pack<float, 8>>& frames, float* result) {
+    using Real = Pack<float, 8>;
+    const PolygonProjectedSolidAngle<Real, 4> technique(to_shading_space(light, points, frames));
+    technique.measure().store(result);
+}
+
+/// Runs on the host and on the device.
+NUSSELT_HD float irradiance(const LineSegment<float>& tube, float radiance_times_radius,
+                            const Vec3<float>& point, const Vec3<float>& normal) {
+    const auto frame = Frame<float>::from_normal(normal);
+    const LineProjectedSolidAngle<float> technique(to_shading_space(tube, point, frame));
+    return radiance_times_radius * technique.measure();
+}
+
+} // namespace

@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""Checks of the documentation. Usage: scripts/check-docs.py code|regions|links ROOT, or pictures ROOT PROGRAM
+  code      each paragraph of C++ in README.md and docs/ is part of a file in examples/, which the tests compile;
+            comments and white space do not count
+  regions   each page of docs/techniques but the index has tables of accuracy and cost, and none is empty
+  links     files that README.md and docs/ link to exist
+  pictures  docs/techniques/images/NAME.svg is what `PROGRAM map NAME` draws
+"""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+
+def pages(root):
+    return [root / "README.md", *sorted((root / "docs").rglob("*.md"))]
+
+
+def bare(code):
+    return re.sub(r"\s+", "", re.sub(r"//[^\n]*", "", code))
+
+
+def code(root):
+    examples = [bare(f.read_text()) for f in sorted((root / "examples").rglob("*.cpp"))]
+    for page in pages(root):
+        for block in re.findall(r"^```cpp\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL):
+            for paragraph in block.split("\n\n"):
+                if not any(bare(paragraph) in example for example in examples):
+                    yield f"{page}: not in any file of examples/:\n{paragraph}"
+
+
+def regions(root):
+    for page in sorted((root / "docs/techniques").glob("*.md")):
+        if page.name == "README.md":
+            continue
+        text = page.read_text()
+        found = re.findall(r"<!-- generated: (\w+) \w+ -->\n(.*?)<!-- end -->", text, re.DOTALL)
+        if len(found) != text.count("<!-- generated:"):
+            yield f"{page}: a generated region without an end"
+        for kind in ("accuracy", "cost"):
+            tables = [content for region, content in found if region == kind]
+            if not tables:
+                yield f"{page}: no generated region for {kind}"
+            if any(content.count("\n|") < 2 for content in tables):
+                yield f"{page}: an empty region; run scripts/update-docs.sh"
+
+
+def links(root):
+    for page in pages(root):
+        for target in re.findall(r"\]\(([^)#]+)[^)]*\)", page.read_text()):
+            if "://" not in target and not (page.parent / target).exists():
+                yield f"{page}: no file {target}"
+
+
+def pictures(root, program):
+    for picture in sorted((root / "docs/techniques/images").glob("*.svg")):
+        with tempfile.TemporaryDirectory() as folder:
+            drawn = pathlib.Path(folder, "map.svg")
+            subprocess.run([program, "map", picture.stem, drawn], check=True)
+            if drawn.read_bytes() != picture.read_bytes():
+                yield f"{picture}: not what is drawn today; run scripts/update-docs.sh pictures"
+
+
+CHECKS = {"code": code, "regions": regions, "links": links, "pictures": pictures}
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3 or sys.argv[1] not in CHECKS:
+        sys.exit(__doc__)
+    complaints = list(CHECKS[sys.argv[1]](pathlib.Path(sys.argv[2]), *sys.argv[3:]))
+    print("\n".join(complaints))
+    sys.exit(1 if complaints else 0)

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Draws the pictures of docs/techniques again and fills in the tables of accuracy and cost.
+# Usage: scripts/update-docs.sh [pictures]
+#   pictures  only the pictures, which are the same on every machine; the tables take some minutes
+# NUSSELT names the program; default: build/release/apps/nusselt/nusselt
+set -euo pipefail
+cd "$(dirname "$0")/.."
+program=${NUSSELT:-build/release/apps/nusselt/nusselt}
+
+for picture in docs/techniques/images/*.svg; do
+    "$program" map "$(basename "$picture" .svg)" "$picture"
+done
+if [ "${1:-}" = pictures ]; then exit; fi
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+"$program" bench accuracy --json "$work/accuracy.json" >"$work/log"
+"$program" bench samplers --json "$work/samplers.json" >"$work/log"
+cpu=$(sed -nE 's/^model name\s*: (.*)/\1/p' /proc/cpuinfo | head -n 1)
+python3 scripts/fill-docs.py "$work/accuracy.json" "$work/samplers.json" "$cpu"

@@ -1,0 +1,70 @@
+#include "examples/snippets/snippets.cpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace {
+
+// Above the origin, half in front of it.
+const Vec kCorners[] = {{-0.5f, -0.4f, 1}, {1, -0.4f, 1.2f}, {1, 0.6f, 1.2f}, {-0.5f, 0.6f, 1}};
+constexpr float kEmitted = 3;
+
+/// Radiance that a Lambertian surface at the origin reflects: albedo / pi times projected solid angle.
+float reflected(const Vec& normal) {
+    const auto local =
+        to_shading_space(make_polygon<4>(kCorners, 4), Vec{0, 0, 0}, Frame<float>::from_normal(normal));
+    return kEmitted * kAlbedo / kPi<float> * projected_solid_angle(local);
+}
+
+TEST(Snippets, ReadmeGivesTheClosedFormForEverySample) {
+    for (const Vec& normal : {Vec{0, 0, 1}, normalize(Vec{1, 0, 0.2f})})
+        for (const float u : {0.0f, 0.3f, 0.99f})
+            EXPECT_NEAR(direct_light(kCorners, {0, 0, 0}, normal, kEmitted, u, 1 - u - 0.001f),
+                        reflected(normal), 1e-5f);
+}
+
+TEST(Snippets, MultipleImportanceSamplingIsUnbiased) {
+    const auto light = make_polygon<4>(kCorners, 4);
+    std::mt19937_64 engine(1);
+    std::uniform_real_distribution<float> uniform(0, 0.999999f);
+    constexpr int kCount = 100000;
+    double sum = 0, squares = 0;
+    for (int i = 0; i < kCount; ++i) {
+        const float u0 = uniform(engine), u1 = uniform(engine), v0 = uniform(engine), v1 = uniform(engine);
+        const double x = direct_light_mis(light, kEmitted, {u0, u1}, {v0, v1});
+        sum += x;
+        squares += x * x;
+    }
+    const double mean = sum / kCount;
+    const double standard_error = std::sqrt((squares / kCount - mean * mean) / kCount);
+    EXPECT_NEAR(mean, reflected({0, 0, 1}), 4 * standard_error);
+    EXPECT_LT(standard_error, 0.003 * mean);
+}
+
+TEST(Snippets, PacksAgreeWithTheClosedForm) {
+    const auto light = make_polygon<4>(kCorners, 4);
+    float u0[8], u1[8], areas[8], x[8];
+    for (int i = 0; i < 8; ++i) {
+        u0[i] = 0.12f * static_cast<float>(i);
+        u1[i] = 0.9f - 0.1f * static_cast<float>(i);
+        x[i] = 0.5f * static_cast<float>(i) - 2;
+    }
+    EXPECT_NEAR(mean_of_samples(light, u0, u1), projected_solid_angle(light), 1e-5f);
+
+    using Real = Pack<float, 8>;
+    const auto up = Frame<Real>::from_normal({Real(0), Real(0), Real(1)});
+    projected_solid_angles(light, {Real::load(x), Real(0), Real(0)}, up, areas);
+    for (int i = 0; i < 8; ++i) {
+        const auto local = to_shading_space(light, Vec{x[i], 0, 0}, Frame<float>::from_normal(Vec{0, 0, 1}));
+        EXPECT_NEAR(areas[i], projected_solid_angle(local), 1e-5f);
+    }
+}
+
+TEST(Snippets, TubeOverhead) {
+    // An endless tube at the height h: 2 R / h times the integral of cos^2, which is pi / 2.
+    const auto tube = make_line(Vec{-1e4f, 0, 0.5f}, Vec{1e4f, 0, 0.5f});
+    EXPECT_NEAR(irradiance(tube, 2, {0, 0, 0}, {0, 0, 1}), 2 * kPi<float> / 0.5f, 1e-3f);
+}
+
+} // namespace
