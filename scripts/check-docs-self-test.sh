@@ -5,7 +5,7 @@ set -euo pipefail
 scripts=$(cd "$(dirname "$0")" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-mkdir -p "$tree"/docs/techniques/images "$tree/examples"
+mkdir -p "$tree/docs/techniques/images" "$tree/examples"
 page=$tree/docs/techniques/page.md
 
 # Expects that the check $1 succeeds or fails ($2); further arguments go to the check.

@@ -68,5 +68,6 @@ if __name__ == "__main__":
     if len(sys.argv) < 3 or sys.argv[1] not in CHECKS:
         sys.exit(__doc__)
     complaints = list(CHECKS[sys.argv[1]](pathlib.Path(sys.argv[2]), *sys.argv[3:]))
-    print("\n".join(complaints))
+    for complaint in complaints:
+        print(complaint)
     sys.exit(1 if complaints else 0)

@@ -4,7 +4,7 @@ set -euo pipefail
 scripts=$(cd "$(dirname "$0")" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-mkdir -p "$tree"/{include,src,apps,tests,bench}
+mkdir -p "$tree"/{include,src,apps,tests,examples,bench}
 cp "$scripts/../.clang-format" "$tree"
 good=$'#include "/usr/include/math.h"\nint sum(int a, int b) { return a + b; } // and/or\n'
 

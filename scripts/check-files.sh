@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "${2:-$(dirname "$0")/..}"
 
-sources() { find include src apps tests \( -name '*.h' -o -name '*.cpp' -o -name '*.cu' \) -print0; }
+sources() { find include src apps tests examples \( -name '*.h' -o -name '*.cpp' -o -name '*.cu' \) -print0; }
 all_files() { find . \( -path ./build -o -path ./out -o -path ./.git \) -prune -o -type f -print0; }
 
 case "${1:-}" in
