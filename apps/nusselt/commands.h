@@ -65,6 +65,14 @@ struct BenchWorstCaseOptions {
 struct MapOptions {
     std::string technique; ///< class name
     std::filesystem::path output;
+struct BenchFuzzOptions {
+    std::vector<std::string> techniques; ///< empty: all
+    std::string scalar = "float";
+    std::uint64_t seed = 1;
+    std::uint64_t first = 0;
+    std::uint64_t count = 10'000'000;
+    std::optional<int> threads;
+    std::optional<std::string> isa;
 };
 
 struct ReproduceOptions {
@@ -89,6 +97,7 @@ void setup_bench_rays(CLI::App& bench, int& exit_code);
 void setup_bench_samplers(CLI::App& bench, int& exit_code);
 void setup_bench_accuracy(CLI::App& bench, int& exit_code);
 void setup_bench_worst_case(CLI::App& bench, int& exit_code);
+void setup_bench_fuzz(CLI::App& bench, int& exit_code);
 
 /// Renders and writes the images.
 /// \returns 0, or 130 if it was interrupted
@@ -111,6 +120,9 @@ int run_bench_accuracy(const BenchAccuracyOptions& options);
 int run_bench_worst_case(const BenchWorstCaseOptions& options);
 /// Draws the map of a technique.
 int run_map(const MapOptions& options);
+/// Runs techniques on hostile lights and prints what breaks their contract.
+/// \returns 0, or 1 if anything does
+int run_bench_fuzz(const BenchFuzzOptions& options);
 
 /// Runs experiments, prints their tables and writes a page for each.
 /// \returns 0, or 1 if an expectation does not hold

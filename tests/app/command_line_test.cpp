@@ -71,6 +71,7 @@ void expect_message(const std::string& text, const std::string& part) {
 TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
     for (const char* command : {"", "render", "info", "techniques", "compare", "bench", "bench rays",
                                 "bench samplers", "bench accuracy", "bench worst-case", "reproduce"}) {
+                                "bench samplers", "bench accuracy", "bench fuzz", "reproduce"}) {
         const Outcome help = run(std::string(command) + " --help");
         EXPECT_EQ(help.exit_code, 0) << command;
         EXPECT_NE(help.out.find("Usage:"), std::string::npos) << command;

@@ -7,9 +7,11 @@
 
 #include <nusselt/core/frame.h>
 
-#include "sampling/hostile.h"
+#include "experiments/hostile/lights.h"
 
 namespace nusselt_test {
+
+using nusselt::hostile::RandomSource;
 namespace {
 
 template <class T>

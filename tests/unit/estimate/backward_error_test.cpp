@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "experiments/hostile/lights.h"
 #include "geometry/reference.h"
-#include "sampling/hostile.h"
 #include "sampling/techniques.h"
 
 namespace nusselt_test {

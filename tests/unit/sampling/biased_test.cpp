@@ -8,7 +8,7 @@
 
 #include <nusselt/estimate/backward_error.h>
 
-#include "hostile.h"
+#include "experiments/hostile/lights.h"
 #include "lights.h"
 
 namespace nusselt_test {

@@ -37,8 +37,8 @@ public:
         const auto sample = technique.sample(u);
         EXPECT_EQ(last_lane(sample.pdf), 0);
         EXPECT_EQ(last_lane(technique.pdf(sample.wi)), 0);
-        EXPECT_TRUE(finite(get_lane<Scalar, nusselt::Vec3<Scalar>>(sample.wi, kLanes - 1)));
-        EXPECT_TRUE(finite(get_lane<Scalar, nusselt::Vec3<Scalar>>(sample.p, kLanes - 1)));
+        EXPECT_TRUE(all_finite(get_lane<Scalar, nusselt::Vec3<Scalar>>(sample.wi, kLanes - 1)));
+        EXPECT_TRUE(all_finite(get_lane<Scalar, nusselt::Vec3<Scalar>>(sample.p, kLanes - 1)));
     }
 
     template <class Technique, class Random>

@@ -1,116 +1,14 @@
 #pragma once
-/// The techniques under test, each as a type from which a test picks the instantiation that it wants.
+/// The techniques under test, and access to the lanes of what they take and return.
 
 #include <cstring>
 #include <type_traits>
 
-#include <nusselt/sampling/line_area.h>
-#include <nusselt/sampling/line_projected_solid_angle.h>
-#include <nusselt/sampling/line_solid_angle.h>
-#include <nusselt/sampling/polygon_area.h>
-#include <nusselt/sampling/polygon_projected_solid_angle.h>
-#include <nusselt/sampling/polygon_solid_angle.h>
+#include "experiments/hostile/techniques.h"
 
 namespace nusselt_test {
 
-enum class Measure { kArea, kSolidAngle, kProjectedSolidAngle };
-enum class Horizon { kIgnored, kClipped };
-
-struct AnyPolygonKind {
-    template <class Real>
-    using Random = nusselt::Vec2<Real>;
-};
-/// \tparam N bound on the number of vertices.
-template <int N>
-struct PolygonKind : AnyPolygonKind {
-    static constexpr int kVertices = N;
-    template <class Real>
-    using Light = nusselt::ConvexPolygon<Real, N>;
-};
-struct LineKind {
-    template <class Real>
-    using Light = nusselt::LineSegment<Real>;
-    template <class Real>
-    using Random = Real;
-};
-
-template <class Kind>
-inline constexpr bool kIsPolygon = std::is_base_of_v<AnyPolygonKind, Kind>;
-
-template <int N>
-struct PolygonAreaKindOf : PolygonKind<N> {
-    template <class Real>
-    using Technique = nusselt::PolygonArea<Real, N>;
-    static constexpr const char* kName = "PolygonArea";
-    static constexpr Measure kMeasure = Measure::kArea;
-    static constexpr Horizon kHorizon = Horizon::kIgnored;
-};
-template <int N>
-struct PolygonSolidAngleKindOf : PolygonKind<N> {
-    template <class Real>
-    using Technique = nusselt::PolygonSolidAngle<Real, N>;
-    static constexpr const char* kName = "PolygonSolidAngle";
-    static constexpr Measure kMeasure = Measure::kSolidAngle;
-    static constexpr Horizon kHorizon = Horizon::kIgnored;
-};
-template <int N>
-struct PolygonClippedSolidAngleKindOf : PolygonKind<N> {
-    template <class Real>
-    using Technique = nusselt::PolygonClippedSolidAngle<Real, N>;
-    static constexpr const char* kName = "PolygonClippedSolidAngle";
-    static constexpr Measure kMeasure = Measure::kSolidAngle;
-    static constexpr Horizon kHorizon = Horizon::kClipped;
-};
-template <int N>
-struct PolygonProjectedSolidAngleKindOf : PolygonKind<N> {
-    template <class Real>
-    using Technique = nusselt::PolygonProjectedSolidAngle<Real, N>;
-    static constexpr const char* kName = "PolygonProjectedSolidAngle";
-    static constexpr Measure kMeasure = Measure::kProjectedSolidAngle;
-    static constexpr Horizon kHorizon = Horizon::kClipped;
-};
-template <int N>
-struct PolygonBiasedKindOf : PolygonKind<N> {
-    template <class Real>
-    using Technique = nusselt::PolygonProjectedSolidAngleBiased<Real, N>;
-    static constexpr const char* kName = "PolygonProjectedSolidAngleBiased";
-    static constexpr Measure kMeasure = Measure::kProjectedSolidAngle;
-    static constexpr Horizon kHorizon = Horizon::kClipped;
-};
-using PolygonAreaKind = PolygonAreaKindOf<4>;
-using PolygonSolidAngleKind = PolygonSolidAngleKindOf<4>;
-using PolygonClippedSolidAngleKind = PolygonClippedSolidAngleKindOf<4>;
-using PolygonProjectedSolidAngleKind = PolygonProjectedSolidAngleKindOf<4>;
-using PolygonBiasedKind = PolygonBiasedKindOf<4>;
-
-struct LineAreaKind : LineKind {
-    template <class Real>
-    using Technique = nusselt::LineArea<Real>;
-    static constexpr const char* kName = "LineArea";
-    static constexpr Measure kMeasure = Measure::kArea;
-    static constexpr Horizon kHorizon = Horizon::kIgnored;
-};
-struct LineSolidAngleKind : LineKind {
-    template <class Real>
-    using Technique = nusselt::LineSolidAngle<Real>;
-    static constexpr const char* kName = "LineSolidAngle";
-    static constexpr Measure kMeasure = Measure::kSolidAngle;
-    static constexpr Horizon kHorizon = Horizon::kIgnored;
-};
-struct LineClippedSolidAngleKind : LineKind {
-    template <class Real>
-    using Technique = nusselt::LineClippedSolidAngle<Real>;
-    static constexpr const char* kName = "LineClippedSolidAngle";
-    static constexpr Measure kMeasure = Measure::kSolidAngle;
-    static constexpr Horizon kHorizon = Horizon::kClipped;
-};
-struct LineProjectedSolidAngleKind : LineKind {
-    template <class Real>
-    using Technique = nusselt::LineProjectedSolidAngle<Real>;
-    static constexpr const char* kName = "LineProjectedSolidAngle";
-    static constexpr Measure kMeasure = Measure::kProjectedSolidAngle;
-    static constexpr Horizon kHorizon = Horizon::kClipped;
-};
+using namespace nusselt::hostile;
 
 /// A technique and the number type that it is instantiated with: the parameter of typed tests.
 template <class KindType, class RealType>

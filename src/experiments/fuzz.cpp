@@ -1,0 +1,258 @@
+#include "experiments/fuzz.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include <fmt/core.h>
+
+#include "experiments/hostile/lights.h"
+#include "render_cpu/flush_denormals.h"
+#include "render_cpu/isa.h"
+
+namespace nusselt::experiments {
+
+namespace {
+
+constexpr std::size_t kReports = 5;
+
+/// A configuration as the generator makes it. Packs take the vertices by column.
+template <class T>
+struct Configuration {
+    Vec3<T> vertex[8] = {};
+    int count = 2;
+    T u[2] = {};
+
+    Configuration(FuzzLight light, std::uint64_t seed, std::uint64_t index) {
+        hostile::HostileLights<T> lights(seed, index);
+        switch (light) {
+        case FuzzLight::quadrilateral:
+            count = make_polygon<4>(lights);
+            break;
+        case FuzzLight::octagon:
+            count = make_polygon<8>(lights);
+            break;
+        case FuzzLight::line:
+            Vec3<T> ends[2];
+            lights.ends(ends);
+            std::copy(ends, ends + 2, vertex);
+        }
+        u[0] = lights.random_number();
+        if (light != FuzzLight::line) u[1] = lights.random_number();
+    }
+
+private:
+    template <int N>
+    int make_polygon(hostile::HostileLights<T>& lights) {
+        Vec3<T> vertices[N];
+        const int vertex_count = lights.vertices(vertices);
+        std::copy(vertices, vertices + vertex_count, vertex);
+        return vertex_count;
+    }
+};
+
+template <class T>
+void make_block(FuzzLight light, std::uint64_t seed, std::uint64_t first, int columns, FuzzBlock<T>& block) {
+    for (int i = 0; i < columns; ++i) {
+        const Configuration<T> c(light, seed, first + static_cast<std::uint64_t>(i));
+        for (int j = 0; j < 8; ++j) {
+            const Vec3<T>& v = c.vertex[std::min(j, c.count - 1)];
+            block.coordinates[j][0][i] = v.x;
+            block.coordinates[j][1][i] = v.y;
+            block.coordinates[j][2][i] = v.z;
+        }
+        for (int k = 0; k < 2; ++k) block.u[k][i] = c.u[k];
+    }
+}
+
+/// A literal that is this number exactly.
+std::string literal(float x) { return fmt::format("{:a}f", x); }
+std::string literal(double x) { return fmt::format("{:a}", x); }
+std::string literal(long double x) {
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, "%LaL", x);
+    return buffer;
+}
+template <class T>
+std::string literals(const T* x, int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += (i == 0 ? "{" : ", ") + literal(x[i]);
+    return text + "}";
+}
+
+template <class T>
+struct Found {
+    FuzzViolation<T> violation;
+    bool flushed;
+};
+
+template <class T>
+FuzzReport report(FuzzLight light, std::uint64_t seed, const Found<T>& found) {
+    const FuzzViolation<T>& v = found.violation;
+    const Configuration<T> c(light, seed, v.index);
+    const int dimensions = light == FuzzLight::line ? 1 : 2;
+    std::string text = std::string(v.problem) + "\n  light: ";
+    for (int j = 0; j < c.count; ++j) {
+        const T coordinates[] = {c.vertex[j].x, c.vertex[j].y, c.vertex[j].z};
+        text += (j > 0 ? ",\n         " : "") + literals(coordinates, 3);
+    }
+    text += fmt::format("\n  u: {}\n  wi: {} pdf: {} p: {}\n  pdf(wi): {} invert(wi): {} measure: {}",
+                        literals(c.u, dimensions), literals(v.wi, 3), literal(v.pdf), literals(v.p, 3),
+                        literal(v.pdf_of_wi), literals(v.inverse, dimensions), literal(v.measure));
+    return {v.index, found.flushed, text};
+}
+
+/// What one thread found out about one technique.
+template <class T>
+struct Tally {
+    const FuzzTechnique<T>* technique;
+    std::uint64_t violations = 0;
+    double seconds = 0;
+    std::vector<Found<T>> found; ///< by rising index
+
+    void check(const FuzzBlock<T>& block, std::uint64_t first, int columns, bool flushed) {
+        FuzzBlockResult<T> result;
+        technique->check(block, columns, result);
+        violations += static_cast<std::uint64_t>(result.count);
+        const int kept = std::min(result.count, result.kKept);
+        for (int i = 0; i < kept && found.size() < kReports; ++i) {
+            result.first[i].index += first;
+            found.push_back({result.first[i], flushed});
+        }
+    }
+
+    /// Both floating-point modes.
+    void check(const FuzzBlock<T>& block, std::uint64_t first, int columns) {
+        const auto begin = std::chrono::steady_clock::now();
+        check(block, first, columns, false);
+        {
+            const render_cpu::FlushDenormals flush;
+            check(block, first, columns, true);
+        }
+        seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
+};
+
+template <class T>
+std::vector<Tally<T>> chosen_techniques(const FuzzTable<T>& table, const std::vector<std::string>& names) {
+    std::vector<Tally<T>> chosen;
+    for (int i = 0; i < table.count; ++i)
+        if (names.empty() || std::find(names.begin(), names.end(), table.begin[i].name) != names.end())
+            chosen.push_back({&table.begin[i], 0, 0, {}});
+    for (const std::string& name : names)
+        if (std::none_of(chosen.begin(), chosen.end(),
+                         [&](const auto& t) { return t.technique->name == name; }))
+            throw std::invalid_argument("unknown technique '" + name + "'");
+    return chosen;
+}
+
+} // namespace
+
+template <class T>
+std::vector<FuzzRow> fuzz(const FuzzTable<T>& table, const FuzzSettings& settings,
+                          const FuzzProgress& progress) {
+    std::vector<Tally<T>> total = chosen_techniques(table, settings.techniques);
+    const std::vector<Tally<T>> empty = total;
+    constexpr std::uint64_t kColumns = FuzzBlock<T>::kSize;
+    const std::uint64_t block_count = (settings.count + kColumns - 1) / kColumns;
+    std::atomic<std::uint64_t> next_block{0};
+    std::uint64_t done = 0;
+    std::mutex mutex;
+
+    const auto work = [&] {
+        std::vector<Tally<T>> tallies = empty;
+        const auto block = std::make_unique<FuzzBlock<T>>();
+        for (std::uint64_t b = next_block++; b < block_count; b = next_block++) {
+            const std::uint64_t first = b * kColumns;
+            const auto columns = static_cast<int>(std::min(kColumns, settings.count - first));
+            for (const FuzzLight light : {FuzzLight::quadrilateral, FuzzLight::octagon, FuzzLight::line}) {
+                const auto takes = [&](const Tally<T>& t) { return t.technique->light == light; };
+                if (std::none_of(tallies.begin(), tallies.end(), takes)) continue;
+                make_block(light, settings.seed, settings.first + first, columns, *block);
+                for (Tally<T>& t : tallies)
+                    if (takes(t)) t.check(*block, settings.first + first, columns);
+            }
+            const std::lock_guard lock(mutex);
+            progress(static_cast<double>(++done) / static_cast<double>(block_count));
+        }
+        const std::lock_guard lock(mutex);
+        for (std::size_t i = 0; i < total.size(); ++i) {
+            total[i].violations += tallies[i].violations;
+            total[i].seconds += tallies[i].seconds;
+            total[i].found.insert(total[i].found.end(), tallies[i].found.begin(), tallies[i].found.end());
+        }
+    };
+    {
+        std::vector<std::jthread> threads;
+        for (int i = 1; i < settings.threads; ++i) threads.emplace_back(work);
+        work();
+    }
+
+    std::vector<FuzzRow> rows;
+    for (Tally<T>& t : total) {
+        FuzzRow row{t.technique->name,
+                    t.technique->light,
+                    t.violations,
+                    1e9 * t.seconds / static_cast<double>(std::max<std::uint64_t>(settings.count, 1)),
+                    {}};
+        std::sort(t.found.begin(), t.found.end(), [](const Found<T>& a, const Found<T>& b) {
+            return std::pair(a.violation.index, a.flushed) < std::pair(b.violation.index, b.flushed);
+        });
+        t.found.resize(std::min(t.found.size(), kReports));
+        for (const Found<T>& f : t.found) row.reports.push_back(report(row.light, settings.seed, f));
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+template std::vector<FuzzRow> fuzz(const FuzzTable<float>&, const FuzzSettings&, const FuzzProgress&);
+template std::vector<FuzzRow> fuzz(const FuzzTable<double>&, const FuzzSettings&, const FuzzProgress&);
+template std::vector<FuzzRow> fuzz(const FuzzTable<long double>&, const FuzzSettings&, const FuzzProgress&);
+
+std::vector<FuzzRow> fuzz_library(const std::string& scalar, const std::optional<std::string>& isa,
+                                  const FuzzSettings& settings, const FuzzProgress& progress) {
+    const render_cpu::Isa chosen = render_cpu::choose_isa(isa);
+    if (scalar == "longdouble") return fuzz(fuzz_table_long_double(), settings, progress);
+    const bool is_float = scalar == "float";
+    if (!is_float && scalar != "double") throw std::invalid_argument("unknown scalar '" + scalar + "'");
+    switch (chosen) {
+    case render_cpu::Isa::sse42:
+        return is_float ? fuzz(fuzz_table_float_sse42(), settings, progress)
+                        : fuzz(fuzz_table_double_sse42(), settings, progress);
+    case render_cpu::Isa::avx2:
+        return is_float ? fuzz(fuzz_table_float_avx2(), settings, progress)
+                        : fuzz(fuzz_table_double_avx2(), settings, progress);
+    case render_cpu::Isa::avx512:
+        break;
+    }
+    return is_float ? fuzz(fuzz_table_float_avx512(), settings, progress)
+                    : fuzz(fuzz_table_double_avx512(), settings, progress);
+}
+
+std::vector<std::string> fuzz_technique_names() {
+    std::vector<std::string> names;
+    const FuzzTable<long double> table = fuzz_table_long_double();
+    for (int i = 0; i < table.count; ++i)
+        if (std::find(names.begin(), names.end(), table.begin[i].name) == names.end())
+            names.emplace_back(table.begin[i].name);
+    return names;
+}
+
+std::string name_of(FuzzLight light) {
+    switch (light) {
+    case FuzzLight::quadrilateral:
+        return "quadrilaterals";
+    case FuzzLight::octagon:
+        return "octagons";
+    case FuzzLight::line:
+        break;
+    }
+    return "lines";
+}
+
+} // namespace nusselt::experiments

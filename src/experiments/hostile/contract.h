@@ -1,0 +1,167 @@
+#pragma once
+/// The contract of a technique for any light and random number: it never fails. For scalars and packs alike.
+
+#include <limits>
+
+#include "experiments/hostile/techniques.h"
+
+NUSSELT_NAMESPACE_BEGIN
+namespace hostile {
+
+/// Everything that a technique returns for one light and random number.
+template <class Real, class Random>
+struct Outputs {
+    LightSample<Real> sample;
+    Real pdf; ///< of the sampled direction, asked for again
+    Random inverse;
+    Real measure;
+};
+
+template <class Kind, class Real>
+Outputs<Real, typename Kind::template Random<Real>>
+outputs_of(const typename Kind::template Light<Real>& light,
+           const typename Kind::template Random<Real>& u) noexcept {
+    const typename Kind::template Technique<Real> technique(light);
+    const LightSample<Real> sample = technique.sample(u);
+    return {sample, technique.pdf(sample.wi), technique.invert(sample.wi), technique.measure()};
+}
+
+template <class Real>
+mask_t<Real> all_finite(const Vec3<Real>& v) noexcept {
+    // A sum of finite numbers may overflow; these products are 0 or NaN.
+    const Real zero = Real(0) * v.x + Real(0) * v.y + Real(0) * v.z;
+    return zero == Real(0);
+}
+
+template <class Real>
+auto in_unit_interval(const Real& u) noexcept {
+    return (u >= Real(0)) & (u < Real(1));
+}
+template <class Real>
+auto in_unit_interval(const Vec2<Real>& u) noexcept {
+    return in_unit_interval(u.x) & in_unit_interval(u.y);
+}
+
+template <class Real>
+Real largest_coordinate(const Vec3<Real>& v) noexcept {
+    return max(max(abs(v.x), abs(v.y)), abs(v.z));
+}
+
+/// Axis-aligned box of a light.
+template <class Real>
+struct Bounds {
+    Vec3<Real> low, high;
+    Real extent; ///< largest distance of a vertex from the origin, in the maximum norm
+
+    template <int N>
+    explicit Bounds(const ConvexPolygon<Real, N>& polygon) noexcept
+        : low(polygon.vertex[0]), high(low), extent(largest_coordinate(low)) {
+        for (int j = 1; j < N; ++j) include(polygon.vertex[j]);
+    }
+    explicit Bounds(const LineSegment<Real>& line) noexcept
+        : low(line.p0), high(low), extent(largest_coordinate(low)) {
+        include(line.p0 + line.length * line.s);
+    }
+
+    mask_t<Real> contain(const Vec3<Real>& p, const Real& slack) const noexcept {
+        return (p.x >= low.x - slack) & (p.x <= high.x + slack) & (p.y >= low.y - slack) &
+               (p.y <= high.y + slack) & (p.z >= low.z - slack) & (p.z <= high.z + slack);
+    }
+
+private:
+    void include(const Vec3<Real>& v) noexcept {
+        low = min(low, v);
+        high = max(high, v);
+        extent = max(extent, largest_coordinate(v));
+    }
+};
+
+/// How far a hit point may be from the ray along wi [m]. On a polygon, rounding of vertices tilts the plane by its ratio
+/// to the width, and the point where a ray meets the plane moves the more the flatter it does.
+template <class Real, int N>
+Real aim_slack(const ConvexPolygon<Real, N>& light, const Vec3<Real>& wi, const Bounds<Real>& bounds,
+               const Real& slack) noexcept {
+    // Areas must not overflow.
+    const Real scale = reciprocal_power_of_two(bounds.extent);
+    ConvexPolygon<Real, N> scaled = light;
+    Real longest = Real(0);
+    for (Vec3<Real>& edge : scaled.edge) {
+        edge = scale * edge;
+        longest = max(longest, largest_coordinate(edge));
+    }
+    const Real width = largest_coordinate(doubled_area_normal(scaled)) / longest;
+    const Real sturdiness = width * abs(dot(light.normal, wi));
+    // No requirement for a point in the plane up to rounding.
+    const auto apart = (sturdiness > Real(0)) & (width * abs(plane_distance(light)) > slack);
+    return select(apart, slack / sturdiness, Real(std::numeric_limits<scalar_t<Real>>::max()));
+}
+template <class Real>
+Real aim_slack(const LineSegment<Real>&, const Vec3<Real>&, const Bounds<Real>&, const Real& slack) noexcept {
+    return slack;
+}
+
+/// By how much the density of a sample of the area of a light may differ from that of its direction, relative to the
+/// density: rounding moves the point where the direction meets the light, the more the flatter it does.
+template <class Real, int N>
+Real area_pdf_tolerance(const ConvexPolygon<Real, N>& light, const Vec3<Real>& p,
+                        const Real& slack) noexcept {
+    const Real height = dot(light.normal, p);
+    // Vertices are coplanar up to rounding, which matters for thin lights.
+    const Real warp = abs(height - plane_distance(light));
+    return Real(4) * (slack + warp) / abs(height);
+}
+template <class Real>
+Real area_pdf_tolerance(const LineSegment<Real>& light, const Vec3<Real>& p, const Real& slack) noexcept {
+    return Real(4) * slack / length(cross(light.s, p));
+}
+
+/// Calls report(mask, text) for each rule of the contract: the lanes that break it, and what they do.
+template <class Kind, class Real, class Report>
+void check_contract(const typename Kind::template Light<Real>& light,
+                    const Outputs<Real, typename Kind::template Random<Real>>& out,
+                    const Report& report) noexcept {
+    using T = scalar_t<Real>;
+    // Rounding of a unit vector, and of a hit point relative to the farthest point of the light: 1e-5 in float, which
+    // is far below what an image shows, and enough for sums of up to nine weighted vertices.
+    constexpr T kTolerance = 84 * std::numeric_limits<T>::epsilon();
+    const auto& [wi, pdf, p] = out.sample;
+    report(!all_finite(wi), "wi is not finite");
+    report(!(is_finite(pdf) & (pdf >= Real(0))), "the density of the sample is negative or not finite");
+    report(!(is_finite(out.pdf) & (out.pdf >= Real(0))), "pdf(wi) is negative or not finite");
+    report(!(is_finite(out.measure) & (out.measure >= Real(0))), "measure is negative or not finite");
+    report(!in_unit_interval(out.inverse), "invert(wi) leaves [0, 1)");
+
+    const auto sampled = pdf > Real(0);
+    report(sampled & !(out.measure > Real(0)), "a density without measure");
+    report(sampled & !(abs(dot(wi, wi) - Real(1)) <= Real(kTolerance)), "wi is not a unit vector");
+    report(sampled & !all_finite(p), "p is not finite");
+    const Bounds<Real> bounds(light);
+    // Where numbers are denormal, rounding is absolute.
+    const Real slack = fma(Real(kTolerance), bounds.extent, Real(16 * std::numeric_limits<T>::min()));
+    report(sampled & !bounds.contain(p, slack), "p is off the light");
+    const Real aim = aim_slack(light, wi, bounds, slack);
+    report(sampled & !((largest_coordinate(cross(wi, p)) <= aim) & (dot(wi, p) >= -aim)),
+           "wi does not lead to p");
+    if constexpr (Kind::kMeasure == Measure::kArea) {
+        // Larger tolerances mean that the density is noise.
+        const Real tolerance = area_pdf_tolerance(light, p, slack);
+        report(sampled & (tolerance < Real(0.1)) & !(abs(out.pdf / pdf - Real(1)) <= tolerance),
+               "the density of the sample is not pdf(wi)");
+    } else {
+        report(sampled & (pdf != out.pdf), "the density of the sample is not pdf(wi)");
+    }
+}
+
+/// The first rule that a scalar technique breaks; nullptr if none.
+template <class Kind, class T>
+const char* violation(const typename Kind::template Light<T>& light,
+                      const Outputs<T, typename Kind::template Random<T>>& out) noexcept {
+    const char* first = nullptr;
+    check_contract<Kind, T>(light, out, [&](bool broken, const char* text) {
+        if (broken && first == nullptr) first = text;
+    });
+    return first;
+}
+
+} // namespace hostile
+NUSSELT_NAMESPACE_END

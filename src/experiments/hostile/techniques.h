@@ -1,0 +1,116 @@
+#pragma once
+/// The techniques as types from which a test or the fuzzer picks the instantiation that it wants.
+
+#include <type_traits>
+
+#include <nusselt/sampling/line_area.h>
+#include <nusselt/sampling/line_projected_solid_angle.h>
+#include <nusselt/sampling/line_solid_angle.h>
+#include <nusselt/sampling/polygon_area.h>
+#include <nusselt/sampling/polygon_projected_solid_angle.h>
+#include <nusselt/sampling/polygon_solid_angle.h>
+
+NUSSELT_NAMESPACE_BEGIN
+namespace hostile {
+
+enum class Measure { kArea, kSolidAngle, kProjectedSolidAngle };
+enum class Horizon { kIgnored, kClipped };
+
+struct AnyPolygonKind {
+    template <class Real>
+    using Random = Vec2<Real>;
+};
+/// \tparam N bound on the number of vertices.
+template <int N>
+struct PolygonKind : AnyPolygonKind {
+    static constexpr int kVertices = N;
+    template <class Real>
+    using Light = ConvexPolygon<Real, N>;
+};
+struct LineKind {
+    template <class Real>
+    using Light = LineSegment<Real>;
+    template <class Real>
+    using Random = Real;
+};
+
+template <class Kind>
+inline constexpr bool kIsPolygon = std::is_base_of_v<AnyPolygonKind, Kind>;
+
+template <int N>
+struct PolygonAreaKindOf : PolygonKind<N> {
+    template <class Real>
+    using Technique = PolygonArea<Real, N>;
+    static constexpr const char* kName = "PolygonArea";
+    static constexpr Measure kMeasure = Measure::kArea;
+    static constexpr Horizon kHorizon = Horizon::kIgnored;
+};
+template <int N>
+struct PolygonSolidAngleKindOf : PolygonKind<N> {
+    template <class Real>
+    using Technique = PolygonSolidAngle<Real, N>;
+    static constexpr const char* kName = "PolygonSolidAngle";
+    static constexpr Measure kMeasure = Measure::kSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kIgnored;
+};
+template <int N>
+struct PolygonClippedSolidAngleKindOf : PolygonKind<N> {
+    template <class Real>
+    using Technique = PolygonClippedSolidAngle<Real, N>;
+    static constexpr const char* kName = "PolygonClippedSolidAngle";
+    static constexpr Measure kMeasure = Measure::kSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kClipped;
+};
+template <int N>
+struct PolygonProjectedSolidAngleKindOf : PolygonKind<N> {
+    template <class Real>
+    using Technique = PolygonProjectedSolidAngle<Real, N>;
+    static constexpr const char* kName = "PolygonProjectedSolidAngle";
+    static constexpr Measure kMeasure = Measure::kProjectedSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kClipped;
+};
+template <int N>
+struct PolygonBiasedKindOf : PolygonKind<N> {
+    template <class Real>
+    using Technique = PolygonProjectedSolidAngleBiased<Real, N>;
+    static constexpr const char* kName = "PolygonProjectedSolidAngleBiased";
+    static constexpr Measure kMeasure = Measure::kProjectedSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kClipped;
+};
+using PolygonAreaKind = PolygonAreaKindOf<4>;
+using PolygonSolidAngleKind = PolygonSolidAngleKindOf<4>;
+using PolygonClippedSolidAngleKind = PolygonClippedSolidAngleKindOf<4>;
+using PolygonProjectedSolidAngleKind = PolygonProjectedSolidAngleKindOf<4>;
+using PolygonBiasedKind = PolygonBiasedKindOf<4>;
+
+struct LineAreaKind : LineKind {
+    template <class Real>
+    using Technique = LineArea<Real>;
+    static constexpr const char* kName = "LineArea";
+    static constexpr Measure kMeasure = Measure::kArea;
+    static constexpr Horizon kHorizon = Horizon::kIgnored;
+};
+struct LineSolidAngleKind : LineKind {
+    template <class Real>
+    using Technique = LineSolidAngle<Real>;
+    static constexpr const char* kName = "LineSolidAngle";
+    static constexpr Measure kMeasure = Measure::kSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kIgnored;
+};
+struct LineClippedSolidAngleKind : LineKind {
+    template <class Real>
+    using Technique = LineClippedSolidAngle<Real>;
+    static constexpr const char* kName = "LineClippedSolidAngle";
+    static constexpr Measure kMeasure = Measure::kSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kClipped;
+};
+struct LineProjectedSolidAngleKind : LineKind {
+    template <class Real>
+    using Technique = LineProjectedSolidAngle<Real>;
+    static constexpr const char* kName = "LineProjectedSolidAngle";
+    static constexpr Measure kMeasure = Measure::kProjectedSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kClipped;
+};
+
+} // namespace hostile
+NUSSELT_NAMESPACE_END

@@ -1,0 +1,37 @@
+/// All techniques for polygons.
+
+#include "input.h"
+
+namespace nusselt::fuzz {
+namespace {
+
+template <int N, class T>
+void check_all(Input& input) {
+    const ConvexPolygon<T, N> light = polygon<N, T>(input);
+    const T x = input.random_number<T>();
+    const Vec2<T> u{x, input.random_number<T>()};
+    check<hostile::PolygonAreaKindOf<N>, T>(light, u);
+    check<hostile::PolygonSolidAngleKindOf<N>, T>(light, u);
+    check<hostile::PolygonClippedSolidAngleKindOf<N>, T>(light, u);
+    check<hostile::PolygonProjectedSolidAngleKindOf<N>, T>(light, u);
+    check<hostile::PolygonBiasedKindOf<N>, T>(light, u);
+}
+
+} // namespace
+} // namespace nusselt::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace nusselt::fuzz;
+    Input input(data, size);
+    switch (input.byte() % 3) {
+    case 0:
+        check_all<4, float>(input);
+        break;
+    case 1:
+        check_all<4, double>(input);
+        break;
+    default:
+        check_all<8, float>(input);
+    }
+    return 0;
+}
