@@ -19,7 +19,8 @@ namespace nusselt::experiments {
 
 namespace {
 
-constexpr std::size_t kReports = 5;
+/// Of each technique in each floating-point mode.
+constexpr std::size_t kReports = FuzzBlockResult<float>::kKept;
 
 /// A configuration as the generator makes it. Packs take the vertices by column.
 template <class T>
@@ -86,14 +87,7 @@ std::string literals(const T* x, int count) {
 }
 
 template <class T>
-struct Found {
-    FuzzViolation<T> violation;
-    bool flushed;
-};
-
-template <class T>
-FuzzReport report(FuzzLight light, std::uint64_t seed, const Found<T>& found) {
-    const FuzzViolation<T>& v = found.violation;
+FuzzReport report(FuzzLight light, std::uint64_t seed, const FuzzViolation<T>& v, bool flushed) {
     const Configuration<T> c(light, seed, v.index);
     const int dimensions = light == FuzzLight::line ? 1 : 2;
     std::string text = std::string(v.problem) + "\n  light: ";
@@ -104,7 +98,7 @@ FuzzReport report(FuzzLight light, std::uint64_t seed, const Found<T>& found) {
     text += fmt::format("\n  u: {}\n  wi: {} pdf: {} p: {}\n  pdf(wi): {} invert(wi): {} measure: {}",
                         literals(c.u, dimensions), literals(v.wi, 3), literal(v.pdf), literals(v.p, 3),
                         literal(v.pdf_of_wi), literals(v.inverse, dimensions), literal(v.measure));
-    return {v.index, found.flushed, text};
+    return {v.index, flushed, text};
 }
 
 /// What one thread found out about one technique.
@@ -113,28 +107,38 @@ struct Tally {
     const FuzzTechnique<T>* technique;
     std::uint64_t violations = 0;
     double seconds = 0;
-    std::vector<Found<T>> found; ///< by rising index
-
-    void check(const FuzzBlock<T>& block, std::uint64_t first, int columns, bool flushed) {
-        FuzzBlockResult<T> result;
-        technique->check(block, columns, result);
-        violations += static_cast<std::uint64_t>(result.count);
-        const int kept = std::min(result.count, result.kKept);
-        for (int i = 0; i < kept && found.size() < kReports; ++i) {
-            result.first[i].index += first;
-            found.push_back({result.first[i], flushed});
-        }
-    }
+    std::vector<FuzzViolation<T>> found[2]; ///< by rising index; second: with denormals flushed
 
     /// Both floating-point modes.
     void check(const FuzzBlock<T>& block, std::uint64_t first, int columns) {
         const auto begin = std::chrono::steady_clock::now();
-        check(block, first, columns, false);
+        FuzzBlockResult<T> result[2];
+        technique->check(block, columns, result[0]);
         {
             const render_cpu::FlushDenormals flush;
-            check(block, first, columns, true);
+            technique->check(block, columns, result[1]);
         }
         seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        for (int mode = 0; mode < 2; ++mode) {
+            violations += static_cast<std::uint64_t>(result[mode].count);
+            const int kept = std::min(result[mode].count, result[mode].kKept);
+            for (int i = 0; i < kept && found[mode].size() < kReports; ++i) {
+                found[mode].push_back(result[mode].first[i]);
+                found[mode].back().index += first;
+            }
+        }
+    }
+
+    void add(const Tally& other) {
+        violations += other.violations;
+        seconds += other.seconds;
+        for (int mode = 0; mode < 2; ++mode) {
+            auto& list = found[mode];
+            list.insert(list.end(), other.found[mode].begin(), other.found[mode].end());
+            std::sort(list.begin(), list.end(),
+                      [](const auto& a, const auto& b) { return a.index < b.index; });
+            list.resize(std::min(list.size(), kReports));
+        }
     }
 };
 
@@ -181,11 +185,7 @@ std::vector<FuzzRow> fuzz(const FuzzTable<T>& table, const FuzzSettings& setting
             progress(static_cast<double>(++done) / static_cast<double>(block_count));
         }
         const std::lock_guard lock(mutex);
-        for (std::size_t i = 0; i < total.size(); ++i) {
-            total[i].violations += tallies[i].violations;
-            total[i].seconds += tallies[i].seconds;
-            total[i].found.insert(total[i].found.end(), tallies[i].found.begin(), tallies[i].found.end());
-        }
+        for (std::size_t i = 0; i < total.size(); ++i) total[i].add(tallies[i]);
     };
     {
         std::vector<std::jthread> threads;
@@ -194,17 +194,12 @@ std::vector<FuzzRow> fuzz(const FuzzTable<T>& table, const FuzzSettings& setting
     }
 
     std::vector<FuzzRow> rows;
-    for (Tally<T>& t : total) {
-        FuzzRow row{t.technique->name,
-                    t.technique->light,
-                    t.violations,
-                    1e9 * t.seconds / static_cast<double>(std::max<std::uint64_t>(settings.count, 1)),
-                    {}};
-        std::sort(t.found.begin(), t.found.end(), [](const Found<T>& a, const Found<T>& b) {
-            return std::pair(a.violation.index, a.flushed) < std::pair(b.violation.index, b.flushed);
-        });
-        t.found.resize(std::min(t.found.size(), kReports));
-        for (const Found<T>& f : t.found) row.reports.push_back(report(row.light, settings.seed, f));
+    for (const Tally<T>& t : total) {
+        const double checks = 2 * static_cast<double>(std::max<std::uint64_t>(settings.count, 1));
+        FuzzRow row{t.technique->name, t.technique->light, t.violations, 1e9 * t.seconds / checks, {}};
+        for (const bool flushed : {false, true})
+            for (const FuzzViolation<T>& v : t.found[flushed])
+                row.reports.push_back(report(row.light, settings.seed, v, flushed));
         rows.push_back(std::move(row));
     }
     return rows;

@@ -32,7 +32,7 @@ struct FuzzRow {
     FuzzLight light;
     std::uint64_t violations = 0;
     double nanoseconds = 0;          ///< per configuration and thread, without making the light
-    std::vector<FuzzReport> reports; ///< those of lowest index
+    std::vector<FuzzReport> reports; ///< those of lowest index in each mode
 };
 
 /// Called with the share of the work that is done, by one thread at a time.

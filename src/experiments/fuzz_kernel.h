@@ -27,7 +27,7 @@ struct FuzzViolation {
 /// Violations of a block; the first ones in detail.
 template <class T>
 struct FuzzBlockResult {
-    static constexpr int kKept = 8;
+    static constexpr int kKept = 3;
     int count = 0;
     FuzzViolation<T> first[kKept]; ///< index: column of the block
 };

@@ -76,42 +76,49 @@ private:
     }
 };
 
-/// How far a hit point may be from the ray along wi [m]. On a polygon, rounding of vertices tilts the plane by its ratio
-/// to the width, and the point where a ray meets the plane moves the more the flatter it does.
+/// Width of a polygon relative to its extent, at most 1. Rounding of vertices tilts its plane by its ratio to the width.
 template <class Real, int N>
-Real aim_slack(const ConvexPolygon<Real, N>& light, const Vec3<Real>& wi, const Bounds<Real>& bounds,
-               const Real& slack) noexcept {
+Real relative_width(const ConvexPolygon<Real, N>& light, const Real& extent) noexcept {
     // Areas must not overflow.
-    const Real scale = reciprocal_power_of_two(bounds.extent);
+    const Real scale = reciprocal_power_of_two(extent);
     ConvexPolygon<Real, N> scaled = light;
     Real longest = Real(0);
     for (Vec3<Real>& edge : scaled.edge) {
         edge = scale * edge;
         longest = max(longest, largest_coordinate(edge));
     }
-    const Real width = largest_coordinate(doubled_area_normal(scaled)) / longest;
+    const Real area = largest_coordinate(doubled_area_normal(scaled));
+    return min(area / select(longest > Real(0), longest, Real(1)), Real(1));
+}
+
+/// How far a hit point may be from the ray along wi [m]. A tilt of the plane turns the directions to a light seen
+/// edge-on; then the point where a ray meets the plane moves the more the flatter it does.
+template <class Real, int N>
+Real aim_slack(const ConvexPolygon<Real, N>& light, const Vec3<Real>& wi, const Real& extent,
+               const Real& slack) noexcept {
+    const Real width = relative_width(light, extent);
     const Real sturdiness = width * abs(dot(light.normal, wi));
+    const Real squared = sturdiness * sturdiness;
     // No requirement for a point in the plane up to rounding.
-    const auto apart = (sturdiness > Real(0)) & (width * abs(plane_distance(light)) > slack);
-    return select(apart, slack / sturdiness, Real(std::numeric_limits<scalar_t<Real>>::max()));
+    const auto apart = (squared > Real(0)) & (width * abs(plane_distance(light)) > slack);
+    return select(apart, slack / squared, Real(std::numeric_limits<scalar_t<Real>>::max()));
 }
 template <class Real>
-Real aim_slack(const LineSegment<Real>&, const Vec3<Real>&, const Bounds<Real>&, const Real& slack) noexcept {
+Real aim_slack(const LineSegment<Real>&, const Vec3<Real>&, const Real&, const Real& slack) noexcept {
     return slack;
 }
 
 /// By how much the density of a sample of the area of a light may differ from that of its direction, relative to the
-/// density: rounding moves the point where the direction meets the light, the more the flatter it does.
+/// density: rounding moves the point where the direction meets the light, the more the flatter it does. Infinite where
+/// the density is nothing but rounding.
 template <class Real, int N>
-Real area_pdf_tolerance(const ConvexPolygon<Real, N>& light, const Vec3<Real>& p,
+Real area_pdf_tolerance(const ConvexPolygon<Real, N>& light, const Vec3<Real>& p, const Real& extent,
                         const Real& slack) noexcept {
-    const Real height = dot(light.normal, p);
-    // Vertices are coplanar up to rounding, which matters for thin lights.
-    const Real warp = abs(height - plane_distance(light));
-    return Real(4) * (slack + warp) / abs(height);
+    return Real(4) * slack / (relative_width(light, extent) * abs(dot(light.normal, p)));
 }
 template <class Real>
-Real area_pdf_tolerance(const LineSegment<Real>& light, const Vec3<Real>& p, const Real& slack) noexcept {
+Real area_pdf_tolerance(const LineSegment<Real>& light, const Vec3<Real>& p, const Real&,
+                        const Real& slack) noexcept {
     return Real(4) * slack / length(cross(light.s, p));
 }
 
@@ -139,12 +146,13 @@ void check_contract(const typename Kind::template Light<Real>& light,
     // Where numbers are denormal, rounding is absolute.
     const Real slack = fma(Real(kTolerance), bounds.extent, Real(16 * std::numeric_limits<T>::min()));
     report(sampled & !bounds.contain(p, slack), "p is off the light");
-    const Real aim = aim_slack(light, wi, bounds, slack);
-    report(sampled & !((largest_coordinate(cross(wi, p)) <= aim) & (dot(wi, p) >= -aim)),
-           "wi does not lead to p");
+    const Real aim = aim_slack(light, wi, bounds.extent, slack);
+    const auto on_line = largest_coordinate(cross(wi, p)) <= aim;
+    const auto ahead = dot(wi, p) >= -aim;
+    report(sampled & !(on_line & ahead), "wi does not lead to p");
     if constexpr (Kind::kMeasure == Measure::kArea) {
         // Larger tolerances mean that the density is noise.
-        const Real tolerance = area_pdf_tolerance(light, p, slack);
+        const Real tolerance = area_pdf_tolerance(light, p, bounds.extent, slack);
         report(sampled & (tolerance < Real(0.1)) & !(abs(out.pdf / pdf - Real(1)) <= tolerance),
                "the density of the sample is not pdf(wi)");
     } else {
