@@ -97,12 +97,6 @@ bool is_inner(const nusselt::Vec2<T>& u) {
     return is_inner(u.x) && is_inner(u.y);
 }
 
-/// What the angles of a technique are wrong by apart from rounding: the bound on the error of FastAngles.
-template <class Kind>
-inline constexpr long double kAngleError = 0;
-template <int N>
-inline constexpr long double kAngleError<PolygonBiasedKindOf<N>> = 1.3e-5L;
-
 /// What is wrong with a sample of a light that is visible to any precision; empty if nothing is, or if the light is
 /// not of that kind.
 template <class Kind, class T, class Light, class Random>
@@ -116,11 +110,14 @@ std::string aim_violation(const Light& light, const Random& u, const nusselt::Li
     // Thinner or closer to edge-on, the effect of rounding is not proportional to it any more.
     if (!(sturdy > 1e-3L) || !(apparent_size<Kind>(wide) > 1e-3L)) return "";
     if (!is_inner(u)) return "";
+    // Where denormals are flushed, it lies in the horizon.
+    if (Kind::kHorizon == Horizon::kClipped && !(Bounds(light).high.z >= std::numeric_limits<T>::min()))
+        return "";
     if (!(sample.pdf > 0)) return "no sample of a visible light";
 
     // Rounding of the vertices tilts the plane of the light by an angle of this order. The largest errors found in 6e4
     // lights are 12 times that for the direction, 8 times the rounding error for hit points that come from weights.
-    const long double tilt = std::max(kEpsilon, kAngleError<Kind>) / sturdy;
+    const long double tilt = std::max(kEpsilon, static_cast<long double>(kAngleError<Kind>)) / sturdy;
     constexpr long double kFactor = 32;
     const Point wi = nusselt::broadcast<long double>(sample.wi);
     const Point p = nusselt::broadcast<long double>(sample.p);
