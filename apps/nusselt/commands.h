@@ -62,9 +62,13 @@ struct BenchWorstCaseOptions {
     std::optional<std::filesystem::path> state;
     int convergence = 2000;          ///< random lights for the order of convergence
     std::optional<std::string> json; ///< "-" is the standard output, instead of the table
+};
+
 struct MapOptions {
     std::string technique; ///< class name
     std::filesystem::path output;
+};
+
 struct BenchFuzzOptions {
     std::vector<std::string> techniques; ///< empty: all
     std::string scalar = "float";
@@ -118,8 +122,10 @@ int run_bench_accuracy(const BenchAccuracyOptions& options);
 /// Searches for the largest errors of the iterations and prints or writes them.
 /// \returns 0, 1 if one is above its documented bound, or 130 if the search was interrupted
 int run_bench_worst_case(const BenchWorstCaseOptions& options);
+
 /// Draws the map of a technique.
 int run_map(const MapOptions& options);
+
 /// Runs techniques on hostile lights and prints what breaks their contract.
 /// \returns 0, or 1 if anything does
 int run_bench_fuzz(const BenchFuzzOptions& options);
