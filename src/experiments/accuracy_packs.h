@@ -1,0 +1,36 @@
+#pragma once
+/// What the units compiled per instruction set offer to accuracy.cpp: plain data and functions.
+
+namespace nusselt::experiments {
+
+inline constexpr int kPackedLights = 256;
+
+/// A column per number of a light, in the order of declaration in ConvexPolygon<float, N> or LineSegment<float>.
+struct LightColumns {
+    static constexpr int kLargest = 3 * (2 * 8 + 1);
+    float light[kLargest][kPackedLights];
+    float u[2][kPackedLights];
+};
+
+struct SampleColumns {
+    float wi[3][kPackedLights];
+    float pdf[kPackedLights];
+    float measure[kPackedLights];
+};
+
+struct PackedTechnique {
+    const char* name;
+    int vertex_bound;                                 ///< 2 for lines
+    void (*run)(const LightColumns&, SampleColumns&); ///< prepares for each light and takes one sample
+};
+
+struct PackedTechniques {
+    const PackedTechnique* begin;
+    int count;
+};
+
+PackedTechniques packed_techniques_sse42();
+PackedTechniques packed_techniques_avx2();
+PackedTechniques packed_techniques_avx512();
+
+} // namespace nusselt::experiments
