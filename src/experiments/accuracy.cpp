@@ -201,6 +201,7 @@ std::vector<AccuracyRow> measure_class(const typename Technique::Class& lights, 
         row.scalar = method.scalar;
         row.lights = lights.name;
         row.method = method.name;
+        row.dark = dark;
         builders.emplace_back(row);
     }
     for (int begin = 0; begin < count; begin += kPackedLights) {

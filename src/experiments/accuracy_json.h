@@ -13,10 +13,10 @@ std::string to_json(const AccuracyTable& table);
 /// \throws std::runtime_error naming the file if it cannot be read or is not such a table.
 AccuracyTable read_accuracy_json(const std::filesystem::path& path);
 
-/// How far a row may be above the baseline. The code computes the same bits wherever it has the same
-/// operations, so that what differs between compilers and instruction sets is little: fma by way of double may
-/// round differently in one of 2^29 cases, and double and long double take arctangents from the standard
-/// library.
+/// How far a row may be above the baseline. g++ 12, clang 14 and all instruction sets agree on every number: the
+/// code has the same operations everywhere. Other versions need not: where there is no FMA, float goes through
+/// double and may round differently in one of 2^29 cases, and double and long double take arctangents from the
+/// standard library.
 struct AccuracyMargin {
     double quantiles = 1.1; ///< factor on median, 99 % and 99.9 %
     double max = 1.5;       ///< factor on the largest error, which hangs on a single light

@@ -9,6 +9,9 @@ namespace nusselt::experiments {
 
 namespace {
 
+// Draws of random numbers are statements of their own or elements of braces: compilers are free to evaluate
+// operands and arguments in any order, and all shall make the same lights.
+
 using Vec = Vec3<double>;
 
 double uniform(Engine& engine, double low, double high) {
@@ -75,8 +78,9 @@ PolygonLight small_square(Engine& engine, double side) {
 PolygonLight close_square(Engine& engine, double centre_low, double centre_high) {
     const Sides s = random_sides(engine, 0.5, 0.5);
     const Vec normal = 2.0 * cross(s.a, s.b);
-    const Vec along =
-        uniform(engine, centre_low, centre_high) * (2.0 * s.a) + uniform(engine, -0.4, 0.4) * (2.0 * s.b);
+    const double along_a = uniform(engine, centre_low, centre_high);
+    const double along_b = uniform(engine, -0.4, 0.4);
+    const Vec along = along_a * (2.0 * s.a) + along_b * (2.0 * s.b);
     const double side = normal.z < 0 ? -1 : 1;
     return rectangle(engine, along + (1e-3 * side / length(normal)) * normal, s.a, s.b);
 }
@@ -147,8 +151,11 @@ PolygonLight edge_on(Engine& engine) {
 
 PolygonLight below_horizon(Engine& engine) {
     if (uniform(engine, 0, 1) < 0.5) return random_rectangle(engine, at_height(engine, -0.5), 0.3);
-    const Vec along = uniform(engine, 0.2, 1) * at_height(engine, 0);
-    return from_edges(at_height(engine, 0), {along, at_height(engine, -0.4), -along});
+    const Vec first = at_height(engine, 0);
+    const double width = uniform(engine, 0.2, 1);
+    const Vec along = width * at_height(engine, 0);
+    const Vec down = at_height(engine, -0.4);
+    return from_edges(first, {along, down, -along});
 }
 
 } // namespace
@@ -178,7 +185,8 @@ const std::vector<PolygonClass>& polygon_classes() {
              const Vec3<float> f = to_float(first);
              const double stretch = uniform(e, 0, 1) < 0.5 ? 1.0 : -0.5;
              const Vec edge{stretch * f.x, stretch * f.y, uniform(e, -0.3, 0.3)};
-             const Vec side = uniform(e, 0.2, 1) * normalize(cross(edge, direction(e)));
+             const double width = uniform(e, 0.2, 1);
+             const Vec side = width * normalize(cross(edge, direction(e)));
              return from_edges(first, {edge, side, -edge});
          }},
         {"triangle", Visibility::everyone, 3, triangle},
@@ -230,12 +238,15 @@ const std::vector<LineClass>& line_classes() {
         {"pointing at the point within 1e-4", Visibility::everyone,
          [](Engine& e) {
              const Vec s = at_height(e, uniform(e, 0.1, 0.95));
-             const Vec tilted = normalize(s + uniform(e, 0, 1e-4) * direction(e));
+             const double tilt = uniform(e, 0, 1e-4);
+             const Vec tilted = normalize(s + tilt * direction(e));
              return line(s, s + tilted);
          }},
         {"in the horizon plane", Visibility::no_one_above_horizon,
          [](Engine& e) {
-             return line({uniform(e, 0.5, 1), -1, 0}, {uniform(e, 0.5, 1), uniform(e, 0, 1), 0});
+             const Vec begin{uniform(e, 0.5, 1), -1, 0};
+             const Vec end{uniform(e, 0.5, 1), uniform(e, 0, 1), 0};
+             return line(begin, end);
          }},
         {"below the horizon", Visibility::no_one_above_horizon,
          [](Engine& e) { return line_around(e, at_height(e, -0.5), 0.4); }},

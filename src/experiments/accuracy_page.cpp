@@ -46,8 +46,8 @@ std::string target_table(const std::vector<AccuracyRow>& rows) {
     std::vector<Line> lines{{"technique", "number type", "lights", "target", "measured", "met"}};
     for (const AccuracyVerdict& v : check_targets(rows)) {
         const AccuracyTarget& t = v.target;
-        const std::string where =
-            v.lights == t.lights ? t.lights : fmt::format("{} (worst: {})", t.lights, v.lights);
+        const bool one_is_worst = v.lights != t.lights && v.value > 0;
+        const std::string where = one_is_worst ? fmt::format("{}; worst: {}", t.lights, v.lights) : t.lights;
         lines.push_back({t.technique, t.scalar, where, describe(t.quantity, t.other, t.limit),
                          std::isnan(v.value) ? "no such row" : fmt::format("{:.3g}", v.value),
                          v.met ? "yes" : "**missed**"});

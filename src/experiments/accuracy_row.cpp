@@ -41,7 +41,6 @@ bool AccuracyRowBuilder::add_light(const Outcome& outcome) {
 }
 
 void AccuracyRowBuilder::add_dark(const Outcome& outcome, bool measures_light) {
-    row_.dark = true;
     const Exact measure = measures_light ? outcome.measure : 0;
     row_.spurious += outcome.pdf > 0 || measure > 0;
     measure_.push_back(static_cast<double>(measure));

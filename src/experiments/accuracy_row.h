@@ -18,14 +18,14 @@ struct Outcome {
 
 class AccuracyRowBuilder {
 public:
-    /// \param row names only.
+    /// \param row names, and whether the lights are dark.
     explicit AccuracyRowBuilder(AccuracyRow row) : row_(std::move(row)) {}
 
     /// Counts a light and what is NaN, infinite or negative.
     /// \return whether nothing was: then the errors may be added.
     bool add_light(const Outcome& outcome);
 
-    /// A light that has nothing to sample.
+    /// For dark lights instead of the functions below.
     /// \param measures_light false if measure() does not depend on what the shading point sees.
     void add_dark(const Outcome& outcome, bool measures_light);
 

@@ -84,6 +84,8 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo) {
          {"", "polish", "render", "render a.pbrt --spp 0", "render a.pbrt --technique magic",
           "render a.pbrt --spp", "compare a.exr", "bench samplers --isa mmx", "reproduce no-such-experiment",
           "bench worst-case --target spheres", "bench worst-case --time 0", "render a.pbrt --frobnicate",
+          "render a.pbrt --spp", "compare a.exr", "bench samplers --isa mmx", "bench accuracy --count 0",
+          "reproduce no-such-experiment", "render a.pbrt --frobnicate",
           "render a.pbrt --spp 4 --camera-rays 3", "render a.pbrt --resolution 0x9",
           "render a.pbrt --resolution 9x65537"}) {
         const Outcome wrong = run(arguments);
