@@ -18,22 +18,21 @@ namespace {
 /// Lights dimmer than this are left out: their share of an image is nothing, their relative error anything.
 constexpr Exact kSmallestMeasure = 1e-12L;
 
-/// A light with everything that judges a method.
-template <class Technique>
+/// A light in a number type, with everything that judges a method.
+template <class Technique, class Real>
 struct Case {
-    typename Technique::template Light<Exact> light;
+    typename Technique::template Light<Real> light;
     typename Technique::template Random<float> u;
+    typename Technique::template Light<Exact> exact_light;
     typename Technique::Reference exact;
     bool cyclic; ///< u = 0 and u = 1 are the same
 };
 
 /// A way to sample the lights of at most kPackedLights cases.
-template <class Technique>
+template <class Technique, class Real>
 struct Method {
-    const char* scalar;
     const char* name;
-    Exact tolerance; ///< of directions off the light
-    std::function<std::vector<Outcome>(const std::vector<Case<Technique>>&)> run;
+    std::function<std::vector<Outcome>(const std::vector<Case<Technique, Real>>&)> run;
 };
 
 template <class Real>
@@ -49,11 +48,11 @@ constexpr Exact kTolerance = 4 * Exact{std::numeric_limits<Real>::epsilon()} +
                              16 * std::numeric_limits<Exact>::epsilon();
 
 template <class Technique, class Real, class Sampler>
-Method<Technique> scalar_method(const char* name) {
-    return {kScalarName<Real>, name, kTolerance<Real>, [](const std::vector<Case<Technique>>& cases) {
+Method<Technique, Real> scalar_method(const char* name) {
+    return {name, [](const std::vector<Case<Technique, Real>>& cases) {
                 std::vector<Outcome> outcomes;
-                for (const Case<Technique>& c : cases) {
-                    const Sampler sampler(Technique::template rounded<Real>(c.light));
+                for (const auto& c : cases) {
+                    const Sampler sampler(c.light);
                     const auto s = sampler.sample(Technique::template widened<Real>(c.u));
                     outcomes.push_back({broadcast<Exact>(s.wi), s.pdf, sampler.measure()});
                 }
@@ -62,10 +61,10 @@ Method<Technique> scalar_method(const char* name) {
 }
 
 template <class Technique, class Real>
-Method<Technique> floor_method() {
-    return {kScalarName<Real>, "floor", kTolerance<Real>, [](const std::vector<Case<Technique>>& cases) {
+Method<Technique, Real> floor_method() {
+    return {"floor", [](const std::vector<Case<Technique, Real>>& cases) {
                 std::vector<Outcome> outcomes;
-                for (const Case<Technique>& c : cases) {
+                for (const auto& c : cases) {
                     const auto s = c.exact.sample(Technique::template widened<Exact>(c.u));
                     outcomes.push_back({broadcast<Exact>(broadcast<Real>(s.wi)), s.pdf,
                                         static_cast<Real>(c.exact.measure())});
@@ -87,15 +86,14 @@ PackedTechniques packed_techniques(render_cpu::Isa isa) {
 }
 
 template <class Technique>
-Method<Technique> packed_method(render_cpu::Isa isa) {
+Method<Technique, float> packed_method(render_cpu::Isa isa) {
     const PackedTechniques all = packed_techniques(isa);
     const PackedTechnique* packed = std::find_if(all.begin, all.begin + all.count, [](const auto& p) {
         return std::strcmp(p.name, Technique::kName) == 0 && p.vertex_bound == Technique::kVertexBound;
     });
     const auto in = std::make_shared<LightColumns>();
     const auto out = std::make_shared<SampleColumns>();
-    return {kScalarName<float>, "ours, packs", kTolerance<float>,
-            [packed, in, out](const std::vector<Case<Technique>>& cases) {
+    return {"ours, packs", [packed, in, out](const std::vector<Case<Technique, float>>& cases) {
                 const auto fill = [](auto& columns, int i, const auto& values) {
                     float components[sizeof(values) / sizeof(float)];
                     std::memcpy(components, &values, sizeof values);
@@ -104,8 +102,8 @@ Method<Technique> packed_method(render_cpu::Isa isa) {
                 const int count = static_cast<int>(cases.size());
                 for (int i = 0; i < kPackedLights; ++i) {
                     // Lanes that are left over get any light.
-                    const Case<Technique>& c = cases[static_cast<std::size_t>(std::min(i, count - 1))];
-                    fill(in->light, i, Technique::template rounded<float>(c.light));
+                    const auto& c = cases[static_cast<std::size_t>(std::min(i, count - 1))];
+                    fill(in->light, i, c.light);
                     fill(in->u, i, c.u);
                 }
                 packed->run(*in, *out);
@@ -124,54 +122,52 @@ bool is_dark(const typename Technique::Class& lights) {
            (lights.visibility == Visibility::no_one_above_horizon && Technique::kClips);
 }
 
-template <class Technique>
-std::vector<Method<Technique>> methods(const typename Technique::Class& lights, render_cpu::Isa isa) {
-    constexpr bool kHasPlain = !std::is_same_v<typename Technique::template Plain<float>, Absent>;
-    std::vector<Method<Technique>> all;
-    const auto add = [&]<class Real>(Real) {
-        if constexpr (kHasPlain)
-            if (Technique::fits_plain(lights))
-                all.push_back(
-                    scalar_method<Technique, Real, typename Technique::template Plain<Real>>("plain"));
-        all.push_back(scalar_method<Technique, Real, typename Technique::template Ours<Real>>("ours"));
-        if constexpr (std::is_same_v<Real, float>) all.push_back(packed_method<Technique>(isa));
-        if constexpr (Technique::kHasFloor)
-            if (!is_dark<Technique>(lights)) all.push_back(floor_method<Technique, Real>());
-    };
-    add(float{});
-    add(double{});
-    // Without iteration the technique in long double is the reference.
-    if constexpr (!std::is_same_v<typename Technique::TwoSteps, Absent>)
-        if (!is_dark<Technique>(lights)) {
-            all.push_back(scalar_method<Technique, Exact, typename Technique::TwoSteps>("ours, 2 steps"));
-            all.push_back(scalar_method<Technique, Exact, typename Technique::template Ours<Exact>>("ours"));
-        }
+template <class Technique, class Real>
+std::vector<Method<Technique, Real>> methods(const typename Technique::Class& lights, render_cpu::Isa isa) {
+    using Plain = typename Technique::template Plain<Real>;
+    using Ours = typename Technique::template Ours<Real>;
+    std::vector<Method<Technique, Real>> all;
+    if constexpr (!std::is_same_v<Plain, Absent>)
+        if (Technique::fits_plain(lights)) all.push_back(scalar_method<Technique, Real, Plain>("plain"));
+    all.push_back(scalar_method<Technique, Real, Ours>("ours"));
+    if constexpr (std::is_same_v<Real, float>) all.push_back(packed_method<Technique>(isa));
+    if constexpr (Technique::kHasFloor)
+        if (!is_dark<Technique>(lights)) all.push_back(floor_method<Technique, Real>());
     return all;
 }
 
-/// The lights of a class from `begin` on, at most kPackedLights and without those that are too dim.
+/// In the number type of the reference, only the error of the iteration is left to judge.
 template <class Technique>
-std::vector<Case<Technique>> make_cases(const typename Technique::Class& lights, int begin, int end) {
-    std::vector<Case<Technique>> cases;
+std::vector<Method<Technique, Exact>> exact_methods() {
+    return {scalar_method<Technique, Exact, typename Technique::TwoSteps>("ours, 2 steps"),
+            scalar_method<Technique, Exact, typename Technique::template Ours<Exact>>("ours")};
+}
+
+/// The lights of a class from `begin` on, without those that are too dim.
+template <class Technique, class Real>
+std::vector<Case<Technique, Real>> make_cases(const typename Technique::Class& lights, int begin, int end) {
+    std::vector<Case<Technique, Real>> cases;
     for (int i = begin; i < end; ++i) {
         // Both follow from the number of the light alone, so that related classes have related lights.
         Engine light_engine(2 * static_cast<std::uint64_t>(i));
         Engine random_engine(2 * static_cast<std::uint64_t>(i) + 1);
-        const auto light = Technique::exact(lights.make(light_engine));
+        const auto light = Technique::template make<Real>(lights.make(light_engine));
+        const auto exact_light = Technique::template exact<Real>(light);
         const auto uniform = [&] {
             return std::uniform_real_distribution<float>(0, 0.999999f)(random_engine);
         };
-        Case<Technique> c{light, Technique::random(uniform), typename Technique::Reference(light), false};
+        Case<Technique, Real> c{light, Technique::random(uniform), exact_light,
+                                typename Technique::Reference(exact_light), false};
         if (!is_dark<Technique>(lights) && !(c.exact.measure() > kSmallestMeasure)) continue;
-        if constexpr (Technique::kCyclic) c.cyclic = !(Technique::miss(light, {0, 0, 1}) > kTolerance<float>);
+        if constexpr (Technique::kCyclic)
+            c.cyclic = !(Technique::miss(exact_light, {0, 0, 1}) > kTolerance<float>);
         cases.push_back(c);
     }
     return cases;
 }
 
-template <class Technique>
-void judge(const Case<Technique>& c, const Outcome& outcome, bool dark, Exact tolerance,
-           AccuracyRowBuilder& row) {
+template <class Technique, class Real>
+void judge(const Case<Technique, Real>& c, const Outcome& outcome, bool dark, AccuracyRowBuilder& row) {
     if (!row.add_light(outcome)) return;
     if (dark) {
         row.add_dark(outcome, Technique::kMeasuresVisible);
@@ -183,38 +179,47 @@ void judge(const Case<Technique>& c, const Outcome& outcome, bool dark, Exact to
         return;
     }
     const Vec3<Exact> wi = normalize(outcome.wi);
-    const Exact missed_by = std::max(Technique::miss(c.light, wi), Technique::kClips ? -wi.z : Exact{0});
+    const Exact below_horizon = Technique::kClips ? -wi.z : Exact{0};
+    const Exact missed_by = std::max(Technique::miss(c.exact_light, wi), below_horizon);
     Exact error = std::fabs(Technique::first(c.exact.invert(wi)) - Technique::first(c.u));
     if (c.cyclic) error = std::min(error, 1 - error);
-    row.add_direction(error, missed_by, tolerance);
+    row.add_direction(error, missed_by, kTolerance<Real>);
 }
 
-template <class Technique>
-std::vector<AccuracyRow> measure_class(const typename Technique::Class& lights, int count,
-                                       render_cpu::Isa isa) {
+template <class Technique, class Real>
+void measure(const typename Technique::Class& lights, int count,
+             const std::vector<Method<Technique, Real>>& methods, std::vector<AccuracyRow>& rows) {
     const bool dark = is_dark<Technique>(lights);
-    const auto all = methods<Technique>(lights, isa);
     std::vector<AccuracyRowBuilder> builders;
-    for (const Method<Technique>& method : all) {
+    for (const auto& method : methods) {
         AccuracyRow row;
         row.technique = Technique::kName;
-        row.scalar = method.scalar;
+        row.scalar = kScalarName<Real>;
         row.lights = lights.name;
         row.method = method.name;
         row.dark = dark;
         builders.emplace_back(row);
     }
     for (int begin = 0; begin < count; begin += kPackedLights) {
-        const auto cases = make_cases<Technique>(lights, begin, std::min(begin + kPackedLights, count));
+        const int end = std::min(begin + kPackedLights, count);
+        const auto cases = make_cases<Technique, Real>(lights, begin, end);
         if (cases.empty()) continue;
-        for (std::size_t m = 0; m < all.size(); ++m) {
-            const std::vector<Outcome> outcomes = all[m].run(cases);
-            for (std::size_t i = 0; i < cases.size(); ++i)
-                judge(cases[i], outcomes[i], dark, all[m].tolerance, builders[m]);
+        for (std::size_t m = 0; m < methods.size(); ++m) {
+            const std::vector<Outcome> outcomes = methods[m].run(cases);
+            for (std::size_t i = 0; i < cases.size(); ++i) judge(cases[i], outcomes[i], dark, builders[m]);
         }
     }
-    std::vector<AccuracyRow> rows;
     for (AccuracyRowBuilder& builder : builders) rows.push_back(builder.finished());
+}
+
+template <class Technique>
+std::vector<AccuracyRow> measure_class(const typename Technique::Class& lights, int count,
+                                       render_cpu::Isa isa) {
+    std::vector<AccuracyRow> rows;
+    measure(lights, count, methods<Technique, float>(lights, isa), rows);
+    measure(lights, count, methods<Technique, double>(lights, isa), rows);
+    if constexpr (!std::is_same_v<typename Technique::TwoSteps, Absent>)
+        if (!is_dark<Technique>(lights)) measure(lights, count, exact_methods<Technique>(), rows);
     return rows;
 }
 

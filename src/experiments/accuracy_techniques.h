@@ -33,31 +33,36 @@ struct PolygonInput {
     /// The transcriptions of the papers have no notion of unused slots for vertices.
     static bool fits_plain(const PolygonClass& lights) { return lights.vertex_count == N; }
 
-    /// The light that the floats describe, without rounding.
-    static Light<Exact> exact(const PolygonLight& source) {
+    /// The light in a number type, as to_shading_space() makes it: positions follow from the edges.
+    template <class Real>
+    static Light<Real> make(const PolygonLight& source) {
         const Vec3<Exact> zero{0, 0, 0};
-        Light<Exact> light;
-        light.vertex[0] = broadcast<Exact>(source.first);
+        Light<Real> light;
+        light.vertex[0] = broadcast<Real>(source.first);
         Vec3<Exact> sum = zero;
         for (int j = 0; j + 1 < N; ++j) {
-            light.edge[j] = j + 1 < source.count ? broadcast<Exact>(source.edge[j]) : zero;
+            const Vec3<Exact> edge = j + 1 < source.count ? broadcast<Exact>(source.edge[j]) : zero;
+            light.edge[j] = broadcast<Real>(edge);
             light.vertex[j + 1] = light.vertex[j] + light.edge[j];
-            sum = sum + light.edge[j];
+            sum = sum + edge;
         }
-        light.edge[N - 1] = -sum;
+        light.edge[N - 1] = broadcast<Real>(-sum);
         light.normal = normalize(doubled_area_normal(light));
         return light;
     }
 
-    /// The same in another number type, as to_shading_space() makes it: positions follow from the edges.
+    /// The light that the first vertex and the edges describe, without rounding.
     template <class Real>
-    static Light<Real> rounded(const Light<Exact>& exact) {
-        Light<Real> light;
-        light.vertex[0] = broadcast<Real>(exact.vertex[0]);
-        for (int j = 0; j < N; ++j) {
-            light.edge[j] = broadcast<Real>(exact.edge[j]);
-            if (j + 1 < N) light.vertex[j + 1] = light.vertex[j] + light.edge[j];
+    static Light<Exact> exact(const Light<Real>& rounded) {
+        Light<Exact> light;
+        light.vertex[0] = broadcast<Exact>(rounded.vertex[0]);
+        Vec3<Exact> sum{0, 0, 0};
+        for (int j = 0; j + 1 < N; ++j) {
+            light.edge[j] = broadcast<Exact>(rounded.edge[j]);
+            light.vertex[j + 1] = light.vertex[j] + light.edge[j];
+            sum = sum + light.edge[j];
         }
+        light.edge[N - 1] = -sum;
         light.normal = normalize(doubled_area_normal(light));
         return light;
     }
@@ -100,12 +105,17 @@ struct LineInput {
 
     static bool fits_plain(const LineClass&) { return true; }
 
-    static Light<Exact> exact(const LineSegment<float>& source) {
-        return {broadcast<Exact>(source.p0), normalize(broadcast<Exact>(source.s)), source.length};
-    }
+    /// The direction has to be a unit vector up to rounding in each number type.
     template <class Real>
-    static Light<Real> rounded(const Light<Exact>& exact) {
-        return {broadcast<Real>(exact.p0), broadcast<Real>(exact.s), static_cast<Real>(exact.length)};
+    static Light<Real> make(const LineSegment<float>& source) {
+        const Vec3<Real> s = broadcast<Real>(source.s);
+        return {broadcast<Real>(source.p0), std::is_same_v<Real, float> ? s : normalize(s), source.length};
+    }
+    /// Close to its line, a light turned by one rounding would be another light.
+    template <class Real>
+    static Light<Exact> exact(const Light<Real>& rounded) {
+        const Vec3<Exact> s = broadcast<Exact>(rounded.s);
+        return {broadcast<Exact>(rounded.p0), std::is_same_v<Real, Exact> ? s : normalize(s), rounded.length};
     }
     static Exact miss(const Light<Exact>& light, const Vec3<Exact>& wi) {
         const Vec3<Exact> end = light.p0 + light.length * light.s;
