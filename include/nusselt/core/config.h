@@ -32,6 +32,15 @@
     }                                                                                                        \
     }
 
+/// Before a loop over the vertices or sectors of a light: with constant indices, packs stay in registers.
+#if defined(__CUDACC__) || defined(__clang__)
+#define NUSSELT_UNROLL _Pragma("unroll")
+#elif defined(__GNUC__)
+#define NUSSELT_UNROLL _Pragma("GCC unroll 16")
+#else
+#define NUSSELT_UNROLL
+#endif
+
 #if defined(__FAST_MATH__)
 #error "nusselt relies on IEEE arithmetic (error-free products, infinities): compile without -ffast-math"
 #endif

@@ -39,35 +39,84 @@ NUSSELT_HD inline Real unfold_octants(const Real& y, const Real& x, const Real& 
 
 } // namespace detail
 
+namespace detail {
+
+/// Coefficients of (1 - atan(t) / t) / t^2 as a polynomial in t^2. Float: fitted for t <= 1, relative error 1e-6 at
+/// most. Others: Taylor series up to tan(pi / 8), each term with 2.5 bits more than the one before.
+template <class Scalar>
+struct AtanRatio {
+    static constexpr int kTerms = std::is_same_v<Scalar, double> ? 20 : 24;
+    static constexpr Scalar coefficient(int i) noexcept {
+        return (i % 2 == 0 ? Scalar(1) : Scalar(-1)) / static_cast<Scalar>(2 * i + 3);
+    }
+    static constexpr Scalar kLargest = Scalar(0.1715728752538099L);
+};
+template <>
+struct AtanRatio<float> {
+    static constexpr int kTerms = 9;
+    static constexpr float coefficient(int i) noexcept {
+        constexpr float kFitted[] = {3.33333018e-1f, -1.99986379e-1f,  1.42652367e-1f,
+                                     -1.09575244e-1f, 8.41929077e-2f,  -5.82313878e-2f,
+                                     3.14522795e-2f, -1.10624615e-2f, 1.8267392e-3f};
+        return kFitted[i];
+    }
+    static constexpr float kLargest = 1;
+};
+
+/// For t beyond the polynomial, where nothing cancels.
+template <class Real>
+NUSSELT_HD inline Real one_minus_atan_ratio_of_large(const Real& s) noexcept {
+    const Real t = sqrt(s);
+    const Real angle = for_each_lane(t, t, [](auto x, auto) { return std::atan(x); });
+    return Real(1) - angle / t;
+}
+
+} // namespace detail
+
 /// 1 - atan(t) / t with full relative precision, given s = t^2 in [0, 1]. Single precision: relative error at
 /// most 1e-6, absolute at most 5e-8. Its derivative is as smooth as the function: differences of neighbouring
 /// values are meaningful.
 template <class Real>
 NUSSELT_HD inline Real one_minus_atan_ratio(const Real& s) noexcept {
+    using Polynomial = detail::AtanRatio<scalar_t<Real>>;
+    Real p = Real(Polynomial::coefficient(Polynomial::kTerms - 1));
+    for (int i = Polynomial::kTerms - 2; i >= 0; --i) p = fma(p, s, Real(Polynomial::coefficient(i)));
     if constexpr (kIsSingle<Real>) {
-        Real p = fma(Real(1.8267392e-3f), s, Real(-1.10624615e-2f));
-        p = fma(p, s, Real(3.14522795e-2f));
-        p = fma(p, s, Real(-5.82313878e-2f));
-        p = fma(p, s, Real(8.41929077e-2f));
-        p = fma(p, s, Real(-1.09575244e-1f));
-        p = fma(p, s, Real(1.42652367e-1f));
-        p = fma(p, s, Real(-1.99986379e-1f));
-        return s * fma(p, s, Real(3.33333018e-1f));
+        return s * p;
     } else {
-        // Taylor series up to tan(pi / 8); each term has 2.5 bits more than the one before. Beyond, nothing
-        // cancels.
-        constexpr scalar_t<Real> kSmall = scalar_t<Real>(0.1715728752538099L);
-        constexpr int kTerms = std::is_same_v<scalar_t<Real>, double> ? 20 : 24;
-        Real p = Real(0);
-        for (int i = kTerms; i >= 1; --i) {
-            const scalar_t<Real> term = scalar_t<Real>(1) / static_cast<scalar_t<Real>>(2 * i + 1);
-            p = fma(p, s, Real(i % 2 == 1 ? term : -term));
-        }
-        const auto small = s <= Real(kSmall);
+        const auto small = s <= Real(Polynomial::kLargest);
         if (all(small)) return s * p;
-        const Real t = sqrt(select(small, Real(1), s));
-        const Real angle = detail::for_each_lane(t, t, [](auto x, auto) { return std::atan(x); });
-        return select(small, s * p, Real(1) - angle / t);
+        return select(small, s * p, detail::one_minus_atan_ratio_of_large(select(small, Real(1), s)));
+    }
+}
+
+/// A value of one_minus_atan_ratio() and the difference to another one.
+template <class Real>
+struct AtanRatioDifference {
+    Real value;      ///< at s
+    Real difference; ///< at s + step minus value, with a small error relative to itself
+};
+
+/// \param s, step s and s + step in [0, 1]
+template <class Real>
+NUSSELT_HD inline AtanRatioDifference<Real> one_minus_atan_ratio_difference(const Real& s,
+                                                                            const Real& step) noexcept {
+    // Horner's scheme for the polynomial (without constant term) at s, and for its divided difference.
+    using Polynomial = detail::AtanRatio<scalar_t<Real>>;
+    const Real end = s + step;
+    Real p = Real(Polynomial::coefficient(Polynomial::kTerms - 1));
+    Real slope = p;
+    for (int i = Polynomial::kTerms - 2; i >= 0; --i) {
+        p = fma(p, s, Real(Polynomial::coefficient(i)));
+        slope = fma(slope, end, p);
+    }
+    if constexpr (kIsSingle<Real>) {
+        return {s * p, step * slope};
+    } else {
+        const auto small = max(s, end) <= Real(Polynomial::kLargest);
+        if (all(small)) return {s * p, step * slope};
+        const Real value = one_minus_atan_ratio(s);
+        return {value, select(small, step * slope, one_minus_atan_ratio(end) - value)};
     }
 }
 
@@ -146,6 +195,24 @@ NUSSELT_HD inline SinCos<Real> sincos_half_turn(const Real& angle) noexcept {
     } else {
         return {detail::for_each_lane(angle, angle, [](auto a, auto) { return std::sin(a); }),
                 detail::for_each_lane(angle, angle, [](auto a, auto) { return std::cos(a); })};
+    }
+}
+
+/// Sine and cosine of an angle in [0, pi / 2]. Single precision: sine with a relative error of at most 1.5e-7, cosine
+/// with an absolute error of at most 1.2e-7.
+template <class Real>
+NUSSELT_HD inline SinCos<Real> sincos_quarter_turn(const Real& angle) noexcept {
+    if constexpr (kIsSingle<Real>) {
+        const Real s = angle * angle;
+        Real ps = fma(Real(2.608932605e-6f), s, Real(-1.981111272e-4f));
+        ps = fma(ps, s, Real(8.333088167e-3f));
+        ps = fma(ps, s, Real(-1.666666046e-1f));
+        Real pc = fma(Real(-2.619381449e-7f), s, Real(2.476930420e-5f));
+        pc = fma(pc, s, Real(-1.388856916e-3f));
+        pc = fma(pc, s, Real(4.166665577e-2f));
+        return {fma(angle * s, ps, angle), fma(s * s, pc, fma(s, Real(-0.5f), Real(1)))};
+    } else {
+        return sincos_half_turn(angle);
     }
 }
 

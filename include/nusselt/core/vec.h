@@ -79,6 +79,14 @@ NUSSELT_HD constexpr Vec3<Real> max(const Vec3<Real>& a, const Vec3<Real>& b) no
     return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
 }
 
+/// 2^(-3/4 of the exponent range).
+template <class Scalar>
+inline constexpr Scalar kTiny = [] {
+    Scalar result = 1;
+    for (int i = 0; i < std::numeric_limits<Scalar>::max_exponent / 4 * 3; ++i) result /= 2;
+    return result;
+}();
+
 /// a * b - c * d with an error of at most 1.5 ulp barring under- and overflow, and never the wrong sign
 /// (Kahan's algorithm; Jeannerod, Louvet, Muller 2013, doi:10.1090/S0025-5718-2013-02679-8).
 template <class Real>
@@ -102,6 +110,17 @@ NUSSELT_HD inline Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) noe
             difference_of_products(a.x, b.y, a.y, b.x)};
 }
 
+/// x, or 0 if it is below 2^(-3/4 of the exponent range): next to numbers of order one, products with it would
+/// underflow, and with denormal numbers flushed to zero even x itself might not survive.
+template <class Real>
+NUSSELT_HD inline Real without_tiny(const Real& x) noexcept {
+    return select(abs(x) < Real(kTiny<scalar_t<Real>>), Real(0), x);
+}
+template <class Real>
+NUSSELT_HD inline Vec3<Real> without_tiny(const Vec3<Real>& a) noexcept {
+    return {without_tiny(a.x), without_tiny(a.y), without_tiny(a.z)};
+}
+
 /// Euclidean norm without over- or underflow of the squares; 0 for the zero vector.
 template <class Real>
 NUSSELT_HD inline Real length(const Vec3<Real>& a) noexcept {
@@ -109,6 +128,22 @@ NUSSELT_HD inline Real length(const Vec3<Real>& a) noexcept {
     const Real down = reciprocal_power_of_two(extent);
     const Vec3<Real> scaled = down * a;
     return sqrt(dot(scaled, scaled)) / down;
+}
+
+/// Reciprocal of the Euclidean norm, 0 for the zero vector. For vectors of order one or less.
+template <class Real>
+NUSSELT_HD inline Real inverse_length(const Vec3<Real>& a) noexcept {
+    const Real squared = dot(a, a);
+    const auto safe = squared > Real(kTiny<scalar_t<Real>>);
+    Real inverse = Real(1) / sqrt(select(safe, squared, Real(1)));
+    if (!all(safe)) {
+        const Real up = reciprocal_power_of_two(max(max(abs(a.x), abs(a.y)), abs(a.z)));
+        const Real scaled_squared = dot(up * a, up * a);
+        const auto nonzero = scaled_squared > Real(0);
+        const Real careful = select(nonzero, up / sqrt(select(nonzero, scaled_squared, Real(1))), Real(0));
+        inverse = select(safe, inverse, careful);
+    }
+    return inverse;
 }
 
 /// Unit vector, or the zero vector if a is zero; any finite length is fine.

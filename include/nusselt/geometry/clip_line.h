@@ -30,23 +30,23 @@ template <class Real>
 NUSSELT_HD inline LineExtent<Real> make_line_extent(const LineSegment<Real>& line) noexcept {
     // Cross products with exact signs instead of p0 - (p0 . s) s, which loses the square of the distance.
     const Vec3<Real> moment = cross(line.p0, line.s);
-    const Real begin = dot(line.p0, line.s);
-    return make_line_extent(line.s, cross(line.s, moment), length(moment), begin, dot(end_of(line), line.s),
-                            line.length);
+    const Vec3<Real> end = end_of(line);
+    return make_line_extent(line.s, line.p0, end, cross(line.s, moment), sqrt(dot(moment, moment)),
+                            dot(line.p0, line.s), dot(end, line.s), line.length);
 }
 
 /// The extent of the part of a segment with z > 0, in shading space. The parameters of the line stay; only
-/// the coordinate of an end point moves, and its direction gets z = 0 exactly.
+/// an end point moves, to z = 0 exactly.
 template <class Real>
 NUSSELT_HD inline LineExtent<Real> clipped_extent(const LineSegment<Real>& line) noexcept {
     const Vec3<Real> moment = cross(line.p0, line.s);
     const Vec3<Real> closest = cross(line.s, moment);
-    const Real distance = length(moment);
+    const Real distance = sqrt(dot(moment, moment));
     const Vec3<Real> p1 = end_of(line);
     const Real begin = dot(line.p0, line.s);
     const Real end = dot(p1, line.s);
-    const Real z0 = line.p0.z;
-    const Real z1 = p1.z;
+    const Real z0 = without_tiny(line.p0.z);
+    const Real z1 = without_tiny(p1.z);
     const auto rises = (z0 < Real(0)) & (z1 > Real(0));
     const auto falls = (z0 > Real(0)) & (z1 < Real(0));
     const auto crosses = rises | falls;
@@ -60,26 +60,32 @@ NUSSELT_HD inline LineExtent<Real> clipped_extent(const LineSegment<Real>& line)
     const auto steep = distance < abs(slope) * max(abs(begin), abs(end));
     const Real crossing =
         select(steep, -closest.z / slope, select(rises, end - remaining, begin + remaining));
-    LineExtent<Real> extent = make_line_extent(line.s, closest, distance, select(rises, crossing, begin),
-                                               select(falls, crossing, end), visible_length);
-    extent.d0.z = select(rises, Real(0), max(extent.d0.z, Real(0)));
-    extent.d1.z = select(falls, Real(0), max(extent.d1.z, Real(0)));
-    return extent;
+    Vec3<Real> on_horizon = crossing * line.s + closest;
+    on_horizon.z = Real(0);
+    return make_line_extent(line.s, select(rises, on_horizon, line.p0), select(falls, on_horizon, p1), closest,
+                            distance, select(rises, crossing, begin), select(falls, crossing, end),
+                            visible_length);
 }
 
 /// The integral 2 int cos(alpha) n . w(alpha) d alpha from the begin of an extent to a point: the projected
 /// solid angle per radius times the distance (E of Peters 2021, linear lights, Eq. 2 and 3). The first term
 /// can only be negative where the second one is larger: no more than a factor of two is lost to cancellation.
-/// \param theta   angle from the begin to the point.
-/// \param sin     its sine.
-/// \param tangent of theta / 2.
-/// \param cosines the cosines with t at the begin and at the point, added.
-/// \param heights the cosines with the normal at the begin and at the point, added.
-/// \param n_t     component of the normal along t.
+/// \param theta      angle from the begin to the point.
+/// \param sin        its sine.
+/// \param from_begin see LinePoint.
+/// \param heights    the cosines with the normal at the begin and at the point, added.
+/// \param n_t        component of the normal along t.
 template <class Real>
-NUSSELT_HD inline Real cosine_integral(const Real& theta, const Real& sin, const Real& tangent,
-                                       const Real& cosines, const Real& heights, const Real& n_t) noexcept {
-    return max(fma(n_t, x_minus_sin(theta, sin), tangent * cosines * heights), Real(0));
+NUSSELT_HD inline Real cosine_integral(const Real& theta, const Real& sin, const Real& from_begin,
+                                       const Real& heights, const Real& n_t) noexcept {
+    return max(fma(n_t, x_minus_sin(theta, sin), from_begin * heights), Real(0));
+}
+
+/// The same from end to end.
+template <class Real>
+NUSSELT_HD inline Real cosine_integral(const LineExtent<Real>& e) noexcept {
+    const Real heights = max(e.p0.z, Real(0)) / e.r0 + max(e.p1.z, Real(0)) / e.r1;
+    return cosine_integral(atan2_positive(e.sin_sweep, e.cos_sweep), e.sin_sweep, e.sine_extent, heights, e.t.z);
 }
 
 /// Solid angle per radius of a linear light in the limit of a thin cylinder [sr/m], in any frame.
@@ -87,8 +93,7 @@ template <class Real>
 NUSSELT_HD inline Real solid_angle(const LineSegment<Real>& line) noexcept {
     const Real scale = scale_of(line);
     const LineExtent<Real> e = make_line_extent(scaled(line, scale));
-    const Real whole = Real(2) * e.sine_extent() / select(e.visible, e.distance, Real(1)) * scale;
-    return select(e.visible, whole, Real(0));
+    return select(e.visible, Real(2) * e.sine_extent / e.distance * scale, Real(0));
 }
 
 /// Projected solid angle per radius of the part of a linear light above the horizon in the limit of a thin
@@ -97,9 +102,7 @@ template <class Real>
 NUSSELT_HD inline Real projected_solid_angle(const LineSegment<Real>& line) noexcept {
     const Real scale = scale_of(line);
     const LineExtent<Real> e = clipped_extent(scaled(line, scale));
-    const Real integral =
-        cosine_integral(e.sweep, e.sin_sweep, e.tan_half_sweep, e.c0 + e.c1, e.d0.z + e.d1.z, e.t.z);
-    return select(e.visible, integral / select(e.visible, e.distance, Real(1)) * scale, Real(0));
+    return select(e.visible, cosine_integral(e) / e.distance * scale, Real(0));
 }
 
 NUSSELT_NAMESPACE_END

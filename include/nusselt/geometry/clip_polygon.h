@@ -18,7 +18,22 @@ NUSSELT_HD inline ConvexPolygon<Real, N + 1> clip_to_horizon(const ConvexPolygon
     const Vec3<Real> zero{Real(0), Real(0), Real(0)};
     // A vertex on the horizon counts as below: the crossing on its edge to an upper neighbour reproduces it.
     Mask above[N];
-    for (int j = 0; j < N; ++j) above[j] = polygon.vertex[j].z > Real(0);
+    Mask all_above = Mask(true);
+    for (int j = 0; j < N; ++j) {
+        above[j] = polygon.vertex[j].z > Real(0);
+        all_above = all_above & above[j];
+    }
+    ConvexPolygon<Real, N + 1> clipped;
+    clipped.normal = polygon.normal;
+    if (all(all_above)) {
+        for (int j = 0; j < N; ++j) {
+            clipped.vertex[j] = polygon.vertex[j];
+            clipped.edge[j] = j + 1 < N ? polygon.edge[j] : zero;
+        }
+        clipped.vertex[N] = polygon.vertex[N - 1];
+        clipped.edge[N] = polygon.edge[N - 1];
+        return clipped;
+    }
 
     // Each lower vertex is replaced by the point where the boundary comes up again; the point where it goes
     // down is inserted before the first of them.
@@ -57,8 +72,6 @@ NUSSELT_HD inline ConvexPolygon<Real, N + 1> clip_to_horizon(const ConvexPolygon
     const Vec3<Real> along_horizon =
         select(touches, zero, Vec3<Real>{-sum_of_edges.x, -sum_of_edges.y, Real(0)});
 
-    ConvexPolygon<Real, N + 1> clipped;
-    clipped.normal = polygon.normal;
     Mask inserted = Mask(false);
     for (int k = 0; k < N; ++k) {
         const Mask insert = goes_down[k > 0 ? k - 1 : N - 1];

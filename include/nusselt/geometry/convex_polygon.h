@@ -23,27 +23,42 @@ struct ConvexPolygon {
     Vec3<Real> normal;    ///< unit normal, right-handed with the winding; zero if the polygon has no area
 };
 
-/// Twice the area times the right-handed unit normal.
+/// Twice the area times the right-handed unit normal; zero if the area cannot be told from rounding.
 template <class Real, int N>
 NUSSELT_HD inline Vec3<Real> doubled_area_normal(const ConvexPolygon<Real, N>& polygon) noexcept {
     Vec3<Real> offset = polygon.edge[0];
     Vec3<Real> sum{Real(0), Real(0), Real(0)};
+    Vec3<Real> lost = sum; // from the offset by rounding: it would give edges on one line an area
+    Real bound = Real(0);
     for (int j = 1; j < N - 1; ++j) {
-        sum = sum + cross(offset, polygon.edge[j]);
-        offset = offset + polygon.edge[j];
+        const Vec3<Real>& edge = polygon.edge[j];
+        sum = sum + (cross(offset, edge) + cross(lost, edge));
+        bound = bound + (abs(offset.x) + abs(offset.y) + abs(offset.z)) * (abs(edge.x) + abs(edge.y) + abs(edge.z));
+        const Vec3<Real> next = offset + edge;
+        const Vec3<Real> added = next - offset;
+        lost = lost + ((offset - (next - added)) + (edge - added));
+        offset = next;
     }
-    return sum;
+    constexpr scalar_t<Real> kRounding = std::numeric_limits<scalar_t<Real>>::epsilon();
+    const auto present = max(max(abs(sum.x), abs(sum.y)), abs(sum.z)) > Real(8 * kRounding * kRounding) * bound;
+    return select(present, sum, Vec3<Real>{Real(0), Real(0), Real(0)});
 }
 
 /// Signed distance of the origin from the plane of the polygon [m], positive if the normal points away from
-/// it. The nearest vertex decides: it has the smallest rounding error, none if it is the origin.
+/// it; 0 if it cannot be told from rounding. The nearest vertex decides: it has the smallest rounding error, none
+/// if it is the origin.
 template <class Real, int N>
 NUSSELT_HD inline Real plane_distance(const ConvexPolygon<Real, N>& polygon) noexcept {
     const auto extent = [](const Vec3<Real>& v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); };
     Vec3<Real> nearest = polygon.vertex[0];
     for (int j = 1; j < N; ++j)
         nearest = select(extent(polygon.vertex[j]) < extent(nearest), polygon.vertex[j], nearest);
-    return dot(polygon.normal, nearest);
+    const Vec3<Real> product{polygon.normal.x * nearest.x, polygon.normal.y * nearest.y,
+                             polygon.normal.z * nearest.z};
+    const Real distance = product.x + product.y + product.z;
+    const Real rounding = Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) *
+                          (abs(product.x) + abs(product.y) + abs(product.z));
+    return select(abs(distance) > rounding, distance, Real(0));
 }
 
 /// The polygon with the given vertices [m].

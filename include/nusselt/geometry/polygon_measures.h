@@ -34,9 +34,13 @@ NUSSELT_HD inline ConvexPolygon<Real, N> scaled(ConvexPolygon<Real, N> polygon, 
     return polygon;
 }
 
+/// Scaled to an extent of order one. Coordinates below 2^(-3/4 of the exponent range) become 0: products with
+/// them would underflow.
 template <class Real, int N>
 NUSSELT_HD inline ConvexPolygon<Real, N> with_unit_extent(const ConvexPolygon<Real, N>& polygon) noexcept {
-    return scaled(polygon, unit_extent_scale(polygon));
+    ConvexPolygon<Real, N> result = scaled(polygon, unit_extent_scale(polygon));
+    for (Vec3<Real>& v : result.vertex) v = without_tiny(v);
+    return result;
 }
 
 /// Solid angle [sr] seen from the origin by a polygon, clipped or not, in any frame; 0 if the origin lies in
@@ -45,7 +49,7 @@ NUSSELT_HD inline ConvexPolygon<Real, N> with_unit_extent(const ConvexPolygon<Re
 template <class Real, int N>
 NUSSELT_HD inline Real solid_angle(const ConvexPolygon<Real, N>& world) noexcept {
     const ConvexPolygon<Real, N> polygon = with_unit_extent(world);
-    const Real distance = abs(dot(polygon.normal, polygon.vertex[0]));
+    const Real distance = abs(plane_distance(polygon));
     Vec3<Real> offset = polygon.edge[0];
     Real total = Real(0);
     const Vec3<Real>& c = polygon.vertex[0];
@@ -69,7 +73,7 @@ NUSSELT_HD inline Real solid_angle(const ConvexPolygon<Real, N>& world) noexcept
 /// formula.
 template <class Real, int N>
 NUSSELT_HD inline Real projected_solid_angle(const ConvexPolygon<Real, N>& polygon) noexcept {
-    const ConvexPolygon<Real, N + 1> clipped = with_unit_extent(clip_to_horizon(polygon));
+    const ConvexPolygon<Real, N + 1> clipped = with_unit_extent(clip_to_horizon(with_unit_extent(polygon)));
     Real doubled = Real(0);
     for (int j = 0; j <= N; ++j) {
         const Vec3<Real>& v = clipped.vertex[j];

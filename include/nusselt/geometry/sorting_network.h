@@ -56,6 +56,7 @@ struct BitonicNetwork<9> {
 /// \param compare_and_swap called with the two slots (low, high) of each comparator in turn.
 template <int M, class CompareAndSwap>
 NUSSELT_HD inline void sort_bitonic(CompareAndSwap compare_and_swap) noexcept {
+    NUSSELT_UNROLL
     for (const Comparator& c : BitonicNetwork<M>::kComparators) compare_and_swap(c.low, c.high);
 }
 

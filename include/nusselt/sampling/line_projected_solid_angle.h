@@ -5,7 +5,8 @@
 /// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Sec. 3.2 and
 /// 3.3, Algorithms 1 and 2. Deviations: the integral is written by the end points of the light, so that
 /// nothing cancels (the paper accepts that short and distant lights lose precision); the unknown is the angle
-/// from the begin of the light; the iteration also runs near the ends, where it needs no exception in this
+/// from the begin of the light; the start
+/// takes the cosine with the normal into account; the iteration also runs near the ends, where it needs no exception in this
 /// form.
 
 #include <nusselt/core/light_sample.h>
@@ -18,9 +19,17 @@ NUSSELT_NAMESPACE_BEGIN
 template <class Real>
 inline constexpr int kLineIterations = kIsSingle<Real> ? 2 : 4;
 
+/// A step of the iteration below it is the last one: its cube is rounding.
+template <class Scalar>
+inline constexpr Scalar kSmallStep = [] {
+    Scalar result = 1;
+    for (int i = 0; i < std::numeric_limits<Scalar>::digits / 3 - 1; ++i) result /= 2;
+    return result;
+}();
+
 /// \tparam Real       float, double, long double or a pack of float or double: one light and shading point
 ///                    per lane, or many samples of one light (see the broadcasting constructor).
-/// \tparam Iterations steps of the iteration per sample.
+/// \tparam Iterations steps of the iteration per sample, at most.
 ///
 /// Measure: pdf is the density of wi in solid angle times the radius of the cylinder that tends to 0 [m/sr],
 /// wi.z / measure(). The emission of the light is radiance times radius, so that the radius cancels.
@@ -34,12 +43,19 @@ public:
         const Real scale = scale_of(light);
         inverse_scale_ = Real(1) / scale;
         extent_ = clipped_extent(scaled(light, scale));
+        sweep_ = atan2_positive(extent_.sin_sweep, extent_.cos_sweep);
+        begin_height_ = max(extent_.p0.z, Real(0)) / extent_.r0;
+        end_height_ = max(extent_.p1.z, Real(0)) / extent_.r1;
+        const LinePoint<Real> middle = extent_.point_at(Real(0.5) * extent_.sine_extent);
+        middle_height_ = max(fma(extent_.s.z, middle.sine, extent_.t.z * middle.cosine), Real(0));
         slope_ = extent_.s.z * extent_.c0 - extent_.t.z * extent_.s0;
-        integral_ = cosine_integral(extent_.sweep, extent_.sin_sweep, extent_.tan_half_sweep,
-                                    extent_.c0 + extent_.c1, extent_.d0.z + extent_.d1.z, extent_.t.z);
-        const Real measure = integral_ / select(extent_.visible, extent_.distance, Real(1)) * scale;
-        const auto lit = extent_.visible & (measure > Real(0)) & is_finite(measure);
+        integral_ = cosine_integral(sweep_, extent_.sin_sweep, extent_.sine_extent, begin_height_ + end_height_,
+                                    extent_.t.z);
+        const Real measure = integral_ / extent_.distance * scale;
+        const Real inverse = extent_.distance / select(integral_ > Real(0), integral_, Real(1)) * inverse_scale_;
+        const auto lit = extent_.visible & (measure > Real(0)) & is_finite(measure) & is_finite(inverse);
         measure_ = select(lit, measure, Real(0));
+        inverse_measure_ = select(lit, inverse, Real(0));
     }
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
@@ -48,46 +64,54 @@ public:
         const LineProjectedSolidAngle<Single, Iterations>& single) noexcept
         : extent_(broadcast<Real>(single.extent_)),
           inverse_scale_(single.inverse_scale_),
+          sweep_(single.sweep_),
+          begin_height_(single.begin_height_),
+          middle_height_(single.middle_height_),
+          end_height_(single.end_height_),
           slope_(single.slope_),
           integral_(single.integral_),
-          measure_(single.measure_) {}
+          measure_(single.measure_),
+          inverse_measure_(single.inverse_measure_) {}
 
     /// \param u in [0, 1); increasing u moves from the begin of the light to its end.
     NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
-        // The start samples the solid angle uniformly.
-        const Real tangent = extent_.tan_half_at_fraction(u);
-        LinePoint<Real> point = extent_.point_at(tangent);
-        Real theta = Real(2) * atan2_positive(tangent, Real(1));
-        for (int i = 0; i < Iterations; ++i) {
+        const Real target = u * integral_;
+        Real theta = angle_at(initial_sine(u));
+        auto goes_on = mask_t<Real>(true);
+        for (int i = 0; i < Iterations && any(goes_on); ++i) {
+            const Rotation rotation = rotation_to(theta);
+            const Real residual = rotation.integral - target;
             // Laguerre's method: the root of the quadratic Taylor polynomial, in Blinn's stable form.
-            const Real h = height(point);
-            const Real residual = integral_to(theta, point, h) - u * integral_;
-            const Real first = point.c * h;
-            const Real height_slope = fma(slope_, point.cos, -extent_.d0.z * point.sin);
-            const Real second = fma(point.c, height_slope, -point.s * h);
+            const Real first = rotation.cosine * rotation.height;
+            const Real second =
+                fma(rotation.cosine, rotation.height_slope, -rotation.sine * rotation.height);
             const Real denominator = first + sqrt(max(fma(first, first, -second * residual), Real(0)));
             const Real step = residual / select(denominator > Real(0), denominator, Real(1));
-            theta = min(max(theta - step, Real(0)), extent_.sweep);
-            const SinCos<Real> angle = sincos_half_turn(theta);
-            point = extent_.point_at(angle.sin, angle.cos, tan_half(angle));
+            // Lanes that are done keep their result: it must not depend on their neighbours.
+            theta = select(goes_on, min(max(theta - step, Real(0)), sweep_), theta);
+            // The step leaves an error of the order of its cube, relative to the scale on which the density changes.
+            goes_on = goes_on & (abs(step) * (first + abs(second)) > Real(kSmallStep<scalar_t<Real>>) * first);
         }
-        Vec3<Real> wi = extent_.direction(point);
-        wi.z = height(point);
-        return {wi, pdf(wi), inverse_scale_ * extent_.position(point)};
+        const Real from_begin = sine_from_begin(sincos_quarter_turn(Real(0.5) * theta));
+        const LinePoint<Real> point = extent_.point_at(min(from_begin, extent_.sine_extent));
+        const Vec3<Real> p = extent_.position(point);
+        Vec3<Real> wi = extent_.direction(point, p);
+        wi.z = max(wi.z, Real(0));
+        return {wi, pdf(wi), inverse_scale_ * p};
     }
 
     /// \param wi a unit direction towards the light.
     NUSSELT_HD Real pdf(const Vec3<Real>& wi) const noexcept {
-        const auto lit = (measure_ > Real(0)) & (wi.z > Real(0));
-        const Real density = wi.z / select(lit, measure_, Real(1));
-        return select(lit & is_finite(density), density, Real(0));
+        return max(wi.z, Real(0)) * inverse_measure_;
     }
 
     /// The random number for which sample() returns wi, a unit direction on the light.
     NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
         const LinePoint<Real> point = extent_.point_in(wi);
-        const Real theta = min(atan2_positive(point.sin, point.cos), extent_.sweep);
-        const Real part = integral_to(theta, point, height(point));
+        const Real theta = angle_at(point.from_begin);
+        const Real sin = sincos_half_turn(theta).sin;
+        const Real part = cosine_integral(theta, sin, point.from_begin, begin_height_ + max(wi.z, Real(0)),
+                                          extent_.t.z);
         return below_one(part / select(integral_ > Real(0), integral_, Real(1)));
     }
 
@@ -98,30 +122,63 @@ private:
     template <class, int>
     friend class LineProjectedSolidAngle;
 
-    /// Cosine with the normal.
-    NUSSELT_HD Real height(const LinePoint<Real>& point) const noexcept {
-        return extent_.interpolate(point, extent_.d0.z, extent_.d1.z, slope_);
+    /// What the iteration needs at the angle theta from the begin.
+    struct Rotation {
+        Real sine, cosine;         ///< of alpha
+        Real height, height_slope; ///< cosine with the normal and its derivative
+        Real integral;             ///< from the begin
+    };
+
+    NUSSELT_HD Rotation rotation_to(const Real& theta) const noexcept {
+        const SinCos<Real> half = sincos_quarter_turn(Real(0.5) * theta);
+        const Real sin = Real(2) * half.sin * half.cos;
+        const Real cos = fma(Real(-2) * half.sin, half.sin, Real(1));
+        Rotation r;
+        r.sine = fma(extent_.s0, cos, extent_.c0 * sin);
+        r.cosine = max(fma(extent_.c0, cos, -extent_.s0 * sin), Real(0));
+        r.height = max(fma(begin_height_, cos, slope_ * sin), Real(0));
+        r.height_slope = fma(slope_, cos, -begin_height_ * sin);
+        r.integral =
+            cosine_integral(theta, sin, sine_from_begin(half), begin_height_ + r.height, extent_.t.z);
+        return r;
     }
 
-    NUSSELT_HD Real integral_to(const Real& theta, const LinePoint<Real>& point,
-                                const Real& h) const noexcept {
-        return cosine_integral(theta, point.sin, point.tan_half, extent_.c0 + point.c, extent_.d0.z + h,
-                               extent_.t.z);
+    /// \param half sine and cosine of half the angle from the begin.
+    NUSSELT_HD Real sine_from_begin(const SinCos<Real>& half) const noexcept {
+        const Real middle = fma(extent_.c0, half.cos, -extent_.s0 * half.sin);
+        return Real(2) * half.sin * max(middle, Real(0));
     }
 
-    NUSSELT_HD static Real tan_half(const SinCos<Real>& angle) noexcept {
-        const auto acute = angle.cos > Real(0);
-        const Real tangent =
-            select(acute, angle.sin, Real(1) - angle.cos) /
-            select(acute, Real(1) + angle.cos, select(angle.sin > Real(0), angle.sin, Real(1)));
-        return min(tangent, Real(kLargestTangent<scalar_t<Real>>));
+    /// The angle from the begin.
+    NUSSELT_HD Real angle_at(const Real& from_begin) const noexcept {
+        const LinePoint<Real> point = extent_.point_at(from_begin);
+        return min(Real(2) * atan2_positive(from_begin, extent_.c0 + point.cosine), sweep_);
+    }
+
+    /// Start of the iteration: by sine, the density is the cosine with the normal. It is taken as linear from the
+    /// begin to the middle and from there to the end.
+    NUSSELT_HD Real initial_sine(const Real& u) const noexcept {
+        const Real first_half = begin_height_ + middle_height_;
+        const Real target = u * (first_half + middle_height_ + end_height_);
+        const auto in_first = target < first_half;
+        const Real low = select(in_first, begin_height_, middle_height_);
+        const Real rise = select(in_first, middle_height_ - begin_height_, end_height_ - middle_height_);
+        const Real rest = select(in_first, target, target - first_half);
+        const Real denominator = low + sqrt(max(fma(rise, rest, low * low), Real(0)));
+        const Real share = rest / select(denominator > Real(0), denominator, Real(1));
+        return Real(0.5) * min(select(in_first, share, share + Real(1)), Real(2)) * extent_.sine_extent;
     }
 
     LineExtent<Real> extent_; ///< of the part above the horizon, scaled to an extent of order one
     Real inverse_scale_;
-    Real slope_;    ///< derivative of the cosine with the normal by theta, at the begin
-    Real integral_; ///< E of the paper
+    Real sweep_;        ///< angle between the end points
+    Real begin_height_; ///< cosine of the direction to the begin with the normal
+    Real middle_height_; ///< the same at the middle by sine
+    Real end_height_;   ///< and at the end
+    Real slope_;        ///< its derivative by theta at the begin
+    Real integral_;     ///< E of the paper
     Real measure_;
+    Real inverse_measure_;
 };
 
 NUSSELT_NAMESPACE_END

@@ -3,7 +3,7 @@
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Sec. 3.1,
 /// Eq. 1. Deviations: everything is expressed by the end points, so that nothing cancels for short or distant
-/// lights; neither preparation nor sampling needs inverse trigonometry beyond one arctangent.
+/// lights; neither preparation nor sampling needs trigonometry.
 
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_line.h>
@@ -22,7 +22,7 @@ class LineSolidAngle {
 public:
     /// \param light relative to the shading point [m].
     NUSSELT_HD explicit LineSolidAngle(const LineSegment<Real>& light) noexcept
-        : LineSolidAngle(scale_of(light), make_line_extent(scaled(light, scale_of(light)))) {}
+        : LineSolidAngle(light, scale_of(light)) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
@@ -34,8 +34,9 @@ public:
 
     /// \param u in [0, 1); increasing u moves from the begin of the light to its end.
     NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
-        const LinePoint<Real> point = extent_.point_at(extent_.tan_half_at_fraction(u));
-        return {extent_.direction(point), pdf_, inverse_scale_ * extent_.position(point)};
+        const LinePoint<Real> point = extent_.point_at(u * extent_.sine_extent);
+        const Vec3<Real> p = extent_.position(point);
+        return {extent_.direction(point, p), pdf_, inverse_scale_ * p};
     }
 
     /// Constant on the light; the caller knows that wi hits it.
@@ -43,9 +44,8 @@ public:
 
     /// The random number for which sample() returns wi, a unit direction on the light.
     NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
-        const Real whole = extent_.sine_extent();
-        const Real part = extent_.sine_from_begin(extent_.point_in(wi));
-        return below_one(part / select(extent_.visible, whole, Real(1)));
+        const Real part = extent_.point_in(wi).from_begin;
+        return below_one(part / select(extent_.visible, extent_.sine_extent, Real(1)));
     }
 
     /// Solid angle per radius, in the limit of a thin cylinder [sr/m].
@@ -56,8 +56,8 @@ protected:
     NUSSELT_HD LineSolidAngle(const Real& scale, const LineExtent<Real>& extent) noexcept
         : extent_(extent), inverse_scale_(Real(1) / scale) {
         // Eq. 1 in the limit of a radius of 0.
-        const Real solid_angle = Real(2) * extent.sine_extent();
-        const Real measure = solid_angle / select(extent.visible, extent.distance, Real(1)) * scale;
+        const Real solid_angle = Real(2) * extent.sine_extent;
+        const Real measure = solid_angle / extent.distance * scale;
         const Real density = extent.distance / select(extent.visible, solid_angle, Real(1)) * inverse_scale_;
         const auto measure_fits =
             (measure > Real(0)) & (measure <= Real(std::numeric_limits<scalar_t<Real>>::max()));
@@ -69,6 +69,9 @@ protected:
     }
 
 private:
+    NUSSELT_HD LineSolidAngle(const LineSegment<Real>& light, const Real& scale) noexcept
+        : LineSolidAngle(scale, make_line_extent(scaled(light, scale))) {}
+
     template <class>
     friend class LineSolidAngle;
 
@@ -85,12 +88,16 @@ class LineClippedSolidAngle : public LineSolidAngle<Real> {
 public:
     /// \param light in shading space [m].
     NUSSELT_HD explicit LineClippedSolidAngle(const LineSegment<Real>& light) noexcept
-        : LineSolidAngle<Real>(scale_of(light), clipped_extent(scaled(light, scale_of(light)))) {}
+        : LineClippedSolidAngle(light, scale_of(light)) {}
 
     /// \copydoc LineSolidAngle::LineSolidAngle(const LineSolidAngle<Single>&)
     template <class Single>
     NUSSELT_HD explicit LineClippedSolidAngle(const LineClippedSolidAngle<Single>& single) noexcept
         : LineSolidAngle<Real>(static_cast<const LineSolidAngle<Single>&>(single)) {}
+
+private:
+    NUSSELT_HD LineClippedSolidAngle(const LineSegment<Real>& light, const Real& scale) noexcept
+        : LineSolidAngle<Real>(scale, clipped_extent(scaled(light, scale))) {}
 };
 
 NUSSELT_NAMESPACE_END

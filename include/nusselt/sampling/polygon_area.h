@@ -24,7 +24,7 @@ public:
     /// \param light relative to the shading point, either winding [m].
     NUSSELT_HD explicit PolygonArea(const ConvexPolygon<Real, N>& light) noexcept {
         plane_.normal = light.normal;
-        plane_.distance = dot(light.normal, light.vertex[0]);
+        plane_.distance = plane_distance(light);
         plane_.farthest = length(light.vertex[0]);
         corner_ = light.vertex[0];
         Vec3<Real> offset = light.edge[0];

@@ -25,50 +25,16 @@ class PolygonSolidAngle {
 
 public:
     /// \param light relative to the shading point, either winding [m].
-    NUSSELT_HD explicit PolygonSolidAngle(const ConvexPolygon<Real, N>& light) noexcept {
-        const ConvexPolygon<Real, N> polygon = with_unit_extent(light);
-        for (int j = 0; j < N; ++j) {
-            vertex_[j] = light.vertex[j];
-            // A vertex at the origin implies that no triangle has a solid angle; any direction will do.
-            direction_[j] = normalize(light.vertex[j]);
-            const Real distance = length(polygon.vertex[j]);
-            inverse_distance_[j] = Real(1) / select(distance > Real(0), distance, Real(1));
-        }
-        const Real signed_distance = dot(polygon.normal, polygon.vertex[0]);
-        const Real plane_distance = abs(signed_distance);
-        counterclockwise_ = signed_distance >= Real(0);
-        Vec3<Real> offset = polygon.edge[0];
-        total_ = Real(0);
-        for (int j = 0; j < kTriangles; ++j) {
-            const Vec3<Real>& a = direction_[j + 1];
-            const Vec3<Real>& c = direction_[0];
-            const Vec3<Real>& b = direction_[j + 2];
-            const Real doubled_area = abs(dot(polygon.normal, cross(offset, polygon.edge[j + 1])));
-            g0_[j] = plane_distance * doubled_area * inverse_distance_[0] * inverse_distance_[j + 1] *
-                     inverse_distance_[j + 2];
-            // Two of three directions may be almost opposite: cosines would lose what is left of their sum.
-            const Vec3<Real> ab = a + b;
-            const Vec3<Real> ac = a + c;
-            const Vec3<Real> bc = b + c;
-            const Real ab2 = dot(ab, ab);
-            const Real ac2 = dot(ac, ac);
-            const Real bc2 = dot(bc, bc);
-            // Any two of the three sums have the product 1 + a b + a c + b c; the longest one would cancel most.
-            const Vec3<Real> s0 = select((ac2 >= ab2) & (ac2 >= bc2), ab, ac);
-            const Vec3<Real> s1 = select((bc2 > ab2) & (bc2 > ac2), ab, bc);
-            g1_[j] = dot(s0, s1);
-            g2_[j] = max(Real(0.5) * ac2, Real(kOpposite));
-            solid_angle_[j] = Real(2) * atan2_positive(g0_[j], g1_[j]);
-            solid_angle_[j] = select(g0_[j] > Real(0), solid_angle_[j], Real(0));
-            total_ = total_ + solid_angle_[j];
-            offset = offset + polygon.edge[j + 1];
-        }
-    }
+    NUSSELT_HD explicit PolygonSolidAngle(const ConvexPolygon<Real, N>& light) noexcept
+        : PolygonSolidAngle(with_unit_extent(light), Real(1) / unit_extent_scale(light)) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
     NUSSELT_HD explicit PolygonSolidAngle(const PolygonSolidAngle<Single, N>& single) noexcept
-        : total_(single.total_), counterclockwise_(single.counterclockwise_) {
+        : inverse_scale_(single.inverse_scale_),
+          total_(single.total_),
+          inverse_total_(single.inverse_total_),
+          counterclockwise_(single.counterclockwise_) {
         for (int j = 0; j < N; ++j) {
             vertex_[j] = broadcast<Real>(single.vertex_[j]);
             direction_[j] = broadcast<Real>(single.direction_[j]);
@@ -91,7 +57,7 @@ public:
         Real begin = Real(0);
         for (int j = 0; j < kTriangles; ++j) {
             const auto reached = (solid_angle_[j] > Real(0)) & (target >= before);
-            t = select_triangle(reached, triangle(j), t);
+            if (j > 0 && any(reached)) t = select_triangle(reached, triangle(j), t);
             begin = select(reached, before, begin);
             before = before + solid_angle_[j];
         }
@@ -120,26 +86,23 @@ public:
         const Real room = max(Real(0.5) * dot(cv, cv), Real(kOpposite));
         const Real tau = sqrt(u.y * fma(u.y, room, Real(2) * (Real(1) - u.y)) / room);
         const Real weight_c = (Real(1) - tau) + depth * (tau - u.y);
-        const Vec3<Real> wi =
-            normalize((fma(-tau, room, fma(-u.y, depth, Real(1)))) * direction_[0] + tau * cv);
+        // Unit up to rounding, except where the arc is almost half a turn.
+        Vec3<Real> wi = fma(-tau, room, fma(-u.y, depth, Real(1))) * direction_[0] + tau * cv;
+        wi = inverse_length(wi) * wi;
 
         // The same weights divided by the distances are barycentric coordinates up to their sum.
         const Real at_a = max(tau * weight_a, Real(0)) * t.inverse_a;
         const Real at_b = max(tau * weight_b, Real(0)) * t.inverse_b;
         const Real at_c = max(weight_c, Real(0)) * inverse_distance_[0];
         const Real sum = at_a + at_b + at_c;
-        const Real normalisation = Real(1) / select(sum > Real(0), sum, Real(1));
+        const Real normalisation = inverse_scale_ / select(sum > Real(0), sum, Real(1));
         const Vec3<Real> p = (at_a * normalisation) * t.pa + (at_b * normalisation) * t.pb +
                              (at_c * normalisation) * vertex_[0];
-        return {wi, pdf(wi), p};
+        return {wi, inverse_total_, p};
     }
 
     /// Constant on the light; the caller knows that wi hits it.
-    NUSSELT_HD Real pdf(const Vec3<Real>&) const noexcept {
-        const auto lit = total_ > Real(0);
-        const Real density = Real(1) / select(lit, total_, Real(1));
-        return select(lit & is_finite(density), density, Real(0));
-    }
+    NUSSELT_HD Real pdf(const Vec3<Real>&) const noexcept { return inverse_total_; }
 
     /// The random numbers for which sample() returns wi, a unit direction on the light; (0, 0) at vertex 0.
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
@@ -178,9 +141,59 @@ public:
     /// Solid angle of the light [sr].
     NUSSELT_HD Real measure() const noexcept { return total_; }
 
+protected:
+    /// \param polygon       with coordinates of order one.
+    /// \param inverse_scale from there to the light.
+    NUSSELT_HD PolygonSolidAngle(const ConvexPolygon<Real, N>& polygon, const Real& inverse_scale) noexcept
+        : inverse_scale_(inverse_scale) {
+        for (int j = 0; j < N; ++j) {
+            vertex_[j] = polygon.vertex[j];
+            // A vertex at the origin implies that no triangle has a solid angle; any direction will do.
+            inverse_distance_[j] = inverse_length(polygon.vertex[j]);
+            direction_[j] = inverse_distance_[j] * polygon.vertex[j];
+        }
+        const Real signed_distance = plane_distance(polygon);
+        counterclockwise_ = signed_distance >= Real(0);
+        Vec3<Real> offset = polygon.edge[0];
+        total_ = Real(0);
+        NUSSELT_UNROLL
+        for (int j = 0; j < kTriangles; ++j) {
+            const Vec3<Real>& a = direction_[j + 1];
+            const Vec3<Real>& c = direction_[0];
+            const Vec3<Real>& b = direction_[j + 2];
+            const Real doubled_area = abs(dot(polygon.normal, cross(offset, polygon.edge[j + 1])));
+            g0_[j] = abs(signed_distance) * doubled_area * inverse_distance_[0] * inverse_distance_[j + 1] *
+                     inverse_distance_[j + 2];
+            // Two of three directions may be almost opposite: cosines would lose what is left of their sum.
+            const Vec3<Real> ab = a + b;
+            const Vec3<Real> ac = a + c;
+            const Vec3<Real> bc = b + c;
+            const Real ab2 = dot(ab, ab);
+            const Real ac2 = dot(ac, ac);
+            const Real bc2 = dot(bc, bc);
+            // Any two of the three sums have the product 1 + a b + a c + b c; the longest one would cancel most.
+            const Vec3<Real> s0 = select((ac2 >= ab2) & (ac2 >= bc2), ab, ac);
+            const Vec3<Real> s1 = select((bc2 > ab2) & (bc2 > ac2), ab, bc);
+            g1_[j] = dot(s0, s1);
+            g2_[j] = max(Real(0.5) * ac2, Real(kOpposite));
+            const Real solid_angle = Real(2) * atan2_positive(g0_[j], g1_[j]);
+            solid_angle_[j] = select(g0_[j] > Real(0), solid_angle, Real(0));
+            total_ = total_ + solid_angle_[j];
+            offset = offset + polygon.edge[j + 1];
+        }
+        inverse_total_ = inverse(total_);
+    }
+
 private:
     template <class, int>
     friend class PolygonSolidAngle;
+
+    /// 0 where there is no finite one.
+    NUSSELT_HD static Real inverse(const Real& total) noexcept {
+        const auto lit = total > Real(0);
+        const Real density = Real(1) / select(lit, total, Real(1));
+        return select(lit & is_finite(density), density, Real(0));
+    }
 
     /// A triangle of the fan; c is vertex 0 of the polygon, a and b are consecutive vertices.
     struct Triangle {
@@ -220,14 +233,16 @@ private:
     static constexpr scalar_t<Real> kOpposite =
         std::numeric_limits<scalar_t<Real>>::epsilon() * std::numeric_limits<scalar_t<Real>>::epsilon();
 
-    Vec3<Real> vertex_[N];
+    Vec3<Real> vertex_[N];     ///< scaled to coordinates of order one
     Vec3<Real> direction_[N];  ///< unit vectors to the vertices
-    Real inverse_distance_[N]; ///< of the vertices, in units of the extent of the polygon
+    Real inverse_distance_[N]; ///< of the scaled vertices
+    Real inverse_scale_;       ///< a power of two
     Real g0_[kTriangles];      ///< triple product of the directions
     Real g1_[kTriangles];      ///< 1 + dot(a, b) + dot(a, c) + dot(b, c)
     Real g2_[kTriangles];      ///< 1 + dot(a, c)
     Real solid_angle_[kTriangles];
     Real total_;
+    Real inverse_total_; ///< the density; 0 without light
     mask_t<Real> counterclockwise_; ///< winding as seen along a ray from the origin through the polygon
 };
 
@@ -238,12 +253,20 @@ class PolygonClippedSolidAngle : public PolygonSolidAngle<Real, N + 1> {
 public:
     /// \param light in shading space, either winding [m].
     NUSSELT_HD explicit PolygonClippedSolidAngle(const ConvexPolygon<Real, N>& light) noexcept
-        : PolygonSolidAngle<Real, N + 1>(clip_to_horizon(light)) {}
+        : PolygonClippedSolidAngle(clip_to_horizon(with_unit_extent(light)),
+                                   Real(1) / unit_extent_scale(light)) {}
 
     /// \copydoc PolygonSolidAngle::PolygonSolidAngle(const PolygonSolidAngle<Single, N>&)
     template <class Single>
     NUSSELT_HD explicit PolygonClippedSolidAngle(const PolygonClippedSolidAngle<Single, N>& single) noexcept
         : PolygonSolidAngle<Real, N + 1>(static_cast<const PolygonSolidAngle<Single, N + 1>&>(single)) {}
+
+private:
+    /// Once more, since little may be left of the light.
+    NUSSELT_HD PolygonClippedSolidAngle(const ConvexPolygon<Real, N + 1>& clipped,
+                                        const Real& inverse_scale) noexcept
+        : PolygonSolidAngle<Real, N + 1>(with_unit_extent(clipped),
+                                         inverse_scale / unit_extent_scale(clipped)) {}
 };
 
 NUSSELT_NAMESPACE_END
