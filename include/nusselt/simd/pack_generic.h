@@ -1,6 +1,6 @@
 #pragma once
-/// What Pack and Mask are built from, over arrays. The specialisations in pack_sse42.h, pack_avx2.h and
-/// pack_avx512.h have the same members over registers.
+/// What Pack and Mask are built from, over arrays. The specialisations in pack_sse42.h, pack_avx2.h,
+/// pack_avx512.h and pack_neon.h have the same members over registers.
 
 #include <cstdint>
 #include <cstring>
@@ -123,15 +123,19 @@ private:
         for (int i = 0; i < N; ++i) result.lanes[i] = function(operands.lanes[i]...);
         return result;
     }
+    /// Lane by lane: from copies of whole arrays g++ 12 at -O3 and strict aliasing makes code that reads lanes before
+    /// they are written.
     template <class Function>
     static Vector map_bits(Function function, const Vector& a, const Vector& b) noexcept {
-        Bits x[N];
-        Bits y[N];
-        std::memcpy(x, a.lanes, sizeof x);
-        std::memcpy(y, b.lanes, sizeof y);
-        for (int i = 0; i < N; ++i) x[i] = function(x[i], y[i]);
         Vector result;
-        std::memcpy(result.lanes, x, sizeof x);
+        for (int i = 0; i < N; ++i) {
+            Bits x;
+            Bits y;
+            std::memcpy(&x, &a.lanes[i], sizeof x);
+            std::memcpy(&y, &b.lanes[i], sizeof y);
+            x = function(x, y);
+            std::memcpy(&result.lanes[i], &x, sizeof x);
+        }
         return result;
     }
     template <class Function>
