@@ -21,6 +21,8 @@
 #define NUSSELT_ISA isa_avx2
 #elif defined(__SSE4_2__)
 #define NUSSELT_ISA isa_sse42
+#elif defined(__aarch64__) && defined(__ARM_NEON)
+#define NUSSELT_ISA isa_neon
 #else
 #define NUSSELT_ISA isa_generic
 #endif

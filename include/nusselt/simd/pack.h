@@ -17,6 +17,7 @@
 #include <nusselt/simd/pack_avx2.h>
 #include <nusselt/simd/pack_avx512.h>
 #include <nusselt/simd/pack_generic.h>
+#include <nusselt/simd/pack_neon.h>
 #include <nusselt/simd/pack_sse42.h>
 
 NUSSELT_NAMESPACE_BEGIN

@@ -9,6 +9,7 @@
 #include "aim.h"
 #include "contract.h"
 #include "render_cpu/flush_denormals.h"
+#include "flush_denormals.h"
 
 namespace nusselt_test {
 
