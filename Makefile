@@ -1,6 +1,6 @@
 # make demo and make test need Debian 12, git and make; scripts/setup.sh installs the rest.
 
-.PHONY: build demo test clean help
+.PHONY: build demo test single-header clean help
 
 build: ## the programs, optimised, in build/release
 	scripts/setup.sh build
@@ -13,8 +13,11 @@ test: ## builds and runs all tests and checks (docs/testing.md)
 	scripts/setup.sh test
 	scripts/test.sh
 
+single-header: ## the library in one file: out/nusselt.h (needs cmake only)
+	cmake -D OUTPUT=out/nusselt.h -P scripts/amalgamate.cmake
+
 clean: ## removes build/ and out/
 	rm -rf build out
 
 help: ## this list
-	@sed -nE 's/^([a-z]+):[^#]*## (.*)/make \1\t\2/p' $(MAKEFILE_LIST)
+	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/make \1\t\2/p' $(MAKEFILE_LIST)

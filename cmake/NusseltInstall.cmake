@@ -4,6 +4,10 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/nusselt)
 
 install(DIRECTORY include/nusselt DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+set(single_header ${PROJECT_BINARY_DIR}/single-header/nusselt.h)
+install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" -D \"OUTPUT=${single_header}\"
+    -P \"${PROJECT_SOURCE_DIR}/scripts/amalgamate.cmake\" COMMAND_ERROR_IS_FATAL ANY)")
+install(FILES ${single_header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS nusselt EXPORT nusseltTargets)
 install(EXPORT nusseltTargets NAMESPACE nusselt:: DESTINATION ${package_dir})
 

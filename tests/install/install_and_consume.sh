@@ -7,6 +7,7 @@ build=$1 work=$2 compiler=$3
 
 rm -rf "$work"
 cmake --install "$build" --prefix "$work/prefix"
+grep -q '^class PolygonSolidAngle' "$work/prefix/include/nusselt.h" || { echo "no single header"; exit 1; }
 cmake -S "$consumer" -B "$work/build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$work/prefix"
 grep -q "nusselt_DIR:PATH=$work/prefix/" "$work/build/CMakeCache.txt" || { echo "another nusselt was found"; exit 1; }
 cmake --build "$work/build"
