@@ -26,6 +26,7 @@ right include/nusselt/sampling/a.h <nusselt/core/vec.h>
 right include/nusselt/sampling/a.h <nusselt/sampling/b.h>
 right include/nusselt/estimate/a.h <nusselt/related/b.h>
 right include/nusselt/simd/a.h <immintrin.h>
+right include/nusselt/simd/b.h <arm_neon.h>
 right include/nusselt/nusselt.h <nusselt/sampling/b.h>
 right src/visibility/a.cpp "scene/scene.h"
 right src/render_cpu/a.cpp <nusselt/simd/pack.h>

@@ -79,7 +79,7 @@ FNR == 1 {
     } else if (quoted && in_library) report("the library includes itself as <nusselt/...>")
     else if (quoted && name ~ /\//) check(from, "src/" substr(name, 1, index(name, "/") - 1))
     else if (quoted && from !~ /^apps/) report("write \"module/" name "\"")
-    else if (!quoted && in_library && name ~ /[.\/]/ && !(from == "include/simd" && name == "immintrin.h"))
+    else if (!quoted && in_library && name ~ /[.\/]/ && !(from == "include/simd" && name ~ /^(immintrin|arm_neon)\.h$/))
         report("the library uses the standard library only, not <" name ">")
 }
 
