@@ -44,8 +44,6 @@
 #define NUSSELT_UNROLL
 #endif
 
-#if defined(__FAST_MATH__)
-#error "nusselt relies on IEEE arithmetic (error-free products, infinities): compile without -ffast-math"
 /// Error-free products, infinities, NaN and the sign of zero mean what IEEE 754 says. Contraction into fma
 /// (-ffp-contract=fast, the default of g++) is fine. clang and nvcc do not tell of every such option: never give
 /// clang -fassociative-math, -freciprocal-math or -fno-signed-zeros alone, nor nvcc --use_fast_math.

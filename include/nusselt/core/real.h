@@ -88,8 +88,7 @@ inline long double fma(long double a, long double b, long double c) noexcept {
         return std::fma(a, b, c);
     } else {
         constexpr int kHalf = (std::numeric_limits<long double>::digits + 1) / 2;
-        constexpr long double kSplitter =
-            static_cast<long double>(std::uint64_t{1} << kHalf) + 1;
+        constexpr long double kSplitter = static_cast<long double>(std::uint64_t{1} << kHalf) + 1;
         const auto high = [](long double x) {
             const long double shifted = kSplitter * x;
             return shifted - (shifted - x);

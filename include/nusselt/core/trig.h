@@ -55,9 +55,9 @@ template <>
 struct AtanRatio<float> {
     static constexpr int kTerms = 9;
     static constexpr float coefficient(int i) noexcept {
-        constexpr float kFitted[] = {3.33333018e-1f, -1.99986379e-1f,  1.42652367e-1f,
+        constexpr float kFitted[] = {3.33333018e-1f,  -1.99986379e-1f, 1.42652367e-1f,
                                      -1.09575244e-1f, 8.41929077e-2f,  -5.82313878e-2f,
-                                     3.14522795e-2f, -1.10624615e-2f, 1.8267392e-3f};
+                                     3.14522795e-2f,  -1.10624615e-2f, 1.8267392e-3f};
         return kFitted[i];
     }
     static constexpr float kLargest = 1;

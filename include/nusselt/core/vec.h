@@ -130,18 +130,18 @@ NUSSELT_HD inline Real length(const Vec3<Real>& a) noexcept {
     return sqrt(dot(scaled, scaled)) / down;
 }
 
-/// Reciprocal of the Euclidean norm, 0 for the zero vector. For vectors of order one or less.
+/// Reciprocal of the Euclidean norm of a vector of order one or less; 0 where all components are below kTiny.
 template <class Real>
 NUSSELT_HD inline Real inverse_length(const Vec3<Real>& a) noexcept {
     const Real squared = dot(a, a);
     const auto safe = squared > Real(kTiny<scalar_t<Real>>);
     Real inverse = Real(1) / sqrt(select(safe, squared, Real(1)));
     if (!all(safe)) {
-        const Real up = reciprocal_power_of_two(max(max(abs(a.x), abs(a.y)), abs(a.z)));
-        const Real scaled_squared = dot(up * a, up * a);
-        const auto nonzero = scaled_squared > Real(0);
-        const Real careful = select(nonzero, up / sqrt(select(nonzero, scaled_squared, Real(1))), Real(0));
-        inverse = select(safe, inverse, careful);
+        const Real extent = max(max(abs(a.x), abs(a.y)), abs(a.z));
+        const auto nonzero = extent >= Real(kTiny<scalar_t<Real>>);
+        const Real up = reciprocal_power_of_two(select(nonzero, extent, Real(1)));
+        const Real scaled_squared = select(nonzero, dot(up * a, up * a), Real(1));
+        inverse = select(safe, inverse, select(nonzero, up / sqrt(scaled_squared), Real(0)));
     }
     return inverse;
 }

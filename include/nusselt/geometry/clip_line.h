@@ -53,7 +53,8 @@ NUSSELT_HD inline LineExtent<Real> clipped_extent(const LineSegment<Real>& line)
     const Real slope = select(crosses, line.s.z, Real(1));
     // What remains follows from the end above the horizon: the difference of coordinates would cancel.
     const Real remaining = min(select(rises, z1, z0) / abs(slope), line.length);
-    const auto lit = (z0 > Real(0)) | (z1 > Real(0));
+    const auto all_above = (z0 >= Real(0)) & (z1 >= Real(0)) & (max(line.p0.z, p1.z) > Real(0));
+    const auto lit = (z0 > Real(0)) | (z1 > Real(0)) | all_above;
     const Real visible_length = select(lit, select(crosses, remaining, line.length), Real(0));
     // The first formula errs by rounding times the distance over the slope, the second by rounding times the
     // length: the better one gives z = 0 up to rounding also near the axis of the light.
@@ -62,8 +63,8 @@ NUSSELT_HD inline LineExtent<Real> clipped_extent(const LineSegment<Real>& line)
         select(steep, -closest.z / slope, select(rises, end - remaining, begin + remaining));
     Vec3<Real> on_horizon = crossing * line.s + closest;
     on_horizon.z = Real(0);
-    return make_line_extent(line.s, select(rises, on_horizon, line.p0), select(falls, on_horizon, p1), closest,
-                            distance, select(rises, crossing, begin), select(falls, crossing, end),
+    return make_line_extent(line.s, select(rises, on_horizon, line.p0), select(falls, on_horizon, p1),
+                            closest, distance, select(rises, crossing, begin), select(falls, crossing, end),
                             visible_length);
 }
 
@@ -85,7 +86,8 @@ NUSSELT_HD inline Real cosine_integral(const Real& theta, const Real& sin, const
 template <class Real>
 NUSSELT_HD inline Real cosine_integral(const LineExtent<Real>& e) noexcept {
     const Real heights = max(e.p0.z, Real(0)) / e.r0 + max(e.p1.z, Real(0)) / e.r1;
-    return cosine_integral(atan2_positive(e.sin_sweep, e.cos_sweep), e.sin_sweep, e.sine_extent, heights, e.t.z);
+    return cosine_integral(atan2_positive(e.sin_sweep, e.cos_sweep), e.sin_sweep, e.sine_extent, heights,
+                           e.t.z);
 }
 
 /// Solid angle per radius of a linear light in the limit of a thin cylinder [sr/m], in any frame.

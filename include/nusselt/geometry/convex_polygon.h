@@ -33,14 +33,16 @@ NUSSELT_HD inline Vec3<Real> doubled_area_normal(const ConvexPolygon<Real, N>& p
     for (int j = 1; j < N - 1; ++j) {
         const Vec3<Real>& edge = polygon.edge[j];
         sum = sum + (cross(offset, edge) + cross(lost, edge));
-        bound = bound + (abs(offset.x) + abs(offset.y) + abs(offset.z)) * (abs(edge.x) + abs(edge.y) + abs(edge.z));
+        bound = bound +
+                (abs(offset.x) + abs(offset.y) + abs(offset.z)) * (abs(edge.x) + abs(edge.y) + abs(edge.z));
         const Vec3<Real> next = offset + edge;
         const Vec3<Real> added = next - offset;
         lost = lost + ((offset - (next - added)) + (edge - added));
         offset = next;
     }
     constexpr scalar_t<Real> kRounding = std::numeric_limits<scalar_t<Real>>::epsilon();
-    const auto present = max(max(abs(sum.x), abs(sum.y)), abs(sum.z)) > Real(8 * kRounding * kRounding) * bound;
+    const auto present =
+        max(max(abs(sum.x), abs(sum.y)), abs(sum.z)) > Real(8 * kRounding * kRounding) * bound;
     return select(present, sum, Vec3<Real>{Real(0), Real(0), Real(0)});
 }
 

@@ -49,11 +49,12 @@ struct LineExtent {
     Vec3<Real> p0, p1; ///< end points
     Real distance;     ///< of the infinite line from the origin
     Real length;
-    Real l0, l1;         ///< coordinates of the end points along s, 0 at the closest point
-    Real r0, r1;         ///< distances of the end points from the origin
-    Real s0, s1, c0, c1; ///< sines and cosines of the angles of the end points
+    Real l0, l1;               ///< coordinates of the end points along s, 0 at the closest point
+    Real r0, r1;               ///< distances of the end points from the origin
+    Real s0, s1, c0, c1;       ///< sines and cosines of the angles of the end points
     Real sin_sweep, cos_sweep; ///< of the angle between the end points, at most half a turn
-    Real sine_extent;          ///< s1 - s0, accurate relative to itself: half the solid angle per radius, times distance
+    Real
+        sine_extent; ///< s1 - s0, accurate relative to itself: half the solid angle per radius, times distance
     mask_t<Real> visible; ///< false if the segment has no length or its line passes through the origin
 
     /// \param from_begin sine minus s0, in [0, sine_extent]
@@ -63,8 +64,8 @@ struct LineExtent {
         const Real from_s0 = s0 + from_begin;
         const auto before_closest = from_s0 < Real(0);
         const Real sine = select(before_closest, from_s0, s1 - to_end);
-        const Real squared = select(before_closest, fma(-from_begin, s0 + sine, c0 * c0),
-                                    fma(to_end, s1 + sine, c1 * c1));
+        const Real squared =
+            select(before_closest, fma(-from_begin, s0 + sine, c0 * c0), fma(to_end, s1 + sine, c1 * c1));
         return {sine, sqrt(max(squared, Real(0))), from_begin, to_end};
     }
 
@@ -75,7 +76,8 @@ struct LineExtent {
         const auto from_begin = r0 <= r1;
         const Real cosine = select(from_begin, c0, c1);
         const Real tangent = select(from_begin, point.from_begin, point.to_end) / (cosine + point.cosine);
-        const Real step = Real(2) * distance * tangent / (cosine * point.cosine * fma(tangent, tangent, Real(1)));
+        const Real step =
+            Real(2) * distance * tangent / (cosine * point.cosine * fma(tangent, tangent, Real(1)));
         const Real along = min(step, length);
         const Vec3<Real> p = select(from_begin, p0, p1) + select(from_begin, along, -along) * s;
         const auto beside = is_beside(point);
@@ -87,7 +89,7 @@ struct LineExtent {
     /// Unit direction to a point.
     /// \param p its position.
     NUSSELT_HD Vec3<Real> direction(const LinePoint<Real>& point, const Vec3<Real>& p) const noexcept {
-        Vec3<Real> wi = (Real(1) / sqrt(dot(p, p))) * p;
+        Vec3<Real> wi = inverse_length(p) * p;
         const auto beside = is_beside(point);
         if (any(beside)) wi = select(beside, point.sine * s + point.cosine * t, wi);
         return wi;
@@ -97,11 +99,16 @@ struct LineExtent {
     NUSSELT_HD LinePoint<Real> point_in(const Vec3<Real>& wi) const noexcept {
         const Real along = dot(wi, s);
         const Real across = max(dot(wi, t), Real(0));
-        const Real sin = max(difference_of_products(along, c0, across, s0), Real(0));
-        const Real cos = fma(along, s0, across * c0);
-        const Real tangent = sin / select(cos > Real(-1), Real(1) + cos, Real(1));
-        const Real from_begin = min(tangent * (c0 + across), sine_extent);
-        return {along, across, from_begin, sine_extent - from_begin};
+        // The angle from the end on the same side of the closest point is acute.
+        const auto before_closest = along < Real(0);
+        const Real end_sine = select(before_closest, s0, s1);
+        const Real end_cosine = select(before_closest, c0, c1);
+        const Real turned = difference_of_products(along, end_cosine, across, end_sine);
+        const Real sin = max(select(before_closest, turned, -turned), Real(0));
+        const Real cos = max(fma(along, end_sine, across * end_cosine), Real(0));
+        const Real step = min(sin / (Real(1) + cos) * (end_cosine + across), sine_extent);
+        const Real rest = sine_extent - step;
+        return {along, across, select(before_closest, step, rest), select(before_closest, rest, step)};
     }
 
 private:
@@ -127,10 +134,9 @@ inline constexpr Scalar kSmallestDistance = [] {
 /// \param l0, l1   coordinates of the points along the line.
 /// \param length   l1 - l0, which the caller may know more accurately.
 template <class Real>
-NUSSELT_HD inline LineExtent<Real> make_line_extent(const Vec3<Real>& s, const Vec3<Real>& p0,
-                                                    const Vec3<Real>& p1, const Vec3<Real>& closest,
-                                                    const Real& distance, const Real& l0, const Real& l1,
-                                                    const Real& length) noexcept {
+NUSSELT_HD inline LineExtent<Real>
+make_line_extent(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& closest,
+                 const Real& distance, const Real& l0, const Real& l1, const Real& length) noexcept {
     LineExtent<Real> e;
     const auto passes_by = (distance > Real(kSmallestDistance<scalar_t<Real>>)) & (length > Real(0));
     // Without light, any values will do that keep the formulas finite.

@@ -7,6 +7,8 @@
 /// 7 elements were found by exhaustive search, that for 8 meets a lower bound; that for 9 is the result of a
 /// beam search and may not be minimal. tests/unit/geometry/sorting_network_test.cpp checks all of them.
 
+#include <utility>
+
 #include <nusselt/core/config.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -52,12 +54,26 @@ struct BitonicNetwork<9> {
                                                   {0, 2}, {6, 7}, {7, 8}, {4, 5}, {3, 4}, {1, 2}};
 };
 
+namespace detail {
+
+/// Slots become constants: device code has no addresses of constant arrays, and packs stay in registers.
+template <class Network, class CompareAndSwap, int... I>
+NUSSELT_HD inline void for_each_comparator(CompareAndSwap& compare_and_swap,
+                                           std::integer_sequence<int, I...>) noexcept {
+    (compare_and_swap(std::integral_constant<int, Network::kComparators[I].low>::value,
+                      std::integral_constant<int, Network::kComparators[I].high>::value),
+     ...);
+}
+
+} // namespace detail
+
 /// Sorts the M elements of a bitonic sequence.
 /// \param compare_and_swap called with the two slots (low, high) of each comparator in turn.
 template <int M, class CompareAndSwap>
 NUSSELT_HD inline void sort_bitonic(CompareAndSwap compare_and_swap) noexcept {
-    NUSSELT_UNROLL
-    for (const Comparator& c : BitonicNetwork<M>::kComparators) compare_and_swap(c.low, c.high);
+    using Network = BitonicNetwork<M>;
+    constexpr int kCount = sizeof(Network::kComparators) / sizeof(Comparator);
+    detail::for_each_comparator<Network>(compare_and_swap, std::make_integer_sequence<int, kCount>());
 }
 
 NUSSELT_NAMESPACE_END

@@ -15,36 +15,49 @@ NUSSELT_NAMESPACE_BEGIN
 template <class Real, int M>
 class AzimuthalSweep {
 public:
-    /// \param polygon  clockwise as seen from the origin; outside of its convex hull lies the zenith.
+    /// \param polygon  clockwise as seen from the origin, beside the zenith.
     /// \param distance of the plane of the polygon from the origin: dot(polygon.normal, p) for a point p of it.
-    /// \param is_outer whether the great circle of each edge has the zenith on its inner side.
-    /// \param is_inner whether it has it on its outer side; neither where circle and zenith meet.
-    NUSSELT_HD AzimuthalSweep(const ConvexPolygon<Real, M>& polygon, const Real& distance,
-                              const mask_t<Real>* is_outer, const mask_t<Real>* is_inner) noexcept
+    NUSSELT_HD AzimuthalSweep(const ConvexPolygon<Real, M>& polygon, const Real& distance) noexcept
         : base_(polygon.vertex[0]), normal_(polygon.normal), distance_(distance) {
-        const Vec3<Real> zero{Real(0), Real(0), Real(0)};
-        first_inner_ = {zero, zero, mask_t<Real>(false)};
-        Vec3<Real> offset = zero;
+        Vec3<Real> offset[M];
+        Azimuth azimuth[M];
+        offset[0] = {Real(0), Real(0), Real(0)};
+        azimuth[0] = {Real(0), Real(0)};
+        NUSSELT_UNROLL
+        for (int j = 1; j < M; ++j) {
+            offset[j] = offset[j - 1] + polygon.edge[j - 1];
+            azimuth[j] = azimuth_of(polygon.vertex[j], offset[j]);
+        }
+        // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. With exactly equal
+        // azimuths they do not disturb the order of the others.
+        unite(azimuth[0], azimuth[M - 1]);
+        NUSSELT_UNROLL
+        for (int j = 1; j < M; ++j) unite(azimuth[j], azimuth[j - 1]);
+
+        first_inner_ = {offset[0], offset[0], mask_t<Real>(false)};
         NUSSELT_UNROLL
         for (int j = 0; j < M; ++j) {
             const int before = j > 0 ? j - 1 : M - 1;
+            const int after = j + 1 < M ? j + 1 : 0;
+            const auto is_outer = azimuth[after].angle > azimuth[j].angle;
+            const auto is_inner = azimuth[before].angle > azimuth[j].angle;
             const Vec3<Real> backward = -polygon.edge[before];
             // At the clockwise end of the polygon an outer and an inner edge begin at the same vertex: the inner
             // one is kept aside.
-            const auto both = is_outer[j] & is_inner[before];
+            const auto both = is_outer & is_inner;
             if (any(both)) {
-                first_inner_.at = select(both, offset, first_inner_.at);
+                first_inner_.at = select(both, offset[j], first_inner_.at);
                 first_inner_.rest = select(both, backward, first_inner_.rest);
                 first_inner_.begun = first_inner_.begun | both;
             }
-            event_[j] = {offset, select(is_outer[j], polygon.edge[j], backward),
-                         select(is_outer[j], Real(1), select(is_inner[before], Real(-1), Real(0)))};
-            offset = offset + polygon.edge[j];
+            event_[j] = {azimuth[j].angle, offset[j], select(is_outer, polygon.edge[j], backward),
+                         select(is_outer, Real(1), select(is_inner, Real(-1), Real(0)))};
         }
         sort_bitonic<M>([&](int low, int high) {
             Event& a = event_[low];
             Event& b = event_[high];
-            const auto swap = turn(a.offset, b.offset) < Real(0);
+            // Of equal azimuths, outer edges come first: the result shall not depend on the network.
+            const auto swap = (b.azimuth < a.azimuth) | ((b.azimuth == a.azimuth) & (b.kind > a.kind));
             if (!any(swap)) return;
             const Event c = a;
             a = select_event(swap, b, a);
@@ -58,7 +71,8 @@ public:
         Chain outer{event_[0].offset, event_[0].edge, event_[0].kind > Real(0)};
         const auto inner_first = event_[0].kind < Real(0);
         Chain inner{select(inner_first, event_[0].offset, first_inner_.at),
-                    select(inner_first, event_[0].edge, first_inner_.rest), mask_t<Real>(first_inner_.begun | inner_first)};
+                    select(inner_first, event_[0].edge, first_inner_.rest),
+                    mask_t<Real>(first_inner_.begun | inner_first)};
         Real gap = Real(0);
         NUSSELT_UNROLL
         for (int k = 1; k < M; ++k) {
@@ -92,10 +106,34 @@ private:
     /// A vertex and the edge that begins there when going counterclockwise around the zenith. Points are offsets
     /// from vertex 0, accurate relative to the size of the light.
     struct Event {
+        Real azimuth;
         Vec3<Real> offset;
         Vec3<Real> edge; ///< counterclockwise
         Real kind;       ///< 1: an outer edge begins, -1: an inner one, 0: neither
     };
+
+    /// Azimuth of a vertex relative to vertex 0, by a measure of angles that grows with them, and its error.
+    struct Azimuth {
+        Real angle, rounding;
+    };
+
+    NUSSELT_HD Azimuth azimuth_of(const Vec3<Real>& vertex, const Vec3<Real>& offset) const noexcept {
+        const Real sine = det(xy(base_), xy(offset));
+        const Real cosine = dot(xy(base_), xy(vertex));
+        const Real sum = abs(sine) + abs(cosine);
+        const Real inverse = Real(1) / select(sum > Real(0), sum, Real(1));
+        const Real ratio = sine * inverse;
+        const Real size = (abs(base_.x) + abs(base_.y)) * (abs(offset.x) + abs(offset.y));
+        return {select(cosine < Real(0), copysign(Real(2), sine) - ratio, ratio),
+                Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * inverse * size};
+    }
+
+    /// Makes azimuths equal if they are so up to rounding.
+    NUSSELT_HD static void unite(Azimuth& a, const Azimuth& b) noexcept {
+        const Real rounding = max(a.rounding, b.rounding);
+        const auto apart = abs(a.angle - b.angle) > rounding;
+        a = {select(apart, a.angle, b.angle), select(apart, a.rounding, rounding)};
+    }
 
     /// Where the sweep is on the outer or the inner edges.
     struct Chain {
@@ -105,7 +143,8 @@ private:
     };
 
     NUSSELT_HD static Event select_event(const mask_t<Real>& mask, const Event& a, const Event& b) noexcept {
-        return {select(mask, a.offset, b.offset), select(mask, a.edge, b.edge), select(mask, a.kind, b.kind)};
+        return {select(mask, a.azimuth, b.azimuth), select(mask, a.offset, b.offset),
+                select(mask, a.edge, b.edge), select(mask, a.kind, b.kind)};
     }
 
     /// Above the horizon in spite of rounding.
@@ -116,13 +155,6 @@ private:
     /// det(a, b) of two points in the tangent plane, positive if b lies counterclockwise of a.
     NUSSELT_HD Real turn(const Vec3<Real>& a, const Vec3<Real>& b) const noexcept {
         return det(xy(closer_to_zenith(base_ + a, base_ + b)), xy(b - a));
-    }
-
-    /// Whether an edge ends at a larger azimuth than the one that it would replace. Where the edge at an end
-    /// of the polygon has practically one azimuth, rounding may sort its ends the wrong way round; it must
-    /// not replace the long edge that follows it.
-    NUSSELT_HD mask_t<Real> replaces(const Event& next, const Chain& chain) const noexcept {
-        return (!chain.begun) | (turn(chain.at + chain.rest, next.offset + next.edge) > Real(0));
     }
 
     /// Where, as a share of the rest of an edge, it meets the azimuth of a point.
@@ -139,16 +171,18 @@ private:
 
     /// Brings both chains to the azimuth of a vertex, where one of them goes on with another edge.
     NUSSELT_HD void pass(const Event& at, Chain& outer, Chain& inner) const noexcept {
-        const auto outer_begins = (at.kind > Real(0)) & replaces(at, outer);
-        const auto inner_begins = (at.kind < Real(0)) & replaces(at, inner);
+        const auto outer_begins = at.kind > Real(0);
+        const auto inner_begins = at.kind < Real(0);
         Chain other{select(outer_begins, inner.at, outer.at), select(outer_begins, inner.rest, outer.rest),
                     mask_t<Real>(true)};
         advance(other, crossing(other, at.offset));
         const Chain new_outer{select(outer_begins, at.offset, other.at),
-                              select(outer_begins, at.edge, other.rest), mask_t<Real>(outer.begun | outer_begins)};
+                              select(outer_begins, at.edge, other.rest),
+                              mask_t<Real>(outer.begun | outer_begins)};
         const Chain new_inner{select(outer_begins, other.at, at.offset),
-                              select(outer_begins, other.rest, at.edge), mask_t<Real>(inner.begun | inner_begins)};
-        // Other vertices are repeated ones, or their azimuth is out of order by rounding.
+                              select(outer_begins, other.rest, at.edge),
+                              mask_t<Real>(inner.begun | inner_begins)};
+        // No edge begins at repeated vertices and at ends of edges with one azimuth.
         const auto begins = outer_begins | inner_begins;
         if (all(begins)) {
             outer = new_outer;

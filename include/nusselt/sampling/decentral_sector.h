@@ -73,9 +73,9 @@ struct DecentralSector {
             const Real outer_inverse = inverse * inner_cosine;
             const Real inner_inverse = inverse * outer_cosine;
             const Real outer_tangent2 = outer_sine2 * outer_inverse * outer_inverse;
-            const Real tangent2_step =
-                fma(sine2_step, outer_cosine * outer_cosine, -outer_sine2 * rise * (outer_cosine + inner_cosine)) *
-                inverse * inverse;
+            const Real tangent2_step = fma(sine2_step, outer_cosine * outer_cosine,
+                                           -outer_sine2 * rise * (outer_cosine + inner_cosine)) *
+                                       inverse * inverse;
             const auto k = one_minus_atan_ratio_difference(min(outer_tangent2, Real(1)), tangent2_step);
             difference = fma(rise * inverse, Real(1) - k.value, inner_inverse * k.difference);
         }
@@ -160,7 +160,8 @@ struct DecentralSector {
     /// \param doubled_total twice the area of the sector, > 0.
     template <int Iterations, class Angles>
     NUSSELT_HD Real position(const Real& target, const Real& doubled_total) const noexcept {
-        Real x = initial_position(min(target / select(doubled_total > Real(0), doubled_total, Real(1)), Real(1)));
+        Real x =
+            initial_position(min(target / select(doubled_total > Real(0), doubled_total, Real(1)), Real(1)));
         // Rounding of the areas; nothing is gained below.
         const Real tolerance = Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * doubled_total;
         for (int i = 0; i < Iterations; ++i) {

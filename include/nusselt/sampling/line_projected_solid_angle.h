@@ -49,10 +49,11 @@ public:
         const LinePoint<Real> middle = extent_.point_at(Real(0.5) * extent_.sine_extent);
         middle_height_ = max(fma(extent_.s.z, middle.sine, extent_.t.z * middle.cosine), Real(0));
         slope_ = extent_.s.z * extent_.c0 - extent_.t.z * extent_.s0;
-        integral_ = cosine_integral(sweep_, extent_.sin_sweep, extent_.sine_extent, begin_height_ + end_height_,
-                                    extent_.t.z);
+        integral_ = cosine_integral(sweep_, extent_.sin_sweep, extent_.sine_extent,
+                                    begin_height_ + end_height_, extent_.t.z);
         const Real measure = integral_ / extent_.distance * scale;
-        const Real inverse = extent_.distance / select(integral_ > Real(0), integral_, Real(1)) * inverse_scale_;
+        const Real inverse =
+            extent_.distance / select(integral_ > Real(0), integral_, Real(1)) * inverse_scale_;
         const auto lit = extent_.visible & (measure > Real(0)) & is_finite(measure) & is_finite(inverse);
         measure_ = select(lit, measure, Real(0));
         inverse_measure_ = select(lit, inverse, Real(0));
@@ -83,14 +84,14 @@ public:
             const Real residual = rotation.integral - target;
             // Laguerre's method: the root of the quadratic Taylor polynomial, in Blinn's stable form.
             const Real first = rotation.cosine * rotation.height;
-            const Real second =
-                fma(rotation.cosine, rotation.height_slope, -rotation.sine * rotation.height);
+            const Real second = fma(rotation.cosine, rotation.height_slope, -rotation.sine * rotation.height);
             const Real denominator = first + sqrt(max(fma(first, first, -second * residual), Real(0)));
             const Real step = residual / select(denominator > Real(0), denominator, Real(1));
             // Lanes that are done keep their result: it must not depend on their neighbours.
             theta = select(goes_on, min(max(theta - step, Real(0)), sweep_), theta);
             // The step leaves an error of the order of its cube, relative to the scale on which the density changes.
-            goes_on = goes_on & (abs(step) * (first + abs(second)) > Real(kSmallStep<scalar_t<Real>>) * first);
+            goes_on =
+                goes_on & (abs(step) * (first + abs(second)) > Real(kSmallStep<scalar_t<Real>>) * first);
         }
         const Real from_begin = sine_from_begin(sincos_quarter_turn(Real(0.5) * theta));
         const LinePoint<Real> point = extent_.point_at(min(from_begin, extent_.sine_extent));
@@ -101,17 +102,15 @@ public:
     }
 
     /// \param wi a unit direction towards the light.
-    NUSSELT_HD Real pdf(const Vec3<Real>& wi) const noexcept {
-        return max(wi.z, Real(0)) * inverse_measure_;
-    }
+    NUSSELT_HD Real pdf(const Vec3<Real>& wi) const noexcept { return max(wi.z, Real(0)) * inverse_measure_; }
 
     /// The random number for which sample() returns wi, a unit direction on the light.
     NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
         const LinePoint<Real> point = extent_.point_in(wi);
         const Real theta = angle_at(point.from_begin);
         const Real sin = sincos_half_turn(theta).sin;
-        const Real part = cosine_integral(theta, sin, point.from_begin, begin_height_ + max(wi.z, Real(0)),
-                                          extent_.t.z);
+        const Real part =
+            cosine_integral(theta, sin, point.from_begin, begin_height_ + max(wi.z, Real(0)), extent_.t.z);
         return below_one(part / select(integral_ > Real(0), integral_, Real(1)));
     }
 
@@ -171,12 +170,12 @@ private:
 
     LineExtent<Real> extent_; ///< of the part above the horizon, scaled to an extent of order one
     Real inverse_scale_;
-    Real sweep_;        ///< angle between the end points
-    Real begin_height_; ///< cosine of the direction to the begin with the normal
+    Real sweep_;         ///< angle between the end points
+    Real begin_height_;  ///< cosine of the direction to the begin with the normal
     Real middle_height_; ///< the same at the middle by sine
-    Real end_height_;   ///< and at the end
-    Real slope_;        ///< its derivative by theta at the begin
-    Real integral_;     ///< E of the paper
+    Real end_height_;    ///< and at the end
+    Real slope_;         ///< its derivative by theta at the begin
+    Real integral_;      ///< E of the paper
     Real measure_;
     Real inverse_measure_;
 };

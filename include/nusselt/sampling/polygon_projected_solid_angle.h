@@ -97,6 +97,7 @@ public:
         }
         // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
         s.p = inverse_scale_ * min(max(s.p, low_), high_);
+        s.wi = select(inverse_measure_ > Real(0), s.wi, Vec3<Real>{Real(0), Real(0), Real(1)});
         s.wi.y = mirror_ * s.wi.y;
         s.p.y = mirror_ * s.p.y;
         s.pdf = pdf(s.wi);
@@ -180,10 +181,11 @@ private:
         }
         plane_ = {polygon.normal, distance, sqrt(farthest)};
 
-        mask_t<Real> is_outer[M], is_inner[M];
+        mask_t<Real> is_outer[M];
         auto decentral = mask_t<Real>(false);
         auto touches_zenith = mask_t<Real>(false);
-        const Real rounding = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon()) * largest_reach(polygon);
+        const Real rounding =
+            Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon()) * largest_reach(polygon);
         NUSSELT_UNROLL
         for (int j = 0; j < M; ++j) {
             const Vec3<Real>& v = polygon.vertex[j];
@@ -193,26 +195,30 @@ private:
             // An edge on the horizon bounds the whole disk: it can only be an outer one, whatever rounding says.
             const auto on_horizon = max(v.z, next.z) == Real(0);
             is_outer[j] = turn > Real(0);
-            is_inner[j] = (turn < Real(0)) & (!on_horizon);
-            decentral = decentral | is_inner[j];
+            decentral = decentral | ((turn < Real(0)) & (!on_horizon));
             // Whether the zenith is on the boundary within rounding. Then no edge says on which side it is.
             const auto at_vertex = (v.z > Real(0)) & (abs(v.x) + abs(v.y) <= rounding);
             const auto across = dot(xy(v), xy(next)) < Real(0);
             const auto on_edge = across & (abs(turn) <= rounding * (abs(edge.x) + abs(edge.y)));
             touches_zenith = touches_zenith | at_vertex | on_edge;
         }
-        decentral = decentral & (!touches_zenith);
+        // On the zenith's axis, the plane has the height distance / normal.z: some vertex is at least as high if the
+        // light is there. Strips along the horizon tell less clearly by their edges.
+        const Real slack = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon());
+        const auto reaches_axis = (distance * polygon.normal.z >= Real(0)) &
+                                  (abs(distance) <= fma(abs(polygon.normal.z), high_.z, slack));
+        decentral = (decentral & (!touches_zenith)) | (!reaches_axis);
         central_ = !decentral;
         NUSSELT_UNROLL
         for (int k = 0; k < M; ++k) doubled_area_[k] = Real(0);
-        if (any(decentral)) prepare_decentral(polygon, decentral, is_outer, is_inner);
+        if (any(decentral)) prepare_decentral(polygon, decentral);
         if (any(central_)) prepare_central(polygon, is_outer);
 
         doubled_total_ = Real(0);
         NUSSELT_UNROLL
         for (int k = 0; k < M; ++k) doubled_total_ = doubled_total_ + doubled_area_[k];
         doubled_total_ = select(distance == Real(0), Real(0), doubled_total_);
-        const auto lit = doubled_total_ > Real(0);
+        const auto lit = measure() > Real(0);
         inverse_measure_ = select(lit, Real(2) / select(lit, doubled_total_, Real(1)), Real(0));
     }
 
@@ -248,9 +254,9 @@ private:
 
     /// Each part of an azimuth between two vertices has a sector (azimuthal_sweep.h).
     template <int M>
-    NUSSELT_HD void prepare_decentral(const ConvexPolygon<Real, M>& polygon, const mask_t<Real>& decentral,
-                                      const mask_t<Real>* is_outer, const mask_t<Real>* is_inner) noexcept {
-        const AzimuthalSweep<Real, M> sweep(polygon, plane_.distance, is_outer, is_inner);
+    NUSSELT_HD void prepare_decentral(const ConvexPolygon<Real, M>& polygon,
+                                      const mask_t<Real>& decentral) noexcept {
+        const AzimuthalSweep<Real, M> sweep(polygon, plane_.distance);
         sweep.for_each_sector([&](int k, const DecentralSector<Real>& sector, const mask_t<Real>& present) {
             const Real doubled = sector.template doubled_area_to<Angles>(Real(1));
             begin_[k] = sector.begin;
@@ -289,7 +295,8 @@ private:
         const Vec3<Real> n = cross(s.sector.begin, s.sector.chord);
         const Vec3<Real> a = inverse_length(s.sector.begin) * s.sector.begin;
         const Vec3<Real> t = inverse_length(n) * cross(n, a);
-        const SinCos<Real> angle = sincos_half_turn(min(s.rest * s.angle_per_area, Real(kPi<scalar_t<Real>>)));
+        const SinCos<Real> angle =
+            sincos_half_turn(min(s.rest * s.angle_per_area, Real(kPi<scalar_t<Real>>)));
         const Vec3<Real> q = angle.cos * a + angle.sin * t;
         const Real root = sqrt(u);
         const Vec3<Real> wi{root * q.x, root * q.y, sqrt(fma(u, q.z * q.z, Real(1) - u))};
@@ -360,7 +367,7 @@ private:
     Real begin_gap_[kSectors];   ///< see DecentralSector; decentral case only
     Real end_gap_[kSectors];
     Real angle_per_area_[kSectors]; ///< on the great circle of the edge, per doubled area; central case only
-    Real doubled_area_[kSectors]; ///< twice the area of each sector, 0 for those without light
+    Real doubled_area_[kSectors];   ///< twice the area of each sector, 0 for those without light
 };
 
 /// The biased variant (Sec. 6.4): no iteration, fast arctangents. pdf() is the density of exact projected solid

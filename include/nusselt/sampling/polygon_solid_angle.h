@@ -242,7 +242,7 @@ private:
     Real g2_[kTriangles];      ///< 1 + dot(a, c)
     Real solid_angle_[kTriangles];
     Real total_;
-    Real inverse_total_; ///< the density; 0 without light
+    Real inverse_total_;            ///< the density; 0 without light
     mask_t<Real> counterclockwise_; ///< winding as seen along a ray from the origin through the polygon
 };
 

@@ -2,7 +2,8 @@
 /// Pack<T, N>: N independent lanes of float or double with the operations of core/real.h, and its Mask<T, N>.
 ///
 /// Every (T, N) with N <= 32 compiles for every instruction set. Those with registers of their own use
-/// intrinsics (float 4, 8, 16 and double 2, 4, 8 as far as the compiler's flags allow), the others arrays.
+/// intrinsics (float 4, 8, 16 and double 2, 4, 8 as far as the compiler's flags allow), multiples of the widest one
+/// are made of several registers, the others of arrays.
 /// A lane never influences another: NaN and infinities stay where they are. Each lane holds the bits that the
 /// scalar function of core/real.h gives in the same translation unit, apart from the payload and sign of NaN
 /// that arithmetic makes or passes on.
@@ -18,21 +19,10 @@
 #include <nusselt/simd/pack_avx512.h>
 #include <nusselt/simd/pack_generic.h>
 #include <nusselt/simd/pack_neon.h>
+#include <nusselt/simd/pack_pair.h>
 #include <nusselt/simd/pack_sse42.h>
 
 NUSSELT_NAMESPACE_BEGIN
-
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
-inline constexpr int kNativeBytes = 64;
-#elif defined(__AVX2__) && defined(__FMA__)
-inline constexpr int kNativeBytes = 32;
-#else
-inline constexpr int kNativeBytes = 16;
-#endif
-
-/// Lanes of T (float or double) in the widest register of this translation unit's instruction set.
-template <class T>
-inline constexpr int kNativeLanes = kNativeBytes / static_cast<int>(sizeof(T));
 
 template <class T, int N>
 class Pack;

@@ -11,7 +11,8 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace detail {
 
-template <class T, int N>
+/// The third parameter is for specialisations by condition.
+template <class T, int N, class = void>
 struct PackOps {
     static_assert(std::is_same_v<T, float> || std::is_same_v<T, double>,
                   "packs have lanes of float or double");

@@ -110,9 +110,9 @@ std::string aim_violation(const Light& light, const Random& u, const nusselt::Li
     // Thinner or closer to edge-on, the effect of rounding is not proportional to it any more.
     if (!(sturdy > 1e-3L) || !(apparent_size<Kind>(wide) > 1e-3L)) return "";
     if (!is_inner(u)) return "";
-    // Where denormals are flushed, it lies in the horizon.
-    if (Kind::kHorizon == Horizon::kClipped && !(Bounds(light).high.z >= std::numeric_limits<T>::min()))
-        return "";
+    // Where denormals are flushed, also after scaling the light to coordinates of order one, it lies in the horizon.
+    const long double smallest = 2 * std::max(extent, 1.0L) * std::numeric_limits<T>::min();
+    if (Kind::kHorizon == Horizon::kClipped && !(Bounds(light).high.z >= smallest)) return "";
     if (!(sample.pdf > 0)) return "no sample of a visible light";
 
     // Rounding of the vertices tilts the plane of the light by an angle of this order. The largest errors found in 6e4

@@ -8,7 +8,6 @@
 
 #include "aim.h"
 #include "contract.h"
-#include "render_cpu/flush_denormals.h"
 #include "flush_denormals.h"
 
 namespace nusselt_test {
@@ -81,7 +80,7 @@ TYPED_TEST_P(HostileTest, NeverFails) {
 }
 
 TYPED_TEST_P(HostileTest, NeverFailsWithDenormalsFlushed) {
-    const nusselt::render_cpu::FlushDenormals flush;
+    const FlushDenormalsToZero flush;
     // The x87 unit of long double does not know this mode.
     constexpr int kConfigurations = sizeof(typename TypeParam::Scalar) <= 8 ? 100'000 : 10'000;
     expect_contract<TypeParam>(2, kConfigurations / kShare<typename TypeParam::Kind>);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "contract.h"
-#include "render_cpu/flush_denormals.h"
+#include "flush_denormals.h"
 
 namespace nusselt_test {
 namespace {
@@ -55,7 +55,7 @@ TEST(TinyCoordinatesTest, ProjectedSolidAngleOfAWallThatEndsAtTheHorizon) {
     expect_contract<PolygonProjectedSolidAngleKind>(light, Vec2{0x1.ff89fap-1f, 0x1.dd65fcp-4f});
 }
 TEST(TinyCoordinatesTest, ProjectedSolidAngleOfAWallThatEndsAtTheHorizonWithDenormalsFlushed) {
-    const nusselt::render_cpu::FlushDenormals flush;
+    const FlushDenormalsToZero flush;
     const auto light = polygon<4>({{-1, 1, 0x1.4b8abep-125f},
                                    {-1, 2, 0x1.4b8abep-125f},
                                    {-1, 2, -0x1.299ee8p+4f},
