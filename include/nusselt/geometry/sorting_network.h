@@ -1,11 +1,11 @@
 #pragma once
-/// Sorting networks for the azimuths of the vertices of a convex polygon.
+/// Sorting networks for the azimuths of the vertices of a convex polygon. All indices are static, as SIMD and GPUs want
+/// (Peters 2021, polygonal lights, Sec. 3.7 and supplement A.6).
 ///
-/// In vertex order these azimuths are a cyclic rotation of a sequence that rises and then falls. Networks for
-/// such bitonic sequences need fewer comparators than general ones, and a network keeps all indices static,
-/// as SIMD and GPUs want (Peters 2021, polygonal lights, Sec. 3.7 and supplement A.6). The networks for 3 to
-/// 7 elements were found by exhaustive search, that for 8 meets a lower bound; that for 9 is the result of a
-/// beam search and may not be minimal. tests/unit/geometry/sorting_network_test.cpp checks all of them.
+/// In vertex order these azimuths are a cyclic rotation of a sequence that rises and then falls, and networks for such
+/// sequences need up to a third fewer comparators. These are networks with the fewest comparators for any order,
+/// known (Knuth, The Art of Computer Programming, vol. 3, Sec. 5.3.4;
+/// nine elements: Codish et al. 2014): rounding of a thin light may break the cyclic order.
 
 #include <utility>
 
@@ -18,40 +18,43 @@ struct Comparator {
 };
 
 template <int M>
-struct BitonicNetwork;
+struct SortingNetwork;
 template <>
-struct BitonicNetwork<3> {
+struct SortingNetwork<3> {
     static constexpr Comparator kComparators[] = {{1, 2}, {0, 1}, {1, 2}};
 };
 template <>
-struct BitonicNetwork<4> {
-    static constexpr Comparator kComparators[] = {{1, 3}, {0, 2}, {0, 1}, {2, 3}};
+struct SortingNetwork<4> {
+    static constexpr Comparator kComparators[] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}, {1, 2}};
 };
 template <>
-struct BitonicNetwork<5> {
-    static constexpr Comparator kComparators[] = {{0, 3}, {2, 4}, {3, 4}, {0, 2},
-                                                  {0, 1}, {1, 4}, {1, 3}, {1, 2}};
+struct SortingNetwork<5> {
+    static constexpr Comparator kComparators[] = {{0, 3}, {1, 4}, {0, 2}, {1, 3}, {0, 1},
+                                                  {2, 4}, {1, 2}, {3, 4}, {2, 3}};
 };
 template <>
-struct BitonicNetwork<6> {
-    static constexpr Comparator kComparators[] = {{3, 5}, {0, 2}, {1, 3}, {2, 4}, {0, 2},
-                                                  {3, 5}, {0, 1}, {2, 3}, {4, 5}};
+struct SortingNetwork<6> {
+    static constexpr Comparator kComparators[] = {{0, 5}, {1, 3}, {2, 4}, {1, 2}, {3, 4}, {0, 3},
+                                                  {2, 5}, {0, 1}, {2, 3}, {4, 5}, {1, 2}, {3, 4}};
 };
 template <>
-struct BitonicNetwork<7> {
-    static constexpr Comparator kComparators[] = {{2, 6}, {3, 5}, {0, 1}, {0, 3}, {1, 4}, {5, 6},
-                                                  {1, 2}, {3, 5}, {4, 6}, {2, 3}, {4, 5}, {0, 1}};
+struct SortingNetwork<7> {
+    static constexpr Comparator kComparators[] = {{0, 6}, {2, 3}, {4, 5}, {0, 2}, {1, 4}, {3, 6},
+                                                  {0, 1}, {2, 5}, {3, 4}, {1, 2}, {4, 6}, {2, 3},
+                                                  {4, 5}, {1, 2}, {3, 4}, {5, 6}};
 };
 template <>
-struct BitonicNetwork<8> {
-    static constexpr Comparator kComparators[] = {{1, 5}, {2, 6}, {0, 4}, {3, 7}, {0, 2}, {4, 6},
-                                                  {5, 7}, {1, 3}, {6, 7}, {4, 5}, {2, 3}, {0, 1}};
+struct SortingNetwork<8> {
+    static constexpr Comparator kComparators[] = {{0, 2}, {1, 3}, {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6},
+                                                  {3, 7}, {0, 1}, {2, 3}, {4, 5}, {6, 7}, {2, 4}, {3, 5},
+                                                  {1, 4}, {3, 6}, {1, 2}, {3, 4}, {5, 6}};
 };
 template <>
-struct BitonicNetwork<9> {
-    static constexpr Comparator kComparators[] = {{5, 8}, {4, 7}, {0, 3}, {2, 5}, {3, 6}, {1, 4},
-                                                  {5, 8}, {0, 3}, {4, 7}, {7, 8}, {0, 1}, {3, 4},
-                                                  {0, 2}, {6, 7}, {7, 8}, {4, 5}, {3, 4}, {1, 2}};
+struct SortingNetwork<9> {
+    static constexpr Comparator kComparators[] = {{0, 3}, {1, 7}, {2, 5}, {4, 8}, {0, 7}, {2, 4}, {3, 8},
+                                                  {5, 6}, {0, 2}, {1, 3}, {4, 5}, {7, 8}, {1, 4}, {3, 6},
+                                                  {5, 7}, {0, 1}, {2, 4}, {3, 5}, {6, 8}, {2, 3}, {4, 5},
+                                                  {6, 7}, {1, 2}, {3, 4}, {5, 6}};
 };
 
 namespace detail {
@@ -67,11 +70,11 @@ NUSSELT_HD inline void for_each_comparator(CompareAndSwap& compare_and_swap,
 
 } // namespace detail
 
-/// Sorts the M elements of a bitonic sequence.
+/// Sorts M elements.
 /// \param compare_and_swap called with the two slots (low, high) of each comparator in turn.
 template <int M, class CompareAndSwap>
-NUSSELT_HD inline void sort_bitonic(CompareAndSwap compare_and_swap) noexcept {
-    using Network = BitonicNetwork<M>;
+NUSSELT_HD inline void sort_by_network(CompareAndSwap compare_and_swap) noexcept {
+    using Network = SortingNetwork<M>;
     constexpr int kCount = sizeof(Network::kComparators) / sizeof(Comparator);
     detail::for_each_comparator<Network>(compare_and_swap, std::make_integer_sequence<int, kCount>());
 }

@@ -53,7 +53,7 @@ public:
             event_[j] = {azimuth[j].angle, offset[j], select(is_outer, polygon.edge[j], backward),
                          select(is_outer, Real(1), select(is_inner, Real(-1), Real(0)))};
         }
-        sort_bitonic<M>([&](int low, int high) {
+        sort_by_network<M>([&](int low, int high) {
             Event& a = event_[low];
             Event& b = event_[high];
             // Of equal azimuths, outer edges come first: the result shall not depend on the network.
@@ -82,8 +82,9 @@ public:
             if (k + 1 < M) {
                 pass(event_[k], outer, inner);
             } else {
-                advance(outer, crossing(outer, event_[k].offset));
-                advance(inner, crossing(inner, event_[k].offset));
+                // Both chains end at the last azimuth.
+                outer.at = outer.at + outer.rest;
+                inner.at = inner.at + inner.rest;
             }
             gap = gap_between(outer.at, inner.at);
             DecentralSector<Real> sector;
