@@ -23,10 +23,12 @@ public:
         Azimuth azimuth[M];
         offset[0] = {Real(0), Real(0), Real(0)};
         azimuth[0] = {Real(0), Real(0)};
+        Real reach = Real(0); // of the sums of edges, which rounding of the offsets is proportional to
         NUSSELT_UNROLL
         for (int j = 1; j < M; ++j) {
             offset[j] = offset[j - 1] + polygon.edge[j - 1];
-            azimuth[j] = azimuth_of(polygon.vertex[j], offset[j]);
+            reach = max(reach, abs(offset[j].x) + abs(offset[j].y));
+            azimuth[j] = azimuth_of(polygon.vertex[j], offset[j], reach);
         }
         // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. With exactly equal
         // azimuths they do not disturb the order of the others.
@@ -118,13 +120,14 @@ private:
         Real angle, rounding;
     };
 
-    NUSSELT_HD Azimuth azimuth_of(const Vec3<Real>& vertex, const Vec3<Real>& offset) const noexcept {
+    NUSSELT_HD Azimuth azimuth_of(const Vec3<Real>& vertex, const Vec3<Real>& offset,
+                                  const Real& reach) const noexcept {
         const Real sine = det(xy(base_), xy(offset));
         const Real cosine = dot(xy(base_), xy(vertex));
         const Real sum = abs(sine) + abs(cosine);
         const Real inverse = Real(1) / select(sum > Real(0), sum, Real(1));
         const Real ratio = sine * inverse;
-        const Real size = (abs(base_.x) + abs(base_.y)) * (abs(offset.x) + abs(offset.y));
+        const Real size = (abs(base_.x) + abs(base_.y)) * reach;
         return {select(cosine < Real(0), copysign(Real(2), sine) - ratio, ratio),
                 Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * inverse * size};
     }
