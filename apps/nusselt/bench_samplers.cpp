@@ -15,14 +15,21 @@ namespace nusselt::app {
 namespace {
 
 void print_table(const std::vector<experiments::SamplerTiming>& rows) {
-    fmt::print(
-        "One thread; ns per light (with clipping and one sample) and per further sample, medians with the\n"
-        "baseline subtracted. Lanes: 1 is scalar code, else lights per packet; times are per lane.\n\n");
-    fmt::print("{:<34}{:<34}{:>8}{:>6}{:>10}{:>10}{:>9}\n", "technique", "lights", "isa", "lanes", "prepare",
-               "sample", "spread");
-    for (const auto& row : rows)
-        fmt::print("{:<34}{:<34}{:>8}{:>6}{:>10.2f}{:>10.2f}{:>8.0f}%\n", row.technique, row.configuration,
-                   row.isa, row.lanes, row.prepare_ns, row.sample_ns, 100 * row.spread);
+    fmt::print("One thread; ns, medians with the baseline subtracted. Lanes: 1 is scalar code, else lanes of "
+               "a register or of\n"
+               "two in flight; times are per lane. prepare: per light, with clipping. sample: a light per "
+               "lane; of one: one light\n"
+               "in all lanes. x plain: prepare and sample over the plain transcription of the published "
+               "formulas as scalar code.\n\n");
+    fmt::print("{:<34}{:<34}{:>8}{:>6}{:>9}{:>9}{:>9}{:>8}{:>15}\n", "technique", "lights", "isa", "lanes",
+               "prepare", "sample", "of one", "spread", "x plain");
+    for (const auto& row : rows) {
+        const std::string ratio =
+            row.prepare_ratio > 0 ? fmt::format("{:.2f} / {:.2f}", row.prepare_ratio, row.sample_ratio) : "";
+        fmt::print("{:<34}{:<34}{:>8}{:>6}{:>9.2f}{:>9.2f}{:>9.2f}{:>7.0f}%{:>15}\n", row.technique,
+                   row.configuration, row.isa, row.lanes, row.prepare_ns, row.sample_ns, row.sample_one_ns,
+                   100 * row.spread, ratio);
+    }
 }
 
 std::string to_json(const std::vector<experiments::SamplerTiming>& rows) {
@@ -34,6 +41,9 @@ std::string to_json(const std::vector<experiments::SamplerTiming>& rows) {
                         {"lanes", row.lanes},
                         {"prepare_ns", row.prepare_ns},
                         {"sample_ns", row.sample_ns},
+                        {"sample_one_ns", row.sample_one_ns},
+                        {"prepare_ratio", row.prepare_ratio},
+                        {"sample_ratio", row.sample_ratio},
                         {"spread", row.spread}});
     return json.dump(2) + "\n";
 }

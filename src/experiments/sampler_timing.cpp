@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -17,7 +18,7 @@ namespace {
 
 /// A class of lights in shading space, at a distance of about one.
 struct Configuration {
-    const char* name;
+    std::string name;
     LightKind kind;
     int vertex_count;
     double lowest, highest; ///< height of the centre
@@ -25,16 +26,18 @@ struct Configuration {
     bool above_zenith;      ///< centred at the zenith
 };
 
-constexpr Configuration kConfigurations[] = {
-    {"decentral, 3 vertices", LightKind::polygon, 3, 0.5, 0.7, 0.3, false},
-    {"decentral, 4 vertices", LightKind::polygon, 4, 0.5, 0.7, 0.3, false},
-    {"decentral, 5 vertices", LightKind::polygon, 5, 0.5, 0.7, 0.3, false},
-    {"decentral, 7 vertices", LightKind::polygon, 7, 0.5, 0.7, 0.3, false},
-    {"central, 4 vertices", LightKind::polygon, 4, 1.0, 1.0, 0.5, true},
-    {"crossing the horizon, 4 vertices", LightKind::polygon, 4, -0.1, 0.1, 0.4, false},
-    {"above the horizon", LightKind::line, 2, 0.5, 0.7, 0.4, false},
-    {"crossing the horizon", LightKind::line, 2, -0.1, 0.1, 0.4, false},
-};
+std::vector<Configuration> configurations() {
+    std::vector<Configuration> result;
+    for (int n = 3; n <= 7; ++n) {
+        const std::string vertices = ", " + std::to_string(n) + " vertices";
+        result.push_back({"decentral" + vertices, LightKind::polygon, n, 0.5, 0.7, 0.3, false});
+        result.push_back({"central" + vertices, LightKind::polygon, n, 1.0, 1.0, 0.5, true});
+        result.push_back({"crossing the horizon" + vertices, LightKind::polygon, n, -0.1, 0.1, 0.4, false});
+    }
+    result.push_back({"above the horizon", LightKind::line, 2, 0.5, 0.7, 0.4, false});
+    result.push_back({"crossing the horizon", LightKind::line, 2, -0.1, 0.1, 0.4, false});
+    return result;
+}
 
 using Generator = std::mt19937;
 
@@ -67,7 +70,7 @@ void make_lights(const Configuration& c, TimedLights& lights) {
     }
 }
 
-TimedTechniques techniques_for(render_cpu::Isa isa) {
+std::vector<TimedTechnique> techniques_for(render_cpu::Isa isa) {
     switch (isa) {
     case render_cpu::Isa::sse42:
         return timed_techniques_sse42();
@@ -83,7 +86,7 @@ TimedTechniques techniques_for(render_cpu::Isa isa) {
 struct Series {
     const TimedTechnique* technique;
     const Configuration* configuration;
-    std::vector<double> prepare_ns, sample_ns; ///< per light or sample, with the baseline
+    std::vector<double> prepare_ns, sample_ns, sample_one_ns; ///< per light or sample, with the baseline
 };
 
 double nanoseconds_per_light(float (*run)()) {
@@ -105,17 +108,33 @@ double quantile(std::vector<double> values, double share) {
     return *place;
 }
 
+/// The plain transcription that a technique competes with.
+std::string competitor_of(const std::string& technique) {
+    if (technique == "PolygonProjectedSolidAngleBiased") return "PolygonProjectedSolidAnglePeters";
+    return technique + "Peters";
+}
+
+void add_ratios(std::vector<SamplerTiming>& rows) {
+    for (SamplerTiming& row : rows)
+        for (const SamplerTiming& other : rows) {
+            if (other.technique != competitor_of(row.technique) || other.configuration != row.configuration)
+                continue;
+            row.prepare_ratio = row.prepare_ns / other.prepare_ns;
+            row.sample_ratio = row.sample_ns / other.sample_ns;
+        }
+}
+
 } // namespace
 
 std::vector<SamplerTiming> time_samplers(const SamplerTimingSettings& settings) {
     const render_cpu::Isa isa = render_cpu::choose_isa(settings.isa);
-    const TimedTechniques techniques = techniques_for(isa);
+    const std::vector<TimedTechnique> techniques = techniques_for(isa);
+    const std::vector<Configuration> all_configurations = configurations();
     std::vector<Series> series;
-    for (const Configuration& c : kConfigurations)
-        for (int i = 0; i < techniques.count; ++i) {
-            const TimedTechnique& t = techniques.begin[i];
+    for (const Configuration& c : all_configurations)
+        for (const TimedTechnique& t : techniques) {
             const int bound = c.kind == LightKind::line ? 2 : c.vertex_count <= 4 ? 4 : 8;
-            if (t.kind == c.kind && t.vertex_bound == bound) series.push_back({&t, &c, {}, {}});
+            if (t.kind == c.kind && t.vertex_bound == bound) series.push_back({&t, &c, {}, {}, {}});
         }
 
     const auto lights = std::make_unique<TimedLights>();
@@ -126,23 +145,30 @@ std::vector<SamplerTiming> time_samplers(const SamplerTimingSettings& settings) 
             s.technique->prepare();
             s.prepare_ns.push_back(nanoseconds_per_light(s.technique->prepare));
             s.sample_ns.push_back(nanoseconds_per_light(s.technique->sample));
+            s.sample_one_ns.push_back(nanoseconds_per_light(s.technique->sample_one));
         }
 
     std::vector<SamplerTiming> rows;
-    const Series* baseline[2] = {};
+    std::map<int, const Series*> baseline; // by number of lanes; precedes its techniques
     for (const Series& s : series) {
-        const bool packs = s.technique->lanes > 1;
         if (s.technique->name == std::string("Baseline")) {
-            baseline[packs] = &s;
+            baseline[s.technique->lanes] = &s;
             continue;
         }
-        const Series& b = *baseline[packs];
+        const Series& b = *baseline.at(s.technique->lanes);
         const double median = quantile(s.prepare_ns, 0.5);
-        rows.push_back({s.technique->name, s.configuration->name, std::string(name_of(isa)),
-                        s.technique->lanes, median - quantile(b.prepare_ns, 0.5),
-                        quantile(s.sample_ns, 0.5) - quantile(b.sample_ns, 0.5),
-                        (quantile(s.prepare_ns, 0.75) - quantile(s.prepare_ns, 0.25)) / (2 * median)});
+        SamplerTiming row;
+        row.technique = s.technique->name;
+        row.configuration = s.configuration->name;
+        row.isa = name_of(isa);
+        row.lanes = s.technique->lanes;
+        row.prepare_ns = median - quantile(b.prepare_ns, 0.5);
+        row.sample_ns = quantile(s.sample_ns, 0.5) - quantile(b.sample_ns, 0.5);
+        row.sample_one_ns = quantile(s.sample_one_ns, 0.5) - quantile(b.sample_one_ns, 0.5);
+        row.spread = (quantile(s.prepare_ns, 0.75) - quantile(s.prepare_ns, 0.25)) / (2 * median);
+        rows.push_back(row);
     }
+    add_ratios(rows);
     return rows;
 }
 

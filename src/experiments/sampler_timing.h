@@ -10,13 +10,17 @@ namespace nusselt::experiments {
 /// Cost of one technique for one class of lights. Times have the baseline subtracted: a technique of
 /// practically no cost run through the same loops over the same lights.
 struct SamplerTiming {
-    std::string technique;     ///< class name
+    /// Class name; a name that ends in Peters is the plain transcription of the published formulas.
+    std::string technique;
     std::string configuration; ///< "decentral, 4 vertices"
     std::string isa;           ///< instruction set the code was compiled for
-    int lanes = 1;             ///< 1: scalar code
-    double prepare_ns = 0;     ///< per light, with clipping and one sample [ns], median
-    double sample_ns = 0;      ///< per further sample of the same light [ns], median
+    int lanes = 1;             ///< 1: scalar code, else of a register, or of two registers in flight
+    double prepare_ns = 0;     ///< per light, with clipping [ns], median
+    double sample_ns = 0;      ///< per sample, lights differ between lanes [ns], median
+    double sample_one_ns = 0;  ///< per sample, one light in all lanes [ns], median
     double spread = 0;         ///< half the interquartile range of prepare_ns over its median
+    /// Time over that of the plain transcription as scalar code, of preparing and of sampling; 0 if there is none.
+    double prepare_ratio = 0, sample_ratio = 0;
 };
 
 struct SamplerTimingSettings {

@@ -1,6 +1,9 @@
 #pragma once
 /// Compiled once per instruction set; see sampler_timing_kernel.h.
 
+#include <nusselt/related/line_projected_solid_angle_peters.h>
+#include <nusselt/related/polygon_projected_solid_angle_peters.h>
+#include <nusselt/related/polygon_solid_angle_peters.h>
 #include <nusselt/sampling/line_area.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>
 #include <nusselt/sampling/line_solid_angle.h>
@@ -8,6 +11,9 @@
 #include <nusselt/sampling/polygon_projected_solid_angle.h>
 #include <nusselt/sampling/polygon_solid_angle.h>
 #include <nusselt/simd/pack.h>
+
+#include <optional>
+#include <vector>
 
 #include "experiments/sampler_timing_kernel.h"
 
@@ -35,14 +41,29 @@ Vec3<Real> vertex(const TimedLights& lights, int light, int j) {
 }
 
 template <class Real>
-float sum(const LightSample<Real>& s) {
-    const Real all = s.wi.x + s.wi.y + s.wi.z + s.pdf + s.p.x + s.p.y + s.p.z;
+Real sum(const LightSample<Real>& s) {
+    return s.wi.x + s.wi.y + s.wi.z + s.pdf + s.p.x + s.p.y + s.p.z;
+}
+
+template <class Real>
+float lane_sum(const Real& x) {
     if constexpr (RealTraits<Real>::kLanes == 1) {
-        return all;
+        return x;
     } else {
         float result = 0;
-        for (int i = 0; i < RealTraits<Real>::kLanes; ++i) result += all.lane(i);
+        for (int i = 0; i < RealTraits<Real>::kLanes; ++i) result += x.lane(i);
         return result;
+    }
+}
+
+/// The technique for one light, in all lanes.
+template <template <class> class Technique, class Real, class Light>
+Technique<Real> of_one_light(const Light& light) {
+    const Technique<float> single(light);
+    if constexpr (RealTraits<Real>::kLanes == 1) {
+        return single;
+    } else {
+        return Technique<Real>(single);
     }
 }
 
@@ -113,22 +134,54 @@ struct Baseline {
     LightSample<Real> sample(const Vec2<Real>& u) const { return {v, u.x + u.y, v}; }
 };
 
+/// Makes the compiler believe that somebody reads all of an object.
+template <class T>
+void escape(const T& object) {
+    asm volatile("" : : "r"(&object) : "memory");
+}
+
+/// Memory for a technique of each group; filled by prepare().
+template <template <class> class Technique, class Input, class Real>
+struct Prepared {
+    using Data = Loaded<Input, Real>;
+    static inline std::optional<Technique<Real>> technique[Data::kGroups];
+};
+
 template <template <class> class Technique, class Input, class Real>
 float prepare() {
     using Data = Loaded<Input, Real>;
-    float total = 0;
+    for (int i = 0; i < Data::kGroups; ++i) {
+        const Technique<Real> technique(Data::light[i]);
+        escape(technique);
+    }
+    return 0;
+}
+
+template <template <class> class Technique, class Input, class Real>
+void load(const TimedLights& lights) {
+    using Data = Loaded<Input, Real>;
+    Data::load(lights);
     for (int i = 0; i < Data::kGroups; ++i)
-        total += sum(Technique<Real>(Data::light[i]).sample(Data::random[i]));
-    return total;
+        Prepared<Technique, Input, Real>::technique[i].emplace(Data::light[i]);
 }
 
 template <template <class> class Technique, class Input, class Real>
 float sample() {
     using Data = Loaded<Input, Real>;
-    const Technique<Real> technique{Technique<float>(Data::first)};
-    float total = 0;
-    for (int i = 0; i < Data::kGroups; ++i) total += sum(technique.sample(Data::random[i]));
-    return total;
+    Real total = Real(0);
+    for (int i = 0; i < Data::kGroups; ++i)
+        total = total + sum((*Prepared<Technique, Input, Real>::technique[i]).sample(Data::random[i]));
+    return lane_sum(total);
+}
+
+template <template <class> class Technique, class Input, class Real>
+float sample_one() {
+    using Data = Loaded<Input, Real>;
+    const auto technique = of_one_light<Technique, Real>(Data::first);
+    escape(technique);
+    Real total = Real(0);
+    for (int i = 0; i < Data::kGroups; ++i) total = total + sum(technique.sample(Data::random[i]));
+    return lane_sum(total);
 }
 
 template <template <class> class Technique, class Input, class Real>
@@ -137,9 +190,10 @@ constexpr TimedTechnique timed(const char* name) {
             Input::kKind,
             RealTraits<Real>::kLanes,
             Input::kVertexBound,
-            Loaded<Input, Real>::load,
+            load<Technique, Input, Real>,
             prepare<Technique, Input, Real>,
-            sample<Technique, Input, Real>};
+            sample<Technique, Input, Real>,
+            sample_one<Technique, Input, Real>};
 }
 
 template <int N>
@@ -149,45 +203,60 @@ struct Polygons {
     template <class Real>
     using SolidAngle = PolygonSolidAngle<Real, N>;
     template <class Real>
+    using SolidAnglePlain = PolygonSolidAnglePeters<Real, N>;
+    template <class Real>
     using ClippedSolidAngle = PolygonClippedSolidAngle<Real, N>;
     template <class Real>
     using ProjectedSolidAngle = PolygonProjectedSolidAngle<Real, N>;
+    template <class Real>
+    using ProjectedSolidAnglePlain = PolygonProjectedSolidAnglePeters<Real, N>;
     template <class Real>
     using Biased = PolygonProjectedSolidAngleBiased<Real, N>;
 };
 template <class Real>
 using LineProjected = LineProjectedSolidAngle<Real>;
+template <class Real>
+using LineProjectedPlain = LineProjectedSolidAnglePeters<Real>;
 
 using Native = Pack<float, kNativeLanes<float>>;
+using Pair = Pack<float, 2 * kNativeLanes<float>>;
 
-inline constexpr TimedTechnique kTechniques[] = {
-    timed<Baseline, PolygonInput<4>, float>("Baseline"),
-    timed<Baseline, PolygonInput<4>, Native>("Baseline"),
-    timed<Baseline, PolygonInput<8>, float>("Baseline"),
-    timed<Baseline, PolygonInput<8>, Native>("Baseline"),
-    timed<Baseline, LineInput, float>("Baseline"),
-    timed<Baseline, LineInput, Native>("Baseline"),
-    timed<Polygons<4>::Area, PolygonInput<4>, float>("PolygonArea"),
-    timed<Polygons<4>::Area, PolygonInput<4>, Native>("PolygonArea"),
-    timed<Polygons<4>::SolidAngle, PolygonInput<4>, float>("PolygonSolidAngle"),
-    timed<Polygons<4>::SolidAngle, PolygonInput<4>, Native>("PolygonSolidAngle"),
-    timed<Polygons<4>::ClippedSolidAngle, PolygonInput<4>, float>("PolygonClippedSolidAngle"),
-    timed<Polygons<4>::ClippedSolidAngle, PolygonInput<4>, Native>("PolygonClippedSolidAngle"),
-    timed<Polygons<4>::ProjectedSolidAngle, PolygonInput<4>, float>("PolygonProjectedSolidAngle"),
-    timed<Polygons<4>::ProjectedSolidAngle, PolygonInput<4>, Native>("PolygonProjectedSolidAngle"),
-    timed<Polygons<8>::ProjectedSolidAngle, PolygonInput<8>, float>("PolygonProjectedSolidAngle"),
-    timed<Polygons<8>::ProjectedSolidAngle, PolygonInput<8>, Native>("PolygonProjectedSolidAngle"),
-    timed<Polygons<4>::Biased, PolygonInput<4>, float>("PolygonProjectedSolidAngleBiased"),
-    timed<Polygons<4>::Biased, PolygonInput<4>, Native>("PolygonProjectedSolidAngleBiased"),
-    timed<LineArea, LineInput, float>("LineArea"),
-    timed<LineArea, LineInput, Native>("LineArea"),
-    timed<LineSolidAngle, LineInput, float>("LineSolidAngle"),
-    timed<LineSolidAngle, LineInput, Native>("LineSolidAngle"),
-    timed<LineClippedSolidAngle, LineInput, float>("LineClippedSolidAngle"),
-    timed<LineClippedSolidAngle, LineInput, Native>("LineClippedSolidAngle"),
-    timed<LineProjected, LineInput, float>("LineProjectedSolidAngle"),
-    timed<LineProjected, LineInput, Native>("LineProjectedSolidAngle"),
-};
+/// A technique as scalar code, with a light per lane of a register, and with two registers in flight.
+template <template <class> class Technique, class Input>
+void add(std::vector<TimedTechnique>& techniques, const char* name) {
+    techniques.push_back(timed<Technique, Input, float>(name));
+    techniques.push_back(timed<Technique, Input, Native>(name));
+    techniques.push_back(timed<Technique, Input, Pair>(name));
+}
+
+template <int N>
+void add_polygons(std::vector<TimedTechnique>& techniques) {
+    using Input = PolygonInput<N>;
+    add<Baseline, Input>(techniques, "Baseline");
+    add<Polygons<N>::template Area, Input>(techniques, "PolygonArea");
+    techniques.push_back(
+        timed<Polygons<N>::template SolidAnglePlain, Input, float>("PolygonSolidAnglePeters"));
+    add<Polygons<N>::template SolidAngle, Input>(techniques, "PolygonSolidAngle");
+    add<Polygons<N>::template ClippedSolidAngle, Input>(techniques, "PolygonClippedSolidAngle");
+    techniques.push_back(timed<Polygons<N>::template ProjectedSolidAnglePlain, Input, float>(
+        "PolygonProjectedSolidAnglePeters"));
+    add<Polygons<N>::template ProjectedSolidAngle, Input>(techniques, "PolygonProjectedSolidAngle");
+    add<Polygons<N>::template Biased, Input>(techniques, "PolygonProjectedSolidAngleBiased");
+}
+
+/// Everything that is timed.
+inline std::vector<TimedTechnique> techniques() {
+    std::vector<TimedTechnique> result;
+    add_polygons<4>(result);
+    add_polygons<8>(result);
+    add<Baseline, LineInput>(result, "Baseline");
+    add<LineArea, LineInput>(result, "LineArea");
+    add<LineSolidAngle, LineInput>(result, "LineSolidAngle");
+    add<LineClippedSolidAngle, LineInput>(result, "LineClippedSolidAngle");
+    result.push_back(timed<LineProjectedPlain, LineInput, float>("LineProjectedSolidAnglePeters"));
+    add<LineProjected, LineInput>(result, "LineProjectedSolidAngle");
+    return result;
+}
 
 } // namespace timing
 NUSSELT_NAMESPACE_END

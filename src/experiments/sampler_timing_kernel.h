@@ -1,6 +1,8 @@
 #pragma once
 /// What the units compiled per instruction set offer to sampler_timing.cpp: plain data and functions.
 
+#include <vector>
+
 namespace nusselt::experiments {
 
 inline constexpr int kTimedLights = 256;
@@ -22,19 +24,16 @@ struct TimedTechnique {
     int vertex_bound; ///< largest vertex count, 2 for lines
     void (*load)(
         const TimedLights&); ///< to be called first: converts the lights to the type of the technique
-    /// One preparation and one sample per light. Returns a sum that depends on every result.
+    /// Prepares every light. Returns a number that depends on the results, as the others.
     float (*prepare)();
-    /// One preparation, kTimedLights samples of the first light; likewise.
+    /// Takes a sample of each prepared light: lanes have lights of their own.
     float (*sample)();
+    /// Takes kTimedLights samples of the first light: one light in all lanes.
+    float (*sample_one)();
 };
 
-struct TimedTechniques {
-    const TimedTechnique* begin;
-    int count;
-};
-
-TimedTechniques timed_techniques_sse42();
-TimedTechniques timed_techniques_avx2();
-TimedTechniques timed_techniques_avx512();
+std::vector<TimedTechnique> timed_techniques_sse42();
+std::vector<TimedTechnique> timed_techniques_avx2();
+std::vector<TimedTechnique> timed_techniques_avx512();
 
 } // namespace nusselt::experiments

@@ -2,8 +2,6 @@
 
 namespace nusselt::experiments {
 
-TimedTechniques timed_techniques_sse42() {
-    return {timing::kTechniques, sizeof(timing::kTechniques) / sizeof(timing::kTechniques[0])};
-}
+std::vector<TimedTechnique> timed_techniques_sse42() { return timing::techniques(); }
 
 } // namespace nusselt::experiments

@@ -5,8 +5,8 @@
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672:
 /// Sec. 3 (areas of sectors Prop. 1, central case Sec. 3.2, decentral case Sec. 3.3 to 3.7), Sec. 6.4 for the
 /// biased variant. Deviations: the decentral case works with positions on the edges instead of directions in
-/// the tangent plane (azimuthal_sweep.h, decentral_sector.h), so that small lights keep their precision; the central case
-/// interpolates along the great circle of the edge; the iteration keeps its best result.
+/// the tangent plane (azimuthal_sweep.h, decentral_sector.h), so that small lights keep their precision; the
+/// central case goes along the great circle of the edge; the iteration is clamped to the sector.
 
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_polygon.h>
@@ -15,7 +15,8 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// Steps of the iteration: two reach the accuracy of float, one more that of double (Sec. 3.6).
+/// Steps of the iteration. The largest backward error found in exact arithmetic is 2e-5 after two where the area is
+/// at least 1e-2, and 7.3e-5 from 1e-7 on; for most lights two reach the accuracy of float, three that of double.
 template <class Real>
 inline constexpr int kPolygonIterations = kIsSingle<Real> ? 2 : 3;
 
@@ -48,8 +49,10 @@ public:
             all_above = all_above & (polygon.vertex[j].z > Real(0));
         }
         polygon.normal.y = mirror_ * polygon.normal.y;
-        begin_[N] = chord_[N] = {Real(0), Real(0), Real(0)};
-        begin_gap_[N] = end_gap_[N] = angle_per_area_[N] = doubled_area_[N] = Real(0);
+        for (int k = 0; k < kSectors; ++k) {
+            begin_[k] = chord_[k] = {Real(0), Real(0), Real(0)};
+            begin_gap_[k] = end_gap_[k] = angle_per_area_[k] = doubled_area_[k] = Real(0);
+        }
         if (all(all_above)) {
             prepare(polygon, distance);
         } else {
@@ -209,8 +212,6 @@ private:
                                   (abs(distance) <= fma(abs(polygon.normal.z), high_.z, slack));
         decentral = (decentral & (!touches_zenith)) | (!reaches_axis);
         central_ = !decentral;
-        NUSSELT_UNROLL
-        for (int k = 0; k < M; ++k) doubled_area_[k] = Real(0);
         if (any(decentral)) prepare_decentral(polygon, decentral);
         if (any(central_)) prepare_central(polygon, is_outer);
 
@@ -316,8 +317,7 @@ private:
         const Real top = z + sqrt(fma(z, z, rise));
         const Real lift = min(rise / select(top > Real(0), top, Real(1)), forms.gap);
         const Vec3<Real> direction{forms.outer_point.x, forms.outer_point.y, z + lift};
-        const Real squared = dot(direction, direction);
-        const Real inverse = Real(1) / sqrt(select(squared > Real(0), squared, Real(1)));
+        const Real inverse = inverse_length(direction);
         // The lifted point lies on the ray to the sample; scale it to the plane of the light, but not beyond
         // the farthest vertex.
         const Real lifted = fma(lift, plane_.normal.z, plane_.distance);
