@@ -35,7 +35,7 @@ void setup_bench_accuracy(CLI::App& bench, int& exit_code) {
         "Errors of each technique in each number type, on classes of hard lights, against long double");
     command
         ->add_option("--count", options->count,
-                     "Lights per class, 1 to 10^6; 700 take half a minute on one core")
+                     "Lights per class, 1 to 10^6; 5000 take a quarter of a minute on one core")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
     command

@@ -49,7 +49,7 @@ struct BenchSamplersOptions {
 };
 
 struct BenchAccuracyOptions {
-    int count = 700; ///< of docs/accuracy.json: the test that compares with it takes half a minute
+    int count = 5000; ///< of docs/accuracy.json: the test that compares with it takes a quarter of a minute
     std::optional<std::string> isa;
     std::optional<std::filesystem::path> markdown;
     std::optional<std::string> json; ///< "-" is the standard output, instead of the table

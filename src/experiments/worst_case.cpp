@@ -94,7 +94,7 @@ WorstCaseTarget make_target(const char* name, const char* description, long doub
 const std::vector<WorstCaseTarget>& worst_case_targets() {
     // The bounds are those of the doc comments of the techniques.
     static const std::vector<WorstCaseTarget> targets = {
-        make_target<LineCase, 3>("lines", "line, 3 steps", 1e-7L, 1e-6L),
+        make_target<LineCase, 3>("lines", "line, 3 steps", 1e-7L, 2e-10L),
         make_target<LineCase, 2>("lines-2", "line, 2 steps", 1e-7L, 3.6e-5L),
         make_target<SectorCase, 2>("polygons", "sector of at least 1e-2 sr, 2 steps", 1e-2L, 4e-5L),
         make_target<SectorCase, 2>("small-polygons", "sector of at least 1e-7 sr, 2 steps", 1e-7L, 7.5e-5L),

@@ -69,9 +69,9 @@ void expect_message(const std::string& text, const std::string& part) {
 }
 
 TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
-    for (const char* command : {"", "render", "info", "techniques", "compare", "bench", "bench rays",
-                                "bench samplers", "bench accuracy", "bench worst-case", "bench fuzz", "map",
-                                "reproduce"}) {
+    for (const char* command :
+         {"", "render", "info", "techniques", "compare", "bench", "bench rays", "bench samplers",
+          "bench accuracy", "bench worst-case", "bench fuzz", "map", "reproduce"}) {
         const Outcome help = run(std::string(command) + " --help");
         EXPECT_EQ(help.exit_code, 0) << command;
         EXPECT_NE(help.out.find("Usage:"), std::string::npos) << command;
@@ -84,9 +84,8 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo) {
          {"", "polish", "render", "render a.pbrt --spp 0", "render a.pbrt --technique magic",
           "render a.pbrt --spp", "compare a.exr", "bench samplers --isa mmx", "reproduce no-such-experiment",
           "bench worst-case --target spheres", "bench worst-case --time 0", "bench accuracy --count 0",
-          "render a.pbrt --frobnicate",
-          "render a.pbrt --spp 4 --camera-rays 3", "render a.pbrt --resolution 0x9",
-          "render a.pbrt --resolution 9x65537"}) {
+          "render a.pbrt --frobnicate", "render a.pbrt --spp 4 --camera-rays 3",
+          "render a.pbrt --resolution 0x9", "render a.pbrt --resolution 9x65537"}) {
         const Outcome wrong = run(arguments);
         EXPECT_EQ(wrong.exit_code, 2) << arguments;
         expect_message(wrong.err, "--help");

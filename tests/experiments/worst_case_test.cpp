@@ -23,13 +23,13 @@ WorstCaseSearch search_of(const char* target, std::uint64_t starts) {
     return search;
 }
 
-/// What 20 minutes of search found; see docs/performance.md.
+/// What long searches found; see docs/performance.md.
 struct Known {
     const char* target;
     Real error;
 };
 constexpr Known kKnown[] = {
-    {"lines", 1.576e-5L}, {"polygons", 1.97e-5L}, {"small-polygons", 7.289e-5L}, {"biased", 0.27176L}};
+    {"lines-2", 3.557e-5L}, {"polygons", 1.97e-5L}, {"small-polygons", 7.289e-5L}, {"biased", 0.27176L}};
 
 TEST(WorstCase, ShortSearchesComeCloseToTheKnownMaximaAndStayBelowTheBounds) {
     for (const Known& known : kKnown) {
@@ -91,7 +91,7 @@ void expect_cubic(const std::vector<ErrorSequence>& errors) {
     EXPECT_LT(rows[4].median_error, 100 * std::numeric_limits<Real>::epsilon());
 }
 
-TEST(Convergence, LinesHaveOrderThree) { expect_cubic(line_errors(1000, 1)); }
+TEST(Convergence, LinesHaveOrderThree) { expect_cubic(line_errors(4000, 1)); }
 
 TEST(Convergence, SectorsHaveOrderThree) { expect_cubic(sector_errors(500, 1)); }
 

@@ -48,6 +48,11 @@ template <class Real>
 NUSSELT_HD constexpr Vec3<Real> operator*(const Real& s, const Vec3<Real>& a) noexcept {
     return {s * a.x, s * a.y, s * a.z};
 }
+/// s * a + b, each component rounded once.
+template <class Real>
+NUSSELT_HD inline Vec3<Real> fma(const Real& s, const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return {fma(s, a.x, b.x), fma(s, a.y, b.y), fma(s, a.z, b.z)};
+}
 template <class Real>
 NUSSELT_HD constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
     return a.x * b.x + a.y * b.y + a.z * b.z;

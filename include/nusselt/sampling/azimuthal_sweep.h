@@ -132,11 +132,11 @@ private:
                 Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * inverse * size};
     }
 
-    /// Makes azimuths equal if they are so up to rounding.
+    /// Makes azimuths equal if they are so up to rounding. That of a vertex next to the zenith is uncertain, but it
+    /// must not bridge those of its neighbours: the error is taken over, too.
     NUSSELT_HD static void unite(Azimuth& a, const Azimuth& b) noexcept {
-        const Real rounding = max(a.rounding, b.rounding);
-        const auto apart = abs(a.angle - b.angle) > rounding;
-        a = {select(apart, a.angle, b.angle), select(apart, a.rounding, rounding)};
+        const auto apart = abs(a.angle - b.angle) > max(a.rounding, b.rounding);
+        a = {select(apart, a.angle, b.angle), select(apart, a.rounding, b.rounding)};
     }
 
     /// Where the sweep is on the outer or the inner edges.

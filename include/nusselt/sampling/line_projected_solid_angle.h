@@ -15,7 +15,7 @@
 NUSSELT_NAMESPACE_BEGIN
 
 /// Steps of the iteration, at most: most lights need one. The largest backward error found in exact arithmetic is
-/// 3.6e-5 after two.
+/// 3.6e-5 after two and 1.3e-10 after three.
 template <class Real>
 inline constexpr int kLineIterations = kIsSingle<Real> ? 3 : 4;
 
@@ -23,7 +23,7 @@ inline constexpr int kLineIterations = kIsSingle<Real> ? 3 : 4;
 template <class Scalar>
 inline constexpr Scalar kSmallStep = [] {
     Scalar result = 1;
-    for (int i = 0; i < std::numeric_limits<Scalar>::digits / 3 - 1; ++i) result /= 2;
+    for (int i = 0; i < std::numeric_limits<Scalar>::digits / 3; ++i) result /= 2;
     return result;
 }();
 
@@ -54,7 +54,8 @@ public:
         const Real measure = integral_ / extent_.distance * scale;
         const Real inverse =
             extent_.distance / select(integral_ > Real(0), integral_, Real(1)) * inverse_scale_;
-        const auto lit = extent_.visible & (measure > Real(0)) & is_finite(measure) & is_finite(inverse);
+        const auto fits = is_finite(max(measure, inverse));
+        const auto lit = extent_.visible & (measure > Real(0)) & fits;
         measure_ = select(lit, measure, Real(0));
         inverse_measure_ = select(lit, inverse, Real(0));
     }
@@ -76,12 +77,11 @@ public:
 
     /// \param u in [0, 1); increasing u moves from the begin of the light to its end.
     NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
-        const Real target = u * integral_;
         Real theta = angle_at(initial_sine(u));
         auto goes_on = mask_t<Real>(true);
         for (int i = 0; i < Iterations && any(goes_on); ++i) {
             const Rotation rotation = rotation_to(theta);
-            const Real residual = rotation.integral - target;
+            const Real residual = fma(-u, integral_, rotation.integral);
             // Laguerre's method: the root of the quadratic Taylor polynomial, in Blinn's stable form.
             const Real first = rotation.cosine * rotation.height;
             const Real second = fma(rotation.cosine, rotation.height_slope, -rotation.sine * rotation.height);

@@ -286,7 +286,7 @@ private:
             before = before + doubled_area_[k];
         }
         s.sector.doubled_triangle = det(xy(s.sector.begin), xy(s.sector.chord));
-        s.rest = min(max(target - first, Real(0)), s.doubled_area);
+        s.rest = min(max(fma(u, doubled_total_, -first), Real(0)), s.doubled_area);
         return s;
     }
 
@@ -298,7 +298,7 @@ private:
         const Vec3<Real> t = inverse_length(n) * cross(n, a);
         const SinCos<Real> angle =
             sincos_half_turn(min(s.rest * s.angle_per_area, Real(kPi<scalar_t<Real>>)));
-        const Vec3<Real> q = angle.cos * a + angle.sin * t;
+        const Vec3<Real> q = fma(angle.cos, a, angle.sin * t);
         const Real root = sqrt(u);
         const Vec3<Real> wi{root * q.x, root * q.y, sqrt(fma(u, q.z * q.z, Real(1) - u))};
         return {wi, Real(0), plane_.distance_along(wi) * wi};
