@@ -54,7 +54,7 @@ Before
 | --- | --- | --- |
 | small | 12.3 / 5 | 2.5 / 0.5 |
 
-One thread of Some CPU, packs of 8 lanes (avx2); ns per light with its first sample / per further sample.
+One thread of Some CPU, packs of 8 lanes (avx2); ns per light for preparing / per sample.
 <!-- end -->
 After
 END

@@ -64,7 +64,7 @@ def cost_table(report, technique, cpu):
     header = ["lights", "scalar", "packs, per lane"]
     rows = [[lights, c.get("scalar", ""), c.get("packs", "")] for lights, c in cells.items()]
     where = f"One thread of {cpu}, packs of {' and '.join(sorted(isas))}" if isas else f"One thread of {cpu}"
-    return table(header, rows) + f"\n{where}; ns per light with its first sample / per further sample.\n"
+    return table(header, rows) + f"\n{where}; ns per light for preparing / per sample.\n"
 
 
 def fill(text, accuracy, samplers, cpu):

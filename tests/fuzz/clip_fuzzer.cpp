@@ -41,10 +41,12 @@ template <class T>
 void check_line(Input& input) {
     const LineSegment<T> light = line<T>(input);
     const LineExtent<T> extent = clipped_extent(scaled(light, scale_of(light)));
-    fail_if(!hostile::all_finite(extent.d0) || !hostile::all_finite(extent.d1), "clipped_extent",
-            "direction is not finite", light);
-    fail_if(!(extent.d0.z >= 0 && extent.d1.z >= 0), "clipped_extent", "end is below the horizon", light);
-    fail_if(!(extent.sweep >= 0 && extent.sweep <= T(3.2)), "clipped_extent", "sweep is not an angle", light);
+    fail_if(!hostile::all_finite(extent.p0) || !hostile::all_finite(extent.p1), "clipped_extent",
+            "end is not finite", light);
+    if (!extent.visible) return;
+    fail_if(!(extent.sine_extent > 0 && extent.sine_extent <= T(2.001)), "clipped_extent",
+            "not a difference of sines", light);
+    fail_if(!(extent.sin_sweep > 0 && extent.sin_sweep <= T(1.001)), "clipped_extent", "not a sine", light);
 }
 
 } // namespace

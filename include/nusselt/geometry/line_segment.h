@@ -118,12 +118,12 @@ private:
     }
 };
 
-/// 2^(minus half of the exponent range), for coordinates of order one: the square of a smaller distance would
-/// underflow.
+/// 2^(minus 3/8 of the exponent range), for coordinates of order one: in the square of a smaller distance,
+/// components would underflow.
 template <class Scalar>
 inline constexpr Scalar kSmallestDistance = [] {
     Scalar result = 1;
-    for (int i = 0; i < std::numeric_limits<Scalar>::max_exponent / 2 - 4; ++i) result /= 2;
+    for (int i = 0; i < std::numeric_limits<Scalar>::max_exponent / 8 * 3; ++i) result /= 2;
     return result;
 }();
 

@@ -31,10 +31,12 @@ public:
             azimuth[j] = azimuth_of(polygon.vertex[j], offset[j], reach);
         }
         // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. With exactly equal
-        // azimuths they do not disturb the order of the others.
-        unite(azimuth[0], azimuth[M - 1]);
+        // azimuths they do not disturb the order of the others. In both directions, for runs of such edges.
         NUSSELT_UNROLL
         for (int j = 1; j < M; ++j) unite(azimuth[j], azimuth[j - 1]);
+        unite(azimuth[0], azimuth[M - 1]);
+        NUSSELT_UNROLL
+        for (int j = M - 1; j > 0; --j) unite(azimuth[j - 1], azimuth[j]);
 
         first_inner_ = {offset[0], offset[0], mask_t<Real>(false)};
         NUSSELT_UNROLL
@@ -106,6 +108,8 @@ public:
     }
 
 private:
+    static constexpr scalar_t<Real> kRounding = 4 * std::numeric_limits<scalar_t<Real>>::epsilon();
+
     /// A vertex and the edge that begins there when going counterclockwise around the zenith. Points are offsets
     /// from vertex 0, accurate relative to the size of the light.
     struct Event {
@@ -129,14 +133,18 @@ private:
         const Real ratio = sine * inverse;
         const Real size = (abs(base_.x) + abs(base_.y)) * reach;
         return {select(cosine < Real(0), copysign(Real(2), sine) - ratio, ratio),
-                Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * inverse * size};
+                Real(kRounding) * inverse * size};
     }
 
-    /// Makes azimuths equal if they are so up to rounding. That of a vertex next to the zenith is uncertain, but it
-    /// must not bridge those of its neighbours: the error is taken over, too.
-    NUSSELT_HD static void unite(Azimuth& a, const Azimuth& b) noexcept {
-        const auto apart = abs(a.angle - b.angle) > max(a.rounding, b.rounding);
-        a = {select(apart, a.angle, b.angle), select(apart, a.rounding, b.rounding)};
+    /// Makes azimuths equal if they are so up to rounding: the less certain one takes over the other. That of a vertex
+    /// next to the zenith, which is hardly known, does not bridge those of its neighbours so.
+    NUSSELT_HD static void unite(Azimuth& a, Azimuth& b) noexcept {
+        const auto close = abs(a.angle - b.angle) <= max(a.rounding, b.rounding);
+        const auto a_moves = close & (a.rounding >= b.rounding);
+        const auto b_moves = close & (a.rounding < b.rounding);
+        const Azimuth old = a;
+        a = {select(a_moves, b.angle, a.angle), select(a_moves, b.rounding, a.rounding)};
+        b = {select(b_moves, old.angle, b.angle), select(b_moves, old.rounding, b.rounding)};
     }
 
     /// Where the sweep is on the outer or the inner edges.
