@@ -44,7 +44,7 @@ void check_line(Input& input) {
     fail_if(!hostile::all_finite(extent.p0) || !hostile::all_finite(extent.p1), "clipped_extent",
             "end is not finite", light);
     if (!extent.visible) return;
-    fail_if(!(extent.sine_extent > 0 && extent.sine_extent <= T(2.001)), "clipped_extent",
+    fail_if(!(extent.sine_extent >= 0 && extent.sine_extent <= T(2.001)), "clipped_extent",
             "not a difference of sines", light);
     fail_if(!(extent.sin_sweep > 0 && extent.sin_sweep <= T(1.001)), "clipped_extent", "not a sine", light);
 }
