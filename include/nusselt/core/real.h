@@ -30,6 +30,15 @@ using scalar_t = typename RealTraits<Real>::Scalar;
 template <class Real>
 using mask_t = typename RealTraits<Real>::Mask;
 
+/// 2^exponent, for constants.
+template <class Scalar>
+constexpr Scalar power_of_two(int exponent) noexcept {
+    Scalar result = 1;
+    for (int i = 0; i < exponent; ++i) result *= 2;
+    for (int i = 0; i > exponent; --i) result /= 2;
+    return result;
+}
+
 template <class T>
 using EnableScalar = std::enable_if_t<std::is_floating_point_v<T>, int>;
 

@@ -86,11 +86,7 @@ NUSSELT_HD constexpr Vec3<Real> max(const Vec3<Real>& a, const Vec3<Real>& b) no
 
 /// 2^(-3/4 of the exponent range).
 template <class Scalar>
-inline constexpr Scalar kTiny = [] {
-    Scalar result = 1;
-    for (int i = 0; i < std::numeric_limits<Scalar>::max_exponent / 4 * 3; ++i) result /= 2;
-    return result;
-}();
+inline constexpr Scalar kTiny = power_of_two<Scalar>(-std::numeric_limits<Scalar>::max_exponent / 4 * 3);
 
 /// a * b - c * d with an error of at most 1.5 ulp barring under- and overflow, and never the wrong sign
 /// (Kahan's algorithm; Jeannerod, Louvet, Muller 2013, doi:10.1090/S0025-5718-2013-02679-8).

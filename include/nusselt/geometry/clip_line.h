@@ -21,8 +21,7 @@ NUSSELT_HD inline LineSegment<Real> scaled(const LineSegment<Real>& line, const 
 /// the coordinate of the begin would turn its direction.
 template <class Real>
 NUSSELT_HD inline Vec3<Real> end_of(const LineSegment<Real>& line) noexcept {
-    return {fma(line.length, line.s.x, line.p0.x), fma(line.length, line.s.y, line.p0.y),
-            fma(line.length, line.s.z, line.p0.z)};
+    return fma(line.length, line.s, line.p0);
 }
 
 /// The extent of a whole segment, in any frame.

@@ -53,9 +53,8 @@ struct LineExtent {
     Real r0, r1;               ///< distances of the end points from the origin
     Real s0, s1, c0, c1;       ///< sines and cosines of the angles of the end points
     Real sin_sweep, cos_sweep; ///< of the angle between the end points, at most half a turn
-    Real
-        sine_extent; ///< s1 - s0, accurate relative to itself: half the solid angle per radius, times distance
-    mask_t<Real> visible; ///< false if the segment has no length or its line passes through the origin
+    Real sine_extent;          ///< s1 - s0, accurate relative to itself
+    mask_t<Real> visible;      ///< false if the segment has no length or its line passes through the origin
 
     /// \param from_begin sine minus s0, in [0, sine_extent]
     NUSSELT_HD LinePoint<Real> point_at(const Real& from_begin) const noexcept {
@@ -121,11 +120,8 @@ private:
 /// 2^(minus 3/8 of the exponent range), for coordinates of order one: in the square of a smaller distance,
 /// components would underflow.
 template <class Scalar>
-inline constexpr Scalar kSmallestDistance = [] {
-    Scalar result = 1;
-    for (int i = 0; i < std::numeric_limits<Scalar>::max_exponent / 8 * 3; ++i) result /= 2;
-    return result;
-}();
+inline constexpr Scalar kSmallestDistance = power_of_two<Scalar>(-std::numeric_limits<Scalar>::max_exponent /
+                                                                 8 * 3);
 
 /// The part of a segment between two points of its line.
 /// \param p0, p1   the points.

@@ -5,9 +5,8 @@
 /// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Sec. 3.2 and
 /// 3.3, Algorithms 1 and 2. Deviations: the integral is written by the end points of the light, so that
 /// nothing cancels (the paper accepts that short and distant lights lose precision); the unknown is the angle
-/// from the begin of the light; the start
-/// takes the cosine with the normal into account; the iteration also runs near the ends, where it needs no exception in this
-/// form.
+/// from the begin of the light; the start takes the cosine with the normal into account; the iteration also runs
+/// near the ends, where it needs no exception in this form.
 
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_line.h>
@@ -21,11 +20,7 @@ inline constexpr int kLineIterations = kIsSingle<Real> ? 3 : 4;
 
 /// A step of the iteration below it is the last one: its cube is rounding.
 template <class Scalar>
-inline constexpr Scalar kSmallStep = [] {
-    Scalar result = 1;
-    for (int i = 0; i < std::numeric_limits<Scalar>::digits / 3; ++i) result /= 2;
-    return result;
-}();
+inline constexpr Scalar kSmallStep = power_of_two<Scalar>(-std::numeric_limits<Scalar>::digits / 3);
 
 /// \tparam Real       float, double, long double or a pack of float or double: one light and shading point
 ///                    per lane, or many samples of one light (see the broadcasting constructor).

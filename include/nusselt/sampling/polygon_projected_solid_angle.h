@@ -245,8 +245,6 @@ private:
             const Real area = select(present, n.z * sweep / select(present, sine, Real(1)), Real(0));
             begin_[k] = select(central_, v, begin_[k]);
             chord_[k] = select(central_, polygon.edge[k], chord_[k]);
-            begin_gap_[k] = select(central_, Real(0), begin_gap_[k]);
-            end_gap_[k] = select(central_, Real(0), end_gap_[k]);
             const Real ratio = sine / select(present, n.z, Real(1));
             angle_per_area_[k] = select(is_finite(ratio), ratio, Real(0));
             doubled_area_[k] = select(central_, area, doubled_area_[k]);
