@@ -19,6 +19,8 @@ target_compile_options(nusselt_build_flags INTERFACE
     -ffp-contract=off
     # Nobody reads errno; without this a sqrt is a call.
     -fno-math-errno
+    # It packs neighbouring scalars of long chains, which costs more than it saves (docs/performance.md, entry 16).
+    $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
     -Wall -Wextra -Wpedantic -Wshadow
     # GCC 12 warns of every `"text" + std::string` (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>

@@ -41,8 +41,8 @@ template <class T>
 void check_line(Input& input) {
     const LineSegment<T> light = line<T>(input);
     const LineExtent<T> extent = clipped_extent(scaled(light, scale_of(light)));
-    fail_if(!hostile::all_finite(extent.p0) || !hostile::all_finite(extent.p1), "clipped_extent",
-            "end is not finite", light);
+    fail_if(!hostile::all_finite(extent.near) || !is_finite(extent.height0) || !is_finite(extent.height1),
+            "clipped_extent", "end is not finite", light);
     if (!extent.visible) return;
     fail_if(!(extent.sine_extent >= 0 && extent.sine_extent <= T(2.001)), "clipped_extent",
             "not a difference of sines", light);

@@ -10,6 +10,16 @@
 #define NUSSELT_HD
 #endif
 
+/// Small functions on vectors are inlined in any case: g++ leaves larger callers of them as calls, whose results go
+/// through memory in pieces and are read back whole, which costs more than the functions themselves.
+#if defined(_MSC_VER)
+#define NUSSELT_INLINE __forceinline
+#elif defined(__CUDACC__) && !defined(__clang__)
+#define NUSSELT_INLINE NUSSELT_HD __forceinline__
+#else
+#define NUSSELT_INLINE NUSSELT_HD inline __attribute__((always_inline))
+#endif
+
 /// Everything lives in an inline namespace named after the instruction set of the translation unit. A program
 /// may compile the library for several instruction sets; without distinct names the linker would merge their
 /// inline functions and could give the baseline a copy that needs AVX-512.

@@ -51,19 +51,19 @@ NUSSELT_HD constexpr bool any(bool mask) noexcept { return mask; }
 NUSSELT_HD constexpr bool all(bool mask) noexcept { return mask; }
 
 template <class T, EnableScalar<T> = 0>
-NUSSELT_HD inline T sqrt(T x) noexcept {
+NUSSELT_INLINE T sqrt(T x) noexcept {
     return std::sqrt(x);
 }
 template <class T, EnableScalar<T> = 0>
-NUSSELT_HD inline T abs(T x) noexcept {
+NUSSELT_INLINE T abs(T x) noexcept {
     return std::fabs(x);
 }
 template <class T, EnableScalar<T> = 0>
-NUSSELT_HD inline T floor(T x) noexcept {
+NUSSELT_INLINE T floor(T x) noexcept {
     return std::floor(x);
 }
 template <class T, EnableScalar<T> = 0>
-NUSSELT_HD inline T copysign(T magnitude, T sign) noexcept {
+NUSSELT_INLINE T copysign(T magnitude, T sign) noexcept {
     return std::copysign(magnitude, sign);
 }
 
@@ -81,14 +81,14 @@ NUSSELT_HD constexpr T min(T a, T b) noexcept {
 /// a * b + c, rounded once. Without the instruction, float goes through double: the product is exact there
 /// and the result differs from a true fma by at most one rounding in 2^29 cases, while the library routine
 /// would take a hundred nanoseconds.
-NUSSELT_HD inline float fma(float a, float b, float c) noexcept {
+NUSSELT_INLINE float fma(float a, float b, float c) noexcept {
 #if defined(__FMA__) || defined(__ARM_FEATURE_FMA) || defined(__CUDA_ARCH__)
     return std::fma(a, b, c);
 #else
     return static_cast<float>(static_cast<double>(a) * static_cast<double>(b) + static_cast<double>(c));
 #endif
 }
-NUSSELT_HD inline double fma(double a, double b, double c) noexcept { return std::fma(a, b, c); }
+NUSSELT_INLINE double fma(double a, double b, double c) noexcept { return std::fma(a, b, c); }
 /// Without an instruction, and a library routine would take 400 ns: the product as an exact sum of two numbers
 /// (Dekker 1971), whose larger one is added first. In difference_of_products() the result is the same; in general it
 /// may be the other neighbour of the exact value.
@@ -115,13 +115,14 @@ inline long double fma(long double a, long double b, long double c) noexcept {
 
 /// Whether x is neither NaN nor infinite.
 template <class T, EnableScalar<T> = 0>
-NUSSELT_HD inline bool is_finite(T x) noexcept {
+NUSSELT_INLINE bool is_finite(T x) noexcept {
     return abs(x) <= std::numeric_limits<T>::max();
 }
 
-/// A power of two within a factor of two of 1 / x, for x > 0; clamped to normal numbers, so that x times the
-/// result is of order one unless x is denormal or above 2^126. Multiplying by it introduces no rounding.
-NUSSELT_HD inline float reciprocal_power_of_two(float x) noexcept {
+/// Reciprocal of the largest power of two that is at most x, for x > 0: x times the result is in [1, 2), and 1 if
+/// x is a power of two. Clamped to normal numbers, so that this holds unless x is denormal or above 2^126. Multiplying
+/// by it introduces no rounding.
+NUSSELT_INLINE float reciprocal_power_of_two(float x) noexcept {
     std::uint32_t bits = 0;
     std::memcpy(&bits, &x, sizeof bits);
     std::uint32_t exponent = (bits >> 23) & 0xffu;
@@ -132,7 +133,7 @@ NUSSELT_HD inline float reciprocal_power_of_two(float x) noexcept {
     return result;
 }
 /// \copydoc reciprocal_power_of_two(float)
-NUSSELT_HD inline double reciprocal_power_of_two(double x) noexcept {
+NUSSELT_INLINE double reciprocal_power_of_two(double x) noexcept {
     std::uint64_t bits = 0;
     std::memcpy(&bits, &x, sizeof bits);
     std::uint64_t exponent = (bits >> 52) & 0x7ffu;
@@ -148,13 +149,13 @@ inline long double reciprocal_power_of_two(long double x) noexcept {
     std::frexp(x, &exponent);
     constexpr int kLimit = std::numeric_limits<long double>::max_exponent - 2;
     exponent = exponent < -kLimit ? -kLimit : exponent > kLimit ? kLimit : exponent;
-    return std::ldexp(1.0L, -exponent);
+    return std::ldexp(1.0L, 1 - exponent);
 }
 
 /// x, or the largest number below one: brings the result of an inversion back to [0, 1). A negative x or NaN
 /// becomes 0.
 template <class Real>
-NUSSELT_HD inline Real below_one(const Real& x) noexcept {
+NUSSELT_INLINE Real below_one(const Real& x) noexcept {
     constexpr scalar_t<Real> kLargest = 1 - std::numeric_limits<scalar_t<Real>>::epsilon() / 2;
     return min(max(x, Real(0)), Real(kLargest));
 }

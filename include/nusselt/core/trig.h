@@ -20,7 +20,7 @@ namespace detail {
 
 /// f(x, y) for scalars, lane by lane for packs.
 template <class Real, class Function>
-NUSSELT_HD inline Real for_each_lane(const Real& x, const Real& y, Function f) noexcept {
+NUSSELT_INLINE Real for_each_lane(const Real& x, const Real& y, Function f) noexcept {
     if constexpr (RealTraits<Real>::kLanes == 1) {
         return f(x, y);
     } else {
@@ -32,7 +32,7 @@ NUSSELT_HD inline Real for_each_lane(const Real& x, const Real& y, Function f) n
 
 /// Angles of both quadrants from the arctangent of the ratio smaller / larger of |x| and y.
 template <class Real>
-NUSSELT_HD inline Real unfold_octants(const Real& y, const Real& x, const Real& octant) noexcept {
+NUSSELT_INLINE Real unfold_octants(const Real& y, const Real& x, const Real& octant) noexcept {
     const Real quadrant = select(y > abs(x), Real(kPi<float> / 2) - octant, octant);
     return select(x < Real(0), Real(kPi<float>) - quadrant, quadrant);
 }
@@ -65,7 +65,7 @@ struct AtanRatio<float> {
 
 /// For t beyond the polynomial, where nothing cancels.
 template <class Real>
-NUSSELT_HD inline Real one_minus_atan_ratio_of_large(const Real& s) noexcept {
+NUSSELT_INLINE Real one_minus_atan_ratio_of_large(const Real& s) noexcept {
     const Real t = sqrt(s);
     const Real angle = for_each_lane(t, t, [](auto x, auto) { return std::atan(x); });
     return Real(1) - angle / t;
@@ -77,7 +77,7 @@ NUSSELT_HD inline Real one_minus_atan_ratio_of_large(const Real& s) noexcept {
 /// most 1e-6, absolute at most 5e-8. Its derivative is as smooth as the function: differences of neighbouring
 /// values are meaningful.
 template <class Real>
-NUSSELT_HD inline Real one_minus_atan_ratio(const Real& s) noexcept {
+NUSSELT_INLINE Real one_minus_atan_ratio(const Real& s) noexcept {
     using Polynomial = detail::AtanRatio<scalar_t<Real>>;
     Real p = Real(Polynomial::coefficient(Polynomial::kTerms - 1));
     for (int i = Polynomial::kTerms - 2; i >= 0; --i) p = fma(p, s, Real(Polynomial::coefficient(i)));
@@ -99,8 +99,8 @@ struct AtanRatioDifference {
 
 /// \param s, step s and s + step in [0, 1]
 template <class Real>
-NUSSELT_HD inline AtanRatioDifference<Real> one_minus_atan_ratio_difference(const Real& s,
-                                                                            const Real& step) noexcept {
+NUSSELT_INLINE AtanRatioDifference<Real> one_minus_atan_ratio_difference(const Real& s,
+                                                                         const Real& step) noexcept {
     // Horner's scheme for the polynomial (without constant term) at s, and for its divided difference.
     using Polynomial = detail::AtanRatio<scalar_t<Real>>;
     const Real end = s + step;
@@ -120,16 +120,26 @@ NUSSELT_HD inline AtanRatioDifference<Real> one_minus_atan_ratio_difference(cons
     }
 }
 
+/// Arctangent of q in [0, 1]. Single precision: relative error at most 3e-7.
+template <class Real>
+NUSSELT_INLINE Real atan_up_to_one(const Real& q) noexcept {
+    if constexpr (kIsSingle<Real>) {
+        return fma(-q, one_minus_atan_ratio(q * q), q);
+    } else {
+        return detail::for_each_lane(q, q, [](auto x, auto) { return std::atan(x); });
+    }
+}
+
 /// Angle of the point (x, y) with y >= 0, in [0, pi]; 0 for the origin. A negative or NaN y counts as 0.
 /// Single precision: relative error at most 3e-7. Finite arguments below 1e38.
 template <class Real>
-NUSSELT_HD inline Real atan2_positive(const Real& y_in, const Real& x) noexcept {
+NUSSELT_INLINE Real atan2_positive(const Real& y_in, const Real& x) noexcept {
     const Real y = max(y_in, Real(0));
     if constexpr (kIsSingle<Real>) {
         const Real ax = abs(x);
         const Real large = max(ax, y);
         const Real q = min(ax, y) / select(large > Real(0), large, Real(1));
-        return detail::unfold_octants(y, x, fma(-q, one_minus_atan_ratio(q * q), q));
+        return detail::unfold_octants(y, x, atan_up_to_one(q));
     } else {
         return detail::for_each_lane(y, x,
                                      [](auto b, auto a) { return b > 0 || a < 0 ? std::atan2(b, a) : b; });
@@ -139,7 +149,7 @@ NUSSELT_HD inline Real atan2_positive(const Real& y_in, const Real& x) noexcept 
 /// As atan2_positive with an absolute error of at most 1.3e-5 rad in every precision: for the biased variant
 /// of Peters 2021 (polygonal lights), Sec. 6.4.
 template <class Real>
-NUSSELT_HD inline Real atan2_positive_fast(const Real& y_in, const Real& x) noexcept {
+NUSSELT_INLINE Real atan2_positive_fast(const Real& y_in, const Real& x) noexcept {
     const Real y = max(y_in, Real(0));
     const Real ax = abs(x);
     const Real large = max(ax, y);
@@ -176,7 +186,7 @@ struct SinCos {
 /// Sine and cosine of an angle in [0, pi]. Single precision: sine with a relative error of at most 2e-7
 /// except within 1e-4 of pi, where it is absolute, cosine with an absolute error of at most 1.2e-7.
 template <class Real>
-NUSSELT_HD inline SinCos<Real> sincos_half_turn(const Real& angle) noexcept {
+NUSSELT_INLINE SinCos<Real> sincos_half_turn(const Real& angle) noexcept {
     if constexpr (kIsSingle<Real>) {
         // r = angle - k pi / 2 in two steps: the first constant has few bits, so that its product is exact.
         const Real k = floor(fma(angle, Real(2 / kPi<float>), Real(0.5f)));
@@ -201,7 +211,7 @@ NUSSELT_HD inline SinCos<Real> sincos_half_turn(const Real& angle) noexcept {
 /// Sine and cosine of an angle in [0, pi / 2]. Single precision: sine with a relative error of at most 1.5e-7, cosine
 /// with an absolute error of at most 1.2e-7.
 template <class Real>
-NUSSELT_HD inline SinCos<Real> sincos_quarter_turn(const Real& angle) noexcept {
+NUSSELT_INLINE SinCos<Real> sincos_quarter_turn(const Real& angle) noexcept {
     if constexpr (kIsSingle<Real>) {
         const Real s = angle * angle;
         Real ps = fma(Real(2.608932605e-6f), s, Real(-1.981111272e-4f));
@@ -216,18 +226,39 @@ NUSSELT_HD inline SinCos<Real> sincos_quarter_turn(const Real& angle) noexcept {
     }
 }
 
-/// x - sin(x) with full relative precision on [0, pi], given sin(x).
-template <class Real>
-NUSSELT_HD inline Real x_minus_sin(const Real& x, const Real& sin_x) noexcept {
-    // Nested Taylor series x^3/6 (1 - x^2/20 (1 - x^2/42 (...))); the terms suffice for x < 1.
-    constexpr int kTerms = kIsSingle<Real> ? 4 : std::is_same_v<scalar_t<Real>, double> ? 8 : 10;
-    const Real s = x * x;
-    Real series = Real(1);
-    for (int i = kTerms; i >= 1; --i) {
-        const scalar_t<Real> divisor = static_cast<scalar_t<Real>>((2 * i + 2) * (2 * i + 3));
-        series = fma(s * Real(-1 / divisor), series, Real(1));
+namespace detail {
+
+/// Coefficients of (x - sin(x)) / x^3 as a polynomial in x^2. Float: fitted on [0, pi], relative error 1e-7. Others:
+/// Taylor series.
+template <class Scalar>
+struct XMinusSin {
+    static constexpr int kTerms = std::is_same_v<Scalar, double> ? 14 : 17;
+    static constexpr Scalar coefficient(int i) noexcept {
+        Scalar c = Scalar(1) / 6;
+        for (int k = 1; k <= i; ++k) c /= -static_cast<Scalar>((2 * k + 2) * (2 * k + 3));
+        return c;
     }
-    return select(x < Real(1), x * s * Real(scalar_t<Real>(1) / 6) * series, x - sin_x);
+};
+template <>
+struct XMinusSin<float> {
+    static constexpr int kTerms = 6;
+    static constexpr float coefficient(int i) noexcept {
+        constexpr float kFitted[] = {1.666666716e-1f,  -8.333330974e-3f, 1.984097180e-4f,
+                                     -2.754484285e-6f, 2.481271544e-8f,  -1.390407928e-10f};
+        return kFitted[i];
+    }
+};
+
+} // namespace detail
+
+/// x - sin(x) with full relative precision on [0, pi].
+template <class Real>
+NUSSELT_INLINE Real x_minus_sin(const Real& x) noexcept {
+    using Polynomial = detail::XMinusSin<scalar_t<Real>>;
+    const Real s = x * x;
+    Real p = Real(Polynomial::coefficient(Polynomial::kTerms - 1));
+    for (int i = Polynomial::kTerms - 2; i >= 0; --i) p = fma(p, s, Real(Polynomial::coefficient(i)));
+    return x * s * p;
 }
 
 NUSSELT_NAMESPACE_END

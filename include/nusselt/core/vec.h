@@ -50,7 +50,7 @@ NUSSELT_HD constexpr Vec3<Real> operator*(const Real& s, const Vec3<Real>& a) no
 }
 /// s * a + b, each component rounded once.
 template <class Real>
-NUSSELT_HD inline Vec3<Real> fma(const Real& s, const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+NUSSELT_INLINE Vec3<Real> fma(const Real& s, const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
     return {fma(s, a.x, b.x), fma(s, a.y, b.y), fma(s, a.z, b.z)};
 }
 template <class Real>
@@ -91,8 +91,8 @@ inline constexpr Scalar kTiny = power_of_two<Scalar>(-std::numeric_limits<Scalar
 /// a * b - c * d with an error of at most 1.5 ulp barring under- and overflow, and never the wrong sign
 /// (Kahan's algorithm; Jeannerod, Louvet, Muller 2013, doi:10.1090/S0025-5718-2013-02679-8).
 template <class Real>
-NUSSELT_HD inline Real difference_of_products(const Real& a, const Real& b, const Real& c,
-                                              const Real& d) noexcept {
+NUSSELT_INLINE Real difference_of_products(const Real& a, const Real& b, const Real& c,
+                                           const Real& d) noexcept {
     const Real cd = c * d;
     const Real error = fma(c, d, -cd);
     return fma(a, b, -cd) - error;
@@ -100,13 +100,13 @@ NUSSELT_HD inline Real difference_of_products(const Real& a, const Real& b, cons
 
 /// Determinant of the matrix with columns a, b; accurate to 1.5 ulp, exact sign.
 template <class Real>
-NUSSELT_HD inline Real det(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
+NUSSELT_INLINE Real det(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
     return difference_of_products(a.x, b.y, a.y, b.x);
 }
 
 /// Each component accurate to 1.5 ulp, exact signs.
 template <class Real>
-NUSSELT_HD inline Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+NUSSELT_INLINE Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
     return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
             difference_of_products(a.x, b.y, a.y, b.x)};
 }
@@ -114,17 +114,17 @@ NUSSELT_HD inline Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) noe
 /// x, or 0 if it is below 2^(-3/4 of the exponent range): next to numbers of order one, products with it would
 /// underflow, and with denormal numbers flushed to zero even x itself might not survive.
 template <class Real>
-NUSSELT_HD inline Real without_tiny(const Real& x) noexcept {
+NUSSELT_INLINE Real without_tiny(const Real& x) noexcept {
     return select(abs(x) < Real(kTiny<scalar_t<Real>>), Real(0), x);
 }
 template <class Real>
-NUSSELT_HD inline Vec3<Real> without_tiny(const Vec3<Real>& a) noexcept {
+NUSSELT_INLINE Vec3<Real> without_tiny(const Vec3<Real>& a) noexcept {
     return {without_tiny(a.x), without_tiny(a.y), without_tiny(a.z)};
 }
 
 /// Euclidean norm without over- or underflow of the squares; 0 for the zero vector.
 template <class Real>
-NUSSELT_HD inline Real length(const Vec3<Real>& a) noexcept {
+NUSSELT_INLINE Real length(const Vec3<Real>& a) noexcept {
     const Real extent = max(max(abs(a.x), abs(a.y)), abs(a.z));
     const Real down = reciprocal_power_of_two(extent);
     const Vec3<Real> scaled = down * a;
@@ -133,7 +133,7 @@ NUSSELT_HD inline Real length(const Vec3<Real>& a) noexcept {
 
 /// Reciprocal of the Euclidean norm of a vector of order one or less; 0 where all components are below kTiny.
 template <class Real>
-NUSSELT_HD inline Real inverse_length(const Vec3<Real>& a) noexcept {
+NUSSELT_INLINE Real inverse_length(const Vec3<Real>& a) noexcept {
     const Real squared = dot(a, a);
     const auto safe = squared > Real(kTiny<scalar_t<Real>>);
     Real inverse = Real(1) / sqrt(select(safe, squared, Real(1)));
@@ -149,7 +149,7 @@ NUSSELT_HD inline Real inverse_length(const Vec3<Real>& a) noexcept {
 
 /// Unit vector, or the zero vector if a is zero; any finite length is fine.
 template <class Real>
-NUSSELT_HD inline Vec3<Real> normalize(const Vec3<Real>& a) noexcept {
+NUSSELT_INLINE Vec3<Real> normalize(const Vec3<Real>& a) noexcept {
     const Real extent = max(max(abs(a.x), abs(a.y)), abs(a.z));
     const Vec3<Real> scaled = reciprocal_power_of_two(extent) * a;
     const Real squared = dot(scaled, scaled);

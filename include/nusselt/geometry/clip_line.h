@@ -7,26 +7,26 @@ NUSSELT_NAMESPACE_BEGIN
 
 /// Power of two that brings the coordinates of a segment to order one, so that their squares stay in range.
 template <class Real>
-NUSSELT_HD inline Real scale_of(const LineSegment<Real>& line) noexcept {
+NUSSELT_INLINE Real scale_of(const LineSegment<Real>& line) noexcept {
     return reciprocal_power_of_two(
         max(max(max(abs(line.p0.x), abs(line.p0.y)), abs(line.p0.z)), line.length));
 }
 
 template <class Real>
-NUSSELT_HD inline LineSegment<Real> scaled(const LineSegment<Real>& line, const Real& scale) noexcept {
+NUSSELT_INLINE LineSegment<Real> scaled(const LineSegment<Real>& line, const Real& scale) noexcept {
     return {scale * line.p0, line.s, scale * line.length};
 }
 
 /// The end of a segment, each component rounded once: where it is close to the origin, adding the length to
 /// the coordinate of the begin would turn its direction.
 template <class Real>
-NUSSELT_HD inline Vec3<Real> end_of(const LineSegment<Real>& line) noexcept {
+NUSSELT_INLINE Vec3<Real> end_of(const LineSegment<Real>& line) noexcept {
     return fma(line.length, line.s, line.p0);
 }
 
 /// The extent of a whole segment, in any frame.
 template <class Real>
-NUSSELT_HD inline LineExtent<Real> make_line_extent(const LineSegment<Real>& line) noexcept {
+NUSSELT_INLINE LineExtent<Real> make_line_extent(const LineSegment<Real>& line) noexcept {
     // Cross products with exact signs instead of p0 - (p0 . s) s, which loses the square of the distance.
     const Vec3<Real> moment = cross(line.p0, line.s);
     const Vec3<Real> end = end_of(line);
@@ -37,7 +37,7 @@ NUSSELT_HD inline LineExtent<Real> make_line_extent(const LineSegment<Real>& lin
 /// The extent of the part of a segment with z > 0, in shading space. The parameters of the line stay; only
 /// an end point moves, to z = 0 exactly.
 template <class Real>
-NUSSELT_HD inline LineExtent<Real> clipped_extent(const LineSegment<Real>& line) noexcept {
+NUSSELT_INLINE LineExtent<Real> clipped_extent(const LineSegment<Real>& line) noexcept {
     const Vec3<Real> moment = cross(line.p0, line.s);
     const Vec3<Real> closest = cross(line.s, moment);
     const Real distance = sqrt(dot(moment, moment));
@@ -49,12 +49,15 @@ NUSSELT_HD inline LineExtent<Real> clipped_extent(const LineSegment<Real>& line)
     const auto rises = (z0 < Real(0)) & (z1 > Real(0));
     const auto falls = (z0 > Real(0)) & (z1 < Real(0));
     const auto crosses = rises | falls;
+    const auto all_above = (z0 >= Real(0)) & (z1 >= Real(0)) & (max(line.p0.z, p1.z) > Real(0));
+    const auto lit = crosses | all_above;
+    const Real visible_length = select(lit, line.length, Real(0));
+    if (!any(crosses))
+        return make_line_extent(line.s, line.p0, p1, closest, distance, begin, end, visible_length);
+
     const Real slope = select(crosses, line.s.z, Real(1));
     // What remains follows from the end above the horizon: the difference of coordinates would cancel.
     const Real remaining = min(select(rises, z1, z0) / abs(slope), line.length);
-    const auto all_above = (z0 >= Real(0)) & (z1 >= Real(0)) & (max(line.p0.z, p1.z) > Real(0));
-    const auto lit = (z0 > Real(0)) | (z1 > Real(0)) | all_above;
-    const Real visible_length = select(lit, select(crosses, remaining, line.length), Real(0));
     // The first formula errs by rounding times the distance over the slope, the second by rounding times the
     // length: the better one gives z = 0 up to rounding also near the axis of the light.
     const auto steep = distance < abs(slope) * max(abs(begin), abs(end));
@@ -64,29 +67,26 @@ NUSSELT_HD inline LineExtent<Real> clipped_extent(const LineSegment<Real>& line)
     on_horizon.z = Real(0);
     return make_line_extent(line.s, select(rises, on_horizon, line.p0), select(falls, on_horizon, p1),
                             closest, distance, select(rises, crossing, begin), select(falls, crossing, end),
-                            visible_length);
+                            select(crosses, remaining, visible_length));
 }
 
 /// The integral 2 int cos(alpha) n . w(alpha) d alpha from the begin of an extent to a point: the projected
 /// solid angle per radius times the distance (E of Peters 2021, linear lights, Eq. 2 and 3). The first term
 /// can only be negative where the second one is larger: no more than a factor of two is lost to cancellation.
 /// \param theta      angle from the begin to the point.
-/// \param sin        its sine.
 /// \param from_begin see LinePoint.
 /// \param heights    the cosines with the normal at the begin and at the point, added.
 /// \param n_t        component of the normal along t.
 template <class Real>
-NUSSELT_HD inline Real cosine_integral(const Real& theta, const Real& sin, const Real& from_begin,
-                                       const Real& heights, const Real& n_t) noexcept {
-    return max(fma(n_t, x_minus_sin(theta, sin), from_begin * heights), Real(0));
+NUSSELT_INLINE Real cosine_integral(const Real& theta, const Real& from_begin, const Real& heights,
+                                    const Real& n_t) noexcept {
+    return max(fma(n_t, x_minus_sin(theta), from_begin * heights), Real(0));
 }
 
 /// The same from end to end.
 template <class Real>
-NUSSELT_HD inline Real cosine_integral(const LineExtent<Real>& e) noexcept {
-    const Real heights = max(e.p0.z, Real(0)) / e.r0 + max(e.p1.z, Real(0)) / e.r1;
-    return cosine_integral(atan2_positive(e.sin_sweep, e.cos_sweep), e.sin_sweep, e.sine_extent, heights,
-                           e.t.z);
+NUSSELT_INLINE Real cosine_integral(const LineExtent<Real>& e) noexcept {
+    return cosine_integral(e.sweep(), e.sine_extent, e.height0 + e.height1, e.t.z);
 }
 
 /// Solid angle per radius of a linear light in the limit of a thin cylinder [sr/m], in any frame.

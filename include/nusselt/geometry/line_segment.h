@@ -16,7 +16,7 @@ struct LineSegment {
 
 /// The segment from begin to end [m].
 template <class Real>
-NUSSELT_HD inline LineSegment<Real> make_line(const Vec3<Real>& begin, const Vec3<Real>& end) noexcept {
+NUSSELT_INLINE LineSegment<Real> make_line(const Vec3<Real>& begin, const Vec3<Real>& end) noexcept {
     const Vec3<Real> extent = end - begin;
     return {begin, normalize(extent), length(extent)};
 }
@@ -24,9 +24,9 @@ NUSSELT_HD inline LineSegment<Real> make_line(const Vec3<Real>& begin, const Vec
 /// The segment seen from a shading point: the point becomes the origin, the normal of the frame +z.
 /// \tparam Real may be a pack while the segment is scalar: one light, a shading point per lane.
 template <class Real, class LightReal>
-NUSSELT_HD inline LineSegment<Real> to_shading_space(const LineSegment<LightReal>& world,
-                                                     const Vec3<Real>& point,
-                                                     const Frame<Real>& frame) noexcept {
+NUSSELT_INLINE LineSegment<Real> to_shading_space(const LineSegment<LightReal>& world,
+                                                  const Vec3<Real>& point,
+                                                  const Frame<Real>& frame) noexcept {
     return {frame.to_local(broadcast<Real>(world.p0) - point), frame.to_local(broadcast<Real>(world.s)),
             Real(world.length)};
 }
@@ -45,40 +45,44 @@ struct LinePoint {
 /// relative precision. The unit of length is arbitrary.
 template <class Real>
 struct LineExtent {
-    Vec3<Real> s, t;   ///< orthonormal; t points from the origin to the closest point of the infinite line
-    Vec3<Real> p0, p1; ///< end points
-    Real distance;     ///< of the infinite line from the origin
+    Vec3<Real> s, t; ///< orthonormal; t points from the origin to the closest point of the infinite line
+    Real distance;   ///< of the infinite line from the origin
     Real length;
-    Real l0, l1;               ///< coordinates of the end points along s, 0 at the closest point
-    Real r0, r1;               ///< distances of the end points from the origin
-    Real s0, s1, c0, c1;       ///< sines and cosines of the angles of the end points
-    Real sin_sweep, cos_sweep; ///< of the angle between the end points, at most half a turn
-    Real sine_extent;          ///< s1 - s0, accurate relative to itself
-    mask_t<Real> visible;      ///< false if the segment has no length or its line passes through the origin
+    Real l0, l1;                    ///< coordinates of the end points along s, 0 at the closest point
+    Real s0, s1, c0, c1;            ///< sines and cosines of the angles of the end points
+    Real height0, height1;          ///< z of the unit directions to the end points, not negative
+    Real one_plus_s0, one_minus_s1; ///< accurate relative to themselves
+    Real sin_sweep;          ///< sine of the sweep, the angle between the end points, at most half a turn
+    Real half_tangent;       ///< tangent of half the sweep or of half its supplement, whichever is acute
+    Real sine_extent;        ///< s1 - s0, accurate relative to itself
+    Vec3<Real> near, inward; ///< the end point nearer to the origin, and the direction to the other one
+    Real near_distance, near_cosine; ///< from the origin, and of the angle alpha
+    mask_t<Real> begins_near;        ///< whether it is the begin
+    mask_t<Real> acute;              ///< whether the sweep is
+    mask_t<Real> visible; ///< false if the segment has no length or its line passes through the origin
+
+    /// Angle between the end points.
+    NUSSELT_HD Real sweep() const noexcept {
+        const Real angle = Real(2) * atan_up_to_one(half_tangent);
+        return select(acute, angle, Real(kPi<scalar_t<Real>>) - angle);
+    }
 
     /// \param from_begin sine minus s0, in [0, sine_extent]
     NUSSELT_HD LinePoint<Real> point_at(const Real& from_begin) const noexcept {
         const Real to_end = max(sine_extent - from_begin, Real(0));
-        // Seen from the end towards which the cosine decreases, its square is a sum of positive terms.
-        const Real from_s0 = s0 + from_begin;
-        const auto before_closest = from_s0 < Real(0);
-        const Real sine = select(before_closest, from_s0, s1 - to_end);
-        const Real squared =
-            select(before_closest, fma(-from_begin, s0 + sine, c0 * c0), fma(to_end, s1 + sine, c1 * c1));
-        return {sine, sqrt(max(squared, Real(0))), from_begin, to_end};
+        // The square of the cosine is (1 + sine) (1 - sine): sums of positive terms.
+        const Real squared = (one_plus_s0 + from_begin) * (one_minus_s1 + to_end);
+        return {s0 + from_begin, sqrt(squared), from_begin, to_end};
     }
 
     /// The point itself, on the segment.
     NUSSELT_HD Vec3<Real> position(const LinePoint<Real>& point) const noexcept {
         // The nearer end is the more accurate place to start from. The step is 2 sin(theta / 2) cos(theta / 2)
         // times its distance over the cosine of alpha, with tan(theta / 2) = tangent.
-        const auto from_begin = r0 <= r1;
-        const Real cosine = select(from_begin, c0, c1);
-        const Real tangent = select(from_begin, point.from_begin, point.to_end) / (cosine + point.cosine);
-        const Real step =
-            Real(2) * distance * tangent / (cosine * point.cosine * fma(tangent, tangent, Real(1)));
-        const Real along = min(step, length);
-        const Vec3<Real> p = select(from_begin, p0, p1) + select(from_begin, along, -along) * s;
+        const Real tangent =
+            select(begins_near, point.from_begin, point.to_end) / (near_cosine + point.cosine);
+        const Real step = Real(2) * near_distance * tangent / (point.cosine * fma(tangent, tangent, Real(1)));
+        const Vec3<Real> p = near + min(step, length) * inward;
         const auto beside = is_beside(point);
         if (!any(beside)) return p;
         const Real l = distance * point.sine / point.cosine;
@@ -113,7 +117,7 @@ struct LineExtent {
 private:
     /// Whether a point is much closer to the origin than both ends are.
     NUSSELT_HD mask_t<Real> is_beside(const LinePoint<Real>& point) const noexcept {
-        return point.cosine > Real(2) * max(c0, c1);
+        return point.cosine > Real(2) * near_cosine;
     }
 };
 
@@ -124,13 +128,13 @@ inline constexpr Scalar kSmallestDistance = power_of_two<Scalar>(-std::numeric_l
                                                                  8 * 3);
 
 /// The part of a segment between two points of its line.
-/// \param p0, p1   the points.
+/// \param p0, p1   the points; z only matters where it is the height above the surface.
 /// \param closest  vector to the closest point of the line.
 /// \param distance its length.
 /// \param l0, l1   coordinates of the points along the line.
 /// \param length   l1 - l0, which the caller may know more accurately.
 template <class Real>
-NUSSELT_HD inline LineExtent<Real>
+NUSSELT_INLINE LineExtent<Real>
 make_line_extent(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& closest,
                  const Real& distance, const Real& l0, const Real& l1, const Real& length) noexcept {
     LineExtent<Real> e;
@@ -139,49 +143,64 @@ make_line_extent(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1
     e.distance = select(passes_by, distance, Real(1));
     e.s = s;
     e.t = (Real(1) / e.distance) * closest;
-    e.p0 = p0;
-    e.p1 = p1;
     e.length = length;
     e.l0 = l0;
     e.l1 = l1;
-    e.r0 = sqrt(fma(l0, l0, e.distance * e.distance));
-    e.r1 = sqrt(fma(l1, l1, e.distance * e.distance));
-    const Real inverse_0 = Real(1) / e.r0;
-    const Real inverse_1 = Real(1) / e.r1;
-    e.s0 = l0 * inverse_0;
-    e.s1 = l1 * inverse_1;
-    e.c0 = e.distance * inverse_0;
-    e.c1 = e.distance * inverse_1;
+    const Real r0 = sqrt(fma(l0, l0, e.distance * e.distance));
+    const Real r1 = sqrt(fma(l1, l1, e.distance * e.distance));
+    const Real inverse_r0 = Real(1) / r0;
+    const Real inverse_r1 = Real(1) / r1;
+    e.s0 = l0 * inverse_r0;
+    e.s1 = l1 * inverse_r1;
+    e.c0 = e.distance * inverse_r0;
+    e.c1 = e.distance * inverse_r1;
+    e.height0 = max(p0.z, Real(0)) / r0;
+    e.height1 = max(p1.z, Real(0)) / r1;
+    const Real one_plus_abs0 = Real(1) + abs(e.s0);
+    const Real one_plus_abs1 = Real(1) + abs(e.s1);
+    e.one_plus_s0 = select(e.s0 < Real(0), e.c0 * e.c0 / one_plus_abs0, one_plus_abs0);
+    e.one_minus_s1 = select(e.s1 > Real(0), e.c1 * e.c1 / one_plus_abs1, one_plus_abs1);
+    e.begins_near = r0 <= r1;
+    e.near = select(e.begins_near, p0, p1);
+    e.inward = select(e.begins_near, s, -s);
+    e.near_distance = min(r0, r1);
+    e.near_cosine = max(e.c0, e.c1);
     // The sine of the sweep is the area of the triangle with the origin, never a difference.
-    e.sin_sweep = (length * inverse_0) * e.c1;
-    e.cos_sweep = fma(e.c0, e.c1, e.s0 * e.s1);
+    e.sin_sweep = (length * inverse_r0) * e.c1;
+    const Real cos_sweep = fma(e.c0, e.c1, e.s0 * e.s1);
     e.visible = passes_by & (e.sin_sweep > Real(0));
-    const auto acute = e.cos_sweep > Real(0);
-    const Real tangent = select(acute, e.sin_sweep, Real(1) - e.cos_sweep) /
-                         select(acute, Real(1) + e.cos_sweep, select(e.visible, e.sin_sweep, Real(1)));
-    e.sine_extent = tangent * (e.c0 + e.c1);
+    e.acute = cos_sweep > Real(0);
+    e.half_tangent = e.sin_sweep / (Real(1) + abs(cos_sweep));
+    // Beyond a quarter of a turn the closest point lies between the ends: both sines add up.
+    e.sine_extent = select(e.acute, e.half_tangent * (e.c0 + e.c1), e.s1 - e.s0);
     return e;
 }
 
 template <class Real, class Single>
-NUSSELT_HD inline LineExtent<Real> broadcast(const LineExtent<Single>& e) noexcept {
+NUSSELT_INLINE LineExtent<Real> broadcast(const LineExtent<Single>& e) noexcept {
     return {broadcast<Real>(e.s),
             broadcast<Real>(e.t),
-            broadcast<Real>(e.p0),
-            broadcast<Real>(e.p1),
             Real(e.distance),
             Real(e.length),
             Real(e.l0),
             Real(e.l1),
-            Real(e.r0),
-            Real(e.r1),
             Real(e.s0),
             Real(e.s1),
             Real(e.c0),
             Real(e.c1),
+            Real(e.height0),
+            Real(e.height1),
+            Real(e.one_plus_s0),
+            Real(e.one_minus_s1),
             Real(e.sin_sweep),
-            Real(e.cos_sweep),
+            Real(e.half_tangent),
             Real(e.sine_extent),
+            broadcast<Real>(e.near),
+            broadcast<Real>(e.inward),
+            Real(e.near_distance),
+            Real(e.near_cosine),
+            mask_t<Real>(e.begins_near),
+            mask_t<Real>(e.acute),
             mask_t<Real>(e.visible)};
 }
 

@@ -25,22 +25,25 @@ NUSSELT_HD inline Real unit_extent_scale(const ConvexPolygon<Real, N>& polygon) 
     return reciprocal_power_of_two(extent);
 }
 
-template <class Real, int N>
-NUSSELT_HD inline ConvexPolygon<Real, N> scaled(ConvexPolygon<Real, N> polygon, const Real& scale) noexcept {
-    for (int j = 0; j < N; ++j) {
-        polygon.vertex[j] = scale * polygon.vertex[j];
-        polygon.edge[j] = scale * polygon.edge[j];
-    }
-    return polygon;
-}
-
 /// Scaled to an extent of order one. Coordinates below 2^(-3/4 of the exponent range) become 0: products with
 /// them would underflow.
+/// \param scale unit_extent_scale(polygon)
+template <class Real, int N>
+NUSSELT_HD inline ConvexPolygon<Real, N> with_unit_extent(const ConvexPolygon<Real, N>& polygon,
+                                                          const Real& scale) noexcept {
+    ConvexPolygon<Real, N> result;
+    NUSSELT_UNROLL
+    for (int j = 0; j < N; ++j) {
+        result.vertex[j] = without_tiny(scale * polygon.vertex[j]);
+        result.edge[j] = scale * polygon.edge[j];
+    }
+    result.normal = polygon.normal;
+    return result;
+}
+/// The same for those who do not need the scale.
 template <class Real, int N>
 NUSSELT_HD inline ConvexPolygon<Real, N> with_unit_extent(const ConvexPolygon<Real, N>& polygon) noexcept {
-    ConvexPolygon<Real, N> result = scaled(polygon, unit_extent_scale(polygon));
-    for (Vec3<Real>& v : result.vertex) v = without_tiny(v);
-    return result;
+    return with_unit_extent(polygon, unit_extent_scale(polygon));
 }
 
 /// Solid angle [sr] seen from the origin by a polygon, clipped or not, in any frame; 0 if the origin lies in
@@ -63,7 +66,9 @@ NUSSELT_HD inline Real solid_angle(const ConvexPolygon<Real, N>& world) noexcept
         // Eq. 13 times the product of the three distances. The triple product is twice the area of the
         // triangle times the distance of its plane and cancels nowhere.
         const Real cosines = rc * ra * rb + dot(a, b) * rc + dot(a, c) * rb + dot(b, c) * ra;
-        total = total + Real(2) * atan2_positive(distance * doubled_area, cosines);
+        // Without a triple product, the sign of the cosines means nothing.
+        const Real product = distance * doubled_area;
+        total = total + select(product > Real(0), Real(2) * atan2_positive(product, cosines), Real(0));
         offset = offset + polygon.edge[j];
     }
     return total;

@@ -34,26 +34,8 @@ template <class Real, int Iterations = kLineIterations<Real>>
 class LineProjectedSolidAngle {
 public:
     /// \param light in shading space [m].
-    NUSSELT_HD explicit LineProjectedSolidAngle(const LineSegment<Real>& light) noexcept {
-        const Real scale = scale_of(light);
-        inverse_scale_ = Real(1) / scale;
-        extent_ = clipped_extent(scaled(light, scale));
-        sweep_ = atan2_positive(extent_.sin_sweep, extent_.cos_sweep);
-        begin_height_ = max(extent_.p0.z, Real(0)) / extent_.r0;
-        end_height_ = max(extent_.p1.z, Real(0)) / extent_.r1;
-        const LinePoint<Real> middle = extent_.point_at(Real(0.5) * extent_.sine_extent);
-        middle_height_ = max(fma(extent_.s.z, middle.sine, extent_.t.z * middle.cosine), Real(0));
-        slope_ = extent_.s.z * extent_.c0 - extent_.t.z * extent_.s0;
-        integral_ = cosine_integral(sweep_, extent_.sin_sweep, extent_.sine_extent,
-                                    begin_height_ + end_height_, extent_.t.z);
-        const Real measure = integral_ / extent_.distance * scale;
-        const Real inverse =
-            extent_.distance / select(integral_ > Real(0), integral_, Real(1)) * inverse_scale_;
-        const auto fits = is_finite(max(measure, inverse));
-        const auto lit = extent_.visible & (measure > Real(0)) & fits;
-        measure_ = select(lit, measure, Real(0));
-        inverse_measure_ = select(lit, inverse, Real(0));
-    }
+    NUSSELT_HD explicit LineProjectedSolidAngle(const LineSegment<Real>& light) noexcept
+        : LineProjectedSolidAngle(light, scale_of(light)) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
@@ -62,9 +44,7 @@ public:
         : extent_(broadcast<Real>(single.extent_)),
           inverse_scale_(single.inverse_scale_),
           sweep_(single.sweep_),
-          begin_height_(single.begin_height_),
           middle_height_(single.middle_height_),
-          end_height_(single.end_height_),
           slope_(single.slope_),
           integral_(single.integral_),
           measure_(single.measure_),
@@ -103,9 +83,8 @@ public:
     NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
         const LinePoint<Real> point = extent_.point_in(wi);
         const Real theta = angle_at(point.from_begin);
-        const Real sin = sincos_half_turn(theta).sin;
         const Real part =
-            cosine_integral(theta, sin, point.from_begin, begin_height_ + max(wi.z, Real(0)), extent_.t.z);
+            cosine_integral(theta, point.from_begin, extent_.height0 + max(wi.z, Real(0)), extent_.t.z);
         return below_one(part / select(integral_ > Real(0), integral_, Real(1)));
     }
 
@@ -115,6 +94,24 @@ public:
 private:
     template <class, int>
     friend class LineProjectedSolidAngle;
+
+    NUSSELT_HD LineProjectedSolidAngle(const LineSegment<Real>& light, const Real& scale) noexcept
+        : extent_(clipped_extent(scaled(light, scale))),
+          inverse_scale_(reciprocal_power_of_two(scale)),
+          sweep_(extent_.sweep()) {
+        const LinePoint<Real> middle = extent_.point_at(Real(0.5) * extent_.sine_extent);
+        middle_height_ = max(fma(extent_.s.z, middle.sine, extent_.t.z * middle.cosine), Real(0));
+        slope_ = extent_.s.z * extent_.c0 - extent_.t.z * extent_.s0;
+        integral_ =
+            cosine_integral(sweep_, extent_.sine_extent, extent_.height0 + extent_.height1, extent_.t.z);
+        const Real measure = integral_ / extent_.distance * scale;
+        const Real inverse =
+            extent_.distance / select(integral_ > Real(0), integral_, Real(1)) * inverse_scale_;
+        const auto fits = is_finite(max(measure, inverse));
+        const auto lit = extent_.visible & (measure > Real(0)) & fits;
+        measure_ = select(lit, measure, Real(0));
+        inverse_measure_ = select(lit, inverse, Real(0));
+    }
 
     /// What the iteration needs at the angle theta from the begin.
     struct Rotation {
@@ -130,10 +127,9 @@ private:
         Rotation r;
         r.sine = fma(extent_.s0, cos, extent_.c0 * sin);
         r.cosine = max(fma(extent_.c0, cos, -extent_.s0 * sin), Real(0));
-        r.height = max(fma(begin_height_, cos, slope_ * sin), Real(0));
-        r.height_slope = fma(slope_, cos, -begin_height_ * sin);
-        r.integral =
-            cosine_integral(theta, sin, sine_from_begin(half), begin_height_ + r.height, extent_.t.z);
+        r.height = max(fma(extent_.height0, cos, slope_ * sin), Real(0));
+        r.height_slope = fma(slope_, cos, -extent_.height0 * sin);
+        r.integral = cosine_integral(theta, sine_from_begin(half), extent_.height0 + r.height, extent_.t.z);
         return r;
     }
 
@@ -152,11 +148,12 @@ private:
     /// Start of the iteration: by sine, the density is the cosine with the normal. It is taken as linear from the
     /// begin to the middle and from there to the end.
     NUSSELT_HD Real initial_sine(const Real& u) const noexcept {
-        const Real first_half = begin_height_ + middle_height_;
-        const Real target = u * (first_half + middle_height_ + end_height_);
+        const Real first_half = extent_.height0 + middle_height_;
+        const Real target = u * (first_half + middle_height_ + extent_.height1);
         const auto in_first = target < first_half;
-        const Real low = select(in_first, begin_height_, middle_height_);
-        const Real rise = select(in_first, middle_height_ - begin_height_, end_height_ - middle_height_);
+        const Real low = select(in_first, extent_.height0, middle_height_);
+        const Real rise =
+            select(in_first, middle_height_ - extent_.height0, extent_.height1 - middle_height_);
         const Real rest = select(in_first, target, target - first_half);
         const Real denominator = low + sqrt(max(fma(rise, rest, low * low), Real(0)));
         const Real share = rest / select(denominator > Real(0), denominator, Real(1));
@@ -166,9 +163,7 @@ private:
     LineExtent<Real> extent_; ///< of the part above the horizon, scaled to an extent of order one
     Real inverse_scale_;
     Real sweep_;         ///< angle between the end points
-    Real begin_height_;  ///< cosine of the direction to the begin with the normal
-    Real middle_height_; ///< the same at the middle by sine
-    Real end_height_;    ///< and at the end
+    Real middle_height_; ///< cosine of the direction to the middle by sine with the normal
     Real slope_;         ///< its derivative by theta at the begin
     Real integral_;      ///< E of the paper
     Real measure_;

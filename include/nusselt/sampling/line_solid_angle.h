@@ -22,7 +22,8 @@ class LineSolidAngle {
 public:
     /// \param light relative to the shading point [m].
     NUSSELT_HD explicit LineSolidAngle(const LineSegment<Real>& light) noexcept
-        : LineSolidAngle(light, scale_of(light)) {}
+        : LineSolidAngle(light, scale_of(light),
+                         [](const LineSegment<Real>& line) { return make_line_extent(line); }) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
@@ -52,26 +53,26 @@ public:
     NUSSELT_HD Real measure() const noexcept { return measure_; }
 
 protected:
-    /// \param scale by which the extent is larger than the light.
-    NUSSELT_HD LineSolidAngle(const Real& scale, const LineExtent<Real>& extent) noexcept
-        : extent_(extent), inverse_scale_(Real(1) / scale) {
+    /// \param extent_of returns the extent of the part of a segment to sample.
+    /// \param scale     by which that extent shall be larger than the light.
+    template <class ExtentOf>
+    NUSSELT_HD LineSolidAngle(const LineSegment<Real>& light, const Real& scale, ExtentOf extent_of) noexcept
+        : extent_(extent_of(scaled(light, scale))), inverse_scale_(reciprocal_power_of_two(scale)) {
         // Eq. 1 in the limit of a radius of 0.
-        const Real solid_angle = Real(2) * extent.sine_extent;
-        const Real measure = solid_angle / extent.distance * scale;
-        const Real density = extent.distance / select(extent.visible, solid_angle, Real(1)) * inverse_scale_;
+        const Real solid_angle = Real(2) * extent_.sine_extent;
+        const Real measure = solid_angle / extent_.distance * scale;
+        const Real density =
+            extent_.distance / select(extent_.visible, solid_angle, Real(1)) * inverse_scale_;
         const auto measure_fits =
             (measure > Real(0)) & (measure <= Real(std::numeric_limits<scalar_t<Real>>::max()));
         const auto density_fits =
             (density > Real(0)) & (density <= Real(std::numeric_limits<scalar_t<Real>>::max()));
-        const auto lit = extent.visible & measure_fits & density_fits;
+        const auto lit = extent_.visible & measure_fits & density_fits;
         measure_ = select(lit, measure, Real(0));
         pdf_ = select(lit, density, Real(0));
     }
 
 private:
-    NUSSELT_HD LineSolidAngle(const LineSegment<Real>& light, const Real& scale) noexcept
-        : LineSolidAngle(scale, make_line_extent(scaled(light, scale))) {}
-
     template <class>
     friend class LineSolidAngle;
 
@@ -88,16 +89,13 @@ class LineClippedSolidAngle : public LineSolidAngle<Real> {
 public:
     /// \param light in shading space [m].
     NUSSELT_HD explicit LineClippedSolidAngle(const LineSegment<Real>& light) noexcept
-        : LineClippedSolidAngle(light, scale_of(light)) {}
+        : LineSolidAngle<Real>(light, scale_of(light),
+                               [](const LineSegment<Real>& line) { return clipped_extent(line); }) {}
 
     /// \copydoc LineSolidAngle::LineSolidAngle(const LineSolidAngle<Single>&)
     template <class Single>
     NUSSELT_HD explicit LineClippedSolidAngle(const LineClippedSolidAngle<Single>& single) noexcept
         : LineSolidAngle<Real>(static_cast<const LineSolidAngle<Single>&>(single)) {}
-
-private:
-    NUSSELT_HD LineClippedSolidAngle(const LineSegment<Real>& light, const Real& scale) noexcept
-        : LineSolidAngle<Real>(scale, clipped_extent(scaled(light, scale))) {}
 };
 
 NUSSELT_NAMESPACE_END

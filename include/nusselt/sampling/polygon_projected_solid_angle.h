@@ -37,8 +37,9 @@ class PolygonProjectedSolidAngle {
 public:
     /// \param light in shading space, either winding [m].
     NUSSELT_HD explicit PolygonProjectedSolidAngle(const ConvexPolygon<Real, N>& light) noexcept {
-        ConvexPolygon<Real, N> polygon = with_unit_extent(light);
-        inverse_scale_ = Real(1) / unit_extent_scale(light);
+        const Real scale = unit_extent_scale(light);
+        ConvexPolygon<Real, N> polygon = with_unit_extent(light, scale);
+        inverse_scale_ = reciprocal_power_of_two(scale);
         const Real distance = plane_distance(polygon);
         // The method wants the winding that is clockwise as seen from the origin: mirror y otherwise.
         mirror_ = copysign(Real(1), distance);
@@ -58,9 +59,9 @@ public:
         } else {
             // Once more to an extent of order one, since little may be left of the light.
             const ConvexPolygon<Real, N + 1> clipped = clip_to_horizon(polygon);
-            const Real scale = unit_extent_scale(clipped);
-            inverse_scale_ = inverse_scale_ / scale;
-            prepare(with_unit_extent(clipped), scale * distance);
+            const Real again = unit_extent_scale(clipped);
+            inverse_scale_ = inverse_scale_ * reciprocal_power_of_two(again);
+            prepare(with_unit_extent(clipped, again), again * distance);
         }
     }
 

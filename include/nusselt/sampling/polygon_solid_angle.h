@@ -26,7 +26,7 @@ class PolygonSolidAngle {
 public:
     /// \param light relative to the shading point, either winding [m].
     NUSSELT_HD explicit PolygonSolidAngle(const ConvexPolygon<Real, N>& light) noexcept
-        : PolygonSolidAngle(with_unit_extent(light), Real(1) / unit_extent_scale(light)) {}
+        : PolygonSolidAngle(with_unit_extent(light), reciprocal_power_of_two(unit_extent_scale(light))) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
@@ -254,7 +254,7 @@ public:
     /// \param light in shading space, either winding [m].
     NUSSELT_HD explicit PolygonClippedSolidAngle(const ConvexPolygon<Real, N>& light) noexcept
         : PolygonClippedSolidAngle(clip_to_horizon(with_unit_extent(light)),
-                                   Real(1) / unit_extent_scale(light)) {}
+                                   reciprocal_power_of_two(unit_extent_scale(light))) {}
 
     /// \copydoc PolygonSolidAngle::PolygonSolidAngle(const PolygonSolidAngle<Single, N>&)
     template <class Single>
@@ -266,7 +266,8 @@ private:
     NUSSELT_HD PolygonClippedSolidAngle(const ConvexPolygon<Real, N + 1>& clipped,
                                         const Real& inverse_scale) noexcept
         : PolygonSolidAngle<Real, N + 1>(with_unit_extent(clipped),
-                                         inverse_scale / unit_extent_scale(clipped)) {}
+                                         inverse_scale *
+                                             reciprocal_power_of_two(unit_extent_scale(clipped))) {}
 };
 
 NUSSELT_NAMESPACE_END

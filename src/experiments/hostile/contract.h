@@ -107,20 +107,25 @@ Real warp(const ConvexPolygon<Real, N>& light) noexcept {
 }
 
 /// How far a hit point may be from the ray along wi [m]. A tilt of the plane turns the directions to a light seen
-/// edge-on; then the point where a ray meets the plane moves the more the flatter it does.
+/// edge-on; then the point where a ray meets the plane moves the more the flatter it does. Of wi and the way to p the
+/// flatter one counts: rounding may have turned wi away from the plane.
 template <class Real, int N>
-Real aim_slack(const ConvexPolygon<Real, N>& light, const Vec3<Real>& wi, const Real& extent,
-               const Real& slack) noexcept {
+Real aim_slack(const ConvexPolygon<Real, N>& light, const Vec3<Real>& wi, const Vec3<Real>& p,
+               const Real& extent, const Real& slack) noexcept {
     const Real width = relative_width(light, extent);
-    const Real sturdiness = width * abs(dot(light.normal, wi));
+    const Real distance = abs(plane_distance(light));
+    const Real reach = length(p);
+    const Real sturdiness =
+        width * min(abs(dot(light.normal, wi)), distance / select(reach > Real(0), reach, Real(1)));
     const Real squared = sturdiness * sturdiness;
     // No requirement for a point in the plane up to rounding.
     const Real rounding = slack + Real(84) * warp(light);
-    const auto apart = (squared > Real(0)) & (width * abs(plane_distance(light)) > rounding);
+    const auto apart = (squared > Real(0)) & (width * distance > rounding);
     return select(apart, rounding / squared, Real(std::numeric_limits<scalar_t<Real>>::max()));
 }
 template <class Real>
-Real aim_slack(const LineSegment<Real>&, const Vec3<Real>&, const Real&, const Real& slack) noexcept {
+Real aim_slack(const LineSegment<Real>&, const Vec3<Real>&, const Vec3<Real>&, const Real&,
+               const Real& slack) noexcept {
     return slack;
 }
 
@@ -165,7 +170,7 @@ void check_contract(const typename Kind::template Light<Real>& light,
     report(sampled & !bounds.contain(p, slack), "p is off the light");
     // The largest errors of 6e4 ordinary lights are 12 times that of the angles.
     const Real turned = Real(static_cast<T>(32 * kAngleError<Kind>)) * bounds.extent;
-    const Real aim = aim_slack(light, wi, bounds.extent, slack + turned);
+    const Real aim = aim_slack(light, wi, p, bounds.extent, slack + turned);
     const auto on_line = largest_coordinate(cross(wi, p)) <= aim;
     const auto ahead = dot(wi, p) >= -aim;
     report(sampled & !(on_line & ahead), "wi does not lead to p");

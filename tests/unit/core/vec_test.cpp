@@ -111,8 +111,9 @@ TYPED_TEST(VecTest, ReciprocalPowersOfTwo) {
         const T power = nusselt::reciprocal_power_of_two(x);
         int exponent = 0;
         EXPECT_EQ(std::frexp(power, &exponent), T(0.5));
-        EXPECT_GE(power * x, T(0.5));
+        EXPECT_GE(power * x, T(1));
         EXPECT_LT(power * x, T(2));
+        EXPECT_EQ(nusselt::reciprocal_power_of_two(power) * power, T(1));
     }
     for (const T x : {T(0), std::numeric_limits<T>::denorm_min(), std::numeric_limits<T>::max()}) {
         const T power = nusselt::reciprocal_power_of_two(x);

@@ -139,6 +139,15 @@ TYPED_TEST(PolygonTest, EdgesOfClippedPolygonsConnectVertices) {
     }
 }
 
+TYPED_TEST(PolygonTest, NothingIsSeenOfAPolygonFromItsPlane) {
+    using T = TypeParam;
+    // A fan triangle without area and with opposite directions would count half the sphere.
+    const nusselt::Vec3<T> around[] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    const nusselt::Vec3<T> on_edge[] = {{-1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 1}};
+    EXPECT_EQ(solid_angle(nusselt::make_polygon<4>(around, 4)), 0);
+    EXPECT_EQ(solid_angle(nusselt::make_polygon<4>(on_edge, 4)), 0);
+}
+
 TYPED_TEST(PolygonTest, ClippingKeepsWhatIsAbove) {
     using T = TypeParam;
     const auto mirrored = [](PolygonCase light) {
