@@ -31,7 +31,11 @@ right include/nusselt/nusselt.h <nusselt/sampling/b.h>
 right src/visibility/a.cpp "scene/scene.h"
 right src/render_cpu/a.cpp <nusselt/simd/pack.h>
 right src/render_cpu/a.cpp <embree3/rtcore.h>
+right src/gpu/a.cpp "shaders/b.h"
+right src/experiments/a.cpp "gpu/b.h"
 right apps/nusselt/a.cpp "experiments/b.h"
+wrong src/gpu/a.cpp "render_cpu/b.h"
+wrong src/render_cpu/a.cpp "gpu/b.h"
 right apps/nusselt/a.cpp "commands.h"
 wrong include/nusselt/core/a.h <nusselt/geometry/b.h>
 wrong include/nusselt/core/a.h <nusselt/nusselt.h>

@@ -1,0 +1,43 @@
+# Finds what the GPU side needs and compiles shaders to SPIR-V that is embedded into programs.
+
+# NUSSELT_BUILD_GPU tells whether the GPU side can be built. Everything else can without it.
+find_path(Vulkan_INCLUDE_DIR vulkan/vulkan_raii.hpp)
+find_program(GLSLANG_VALIDATOR glslangValidator)
+set(missing_gpu_packages)
+if(NOT Vulkan_INCLUDE_DIR)
+    list(APPEND missing_gpu_packages libvulkan-dev)
+endif()
+if(NOT GLSLANG_VALIDATOR)
+    list(APPEND missing_gpu_packages glslang-tools)
+endif()
+if(missing_gpu_packages)
+    set(NUSSELT_BUILD_GPU OFF)
+    list(JOIN missing_gpu_packages " " missing_gpu_packages)
+    message(STATUS "Without the GPU side and its tests: these Debian packages are missing: ${missing_gpu_packages}")
+else()
+    set(NUSSELT_BUILD_GPU ON)
+endif()
+
+# nusselt_add_shader(target name source [DEFINES define...]): compiles shaders/<source> and makes
+# `#include "shaders/<name>.h"` available to the sources of the target. The header has the array k<Name>, with name in
+# PascalCase. Shaders include others relative to shaders/.
+function(nusselt_add_shader target name source)
+    cmake_parse_arguments(arg "" "" "DEFINES" ${ARGN})
+    set(input ${PROJECT_SOURCE_DIR}/shaders/${source})
+    set(folder ${CMAKE_CURRENT_BINARY_DIR}/shaders)
+    set(spirv ${folder}/${name}.spv)
+    set(header ${folder}/${name}.h)
+    list(TRANSFORM arg_DEFINES PREPEND -D)
+    file(MAKE_DIRECTORY ${folder})
+    add_custom_command(OUTPUT ${header} BYPRODUCTS ${spirv}
+        COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.1 -I${PROJECT_SOURCE_DIR}/shaders ${arg_DEFINES}
+            --depfile ${spirv}.d -o ${spirv} ${input}
+        COMMAND ${CMAKE_COMMAND} -D INPUT=${spirv} -D OUTPUT=${header} -D NAME=${name}
+            -P ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake
+        DEPENDS ${input} ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake
+        DEPFILE ${spirv}.d
+        COMMENT "Compiling shader ${name}"
+        VERBATIM)
+    target_sources(${target} PRIVATE ${header})
+    target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+endfunction()

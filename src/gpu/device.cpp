@@ -1,0 +1,203 @@
+#include "gpu/device.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <chrono>
+#include <cstdlib>
+#include <limits>
+
+namespace nusselt::gpu {
+
+namespace {
+
+DeviceDescription describe(const vk::raii::PhysicalDevice& device) {
+    const auto chain =
+        device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+    const vk::PhysicalDeviceProperties& basic = chain.get<vk::PhysicalDeviceProperties2>().properties;
+    const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+    const auto kind = [&]() -> std::string {
+        switch (basic.deviceType) {
+        case vk::PhysicalDeviceType::eDiscreteGpu:
+            return "discrete GPU";
+        case vk::PhysicalDeviceType::eIntegratedGpu:
+            return "integrated GPU";
+        case vk::PhysicalDeviceType::eVirtualGpu:
+            return "virtual GPU";
+        case vk::PhysicalDeviceType::eCpu:
+            return "CPU";
+        default:
+            return "other";
+        }
+    };
+    const auto version = std::to_string(VK_API_VERSION_MAJOR(basic.apiVersion)) + "." +
+                         std::to_string(VK_API_VERSION_MINOR(basic.apiVersion)) + "." +
+                         std::to_string(VK_API_VERSION_PATCH(basic.apiVersion));
+    return {basic.deviceName, std::string(driver.driverName) + ", " + std::string(driver.driverInfo), kind(),
+            version};
+}
+
+/// The lower the better.
+int rank(const vk::raii::PhysicalDevice& device) {
+    constexpr vk::PhysicalDeviceType kOrder[] = {
+        vk::PhysicalDeviceType::eDiscreteGpu, vk::PhysicalDeviceType::eIntegratedGpu,
+        vk::PhysicalDeviceType::eVirtualGpu, vk::PhysicalDeviceType::eOther, vk::PhysicalDeviceType::eCpu};
+    return static_cast<int>(
+        std::find(std::begin(kOrder), std::end(kOrder), device.getProperties().deviceType) -
+        std::begin(kOrder));
+}
+
+std::string lower_case(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+std::optional<std::size_t> find(const std::vector<vk::raii::PhysicalDevice>& devices,
+                                const std::string& choice) {
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        if (choice == std::to_string(i)) return i;
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        if (lower_case(describe(devices[i]).name).find(lower_case(choice)) != std::string::npos) return i;
+    return std::nullopt;
+}
+
+vk::raii::PhysicalDevice choose(const Instance& instance, const DeviceOptions& options) {
+    std::vector<vk::raii::PhysicalDevice> devices = instance.devices();
+    if (devices.empty())
+        throw NoDevice("no device with Vulkan 1.1; install the driver of your GPU, or the software device "
+                       "(mesa-vulkan-drivers)");
+    std::optional<std::string> choice = options.choice;
+    if (const char* variable = std::getenv("NUSSELT_DEVICE");
+        !choice && variable != nullptr && *variable != '\0')
+        choice = variable;
+    if (!choice)
+        return std::move(*std::min_element(devices.begin(), devices.end(),
+                                           [](const auto& a, const auto& b) { return rank(a) < rank(b); }));
+    if (const auto found = find(devices, *choice)) return std::move(devices[*found]);
+    std::string known;
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        known += (i > 0 ? "; " : "") + std::to_string(i) + ": " + describe(devices[i]).name;
+    throw NoDevice("no Vulkan device '" + *choice + "'; there are " + known);
+}
+
+/// A queue for compute shaders: with timestamps if there is one.
+std::uint32_t choose_queue_family(const vk::raii::PhysicalDevice& device) {
+    const auto families = device.getQueueFamilyProperties();
+    const auto computes = [&](const vk::QueueFamilyProperties& family) {
+        return static_cast<bool>(family.queueFlags & vk::QueueFlagBits::eCompute);
+    };
+    auto found = std::find_if(families.begin(), families.end(), [&](const auto& family) {
+        return computes(family) && family.timestampValidBits > 0;
+    });
+    if (found == families.end()) found = std::find_if(families.begin(), families.end(), computes);
+    return static_cast<std::uint32_t>(found - families.begin());
+}
+
+vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint32_t queue_family,
+                             const std::string& name) {
+    const float priority = 1;
+    const vk::DeviceQueueCreateInfo queue({}, queue_family, 1, &priority);
+    return guarded(name, [&] { return vk::raii::Device(physical, vk::DeviceCreateInfo({}, queue)); });
+}
+
+} // namespace
+
+std::vector<DeviceDescription> list_devices() {
+    std::vector<DeviceDescription> descriptions;
+    try {
+        const Instance instance(Validation::off);
+        for (const auto& device : instance.devices()) descriptions.push_back(describe(device));
+    } catch (const NoDevice&) {
+        return {};
+    }
+    return descriptions;
+}
+
+std::optional<std::string> why_no_device(const DeviceOptions& options) {
+    try {
+        choose(Instance(Validation::off), options);
+    } catch (const NoDevice& error) {
+        return error.what();
+    }
+    return std::nullopt;
+}
+
+Device::Device(const DeviceOptions& options)
+    : instance_(options.validation),
+      physical_(choose(instance_, options)),
+      description_(describe(physical_)),
+      limits_(physical_.getProperties().limits),
+      queue_family_(choose_queue_family(physical_)),
+      clock_(physical_.getQueueFamilyProperties()[queue_family_].timestampValidBits > 0 ? Clock::timestamps
+                                                                                        : Clock::wall),
+      device_(make_device(physical_, queue_family_, description_.name)),
+      queue_(device_, queue_family_, 0),
+      pool_(device_, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, queue_family_)),
+      timestamps_(device_, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2)) {}
+
+void Device::run(const Record& record) const {
+    guarded(description_.name, [&] {
+        const vk::raii::CommandBuffers buffers(
+            device_, vk::CommandBufferAllocateInfo(*pool_, vk::CommandBufferLevel::ePrimary, 1));
+        const Commands& commands = buffers.front();
+        commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+        full_barrier(commands);
+        record(commands);
+        full_barrier(commands);
+        commands.end();
+        const vk::raii::Fence done(device_, vk::FenceCreateInfo());
+        queue_.submit(vk::SubmitInfo({}, {}, *commands), *done);
+        while (device_.waitForFences(*done, true, std::numeric_limits<std::uint64_t>::max()) ==
+               vk::Result::eTimeout) {
+        }
+    });
+}
+
+double Device::time(const Record& record) const {
+    if (clock_ == Clock::wall) {
+        const auto begin = std::chrono::steady_clock::now();
+        run(record);
+        return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
+    }
+    run([&](const Commands& commands) {
+        commands.resetQueryPool(*timestamps_, 0, 2);
+        commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_, 0);
+        record(commands);
+        full_barrier(commands);
+        commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_, 1);
+    });
+    return guarded(description_.name, [&] {
+        const auto [result, ticks] = timestamps_.getResults<std::uint64_t>(
+            0, 2, 2 * sizeof(std::uint64_t), sizeof(std::uint64_t),
+            vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+        // Of a counter with fewer bits, the difference is right as long as it does not wrap around twice.
+        const std::uint32_t bits = physical_.getQueueFamilyProperties()[queue_family_].timestampValidBits;
+        const std::uint64_t elapsed = (ticks[1] - ticks[0]) << (64 - bits) >> (64 - bits);
+        return static_cast<double>(elapsed) * static_cast<double>(limits_.timestampPeriod);
+    });
+}
+
+vk::raii::DeviceMemory Device::allocate(const vk::MemoryRequirements& requirements,
+                                        vk::MemoryPropertyFlags wanted) const {
+    const vk::PhysicalDeviceMemoryProperties memory = physical_.getMemoryProperties();
+    for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+        const bool fits = (requirements.memoryTypeBits >> i & 1) != 0 &&
+                          (memory.memoryTypes[i].propertyFlags & wanted) == wanted &&
+                          memory.memoryHeaps[memory.memoryTypes[i].heapIndex].size >= requirements.size;
+        if (!fits) continue;
+        return guarded(description_.name, [&] {
+            return vk::raii::DeviceMemory(device_, vk::MemoryAllocateInfo(requirements.size, i));
+        });
+    }
+    throw Error(gpu::describe(description_.name, vk::Result::eErrorOutOfDeviceMemory));
+}
+
+void full_barrier(const Device::Commands& commands) {
+    using Access = vk::AccessFlagBits;
+    const vk::MemoryBarrier barrier(Access::eMemoryWrite | Access::eHostWrite,
+                                    Access::eMemoryRead | Access::eMemoryWrite | Access::eHostRead);
+    const auto all = vk::PipelineStageFlagBits::eAllCommands | vk::PipelineStageFlagBits::eHost;
+    commands.pipelineBarrier(all, all, {}, barrier, {}, {});
+}
+
+} // namespace nusselt::gpu

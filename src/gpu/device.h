@@ -1,0 +1,87 @@
+#pragma once
+/// A headless Vulkan device: commands are recorded, submitted and waited for. One thread at a time.
+
+#include "gpu/instance.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nusselt::gpu {
+
+struct DeviceOptions {
+    /// Index as in list_devices(), or part of a name in upper or lower case. Without it the environment variable
+    /// NUSSELT_DEVICE decides, likewise; without that a discrete GPU comes before an integrated one, and a
+    /// software device last.
+    std::optional<std::string> choice = {};
+    Validation validation = Validation::off;
+};
+
+struct DeviceDescription {
+    std::string name;
+    std::string driver;      ///< name and version
+    std::string kind;        ///< "discrete GPU", "CPU", ...
+    std::string api_version; ///< of Vulkan
+};
+
+/// The devices that can be chosen. Empty without a loader or driver.
+std::vector<DeviceDescription> list_devices();
+
+/// Why Device(options) would throw NoDevice; nothing if it would not.
+std::optional<std::string> why_no_device(const DeviceOptions& options = {});
+
+/// What time() measures with.
+enum class Clock {
+    timestamps, ///< of the device: what the commands take
+    wall,       ///< of the processor, where the device has none: with submission and waiting
+};
+
+class Device {
+public:
+    using Commands = vk::raii::CommandBuffer;
+    using Record = std::function<void(const Commands&)>;
+
+    /// \throws NoDevice if there is none, with what there is if one was asked for by name.
+    explicit Device(const DeviceOptions& options = {});
+
+    const DeviceDescription& description() const { return description_; }
+    const vk::PhysicalDeviceLimits& limits() const { return limits_; }
+    const vk::raii::Device& handle() const { return device_; }
+    Clock clock() const { return clock_; }
+    /// Whether the validation layer watches: it was asked for and is installed.
+    bool validates() const { return instance_.validates(); }
+    /// Warnings and errors of the validation layer since the last call.
+    std::vector<std::string> take_validation_messages() const { return instance_.log().take(); }
+
+    /// Submits what `record` records and waits until it is done. What earlier commands and the host wrote is
+    /// visible to it, and what it writes is visible to the host.
+    /// \throws Error if the device is lost.
+    void run(const Record& record) const;
+
+    /// Likewise. \return how long it took [ns].
+    double time(const Record& record) const;
+
+    /// \param wanted properties that the memory must have.
+    /// \throws Error if there is no such memory, or not enough.
+    vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& requirements,
+                                    vk::MemoryPropertyFlags wanted) const;
+
+private:
+    Instance instance_;
+    vk::raii::PhysicalDevice physical_;
+    DeviceDescription description_;
+    vk::PhysicalDeviceLimits limits_;
+    std::uint32_t queue_family_;
+    Clock clock_;
+    vk::raii::Device device_;
+    vk::raii::Queue queue_;
+    vk::raii::CommandPool pool_;
+    vk::raii::QueryPool timestamps_;
+};
+
+/// All that was written before is visible to all that follows.
+void full_barrier(const Device::Commands& commands);
+
+} // namespace nusselt::gpu

@@ -1,0 +1,12 @@
+#pragma once
+/// Whether the device rounds `fma` once.
+
+#include "gpu/device.h"
+
+namespace nusselt::gpu {
+
+/// Runs fma on operands whose result depends on it. Shaders take exact products from a fused fma, and split
+/// numbers where it rounds twice: each exists in both variants (macro NUSSELT_FUSED_FMA).
+bool has_fused_fma(const Device& device);
+
+} // namespace nusselt::gpu

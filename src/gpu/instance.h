@@ -1,0 +1,48 @@
+#pragma once
+/// The Vulkan loader, the devices that it finds, and what the validation layer says.
+
+#include "gpu/error.h"
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace nusselt::gpu {
+
+/// Whether the Khronos validation layer watches all calls. It is silently left out where it is not installed:
+/// Instance::validates() tells.
+enum class Validation { off, on };
+
+/// Messages of the validation layer, from any thread.
+class ValidationLog {
+public:
+    void add(std::string message);
+    /// The messages since the last call.
+    std::vector<std::string> take();
+
+private:
+    std::mutex mutex_;
+    std::vector<std::string> messages_;
+};
+
+/// A Vulkan 1.1 instance without any window system.
+class Instance {
+public:
+    /// \throws NoDevice if there is no Vulkan loader or no driver.
+    explicit Instance(Validation validation);
+
+    bool validates() const { return validates_; }
+    ValidationLog& log() const { return *log_; }
+
+    /// All devices with Vulkan 1.1 and a queue for compute shaders, in the order of the loader.
+    std::vector<vk::raii::PhysicalDevice> devices() const;
+
+private:
+    std::unique_ptr<ValidationLog> log_; ///< the messenger keeps its address
+    vk::raii::Context context_;
+    bool validates_;
+    vk::raii::Instance instance_;
+    vk::raii::DebugUtilsMessengerEXT messenger_;
+};
+
+} // namespace nusselt::gpu

@@ -1,0 +1,176 @@
+#include "gpu/compute_pipeline.h"
+#include "gpu/fused_fma.h"
+#include "gpu_test.h"
+#include "shaders/scaled_sums.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+
+namespace nusselt::parity {
+
+namespace {
+
+/// Sets an environment variable for the duration of a test.
+class ScopedVariable {
+public:
+    ScopedVariable(const char* name, const char* value) : name_(name) {
+        if (const char* old = std::getenv(name)) old_ = old;
+        setenv(name, value, 1);
+    }
+    ~ScopedVariable() {
+        if (old_)
+            setenv(name_, old_->c_str(), 1);
+        else
+            unsetenv(name_);
+    }
+    ScopedVariable(const ScopedVariable&) = delete;
+    ScopedVariable& operator=(const ScopedVariable&) = delete;
+
+private:
+    const char* name_;
+    std::optional<std::string> old_;
+};
+
+struct Push {
+    float scale;
+    std::uint32_t count;
+};
+
+class DeviceTest : public GpuTest, public testing::WithParamInterface<gpu::Residence> {};
+
+TEST_P(DeviceTest, RunsAShader) {
+    constexpr std::uint32_t kCount = 1000; // no multiple of the work group
+    std::vector<float> a(kCount), b(kCount), sums(kCount + 24, -1.0f);
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+        a[i] = static_cast<float>(i);
+        b[i] = 0.5f * static_cast<float>(i % 7);
+    }
+    gpu::Buffer in_a(device(), kCount * sizeof(float), GetParam());
+    gpu::Buffer in_b(device(), kCount * sizeof(float), GetParam());
+    gpu::Buffer out(device(), sums.size() * sizeof(float), GetParam());
+    in_a.write<float>(a);
+    in_b.write<float>(b);
+    out.write<float>(sums);
+
+    gpu::ComputePipeline pipeline(device(), kScaledSums,
+                                  {.storage_buffers = 3,
+                                   .push_constant_size = sizeof(Push),
+                                   .constants = {std::bit_cast<std::uint32_t>(0.25f), 2}});
+    pipeline.bind({&in_a, &in_b, &out});
+    const Push push{4, kCount};
+    device().run([&](const gpu::Device::Commands& commands) {
+        pipeline.dispatch(commands, std::as_bytes(std::span(&push, 1)), (kCount + 63) / 64);
+    });
+    out.read<float>(sums);
+    for (std::uint32_t i = 0; i < kCount; ++i)
+        ASSERT_EQ(sums[i], 4 * (a[i] + b[i]) + 0.25f + 2 * static_cast<float>(i)) << i;
+    for (std::size_t i = kCount; i < sums.size(); ++i) EXPECT_EQ(sums[i], -1) << "written beyond the count";
+}
+
+INSTANTIATE_TEST_SUITE_P(AnyMemory, DeviceTest,
+                         testing::Values(gpu::Residence::host_visible, gpu::Residence::device_local));
+
+class DevicesTest : public GpuTest {};
+
+TEST_F(DevicesTest, TimesCommands) {
+    gpu::Buffer large(device(), std::size_t{32} << 20, gpu::Residence::device_local);
+    const auto fill = [&](int times) {
+        return device().time([&](const gpu::Device::Commands& commands) {
+            for (int i = 0; i < times; ++i) {
+                commands.fillBuffer(large.handle(), 0, VK_WHOLE_SIZE, static_cast<std::uint32_t>(i));
+                gpu::full_barrier(commands);
+            }
+        });
+    };
+    const double once = std::min({fill(1), fill(1), fill(1), fill(1)});
+    EXPECT_GT(once, 1e3) << "32 MiB in less than a microsecond";
+    EXPECT_GT(fill(64), 8 * once) << "the shortest of several";
+}
+
+TEST_F(DevicesTest, AreListedAndChosenByNameOrIndex) {
+    const auto devices = gpu::list_devices();
+    ASSERT_FALSE(devices.empty());
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        EXPECT_EQ(gpu::Device({.choice = std::to_string(i)}).description().name, devices[i].name);
+    std::string part = devices[0].name.substr(0, 4);
+    for (char& c : part) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    EXPECT_EQ(gpu::Device({.choice = part}).description().name, devices[0].name);
+    const ScopedVariable variable("NUSSELT_DEVICE", part.c_str());
+    EXPECT_EQ(gpu::Device().description().name, devices[0].name);
+}
+
+TEST_F(DevicesTest, UnknownNameIsAnErrorThatListsTheDevices) {
+    const auto reason = gpu::why_no_device({.choice = "no such device"});
+    ASSERT_TRUE(reason);
+    EXPECT_NE(reason->find("'no such device'"), std::string::npos) << *reason;
+    EXPECT_NE(reason->find(gpu::list_devices()[0].name), std::string::npos) << *reason;
+    EXPECT_EQ(reason->find('\n'), std::string::npos) << *reason;
+}
+
+TEST_F(DevicesTest, BuffersBeyondTheLimitAreAnError) {
+    const std::size_t limit = device().limits().maxStorageBufferRange;
+    try {
+        const gpu::Buffer buffer(device(), limit + 4, gpu::Residence::host_visible);
+        FAIL() << "no error";
+    } catch (const gpu::Error& error) {
+        EXPECT_NE(std::string(error.what()).find("too large"), std::string::npos) << error.what();
+    }
+}
+
+TEST_F(DevicesTest, MemoryBeyondTheDeviceIsAnError) {
+    const vk::MemoryRequirements requirements(std::uint64_t{1} << 50, 64, ~0u);
+    EXPECT_THROW(device().allocate(requirements, vk::MemoryPropertyFlagBits::eDeviceLocal), gpu::Error);
+}
+
+TEST_F(DevicesTest, ValidationReportsWrongUse) {
+    if (!device().validates()) GTEST_SKIP() << "the validation layer is not installed";
+    const gpu::Buffer buffer(device(), 64, gpu::Residence::host_visible);
+    device().run([&](const gpu::Device::Commands& commands) {
+        commands.fillBuffer(buffer.handle(), 2, 8, 0u); // offsets are multiples of four
+    });
+    const auto messages = device().take_validation_messages();
+    ASSERT_EQ(messages.size(), 1u);
+    EXPECT_NE(messages[0].find("dstOffset"), std::string::npos) << messages[0];
+}
+
+TEST_F(DevicesTest, FusedFmaOfSoftwareDevicesIsKnown) {
+    // LLVMpipe of Mesa 22 never fuses. What others do depends on the hardware.
+    const bool fused = gpu::has_fused_fma(device());
+    if (device().description().driver.find("Mesa 22") == std::string::npos)
+        GTEST_SKIP() << device().description().driver;
+    EXPECT_FALSE(fused);
+}
+
+TEST(NoDevice, IsAnErrorInOneLine) {
+    const ScopedVariable variable("VK_ICD_FILENAMES", "/nonexistent.json");
+    const ScopedVariable same("VK_DRIVER_FILES", "/nonexistent.json");
+    EXPECT_TRUE(gpu::list_devices().empty());
+    const auto reason = gpu::why_no_device();
+    ASSERT_TRUE(reason);
+    EXPECT_EQ(reason->find('\n'), std::string::npos);
+    EXPECT_NE(reason->find("mesa-vulkan-drivers"), std::string::npos) << *reason;
+    EXPECT_THROW(gpu::Device(), gpu::NoDevice);
+}
+
+TEST(GpuErrors, SayWhatToDo) {
+    const auto text = [](vk::Result result) { return gpu::describe("a frame", result); };
+    EXPECT_NE(text(vk::Result::eErrorDeviceLost).find("start again"), std::string::npos);
+    EXPECT_NE(text(vk::Result::eErrorOutOfDeviceMemory).find("out of memory on the device"),
+              std::string::npos);
+    EXPECT_EQ(text(vk::Result::eErrorUnknown), "a frame: Vulkan reports ErrorUnknown");
+}
+
+TEST(GpuErrors, ExceptionsOfVulkanAreTranslated) {
+    try {
+        gpu::guarded("a frame", [] { throw vk::DeviceLostError("vkQueueSubmit"); });
+        FAIL() << "no error";
+    } catch (const gpu::Error& error) {
+        EXPECT_EQ(error.what(), gpu::describe("a frame", vk::Result::eErrorDeviceLost));
+    }
+}
+
+} // namespace
+
+} // namespace nusselt::parity
