@@ -18,12 +18,12 @@ else()
     set(NUSSELT_BUILD_GPU ON)
 endif()
 
-# nusselt_add_shader(target name source [DEFINES define...]): compiles shaders/<source> and makes
+# nusselt_add_shader(target name source [DEFINES define...]): compiles a source and makes
 # `#include "shaders/<name>.h"` available to the sources of the target. The header has the array k<Name>, with name in
-# PascalCase. Shaders include others relative to shaders/.
+# PascalCase. A relative source is one of the current source directory; shaders include others relative to shaders/.
 function(nusselt_add_shader target name source)
     cmake_parse_arguments(arg "" "" "DEFINES" ${ARGN})
-    set(input ${PROJECT_SOURCE_DIR}/shaders/${source})
+    cmake_path(ABSOLUTE_PATH source)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/shaders)
     set(spirv ${folder}/${name}.spv)
     set(header ${folder}/${name}.h)
@@ -31,13 +31,25 @@ function(nusselt_add_shader target name source)
     file(MAKE_DIRECTORY ${folder})
     add_custom_command(OUTPUT ${header} BYPRODUCTS ${spirv}
         COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.1 -I${PROJECT_SOURCE_DIR}/shaders ${arg_DEFINES}
-            --depfile ${spirv}.d -o ${spirv} ${input}
+            --depfile ${spirv}.d -o ${spirv} ${source}
         COMMAND ${CMAKE_COMMAND} -D INPUT=${spirv} -D OUTPUT=${header} -D NAME=${name}
             -P ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake
-        DEPENDS ${input} ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake
+        DEPENDS ${source} ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake
         DEPFILE ${spirv}.d
         COMMENT "Compiling shader ${name}"
         VERBATIM)
     target_sources(${target} PRIVATE ${header})
     target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+endfunction()
+
+# nusselt_add_technique_shader(target name entry file struct [DEFINES define...]): likewise, for an entry point that
+# runs any technique. shaders/<entry>.glsl calls the technique by the names Technique, technique_prepare and so on;
+# shaders/nusselt/<file>.glsl has it as a struct, and the functions begin with its name in snake_case.
+function(nusselt_add_technique_shader target name entry file struct)
+    string(REGEX REPLACE "([A-Z])" "_\\1" prefix ${struct})
+    string(TOLOWER ${prefix} prefix)
+    string(SUBSTRING ${prefix} 1 -1 prefix)
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/shaders/${name}.comp)
+    configure_file(${PROJECT_SOURCE_DIR}/cmake/technique_shader.comp.in ${source} @ONLY)
+    nusselt_add_shader(${target} ${name} ${source} ${ARGN})
 endfunction()

@@ -1,7 +1,7 @@
 #include "experiments/accuracy.h"
 
+#include "experiments/accuracy_cases.h"
 #include "experiments/accuracy_packs.h"
-#include "experiments/accuracy_techniques.h"
 #include "render_cpu/isa.h"
 
 #include <tbb/parallel_for.h>
@@ -14,19 +14,6 @@
 namespace nusselt::experiments {
 
 namespace {
-
-/// Lights dimmer than this are left out: their share of an image is nothing, their relative error anything.
-constexpr Exact kSmallestMeasure = 1e-12L;
-
-/// A light in a number type, with everything that judges a method.
-template <class Technique, class Real>
-struct Case {
-    typename Technique::template Light<Real> light;
-    typename Technique::template Random<float> u;
-    typename Technique::template Light<Exact> exact_light;
-    typename Technique::Reference exact;
-    bool cyclic; ///< u = 0 and u = 1 are the same
-};
 
 /// A way to sample the lights of at most kPackedLights cases.
 template <class Technique, class Real>
@@ -41,11 +28,6 @@ template <>
 constexpr const char* kScalarName<double> = "double";
 template <>
 constexpr const char* kScalarName<long double> = "long double";
-
-/// Four roundings of the method, and what the reference itself may err.
-template <class Real>
-constexpr Exact kTolerance = 4 * Exact{std::numeric_limits<Real>::epsilon()} +
-                             16 * std::numeric_limits<Exact>::epsilon();
 
 template <class Technique, class Real, class Sampler>
 Method<Technique, Real> scalar_method(const char* name) {
@@ -115,13 +97,6 @@ Method<Technique, float> packed_method(render_cpu::Isa isa) {
             }};
 }
 
-/// Whether the technique has nothing to sample.
-template <class Technique>
-bool is_dark(const typename Technique::Class& lights) {
-    return lights.visibility == Visibility::no_one ||
-           (lights.visibility == Visibility::no_one_above_horizon && Technique::kClips);
-}
-
 template <class Technique, class Real>
 std::vector<Method<Technique, Real>> methods(const typename Technique::Class& lights, render_cpu::Isa isa) {
     using Plain = typename Technique::template Plain<Real>;
@@ -143,29 +118,6 @@ std::vector<Method<Technique, Exact>> exact_methods() {
             scalar_method<Technique, Exact, typename Technique::template Ours<Exact>>("ours")};
 }
 
-/// The lights of a class from `begin` on, without those that are too dim.
-template <class Technique, class Real>
-std::vector<Case<Technique, Real>> make_cases(const typename Technique::Class& lights, int begin, int end) {
-    std::vector<Case<Technique, Real>> cases;
-    for (int i = begin; i < end; ++i) {
-        // Both follow from the number of the light alone, so that related classes have related lights.
-        Engine light_engine(2 * static_cast<std::uint64_t>(i));
-        Engine random_engine(2 * static_cast<std::uint64_t>(i) + 1);
-        const auto light = Technique::template make<Real>(lights.make(light_engine));
-        const auto exact_light = Technique::template exact<Real>(light);
-        const auto uniform = [&] {
-            return std::uniform_real_distribution<float>(0, 0.999999f)(random_engine);
-        };
-        Case<Technique, Real> c{light, Technique::random(uniform), exact_light,
-                                typename Technique::Reference(exact_light), false};
-        if (!is_dark<Technique>(lights) && !(c.exact.measure() > kSmallestMeasure)) continue;
-        if constexpr (Technique::kCyclic)
-            c.cyclic = !(Technique::miss(exact_light, {0, 0, 1}) > kTolerance<float>);
-        cases.push_back(c);
-    }
-    return cases;
-}
-
 template <class Technique, class Real>
 void judge(const Case<Technique, Real>& c, const Outcome& outcome, bool dark, AccuracyRowBuilder& row) {
     if (!row.add_light(outcome)) return;
@@ -179,11 +131,8 @@ void judge(const Case<Technique, Real>& c, const Outcome& outcome, bool dark, Ac
         return;
     }
     const Vec3<Exact> wi = normalize(outcome.wi);
-    const Exact below_horizon = Technique::kClips ? -wi.z : Exact{0};
-    const Exact missed_by = std::max(Technique::miss(c.exact_light, wi), below_horizon);
-    Exact error = std::fabs(Technique::first(c.exact.invert(wi)) - Technique::first(c.u));
-    if (c.cyclic) error = std::min(error, 1 - error);
-    row.add_direction(error, missed_by, kTolerance<Real>);
+    const Exact explained = Technique::first(c.exact.invert(wi));
+    row.add_direction(c.difference(explained, Technique::first(c.u)), c.missed_by(wi), kTolerance<Real>);
 }
 
 template <class Technique, class Real>

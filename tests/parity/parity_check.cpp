@@ -1,0 +1,67 @@
+#include "parity_check.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace nusselt::parity {
+
+namespace {
+
+/// Budgets of the issue that the twins were written for: relative to C++, never fitted to what a device does.
+constexpr double kFactor = 3;
+
+/// What a result in float differs from the exact one by, at least: half the spacing of floats below one.
+constexpr double kRounding = std::numeric_limits<float>::epsilon() / 4;
+
+double quantile(const std::vector<double>& sorted, double share) {
+    if (sorted.empty()) return 0;
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+void sort(Errors& errors) {
+    for (auto& values : errors.of) {
+        // What cannot be told counts as the largest error, as in the accuracy tables.
+        for (double& value : values)
+            if (!(value <= 1)) value = 1;
+        std::sort(values.begin(), values.end());
+    }
+}
+
+} // namespace
+
+void Errors::append(const Errors& other) {
+    for (std::size_t i = 0; i < kQuantities; ++i)
+        of[i].insert(of[i].end(), other.of[i].begin(), other.of[i].end());
+    off_the_light += other.off_the_light;
+    no_sample += other.no_sample;
+    spurious += other.spurious;
+    invalid += other.invalid;
+}
+
+std::vector<std::string> excesses(Errors device, Errors cpp, Errors floor) {
+    std::vector<std::string> found;
+    sort(device);
+    sort(cpp);
+    sort(floor);
+    for (std::size_t i = 0; i < kQuantities; ++i)
+        for (const auto& [name, share] : {std::pair{"median", 0.5}, {"99 %", 0.99}, {"99.9 %", 0.999}, {"max", 1.0}}) {
+            const double value = quantile(device.of[i], share);
+            const double reference = quantile(cpp.of[i], share);
+            const double least = quantile(floor.of[i], share);
+            const double budget = kFactor * std::max({reference, least, kRounding});
+            if (!(value <= budget))
+                found.push_back(fmt::format("{}, {}: {:.3g}, budget {:.3g} (C++ {:.3g}, floor {:.3g})",
+                                            kQuantityNames[i], name, value, budget, reference, least));
+        }
+    const auto count = [&](const char* name, std::int64_t value, std::int64_t limit) {
+        if (value > limit) found.push_back(fmt::format("{}: {}, in C++ {}", name, value, limit));
+    };
+    count("off the light", device.off_the_light, cpp.off_the_light);
+    count("without a sample", device.no_sample, cpp.no_sample);
+    count("dark, but with a sample or measure", device.spurious, cpp.spurious);
+    count("NaN, infinite or negative", device.invalid, 0);
+    return found;
+}
+
+} // namespace nusselt::parity

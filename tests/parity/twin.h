@@ -1,0 +1,76 @@
+#pragma once
+/// A technique in GLSL, run on many lights.
+
+#include "experiments/hostile/contract.h"
+#include "gpu/compute_pipeline.h"
+
+#include <array>
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace nusselt::parity {
+
+/// As the shaders write it.
+struct DeviceOutputs {
+    float wi[3];
+    float pdf;
+    float p[3];
+    float pdf_of_wi;
+    float inverse[2];
+    float measure;
+    float unused;
+};
+
+/// Runs a shader of shaders/parity, in batches.
+class TwinRunner {
+public:
+    /// \param input_size floats per light, with random numbers.
+    TwinRunner(const gpu::Device& device, std::span<const std::uint32_t> shader, std::size_t input_size);
+
+    /// \param inputs input_size floats for each light.
+    std::vector<DeviceOutputs> run(std::span<const float> inputs);
+
+private:
+    const gpu::Device* device_;
+    std::size_t input_size_;
+    gpu::Buffer inputs_, outputs_;
+    gpu::ComputePipeline pipeline_;
+};
+
+/// \tparam Kind of src/experiments/hostile/techniques.h.
+template <class Kind>
+class Twin {
+public:
+    using Light = typename Kind::template Light<float>;
+    using Random = typename Kind::template Random<float>;
+    using Outputs = hostile::Outputs<float, Random>;
+
+    struct Input {
+        Light light;
+        Random u;
+    };
+
+    Twin(const gpu::Device& device, std::span<const std::uint32_t> shader)
+        : runner_(device, shader, sizeof(Input) / sizeof(float)) {}
+
+    std::vector<Outputs> run(const std::vector<Input>& inputs) {
+        std::vector<float> values(inputs.size() * sizeof(Input) / sizeof(float));
+        std::memcpy(values.data(), inputs.data(), inputs.size() * sizeof(Input));
+        std::vector<Outputs> results;
+        for (const DeviceOutputs& o : runner_.run(values))
+            results.push_back({{{o.wi[0], o.wi[1], o.wi[2]}, o.pdf, {o.p[0], o.p[1], o.p[2]}},
+                               o.pdf_of_wi,
+                               inverse(o.inverse, Random{}),
+                               o.measure});
+        return results;
+    }
+
+private:
+    static float inverse(const float (&u)[2], float) { return u[0]; }
+    static Vec2<float> inverse(const float (&u)[2], const Vec2<float>&) { return {u[0], u[1]}; }
+
+    TwinRunner runner_;
+};
+
+} // namespace nusselt::parity
