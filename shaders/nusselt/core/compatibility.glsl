@@ -1,0 +1,39 @@
+#ifndef NUSSELT_CORE_COMPATIBILITY_GLSL
+#define NUSSELT_CORE_COMPATIBILITY_GLSL
+/// What differs between GLSL 4.50 (Vulkan), GLSL ES 3.00 (WebGL 2) and devices. A program may define the macros below
+/// before it includes the library.
+
+/// Capacity of polygons: the largest number of vertices of a light, 3 to 8.
+#ifndef NUSSELT_MAX_VERTICES
+#define NUSSELT_MAX_VERTICES 4
+#endif
+
+/// 1 if the built-in fma() of the device rounds once; nusselt_fma_is_fused() tells. With 0 the library takes products
+/// apart where it needs their rounding error: correct on every device, but several times as many instructions.
+#ifndef NUSSELT_FUSED_FMA
+#define NUSSELT_FUSED_FMA 0
+#endif
+
+/// Before each loop over the vertices or sectors of a light. With [[unroll]] (GL_EXT_control_flow_attributes) arrays
+/// stay in registers also where the compiler would not unroll by itself.
+#ifndef NUSSELT_UNROLL
+#define NUSSELT_UNROLL
+#endif
+
+#if NUSSELT_MAX_VERTICES < 3 || NUSSELT_MAX_VERTICES > 8
+#error NUSSELT_MAX_VERTICES must be 3 to 8
+#endif
+
+#ifdef GL_ES
+#if NUSSELT_FUSED_FMA && __VERSION__ < 320
+#error NUSSELT_FUSED_FMA: GLSL ES has fma() since version 3.20
+#endif
+precision highp float;
+precision highp int;
+#define NUSSELT_PRECISE
+#else
+/// Expressions that the compiler must evaluate as they are written.
+#define NUSSELT_PRECISE precise
+#endif
+
+#endif

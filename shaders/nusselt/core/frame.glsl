@@ -1,0 +1,31 @@
+#ifndef NUSSELT_CORE_FRAME_GLSL
+#define NUSSELT_CORE_FRAME_GLSL
+/// Right-handed orthonormal frames. Shading space has the shading point as origin and the normal as +z. Twin of
+/// include/nusselt/core/frame.h.
+
+#include "../core/vec.glsl"
+
+struct Frame {
+    vec3 t; ///< x axis in world space
+    vec3 b; ///< y axis
+    vec3 n; ///< z axis
+};
+
+/// Completes a unit normal to a frame without branches or poles (Duff et al. 2017, JCGT 6(1)).
+Frame frame_from_normal(vec3 normal) {
+    float sgn = copysign(1.0, normal.z);
+    float a = -1.0 / (sgn + normal.z);
+    float c = normal.x * normal.y * a;
+    return Frame(vec3(nusselt_fma(sgn * normal.x * normal.x, a, 1.0), sgn * c, -sgn * normal.x),
+                 vec3(c, nusselt_fma(normal.y * normal.y, a, sgn), -normal.y), normal);
+}
+
+vec3 frame_to_local(Frame frame, vec3 world) {
+    return vec3(dot(frame.t, world), dot(frame.b, world), dot(frame.n, world));
+}
+
+vec3 frame_to_world(Frame frame, vec3 local) {
+    return local.x * frame.t + local.y * frame.b + local.z * frame.n;
+}
+
+#endif

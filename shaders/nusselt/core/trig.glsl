@@ -1,0 +1,107 @@
+#ifndef NUSSELT_CORE_TRIG_GLSL
+#define NUSSELT_CORE_TRIG_GLSL
+/// Trigonometric functions as polynomials, the same as in single precision on the CPU: the built-in functions of GLSL
+/// may err by 4e-4 and leave special values undefined. Twin of include/nusselt/core/trig.h, where the error bounds
+/// stand.
+
+#include "../core/real.glsl"
+
+const float kNusseltPi = 3.14159265358979;
+
+/// 1 - atan(t) / t given s = t^2 in [0, 1], with an error relative to itself.
+float one_minus_atan_ratio(float s) {
+    float p = nusselt_fma(1.8267392e-3, s, -1.10624615e-2);
+    p = nusselt_fma(p, s, 3.14522795e-2);
+    p = nusselt_fma(p, s, -5.82313878e-2);
+    p = nusselt_fma(p, s, 8.41929077e-2);
+    p = nusselt_fma(p, s, -1.09575244e-1);
+    p = nusselt_fma(p, s, 1.42652367e-1);
+    p = nusselt_fma(p, s, -1.99986379e-1);
+    p = nusselt_fma(p, s, 3.33333018e-1);
+    return s * p;
+}
+
+/// A value of one_minus_atan_ratio() and the difference to another one.
+struct AtanRatioDifference {
+    float value;      ///< at s
+    float difference; ///< at s + step minus value, with a small error relative to itself
+};
+
+/// One step of Horner's scheme for a polynomial at s and its divided difference between s and end.
+void divided_difference_step(inout float p, inout float slope, float s, float end, float coefficient) {
+    p = nusselt_fma(p, s, coefficient);
+    slope = nusselt_fma(slope, end, p);
+}
+
+/// \param s, step s and s + step in [0, 1].
+AtanRatioDifference one_minus_atan_ratio_difference(float s, float step) {
+    float end = s + step;
+    float p = 1.8267392e-3;
+    float slope = p;
+    divided_difference_step(p, slope, s, end, -1.10624615e-2);
+    divided_difference_step(p, slope, s, end, 3.14522795e-2);
+    divided_difference_step(p, slope, s, end, -5.82313878e-2);
+    divided_difference_step(p, slope, s, end, 8.41929077e-2);
+    divided_difference_step(p, slope, s, end, -1.09575244e-1);
+    divided_difference_step(p, slope, s, end, 1.42652367e-1);
+    divided_difference_step(p, slope, s, end, -1.99986379e-1);
+    divided_difference_step(p, slope, s, end, 3.33333018e-1);
+    return AtanRatioDifference(s * p, step * slope);
+}
+
+/// Angle of the point (x, y) with y >= 0, in [0, pi]; 0 for the origin. A negative or NaN y counts as 0.
+float atan2_positive(float y_in, float x) {
+    float y = nusselt_max(y_in, 0.0);
+    float ax = abs(x);
+    float large = nusselt_max(ax, y);
+    float q = nusselt_min(ax, y) / (large > 0.0 ? large : 1.0);
+    float octant = nusselt_fma(-q, one_minus_atan_ratio(q * q), q);
+    float quadrant = y > ax ? kNusseltPi / 2.0 - octant : octant;
+    return x < 0.0 ? kNusseltPi - quadrant : quadrant;
+}
+
+struct SinCos {
+    float sine, cosine;
+};
+
+/// Sine and cosine of an angle in [0, pi].
+SinCos sincos_half_turn(float angle) {
+    // angle - k pi / 2 in two steps, whose products are exact.
+    float k = floor(nusselt_fma(angle, 0.636619772367581, 0.5));
+    NUSSELT_PRECISE float r = (angle + k * -1.5703125) + k * -4.83826792e-4;
+    float s = r * r;
+    float ps = nusselt_fma(-1.95169776e-4, s, 8.33217585e-3);
+    ps = nusselt_fma(ps, s, -1.66666549e-1);
+    float sine = nusselt_fma(r * s, ps, r);
+    float pc = nusselt_fma(2.44380910e-5, s, -1.38873645e-3);
+    pc = nusselt_fma(pc, s, 4.16666468e-2);
+    float cosine = nusselt_fma(s * s, pc, nusselt_fma(s, -0.5, 1.0));
+    if (abs(k - 1.0) < 0.5) return SinCos(cosine, -sine);
+    return k > 1.5 ? SinCos(-sine, -cosine) : SinCos(sine, cosine);
+}
+
+/// Sine and cosine of an angle in [0, pi / 2].
+SinCos sincos_quarter_turn(float angle) {
+    float s = angle * angle;
+    float ps = nusselt_fma(2.608932605e-6, s, -1.981111272e-4);
+    ps = nusselt_fma(ps, s, 8.333088167e-3);
+    ps = nusselt_fma(ps, s, -1.666666046e-1);
+    float pc = nusselt_fma(-2.619381449e-7, s, 2.476930420e-5);
+    pc = nusselt_fma(pc, s, -1.388856916e-3);
+    pc = nusselt_fma(pc, s, 4.166665577e-2);
+    return SinCos(nusselt_fma(angle * s, ps, angle), nusselt_fma(s * s, pc, nusselt_fma(s, -0.5, 1.0)));
+}
+
+/// x - sin(x) with full relative precision on [0, pi], given sin(x).
+float x_minus_sin(float x, float sin_x) {
+    if (!(x < 1.0)) return x - sin_x;
+    // Nested Taylor series x^3/6 (1 - x^2/20 (1 - x^2/42 (...))).
+    float s = x * x;
+    float series = nusselt_fma(s * (-1.0 / 110.0), 1.0, 1.0);
+    series = nusselt_fma(s * (-1.0 / 72.0), series, 1.0);
+    series = nusselt_fma(s * (-1.0 / 42.0), series, 1.0);
+    series = nusselt_fma(s * (-1.0 / 20.0), series, 1.0);
+    return x * s * (1.0 / 6.0) * series;
+}
+
+#endif

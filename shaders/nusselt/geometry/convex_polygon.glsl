@@ -1,0 +1,85 @@
+#ifndef NUSSELT_GEOMETRY_CONVEX_POLYGON_GLSL
+#define NUSSELT_GEOMETRY_CONVEX_POLYGON_GLSL
+/// Convex planar polygons. Twin of include/nusselt/geometry/convex_polygon.h.
+
+#include "../core/frame.glsl"
+
+/// Clipping adds at most one vertex.
+const int kNusseltSlots = NUSSELT_MAX_VERTICES + 1;
+
+/// A convex, planar polygon of 3 to NUSSELT_MAX_VERTICES vertices in either winding, or one more after clipping.
+///
+/// Edges and the normal are properties of the light: they are stored and rotated, never recomputed from vertices after
+/// a shading point was subtracted, which would lose small lights far away.
+///
+/// Unused slots repeat the last vertex, with edges of length zero between the copies; the last edge always closes the
+/// polygon. So a light has zero as its edge number NUSSELT_MAX_VERTICES - 1.
+struct ConvexPolygon {
+    vec3 vertex[kNusseltSlots]; ///< positions [m]
+    vec3 edge[kNusseltSlots];   ///< edge[j] leads from vertex j to its successor in cyclic order [m]
+    vec3 normal;                ///< unit normal, right-handed with the winding; zero if the polygon has no area
+};
+
+/// Twice the area times the right-handed unit normal; zero if the area cannot be told from rounding.
+vec3 doubled_area_normal(ConvexPolygon polygon) {
+    NUSSELT_PRECISE vec3 offset = polygon.edge[0];
+    NUSSELT_PRECISE vec3 lost = vec3(0.0); // from the offset by rounding: it would give edges on one line an area
+    vec3 sum = vec3(0.0);
+    float bound = 0.0;
+    NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots - 1; ++j) {
+        vec3 edge = polygon.edge[j];
+        sum = sum + (nusselt_cross(offset, edge) + nusselt_cross(lost, edge));
+        bound = bound + (abs(offset.x) + abs(offset.y) + abs(offset.z)) * (abs(edge.x) + abs(edge.y) + abs(edge.z));
+        NUSSELT_PRECISE vec3 next = offset + edge;
+        NUSSELT_PRECISE vec3 added = next - offset;
+        lost = lost + ((offset - (next - added)) + (edge - added));
+        offset = next;
+    }
+    bool present = largest_component(sum) > (8.0 * kNusseltEpsilon * kNusseltEpsilon) * bound;
+    return present ? sum : vec3(0.0);
+}
+
+/// Signed distance of the origin from the plane of the polygon [m], positive if the normal points away from it; 0 if
+/// it cannot be told from rounding. The nearest vertex decides: it has the smallest rounding error.
+float plane_distance(ConvexPolygon polygon) {
+    vec3 nearest = polygon.vertex[0];
+    NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) {
+        vec3 v = polygon.vertex[j];
+        nearest = largest_component(v) < largest_component(nearest) ? v : nearest;
+    }
+    vec3 product = polygon.normal * nearest;
+    float distance = product.x + product.y + product.z;
+    float rounding = (4.0 * kNusseltEpsilon) * (abs(product.x) + abs(product.y) + abs(product.z));
+    return abs(distance) > rounding ? distance : 0.0;
+}
+
+/// The polygon with the given vertices [m].
+/// \param vertices convex and coplanar, in either winding; repeated and collinear vertices are fine.
+/// \param count    how many of them there are, 3 to NUSSELT_MAX_VERTICES.
+ConvexPolygon make_polygon(vec3 vertices[NUSSELT_MAX_VERTICES], int count) {
+    ConvexPolygon polygon;
+    vec3 last = vertices[0];
+    NUSSELT_UNROLL for (int j = 0; j < NUSSELT_MAX_VERTICES; ++j) {
+        last = j < count ? vertices[j] : last;
+        polygon.vertex[j] = last;
+    }
+    polygon.vertex[kNusseltSlots - 1] = last;
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j)
+        polygon.edge[j] = polygon.vertex[j + 1 < kNusseltSlots ? j + 1 : 0] - polygon.vertex[j];
+    polygon.normal = nusselt_normalize(doubled_area_normal(polygon));
+    return polygon;
+}
+
+/// The polygon seen from a shading point: the point becomes the origin, the normal of the frame +z.
+ConvexPolygon to_shading_space(ConvexPolygon world, vec3 point, Frame frame) {
+    ConvexPolygon local;
+    local.vertex[0] = frame_to_local(frame, world.vertex[0] - point);
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
+        local.edge[j] = frame_to_local(frame, world.edge[j]);
+        if (j + 1 < kNusseltSlots) local.vertex[j + 1] = local.vertex[j] + local.edge[j];
+    }
+    local.normal = frame_to_local(frame, world.normal);
+    return local;
+}
+
+#endif

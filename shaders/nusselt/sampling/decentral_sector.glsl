@@ -1,0 +1,175 @@
+#ifndef NUSSELT_SAMPLING_DECENTRAL_SECTOR_GLSL
+#define NUSSELT_SAMPLING_DECENTRAL_SECTOR_GLSL
+/// Area between two projected great circles and its inversion: the azimuth of a sample when the zenith lies outside of
+/// the polygon (Peters 2021, polygonal lights, Sec. 3.1 and 3.3 to 3.6). Twin of
+/// include/nusselt/sampling/decentral_sector.h.
+
+#include "../core/trig.glsl"
+#include "../core/vec.glsl"
+
+/// Steps of the iteration.
+const int kNusseltPolygonIterations = 2;
+
+/// The region of the tangent plane between an outer and an inner great circle, projected, within an azimuth range.
+/// Points of the range are x in [0, 1] on a chord of the outer circle's plane.
+struct DecentralSector {
+    vec3 begin;             ///< a point in the plane of the outer circle, at the begin of the range
+    vec3 chord;             ///< from there to the end of the range, counterclockwise around the zenith
+    float begin_gap;        ///< height of the plane of the inner circle above the chord at its begin, >= 0
+    float end_gap;          ///< the same at its end
+    float doubled_triangle; ///< det(begin, chord) in the tangent plane, > 0
+};
+
+/// At a point of the chord: the quadratic forms of both ellipses, i.e. squared distances from the origin.
+struct DecentralForms {
+    vec3 outer_point;
+    float gap;   ///< height of the inner circle's plane above the chord
+    float outer; ///< form of the outer ellipse
+    float rise;  ///< form of the inner ellipse minus that, >= 0
+};
+
+DecentralForms decentral_sector_at(DecentralSector sector, float x) {
+    vec3 outer_point = sector.begin + x * sector.chord;
+    float gap = nusselt_fma(x, sector.end_gap - sector.begin_gap, sector.begin_gap);
+    return DecentralForms(outer_point, gap, dot(outer_point, outer_point),
+                          nusselt_max(gap * nusselt_fma(2.0, outer_point.z, gap), 0.0));
+}
+
+/// Twice the area from the begin to x (Prop. 1 for both ellipses). Each ellipse contributes the determinant of its end
+/// points times angle / sine; the determinants are equal.
+float decentral_sector_doubled_area_to(DecentralSector sector, float x) {
+    vec3 begin = sector.begin;
+    vec3 chord = sector.chord;
+    float turn = sector.end_gap - sector.begin_gap;
+    // Normals of the planes through the origin and the segments from begin to x, divided by x.
+    vec3 outer_normal = nusselt_cross(begin, chord);
+    vec3 lift = vec3(nusselt_fma(turn, begin.y, -sector.begin_gap * chord.y),
+                     nusselt_fma(sector.begin_gap, chord.x, -turn * begin.x), 0.0);
+    vec3 inner_normal = outer_normal + lift;
+    float outer_squared = dot(outer_normal, outer_normal);
+    float inner_squared = dot(inner_normal, inner_normal);
+    // Cosines, not normalised; the sines are x times the lengths of the normals.
+    float outer_cosine = dot(begin, begin + x * chord);
+    float gap = nusselt_fma(x, turn, sector.begin_gap);
+    float rise = nusselt_fma(sector.begin_gap, nusselt_fma(x, chord.z, begin.z) + gap, begin.z * gap);
+    float inner_cosine = outer_cosine + rise;
+
+    float x2 = x * x;
+    float outer_sine2 = x2 * outer_squared;
+    float inner_sine2 = x2 * inner_squared;
+    float sine2_step = x2 * dot(lift, outer_normal + inner_normal);
+    float difference;
+    if (outer_cosine > 0.0 && outer_sine2 <= outer_cosine * outer_cosine &&
+        inner_sine2 <= inner_cosine * inner_cosine) {
+        // Both angles are at most an eighth of a turn: angle / sine = (1 - k) / cosine with k of the order of the
+        // squared angle.
+        float inverse_product = 1.0 / (outer_cosine * inner_cosine);
+        float outer_inverse = inverse_product * inner_cosine;
+        float inner_inverse = inverse_product * outer_cosine;
+        float outer_tangent2 = outer_sine2 * outer_inverse * outer_inverse;
+        float tangent2_step = nusselt_fma(sine2_step, outer_cosine * outer_cosine,
+                                          -outer_sine2 * rise * (outer_cosine + inner_cosine)) *
+                              inverse_product * inverse_product;
+        AtanRatioDifference k = one_minus_atan_ratio_difference(nusselt_min(outer_tangent2, 1.0), tangent2_step);
+        difference = nusselt_fma(rise * inverse_product, 1.0 - k.value, inner_inverse * k.difference);
+    } else {
+        float outer_sine = sqrt(outer_sine2);
+        float inner_sine = sqrt(inner_sine2);
+        if (!(outer_sine > 0.0 && inner_sine > 0.0)) return 0.0;
+        float more = sine2_step / (inner_sine + outer_sine);
+        float inner_angle = atan2_positive(inner_sine, inner_cosine);
+        float numerator = nusselt_fma(outer_sine, rise, -more * outer_cosine);
+        float angle =
+            atan2_positive(abs(numerator), nusselt_fma(outer_cosine, inner_cosine, outer_sine * inner_sine));
+        difference = nusselt_fma(copysign(angle, numerator), inner_sine, inner_angle * more) /
+                     (outer_sine * inner_sine);
+    }
+    return nusselt_max(x * sector.doubled_triangle * difference, 0.0);
+}
+
+/// The root of a x^2 + 2 b x + c = 0 that goes to 0 with c while b > 0, continued (Blinn 2006; Peters 2021, Eq. 6). A
+/// negative discriminant counts as 0.
+float root_near_zero(float a, float b, float c) {
+    float root = sqrt(nusselt_max(nusselt_fma(b, b, -a * c), 0.0));
+    float numerator = b >= 0.0 ? -c : root - b;
+    float denominator = b >= 0.0 ? b + root : a;
+    return numerator / (denominator != 0.0 ? denominator : 1.0);
+}
+
+/// Samples two quads that approximate the sector (Sec. 3.4): each lies between the chords of both ellipses from one
+/// end of the range to its middle.
+/// \param fraction of the area that shall lie before the result.
+float decentral_sector_initial_position(DecentralSector sector, float fraction) {
+    // The direction to the middle is the sum of the unit directions to both ends.
+    vec3 end = sector.begin + sector.chord;
+    float r0 = sqrt(dot(sector.begin.xy, sector.begin.xy));
+    float r1 = sqrt(dot(end.xy, end.xy));
+    float radii = r0 + r1;
+    float middle = r0 / (radii > 0.0 ? radii : 1.0);
+    DecentralForms f0 = decentral_sector_at(sector, 0.0);
+    DecentralForms fh = decentral_sector_at(sector, middle);
+    DecentralForms f1 = decentral_sector_at(sector, 1.0);
+
+    // Roots of products of forms at both ends of each chord, and what the inner one has more.
+    float inner_h = fh.outer + fh.rise;
+    float outer_0 = sqrt(f0.outer * fh.outer);
+    float outer_1 = sqrt(f1.outer * fh.outer);
+    float inner_0 = sqrt((f0.outer + f0.rise) * inner_h);
+    float inner_1 = sqrt((f1.outer + f1.rise) * inner_h);
+    float squares_0 = nusselt_fma(f0.rise, inner_h, f0.outer * fh.rise);
+    float squares_1 = nusselt_fma(f1.rise, inner_h, f1.outer * fh.rise);
+    float quad_0 = middle * squares_0 / (outer_0 * inner_0 * (inner_0 + outer_0));
+    float quad_1 = (1.0 - middle) * squares_1 / (outer_1 * inner_1 * (inner_1 + outer_1));
+    float rest = nusselt_fma(fraction, quad_1, nusselt_fma(fraction, quad_0, -quad_0));
+    bool first = rest <= 0.0;
+
+    // With v in [0, 1] from the end to the middle, the areas below the chords of the ellipses up to v are
+    // v / (form (1 - v) + root v); their difference is a quadratic in v.
+    float outer_form = first ? f0.outer : f1.outer;
+    float rise = first ? f0.rise : f1.rise;
+    float width = first ? middle : 1.0 - middle;
+    float target = nusselt_max(first ? rest + quad_0 : quad_1 - rest, 0.0) / (width > 0.0 ? width : 1.0);
+    float outer_root = first ? outer_0 : outer_1;
+    float inner_root = first ? inner_0 : inner_1;
+    float outer_slope = outer_root - outer_form;
+    float inner_form = outer_form + rise;
+    float inner_slope = inner_root - inner_form;
+    float more = (first ? squares_0 : squares_1) / (inner_root + outer_root);
+    float a = more - rise - target * outer_slope * inner_slope;
+    float b = 0.5 * (rise - target * nusselt_fma(outer_form, inner_slope, outer_slope * inner_form));
+    float v = nusselt_min(nusselt_max(root_near_zero(a, b, -target * outer_form * inner_form), 0.0), 1.0);
+    return first ? v * width : 1.0 - v * width;
+}
+
+/// One step of the iteration (Sec. 3.3): replaces both ellipses by their tangents at x. The error is cubed.
+/// \param missing twice the area that shall lie between x and the result.
+float decentral_sector_step(DecentralSector sector, float x, float missing) {
+    DecentralForms f = decentral_sector_at(sector, x);
+    float turn = sector.end_gap - sector.begin_gap;
+    float inner = f.outer + f.rise;
+    float outer_slope = dot(f.outer_point, sector.chord);
+    float rise_slope = nusselt_fma(f.gap, sector.chord.z, (f.outer_point.z + f.gap) * turn);
+    float inner_slope = outer_slope + rise_slope;
+    float a = nusselt_fma(sector.doubled_triangle, rise_slope, -missing * outer_slope * inner_slope);
+    float b = 0.5 * nusselt_fma(sector.doubled_triangle, f.rise,
+                                -missing * nusselt_fma(f.outer, inner_slope, inner * outer_slope));
+    return nusselt_min(nusselt_max(x + root_near_zero(a, b, -missing * f.outer * inner), 0.0), 1.0);
+}
+
+/// The position before which the given area lies.
+/// \param target        twice that area, in [0, doubled_total].
+/// \param doubled_total twice the area of the sector, > 0.
+float decentral_sector_position(DecentralSector sector, float target, float doubled_total) {
+    float fraction = target / (doubled_total > 0.0 ? doubled_total : 1.0);
+    float x = decentral_sector_initial_position(sector, nusselt_min(fraction, 1.0));
+    // Rounding of the areas; nothing is gained below.
+    float tolerance = (4.0 * kNusseltEpsilon) * doubled_total;
+    for (int i = 0; i < kNusseltPolygonIterations; ++i) {
+        float missing = target - decentral_sector_doubled_area_to(sector, x);
+        if (!(abs(missing) > tolerance)) break;
+        x = decentral_sector_step(sector, x, missing);
+    }
+    return x;
+}
+
+#endif
