@@ -21,8 +21,8 @@ enum class Quantity {
     aim,           ///< angle between the direction and the hit point
     inverse,       ///< of the first random number that invert() finds for the direction
 };
-inline constexpr const char* kQuantityNames[] = {"first random number", "second random number", "measure",
-                                                 "density",             "aim",                  "inverse"};
+inline constexpr const char* kQuantityNames[] = {
+    "first random number", "second random number", "measure", "density", "aim", "inverse"};
 inline constexpr std::size_t kQuantities = std::size(kQuantityNames);
 
 /// The errors of one method on one class of lights.

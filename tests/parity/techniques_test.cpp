@@ -3,6 +3,8 @@
 #include "gpu/fused_fma.h"
 #include "gpu_test.h"
 #include "parity_check.h"
+#include "shaders/perturbed_polygon.h"
+#include "shaders/unguarded_polygon.h"
 #include "technique_shaders.h"
 #include "twin.h"
 
@@ -29,7 +31,8 @@ bool is_judged_with_bound(const experiments::LineClass&, int) { return true; }
 /// Judges the twin on one class of lights.
 /// \returns the budgets that it exceeds
 template <class Pair>
-std::vector<std::string> judge_class(const typename Pair::Traits::Class& lights, int count, Twin<typename Pair::Kind>& twin) {
+std::vector<std::string> judge_class(const typename Pair::Traits::Class& lights, int count,
+                                     Twin<typename Pair::Kind>& twin) {
     using Kind = typename Pair::Kind;
     using Traits = typename Pair::Traits;
     constexpr int kBlock = 4096;
@@ -62,7 +65,8 @@ std::vector<std::string> judge_class(const typename Pair::Traits::Class& lights,
 
 /// Judges the twin on all classes with together at least `count` lights.
 template <class Pair>
-std::vector<std::string> judge_twin(const gpu::Device& device, std::span<const std::uint32_t> shader, int count) {
+std::vector<std::string> judge_twin(const gpu::Device& device, std::span<const std::uint32_t> shader,
+                                    int count) {
     using Traits = typename Pair::Traits;
     Twin<typename Pair::Kind> twin(device, shader);
     std::vector<const typename Traits::Class*> judged;
@@ -77,7 +81,7 @@ std::vector<std::string> judge_twin(const gpu::Device& device, std::span<const s
 }
 
 /// Random lights in all classes together, of each technique and bound on the number of vertices.
-constexpr int kRandomLights = 1'000'000;
+constexpr int kRandomLights = 500'000;
 constexpr int kHostileLights = 100'000;
 
 void draw(hostile::HostileLights<float>& source, LineSegment<float>& light, float& u) {
@@ -131,6 +135,25 @@ TYPED_TEST(TechniqueParity, IsAsAccurateAsCpp) {
 TYPED_TEST(TechniqueParity, KeepsTheContractOnHostileLights) {
     for (const auto shader : this->shaders())
         EXPECT_EQ(first_violation<typename TypeParam::Kind>(this->device(), shader), "");
+}
+
+using Projected =
+    TechniquePair<experiments::PolygonProjectedSolidAngleTraits<4>,
+                  hostile::PolygonProjectedSolidAngleKindOf<4>, kPerturbedPolygon, kPerturbedPolygon>;
+
+/// Wrong shaders: what accepts them proves nothing.
+class MutantParity : public GpuTest {};
+
+TEST_F(MutantParity, RandomNumbersOffBySixteenRoundingsAreFound) {
+    const auto excesses = judge_twin<Projected>(device(), kPerturbedPolygon, kRandomLights / 10);
+    ASSERT_FALSE(excesses.empty());
+    EXPECT_NE(excesses[0].find("decentral: first random number, median"), std::string::npos) << excesses[0];
+}
+
+TEST_F(MutantParity, InfiniteDensitiesAreFound) {
+    const std::string violation = first_violation<Projected::Kind>(device(), kUnguardedPolygon);
+    EXPECT_NE(violation.find("the density of the sample is negative or not finite"), std::string::npos)
+        << violation;
 }
 
 } // namespace

@@ -12,8 +12,10 @@ constexpr std::size_t kWorkGroup = 64; // as in shaders/parity/outputs.glsl
 
 } // namespace
 
-TwinRunner::TwinRunner(const gpu::Device& device, std::span<const std::uint32_t> shader, std::size_t input_size)
-    : device_(&device), input_size_(input_size),
+TwinRunner::TwinRunner(const gpu::Device& device, std::span<const std::uint32_t> shader,
+                       std::size_t input_size)
+    : device_(&device),
+      input_size_(input_size),
       inputs_(device, kBatch * input_size * sizeof(float), gpu::Residence::host_visible),
       outputs_(device, kBatch * sizeof(DeviceOutputs), gpu::Residence::host_visible),
       pipeline_(device, shader, {.storage_buffers = 2, .push_constant_size = sizeof(std::uint32_t)}) {
@@ -27,7 +29,8 @@ std::vector<DeviceOutputs> TwinRunner::run(std::span<const float> inputs) {
         const auto count = static_cast<std::uint32_t>(std::min(kBatch, results.size() - begin));
         inputs_.write(inputs.subspan(begin * input_size_, count * input_size_));
         device_->run([&](const gpu::Device::Commands& commands) {
-            pipeline_.dispatch(commands, std::as_bytes(std::span(&count, 1)), (count + kWorkGroup - 1) / kWorkGroup);
+            pipeline_.dispatch(commands, std::as_bytes(std::span(&count, 1)),
+                               (count + kWorkGroup - 1) / kWorkGroup);
         });
         outputs_.read(std::span(results).subspan(begin, count));
     }

@@ -1,0 +1,9 @@
+// A mutant that the contract must reject: its density is infinite where there is no light.
+LightSample unguarded_sample(Technique technique, vec2 u) {
+    LightSample s = technique_sample(technique, u);
+    s.pdf = s.wi.z / technique_measure(technique);
+    return s;
+}
+#undef technique_sample
+#define technique_sample unguarded_sample
+#include "parity/polygon.glsl"

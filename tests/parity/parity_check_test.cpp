@@ -1,0 +1,62 @@
+#include "parity_check.h"
+
+#include <gtest/gtest.h>
+
+namespace nusselt::parity {
+
+namespace {
+
+/// A thousand errors of each quantity, spread evenly up to `largest`.
+Errors errors_up_to(double largest) {
+    Errors errors;
+    for (std::size_t q = 0; q < kQuantities; ++q)
+        for (int i = 1; i <= 1000; ++i) errors.add(static_cast<Quantity>(q), largest * i / 1000);
+    return errors;
+}
+
+TEST(ParityBudget, IsThreeTimesTheErrorOfCpp) {
+    EXPECT_TRUE(excesses(errors_up_to(2.9e-5), errors_up_to(1e-5), {}).empty());
+    const auto found = excesses(errors_up_to(3.1e-5), errors_up_to(1e-5), {});
+    // Three quantiles of each quantity, and the largest error of two.
+    EXPECT_EQ(found.size(), 3 * kQuantities + 2);
+}
+
+TEST(ParityBudget, IsNotBelowTheFloor) {
+    EXPECT_TRUE(excesses(errors_up_to(2.9e-5), errors_up_to(1e-7), errors_up_to(1e-5)).empty());
+    EXPECT_TRUE(excesses(errors_up_to(5e-8), {}, {}).empty()) << "a rounding";
+    EXPECT_FALSE(excesses(errors_up_to(5e-7), {}, {}).empty());
+}
+
+TEST(ParityBudget, JudgesEachQuantityAlone) {
+    for (std::size_t q = 0; q < kQuantities; ++q) {
+        Errors device = errors_up_to(1e-6);
+        for (double& error : device.of[q]) error *= 4;
+        const auto found = excesses(device, errors_up_to(1e-6), {});
+        ASSERT_FALSE(found.empty());
+        for (const std::string& line : found) EXPECT_EQ(line.rfind(kQuantityNames[q], 0), 0u) << line;
+    }
+}
+
+TEST(ParityBudget, CountsDirectionsOffTheLightAndWhatIsNoNumber) {
+    for (const auto count : {&Errors::off_the_light, &Errors::no_sample, &Errors::spurious}) {
+        Errors device, cpp;
+        device.*count = 2;
+        cpp.*count = 2;
+        EXPECT_TRUE(excesses(device, cpp, {}).empty());
+        cpp.*count = 1;
+        EXPECT_EQ(excesses(device, cpp, {}).size(), 1u);
+    }
+    Errors device, cpp;
+    device.invalid = cpp.invalid = 1;
+    EXPECT_EQ(excesses(device, cpp, {}).size(), 1u) << "also where C++ has them";
+}
+
+TEST(ParityBudget, TakesWhatCannotBeToldAsTheLargestError) {
+    Errors device = errors_up_to(1e-6);
+    device.add(Quantity::first_random, std::numeric_limits<double>::quiet_NaN());
+    EXPECT_EQ(excesses(device, errors_up_to(1e-6), {}).size(), 1u);
+}
+
+} // namespace
+
+} // namespace nusselt::parity
