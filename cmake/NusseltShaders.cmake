@@ -30,7 +30,7 @@ function(nusselt_add_shader target name source)
     list(TRANSFORM arg_DEFINES PREPEND -D)
     file(MAKE_DIRECTORY ${folder})
     add_custom_command(OUTPUT ${header} BYPRODUCTS ${spirv}
-        COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.1 -I${PROJECT_SOURCE_DIR}/shaders ${arg_DEFINES}
+        COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.1 -g0 -I${PROJECT_SOURCE_DIR}/shaders ${arg_DEFINES}
             --depfile ${spirv}.d -o ${spirv} ${source}
         COMMAND ${CMAKE_COMMAND} -D INPUT=${spirv} -D OUTPUT=${header} -D NAME=${name}
             -P ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake
@@ -44,7 +44,7 @@ endfunction()
 
 # nusselt_add_technique_shader(target name entry file struct [DEFINES define...]): likewise, for an entry point that
 # runs any technique. shaders/<entry>.glsl calls the technique by the names Technique, technique_prepare and so on;
-# shaders/nusselt/<file>.glsl has it as a struct, and the functions begin with its name in snake_case.
+# shaders/<file>.glsl has it as a struct, and the functions begin with its name in snake_case.
 function(nusselt_add_technique_shader target name entry file struct)
     string(REGEX REPLACE "([A-Z])" "_\\1" prefix ${struct})
     string(TOLOWER ${prefix} prefix)

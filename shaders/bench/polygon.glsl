@@ -1,0 +1,29 @@
+// Columns: vertices, edges (the last one closes the polygon) and normal.
+#include "bench/workload.glsl"
+
+void main() {
+    const uint thread = gl_GlobalInvocationID.x;
+    uint state = thread;
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < kLightCount; ++i) {
+        const uint index = (thread + i) % kLights;
+        const uint bound = NUSSELT_MAX_VERTICES;
+        ConvexPolygon light;
+        NUSSELT_UNROLL for (uint j = 0u; j < bound; ++j) {
+            light.vertex[j] = column_vec3(3u * j, index);
+            light.edge[j] = column_vec3(3u * (bound + j), index);
+        }
+        // The slot for clipping repeats the last vertex, and its edge closes the polygon.
+        light.vertex[bound] = light.vertex[bound - 1u];
+        light.edge[bound] = light.edge[bound - 1u];
+        light.edge[bound - 1u] = vec3(0.0);
+        light.normal = column_vec3(6u * bound, index);
+
+        Technique technique = technique_prepare(light);
+        for (uint k = 0u; k < kSampleCount; ++k) {
+            const float u = next_random(state);
+            sum += summary(technique_sample(technique, vec2(u, next_random(state))));
+        }
+    }
+    sums[thread] = sum;
+}
