@@ -1,0 +1,15 @@
+#ifndef NUSSELT_BSDF_LAMBERT_GLSL
+#define NUSSELT_BSDF_LAMBERT_GLSL
+/// The Lambertian BRDF. Twin of include/nusselt/bsdf/lambert.h.
+
+#include "../core/compatibility.glsl"
+
+struct Lambert {
+    vec3 albedo; ///< reflected fraction per colour channel, in [0, 1]
+};
+
+/// The BRDF, without the cosine [1/sr]: albedo / pi.
+/// \param wi unit direction to the light in shading space; 0 where wi.z <= 0.
+vec3 lambert_eval(Lambert self, vec3 wi) { return (wi.z > 0.0 ? 0.318309886183791 : 0.0) * self.albedo; }
+
+#endif
