@@ -42,14 +42,21 @@ function(nusselt_add_shader target name source)
     target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 endfunction()
 
-# nusselt_add_technique_shader(target name entry file struct [DEFINES define...]): likewise, for an entry point that
-# runs any technique. shaders/<entry>.glsl calls the technique by the names Technique, technique_prepare and so on;
-# shaders/<file>.glsl has it as a struct, and the functions begin with its name in snake_case.
+# nusselt_add_technique_shader(target name entry file struct [PREPARE function] [SAMPLE function] [DEFINES define...]):
+# likewise, for an entry point that runs any technique. shaders/<entry>.glsl calls the technique by the names Technique,
+# technique_prepare and so on; shaders/<file>.glsl has it as a struct, and functions that begin with its name in
+# snake_case. PREPARE and SAMPLE name those of a variant that shares the struct.
 function(nusselt_add_technique_shader target name entry file struct)
+    cmake_parse_arguments(arg "" "PREPARE;SAMPLE" "DEFINES" ${ARGN})
     string(REGEX REPLACE "([A-Z])" "_\\1" prefix ${struct})
     string(TOLOWER ${prefix} prefix)
     string(SUBSTRING ${prefix} 1 -1 prefix)
+    foreach(function PREPARE SAMPLE)
+        if(NOT arg_${function})
+            string(TOLOWER ${prefix}_${function} arg_${function})
+        endif()
+    endforeach()
     set(source ${CMAKE_CURRENT_BINARY_DIR}/shaders/${name}.comp)
     configure_file(${PROJECT_SOURCE_DIR}/cmake/technique_shader.comp.in ${source} @ONLY)
-    nusselt_add_shader(${target} ${name} ${source} ${ARGN})
+    nusselt_add_shader(${target} ${name} ${source} DEFINES ${arg_DEFINES})
 endfunction()

@@ -3,10 +3,22 @@
 
 #include "experiments/accuracy_techniques.h"
 #include "experiments/hostile/techniques.h"
+#include "shaders/polygon_area_4_fused.h"
+#include "shaders/polygon_area_4_split.h"
+#include "shaders/polygon_area_8_fused.h"
+#include "shaders/polygon_area_8_split.h"
+#include "shaders/polygon_clipped_solid_angle_4_fused.h"
+#include "shaders/polygon_clipped_solid_angle_4_split.h"
+#include "shaders/polygon_clipped_solid_angle_8_fused.h"
+#include "shaders/polygon_clipped_solid_angle_8_split.h"
 #include "shaders/polygon_projected_solid_angle_4_fused.h"
 #include "shaders/polygon_projected_solid_angle_4_split.h"
 #include "shaders/polygon_projected_solid_angle_8_fused.h"
 #include "shaders/polygon_projected_solid_angle_8_split.h"
+#include "shaders/polygon_solid_angle_4_fused.h"
+#include "shaders/polygon_solid_angle_4_split.h"
+#include "shaders/polygon_solid_angle_8_fused.h"
+#include "shaders/polygon_solid_angle_8_split.h"
 
 #include <gtest/gtest.h>
 
@@ -24,12 +36,24 @@ struct TechniquePair {
     static constexpr std::span<const std::uint32_t> kFused = Fused;
 };
 
-using TechniquePairs =
-    testing::Types<TechniquePair<experiments::PolygonProjectedSolidAngleTraits<4>,
-                                 hostile::PolygonProjectedSolidAngleKindOf<4>,
-                                 kPolygonProjectedSolidAngle4Split, kPolygonProjectedSolidAngle4Fused>,
-                   TechniquePair<experiments::PolygonProjectedSolidAngleTraits<8>,
-                                 hostile::PolygonProjectedSolidAngleKindOf<8>,
-                                 kPolygonProjectedSolidAngle8Split, kPolygonProjectedSolidAngle8Fused>>;
+using TechniquePairs = testing::Types<
+    TechniquePair<experiments::PolygonAreaTraits<4>, hostile::PolygonAreaKindOf<4>, kPolygonArea4Split,
+                  kPolygonArea4Fused>,
+    TechniquePair<experiments::PolygonAreaTraits<8>, hostile::PolygonAreaKindOf<8>, kPolygonArea8Split,
+                  kPolygonArea8Fused>,
+    TechniquePair<experiments::PolygonSolidAngleTraits<4>, hostile::PolygonSolidAngleKindOf<4>,
+                  kPolygonSolidAngle4Split, kPolygonSolidAngle4Fused>,
+    TechniquePair<experiments::PolygonSolidAngleTraits<8>, hostile::PolygonSolidAngleKindOf<8>,
+                  kPolygonSolidAngle8Split, kPolygonSolidAngle8Fused>,
+    TechniquePair<experiments::PolygonClippedSolidAngleTraits<4>, hostile::PolygonClippedSolidAngleKindOf<4>,
+                  kPolygonClippedSolidAngle4Split, kPolygonClippedSolidAngle4Fused>,
+    TechniquePair<experiments::PolygonClippedSolidAngleTraits<8>, hostile::PolygonClippedSolidAngleKindOf<8>,
+                  kPolygonClippedSolidAngle8Split, kPolygonClippedSolidAngle8Fused>,
+    TechniquePair<experiments::PolygonProjectedSolidAngleTraits<4>,
+                  hostile::PolygonProjectedSolidAngleKindOf<4>, kPolygonProjectedSolidAngle4Split,
+                  kPolygonProjectedSolidAngle4Fused>,
+    TechniquePair<experiments::PolygonProjectedSolidAngleTraits<8>,
+                  hostile::PolygonProjectedSolidAngleKindOf<8>, kPolygonProjectedSolidAngle8Split,
+                  kPolygonProjectedSolidAngle8Fused>>;
 
 } // namespace nusselt::parity

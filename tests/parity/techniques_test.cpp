@@ -11,6 +11,7 @@
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <mutex>
 
 namespace nusselt::parity {
@@ -137,7 +138,7 @@ TYPED_TEST(TechniqueParity, KeepsTheContractOnHostileLights) {
         EXPECT_EQ(first_violation<typename TypeParam::Kind>(this->device(), shader), "");
 }
 
-using Projected =
+using ProjectedPair =
     TechniquePair<experiments::PolygonProjectedSolidAngleTraits<4>,
                   hostile::PolygonProjectedSolidAngleKindOf<4>, kPerturbedPolygon, kPerturbedPolygon>;
 
@@ -145,13 +146,26 @@ using Projected =
 class MutantParity : public GpuTest {};
 
 TEST_F(MutantParity, RandomNumbersOffBySixteenRoundingsAreFound) {
-    const auto excesses = judge_twin<Projected>(device(), kPerturbedPolygon, kRandomLights / 10);
+    const auto excesses = judge_twin<ProjectedPair>(device(), kPerturbedPolygon, kRandomLights / 10);
     ASSERT_FALSE(excesses.empty());
     EXPECT_NE(excesses[0].find("decentral: first random number, median"), std::string::npos) << excesses[0];
 }
 
+TEST_F(MutantParity, MissingClippingIsFound) {
+    using Clipped = TechniquePair<experiments::PolygonClippedSolidAngleTraits<4>,
+                                  hostile::PolygonClippedSolidAngleKindOf<4>, kPolygonSolidAngle4Split,
+                                  kPolygonSolidAngle4Split>;
+    const auto excesses = judge_twin<Clipped>(device(), Clipped::kSplit, kRandomLights / 10);
+    const auto concerned = [&](const std::string& lights) {
+        return std::count_if(excesses.begin(), excesses.end(),
+                             [&](const std::string& excess) { return excess.rfind(lights + ":", 0) == 0; });
+    };
+    EXPECT_GT(concerned("crossing the horizon"), 0);
+    EXPECT_EQ(concerned("decentral"), 0) << "above the horizon nothing is missing";
+}
+
 TEST_F(MutantParity, InfiniteDensitiesAreFound) {
-    const std::string violation = first_violation<Projected::Kind>(device(), kUnguardedPolygon);
+    const std::string violation = first_violation<ProjectedPair::Kind>(device(), kUnguardedPolygon);
     EXPECT_NE(violation.find("the density of the sample is negative or not finite"), std::string::npos)
         << violation;
 }
