@@ -48,8 +48,15 @@ void Errors::append(const Errors& other) {
     invalid += other.invalid;
 }
 
-std::vector<std::string> excesses(Errors device, Errors cpp, Errors floor) {
-    std::vector<std::string> found;
+void Verdict::add(const std::string& lights, const Verdict& other) {
+    for (const std::string& excess : other.excesses) excesses.push_back(lights + ": " + excess);
+    if (other.largest_ratio <= largest_ratio) return;
+    largest_ratio = other.largest_ratio;
+    where = lights + ": " + other.where;
+}
+
+Verdict compare(Errors device, Errors cpp, Errors floor) {
+    Verdict verdict;
     sort(device);
     sort(cpp);
     sort(floor);
@@ -59,19 +66,25 @@ std::vector<std::string> excesses(Errors device, Errors cpp, Errors floor) {
             const double value = quantile(device.of[i], share);
             const double reference = quantile(cpp.of[i], share);
             const double least = quantile(floor.of[i], share);
-            const double budget = kFactor * std::max({reference, least, kRounding});
-            if (!(value <= budget))
-                found.push_back(fmt::format("{}, {}: {:.3g}, budget {:.3g} (C++ {:.3g}, floor {:.3g})",
-                                            kQuantityNames[i], name, value, budget, reference, least));
+            const double ratio = value / std::max({reference, least, kRounding});
+            const std::string where = fmt::format("{}, {}", kQuantityNames[i], name);
+            if (ratio > verdict.largest_ratio) {
+                verdict.largest_ratio = ratio;
+                verdict.where = where;
+            }
+            if (!(ratio <= kFactor))
+                verdict.excesses.push_back(
+                    fmt::format("{}: {:.3g}, {:.3g} times that of C++, {:.3g} (floor {:.3g})", where, value,
+                                ratio, reference, least));
         }
     const auto count = [&](const char* name, std::int64_t value, std::int64_t limit) {
-        if (value > limit) found.push_back(fmt::format("{}: {}, in C++ {}", name, value, limit));
+        if (value > limit) verdict.excesses.push_back(fmt::format("{}: {}, in C++ {}", name, value, limit));
     };
     count("off the light", device.off_the_light, cpp.off_the_light);
     count("without a sample", device.no_sample, cpp.no_sample);
     count("dark, but with a sample or measure", device.spurious, cpp.spurious);
     count("NaN, infinite or negative", device.invalid, 0);
-    return found;
+    return verdict;
 }
 
 } // namespace nusselt::parity

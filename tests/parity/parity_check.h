@@ -39,9 +39,17 @@ struct Errors {
     void append(const Errors& other);
 };
 
-/// Every line says which budget of the device is exceeded, and by how much. Empty: all are kept.
+/// What came of comparing a device with C++.
+struct Verdict {
+    std::vector<std::string> excesses; ///< lines that say which budget is exceeded, and by how much
+    double largest_ratio = 0; ///< of an error on the device to that of C++ or the floor; the budget is 3
+    std::string where;        ///< the quantity and quantile with the largest ratio
+
+    void add(const std::string& lights, const Verdict& other);
+};
+
 /// \param floor exact results rounded to float: no method can be asked for less.
-std::vector<std::string> excesses(Errors device, Errors cpp, Errors floor);
+Verdict compare(Errors device, Errors cpp, Errors floor);
 
 /// Judges what a method returns for a light.
 /// \tparam Traits of src/experiments/accuracy_techniques.h.

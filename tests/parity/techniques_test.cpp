@@ -12,6 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <iostream>
 #include <mutex>
 
 namespace nusselt::parity {
@@ -30,10 +31,8 @@ bool is_judged_with_bound(const experiments::PolygonClass& lights, int bound) {
 bool is_judged_with_bound(const experiments::LineClass&, int) { return true; }
 
 /// Judges the twin on one class of lights.
-/// \returns the budgets that it exceeds
 template <class Pair>
-std::vector<std::string> judge_class(const typename Pair::Traits::Class& lights, int count,
-                                     Twin<typename Pair::Kind>& twin) {
+Verdict judge_class(const typename Pair::Traits::Class& lights, int count, Twin<typename Pair::Kind>& twin) {
     using Kind = typename Pair::Kind;
     using Traits = typename Pair::Traits;
     constexpr int kBlock = 4096;
@@ -61,24 +60,21 @@ std::vector<std::string> judge_class(const typename Pair::Traits::Class& lights,
         cpp.append(block_cpp);
         floor.append(block_floor);
     });
-    return excesses(std::move(device), std::move(cpp), std::move(floor));
+    return compare(std::move(device), std::move(cpp), std::move(floor));
 }
 
 /// Judges the twin on all classes with together at least `count` lights.
 template <class Pair>
-std::vector<std::string> judge_twin(const gpu::Device& device, std::span<const std::uint32_t> shader,
-                                    int count) {
+Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> shader, int count) {
     using Traits = typename Pair::Traits;
     Twin<typename Pair::Kind> twin(device, shader);
     std::vector<const typename Traits::Class*> judged;
     for (const auto& lights : classes_of(static_cast<const typename Traits::Class*>(nullptr)))
         if (is_judged_with_bound(lights, Traits::kVertexBound)) judged.push_back(&lights);
     const int per_class = (count + static_cast<int>(judged.size()) - 1) / static_cast<int>(judged.size());
-    std::vector<std::string> found;
-    for (const auto* lights : judged)
-        for (const std::string& excess : judge_class<Pair>(*lights, per_class, twin))
-            found.push_back(fmt::format("{}: {}", lights->name, excess));
-    return found;
+    Verdict verdict;
+    for (const auto* lights : judged) verdict.add(lights->name, judge_class<Pair>(*lights, per_class, twin));
+    return verdict;
 }
 
 /// Random lights in all classes together, of each technique and bound on the number of vertices.
@@ -128,9 +124,11 @@ protected:
 TYPED_TEST_SUITE(TechniqueParity, TechniquePairs);
 
 TYPED_TEST(TechniqueParity, IsAsAccurateAsCpp) {
-    for (const auto shader : this->shaders())
-        for (const std::string& excess : judge_twin<TypeParam>(this->device(), shader, kRandomLights))
-            ADD_FAILURE() << excess;
+    for (const auto shader : this->shaders()) {
+        const Verdict verdict = judge_twin<TypeParam>(this->device(), shader, kRandomLights);
+        for (const std::string& excess : verdict.excesses) ADD_FAILURE() << excess;
+        std::cout << fmt::format("largest ratio to C++: {:.2f}, {}\n", verdict.largest_ratio, verdict.where);
+    }
 }
 
 TYPED_TEST(TechniqueParity, KeepsTheContractOnHostileLights) {
@@ -146,7 +144,7 @@ using ProjectedPair =
 class MutantParity : public GpuTest {};
 
 TEST_F(MutantParity, RandomNumbersOffBySixteenRoundingsAreFound) {
-    const auto excesses = judge_twin<ProjectedPair>(device(), kPerturbedPolygon, kRandomLights / 10);
+    const auto excesses = judge_twin<ProjectedPair>(device(), kPerturbedPolygon, kRandomLights / 10).excesses;
     ASSERT_FALSE(excesses.empty());
     EXPECT_NE(excesses[0].find("decentral: first random number, median"), std::string::npos) << excesses[0];
 }
@@ -155,7 +153,7 @@ TEST_F(MutantParity, MissingClippingIsFound) {
     using Clipped = TechniquePair<experiments::PolygonClippedSolidAngleTraits<4>,
                                   hostile::PolygonClippedSolidAngleKindOf<4>, kPolygonSolidAngle4Split,
                                   kPolygonSolidAngle4Split>;
-    const auto excesses = judge_twin<Clipped>(device(), Clipped::kSplit, kRandomLights / 10);
+    const auto excesses = judge_twin<Clipped>(device(), Clipped::kSplit, kRandomLights / 10).excesses;
     const auto concerned = [&](const std::string& lights) {
         return std::count_if(excesses.begin(), excesses.end(),
                              [&](const std::string& excess) { return excess.rfind(lights + ":", 0) == 0; });
