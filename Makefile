@@ -1,6 +1,6 @@
 # make demo and make test need Debian 12, git and make; scripts/setup.sh installs the rest.
 
-.PHONY: build demo test single-header clean help
+.PHONY: build demo test single-header shaders clean help
 
 build: ## the programs, optimised, in build/release
 	scripts/setup.sh build
@@ -15,6 +15,9 @@ test: ## builds and runs all tests and checks (docs/testing.md)
 
 single-header: ## the library in one file: out/nusselt.h (needs cmake only)
 	cmake -D OUTPUT=out/nusselt.h -P scripts/amalgamate.cmake
+
+shaders: ## the GLSL of each technique in one file: out/shaders/*.glsl (needs cmake only)
+	cmake -D OUTPUT=out/shaders -P scripts/flatten-glsl.cmake
 
 clean: ## removes build/ and out/
 	rm -rf build out

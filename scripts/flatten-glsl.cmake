@@ -1,10 +1,12 @@
 # Writes each file of shaders/nusselt with the files that it includes in place of its #include lines, so that one file
 # per technique can be copied into an engine. Include guards stay: several of these files go together.
-# Usage: cmake -D OUTPUT=FOLDER -P scripts/flatten-glsl.cmake
+# Usage: cmake -D OUTPUT=FOLDER [-D SHADERS=FOLDER] -P scripts/flatten-glsl.cmake
 cmake_minimum_required(VERSION 3.25)
 
 get_filename_component(root "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
-set(shaders "${root}/shaders/nusselt")
+if(NOT SHADERS)
+    set(SHADERS "${root}/shaders/nusselt")
+endif()
 if(NOT OUTPUT)
     message(FATAL_ERROR "flatten-glsl: name the folder to write: cmake -D OUTPUT=FOLDER -P scripts/flatten-glsl.cmake")
 endif()
@@ -43,11 +45,11 @@ string(STRIP "${licence}" licence)
 string(REPLACE "\n" "\n// " licence "// ${licence}")
 string(REGEX REPLACE " +\n" "\n" licence "${licence}\n")
 
-file(GLOB_RECURSE files RELATIVE "${shaders}" "${shaders}/*.glsl")
+file(GLOB_RECURSE files RELATIVE "${SHADERS}" "${SHADERS}/*.glsl")
 foreach(file IN LISTS files)
     set_property(GLOBAL PROPERTY seen_files "")
     set_property(GLOBAL PROPERTY text "")
-    append_file("${shaders}/${file}")
+    append_file("${SHADERS}/${file}")
     get_property(text GLOBAL PROPERTY text)
     get_filename_component(name "${file}" NAME)
     file(WRITE "${OUTPUT}/${name}" "// Nusselt ${version}: ${file} and what it needs, for GLSL 4.50 and GLSL ES 3.00.

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Each file of a folder of shaders compiles alone and included twice, as GLSL 4.50 for Vulkan and, flattened, as GLSL
+# 4.50 and GLSL ES 3.00, for several capacities of polygons; so does the example in README.md. Usage: check_shaders.sh GLSLANG_VALIDATOR SHADERS WORK_FOLDER
+set -euo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+glslang=$1 shaders=$2 work=$3
+failed=0
+
+# Compiles the shader $1; $2 says what it is, the rest are options. Warnings count as failures.
+compile() {
+    local shader=$1 what=$2
+    shift 2
+    # Functions that nobody calls are compiled too.
+    if ! "$glslang" --keep-uncalled "$@" "$shader" >"$work/log" 2>&1 || grep -q "^WARNING" "$work/log"; then
+        echo "$what:"
+        cat "$work/log"
+        failed=1
+    fi
+}
+
+rm -rf "$work"
+mkdir -p "$work"
+cmake -D SHADERS="$shaders" -D OUTPUT="$work/flat" -P "$root/scripts/flatten-glsl.cmake"
+files=$(cd "$shaders" && find . -name '*.glsl' -printf '%P\n' | sort)
+[ -n "$files" ] || { echo "no shaders in $shaders"; exit 1; }
+for file in $files; do
+    for vertices in 3 4 7; do
+        for fused in 0 1; do
+            options=("#define NUSSELT_MAX_VERTICES $vertices" "#define NUSSELT_FUSED_FMA $fused")
+            printf '%s\n' '#version 450' '#extension GL_GOOGLE_include_directive : require' "${options[@]}" \
+                "#include \"$file\"" "#include \"$file\"" 'void main() {}' >"$work/source.comp"
+            compile "$work/source.comp" "$file, $vertices vertices, fused $fused" -V -I"$shaders" -o "$work/source.spv"
+        done
+        flat=$work/flat/$(basename "$file")
+        { printf '%s\n' '#version 450' "#define NUSSELT_MAX_VERTICES $vertices"; cat "$flat"; echo 'void main() {}'; } \
+            >"$work/flat.comp"
+        compile "$work/flat.comp" "$file flattened, $vertices vertices" -V -o "$work/flat.spv"
+        { printf '%s\n' '#version 300 es' "#define NUSSELT_MAX_VERTICES $vertices"; cat "$flat"; echo 'void main() {}'; } \
+            >"$work/flat.frag"
+        compile "$work/flat.frag" "$file as GLSL ES, $vertices vertices"
+    done
+done
+if [ -e "$shaders/README.md" ]; then
+    sed -n '/^#version/,/^```/p' "$shaders/README.md" | sed '$d' >"$work/example.frag"
+    [ -s "$work/example.frag" ] || { echo "README.md: no example"; exit 1; }
+    compile "$work/example.frag" "the example of README.md" -V -I"$shaders" -o "$work/example.spv"
+fi
+exit $failed
