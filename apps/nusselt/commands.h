@@ -48,6 +48,12 @@ struct BenchSamplersOptions {
     std::optional<std::string> json; ///< "-" is the standard output, instead of the table
 };
 
+struct BenchGpuSamplersOptions {
+    int repetitions = 15;
+    std::optional<std::string> device; ///< index, or part of a name
+    std::optional<std::string> json;   ///< "-" is the standard output, instead of the table
+};
+
 struct BenchAccuracyOptions {
     int count = 5000; ///< of docs/accuracy.json: the test that compares with it takes a quarter of a minute
     std::optional<std::string> isa;
@@ -101,6 +107,7 @@ void setup_map(CLI::App& app, int& exit_code);
 // Below `bench`.
 void setup_bench_rays(CLI::App& bench, int& exit_code);
 void setup_bench_samplers(CLI::App& bench, int& exit_code);
+void setup_bench_gpu_samplers(CLI::App& bench, int& exit_code);
 void setup_bench_accuracy(CLI::App& bench, int& exit_code);
 void setup_bench_worst_case(CLI::App& bench, int& exit_code);
 void setup_bench_fuzz(CLI::App& bench, int& exit_code);
@@ -117,6 +124,9 @@ int run_bench_rays(const BenchRaysOptions& options);
 
 /// Measures the cost of each technique and prints or writes the table.
 int run_bench_samplers(const BenchSamplersOptions& options);
+
+/// Measures the cost of each technique on a GPU and prints or writes the table.
+int run_bench_gpu_samplers(const BenchGpuSamplersOptions& options);
 
 /// Measures the accuracy of each technique and prints or writes the tables.
 int run_bench_accuracy(const BenchAccuracyOptions& options);

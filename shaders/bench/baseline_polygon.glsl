@@ -1,17 +1,13 @@
-// A technique of practically no cost that reads all of a light: what remains is loading, looping and storing.
+// A technique of practically no cost: what remains is loading, looping and storing.
 #include "nusselt/core/light_sample.glsl"
 #include "nusselt/geometry/convex_polygon.glsl"
 
 struct BaselinePolygon {
-    vec3 sum;
+    vec3 normal;
 };
 
-BaselinePolygon baseline_polygon_prepare(ConvexPolygon light) {
-    vec3 sum = light.normal;
-    for (int j = 0; j < kNusseltSlots; ++j) sum += light.vertex[j] + light.edge[j];
-    return BaselinePolygon(sum);
-}
+BaselinePolygon baseline_polygon_prepare(ConvexPolygon light) { return BaselinePolygon(light.normal); }
 
 LightSample baseline_polygon_sample(BaselinePolygon self, vec2 u) {
-    return LightSample(self.sum, u.x + u.y, self.sum);
+    return LightSample(self.normal, u.x + u.y, self.normal);
 }

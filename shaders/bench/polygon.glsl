@@ -9,15 +9,18 @@ void main() {
         const uint index = (thread + i) % kLights;
         const uint bound = NUSSELT_MAX_VERTICES;
         ConvexPolygon light;
+        vec3 all = vec3(0.0); // so that nobody saves the loads of what a technique does not need
         NUSSELT_UNROLL for (uint j = 0u; j < bound; ++j) {
             light.vertex[j] = column_vec3(3u * j, index);
             light.edge[j] = column_vec3(3u * (bound + j), index);
+            all += light.vertex[j] + light.edge[j];
         }
         // The slot for clipping repeats the last vertex, and its edge closes the polygon.
         light.vertex[bound] = light.vertex[bound - 1u];
         light.edge[bound] = light.edge[bound - 1u];
         light.edge[bound - 1u] = vec3(0.0);
         light.normal = column_vec3(6u * bound, index);
+        sum.xyz += all + light.normal;
 
         Technique technique = technique_prepare(light);
         for (uint k = 0u; k < kSampleCount; ++k) {

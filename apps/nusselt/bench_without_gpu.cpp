@@ -1,0 +1,22 @@
+#include "commands.h"
+
+#include <CLI/CLI.hpp>
+
+#include <stdexcept>
+
+namespace nusselt::app {
+
+int run_bench_gpu_samplers(const BenchGpuSamplersOptions&) {
+    throw std::runtime_error(
+        "this program was built without its GPU side: install libvulkan-dev and glslang-tools, "
+        "then configure and build again");
+}
+
+void setup_bench_gpu_samplers(CLI::App& bench, int& exit_code) {
+    CLI::App* command =
+        bench.add_subcommand("gpu-samplers", "Cost of each technique on a GPU (not in this build)");
+    command->allow_extras();
+    command->callback([&exit_code] { exit_code = run_bench_gpu_samplers({}); });
+}
+
+} // namespace nusselt::app
