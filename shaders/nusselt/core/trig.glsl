@@ -49,13 +49,16 @@ AtanRatioDifference one_minus_atan_ratio_difference(float s, float step) {
     return AtanRatioDifference(s * p, step * slope);
 }
 
+/// Arctangent of q in [0, 1].
+float atan_up_to_one(float q) { return nusselt_fma(-q, one_minus_atan_ratio(q * q), q); }
+
 /// Angle of the point (x, y) with y >= 0, in [0, pi]; 0 for the origin. A negative or NaN y counts as 0.
 float atan2_positive(float y_in, float x) {
     float y = nusselt_max(y_in, 0.0);
     float ax = abs(x);
     float large = nusselt_max(ax, y);
     float q = nusselt_min(ax, y) / (large > 0.0 ? large : 1.0);
-    float octant = nusselt_fma(-q, one_minus_atan_ratio(q * q), q);
+    float octant = atan_up_to_one(q);
     float quadrant = y > ax ? kNusseltPi / 2.0 - octant : octant;
     return x < 0.0 ? kNusseltPi - quadrant : quadrant;
 }
@@ -92,16 +95,15 @@ SinCos sincos_quarter_turn(float angle) {
     return SinCos(nusselt_fma(angle * s, ps, angle), nusselt_fma(s * s, pc, nusselt_fma(s, -0.5, 1.0)));
 }
 
-/// x - sin(x) with full relative precision on [0, pi], given sin(x).
-float x_minus_sin(float x, float sin_x) {
-    if (!(x < 1.0)) return x - sin_x;
-    // Nested Taylor series x^3/6 (1 - x^2/20 (1 - x^2/42 (...))).
+/// x - sin(x) with full relative precision on [0, pi].
+float x_minus_sin(float x) {
     float s = x * x;
-    float series = nusselt_fma(s * (-1.0 / 110.0), 1.0, 1.0);
-    series = nusselt_fma(s * (-1.0 / 72.0), series, 1.0);
-    series = nusselt_fma(s * (-1.0 / 42.0), series, 1.0);
-    series = nusselt_fma(s * (-1.0 / 20.0), series, 1.0);
-    return x * s * (1.0 / 6.0) * series;
+    float p = nusselt_fma(-1.390407928e-10, s, 2.481271544e-8);
+    p = nusselt_fma(p, s, -2.754484285e-6);
+    p = nusselt_fma(p, s, 1.984097180e-4);
+    p = nusselt_fma(p, s, -8.333330974e-3);
+    p = nusselt_fma(p, s, 1.666666716e-1);
+    return x * s * p;
 }
 
 #endif
