@@ -102,8 +102,8 @@ float root_near_zero(float a, float b, float c) {
 float decentral_sector_initial_position(DecentralSector sector, float fraction) {
     // The direction to the middle is the sum of the unit directions to both ends.
     vec3 end = sector.begin + sector.chord;
-    float r0 = sqrt(dot(sector.begin.xy, sector.begin.xy));
-    float r1 = sqrt(dot(end.xy, end.xy));
+    float r0 = sqrt(nusselt_fma(sector.begin.x, sector.begin.x, sector.begin.y * sector.begin.y));
+    float r1 = sqrt(nusselt_fma(end.x, end.x, end.y * end.y));
     float radii = r0 + r1;
     float middle = r0 / (radii > 0.0 ? radii : 1.0);
     DecentralForms f0 = decentral_sector_at(sector, 0.0);

@@ -238,18 +238,38 @@ LightSample polygon_projected_solid_angle_finish(PolygonProjectedSolidAngle self
     return s;
 }
 
+/// \param x position of the azimuth on the chord of the sector; decentral case only.
+LightSample polygon_projected_solid_angle_sample_at(PolygonProjectedSolidAngle self, ProjectedSectorSelection s,
+                                                    float x, float u) {
+    LightSample result;
+    if (self.central) {
+        result = polygon_projected_solid_angle_sample_central(self.plane, s, u);
+    } else {
+        result = polygon_projected_solid_angle_sample_decentral(self.plane, s.sector, x, u);
+    }
+    return polygon_projected_solid_angle_finish(self, result);
+}
+
 /// \param u in [0, 1)^2; x selects the azimuth, y the inclination. Continuous, up to the cyclic start in the central
 ///          case, so that stratification survives.
 LightSample polygon_projected_solid_angle_sample(PolygonProjectedSolidAngle self, vec2 u) {
     ProjectedSectorSelection s = polygon_projected_solid_angle_select(self, u.x);
-    LightSample result;
-    if (self.central) {
-        result = polygon_projected_solid_angle_sample_central(self.plane, s, u.y);
-    } else {
-        float x = decentral_sector_position(s.sector, s.rest, s.doubled_area);
-        result = polygon_projected_solid_angle_sample_decentral(self.plane, s.sector, x, u.y);
+    float x = 0.0;
+    if (!self.central) x = decentral_sector_position(s.sector, s.rest, s.doubled_area);
+    return polygon_projected_solid_angle_sample_at(self, s, x, u.y);
+}
+
+/// The biased variant (Sec. 6.4): no iteration. The density is that of exact projected solid angle sampling, which the
+/// samples follow approximately: estimates are biased accordingly. Areas are exact, where the C++ takes fast
+/// arctangents also for them.
+LightSample polygon_projected_solid_angle_biased_sample(PolygonProjectedSolidAngle self, vec2 u) {
+    ProjectedSectorSelection s = polygon_projected_solid_angle_select(self, u.x);
+    float x = 0.0;
+    if (!self.central) {
+        float fraction = s.rest / (s.doubled_area > 0.0 ? s.doubled_area : 1.0);
+        x = decentral_sector_initial_position(s.sector, nusselt_min(fraction, 1.0));
     }
-    return polygon_projected_solid_angle_finish(self, result);
+    return polygon_projected_solid_angle_sample_at(self, s, x, u.y);
 }
 
 /// Twice the area of a central sector from its begin to x.
