@@ -10,8 +10,8 @@ void main() {
         LineSegment light;
         light.p0 = column_vec3(0u, index);
         light.s = column_vec3(3u, index);
-        light.length = column(6u, index);
-        sum += vec4(light.p0 + light.s, light.length); // so that nobody saves the loads of what a technique does not need
+        light.len = column(6u, index);
+        sum += vec4(light.p0 + light.s, light.len); // so that nobody saves the loads of what a technique does not need
 
         Technique technique = technique_prepare(light);
         for (uint k = 0u; k < kSampleCount; ++k) sum += summary(technique_sample(technique, next_random(state)));

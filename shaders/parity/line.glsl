@@ -8,7 +8,7 @@ void main() {
     LineSegment light;
     light.p0 = input_vec3(begin);
     light.s = input_vec3(begin + 3u);
-    light.length = inputs[begin + 6u];
+    light.len = inputs[begin + 6u];
 
     Technique technique = technique_prepare(light);
     const LightSample s = technique_sample(technique, inputs[begin + 7u]);

@@ -1,4 +1,5 @@
-# The shaders of `nusselt bench gpu-samplers`, and the table of them.
+# The shaders of `nusselt bench gpu-samplers`, and the table of them. Polygons have their exact number of vertices as
+# bound, as in a renderer whose lights have that many.
 set(includes)
 set(rows)
 
@@ -6,9 +7,13 @@ set(rows)
 function(add_timed_shaders name kind vertex_count file struct)
     string(REGEX REPLACE "([A-Z])" "_\\1" shader ${name})
     string(TOLOWER bench${shader}_${kind}_${vertex_count} shader)
+    set(bound)
+    if(kind STREQUAL polygon)
+        set(bound NUSSELT_MAX_VERTICES=${vertex_count})
+    endif()
     foreach(fused 0 1)
         nusselt_add_technique_shader(nusselt_experiments ${shader}_${fused} bench/${kind} ${file} ${struct} ${ARGN}
-            DEFINES NUSSELT_MAX_VERTICES=${vertex_count} NUSSELT_FUSED_FMA=${fused})
+            DEFINES ${bound} NUSSELT_FUSED_FMA=${fused})
         string(TOUPPER ${kind} upper_kind)
         string(SUBSTRING ${kind} 1 -1 rest)
         string(SUBSTRING ${upper_kind} 0 1 initial)
@@ -31,7 +36,19 @@ foreach(count 3 4 5 6 7)
         nusselt/related/polygon_projected_solid_angle_peters PolygonProjectedSolidAnglePeters)
     add_timed_shaders(PolygonProjectedSolidAngle polygon ${count}
         nusselt/sampling/polygon_projected_solid_angle PolygonProjectedSolidAngle)
+    add_timed_shaders(PolygonProjectedSolidAngleBiased polygon ${count}
+        nusselt/sampling/polygon_projected_solid_angle PolygonProjectedSolidAngle
+        SAMPLE polygon_projected_solid_angle_biased_sample)
 endforeach()
+add_timed_shaders(Baseline line 2 bench/baseline_line BaselineLine)
+add_timed_shaders(LineArea line 2 nusselt/sampling/line_area LineArea)
+add_timed_shaders(LineSolidAngle line 2 nusselt/sampling/line_solid_angle LineSolidAngle)
+add_timed_shaders(LineClippedSolidAngle line 2 nusselt/sampling/line_solid_angle LineSolidAngle
+    PREPARE line_clipped_solid_angle_prepare)
+add_timed_shaders(LineProjectedSolidAnglePeters line 2
+    nusselt/related/line_projected_solid_angle_peters LineProjectedSolidAnglePeters)
+add_timed_shaders(LineProjectedSolidAngle line 2
+    nusselt/sampling/line_projected_solid_angle LineProjectedSolidAngle)
 
 list(JOIN includes "" includes)
 list(JOIN rows "" rows)

@@ -22,8 +22,8 @@ struct GpuSamplerTiming {
 };
 
 struct GpuSamplerSettings {
-    int repetitions = 15;              ///< of the interleaved series; odd numbers give true medians
-    std::optional<std::string> device; ///< as gpu::DeviceOptions::choice
+    int repetitions = 15;                   ///< of the interleaved series; odd numbers give true medians
+    std::optional<std::string> device = {}; ///< as gpu::DeviceOptions::choice
 };
 
 struct GpuSamplerTable {

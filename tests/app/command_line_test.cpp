@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -263,6 +264,23 @@ TEST_F(CommandLine, CtrlCKeepsWorstCases) {
     const auto targets = nlohmann::json::parse(read("stopped.json")).at("targets");
     EXPECT_GT(targets.at("lines").at("starts"), 0);
     EXPECT_EQ(targets.at("lines").at("parameters").size(), 4u);
+}
+
+TEST_F(CommandLine, WithoutAGpuTheBenchmarkSaysInOneLineWhatIsMissing) {
+    const auto without_driver =
+        run("bench gpu-samplers", "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent");
+    EXPECT_EQ(without_driver.exit_code, 1);
+    EXPECT_NE(without_driver.err.find("install"), std::string::npos) << without_driver.err;
+    EXPECT_EQ(std::count(without_driver.err.begin(), without_driver.err.end(), '\n'), 1)
+        << without_driver.err;
+
+    // A loader that is no library, in place of the one of the system.
+    for (const char* name : {"libvulkan.so", "libvulkan.so.1"}) std::ofstream(path(name)) << "not a library";
+    const auto without_loader = run("bench gpu-samplers", "LD_LIBRARY_PATH=.");
+    EXPECT_EQ(without_loader.exit_code, 1);
+    EXPECT_NE(without_loader.err.find("install"), std::string::npos) << without_loader.err;
+    EXPECT_EQ(std::count(without_loader.err.begin(), without_loader.err.end(), '\n'), 1)
+        << without_loader.err;
 }
 
 } // namespace

@@ -3,6 +3,14 @@
 
 #include "experiments/accuracy_techniques.h"
 #include "experiments/hostile/techniques.h"
+#include "shaders/line_area_fused.h"
+#include "shaders/line_area_split.h"
+#include "shaders/line_clipped_solid_angle_fused.h"
+#include "shaders/line_clipped_solid_angle_split.h"
+#include "shaders/line_projected_solid_angle_fused.h"
+#include "shaders/line_projected_solid_angle_split.h"
+#include "shaders/line_solid_angle_fused.h"
+#include "shaders/line_solid_angle_split.h"
 #include "shaders/polygon_area_4_fused.h"
 #include "shaders/polygon_area_4_split.h"
 #include "shaders/polygon_area_8_fused.h"
@@ -15,6 +23,10 @@
 #include "shaders/polygon_projected_solid_angle_4_split.h"
 #include "shaders/polygon_projected_solid_angle_8_fused.h"
 #include "shaders/polygon_projected_solid_angle_8_split.h"
+#include "shaders/polygon_projected_solid_angle_biased_4_fused.h"
+#include "shaders/polygon_projected_solid_angle_biased_4_split.h"
+#include "shaders/polygon_projected_solid_angle_biased_8_fused.h"
+#include "shaders/polygon_projected_solid_angle_biased_8_split.h"
 #include "shaders/polygon_solid_angle_4_fused.h"
 #include "shaders/polygon_solid_angle_4_split.h"
 #include "shaders/polygon_solid_angle_8_fused.h"
@@ -54,6 +66,17 @@ using TechniquePairs = testing::Types<
                   kPolygonProjectedSolidAngle4Fused>,
     TechniquePair<experiments::PolygonProjectedSolidAngleTraits<8>,
                   hostile::PolygonProjectedSolidAngleKindOf<8>, kPolygonProjectedSolidAngle8Split,
-                  kPolygonProjectedSolidAngle8Fused>>;
+                  kPolygonProjectedSolidAngle8Fused>,
+    TechniquePair<experiments::PolygonProjectedSolidAngleBiasedTraits<4>, hostile::PolygonBiasedKindOf<4>,
+                  kPolygonProjectedSolidAngleBiased4Split, kPolygonProjectedSolidAngleBiased4Fused>,
+    TechniquePair<experiments::PolygonProjectedSolidAngleBiasedTraits<8>, hostile::PolygonBiasedKindOf<8>,
+                  kPolygonProjectedSolidAngleBiased8Split, kPolygonProjectedSolidAngleBiased8Fused>,
+    TechniquePair<experiments::LineAreaTraits, hostile::LineAreaKind, kLineAreaSplit, kLineAreaFused>,
+    TechniquePair<experiments::LineSolidAngleTraits, hostile::LineSolidAngleKind, kLineSolidAngleSplit,
+                  kLineSolidAngleFused>,
+    TechniquePair<experiments::LineClippedSolidAngleTraits, hostile::LineClippedSolidAngleKind,
+                  kLineClippedSolidAngleSplit, kLineClippedSolidAngleFused>,
+    TechniquePair<experiments::LineProjectedSolidAngleTraits, hostile::LineProjectedSolidAngleKind,
+                  kLineProjectedSolidAngleSplit, kLineProjectedSolidAngleFused>>;
 
 } // namespace nusselt::parity

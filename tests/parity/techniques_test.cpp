@@ -77,8 +77,10 @@ Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> sha
     return verdict;
 }
 
-/// Random lights in all classes together, of each technique and bound on the number of vertices.
-constexpr int kRandomLights = 500'000;
+/// Random lights of each technique, in all classes together. Polygons come with two bounds on the number of vertices.
+constexpr int kRandomLights = 1'000'000;
+template <class Kind>
+constexpr int kLightsPerPair = hostile::kIsPolygon<Kind> ? kRandomLights / 2 : kRandomLights;
 constexpr int kHostileLights = 100'000;
 
 void draw(hostile::HostileLights<float>& source, LineSegment<float>& light, float& u) {
@@ -125,7 +127,8 @@ TYPED_TEST_SUITE(TechniqueParity, TechniquePairs);
 
 TYPED_TEST(TechniqueParity, IsAsAccurateAsCpp) {
     for (const auto shader : this->shaders()) {
-        const Verdict verdict = judge_twin<TypeParam>(this->device(), shader, kRandomLights);
+        const Verdict verdict =
+            judge_twin<TypeParam>(this->device(), shader, kLightsPerPair<typename TypeParam::Kind>);
         for (const std::string& excess : verdict.excesses) ADD_FAILURE() << excess;
         std::cout << fmt::format("largest ratio to C++: {:.2f}, {}\n", verdict.largest_ratio, verdict.where);
     }
@@ -144,7 +147,7 @@ using ProjectedPair =
 class MutantParity : public GpuTest {};
 
 TEST_F(MutantParity, RandomNumbersOffBySixteenRoundingsAreFound) {
-    const auto excesses = judge_twin<ProjectedPair>(device(), kPerturbedPolygon, kRandomLights / 10).excesses;
+    const auto excesses = judge_twin<ProjectedPair>(device(), kPerturbedPolygon, kRandomLights / 20).excesses;
     ASSERT_FALSE(excesses.empty());
     EXPECT_NE(excesses[0].find("decentral: first random number, median"), std::string::npos) << excesses[0];
 }
@@ -153,7 +156,7 @@ TEST_F(MutantParity, MissingClippingIsFound) {
     using Clipped = TechniquePair<experiments::PolygonClippedSolidAngleTraits<4>,
                                   hostile::PolygonClippedSolidAngleKindOf<4>, kPolygonSolidAngle4Split,
                                   kPolygonSolidAngle4Split>;
-    const auto excesses = judge_twin<Clipped>(device(), Clipped::kSplit, kRandomLights / 10).excesses;
+    const auto excesses = judge_twin<Clipped>(device(), Clipped::kSplit, kRandomLights / 20).excesses;
     const auto concerned = [&](const std::string& lights) {
         return std::count_if(excesses.begin(), excesses.end(),
                              [&](const std::string& excess) { return excess.rfind(lights + ":", 0) == 0; });
