@@ -1,5 +1,5 @@
 # cmake -D INPUT=name.spv -D OUTPUT=name.h -D NAME=name -P embed_spirv.cmake: writes the words of a SPIR-V file as
-# a C++ array.
+# a C++ array of namespace nusselt::shaders.
 string(REGEX MATCHALL "[^_]+" words ${NAME})
 set(array k)
 foreach(word ${words})
@@ -12,4 +12,4 @@ endforeach()
 file(READ ${INPUT} bytes HEX)
 # Words are stored with the least significant byte first.
 string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1,\n" words "${bytes}")
-file(WRITE ${OUTPUT} "#pragma once\n#include <cstdint>\n\ninline constexpr std::uint32_t ${array}[] = {\n${words}};\n")
+file(WRITE ${OUTPUT} "#pragma once\n#include <cstdint>\n\nnamespace nusselt::shaders {\n\ninline constexpr std::uint32_t ${array}[] = {\n${words}};\n\n} // namespace nusselt::shaders\n")

@@ -20,7 +20,7 @@ bool has_fused_fma(const Device& device) {
     Buffer in(device, operands.size() * sizeof(float), Residence::host_visible);
     const Buffer out(device, results.size() * sizeof(float), Residence::host_visible);
     in.write<float>(operands);
-    ComputePipeline probe(device, kFusedFmaProbe, {.storage_buffers = 2});
+    ComputePipeline probe(device, shaders::kFusedFmaProbe, {.storage_buffers = 2});
     probe.bind({&in, &out});
     device.run([&](const Device::Commands& commands) { probe.dispatch(commands, {}, 1); });
     out.read<float>(results);

@@ -54,7 +54,7 @@ TEST_P(DeviceTest, RunsAShader) {
     in_b.write<float>(b);
     out.write<float>(sums);
 
-    gpu::ComputePipeline pipeline(device(), kScaledSums,
+    gpu::ComputePipeline pipeline(device(), shaders::kScaledSums,
                                   {.storage_buffers = 3,
                                    .push_constant_size = sizeof(Push),
                                    .constants = {std::bit_cast<std::uint32_t>(0.25f), 2}});

@@ -8,33 +8,27 @@ namespace nusselt::parity {
 
 namespace {
 
-/// Budgets of the issue that the twins were written for: relative to C++, never fitted to what a device does.
+/// A rule of the project, not fitted to what a device does.
 constexpr double kFactor = 3;
 
 /// What a result in float differs from the exact one by, at least: half the spacing of floats below one.
 constexpr double kRounding = std::numeric_limits<float>::epsilon() / 4;
-
-constexpr std::pair<const char*, double> kShares[] = {
-    {"median", 0.5}, {"99 %", 0.99}, {"99.9 %", 0.999}, {"largest", 1}};
-
-/// The largest of the other errors is that of a single light where a quantity is hard to tell (say, the second random
-/// number at the tip of a sector): that of one method may be three times that of another by chance alone.
-bool has_bounded_maximum(Quantity quantity) {
-    return quantity == Quantity::first_random || quantity == Quantity::measure;
-}
 
 double quantile(const std::vector<double>& sorted, double share) {
     if (sorted.empty()) return 0;
     return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
-void sort(Errors& errors) {
-    for (auto& values : errors.of) {
-        // What cannot be told counts as the largest error, as in the accuracy tables.
-        for (double& value : values)
-            if (!(value <= 1)) value = 1;
-        std::sort(values.begin(), values.end());
-    }
+void sort(std::vector<double>& errors) {
+    // What cannot be told counts as the largest error, as in the accuracy tables.
+    for (double& error : errors)
+        if (!(error <= 1)) error = 1;
+    std::sort(errors.begin(), errors.end());
+}
+
+Tail tail_of(Quantity quantity) {
+    return quantity == Quantity::first_random || quantity == Quantity::measure ? Tail::largest
+                                                                               : Tail::quantiles;
 }
 
 } // namespace
@@ -48,35 +42,44 @@ void Errors::append(const Errors& other) {
     invalid += other.invalid;
 }
 
-void Verdict::add(const std::string& lights, const Verdict& other) {
-    for (const std::string& excess : other.excesses) excesses.push_back(lights + ": " + excess);
+void Verdict::add(const std::string& prefix, const Verdict& other) {
+    for (const std::string& excess : other.excesses) excesses.push_back(prefix + excess);
     if (other.largest_ratio <= largest_ratio) return;
     largest_ratio = other.largest_ratio;
-    where = lights + ": " + other.where;
+    where = prefix + other.where;
 }
 
-Verdict compare(Errors device, Errors cpp, Errors floor) {
-    Verdict verdict;
+Verdict compare(const std::string& quantity, std::vector<double> device, std::vector<double> cpp,
+                std::vector<double> floor, Tail tail) {
     sort(device);
     sort(cpp);
     sort(floor);
-    for (std::size_t i = 0; i < kQuantities; ++i)
-        for (const auto& [name, share] : kShares) {
-            if (share == 1 && !has_bounded_maximum(static_cast<Quantity>(i))) continue;
-            const double value = quantile(device.of[i], share);
-            const double reference = quantile(cpp.of[i], share);
-            const double least = quantile(floor.of[i], share);
-            const double ratio = value / std::max({reference, least, kRounding});
-            const std::string where = fmt::format("{}, {}", kQuantityNames[i], name);
-            if (ratio > verdict.largest_ratio) {
-                verdict.largest_ratio = ratio;
-                verdict.where = where;
-            }
-            if (!(ratio <= kFactor))
-                verdict.excesses.push_back(
-                    fmt::format("{}: {:.3g}, {:.3g} times that of C++, {:.3g} (floor {:.3g})", where, value,
-                                ratio, reference, least));
+    std::vector<std::pair<const char*, double>> shares{{"median", 0.5}, {"99 %", 0.99}, {"99.9 %", 0.999}};
+    if (tail == Tail::largest) shares.emplace_back("largest", 1);
+    Verdict verdict;
+    for (const auto& [name, share] : shares) {
+        const double value = quantile(device, share);
+        const double reference = quantile(cpp, share);
+        const double least = quantile(floor, share);
+        const double ratio = value / std::max({reference, least, kRounding});
+        const std::string where = fmt::format("{}, {}", quantity, name);
+        if (ratio > verdict.largest_ratio) {
+            verdict.largest_ratio = ratio;
+            verdict.where = where;
         }
+        if (!(ratio <= kFactor))
+            verdict.excesses.push_back(
+                fmt::format("{}: {:.3g}, {:.3g} times that of C++, {:.3g} (floor {:.3g})", where, value,
+                            ratio, reference, least));
+    }
+    return verdict;
+}
+
+Verdict compare(const Errors& device, const Errors& cpp, const Errors& floor) {
+    Verdict verdict;
+    for (std::size_t i = 0; i < kQuantities; ++i)
+        verdict.add("", compare(kQuantityNames[i], device.of[i], cpp.of[i], floor.of[i],
+                                tail_of(static_cast<Quantity>(i))));
     const auto count = [&](const char* name, std::int64_t value, std::int64_t limit) {
         if (value > limit) verdict.excesses.push_back(fmt::format("{}: {}, in C++ {}", name, value, limit));
     };

@@ -45,11 +45,24 @@ struct Verdict {
     double largest_ratio = 0; ///< of an error on the device to that of C++ or the floor; the budget is 3
     std::string where;        ///< the quantity and quantile with the largest ratio
 
-    void add(const std::string& lights, const Verdict& other);
+    void add(const std::string& prefix, const Verdict& other);
 };
 
-/// \param floor exact results rounded to float: no method can be asked for less.
-Verdict compare(Errors device, Errors cpp, Errors floor);
+/// Which errors are compared, beside the median, 99 % and 99.9 %.
+enum class Tail {
+    quantiles,
+    /// Also the largest error. Where a quantity is hard to tell for single lights (say, the second random number at the
+    /// tip of a sector), the largest error of one method may be three times that of another by chance alone.
+    largest,
+};
+
+/// Compares errors of one quantity.
+/// \param floor errors of the exact results rounded to float: no method can be asked for less.
+Verdict compare(const std::string& quantity, std::vector<double> device, std::vector<double> cpp,
+                std::vector<double> floor, Tail tail);
+
+/// Compares all quantities, and the counts.
+Verdict compare(const Errors& device, const Errors& cpp, const Errors& floor);
 
 /// Judges what a method returns for a light.
 /// \tparam Traits of src/experiments/accuracy_techniques.h.

@@ -60,7 +60,7 @@ Verdict judge_class(const typename Pair::Traits::Class& lights, int count, Twin<
         cpp.append(block_cpp);
         floor.append(block_floor);
     });
-    return compare(std::move(device), std::move(cpp), std::move(floor));
+    return compare(device, cpp, floor);
 }
 
 /// Judges the twin on all classes with together at least `count` lights.
@@ -73,7 +73,8 @@ Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> sha
         if (is_judged_with_bound(lights, Traits::kVertexBound)) judged.push_back(&lights);
     const int per_class = (count + static_cast<int>(judged.size()) - 1) / static_cast<int>(judged.size());
     Verdict verdict;
-    for (const auto* lights : judged) verdict.add(lights->name, judge_class<Pair>(*lights, per_class, twin));
+    for (const auto* lights : judged)
+        verdict.add(lights->name + std::string(": "), judge_class<Pair>(*lights, per_class, twin));
     return verdict;
 }
 
@@ -139,23 +140,24 @@ TYPED_TEST(TechniqueParity, KeepsTheContractOnHostileLights) {
         EXPECT_EQ(first_violation<typename TypeParam::Kind>(this->device(), shader), "");
 }
 
-using ProjectedPair =
-    TechniquePair<experiments::PolygonProjectedSolidAngleTraits<4>,
-                  hostile::PolygonProjectedSolidAngleKindOf<4>, kPerturbedPolygon, kPerturbedPolygon>;
+using ProjectedPair = TechniquePair<experiments::PolygonProjectedSolidAngleTraits<4>,
+                                    hostile::PolygonProjectedSolidAngleKindOf<4>, shaders::kPerturbedPolygon,
+                                    shaders::kPerturbedPolygon>;
 
 /// Wrong shaders: what accepts them proves nothing.
 class MutantParity : public GpuTest {};
 
 TEST_F(MutantParity, RandomNumbersOffBySixteenRoundingsAreFound) {
-    const auto excesses = judge_twin<ProjectedPair>(device(), kPerturbedPolygon, kRandomLights / 20).excesses;
+    const auto excesses =
+        judge_twin<ProjectedPair>(device(), shaders::kPerturbedPolygon, kRandomLights / 20).excesses;
     ASSERT_FALSE(excesses.empty());
     EXPECT_NE(excesses[0].find("decentral: first random number, median"), std::string::npos) << excesses[0];
 }
 
 TEST_F(MutantParity, MissingClippingIsFound) {
     using Clipped = TechniquePair<experiments::PolygonClippedSolidAngleTraits<4>,
-                                  hostile::PolygonClippedSolidAngleKindOf<4>, kPolygonSolidAngle4Split,
-                                  kPolygonSolidAngle4Split>;
+                                  hostile::PolygonClippedSolidAngleKindOf<4>,
+                                  shaders::kPolygonSolidAngle4Split, shaders::kPolygonSolidAngle4Split>;
     const auto excesses = judge_twin<Clipped>(device(), Clipped::kSplit, kRandomLights / 20).excesses;
     const auto concerned = [&](const std::string& lights) {
         return std::count_if(excesses.begin(), excesses.end(),
@@ -166,7 +168,7 @@ TEST_F(MutantParity, MissingClippingIsFound) {
 }
 
 TEST_F(MutantParity, InfiniteDensitiesAreFound) {
-    const std::string violation = first_violation<ProjectedPair::Kind>(device(), kUnguardedPolygon);
+    const std::string violation = first_violation<ProjectedPair::Kind>(device(), shaders::kUnguardedPolygon);
     EXPECT_NE(violation.find("the density of the sample is negative or not finite"), std::string::npos)
         << violation;
 }

@@ -2,16 +2,14 @@
 /// A technique in GLSL, run on many lights.
 
 #include "experiments/hostile/contract.h"
-#include "gpu/compute_pipeline.h"
+#include "shader_runner.h"
 
-#include <array>
+#include <bit>
 #include <cstring>
-#include <span>
-#include <vector>
 
 namespace nusselt::parity {
 
-/// As the shaders write it.
+/// As the shaders of techniques write it.
 struct DeviceOutputs {
     float wi[3];
     float pdf;
@@ -20,22 +18,6 @@ struct DeviceOutputs {
     float inverse[2];
     float measure;
     float unused;
-};
-
-/// Runs a shader of shaders/parity, in batches.
-class TwinRunner {
-public:
-    /// \param input_size floats per light, with random numbers.
-    TwinRunner(const gpu::Device& device, std::span<const std::uint32_t> shader, std::size_t input_size);
-
-    /// \param inputs input_size floats for each light.
-    std::vector<DeviceOutputs> run(std::span<const float> inputs);
-
-private:
-    const gpu::Device* device_;
-    std::size_t input_size_;
-    gpu::Buffer inputs_, outputs_;
-    gpu::ComputePipeline pipeline_;
 };
 
 /// \tparam Kind of src/experiments/hostile/techniques.h.
@@ -58,11 +40,13 @@ public:
         std::vector<float> values(inputs.size() * sizeof(Input) / sizeof(float));
         std::memcpy(values.data(), inputs.data(), inputs.size() * sizeof(Input));
         std::vector<Outputs> results;
-        for (const DeviceOutputs& o : runner_.run(values))
+        for (const auto& written : runner_.run(values)) {
+            const auto o = std::bit_cast<DeviceOutputs>(written);
             results.push_back({{{o.wi[0], o.wi[1], o.wi[2]}, o.pdf, {o.p[0], o.p[1], o.p[2]}},
                                o.pdf_of_wi,
                                inverse(o.inverse, Random{}),
                                o.measure});
+        }
         return results;
     }
 
@@ -70,7 +54,7 @@ private:
     static float inverse(const float (&u)[2], float) { return u[0]; }
     static Vec2<float> inverse(const float (&u)[2], const Vec2<float>&) { return {u[0], u[1]}; }
 
-    TwinRunner runner_;
+    ShaderRunner runner_;
 };
 
 } // namespace nusselt::parity

@@ -1,4 +1,4 @@
-#include "twin.h"
+#include "shader_runner.h"
 
 #include <algorithm>
 #include <cassert>
@@ -8,23 +8,23 @@ namespace nusselt::parity {
 namespace {
 
 constexpr std::size_t kBatch = 1 << 14;
-constexpr std::size_t kWorkGroup = 64; // as in shaders/parity/outputs.glsl
+constexpr std::size_t kWorkGroup = 64; // as in shaders/parity/buffers.glsl
 
 } // namespace
 
-TwinRunner::TwinRunner(const gpu::Device& device, std::span<const std::uint32_t> shader,
-                       std::size_t input_size)
+ShaderRunner::ShaderRunner(const gpu::Device& device, std::span<const std::uint32_t> shader,
+                           std::size_t input_size)
     : device_(&device),
       input_size_(input_size),
       inputs_(device, kBatch * input_size * sizeof(float), gpu::Residence::host_visible),
-      outputs_(device, kBatch * sizeof(DeviceOutputs), gpu::Residence::host_visible),
+      outputs_(device, kBatch * kOutputSize * sizeof(float), gpu::Residence::host_visible),
       pipeline_(device, shader, {.storage_buffers = 2, .push_constant_size = sizeof(std::uint32_t)}) {
     pipeline_.bind({&inputs_, &outputs_});
 }
 
-std::vector<DeviceOutputs> TwinRunner::run(std::span<const float> inputs) {
+std::vector<std::array<float, kOutputSize>> ShaderRunner::run(std::span<const float> inputs) {
     assert(inputs.size() % input_size_ == 0);
-    std::vector<DeviceOutputs> results(inputs.size() / input_size_);
+    std::vector<std::array<float, kOutputSize>> results(inputs.size() / input_size_);
     for (std::size_t begin = 0; begin < results.size(); begin += kBatch) {
         const auto count = static_cast<std::uint32_t>(std::min(kBatch, results.size() - begin));
         inputs_.write(inputs.subspan(begin * input_size_, count * input_size_));

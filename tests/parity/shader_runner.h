@@ -1,0 +1,31 @@
+#pragma once
+/// Runs shaders that turn numbers into numbers.
+
+#include "gpu/compute_pipeline.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace nusselt::parity {
+
+/// Floats that a shader writes for each light or call.
+inline constexpr std::size_t kOutputSize = 12;
+
+/// Runs a shader of shaders/parity, in batches.
+class ShaderRunner {
+public:
+    /// \param input_size floats for each light or call.
+    ShaderRunner(const gpu::Device& device, std::span<const std::uint32_t> shader, std::size_t input_size);
+
+    /// \param inputs input_size floats for each light or call.
+    std::vector<std::array<float, kOutputSize>> run(std::span<const float> inputs);
+
+private:
+    const gpu::Device* device_;
+    std::size_t input_size_;
+    gpu::Buffer inputs_, outputs_;
+    gpu::ComputePipeline pipeline_;
+};
+
+} // namespace nusselt::parity
