@@ -132,7 +132,8 @@ LightSample line_projected_solid_angle_sample(LineProjectedSolidAngle self, floa
 float line_projected_solid_angle_invert(LineProjectedSolidAngle self, vec3 wi) {
     LinePoint point = line_extent_point_in(self.extent, wi);
     float theta = line_angle_at(self.extent, self.sweep, point.from_begin);
-    float part = cosine_integral(theta, point.from_begin, self.extent.height0 + nusselt_max(wi.z, 0.0), self.extent.t.z);
+    float heights = self.extent.height0 + nusselt_max(wi.z, 0.0);
+    float part = cosine_integral(theta, point.from_begin, heights, self.extent.t.z);
     return below_one(part / (self.integral > 0.0 ? self.integral : 1.0));
 }
 

@@ -197,7 +197,7 @@ ProjectedSectorSelection polygon_projected_solid_angle_select(PolygonProjectedSo
 LightSample polygon_projected_solid_angle_sample_central(LightPlane plane, ProjectedSectorSelection s, float u) {
     vec3 n = nusselt_cross(s.sector.begin, s.sector.chord);
     vec3 a = inverse_length(s.sector.begin) * s.sector.begin;
-    vec3 t = inverse_length(n) * nusselt_cross(n, a);
+    vec3 t = inverse_length(n) * cross(n, a); // orthogonal: nothing cancels
     SinCos angle = sincos_half_turn(nusselt_min(s.rest * s.angle_per_area, kNusseltPi));
     vec3 q = nusselt_fma(angle.cosine, a, angle.sine * t);
     float root = sqrt(u);
