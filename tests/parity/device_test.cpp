@@ -70,7 +70,11 @@ TEST_P(DeviceTest, RunsAShader) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AnyMemory, DeviceTest,
-                         testing::Values(gpu::Residence::host_visible, gpu::Residence::device_local));
+                         testing::Values(gpu::Residence::host_visible, gpu::Residence::device_local),
+                         [](const auto& residence) {
+                             return residence.param == gpu::Residence::host_visible ? "host_visible"
+                                                                                    : "device_local";
+                         });
 
 class DevicesTest : public GpuTest {};
 

@@ -48,38 +48,57 @@ struct TechniquePair {
     static constexpr std::span<const std::uint32_t> kFused = Fused;
 };
 
-using TechniquePairs = testing::Types<
-    TechniquePair<experiments::PolygonAreaTraits<4>, hostile::PolygonAreaKindOf<4>,
-                  shaders::kPolygonArea4Split, shaders::kPolygonArea4Fused>,
-    TechniquePair<experiments::PolygonAreaTraits<8>, hostile::PolygonAreaKindOf<8>,
-                  shaders::kPolygonArea8Split, shaders::kPolygonArea8Fused>,
-    TechniquePair<experiments::PolygonSolidAngleTraits<4>, hostile::PolygonSolidAngleKindOf<4>,
-                  shaders::kPolygonSolidAngle4Split, shaders::kPolygonSolidAngle4Fused>,
-    TechniquePair<experiments::PolygonSolidAngleTraits<8>, hostile::PolygonSolidAngleKindOf<8>,
-                  shaders::kPolygonSolidAngle8Split, shaders::kPolygonSolidAngle8Fused>,
-    TechniquePair<experiments::PolygonClippedSolidAngleTraits<4>, hostile::PolygonClippedSolidAngleKindOf<4>,
-                  shaders::kPolygonClippedSolidAngle4Split, shaders::kPolygonClippedSolidAngle4Fused>,
-    TechniquePair<experiments::PolygonClippedSolidAngleTraits<8>, hostile::PolygonClippedSolidAngleKindOf<8>,
-                  shaders::kPolygonClippedSolidAngle8Split, shaders::kPolygonClippedSolidAngle8Fused>,
-    TechniquePair<experiments::PolygonProjectedSolidAngleTraits<4>,
-                  hostile::PolygonProjectedSolidAngleKindOf<4>, shaders::kPolygonProjectedSolidAngle4Split,
-                  shaders::kPolygonProjectedSolidAngle4Fused>,
-    TechniquePair<experiments::PolygonProjectedSolidAngleTraits<8>,
-                  hostile::PolygonProjectedSolidAngleKindOf<8>, shaders::kPolygonProjectedSolidAngle8Split,
-                  shaders::kPolygonProjectedSolidAngle8Fused>,
-    TechniquePair<experiments::PolygonProjectedSolidAngleBiasedTraits<4>, hostile::PolygonBiasedKindOf<4>,
-                  shaders::kPolygonProjectedSolidAngleBiased4Split,
-                  shaders::kPolygonProjectedSolidAngleBiased4Fused>,
-    TechniquePair<experiments::PolygonProjectedSolidAngleBiasedTraits<8>, hostile::PolygonBiasedKindOf<8>,
-                  shaders::kPolygonProjectedSolidAngleBiased8Split,
-                  shaders::kPolygonProjectedSolidAngleBiased8Fused>,
-    TechniquePair<experiments::LineAreaTraits, hostile::LineAreaKind, shaders::kLineAreaSplit,
-                  shaders::kLineAreaFused>,
-    TechniquePair<experiments::LineSolidAngleTraits, hostile::LineSolidAngleKind,
-                  shaders::kLineSolidAngleSplit, shaders::kLineSolidAngleFused>,
-    TechniquePair<experiments::LineClippedSolidAngleTraits, hostile::LineClippedSolidAngleKind,
-                  shaders::kLineClippedSolidAngleSplit, shaders::kLineClippedSolidAngleFused>,
-    TechniquePair<experiments::LineProjectedSolidAngleTraits, hostile::LineProjectedSolidAngleKind,
-                  shaders::kLineProjectedSolidAngleSplit, shaders::kLineProjectedSolidAngleFused>>;
+// Named types, for the names of tests.
+struct PolygonArea4 : TechniquePair<experiments::PolygonAreaTraits<4>, hostile::PolygonAreaKindOf<4>,
+                                    shaders::kPolygonArea4Split, shaders::kPolygonArea4Fused> {};
+struct PolygonArea8 : TechniquePair<experiments::PolygonAreaTraits<8>, hostile::PolygonAreaKindOf<8>,
+                                    shaders::kPolygonArea8Split, shaders::kPolygonArea8Fused> {};
+struct PolygonSolidAngle4
+    : TechniquePair<experiments::PolygonSolidAngleTraits<4>, hostile::PolygonSolidAngleKindOf<4>,
+                    shaders::kPolygonSolidAngle4Split, shaders::kPolygonSolidAngle4Fused> {};
+struct PolygonSolidAngle8
+    : TechniquePair<experiments::PolygonSolidAngleTraits<8>, hostile::PolygonSolidAngleKindOf<8>,
+                    shaders::kPolygonSolidAngle8Split, shaders::kPolygonSolidAngle8Fused> {};
+struct PolygonClippedSolidAngle4
+    : TechniquePair<experiments::PolygonClippedSolidAngleTraits<4>,
+                    hostile::PolygonClippedSolidAngleKindOf<4>, shaders::kPolygonClippedSolidAngle4Split,
+                    shaders::kPolygonClippedSolidAngle4Fused> {};
+struct PolygonClippedSolidAngle8
+    : TechniquePair<experiments::PolygonClippedSolidAngleTraits<8>,
+                    hostile::PolygonClippedSolidAngleKindOf<8>, shaders::kPolygonClippedSolidAngle8Split,
+                    shaders::kPolygonClippedSolidAngle8Fused> {};
+struct PolygonProjectedSolidAngle4
+    : TechniquePair<experiments::PolygonProjectedSolidAngleTraits<4>,
+                    hostile::PolygonProjectedSolidAngleKindOf<4>, shaders::kPolygonProjectedSolidAngle4Split,
+                    shaders::kPolygonProjectedSolidAngle4Fused> {};
+struct PolygonProjectedSolidAngle8
+    : TechniquePair<experiments::PolygonProjectedSolidAngleTraits<8>,
+                    hostile::PolygonProjectedSolidAngleKindOf<8>, shaders::kPolygonProjectedSolidAngle8Split,
+                    shaders::kPolygonProjectedSolidAngle8Fused> {};
+struct PolygonProjectedSolidAngleBiased4
+    : TechniquePair<experiments::PolygonProjectedSolidAngleBiasedTraits<4>, hostile::PolygonBiasedKindOf<4>,
+                    shaders::kPolygonProjectedSolidAngleBiased4Split,
+                    shaders::kPolygonProjectedSolidAngleBiased4Fused> {};
+struct PolygonProjectedSolidAngleBiased8
+    : TechniquePair<experiments::PolygonProjectedSolidAngleBiasedTraits<8>, hostile::PolygonBiasedKindOf<8>,
+                    shaders::kPolygonProjectedSolidAngleBiased8Split,
+                    shaders::kPolygonProjectedSolidAngleBiased8Fused> {};
+struct LineArea : TechniquePair<experiments::LineAreaTraits, hostile::LineAreaKind, shaders::kLineAreaSplit,
+                                shaders::kLineAreaFused> {};
+struct LineSolidAngle : TechniquePair<experiments::LineSolidAngleTraits, hostile::LineSolidAngleKind,
+                                      shaders::kLineSolidAngleSplit, shaders::kLineSolidAngleFused> {};
+struct LineClippedSolidAngle
+    : TechniquePair<experiments::LineClippedSolidAngleTraits, hostile::LineClippedSolidAngleKind,
+                    shaders::kLineClippedSolidAngleSplit, shaders::kLineClippedSolidAngleFused> {};
+struct LineProjectedSolidAngle
+    : TechniquePair<experiments::LineProjectedSolidAngleTraits, hostile::LineProjectedSolidAngleKind,
+                    shaders::kLineProjectedSolidAngleSplit, shaders::kLineProjectedSolidAngleFused> {};
+
+using TechniquePairs =
+    testing::Types<PolygonArea4, PolygonArea8, PolygonSolidAngle4, PolygonSolidAngle8,
+                   PolygonClippedSolidAngle4, PolygonClippedSolidAngle8, PolygonProjectedSolidAngle4,
+                   PolygonProjectedSolidAngle8, PolygonProjectedSolidAngleBiased4,
+                   PolygonProjectedSolidAngleBiased8, LineArea, LineSolidAngle, LineClippedSolidAngle,
+                   LineProjectedSolidAngle>;
 
 } // namespace nusselt::parity
