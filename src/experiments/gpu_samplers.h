@@ -15,7 +15,7 @@ struct GpuSamplerTiming {
     std::string technique; ///< class name; one that ends in Peters follows the published formulas
     std::string configuration;
     double light_ns = 0;  ///< per light that is prepared and sampled once, with clipping [ns], median
-    double sample_ns = 0; ///< per sample of a light that is prepared for 128 of them [ns], median
+    double sample_ns = 0; ///< per sample, with 1/128 of preparing a light for 128 of them [ns], median
     double spread = 0;    ///< half the interquartile range of light_ns, with the baseline, over its median
     /// Time over that of the published formulas, per light and per sample; 0 if there are none.
     double light_ratio = 0, sample_ratio = 0;

@@ -46,16 +46,17 @@ vk::raii::DescriptorPool make_descriptor_pool(const Device& device, const Comput
 } // namespace
 
 ComputePipeline::ComputePipeline(const Device& device, std::span<const std::uint32_t> spirv,
-                                 const ComputeInterface& interface)
+                                 const ComputeInterface& interface) try
     : interface_(interface),
       device_(&device),
       set_layout_(make_set_layout(device, interface)),
       layout_(make_layout(device, interface, *set_layout_)),
-      pipeline_(guarded(device.description().name + ", compiling a shader",
-                        [&] { return make_pipeline(device, spirv, interface, *layout_); })),
+      pipeline_(make_pipeline(device, spirv, interface, *layout_)),
       descriptor_pool_(make_descriptor_pool(device, interface)) {
     const vk::DescriptorSetAllocateInfo info(*descriptor_pool_, *set_layout_);
     descriptors_ = vk::raii::DescriptorSets(device.handle(), info).front().release();
+} catch (const vk::SystemError& error) {
+    rethrow(device.description().name + ", compiling a shader", error);
 }
 
 void ComputePipeline::bind(std::initializer_list<const Buffer*> buffers) {

@@ -19,6 +19,7 @@ struct ComputeInterface {
 class ComputePipeline {
 public:
     /// \param spirv a shader with the entry point `main`, as nusselt_add_shader() embeds it.
+    /// \throws Error if the driver cannot compile it or runs out of memory.
     ComputePipeline(const Device& device, std::span<const std::uint32_t> spirv,
                     const ComputeInterface& interface);
 

@@ -93,11 +93,10 @@ std::uint32_t choose_queue_family(const vk::raii::PhysicalDevice& device) {
     return static_cast<std::uint32_t>(found - families.begin());
 }
 
-vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint32_t queue_family,
-                             const std::string& name) {
+vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint32_t queue_family) {
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue({}, queue_family, 1, &priority);
-    return guarded(name, [&] { return vk::raii::Device(physical, vk::DeviceCreateInfo({}, queue)); });
+    return {physical, vk::DeviceCreateInfo({}, queue)};
 }
 
 } // namespace
@@ -122,7 +121,7 @@ std::optional<std::string> why_no_device(const DeviceOptions& options) {
     return std::nullopt;
 }
 
-Device::Device(const DeviceOptions& options)
+Device::Device(const DeviceOptions& options) try
     : instance_(options.validation),
       physical_(choose(instance_, options)),
       description_(describe(physical_)),
@@ -130,10 +129,13 @@ Device::Device(const DeviceOptions& options)
       queue_family_(choose_queue_family(physical_)),
       clock_(physical_.getQueueFamilyProperties()[queue_family_].timestampValidBits > 0 ? Clock::timestamps
                                                                                         : Clock::wall),
-      device_(make_device(physical_, queue_family_, description_.name)),
+      device_(make_device(physical_, queue_family_)),
       queue_(device_, queue_family_, 0),
       pool_(device_, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, queue_family_)),
-      timestamps_(device_, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2)) {}
+      timestamps_(device_, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2)) {
+} catch (const vk::SystemError& error) {
+    rethrow("the Vulkan device", error);
+}
 
 void Device::run(const Record& record) const {
     guarded(description_.name, [&] {

@@ -45,6 +45,9 @@ public:
 
     /// \throws NoDevice if there is none, with what there is if one was asked for by name.
     explicit Device(const DeviceOptions& options = {});
+    // Buffers and pipelines keep its address.
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
 
     const DeviceDescription& description() const { return description_; }
     const vk::PhysicalDeviceLimits& limits() const { return limits_; }

@@ -18,4 +18,8 @@ std::string describe(const std::string& activity, vk::Result result) {
     }
 }
 
+void rethrow(const std::string& activity, const vk::SystemError& error) {
+    throw Error(describe(activity, static_cast<vk::Result>(error.code().value())));
+}
+
 } // namespace nusselt::gpu

@@ -22,6 +22,9 @@ class NoDevice : public Error {
 /// \param activity as in "a buffer of 3 MiB".
 std::string describe(const std::string& activity, vk::Result result);
 
+/// Throws what Vulkan reported as Error.
+[[noreturn]] void rethrow(const std::string& activity, const vk::SystemError& error);
+
 /// Calls a function and turns the exceptions of Vulkan into Error.
 /// \param activity see describe().
 template <class Function>
@@ -29,7 +32,7 @@ decltype(auto) guarded(const std::string& activity, const Function& function) {
     try {
         return function();
     } catch (const vk::SystemError& error) {
-        throw Error(describe(activity, static_cast<vk::Result>(error.code().value())));
+        rethrow(activity, error);
     }
 }
 

@@ -167,6 +167,12 @@ TEST_F(MutantParity, MissingClippingIsFound) {
     EXPECT_EQ(concerned("decentral"), 0) << "above the horizon nothing is missing";
 }
 
+TEST_F(MutantParity, TheVariantForAFusedFmaIsRejectedWhereFmaRoundsTwice) {
+    if (gpu::has_fused_fma(device())) GTEST_SKIP() << "the device fuses fma";
+    using Pair = PolygonProjectedSolidAngle4;
+    EXPECT_FALSE(judge_twin<Pair>(device(), Pair::kFused, kRandomLights / 20).excesses.empty());
+}
+
 TEST_F(MutantParity, InfiniteDensitiesAreFound) {
     const std::string violation = first_violation<ProjectedPair::Kind>(device(), shaders::kUnguardedPolygon);
     EXPECT_NE(violation.find("the density of the sample is negative or not finite"), std::string::npos)
