@@ -148,8 +148,8 @@ inline long double reciprocal_power_of_two(long double x) noexcept {
     int exponent = 0;
     std::frexp(x, &exponent);
     constexpr int kLimit = std::numeric_limits<long double>::max_exponent - 2;
-    exponent = exponent < -kLimit ? -kLimit : exponent > kLimit ? kLimit : exponent;
-    return std::ldexp(1.0L, 1 - exponent);
+    exponent = exponent - 1 < -kLimit ? -kLimit : exponent - 1 > kLimit ? kLimit : exponent - 1;
+    return std::ldexp(1.0L, -exponent);
 }
 
 /// x, or the largest number below one: brings the result of an inversion back to [0, 1). A negative x or NaN
