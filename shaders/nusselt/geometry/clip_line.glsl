@@ -83,7 +83,7 @@ float cosine_integral(LineExtent e) {
 float solid_angle(LineSegment line) {
     float scale = scale_of(line);
     LineExtent e = make_line_extent(scaled(line, scale));
-    return e.visible ? 2.0 * e.sine_extent * e.inverse_distance * scale : 0.0;
+    return e.visible ? 2.0 * e.sine_extent / e.distance * scale : 0.0;
 }
 
 /// Projected solid angle per radius of the part of a linear light above the horizon in the limit of a thin cylinder
@@ -91,7 +91,7 @@ float solid_angle(LineSegment line) {
 float projected_solid_angle(LineSegment line) {
     float scale = scale_of(line);
     LineExtent e = clipped_extent(scaled(line, scale));
-    return e.visible ? cosine_integral(e) * e.inverse_distance * scale : 0.0;
+    return e.visible ? cosine_integral(e) / e.distance * scale : 0.0;
 }
 
 #endif

@@ -37,7 +37,6 @@ struct LinePoint {
 struct LineExtent {
     vec3 s, t;      ///< orthonormal; t points from the origin to the closest point of the infinite line
     float distance; ///< of the infinite line from the origin
-    float inverse_distance;
     float len;
     float l0, l1;                    ///< coordinates of the end points along s, 0 at the closest point
     float s0, s1, c0, c1;            ///< sines and cosines of the angles of the end points
@@ -120,9 +119,8 @@ LineExtent make_line_extent(vec3 s, vec3 p0, vec3 p1, vec3 closest, float distan
     bool passes_by = distance > kNusseltSmallestDistance && length > 0.0;
     // Without light, any values will do that keep the formulas finite.
     e.distance = passes_by ? distance : 1.0;
-    e.inverse_distance = 1.0 / e.distance;
     e.s = s;
-    e.t = e.inverse_distance * closest;
+    e.t = (1.0 / e.distance) * closest;
     e.len = length;
     e.l0 = l0;
     e.l1 = l1;
@@ -134,8 +132,8 @@ LineExtent make_line_extent(vec3 s, vec3 p0, vec3 p1, vec3 closest, float distan
     e.s1 = l1 * inverse_r1;
     e.c0 = e.distance * inverse_r0;
     e.c1 = e.distance * inverse_r1;
-    e.height0 = nusselt_max(p0.z, 0.0) * inverse_r0;
-    e.height1 = nusselt_max(p1.z, 0.0) * inverse_r1;
+    e.height0 = nusselt_max(p0.z, 0.0) / r0;
+    e.height1 = nusselt_max(p1.z, 0.0) / r1;
     float one_plus_abs0 = 1.0 + abs(e.s0);
     float one_plus_abs1 = 1.0 + abs(e.s1);
     e.one_plus_s0 = e.s0 < 0.0 ? e.c0 * e.c0 / one_plus_abs0 : one_plus_abs0;

@@ -43,7 +43,7 @@ LineProjectedSolidAngle line_projected_solid_angle_prepare(LineSegment light) {
     self.middle_height = nusselt_max(nusselt_fma(e.s.z, middle.sine, e.t.z * middle.cosine), 0.0);
     self.slope = e.s.z * e.c0 - e.t.z * e.s0;
     self.integral = cosine_integral(self.sweep, e.sine_extent, e.height0 + e.height1, e.t.z);
-    float measure = self.integral * e.inverse_distance * scale;
+    float measure = self.integral / e.distance * scale;
     float inverse_measure = e.distance / (self.integral > 0.0 ? self.integral : 1.0) * self.inverse_scale;
     bool lit = e.visible && measure > 0.0 && is_finite(measure) && is_finite(inverse_measure);
     self.measure = lit ? measure : 0.0;

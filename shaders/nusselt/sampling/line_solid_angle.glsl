@@ -27,7 +27,7 @@ LineSolidAngle line_solid_angle_prepare_extent(float scale, LineExtent extent) {
     self.inverse_scale = reciprocal_power_of_two(scale);
     // Eq. 1 in the limit of a radius of 0.
     float angle = 2.0 * extent.sine_extent;
-    float measure = angle * extent.inverse_distance * scale;
+    float measure = angle / extent.distance * scale;
     float density = extent.distance / (extent.visible ? angle : 1.0) * self.inverse_scale;
     bool lit = extent.visible && measure > 0.0 && is_finite(measure) && density > 0.0 && is_finite(density);
     self.measure = lit ? measure : 0.0;
