@@ -50,11 +50,11 @@ Before
 |  | exact, rounded | 4.0e-08 | 5.0e-08 | 6.0e-08 | 7.0e-08 |
 <!-- end -->
 <!-- generated: cost A -->
-| lights | scalar | packs, per lane |
+| lights | scalar | packs of 8, per lane |
 | --- | --- | --- |
 | small | 12.3 / 5 | 2.5 / 0.5 |
 
-One thread of Some CPU, packs of 8 lanes (avx2); ns per light for preparing / per sample.
+One thread of Some CPU, avx2; ns per light for preparing / per sample.
 <!-- end -->
 After
 END

@@ -49,22 +49,22 @@ def accuracy_table(report, technique):
 
 
 def cost_table(report, technique, cpu):
-    cells, isas = {}, set()
+    cells, columns = {}, {}
     for row in report:
         if row["technique"] != technique:
             continue
         lanes = row["lanes"]
+        columns[lanes] = "scalar" if lanes == 1 else f"packs of {lanes}, per lane"
         lights = row.get("lights") or row["configuration"]
-        cells.setdefault(lights, {})["scalar" if lanes == 1 else "packs"] = (
-            f"{row['prepare_ns']:.3g} / {row['sample_ns']:.3g}")
-        if lanes > 1:
-            isas.add(f"{lanes} lanes ({row['isa']})")
+        cells.setdefault(lights, {})[lanes] = f"{row['prepare_ns']:.3g} / {row['sample_ns']:.3g}"
     if not cells:
         raise ValueError(f"no cost of {technique}")
-    header = ["lights", "scalar", "packs, per lane"]
-    rows = [[lights, c.get("scalar", ""), c.get("packs", "")] for lights, c in cells.items()]
-    where = f"One thread of {cpu}, packs of {' and '.join(sorted(isas))}" if isas else f"One thread of {cpu}"
-    return table(header, rows) + f"\n{where}; ns per light for preparing / per sample.\n"
+    lanes = sorted(columns)
+    isa = next(row["isa"] for row in report if row["technique"] == technique)
+    rows = [[lights, *(c.get(n, "") for n in lanes)] for lights, c in cells.items()]
+    where = f"One thread of {cpu}, {isa}" if len(lanes) > 1 else f"One thread of {cpu}"
+    return (table(["lights", *(columns[n] for n in lanes)], rows) +
+            f"\n{where}; ns per light for preparing / per sample.\n")
 
 
 def fill(text, accuracy, samplers, cpu):

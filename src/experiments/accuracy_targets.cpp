@@ -42,7 +42,6 @@ constexpr AccuracyTarget kTargets[] = {
     {kPolygon, "float", "edge-on", Q::spurious, 0},
     {kPolygon, "float", kEveryClass, Q::p999_over_floor, 100},
     {kPolygon, "float", kEveryClass, Q::invalid, 0},
-    {kPolygon, "long double", kEveryClass, Q::max, 4e-5},
     {kLine, "float", "ordinary", Q::p99_over_floor, 10},
     {kLine, "float", "crossing the horizon", Q::p99_over_floor, 10},
     {kLine, "float", "1 cm at 40 m", Q::p99_over_floor, 2},
@@ -57,7 +56,6 @@ constexpr AccuracyTarget kTargets[] = {
     {kLine, "float", "in the horizon plane", Q::spurious, 0},
     {kLine, "float", kEveryClass, Q::p999_over_floor, 100},
     {kLine, "float", kEveryClass, Q::invalid, 0},
-    {kLine, "long double", kEveryClass, Q::max, 1.6e-5},
 };
 
 const AccuracyRow* find(const std::vector<AccuracyRow>& rows, const AccuracyRow& like,

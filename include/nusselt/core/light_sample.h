@@ -20,7 +20,7 @@ struct LightPlane {
     Real distance;     ///< dot(normal, p) for each point p of the plane [m]
     Real farthest;     ///< largest distance of a vertex from the origin [m]
 
-    /// Distance of the light along a direction that hits it. Near the plane rounding could move the point
+    /// Distance of the light along a unit direction that hits it [m]. Near the plane rounding could move the point
     /// arbitrarily far, but no point of a polygon is farther away than its farthest vertex.
     NUSSELT_HD Real distance_along(const Vec3<Real>& wi) const noexcept {
         const Real cosine = dot(normal, wi);

@@ -120,8 +120,8 @@ NUSSELT_INLINE bool is_finite(T x) noexcept {
 }
 
 /// Reciprocal of the largest power of two that is at most x, for x > 0: x times the result is in [1, 2), and 1 if
-/// x is a power of two. Clamped to normal numbers, so that this holds unless x is denormal or above 2^126. Multiplying
-/// by it introduces no rounding.
+/// x is a power of two. Clamped to normal numbers, so that this holds unless x is denormal or above 2^126; finite and
+/// positive for 0. Multiplying by it introduces no rounding.
 NUSSELT_INLINE float reciprocal_power_of_two(float x) noexcept {
     std::uint32_t bits = 0;
     std::memcpy(&bits, &x, sizeof bits);

@@ -3,9 +3,9 @@
 /// (Peters 2021, polygonal lights, Sec. 3.7 and supplement A.6).
 ///
 /// In vertex order these azimuths are a cyclic rotation of a sequence that rises and then falls, and networks for such
-/// sequences need up to a third fewer comparators. These are networks with the fewest comparators for any order,
-/// known (Knuth, The Art of Computer Programming, vol. 3, Sec. 5.3.4;
-/// nine elements: Codish et al. 2014): rounding of a thin light may break the cyclic order.
+/// sequences need up to a third fewer comparators. These are for any order, with the fewest comparators
+/// (Knuth, The Art of Computer Programming, vol. 3, Sec. 5.3.4; nine elements: Codish et al. 2014): rounding of a thin
+/// light may break the cyclic order.
 
 #include <utility>
 

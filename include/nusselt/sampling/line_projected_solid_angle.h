@@ -164,7 +164,7 @@ private:
     Real inverse_scale_;
     Real sweep_;         ///< angle between the end points
     Real middle_height_; ///< cosine of the direction to the middle by sine with the normal
-    Real slope_;         ///< its derivative by theta at the begin
+    Real slope_;         ///< derivative by theta of that cosine, at the begin
     Real integral_;      ///< E of the paper
     Real measure_;
     Real inverse_measure_;

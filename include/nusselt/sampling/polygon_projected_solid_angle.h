@@ -371,7 +371,7 @@ private:
 
 /// The biased variant (Sec. 6.4): no iteration, fast arctangents. pdf() is the density of exact projected solid
 /// angle sampling, which the samples follow approximately: estimates are biased accordingly. The backward error is
-/// below 0.1 for 99 % of random sectors and at most 0.28.
+/// below 0.1 for 99 % of random sectors; the largest one found is 0.272.
 template <class Real, int N>
 using PolygonProjectedSolidAngleBiased = PolygonProjectedSolidAngle<Real, N, 0, FastAngles>;
 

@@ -103,19 +103,69 @@ TEST(TrigTest, SineAndCosineArePreciseInFloat) {
     EXPECT_LE(absolute_cosine.error, 1.2e-7L) << "at " << absolute_cosine.at;
 }
 
+TEST(TrigTest, SineAndCosineOfTheQuarterTurnArePreciseInFloat) {
+    Largest relative_sine, absolute_cosine;
+    for (int i = 1; i <= 1'000'000; ++i) {
+        const auto angle = std::min(static_cast<float>(kPi / 2 * i / 1'000'000), nusselt::kPi<float> / 2);
+        const auto [sine, cosine] = nusselt::sincos_quarter_turn(angle);
+        const long double exact = std::sin(static_cast<long double>(angle));
+        relative_sine.add(std::fabs(sine - exact) / exact, angle);
+        absolute_cosine.add(std::fabs(cosine - std::cos(static_cast<long double>(angle))), angle);
+    }
+    EXPECT_LE(relative_sine.error, 1.5e-7L) << "at " << relative_sine.at;
+    EXPECT_LE(absolute_cosine.error, 1.2e-7L) << "at " << absolute_cosine.at;
+}
+
+TEST(TrigTest, ArctangentsUpToOneArePreciseInFloat) {
+    Largest arctangent, relative, absolute;
+    for (int i = 1; i <= 1'000'000; ++i) {
+        const float q = static_cast<float>(i) / 1'000'000;
+        const long double exact = std::atan(static_cast<long double>(q));
+        arctangent.add(std::fabs(nusselt::atan_up_to_one(q) / exact - 1), q);
+        const long double t = std::sqrt(static_cast<long double>(q));
+        // The difference cancels for small t; there the first terms of the series are exact enough.
+        const long double ratio =
+            t > 0.02L ? 1 - std::atan(t) / t : t * t * (1 / 3.0L - t * t / 5 + t * t * t * t / 7);
+        const float actual = nusselt::one_minus_atan_ratio(q);
+        relative.add(std::fabs(actual / ratio - 1), q);
+        absolute.add(std::fabs(actual - ratio), q);
+    }
+    EXPECT_LE(arctangent.error, 3e-7L) << "at " << arctangent.at;
+    EXPECT_LE(relative.error, 1.1e-6L) << "at " << relative.at;
+    EXPECT_LE(absolute.error, 5e-8L) << "at " << absolute.at;
+}
+
+TEST(TrigTest, DividedDifferencesOfTheArctangentKeepTheirPrecision) {
+    Largest relative;
+    for (int i = 0; i <= 1000; ++i) {
+        const float s = static_cast<float>(i) / 1000;
+        for (float step = 1e-12f; s + step <= 1; step *= 3) {
+            const auto [value, difference] = nusselt::one_minus_atan_ratio_difference(s, step);
+            EXPECT_EQ(value, nusselt::one_minus_atan_ratio(s));
+            // The derivative of the exact function at the middle; its third derivative adds at most step^2.
+            const long double middle = std::max(s + step / 2.0L, 1e-9L);
+            const long double t = std::sqrt(middle);
+            const long double slope = t < 0.02L ? 1 / 3.0L - 2 * middle / 5 + 3 * middle * middle / 7
+                                                : (std::atan(t) / t - 1 / (1 + middle)) / (2 * middle);
+            if (step < 1e-3f) relative.add(std::fabs(difference / (step * slope) - 1), s);
+        }
+    }
+    EXPECT_LE(relative.error, 1e-4L) << "at " << relative.at;
+}
+
 TYPED_TEST(ArctangentTest, AngleMinusSineKeepsItsPrecision) {
     using T = TypeParam;
     for (T x = T(1e-6); x < nusselt::kPi<T>; x *= T(1.01)) {
         const auto wide = static_cast<long double>(x);
-        // Six terms of the series for small angles, the definition for others.
         long double term = wide * wide * wide / 6;
         long double series = 0;
         for (int k = 1; k < 30; ++k) {
             series += term;
             term *= -wide * wide / ((2 * k + 2) * (2 * k + 3));
         }
-        const T actual = nusselt::x_minus_sin(x);
-        EXPECT_NEAR(actual / series, 1, 10 * std::numeric_limits<T>::epsilon()) << x;
+        // A rounding for each of the products around the polynomial, and as much for the polynomial: 5e-7 in float.
+        const long double bound = 4 * static_cast<long double>(std::numeric_limits<T>::epsilon());
+        EXPECT_LE(std::fabs(nusselt::x_minus_sin(x) / series - 1), bound) << x;
     }
 }
 
