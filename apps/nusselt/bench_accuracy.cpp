@@ -3,16 +3,22 @@
 #include "experiments/accuracy_json.h"
 #include "experiments/accuracy_page.h"
 #include "image/atomic_file.h"
+#include "image/io.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include <fstream>
 #include <memory>
+#include <stdexcept>
 
 namespace nusselt::app {
 
 int run_bench_accuracy(const BenchAccuracyOptions& options) {
+    if (options.markdown && options.json && *options.markdown == *options.json)
+        throw std::runtime_error("--json and --markdown name the same file");
+    if (options.markdown) image::check_writable(*options.markdown);
+    if (options.json && *options.json != "-") image::check_writable(*options.json);
     const experiments::AccuracyTable table = experiments::measure_accuracy({options.count, options.isa});
     if (options.markdown)
         image::write_atomically(*options.markdown,

@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "progress.h"
 #include "render_setup.h"
+#include "validators.h"
 
 #include "experiments/fuzz.h"
 #include "render_cpu/isa.h"
@@ -55,9 +56,15 @@ void setup_bench_fuzz(CLI::App& bench, int& exit_code) {
         "fuzz",
         "Run techniques on lights that break samplers, and check that results are finite, on the light and\n"
         "consistent. Exits with 1 if one is not. A configuration depends on its index and the seed only");
-    command->add_option("--count", options->count, "Configurations per technique")->capture_default_str();
-    command->add_option("--first", options->first, "Index of the first configuration")->capture_default_str();
-    command->add_option("--seed", options->seed, "Seed of the configurations")->capture_default_str();
+    command->add_option("--count", options->count, "Configurations per technique")
+        ->check(whole_number(1, 1'000'000'000'000))
+        ->capture_default_str();
+    command->add_option("--first", options->first, "Index of the first configuration")
+        ->check(whole_number(0, UINT64_MAX))
+        ->capture_default_str();
+    command->add_option("--seed", options->seed, "Seed of the configurations")
+        ->check(whole_number(0, UINT64_MAX))
+        ->capture_default_str();
     command
         ->add_option("--technique", options->techniques,
                      "Class name of a technique; may be repeated. Default: all")

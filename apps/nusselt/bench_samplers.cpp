@@ -2,6 +2,7 @@
 
 #include "experiments/sampler_timing.h"
 #include "image/atomic_file.h"
+#include "image/io.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -51,6 +52,7 @@ std::string to_json(const std::vector<experiments::SamplerTiming>& rows) {
 } // namespace
 
 int run_bench_samplers(const BenchSamplersOptions& options) {
+    if (options.json && *options.json != "-") image::check_writable(*options.json);
     const auto rows = experiments::time_samplers({options.repetitions, options.isa});
     if (options.json && *options.json == "-") {
         fmt::print("{}", to_json(rows));

@@ -1,11 +1,13 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "progress.h"
+#include "validators.h"
 
 #include "experiments/convergence.h"
 #include "experiments/worst_case.h"
 #include "experiments/worst_case_state.h"
 #include "image/atomic_file.h"
+#include "image/io.h"
 #include "render_cpu/renderer.h"
 
 #include <CLI/CLI.hpp>
@@ -180,6 +182,7 @@ std::string to_json(Session& session, const std::vector<Convergence>& convergenc
 } // namespace
 
 int run_bench_worst_case(const BenchWorstCaseOptions& options) {
+    if (options.json && *options.json != "-") image::check_writable(*options.json);
     Session session(options);
     const InterruptGuard guard;
     // Fails now, not after hours, if the file cannot be written.
@@ -214,14 +217,15 @@ void setup_bench_worst_case(CLI::App& bench, int& exit_code) {
         ->add_option(
             "--time", options->seconds,
             "Seconds to search, shared by the targets. Default: 60, without limit if --starts is given")
-        ->check(CLI::PositiveNumber);
+        ->check(seconds());
     command
         ->add_option(
             "--starts", options->starts,
             "Starts per target, those in the state file included; the result then depends on nothing "
             "but the\nseed. Default: as many as the time allows")
-        ->check(CLI::PositiveNumber);
-    command->add_option("--seed", options->seed, "Default: that of the state file, else 1");
+        ->check(whole_number(1, 1'000'000'000'000));
+    command->add_option("--seed", options->seed, "Default: that of the state file, else 1")
+        ->check(whole_number(0, UINT64_MAX));
     command
         ->add_option("--threads", options->threads,
                      "Threads, 1 to 1024. Default: as many as the machine runs at once")

@@ -3,7 +3,22 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include <cstdio>
 #include <exception>
+#include <iostream>
+
+namespace {
+
+/// The exit code, or that of an error if text for the standard output was lost, whichever command wrote it.
+int finished(int exit_code) {
+    std::cout.flush();
+    const bool written = std::cout.good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    if (written || exit_code != 0) return exit_code;
+    fmt::print(stderr, "nusselt: error: the standard output cannot be written (is its disk full?)\n");
+    return 1;
+}
+
+} // namespace
 
 int main(int argc, char** argv) {
     using namespace nusselt::app;
@@ -29,10 +44,10 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         const bool is_help = error.get_exit_code() == 0;
         app.exit(error);
-        return is_help ? 0 : 2;
+        return is_help ? finished(0) : 2;
     } catch (const std::exception& error) {
         fmt::print(stderr, "nusselt: error: {}\n", error.what());
         return 1;
     }
-    return exit_code;
+    return finished(exit_code);
 }

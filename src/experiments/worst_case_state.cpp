@@ -23,6 +23,12 @@ long double number_of(const std::string& text) {
     return x;
 }
 
+/// nlohmann-json alone converts negative and broken numbers silently.
+std::uint64_t whole_number_of(const nlohmann::json& json) {
+    if (!json.is_number_unsigned()) throw std::runtime_error(json.dump() + " is not a whole number");
+    return json.get<std::uint64_t>();
+}
+
 } // namespace
 
 std::string hexadecimal(long double x) {
@@ -38,10 +44,10 @@ std::optional<SearchState> load_search_state(const std::filesystem::path& path) 
         if (!stream) throw std::runtime_error("cannot be read");
         const auto json = nlohmann::json::parse(stream);
         SearchState state;
-        state.seed = json.at("seed").get<std::uint64_t>();
+        state.seed = whole_number_of(json.at("seed"));
         for (const auto& [name, target] : json.at("targets").items()) {
             SearchProgress& progress = state.targets[name];
-            progress.starts = target.at("starts").get<std::uint64_t>();
+            progress.starts = whole_number_of(target.at("starts"));
             for (const auto& text : target.at("parameters"))
                 progress.parameters.push_back(number_of(text.get<std::string>()));
         }

@@ -81,12 +81,28 @@ TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
 
 TEST_F(CommandLine, WrongUsageExitsWithTwo) {
     expect_message(run("").err, "subcommand");
-    for (const char* arguments :
-         {"", "polish", "render", "render a.pbrt --spp 0", "render a.pbrt --technique magic",
-          "render a.pbrt --spp", "compare a.exr", "bench samplers --isa mmx", "reproduce no-such-experiment",
-          "bench worst-case --target spheres", "bench worst-case --time 0", "bench accuracy --count 0",
-          "render a.pbrt --frobnicate", "render a.pbrt --spp 4 --camera-rays 3",
-          "render a.pbrt --resolution 0x9", "render a.pbrt --resolution 9x65537"}) {
+    for (const char* arguments : {"",
+                                  "polish",
+                                  "render",
+                                  "render a.pbrt --spp 0",
+                                  "render a.pbrt --technique magic",
+                                  "render a.pbrt --spp",
+                                  "compare a.exr",
+                                  "bench samplers --isa mmx",
+                                  "reproduce no-such-experiment",
+                                  "bench worst-case --target spheres",
+                                  "bench worst-case --time 0",
+                                  "bench worst-case --time nan",
+                                  "bench worst-case --starts -1",
+                                  "bench accuracy --count 0",
+                                  "bench fuzz --count -1",
+                                  "bench fuzz --count 18446744073709551616",
+                                  "bench fuzz --seed -3",
+                                  "bench fuzz --count 1e3",
+                                  "render a.pbrt --frobnicate",
+                                  "render a.pbrt --spp 4 --camera-rays 3",
+                                  "render a.pbrt --resolution 0x9",
+                                  "render a.pbrt --resolution 9x65537"}) {
         const Outcome wrong = run(arguments);
         EXPECT_EQ(wrong.exit_code, 2) << arguments;
         expect_message(wrong.err, "--help");
@@ -112,6 +128,24 @@ TEST_F(CommandLine, ErrorsExitWithOneAndOneLine) {
         const Outcome early = run(std::string("render no-such-scene.pbrt ") + output);
         EXPECT_EQ(early.exit_code, 1) << output;
         expect_message(early.err, "cannot write");
+    }
+    for (const char* command :
+         {"bench accuracy --markdown", "bench samplers --json", "bench worst-case --json"}) {
+        const Outcome early = run(std::string(command) + " no/such/folder/a");
+        EXPECT_EQ(early.exit_code, 1) << command;
+        expect_message(early.err, "cannot write");
+    }
+    const Outcome same = run("bench accuracy --json a --markdown a");
+    EXPECT_EQ(same.exit_code, 1);
+    expect_message(same.err, "same file");
+}
+
+TEST_F(CommandLine, LostOutputIsAnError) {
+    for (const char* command :
+         {"techniques", "--help", "bench fuzz --count 1", "bench worst-case --starts 1 --convergence 0"}) {
+        const Outcome lost = run(std::string(command) + " >/dev/full 2>lost.txt #");
+        EXPECT_EQ(lost.exit_code, 1) << command;
+        expect_message(read("lost.txt"), "cannot be written");
     }
 }
 

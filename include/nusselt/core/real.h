@@ -92,7 +92,7 @@ NUSSELT_INLINE double fma(double a, double b, double c) noexcept { return std::f
 /// Without an instruction, and a library routine would take 400 ns: the product as an exact sum of two numbers
 /// (Dekker 1971), whose larger one is added first. In difference_of_products() the result is the same; in general it
 /// may be the other neighbour of the exact value.
-inline long double fma(long double a, long double b, long double c) noexcept {
+NUSSELT_HD inline long double fma(long double a, long double b, long double c) noexcept {
     if constexpr (std::numeric_limits<long double>::digits == std::numeric_limits<double>::digits) {
         return std::fma(a, b, c);
     } else {

@@ -121,11 +121,9 @@ private:
     }
 };
 
-/// 2^(minus 3/8 of the exponent range), for coordinates of order one: in the square of a smaller distance,
-/// components would underflow.
+/// For coordinates of order one: a smaller distance of a line from the origin cannot be told from rounding.
 template <class Scalar>
-inline constexpr Scalar kSmallestDistance = power_of_two<Scalar>(-std::numeric_limits<Scalar>::max_exponent /
-                                                                 8 * 3);
+inline constexpr Scalar kSmallestDistance = 4 * std::numeric_limits<Scalar>::epsilon();
 
 /// The part of a segment between two points of its line.
 /// \param p0, p1   the points; z only matters where it is the height above the surface.

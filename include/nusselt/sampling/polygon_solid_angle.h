@@ -95,10 +95,12 @@ public:
         const Real at_b = max(tau * weight_b, Real(0)) * t.inverse_b;
         const Real at_c = max(weight_c, Real(0)) * inverse_distance_[0];
         const Real sum = at_a + at_b + at_c;
-        const Real normalisation = inverse_scale_ / select(sum > Real(0), sum, Real(1));
+        const Real normalisation = Real(1) / select(sum > Real(0), sum, Real(1));
         const Vec3<Real> p = (at_a * normalisation) * t.pa + (at_b * normalisation) * t.pb +
                              (at_c * normalisation) * vertex_[0];
-        return {wi, inverse_total_, p};
+        // From close by, rounding relative to the size of the light would turn p away from wi.
+        const Real along = dot(p, wi);
+        return {wi, inverse_total_, inverse_scale_ * select(along < Real(0.125), along * wi, p)};
     }
 
     /// Constant on the light; the caller knows that wi hits it.
@@ -142,9 +144,11 @@ public:
     NUSSELT_HD Real measure() const noexcept { return total_; }
 
 protected:
-    /// \param polygon       with coordinates of order one.
-    /// \param inverse_scale from there to the light.
-    NUSSELT_HD PolygonSolidAngle(const ConvexPolygon<Real, N>& polygon, const Real& inverse_scale) noexcept
+    /// \param polygon         with coordinates of order one.
+    /// \param inverse_scale   from there to the light.
+    /// \param signed_distance of the plane of the polygon from the origin, see plane_distance().
+    NUSSELT_HD PolygonSolidAngle(const ConvexPolygon<Real, N>& polygon, const Real& inverse_scale,
+                                 const Real& signed_distance) noexcept
         : inverse_scale_(inverse_scale) {
         for (int j = 0; j < N; ++j) {
             vertex_[j] = polygon.vertex[j];
@@ -152,7 +156,6 @@ protected:
             inverse_distance_[j] = inverse_length(polygon.vertex[j]);
             direction_[j] = inverse_distance_[j] * polygon.vertex[j];
         }
-        const Real signed_distance = plane_distance(polygon);
         counterclockwise_ = signed_distance >= Real(0);
         Vec3<Real> offset = polygon.edge[0];
         total_ = Real(0);
@@ -187,6 +190,9 @@ protected:
 private:
     template <class, int>
     friend class PolygonSolidAngle;
+
+    NUSSELT_HD PolygonSolidAngle(const ConvexPolygon<Real, N>& polygon, const Real& inverse_scale) noexcept
+        : PolygonSolidAngle(polygon, inverse_scale, plane_distance(polygon)) {}
 
     /// 0 where there is no finite one.
     NUSSELT_HD static Real inverse(const Real& total) noexcept {
@@ -253,7 +259,7 @@ class PolygonClippedSolidAngle : public PolygonSolidAngle<Real, N + 1> {
 public:
     /// \param light in shading space, either winding [m].
     NUSSELT_HD explicit PolygonClippedSolidAngle(const ConvexPolygon<Real, N>& light) noexcept
-        : PolygonClippedSolidAngle(clip_to_horizon(with_unit_extent(light)),
+        : PolygonClippedSolidAngle(with_unit_extent(light),
                                    reciprocal_power_of_two(unit_extent_scale(light))) {}
 
     /// \copydoc PolygonSolidAngle::PolygonSolidAngle(const PolygonSolidAngle<Single, N>&)
@@ -261,13 +267,27 @@ public:
     NUSSELT_HD explicit PolygonClippedSolidAngle(const PolygonClippedSolidAngle<Single, N>& single) noexcept
         : PolygonSolidAngle<Real, N + 1>(static_cast<const PolygonSolidAngle<Single, N + 1>&>(single)) {}
 
+    /// \copydoc PolygonSolidAngle::sample
+    NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        LightSample<Real> s = PolygonSolidAngle<Real, N + 1>::sample(u);
+        // Above the horizon in spite of rounding.
+        s.wi.z = max(s.wi.z, Real(0));
+        s.p.z = max(s.p.z, Real(0));
+        return s;
+    }
+
 private:
-    /// Once more, since little may be left of the light.
-    NUSSELT_HD PolygonClippedSolidAngle(const ConvexPolygon<Real, N + 1>& clipped,
+    /// The plane is that of the whole light: new vertices are not exactly on it.
+    NUSSELT_HD PolygonClippedSolidAngle(const ConvexPolygon<Real, N>& light,
                                         const Real& inverse_scale) noexcept
+        : PolygonClippedSolidAngle(clip_to_horizon(light), inverse_scale, plane_distance(light)) {}
+
+    /// Scaled once more, since little may be left of the light.
+    NUSSELT_HD PolygonClippedSolidAngle(const ConvexPolygon<Real, N + 1>& clipped, const Real& inverse_scale,
+                                        const Real& signed_distance) noexcept
         : PolygonSolidAngle<Real, N + 1>(with_unit_extent(clipped),
-                                         inverse_scale *
-                                             reciprocal_power_of_two(unit_extent_scale(clipped))) {}
+                                         inverse_scale * reciprocal_power_of_two(unit_extent_scale(clipped)),
+                                         signed_distance * unit_extent_scale(clipped)) {}
 };
 
 NUSSELT_NAMESPACE_END

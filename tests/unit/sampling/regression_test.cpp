@@ -120,5 +120,40 @@ TEST(RegressionTest, InversionAtTheFirstDirectionWithTheZenithOnAVertex) {
     }
 }
 
+/// Of lights whose plane contains the point, clipping made vertices off the plane, and so up to half a sphere of light.
+TEST(RegressionTest, ClippedSolidAngleFromThePlaneOfTheLight) {
+    const Quad light = quad({0, 4, -27}, {-26, -2, 13}, {0, -4, 27}, {26, 2, -13});
+    EXPECT_EQ((nusselt::PolygonClippedSolidAngle<float, 4>(light).measure()), 0);
+    const nusselt::Vec3<double> vertices[] = {{5, 4, -27}, {-21, -2, 13}, {-5, -4, 27}, {21, 2, -13}};
+    const auto in_double = nusselt::make_polygon<4>(vertices, 4);
+    EXPECT_EQ((nusselt::PolygonClippedSolidAngle<double, 4>(in_double).measure()), 0);
+}
+
+/// Rounding moved samples below the horizon, and hit points away from their directions.
+TEST(RegressionTest, ClippedSolidAngleFromCloseBy) {
+    const Quad light =
+        quad({-0x1.a054cp-3f, -0x1.4b4ep-2f, 0x1.2dad4p-1f}, {-0x1.7e2a6p-2f, -0x1.6aa7p-1f, -0x1.44a58p-2f},
+             {0x1.3f568p-4f, 0x1.42c8p-4f, -0x1.7952cp-1f}, {0x1.fbab4p-3f, 0x1.dab2p-2f, 0x1.5ab5p-3f});
+    const nusselt::PolygonClippedSolidAngle<float, 4> technique(light);
+    for (const float x : {0.01f, 0x1.420254p-3f, 0.5f, 0.99f}) {
+        for (const float y : {0.0f, 0.3f, 0x1.fffffep-1f}) {
+            const auto [wi, pdf, p] = technique.sample({x, y});
+            EXPECT_GE(wi.z, 0) << x << ", " << y;
+            const auto towards = normalize(p);
+            EXPECT_LE(length(towards - wi), 1e-6f) << x << ", " << y;
+        }
+    }
+}
+
+/// A line through the point, but for rounding, had a measure of up to 1e11.
+TEST(RegressionTest, LineThroughThePointIsDark) {
+    const nusselt::Vec3<float> a{0.3f, -0.7f, 0.4f};
+    for (const float k : {2.0f, -1.0f, 0.0f}) {
+        EXPECT_EQ(nusselt::LineProjectedSolidAngle<float>(nusselt::make_line(a, k * a)).measure(), 0) << k;
+        EXPECT_EQ(nusselt::LineSolidAngle<float>(nusselt::make_line(a, k * a)).measure(), 0) << k;
+        EXPECT_EQ(nusselt::LineProjectedSolidAngle<float>(nusselt::make_line(-a, k * a)).measure(), 0) << k;
+    }
+}
+
 } // namespace
 } // namespace nusselt_test

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <charconv>
+#include <cstdint>
+
+namespace nusselt::app {
+
+/// Decimal integers from low to high. CLI11 alone lets negative and too large numbers wrap around.
+inline CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
+    const auto check = [low, high](const std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc() && end == text.data() + text.size() && value >= low && value <= high)
+            return {};
+        return fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
+    };
+    return CLI::Validator(check, fmt::format("in [{}, {}]", low, high), "whole number");
+}
+
+/// Seconds of a time budget, more than none and finite.
+inline CLI::Validator seconds() {
+    const auto check = [](const std::string& text) -> std::string {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc() && end == text.data() + text.size() && value > 0 && value <= 1e9) return {};
+        return fmt::format("'{}' is not a number of seconds, above 0 and up to 1e9", text);
+    };
+    return CLI::Validator(check, "above 0", "seconds");
+}
+
+} // namespace nusselt::app
