@@ -42,20 +42,18 @@ function(nusselt_add_shader target name source)
     target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 endfunction()
 
-# nusselt_add_technique_shader(target name entry file struct [PREPARE function] [SAMPLE function] [DEFINES define...]):
-# likewise, for an entry point that runs any technique. shaders/<entry>.glsl calls the technique by the names Technique,
+# nusselt_add_technique_shader(target name entry file struct [PREPARE function] [DEFINES define...]): likewise, for an
+# entry point that runs any technique. shaders/<entry>.glsl calls the technique by the names Technique,
 # technique_prepare and so on; shaders/<file>.glsl has it as a struct, and functions that begin with its name in
-# snake_case. PREPARE and SAMPLE name those of a variant that shares the struct.
+# snake_case. PREPARE names that of a variant that shares the rest.
 function(nusselt_add_technique_shader target name entry file struct)
-    cmake_parse_arguments(arg "" "PREPARE;SAMPLE" "DEFINES" ${ARGN})
+    cmake_parse_arguments(arg "" "PREPARE" "DEFINES" ${ARGN})
     string(REGEX REPLACE "([A-Z])" "_\\1" prefix ${struct})
     string(TOLOWER ${prefix} prefix)
     string(SUBSTRING ${prefix} 1 -1 prefix)
-    foreach(function PREPARE SAMPLE)
-        if(NOT arg_${function})
-            string(TOLOWER ${prefix}_${function} arg_${function})
-        endif()
-    endforeach()
+    if(NOT arg_PREPARE)
+        set(arg_PREPARE ${prefix}_prepare)
+    endif()
     set(source ${CMAKE_CURRENT_BINARY_DIR}/shaders/${name}.comp)
     configure_file(${PROJECT_SOURCE_DIR}/cmake/technique_shader.comp.in ${source} @ONLY)
     nusselt_add_shader(${target} ${name} ${source} DEFINES ${arg_DEFINES})

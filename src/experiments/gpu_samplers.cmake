@@ -37,8 +37,7 @@ foreach(count 3 4 5 6 7)
     add_timed_shaders(PolygonProjectedSolidAngle polygon ${count}
         nusselt/sampling/polygon_projected_solid_angle PolygonProjectedSolidAngle)
     add_timed_shaders(PolygonProjectedSolidAngleBiased polygon ${count}
-        nusselt/sampling/polygon_projected_solid_angle PolygonProjectedSolidAngle
-        SAMPLE polygon_projected_solid_angle_biased_sample)
+        nusselt/sampling/polygon_projected_solid_angle_biased PolygonProjectedSolidAngleBiased)
 endforeach()
 add_timed_shaders(Baseline line 2 bench/baseline_line BaselineLine)
 add_timed_shaders(LineArea line 2 nusselt/sampling/line_area LineArea)

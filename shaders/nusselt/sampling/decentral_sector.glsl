@@ -35,56 +35,101 @@ DecentralForms decentral_sector_at(DecentralSector sector, float x) {
                           nusselt_max(gap * nusselt_fma(2.0, outer_point.z, gap), 0.0));
 }
 
-/// Twice the area from the begin to x (Prop. 1 for both ellipses). Each ellipse contributes the determinant of its end
-/// points times angle / sine; the determinants are equal.
-float decentral_sector_doubled_area_to(DecentralSector sector, float x) {
+/// What both ellipses have between the begin of a sector and x. Sines and cosines of the angles about the origin are not
+/// normalised.
+struct DecentralArcs {
+    float doubled_triangle; ///< det(begin, end) in the tangent plane
+    float outer_cosine;
+    float rise; ///< inner cosine minus the outer one
+    float inner_cosine;
+    float outer_sine2, inner_sine2; ///< squares
+    float sine2_step;               ///< inner square minus the outer one, accurate relative to itself
+};
+
+DecentralArcs decentral_sector_arcs_to(DecentralSector sector, float x) {
     vec3 begin = sector.begin;
     vec3 chord = sector.chord;
     float turn = sector.end_gap - sector.begin_gap;
-    // Normals of the planes through the origin and the segments from begin to x, divided by x.
+    // Normals of the planes through the origin and the segments from begin to x, divided by x: times x, their lengths
+    // are the sines.
     vec3 outer_normal = nusselt_cross(begin, chord);
     vec3 lift = vec3(nusselt_fma(turn, begin.y, -sector.begin_gap * chord.y),
                      nusselt_fma(sector.begin_gap, chord.x, -turn * begin.x), 0.0);
     vec3 inner_normal = outer_normal + lift;
-    float outer_squared = dot(outer_normal, outer_normal);
-    float inner_squared = dot(inner_normal, inner_normal);
-    // Cosines, not normalised; the sines are x times the lengths of the normals.
     float outer_cosine = dot(begin, begin + x * chord);
     float gap = nusselt_fma(x, turn, sector.begin_gap);
     float rise = nusselt_fma(sector.begin_gap, nusselt_fma(x, chord.z, begin.z) + gap, begin.z * gap);
-    float inner_cosine = outer_cosine + rise;
-
     float x2 = x * x;
-    float outer_sine2 = x2 * outer_squared;
-    float inner_sine2 = x2 * inner_squared;
-    float sine2_step = x2 * dot(lift, outer_normal + inner_normal);
-    float difference;
-    if (outer_cosine > 0.0 && outer_sine2 <= outer_cosine * outer_cosine &&
-        inner_sine2 <= inner_cosine * inner_cosine) {
-        // Both angles are at most an eighth of a turn: angle / sine = (1 - k) / cosine with k of the order of the
-        // squared angle.
-        float inverse_product = 1.0 / (outer_cosine * inner_cosine);
-        float outer_inverse = inverse_product * inner_cosine;
-        float inner_inverse = inverse_product * outer_cosine;
-        float outer_tangent2 = outer_sine2 * outer_inverse * outer_inverse;
-        float tangent2_step = nusselt_fma(sine2_step, outer_cosine * outer_cosine,
-                                          -outer_sine2 * rise * (outer_cosine + inner_cosine)) *
-                              inverse_product * inverse_product;
-        AtanRatioDifference k = one_minus_atan_ratio_difference(nusselt_min(outer_tangent2, 1.0), tangent2_step);
-        difference = nusselt_fma(rise * inverse_product, 1.0 - k.value, inner_inverse * k.difference);
-    } else {
-        float outer_sine = sqrt(outer_sine2);
-        float inner_sine = sqrt(inner_sine2);
-        if (!(outer_sine > 0.0 && inner_sine > 0.0)) return 0.0;
-        float more = sine2_step / (inner_sine + outer_sine);
-        float inner_angle = atan2_positive(inner_sine, inner_cosine);
-        float numerator = nusselt_fma(outer_sine, rise, -more * outer_cosine);
-        float angle =
-            atan2_positive(abs(numerator), nusselt_fma(outer_cosine, inner_cosine, outer_sine * inner_sine));
-        difference = nusselt_fma(copysign(angle, numerator), inner_sine, inner_angle * more) /
-                     (outer_sine * inner_sine);
-    }
-    return nusselt_max(x * sector.doubled_triangle * difference, 0.0);
+    return DecentralArcs(x * sector.doubled_triangle, outer_cosine, rise, outer_cosine + rise,
+                         x2 * dot(outer_normal, outer_normal), x2 * dot(inner_normal, inner_normal),
+                         x2 * dot(lift, outer_normal + inner_normal));
+}
+
+/// Whether both angles are at most an eighth of a turn.
+bool decentral_arcs_are_narrow(DecentralArcs arcs) {
+    return arcs.outer_cosine > 0.0 && arcs.outer_sine2 <= arcs.outer_cosine * arcs.outer_cosine &&
+           arcs.inner_sine2 <= arcs.inner_cosine * arcs.inner_cosine;
+}
+
+/// Twice the area between narrow arcs: angle / sine = (1 - k) / cosine with k of the order of the squared angle.
+float decentral_narrow_doubled_area(DecentralArcs arcs) {
+    float inverse_product = 1.0 / (arcs.outer_cosine * arcs.inner_cosine);
+    float outer_inverse = inverse_product * arcs.inner_cosine;
+    float inner_inverse = inverse_product * arcs.outer_cosine;
+    float outer_tangent2 = arcs.outer_sine2 * outer_inverse * outer_inverse;
+    float tangent2_step = nusselt_fma(arcs.sine2_step, arcs.outer_cosine * arcs.outer_cosine,
+                                      -arcs.outer_sine2 * arcs.rise * (arcs.outer_cosine + arcs.inner_cosine)) *
+                          inverse_product * inverse_product;
+    AtanRatioDifference k = one_minus_atan_ratio_difference(nusselt_min(outer_tangent2, 1.0), tangent2_step);
+    float difference = nusselt_fma(arcs.rise * inverse_product, 1.0 - k.value, inner_inverse * k.difference);
+    return nusselt_max(arcs.doubled_triangle * difference, 0.0);
+}
+
+/// Arcs of which arctangents are needed.
+struct DecentralWideArcs {
+    float doubled_triangle;
+    float outer_sine, inner_sine, inner_cosine;
+    float more; ///< inner sine minus the outer one
+    float step_sine, step_cosine; ///< of the inner angle minus the outer one
+};
+
+DecentralWideArcs decentral_wide_arcs(DecentralArcs arcs) {
+    float outer_sine = sqrt(arcs.outer_sine2);
+    float inner_sine = sqrt(arcs.inner_sine2);
+    float sum = inner_sine + outer_sine;
+    float more = arcs.sine2_step / (sum > 0.0 ? sum : 1.0);
+    return DecentralWideArcs(arcs.doubled_triangle, outer_sine, inner_sine, arcs.inner_cosine, more,
+                             nusselt_fma(outer_sine, arcs.rise, -more * arcs.outer_cosine),
+                             nusselt_fma(arcs.outer_cosine, arcs.inner_cosine, outer_sine * inner_sine));
+}
+
+/// Twice the area between wide arcs.
+/// \param inner_angle of the inner arc.
+/// \param step_angle  inner angle minus the outer one, without its sign.
+float decentral_wide_doubled_area(DecentralWideArcs arcs, float inner_angle, float step_angle) {
+    if (!(arcs.outer_sine > 0.0 && arcs.inner_sine > 0.0)) return 0.0;
+    float difference = nusselt_fma(copysign(step_angle, arcs.step_sine), arcs.inner_sine, inner_angle * arcs.more) /
+                       (arcs.outer_sine * arcs.inner_sine);
+    return nusselt_max(arcs.doubled_triangle * difference, 0.0);
+}
+
+/// Twice the area from the begin to x (Prop. 1 for both ellipses). Each ellipse contributes the determinant of its end
+/// points times angle / sine; the determinants are equal.
+float decentral_sector_doubled_area_to(DecentralSector sector, float x) {
+    DecentralArcs arcs = decentral_sector_arcs_to(sector, x);
+    if (decentral_arcs_are_narrow(arcs)) return decentral_narrow_doubled_area(arcs);
+    DecentralWideArcs wide = decentral_wide_arcs(arcs);
+    return decentral_wide_doubled_area(wide, atan2_positive(wide.inner_sine, wide.inner_cosine),
+                                       atan2_positive(abs(wide.step_sine), wide.step_cosine));
+}
+
+/// The same with atan2_positive_fast().
+float decentral_sector_fast_doubled_area_to(DecentralSector sector, float x) {
+    DecentralArcs arcs = decentral_sector_arcs_to(sector, x);
+    if (decentral_arcs_are_narrow(arcs)) return decentral_narrow_doubled_area(arcs);
+    DecentralWideArcs wide = decentral_wide_arcs(arcs);
+    return decentral_wide_doubled_area(wide, atan2_positive_fast(wide.inner_sine, wide.inner_cosine),
+                                       atan2_positive_fast(abs(wide.step_sine), wide.step_cosine));
 }
 
 /// The root of a x^2 + 2 b x + c = 0 that goes to 0 with c while b > 0, continued (Blinn 2006; Peters 2021, Eq. 6). A

@@ -3,9 +3,8 @@
 /// Uniform sampling of the projected solid angle of a convex polygon: density proportional to the cosine at the
 /// surface. With a Lambertian emitter on a Lambertian surface, all noise that remains comes from shadows.
 ///
-/// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672: Sec. 3,
-/// and Sec. 6.4 for the biased variant. Twin of include/nusselt/sampling/polygon_projected_solid_angle.h, where the
-/// deviations stand.
+/// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672: Sec. 3.
+/// Twin of include/nusselt/sampling/polygon_projected_solid_angle.h, where the deviations stand.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr], wi.z over the measure.
 /// Space: shading space; the shading point is the origin, the normal +z. Clips to the horizon by itself.
@@ -63,21 +62,32 @@ bool is_central(ConvexPolygon polygon, float distance, float highest) {
     return reaches_axis && (touches_zenith || !has_inner);
 }
 
-/// Each edge has a sector of its own: Prop. 1 simplifies to Lambert's formula.
+/// The arc of the great circle of an edge, which together with the zenith bounds a sector in the central case: Prop. 1
+/// simplifies to Lambert's formula.
+struct CentralArc {
+    bool present;
+    float height;         ///< z of the normal of the plane through the origin and the edge, not normalised
+    float sine, cosine;   ///< of the angle, not normalised; the sine is the length of that normal
+    float angle_per_area; ///< per doubled area of the sector; 0 if not finite or not present
+};
+
+/// \param v, next ends of the edge.
+CentralArc central_arc(vec3 v, vec3 next, vec3 edge) {
+    vec3 n = nusselt_cross(v, edge);
+    float sine = sqrt(dot(n, n));
+    bool present = n.z > 0.0 && sine > 0.0 && det(closer_to_zenith(v, next).xy, edge.xy) > 0.0;
+    float ratio = sine / (present ? n.z : 1.0);
+    return CentralArc(present, n.z, sine, dot(v, next), present && is_finite(ratio) ? ratio : 0.0);
+}
+
 void polygon_projected_solid_angle_prepare_central(inout PolygonProjectedSolidAngle self, ConvexPolygon polygon) {
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots; ++k) {
-        vec3 v = polygon.vertex[k];
         vec3 next = polygon.vertex[k + 1 < kNusseltSlots ? k + 1 : 0];
-        vec3 edge = polygon.edge[k];
-        vec3 n = nusselt_cross(v, edge);
-        float sine = sqrt(dot(n, n));
-        self.begin[k] = v;
-        self.chord[k] = edge;
-        if (n.z > 0.0 && sine > 0.0 && det(closer_to_zenith(v, next).xy, edge.xy) > 0.0) {
-            float ratio = sine / n.z;
-            self.angle_per_area[k] = is_finite(ratio) ? ratio : 0.0;
-            self.doubled_area[k] = n.z * atan2_positive(sine, dot(v, next)) / sine;
-        }
+        CentralArc arc = central_arc(polygon.vertex[k], next, polygon.edge[k]);
+        self.begin[k] = polygon.vertex[k];
+        self.chord[k] = polygon.edge[k];
+        self.angle_per_area[k] = arc.angle_per_area;
+        if (arc.present) self.doubled_area[k] = arc.height * atan2_positive(arc.sine, arc.cosine) / arc.sine;
     }
 }
 
@@ -97,12 +107,21 @@ void polygon_projected_solid_angle_prepare_decentral(inout PolygonProjectedSolid
     }
 }
 
-/// \param light in shading space, either winding [m].
-PolygonProjectedSolidAngle polygon_projected_solid_angle_prepare(ConvexPolygon light) {
+/// All but the sectors.
+/// \param light   in shading space, either winding [m].
+/// \param polygon the part above the horizon, mirrored and with coordinates of order one.
+PolygonProjectedSolidAngle polygon_projected_solid_angle_begin(ConvexPolygon light, out ConvexPolygon polygon) {
     PolygonProjectedSolidAngle self;
-    ConvexPolygon polygon = with_unit_extent(light);
+    polygon = with_unit_extent(light);
     self.inverse_scale = reciprocal_power_of_two(unit_extent_scale(light));
     float distance = plane_distance(polygon);
+    // The method wants the winding that is clockwise as seen from the origin: mirror y otherwise.
+    self.mirror = copysign(1.0, distance);
+    polygon.normal.y = self.mirror * polygon.normal.y;
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
+        polygon.vertex[j].y = self.mirror * polygon.vertex[j].y;
+        polygon.edge[j].y = self.mirror * polygon.edge[j].y;
+    }
     if (!is_above_horizon(polygon)) {
         // Once more to an extent of order one, since little may be left of the light.
         polygon = clip_to_horizon(polygon);
@@ -110,13 +129,6 @@ PolygonProjectedSolidAngle polygon_projected_solid_angle_prepare(ConvexPolygon l
         self.inverse_scale = self.inverse_scale * reciprocal_power_of_two(scale);
         polygon = with_unit_extent(polygon);
         distance = scale * distance;
-    }
-    // The method wants the winding that is clockwise as seen from the origin: mirror y otherwise.
-    self.mirror = copysign(1.0, distance);
-    polygon.normal.y = self.mirror * polygon.normal.y;
-    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
-        polygon.vertex[j].y = self.mirror * polygon.vertex[j].y;
-        polygon.edge[j].y = self.mirror * polygon.edge[j].y;
     }
     float farthest = 0.0; // squared
     self.low = polygon.vertex[0];
@@ -134,20 +146,31 @@ PolygonProjectedSolidAngle polygon_projected_solid_angle_prepare(ConvexPolygon l
         self.doubled_area[j] = 0.0;
     }
     self.plane = LightPlane(polygon.normal, distance, sqrt(farthest));
-
     self.central = is_central(polygon, distance, self.high.z);
-    if (distance != 0.0) {
+    return self;
+}
+
+/// Adds up the sectors.
+PolygonProjectedSolidAngle polygon_projected_solid_angle_end(PolygonProjectedSolidAngle self) {
+    self.doubled_total = 0.0;
+    NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots; ++k)
+        self.doubled_total = self.doubled_total + self.doubled_area[k];
+    self.inverse_measure = 0.5 * self.doubled_total > 0.0 ? 2.0 / self.doubled_total : 0.0;
+    return self;
+}
+
+/// \param light in shading space, either winding [m].
+PolygonProjectedSolidAngle polygon_projected_solid_angle_prepare(ConvexPolygon light) {
+    ConvexPolygon polygon;
+    PolygonProjectedSolidAngle self = polygon_projected_solid_angle_begin(light, polygon);
+    if (self.plane.distance != 0.0) {
         if (self.central) {
             polygon_projected_solid_angle_prepare_central(self, polygon);
         } else {
             polygon_projected_solid_angle_prepare_decentral(self, polygon);
         }
     }
-    self.doubled_total = 0.0;
-    NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots; ++k)
-        self.doubled_total = self.doubled_total + self.doubled_area[k];
-    self.inverse_measure = 0.5 * self.doubled_total > 0.0 ? 2.0 / self.doubled_total : 0.0;
-    return self;
+    return polygon_projected_solid_angle_end(self);
 }
 
 /// Projected solid angle of the part of the light above the horizon [sr].
@@ -259,26 +282,6 @@ LightSample polygon_projected_solid_angle_sample(PolygonProjectedSolidAngle self
     return polygon_projected_solid_angle_sample_at(self, s, x, u.y);
 }
 
-/// The biased variant (Sec. 6.4): no iteration. The density is that of exact projected solid angle sampling, which the
-/// samples follow approximately: estimates are biased accordingly. Areas are exact, where the C++ takes fast
-/// arctangents also for them.
-LightSample polygon_projected_solid_angle_biased_sample(PolygonProjectedSolidAngle self, vec2 u) {
-    ProjectedSectorSelection s = polygon_projected_solid_angle_select(self, u.x);
-    float x = 0.0;
-    if (!self.central) {
-        float fraction = s.rest / (s.doubled_area > 0.0 ? s.doubled_area : 1.0);
-        x = decentral_sector_initial_position(s.sector, nusselt_min(fraction, 1.0));
-    }
-    return polygon_projected_solid_angle_sample_at(self, s, x, u.y);
-}
-
-/// Twice the area of a central sector from its begin to x.
-float central_sector_doubled_area_to(DecentralSector sector, float angle_per_area, float x) {
-    vec3 n = x * nusselt_cross(sector.begin, sector.chord);
-    float angle = atan2_positive(sqrt(dot(n, n)), dot(sector.begin, sector.begin + x * sector.chord));
-    return angle / (angle_per_area > 0.0 ? angle_per_area : 1.0);
-}
-
 /// Where between the inner ellipse (0; the zenith in the central case) and the outer one (1) a direction with the
 /// projection w and height z above x lies, in squared radii.
 float relative_height_in_sector(bool central, DecentralSector sector, float x, vec2 w, float z) {
@@ -294,14 +297,21 @@ float relative_height_in_sector(bool central, DecentralSector sector, float x, v
     return forms.outer * below / (form > 0.0 && forms.rise > 0.0 ? form * forms.rise : 1.0);
 }
 
-/// The random numbers for which the sample is wi, a unit direction on the light. At the zenith, and where a light is so
-/// thin that its width is lost to rounding, the component without meaning is 0.
-vec2 polygon_projected_solid_angle_invert(PolygonProjectedSolidAngle self, vec3 wi) {
-    vec2 w = vec2(wi.x, self.mirror * wi.y);
+/// Where a direction lies.
+struct ProjectedSectorPosition {
+    DecentralSector sector; ///< in the central case the gaps mean nothing
+    float doubled_area, angle_per_area;
+    float before; ///< doubled area of the sectors before this one
+    float x;      ///< position of the azimuth on the chord of the sector
+};
+
+/// The sector that a unit direction on the light falls into; one without area if there is none.
+/// \param w the direction in the tangent plane, mirrored.
+ProjectedSectorPosition polygon_projected_solid_angle_locate(PolygonProjectedSolidAngle self, vec2 w) {
+    ProjectedSectorPosition at =
+        ProjectedSectorPosition(DecentralSector(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0), 0.0, 0.0, 0.0, 0.0);
     bool found = self.doubled_total <= 0.0;
-    float before = 0.0; // doubled areas
-    float area_before = 0.0;
-    float height = 0.0;
+    float before = 0.0;
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots; ++k) {
         DecentralSector sector = DecentralSector(self.begin[k], self.chord[k], self.begin_gap[k], self.end_gap[k],
                                                  det(self.begin[k].xy, self.chord[k].xy));
@@ -318,16 +328,48 @@ vec2 polygon_projected_solid_angle_invert(PolygonProjectedSolidAngle self, vec3 
             // The chord meets the ray along w.
             float slope = det(w, sector.chord.xy);
             float x = nusselt_min(nusselt_max(from_begin / (slope > 0.0 ? slope : 1.0), 0.0), 1.0);
-            float partial_area = self.central ? central_sector_doubled_area_to(sector, self.angle_per_area[k], x)
-                                              : decentral_sector_doubled_area_to(sector, x);
-            area_before = before + nusselt_min(partial_area, self.doubled_area[k]);
-            height = relative_height_in_sector(self.central, sector, x, w, wi.z);
+            at = ProjectedSectorPosition(sector, self.doubled_area[k], self.angle_per_area[k], before, x);
             found = self.central || to_end > 0.0;
         }
         before = before + self.doubled_area[k];
     }
-    float total = self.doubled_total > 0.0 ? self.doubled_total : 1.0;
-    return vec2(below_one(area_before / total), below_one(height));
+    return at;
+}
+
+/// Twice the area of a central sector from its begin to x.
+/// \param angle of that part on the great circle.
+float central_sector_doubled_area(ProjectedSectorPosition at, float angle) {
+    return angle / (at.angle_per_area > 0.0 ? at.angle_per_area : 1.0);
+}
+
+/// Sine and cosine, not normalised, of the angle on the great circle of a central sector from its begin to x.
+SinCos central_sector_angle(ProjectedSectorPosition at) {
+    vec3 n = at.x * nusselt_cross(at.sector.begin, at.sector.chord);
+    return SinCos(sqrt(dot(n, n)), dot(at.sector.begin, at.sector.begin + at.x * at.sector.chord));
+}
+
+/// \param partial_area twice the area of the sector from its begin to x.
+/// \param w, z         the direction in the tangent plane, mirrored, and its height.
+vec2 polygon_projected_solid_angle_random_numbers(PolygonProjectedSolidAngle self, ProjectedSectorPosition at,
+                                                  float partial_area, vec2 w, float z) {
+    float area_before = at.before + nusselt_min(partial_area, at.doubled_area);
+    float height = relative_height_in_sector(self.central, at.sector, at.x, w, z);
+    return vec2(below_one(area_before / (self.doubled_total > 0.0 ? self.doubled_total : 1.0)), below_one(height));
+}
+
+/// The random numbers for which the sample is wi, a unit direction on the light. At the zenith, and where a light is so
+/// thin that its width is lost to rounding, the component without meaning is 0.
+vec2 polygon_projected_solid_angle_invert(PolygonProjectedSolidAngle self, vec3 wi) {
+    vec2 w = vec2(wi.x, self.mirror * wi.y);
+    ProjectedSectorPosition at = polygon_projected_solid_angle_locate(self, w);
+    float partial_area;
+    if (self.central) {
+        SinCos angle = central_sector_angle(at);
+        partial_area = central_sector_doubled_area(at, atan2_positive(angle.sine, angle.cosine));
+    } else {
+        partial_area = decentral_sector_doubled_area_to(at.sector, at.x);
+    }
+    return polygon_projected_solid_angle_random_numbers(self, at, partial_area, w, wi.z);
 }
 
 #endif
