@@ -1,9 +1,10 @@
-# Installs the headers and the files with which find_package(nusselt) finds them.
+# Installs the headers, the shaders and the files with which find_package(nusselt) finds them.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/nusselt)
 
 install(DIRECTORY include/nusselt DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY shaders/nusselt/ DESTINATION ${CMAKE_INSTALL_DATADIR}/nusselt/shaders)
 set(single_header ${PROJECT_BINARY_DIR}/single-header/nusselt.h)
 install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" -D \"OUTPUT=${single_header}\"
     -P \"${PROJECT_SOURCE_DIR}/scripts/amalgamate.cmake\" COMMAND_ERROR_IS_FATAL ANY)")

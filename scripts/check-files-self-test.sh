@@ -4,7 +4,7 @@ set -euo pipefail
 scripts=$(cd "$(dirname "$0")" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-mkdir -p "$tree"/{include,src,apps,tests,examples,bench}
+mkdir -p "$tree"/{include,src,apps,tests,examples,shaders,scripts,cmake}
 cp "$scripts/../.clang-format" "$tree"
 good=$'#include "/usr/include/math.h"\nint sum(int a, int b) { return a + b; } // and/or\n'
 
@@ -19,6 +19,11 @@ for check in format length paths; do expect "$check" passes "$good"; done
 expect format fails $'int  sum(int a,int b) { return a+b; }\n'
 expect length passes "$(yes '// line' | head -n 600)"
 expect length fails "$(yes '// line' | head -n 601)"
+for file in shaders/a.glsl shaders/a.comp scripts/a.py scripts/a.sh cmake/a.cmake tests/CMakeLists.txt; do
+    yes '# line' | head -n 601 >"$tree/$file"
+    expect length fails "$good"
+    rm "$tree/$file"
+done
 root=/somewhere
 expect paths fails "const char* file = \"$root/else/file.txt\";"
 expect paths fails "// see $root/notes.txt"

@@ -1,18 +1,23 @@
 #!/usr/bin/env bash
 # File hygiene. Usage: scripts/check-files.sh format|length|paths [ROOT]
 #   format  sources agree with .clang-format (clang-format-14, or the program named by CLANG_FORMAT)
-#   length  no source file is longer than 600 lines
+#   length  no source file, shader or script is longer than 600 lines
 #   paths   no text file names an absolute path that exists on one machine only
 set -euo pipefail
 cd "${2:-$(dirname "$0")/..}"
 
 sources() { find include src apps tests examples \( -name '*.h' -o -name '*.cpp' -o -name '*.cu' \) -print0; }
+code() {
+    find include src apps tests examples shaders scripts cmake -type f \( -name '*.h' -o -name '*.cpp' -o -name '*.cu' \
+        -o -name '*.glsl' -o -name '*.comp' -o -name '*.py' -o -name '*.sh' -o -name '*.cmake' -o -name CMakeLists.txt \) \
+        -print0
+}
 all_files() { find . \( -path ./build -o -path ./out -o -path ./.git \) -prune -o -type f -print0; }
 
 case "${1:-}" in
     format) sources | xargs -0r "${CLANG_FORMAT:-clang-format-14}" --dry-run --Werror ;;
     length)
-        sources | xargs -0r awk 'FNR == 601 { print FILENAME ": longer than 600 lines"; bad = 1 } END { exit bad }'
+        code | xargs -0r awk 'FNR == 601 { print FILENAME ": longer than 600 lines"; bad = 1 } END { exit bad }'
         ;;
     paths)
         found=$(all_files | xargs -0r grep -nIoE "(^|[ \"'=(<])/[A-Za-z][A-Za-z0-9_]*/[A-Za-z0-9_.-]+" |

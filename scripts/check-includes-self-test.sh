@@ -8,7 +8,7 @@ trap 'rm -rf "$tree"' EXIT
 # Whether the check passes on a tree whose only source file is $1 with the line `#include $2`.
 passes() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/{include,src,apps} "$tree/$(dirname "$1")"
+    mkdir -p "$tree"/{include,src,apps,shaders} "$tree/$(dirname "$1")"
     printf '#pragma once\n#include %s\n' "$2" >"$tree/$1"
     "$check" "$tree" >"$tree/report"
 }
@@ -37,6 +37,19 @@ right apps/nusselt/a.cpp "experiments/b.h"
 wrong src/gpu/a.cpp "render_cpu/b.h"
 wrong src/render_cpu/a.cpp "gpu/b.h"
 right apps/nusselt/a.cpp "commands.h"
+right shaders/nusselt/geometry/a.glsl "../core/b.glsl"
+right shaders/nusselt/geometry/a.glsl "../geometry/b.glsl"
+right shaders/parity/functions/a.comp "nusselt/core/b.glsl"
+right shaders/parity/a.glsl "parity/b.glsl"
+right shaders/bench/a.glsl "interface/b.glsl"
+wrong shaders/nusselt/core/a.glsl "../geometry/b.glsl"
+wrong shaders/nusselt/core/a.glsl "../../parity/b.glsl"
+wrong shaders/nusselt/core/a.glsl "parity/b.glsl"
+wrong shaders/nusselt/core/a.glsl <nusselt/core/b.glsl>
+wrong shaders/bench/a.glsl "parity/b.glsl"
+wrong shaders/parity/a.glsl "b.glsl"
+wrong shaders/unheard_of/a.glsl "nusselt/core/b.glsl"
+wrong src/gpu/a.cpp "nusselt/core/b.glsl"
 wrong include/nusselt/core/a.h <nusselt/geometry/b.h>
 wrong include/nusselt/core/a.h <nusselt/nusselt.h>
 wrong include/nusselt/geometry/a.h <nusselt/simd/pack.h>

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Fails where an #include runs against the arrows of the design: a layer includes only itself, what the table
-# below allows, and system headers; the library includes nothing but the standard library and itself.
+# below allows, and system headers; the library includes nothing but the standard library and itself. Folders of
+# shaders/nusselt obey the arrows of the same folders of include/nusselt.
 # Usage: scripts/check-includes.sh [ROOT]
 set -euo pipefail
 cd "${1:-$(dirname "$0")/..}"
 
-find include src apps -name '*.h' -o -name '*.cpp' | LC_ALL=C sort | xargs awk '
+find include src apps shaders -name '*.h' -o -name '*.cpp' -o -name '*.glsl' -o -name '*.comp' | LC_ALL=C sort | xargs awk '
 BEGIN {
     # Layer, then the layers that it may include besides itself. "library" is all of include/nusselt.
     # simd is a leaf: templates see packs through the operations that core names.
@@ -19,8 +20,7 @@ BEGIN {
     below = below " include/random include/bsdf include/ltc"
     allow("include/sampling", below)
     allow("include/related", below)
-    allow("include/line_samples", below)
-    below = below " include/sampling include/related include/line_samples"
+    below = below " include/sampling include/related"
     allow("include/estimate", below)
     allow("include/all", below " include/estimate")
 
@@ -34,6 +34,13 @@ BEGIN {
     below = "library src/image src/scene src/visibility src/render_cpu src/gpu src/shaders"
     allow("src/experiments", below)
     allow("apps/nusselt", below " src/experiments")
+
+    allow("shaders/interface", "shaders/nusselt")
+    below = "shaders/nusselt shaders/interface"
+    allow("shaders/passes", below)
+    allow("shaders/parity", below)
+    allow("shaders/bench", below)
+    known["shaders/nusselt"] = 1
 }
 
 function allow(layer, others,    names, count, i) {
@@ -49,9 +56,10 @@ function report(message) {
 }
 
 # The layer of a file, from its path: include/nusselt/core/vec.h is in include/core, the headers directly
-# in include/nusselt are in include/all.
+# in include/nusselt are in include/all; shaders/nusselt/core/vec.glsl is in include/core, too.
 function layer_of(path,    parts, count) {
     count = split(path, parts, "/")
+    if (path ~ /^shaders\/nusselt\//) return "include/" parts[3]
     if (parts[1] == "include") return count == 3 ? "include/all" : "include/" parts[3]
     return parts[1] "/" parts[2]
 }
@@ -60,6 +68,15 @@ function check(from, to,    layer) {
     if (!(to in known)) return report("no layer " to "; new layers are entered in scripts/check-includes.sh")
     layer = from !~ /^include/ && to ~ /^include/ ? "library" : to
     if (!((from, layer) in allowed)) report(from " must not include " to)
+}
+
+function check_shader(from, name, quoted) {
+    if (!quoted) return report("write \"" name "\"")
+    if (from ~ /^include/) {
+        if (name ~ /^\.\.\/[a-z_]+\/[a-z_]+\.glsl$/) check(from, "include/" substr(name, 4, index(substr(name, 4), "/") - 1))
+        else report("shaders/nusselt includes its own files only, as \"../folder/file.glsl\"")
+    } else if (name ~ /^[a-z_]+\//) check(from, "shaders/" substr(name, 1, index(name, "/") - 1))
+    else report("write \"folder/" name "\", relative to shaders/")
 }
 
 FNR == 1 {
@@ -75,7 +92,8 @@ FNR == 1 {
     name = substr(name, 2)
     in_library = from ~ /^include/
 
-    if (name ~ /^\.\.?\//) report("relative #include of " name)
+    if (FILENAME ~ /^shaders\//) check_shader(from, name, quoted)
+    else if (name ~ /^\.\.?\//) report("relative #include of " name)
     else if (name ~ /^nusselt\//) {
         if (quoted) report("write <" name ">")
         check(from, layer_of("include/" name))

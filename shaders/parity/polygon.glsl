@@ -6,16 +6,13 @@ void main() {
     if (i >= count) return;
     const uint bound = NUSSELT_MAX_VERTICES;
     const uint begin = (6u * bound + 5u) * i;
-    ConvexPolygon light;
+    vec3 vertices[NUSSELT_MAX_VERTICES];
+    vec3 edges[NUSSELT_MAX_VERTICES];
     for (uint j = 0; j < bound; ++j) {
-        light.vertex[j] = input_vec3(begin + 3u * j);
-        light.edge[j] = input_vec3(begin + 3u * (bound + j));
+        vertices[j] = input_vec3(begin + 3u * j);
+        edges[j] = input_vec3(begin + 3u * (bound + j));
     }
-    // The slot for clipping repeats the last vertex, and its edge closes the polygon.
-    light.vertex[bound] = light.vertex[bound - 1];
-    light.edge[bound] = light.edge[bound - 1];
-    light.edge[bound - 1] = vec3(0.0);
-    light.normal = input_vec3(begin + 6u * bound);
+    const ConvexPolygon light = make_polygon(vertices, edges, input_vec3(begin + 6u * bound));
     const vec2 u = vec2(inputs[begin + 6u * bound + 3u], inputs[begin + 6u * bound + 4u]);
 
     Technique technique = technique_prepare(light);

@@ -1,7 +1,7 @@
-// A mutant that the contract must reject: its density is infinite where there is no light.
+// A mutant that the contract must reject: its density is infinite where there is no sample.
 LightSample unguarded_sample(Technique technique, vec2 u) {
     LightSample s = technique_sample(technique, u);
-    if (s.pdf == 0.0) s.pdf = 1.0 / technique_measure(technique);
+    if (s.pdf == 0.0) s.pdf = uintBitsToFloat(0x7f800000u);
     return s;
 }
 #undef technique_sample

@@ -24,6 +24,11 @@ expect_failure() {
 folder file.glsl <<<'#include "../core/base.glsl"
 float four(float x) { return twice(twice(x)); }'
 passes || { echo "a good folder fails:"; cat "$work/report"; failed=1; }
+truncate -s -1 "$work/shaders/core/file.glsl"
+passes || { echo "a file without a final newline fails:"; cat "$work/report"; failed=1; }
+mkdir -p "$work/shaders/other"
+cp "$work/shaders/core/file.glsl" "$work/shaders/other"
+expect_failure "two files of one name"
 
 folder file.glsl <<<'precision highp float;
 float four(float x) { return twice(twice(x)); }'

@@ -20,12 +20,12 @@ Frame frame_from_normal(vec3 normal) {
                  vec3(c, nusselt_fma(normal.y * normal.y, a, sgn), -normal.y), normal);
 }
 
-vec3 frame_to_local(Frame frame, vec3 world) {
-    return vec3(dot(frame.t, world), dot(frame.b, world), dot(frame.n, world));
+vec3 frame_to_local(Frame self, vec3 world) {
+    return vec3(dot(self.t, world), dot(self.b, world), dot(self.n, world));
 }
 
-vec3 frame_to_world(Frame frame, vec3 local) {
-    return local.x * frame.t + local.y * frame.b + local.z * frame.n;
+vec3 frame_to_world(Frame self, vec3 local) {
+    return local.x * self.t + local.y * self.b + local.z * self.n;
 }
 
 #endif

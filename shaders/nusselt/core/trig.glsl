@@ -85,6 +85,7 @@ float atan2_positive_fast(float y_in, float x) {
     return unfold_octants(y, x, p * q);
 }
 
+/// In C++ the members are called as the functions, which GLSL has built in.
 struct SinCos {
     float sine, cosine;
 };

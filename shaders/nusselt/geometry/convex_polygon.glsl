@@ -70,6 +70,24 @@ ConvexPolygon make_polygon(vec3 vertices[NUSSELT_MAX_VERTICES], int count) {
     return polygon;
 }
 
+/// The polygon that a C++ ConvexPolygon<float, NUSSELT_MAX_VERTICES> holds: the slot for clipping repeats the last vertex.
+/// \param vertices positions [m], the last one repeated in unused slots.
+/// \param edges    to the successors [m]; the last one closes the polygon.
+/// \param normal   unit normal.
+ConvexPolygon make_polygon(vec3 vertices[NUSSELT_MAX_VERTICES], vec3 edges[NUSSELT_MAX_VERTICES], vec3 normal) {
+    const int n = NUSSELT_MAX_VERTICES;
+    ConvexPolygon polygon;
+    NUSSELT_UNROLL for (int j = 0; j < n; ++j) {
+        polygon.vertex[j] = vertices[j];
+        polygon.edge[j] = edges[j];
+    }
+    polygon.vertex[n] = vertices[n - 1];
+    polygon.edge[n - 1] = vec3(0.0);
+    polygon.edge[n] = edges[n - 1];
+    polygon.normal = normal;
+    return polygon;
+}
+
 /// The polygon seen from a shading point: the point becomes the origin, the normal of the frame +z.
 ConvexPolygon to_shading_space(ConvexPolygon world, vec3 point, Frame frame) {
     ConvexPolygon local;

@@ -53,55 +53,55 @@ struct LineExtent {
 };
 
 /// Angle between the end points.
-float line_extent_sweep(LineExtent e) {
-    float angle = 2.0 * atan_up_to_one(e.half_tangent);
-    return e.acute ? angle : kNusseltPi - angle;
+float line_extent_sweep(LineExtent self) {
+    float angle = 2.0 * atan_up_to_one(self.half_tangent);
+    return self.acute ? angle : kNusseltPi - angle;
 }
 
 /// \param from_begin sine minus s0, in [0, sine_extent].
-LinePoint line_extent_point_at(LineExtent e, float from_begin) {
-    float to_end = nusselt_max(e.sine_extent - from_begin, 0.0);
+LinePoint line_extent_point_at(LineExtent self, float from_begin) {
+    float to_end = nusselt_max(self.sine_extent - from_begin, 0.0);
     // The square of the cosine is (1 + sine) (1 - sine): sums of positive terms.
-    float squared = (e.one_plus_s0 + from_begin) * (e.one_minus_s1 + to_end);
-    return LinePoint(e.s0 + from_begin, sqrt(squared), from_begin, to_end);
+    float squared = (self.one_plus_s0 + from_begin) * (self.one_minus_s1 + to_end);
+    return LinePoint(self.s0 + from_begin, sqrt(squared), from_begin, to_end);
 }
 
 /// Whether a point is much closer to the origin than both ends are.
-bool line_extent_is_beside(LineExtent e, LinePoint point) { return point.cosine > 2.0 * e.near_cosine; }
+bool line_extent_is_beside(LineExtent self, LinePoint point) { return point.cosine > 2.0 * self.near_cosine; }
 
 /// The point itself, on the segment.
-vec3 line_extent_position(LineExtent e, LinePoint point) {
-    if (line_extent_is_beside(e, point)) {
-        float l = e.distance * point.sine / point.cosine;
-        return nusselt_min(nusselt_max(l, e.l0), e.l1) * e.s + e.distance * e.t;
+vec3 line_extent_position(LineExtent self, LinePoint point) {
+    if (line_extent_is_beside(self, point)) {
+        float l = self.distance * point.sine / point.cosine;
+        return nusselt_min(nusselt_max(l, self.l0), self.l1) * self.s + self.distance * self.t;
     }
     // The nearer end is the more accurate place to start from. The step is 2 sin(theta / 2) cos(theta / 2) times its
     // distance over the cosine of alpha, with tan(theta / 2) = tangent.
-    float tangent = (e.begins_near ? point.from_begin : point.to_end) / (e.near_cosine + point.cosine);
-    float step = 2.0 * e.near_distance * tangent / (point.cosine * nusselt_fma(tangent, tangent, 1.0));
-    return e.near + nusselt_min(step, e.len) * e.inward;
+    float tangent = (self.begins_near ? point.from_begin : point.to_end) / (self.near_cosine + point.cosine);
+    float step = 2.0 * self.near_distance * tangent / (point.cosine * nusselt_fma(tangent, tangent, 1.0));
+    return self.near + nusselt_min(step, self.len) * self.inward;
 }
 
 /// Unit direction to a point.
 /// \param p its position.
-vec3 line_extent_direction(LineExtent e, LinePoint point, vec3 p) {
-    if (line_extent_is_beside(e, point)) return point.sine * e.s + point.cosine * e.t;
+vec3 line_extent_direction(LineExtent self, LinePoint point, vec3 p) {
+    if (line_extent_is_beside(self, point)) return point.sine * self.s + point.cosine * self.t;
     return inverse_length(p) * p;
 }
 
 /// The point in a unit direction that hits the segment up to rounding.
-LinePoint line_extent_point_in(LineExtent e, vec3 wi) {
-    float along = dot(wi, e.s);
-    float across = nusselt_max(dot(wi, e.t), 0.0);
+LinePoint line_extent_point_in(LineExtent self, vec3 wi) {
+    float along = dot(wi, self.s);
+    float across = nusselt_max(dot(wi, self.t), 0.0);
     // The angle from the end on the same side of the closest point is acute.
     bool before_closest = along < 0.0;
-    float end_sine = before_closest ? e.s0 : e.s1;
-    float end_cosine = before_closest ? e.c0 : e.c1;
+    float end_sine = before_closest ? self.s0 : self.s1;
+    float end_cosine = before_closest ? self.c0 : self.c1;
     float turned = difference_of_products(along, end_cosine, across, end_sine);
     float sine = nusselt_max(before_closest ? turned : -turned, 0.0);
     float cosine = nusselt_max(nusselt_fma(along, end_sine, across * end_cosine), 0.0);
-    float step = nusselt_min(sine / (1.0 + cosine) * (end_cosine + across), e.sine_extent);
-    float rest = e.sine_extent - step;
+    float step = nusselt_min(sine / (1.0 + cosine) * (end_cosine + across), self.sine_extent);
+    float rest = self.sine_extent - step;
     return LinePoint(along, across, before_closest ? step : rest, before_closest ? rest : step);
 }
 

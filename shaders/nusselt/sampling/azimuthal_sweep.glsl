@@ -163,22 +163,22 @@ float sweep_gap_between(vec3 base, vec3 normal, float distance, vec3 outer, vec3
 /// Goes on to event k, 1 to NUSSELT_MAX_VERTICES in turn: counterclockwise.
 /// \param sector up to this event.
 /// \return       whether the sector exists.
-bool azimuthal_sweep_advance(inout AzimuthalSweep sweep, int k, out DecentralSector sector) {
-    bool open = sweep.outer.begun && sweep.inner.begun;
-    vec3 begin = sweep.outer.at;
-    sector.begin_gap = sweep.gap;
+bool azimuthal_sweep_advance(inout AzimuthalSweep self, int k, out DecentralSector sector) {
+    bool open = self.outer.begun && self.inner.begun;
+    vec3 begin = self.outer.at;
+    sector.begin_gap = self.gap;
     if (k + 1 < kNusseltSlots) {
-        sweep_pass(sweep.base, sweep.event[k], sweep.outer, sweep.inner);
+        sweep_pass(self.base, self.event[k], self.outer, self.inner);
     } else {
         // Both chains end at the last azimuth.
-        sweep.outer.at = sweep.outer.at + sweep.outer.rest;
-        sweep.inner.at = sweep.inner.at + sweep.inner.rest;
+        self.outer.at = self.outer.at + self.outer.rest;
+        self.inner.at = self.inner.at + self.inner.rest;
     }
-    sweep.gap = sweep_gap_between(sweep.base, sweep.normal, sweep.distance, sweep.outer.at, sweep.inner.at);
+    self.gap = sweep_gap_between(self.base, self.normal, self.distance, self.outer.at, self.inner.at);
     // Above the horizon in spite of rounding.
-    sector.begin = vec3((sweep.base + begin).xy, nusselt_max(sweep.base.z + begin.z, 0.0));
-    sector.chord = sweep.outer.at - begin;
-    sector.end_gap = sweep.gap;
+    sector.begin = vec3((self.base + begin).xy, nusselt_max(self.base.z + begin.z, 0.0));
+    sector.chord = self.outer.at - begin;
+    sector.end_gap = self.gap;
     sector.doubled_triangle = det(sector.begin.xy, sector.chord.xy);
     return open && sector.doubled_triangle > 0.0;
 }

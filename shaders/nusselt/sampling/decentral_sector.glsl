@@ -28,9 +28,9 @@ struct DecentralForms {
     float rise;  ///< form of the inner ellipse minus that, >= 0
 };
 
-DecentralForms decentral_sector_at(DecentralSector sector, float x) {
-    vec3 outer_point = sector.begin + x * sector.chord;
-    float gap = nusselt_fma(x, sector.end_gap - sector.begin_gap, sector.begin_gap);
+DecentralForms decentral_sector_at(DecentralSector self, float x) {
+    vec3 outer_point = self.begin + x * self.chord;
+    float gap = nusselt_fma(x, self.end_gap - self.begin_gap, self.begin_gap);
     return DecentralForms(outer_point, gap, dot(outer_point, outer_point),
                           nusselt_max(gap * nusselt_fma(2.0, outer_point.z, gap), 0.0));
 }
@@ -46,21 +46,21 @@ struct DecentralArcs {
     float sine2_step;               ///< inner square minus the outer one, accurate relative to itself
 };
 
-DecentralArcs decentral_sector_arcs_to(DecentralSector sector, float x) {
-    vec3 begin = sector.begin;
-    vec3 chord = sector.chord;
-    float turn = sector.end_gap - sector.begin_gap;
+DecentralArcs decentral_sector_arcs_to(DecentralSector self, float x) {
+    vec3 begin = self.begin;
+    vec3 chord = self.chord;
+    float turn = self.end_gap - self.begin_gap;
     // Normals of the planes through the origin and the segments from begin to x, divided by x: times x, their lengths
     // are the sines.
     vec3 outer_normal = nusselt_cross(begin, chord);
-    vec3 lift = vec3(nusselt_fma(turn, begin.y, -sector.begin_gap * chord.y),
-                     nusselt_fma(sector.begin_gap, chord.x, -turn * begin.x), 0.0);
+    vec3 lift = vec3(nusselt_fma(turn, begin.y, -self.begin_gap * chord.y),
+                     nusselt_fma(self.begin_gap, chord.x, -turn * begin.x), 0.0);
     vec3 inner_normal = outer_normal + lift;
     float outer_cosine = dot(begin, begin + x * chord);
-    float gap = nusselt_fma(x, turn, sector.begin_gap);
-    float rise = nusselt_fma(sector.begin_gap, nusselt_fma(x, chord.z, begin.z) + gap, begin.z * gap);
+    float gap = nusselt_fma(x, turn, self.begin_gap);
+    float rise = nusselt_fma(self.begin_gap, nusselt_fma(x, chord.z, begin.z) + gap, begin.z * gap);
     float x2 = x * x;
-    return DecentralArcs(x * sector.doubled_triangle, outer_cosine, rise, outer_cosine + rise,
+    return DecentralArcs(x * self.doubled_triangle, outer_cosine, rise, outer_cosine + rise,
                          x2 * dot(outer_normal, outer_normal), x2 * dot(inner_normal, inner_normal),
                          x2 * dot(lift, outer_normal + inner_normal));
 }
@@ -115,8 +115,8 @@ float decentral_wide_doubled_area(DecentralWideArcs arcs, float inner_angle, flo
 
 /// Twice the area from the begin to x (Prop. 1 for both ellipses). Each ellipse contributes the determinant of its end
 /// points times angle / sine; the determinants are equal.
-float decentral_sector_doubled_area_to(DecentralSector sector, float x) {
-    DecentralArcs arcs = decentral_sector_arcs_to(sector, x);
+float decentral_sector_doubled_area_to(DecentralSector self, float x) {
+    DecentralArcs arcs = decentral_sector_arcs_to(self, x);
     if (decentral_arcs_are_narrow(arcs)) return decentral_narrow_doubled_area(arcs);
     DecentralWideArcs wide = decentral_wide_arcs(arcs);
     return decentral_wide_doubled_area(wide, atan2_positive(wide.inner_sine, wide.inner_cosine),
@@ -124,8 +124,8 @@ float decentral_sector_doubled_area_to(DecentralSector sector, float x) {
 }
 
 /// The same with atan2_positive_fast().
-float decentral_sector_fast_doubled_area_to(DecentralSector sector, float x) {
-    DecentralArcs arcs = decentral_sector_arcs_to(sector, x);
+float decentral_sector_fast_doubled_area_to(DecentralSector self, float x) {
+    DecentralArcs arcs = decentral_sector_arcs_to(self, x);
     if (decentral_arcs_are_narrow(arcs)) return decentral_narrow_doubled_area(arcs);
     DecentralWideArcs wide = decentral_wide_arcs(arcs);
     return decentral_wide_doubled_area(wide, atan2_positive_fast(wide.inner_sine, wide.inner_cosine),
@@ -144,16 +144,16 @@ float root_near_zero(float a, float b, float c) {
 /// Samples two quads that approximate the sector (Sec. 3.4): each lies between the chords of both ellipses from one
 /// end of the range to its middle.
 /// \param fraction of the area that shall lie before the result.
-float decentral_sector_initial_position(DecentralSector sector, float fraction) {
+float decentral_sector_initial_position(DecentralSector self, float fraction) {
     // The direction to the middle is the sum of the unit directions to both ends.
-    vec3 end = sector.begin + sector.chord;
-    float r0 = sqrt(nusselt_fma(sector.begin.x, sector.begin.x, sector.begin.y * sector.begin.y));
+    vec3 end = self.begin + self.chord;
+    float r0 = sqrt(nusselt_fma(self.begin.x, self.begin.x, self.begin.y * self.begin.y));
     float r1 = sqrt(nusselt_fma(end.x, end.x, end.y * end.y));
     float radii = r0 + r1;
     float middle = r0 / (radii > 0.0 ? radii : 1.0);
-    DecentralForms f0 = decentral_sector_at(sector, 0.0);
-    DecentralForms fh = decentral_sector_at(sector, middle);
-    DecentralForms f1 = decentral_sector_at(sector, 1.0);
+    DecentralForms f0 = decentral_sector_at(self, 0.0);
+    DecentralForms fh = decentral_sector_at(self, middle);
+    DecentralForms f1 = decentral_sector_at(self, 1.0);
 
     // Roots of products of forms at both ends of each chord, and what the inner one has more.
     float inner_h = fh.outer + fh.rise;
@@ -188,15 +188,15 @@ float decentral_sector_initial_position(DecentralSector sector, float fraction) 
 
 /// One step of the iteration (Sec. 3.3): replaces both ellipses by their tangents at x. The error is cubed.
 /// \param missing twice the area that shall lie between x and the result.
-float decentral_sector_step(DecentralSector sector, float x, float missing) {
-    DecentralForms f = decentral_sector_at(sector, x);
-    float turn = sector.end_gap - sector.begin_gap;
+float decentral_sector_step(DecentralSector self, float x, float missing) {
+    DecentralForms f = decentral_sector_at(self, x);
+    float turn = self.end_gap - self.begin_gap;
     float inner = f.outer + f.rise;
-    float outer_slope = dot(f.outer_point, sector.chord);
-    float rise_slope = nusselt_fma(f.gap, sector.chord.z, (f.outer_point.z + f.gap) * turn);
+    float outer_slope = dot(f.outer_point, self.chord);
+    float rise_slope = nusselt_fma(f.gap, self.chord.z, (f.outer_point.z + f.gap) * turn);
     float inner_slope = outer_slope + rise_slope;
-    float a = nusselt_fma(sector.doubled_triangle, rise_slope, -missing * outer_slope * inner_slope);
-    float b = 0.5 * nusselt_fma(sector.doubled_triangle, f.rise,
+    float a = nusselt_fma(self.doubled_triangle, rise_slope, -missing * outer_slope * inner_slope);
+    float b = 0.5 * nusselt_fma(self.doubled_triangle, f.rise,
                                 -missing * nusselt_fma(f.outer, inner_slope, inner * outer_slope));
     return nusselt_min(nusselt_max(x + root_near_zero(a, b, -missing * f.outer * inner), 0.0), 1.0);
 }
@@ -204,15 +204,15 @@ float decentral_sector_step(DecentralSector sector, float x, float missing) {
 /// The position before which the given area lies.
 /// \param target        twice that area, in [0, doubled_total].
 /// \param doubled_total twice the area of the sector, > 0.
-float decentral_sector_position(DecentralSector sector, float target, float doubled_total) {
+float decentral_sector_position(DecentralSector self, float target, float doubled_total) {
     float fraction = target / (doubled_total > 0.0 ? doubled_total : 1.0);
-    float x = decentral_sector_initial_position(sector, nusselt_min(fraction, 1.0));
+    float x = decentral_sector_initial_position(self, nusselt_min(fraction, 1.0));
     // Rounding of the areas; nothing is gained below.
     float tolerance = (4.0 * kNusseltEpsilon) * doubled_total;
     for (int i = 0; i < kNusseltPolygonIterations; ++i) {
-        float missing = target - decentral_sector_doubled_area_to(sector, x);
+        float missing = target - decentral_sector_doubled_area_to(self, x);
         if (!(abs(missing) > tolerance)) break;
-        x = decentral_sector_step(sector, x, missing);
+        x = decentral_sector_step(self, x, missing);
     }
     return x;
 }

@@ -67,28 +67,28 @@ struct LineRotation {
 };
 
 /// \param half_angle sine and cosine of half the angle from the begin.
-float line_sine_from_begin(LineExtent e, SinCos half_angle) {
-    float middle = nusselt_fma(e.c0, half_angle.cosine, -e.s0 * half_angle.sine);
+float line_sine_from_begin(LineExtent self, SinCos half_angle) {
+    float middle = nusselt_fma(self.c0, half_angle.cosine, -self.s0 * half_angle.sine);
     return 2.0 * half_angle.sine * nusselt_max(middle, 0.0);
 }
 
-LineRotation line_rotation_to(LineExtent e, float slope, float theta) {
+LineRotation line_rotation_to(LineExtent self, float slope, float theta) {
     SinCos half_angle = sincos_quarter_turn(0.5 * theta);
     float sine = 2.0 * half_angle.sine * half_angle.cosine;
     float cosine = nusselt_fma(-2.0 * half_angle.sine, half_angle.sine, 1.0);
     LineRotation r;
-    r.sine = nusselt_fma(e.s0, cosine, e.c0 * sine);
-    r.cosine = nusselt_max(nusselt_fma(e.c0, cosine, -e.s0 * sine), 0.0);
-    r.height = nusselt_max(nusselt_fma(e.height0, cosine, slope * sine), 0.0);
-    r.height_slope = nusselt_fma(slope, cosine, -e.height0 * sine);
-    r.integral = cosine_integral(theta, line_sine_from_begin(e, half_angle), e.height0 + r.height, e.t.z);
+    r.sine = nusselt_fma(self.s0, cosine, self.c0 * sine);
+    r.cosine = nusselt_max(nusselt_fma(self.c0, cosine, -self.s0 * sine), 0.0);
+    r.height = nusselt_max(nusselt_fma(self.height0, cosine, slope * sine), 0.0);
+    r.height_slope = nusselt_fma(slope, cosine, -self.height0 * sine);
+    r.integral = cosine_integral(theta, line_sine_from_begin(self, half_angle), self.height0 + r.height, self.t.z);
     return r;
 }
 
 /// The angle from the begin.
-float line_angle_at(LineExtent e, float sweep, float from_begin) {
-    LinePoint point = line_extent_point_at(e, from_begin);
-    return nusselt_min(2.0 * atan2_positive(from_begin, e.c0 + point.cosine), sweep);
+float line_angle_at(LineExtent self, float sweep, float from_begin) {
+    LinePoint point = line_extent_point_at(self, from_begin);
+    return nusselt_min(2.0 * atan2_positive(from_begin, self.c0 + point.cosine), sweep);
 }
 
 /// Start of the iteration: by sine, the density is the cosine with the normal. It is taken as linear from the begin to
