@@ -1,7 +1,7 @@
 #ifndef NUSSELT_CORE_REAL_GLSL
 #define NUSSELT_CORE_REAL_GLSL
-/// Arithmetic with known behaviour for NaN and rounding. Twin of include/nusselt/core/real.h; functions whose names
-/// GLSL has already are called nusselt_*.
+/// Arithmetic with known rounding. Twin of include/nusselt/core/real.h; functions whose names GLSL has already are
+/// called nusselt_*. What is said about NaN holds on devices that preserve NaN (README.md).
 
 #include "../core/compatibility.glsl"
 

@@ -1,7 +1,7 @@
 #ifndef NUSSELT_CORE_TRIG_GLSL
 #define NUSSELT_CORE_TRIG_GLSL
-/// Trigonometric functions as polynomials, the same as in single precision on the CPU: the built-in functions of GLSL
-/// may err by 4e-4 and leave special values undefined. Twin of include/nusselt/core/trig.h, where the error bounds
+/// Trigonometric functions as polynomials, the same ones as in single precision on the CPU: the built-in functions of
+/// GLSL may err by 4e-4 and leave special values undefined. Twin of include/nusselt/core/trig.h, where the error bounds
 /// stand.
 
 #include "../core/real.glsl"

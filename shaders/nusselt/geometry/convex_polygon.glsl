@@ -70,7 +70,8 @@ ConvexPolygon make_polygon(vec3 vertices[NUSSELT_MAX_VERTICES], int count) {
     return polygon;
 }
 
-/// The polygon that a C++ ConvexPolygon<float, NUSSELT_MAX_VERTICES> holds: the slot for clipping repeats the last vertex.
+/// The polygon that a C++ ConvexPolygon<float, NUSSELT_MAX_VERTICES> holds: the slot for clipping repeats the last
+/// vertex.
 /// \param vertices positions [m], the last one repeated in unused slots.
 /// \param edges    to the successors [m]; the last one closes the polygon.
 /// \param normal   unit normal.

@@ -35,8 +35,8 @@ DecentralForms decentral_sector_at(DecentralSector self, float x) {
                           nusselt_max(gap * nusselt_fma(2.0, outer_point.z, gap), 0.0));
 }
 
-/// What both ellipses have between the begin of a sector and x. Sines and cosines of the angles about the origin are not
-/// normalised.
+/// What both ellipses have between the begin of a sector and x. Sines and cosines of the angles about the origin are
+/// not normalised.
 struct DecentralArcs {
     float doubled_triangle; ///< det(begin, end) in the tangent plane
     float outer_cosine;
