@@ -20,7 +20,7 @@ expect format fails $'int  sum(int a,int b) { return a+b; }\n'
 expect length passes "$(yes '// line' | head -n 600)"
 expect length fails "$(yes '// line' | head -n 601)"
 for file in shaders/a.glsl shaders/a.comp scripts/a.py scripts/a.sh cmake/a.cmake tests/CMakeLists.txt; do
-    yes '# line' | head -n 601 >"$tree/$file"
+    head -n 601 < <(yes '# line') >"$tree/$file"
     expect length fails "$good"
     rm "$tree/$file"
 done
