@@ -17,11 +17,7 @@ struct PolygonProjectedSolidAngleBiased {
 void polygon_projected_solid_angle_biased_prepare_central(inout PolygonProjectedSolidAngle self,
                                                           ConvexPolygon polygon) {
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots; ++k) {
-        vec3 next = polygon.vertex[k + 1 < kNusseltSlots ? k + 1 : 0];
-        CentralArc arc = central_arc(polygon.vertex[k], next, polygon.edge[k]);
-        self.begin[k] = polygon.vertex[k];
-        self.chord[k] = polygon.edge[k];
-        self.angle_per_area[k] = arc.angle_per_area;
+        CentralArc arc = polygon_projected_solid_angle_put_edge(self, k, polygon);
         if (arc.present) self.doubled_area[k] = arc.height * atan2_positive_fast(arc.sine, arc.cosine) / arc.sine;
     }
 }
@@ -31,14 +27,8 @@ void polygon_projected_solid_angle_biased_prepare_decentral(inout PolygonProject
     AzimuthalSweep sweep = azimuthal_sweep_prepare(polygon, self.plane.distance);
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots - 1; ++k) {
         DecentralSector sector;
-        if (azimuthal_sweep_advance(sweep, k + 1, sector)) {
-            float doubled = decentral_sector_fast_doubled_area_to(sector, 1.0);
-            self.begin[k] = sector.begin;
-            self.chord[k] = sector.chord;
-            self.begin_gap[k] = sector.begin_gap;
-            self.end_gap[k] = sector.end_gap;
-            self.doubled_area[k] = is_finite(doubled) ? doubled : 0.0;
-        }
+        if (azimuthal_sweep_advance(sweep, k + 1, sector))
+            polygon_projected_solid_angle_put(self, k, sector, decentral_sector_fast_doubled_area_to(sector, 1.0));
     }
 }
 
