@@ -30,8 +30,8 @@ foreach(count 3 4 5 6 7)
     add_timed_shaders(PolygonSolidAnglePeters polygon ${count}
         nusselt/related/polygon_solid_angle_peters PolygonSolidAnglePeters)
     add_timed_shaders(PolygonSolidAngle polygon ${count} nusselt/sampling/polygon_solid_angle PolygonSolidAngle)
-    add_timed_shaders(PolygonClippedSolidAngle polygon ${count} nusselt/sampling/polygon_solid_angle PolygonSolidAngle
-        PREPARE polygon_clipped_solid_angle_prepare)
+    add_timed_shaders(PolygonClippedSolidAngle polygon ${count}
+        nusselt/sampling/polygon_clipped_solid_angle PolygonSolidAngle)
     add_timed_shaders(PolygonProjectedSolidAnglePeters polygon ${count}
         nusselt/related/polygon_projected_solid_angle_peters PolygonProjectedSolidAnglePeters)
     add_timed_shaders(PolygonProjectedSolidAngle polygon ${count}

@@ -271,23 +271,27 @@ public:
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         LightSample<Real> s = PolygonSolidAngle<Real, N + 1>::sample(u);
         // Above the horizon in spite of rounding.
+        const auto below = s.wi.z < Real(0);
+        if (!any(below)) return s;
         s.wi.z = max(s.wi.z, Real(0));
+        s.wi = select(below, inverse_length(s.wi) * s.wi, s.wi);
         s.p.z = max(s.p.z, Real(0));
         return s;
     }
 
 private:
-    /// The plane is that of the whole light: new vertices are not exactly on it.
     NUSSELT_HD PolygonClippedSolidAngle(const ConvexPolygon<Real, N>& light,
                                         const Real& inverse_scale) noexcept
         : PolygonClippedSolidAngle(clip_to_horizon(light), inverse_scale, plane_distance(light)) {}
 
-    /// Scaled once more, since little may be left of the light.
+    /// Scaled once more, since little may be left of the light. New vertices are not exactly on its plane: whether
+    /// that contains the origin is a question to the whole light.
     NUSSELT_HD PolygonClippedSolidAngle(const ConvexPolygon<Real, N + 1>& clipped, const Real& inverse_scale,
-                                        const Real& signed_distance) noexcept
+                                        const Real& whole_distance) noexcept
         : PolygonSolidAngle<Real, N + 1>(with_unit_extent(clipped),
                                          inverse_scale * reciprocal_power_of_two(unit_extent_scale(clipped)),
-                                         signed_distance * unit_extent_scale(clipped)) {}
+                                         select(whole_distance == Real(0), Real(0), plane_distance(clipped)) *
+                                             unit_extent_scale(clipped)) {}
 };
 
 NUSSELT_NAMESPACE_END

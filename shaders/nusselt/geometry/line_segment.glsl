@@ -105,8 +105,8 @@ LinePoint line_extent_point_in(LineExtent self, vec3 wi) {
     return LinePoint(along, across, before_closest ? step : rest, before_closest ? rest : step);
 }
 
-/// 2^-48: in the square of a smaller distance, components would underflow next to coordinates of order one.
-const float kNusseltSmallestDistance = 3.552713678800501e-15;
+/// 4 roundings: for coordinates of order one, a smaller distance of a line from the origin cannot be told from rounding.
+const float kNusseltSmallestDistance = 4.76837158203125e-7;
 
 /// The part of a segment between two points of its line.
 /// \param p0, p1   the points; z only matters where it is the height above the surface.

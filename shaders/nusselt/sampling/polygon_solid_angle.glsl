@@ -7,11 +7,10 @@
 /// where the deviations stand.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr], the constant 1 / measure.
-/// Space: any frame with the shading point as origin; polygon_clipped_solid_angle_prepare() wants shading space.
+/// Space: any frame with the shading point as origin; nothing is clipped.
 /// Edge cases: no area, or origin in the plane of the polygon: pdf = 0, measure 0.
 
 #include "../core/light_sample.glsl"
-#include "../geometry/clip_polygon.glsl"
 #include "../geometry/polygon_measures.glsl"
 
 /// Least value of 1 + the cosine of two directions: the sum of opposite ones is lost to rounding.
@@ -31,9 +30,11 @@ struct PolygonSolidAngle {
     bool counterclockwise; ///< winding as seen along a ray from the origin through the polygon
 };
 
-/// \param polygon       with coordinates of order one.
-/// \param inverse_scale from there to the light.
-PolygonSolidAngle polygon_solid_angle_prepare_scaled(ConvexPolygon polygon, float inverse_scale) {
+/// \param polygon         with coordinates of order one.
+/// \param inverse_scale   from there to the light.
+/// \param signed_distance of the plane of the polygon from the origin, see plane_distance().
+PolygonSolidAngle polygon_solid_angle_prepare_scaled(ConvexPolygon polygon, float inverse_scale,
+                                                     float signed_distance) {
     PolygonSolidAngle self;
     self.inverse_scale = inverse_scale;
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
@@ -42,7 +43,6 @@ PolygonSolidAngle polygon_solid_angle_prepare_scaled(ConvexPolygon polygon, floa
         self.inverse_distance[j] = inverse_length(polygon.vertex[j]);
         self.direction[j] = self.inverse_distance[j] * polygon.vertex[j];
     }
-    float signed_distance = plane_distance(polygon);
     self.counterclockwise = signed_distance >= 0.0;
     vec3 offset = polygon.edge[0];
     self.total = 0.0;
@@ -77,18 +77,9 @@ PolygonSolidAngle polygon_solid_angle_prepare_scaled(ConvexPolygon polygon, floa
 
 /// \param light relative to the shading point, either winding [m]. Nothing is clipped.
 PolygonSolidAngle polygon_solid_angle_prepare(ConvexPolygon light) {
-    return polygon_solid_angle_prepare_scaled(with_unit_extent(light),
-                                              reciprocal_power_of_two(unit_extent_scale(light)));
-}
-
-/// For the part of a light above the horizon.
-/// \param light in shading space, either winding [m].
-PolygonSolidAngle polygon_clipped_solid_angle_prepare(ConvexPolygon light) {
-    ConvexPolygon clipped = clip_to_horizon(with_unit_extent(light));
-    // Once more, since little may be left of the light.
-    return polygon_solid_angle_prepare_scaled(with_unit_extent(clipped),
-                                              reciprocal_power_of_two(unit_extent_scale(light)) *
-                                                  reciprocal_power_of_two(unit_extent_scale(clipped)));
+    ConvexPolygon polygon = with_unit_extent(light);
+    return polygon_solid_angle_prepare_scaled(polygon, reciprocal_power_of_two(unit_extent_scale(light)),
+                                              plane_distance(polygon));
 }
 
 /// Solid angle of the light [sr].
@@ -160,9 +151,11 @@ LightSample polygon_solid_angle_sample(PolygonSolidAngle self, vec2 u) {
     float at_b = nusselt_max(tau * weight_b, 0.0) * t.inverse_b;
     float at_c = nusselt_max(weight_c, 0.0) * self.inverse_distance[0];
     float sum = at_a + at_b + at_c;
-    float normalisation = self.inverse_scale / (sum > 0.0 ? sum : 1.0);
+    float normalisation = 1.0 / (sum > 0.0 ? sum : 1.0);
     vec3 p = (at_a * normalisation) * t.pa + (at_b * normalisation) * t.pb + (at_c * normalisation) * self.vertex[0];
-    return LightSample(wi, self.inverse_total, p);
+    // From close by, rounding relative to the size of the light would turn p away from wi.
+    float along = dot(p, wi);
+    return LightSample(wi, self.inverse_total, self.inverse_scale * (along < 0.125 ? along * wi : p));
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light; (0, 0) at vertex 0.
