@@ -44,13 +44,11 @@ endfunction()
 
 # nusselt_add_technique_shader(target name entry file struct [PREPARE function] [DEFINES define...]): likewise, for an
 # entry point that runs any technique. shaders/<entry>.glsl calls the technique by the names Technique,
-# technique_prepare and so on; shaders/<file>.glsl has it as a struct, and functions that begin with its name in
-# snake_case. PREPARE names that of a variant that shares the rest.
+# technique_prepare and so on; shaders/<file>.glsl has functions on a struct that begin with the name of the file.
+# PREPARE names that of a variant that shares the rest.
 function(nusselt_add_technique_shader target name entry file struct)
     cmake_parse_arguments(arg "" "PREPARE" "DEFINES" ${ARGN})
-    string(REGEX REPLACE "([A-Z])" "_\\1" prefix ${struct})
-    string(TOLOWER ${prefix} prefix)
-    string(SUBSTRING ${prefix} 1 -1 prefix)
+    cmake_path(GET file STEM prefix)
     if(NOT arg_PREPARE)
         set(arg_PREPARE ${prefix}_prepare)
     endif()

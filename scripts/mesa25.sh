@@ -30,6 +30,9 @@ download() {
         >"$folder/download.log" 2>&1 || unavailable "download failed, see $folder/download.log"
     local package
     for package in "$folder"/archives/*.deb; do dpkg -x "$package" "$folder/root"; done
+    # An absolute path would be that of the system's driver.
+    sed -i "s|\"library_path\": *\"/[^\"]*/|\"library_path\": \"$libraries/|" \
+        "$folder/root/usr/share/vulkan/icd.d/lvp_icd.json"
     rm -rf "$folder"/archives "$folder"/lists "$folder"/*.bin
     touch "$folder/complete"
 }

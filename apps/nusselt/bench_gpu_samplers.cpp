@@ -1,28 +1,35 @@
+#include "bench_output.h"
 #include "commands.h"
 
 #include "experiments/gpu_samplers.h"
-#include "image/atomic_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
 #include <memory>
 
 namespace nusselt::app {
 
 namespace {
 
-/// What a software device runs on; empty for others.
+/// What llvmpipe runs on; empty for others.
 std::string threads_of(const experiments::GpuSamplerTable& table) {
-    if (table.device.kind != "CPU") return "";
-    return table.software_threads.empty() ? "a thread per core (LP_NUM_THREADS=1 times one)"
-                                          : "LP_NUM_THREADS=" + table.software_threads;
+    if (!table.llvmpipe_threads) return "";
+    return table.llvmpipe_threads->empty() ? "a thread per core (LP_NUM_THREADS=1 times one)"
+                                           : "LP_NUM_THREADS=" + *table.llvmpipe_threads;
 }
 
 std::string clock_of(const experiments::GpuSamplerTable& table) {
     return table.clock == gpu::Clock::timestamps ? "timestamps of the device" : "wall clock";
+}
+
+std::string text_of(const std::optional<double>& ratio) {
+    return ratio ? fmt::format("{:.2f}", *ratio) : "-";
+}
+
+nlohmann::json json_of(const std::optional<double>& ratio) {
+    return ratio ? nlohmann::json(*ratio) : nlohmann::json(nullptr);
 }
 
 void print_table(const experiments::GpuSamplerTable& table) {
@@ -34,13 +41,12 @@ void print_table(const experiments::GpuSamplerTable& table) {
                "once, 128 per\n"
                "thread. sample: per sample of a light, prepared once for 128. x Peters: both over the "
                "published formulas.\n\n");
-    fmt::print("{:<34}{:<34}{:>10}{:>10}{:>8}{:>15}\n", "technique", "lights", "light", "sample", "spread",
-               "x Peters");
+    fmt::print("{:<34}{:<34}{:>10}{:>8}{:>10}{:>8}{:>15}\n", "technique", "lights", "light", "spread",
+               "sample", "spread", "x Peters");
     for (const auto& row : table.rows) {
-        const std::string ratio =
-            row.light_ratio > 0 ? fmt::format("{:.2f} / {:.2f}", row.light_ratio, row.sample_ratio) : "";
-        fmt::print("{:<34}{:<34}{:>10.4g}{:>10.4g}{:>7.0f}%{:>15}\n", row.technique, row.configuration,
-                   row.light_ns, row.sample_ns, 100 * row.spread, ratio);
+        fmt::print("{:<34}{:<34}{:>10.4g}{:>7.0f}%{:>10.4g}{:>7.0f}%{:>15}\n", row.technique,
+                   row.configuration, row.light_ns, 100 * row.light_spread, row.sample_ns,
+                   100 * row.sample_spread, text_of(row.light_ratio) + " / " + text_of(row.sample_ratio));
     }
 }
 
@@ -51,9 +57,10 @@ std::string to_json(const experiments::GpuSamplerTable& table) {
                         {"lights", row.configuration},
                         {"light_ns", row.light_ns},
                         {"sample_ns", row.sample_ns},
-                        {"light_ratio", row.light_ratio},
-                        {"sample_ratio", row.sample_ratio},
-                        {"spread", row.spread}});
+                        {"light_spread", row.light_spread},
+                        {"sample_spread", row.sample_spread},
+                        {"light_ratio", json_of(row.light_ratio)},
+                        {"sample_ratio", json_of(row.sample_ratio)}});
     const nlohmann::json json = {{"device", table.device.name},   {"kind", table.device.kind},
                                  {"driver", table.device.driver}, {"vulkan", table.device.api_version},
                                  {"clock", clock_of(table)},      {"fused_fma", table.fused_fma},
@@ -65,29 +72,18 @@ std::string to_json(const experiments::GpuSamplerTable& table) {
 
 int run_bench_gpu_samplers(const BenchGpuSamplersOptions& options) {
     const auto table = experiments::time_gpu_samplers({options.repetitions, options.device});
-    if (options.json && *options.json == "-") {
-        fmt::print("{}", to_json(table));
-        return 0;
-    }
-    print_table(table);
-    if (options.json)
-        image::write_atomically(*options.json, [&](std::ofstream& file) { file << to_json(table); });
+    write_results(options.json, to_json(table), [&] { print_table(table); });
     return 0;
 }
 
 void setup_bench_gpu_samplers(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchGpuSamplersOptions>();
     CLI::App* command = bench.add_subcommand("gpu-samplers", "Cost of each technique on a GPU");
-    command
-        ->add_option("--repetitions", options->repetitions,
-                     "Interleaved repetitions, of which the median counts")
-        ->check(CLI::Range(1, 10001))
-        ->capture_default_str();
+    add_repetitions_option(*command, options->repetitions);
     command->add_option("--device", options->device,
                         "Vulkan device: its index, or part of its name. Default: the environment variable\n"
                         "NUSSELT_DEVICE, else a discrete GPU before others");
-    command->add_option("--json", options->json,
-                        "Write the table as JSON to this file; - for the standard output");
+    add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_gpu_samplers(*options); });
 }
 

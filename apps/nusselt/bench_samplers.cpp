@@ -1,14 +1,13 @@
+#include "bench_output.h"
 #include "commands.h"
 
 #include "experiments/sampler_timing.h"
-#include "image/atomic_file.h"
 #include "image/io.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
 #include <memory>
 
 namespace nusselt::app {
@@ -54,32 +53,21 @@ std::string to_json(const std::vector<experiments::SamplerTiming>& rows) {
 int run_bench_samplers(const BenchSamplersOptions& options) {
     if (options.json && *options.json != "-") image::check_writable(*options.json);
     const auto rows = experiments::time_samplers({options.repetitions, options.isa});
-    if (options.json && *options.json == "-") {
-        fmt::print("{}", to_json(rows));
-        return 0;
-    }
-    print_table(rows);
-    if (options.json)
-        image::write_atomically(*options.json, [&](std::ofstream& file) { file << to_json(rows); });
+    write_results(options.json, to_json(rows), [&] { print_table(rows); });
     return 0;
 }
 
 void setup_bench_samplers(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchSamplersOptions>();
     CLI::App* command = bench.add_subcommand("samplers", "Cost of preparing and of sampling each technique");
-    command
-        ->add_option("--repetitions", options->repetitions,
-                     "Interleaved repetitions, of which the median counts")
-        ->check(CLI::Range(1, 10001))
-        ->capture_default_str();
+    add_repetitions_option(*command, options->repetitions);
     command
         ->add_option("--isa", options->isa,
                      "Instruction set: sse42, avx2 or avx512. Default: the environment variable NUSSELT_ISA, "
                      "else the\n"
                      "best one that the processor supports")
         ->check(CLI::IsMember({"sse42", "avx2", "avx512"}));
-    command->add_option("--json", options->json,
-                        "Write the table as JSON to this file; - for the standard output");
+    add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_samplers(*options); });
 }
 

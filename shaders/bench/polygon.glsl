@@ -8,18 +8,15 @@ void main() {
     for (uint i = 0u; i < kLightCount; ++i) {
         const uint index = (thread + i) % kLights;
         const uint bound = NUSSELT_MAX_VERTICES;
-        ConvexPolygon light;
+        vec3 vertices[NUSSELT_MAX_VERTICES];
+        vec3 edges[NUSSELT_MAX_VERTICES];
         vec3 all = vec3(0.0); // so that nobody saves the loads of what a technique does not need
         NUSSELT_UNROLL for (uint j = 0u; j < bound; ++j) {
-            light.vertex[j] = column_vec3(3u * j, index);
-            light.edge[j] = column_vec3(3u * (bound + j), index);
-            all += light.vertex[j] + light.edge[j];
+            vertices[j] = column_vec3(3u * j, index);
+            edges[j] = column_vec3(3u * (bound + j), index);
+            all += vertices[j] + edges[j];
         }
-        // The slot for clipping repeats the last vertex, and its edge closes the polygon.
-        light.vertex[bound] = light.vertex[bound - 1u];
-        light.edge[bound] = light.edge[bound - 1u];
-        light.edge[bound - 1u] = vec3(0.0);
-        light.normal = column_vec3(6u * bound, index);
+        const ConvexPolygon light = make_polygon(vertices, edges, column_vec3(6u * bound, index));
         sum.xyz += all + light.normal;
 
         Technique technique = technique_prepare(light);

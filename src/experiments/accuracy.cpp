@@ -125,11 +125,11 @@ void judge(const Case<Technique, Real>& c, const Outcome& outcome, bool dark, Ac
         row.add_dark(outcome, Technique::kMeasuresVisible);
         return;
     }
+    if (outcome.pdf == 0) row.add_no_sample();
+    // What a technique takes for dark is counted, but has no measure to judge.
+    if (outcome.pdf == 0 && outcome.measure == 0) return;
     row.add_measure(outcome.measure, c.exact.measure());
-    if (outcome.pdf == 0) {
-        row.add_no_sample();
-        return;
-    }
+    if (outcome.pdf == 0) return;
     const Vec3<Exact> wi = normalize(outcome.wi);
     const Exact explained = Technique::first(c.exact.invert(wi));
     row.add_direction(c.difference(explained, Technique::first(c.u)), c.missed_by(wi), kTolerance<Real>);

@@ -1,9 +1,7 @@
 #include "experiments/gpu_samplers.h"
 
-#include <algorithm>
+#include <cassert>
 #include <cstdlib>
-#include <cstring>
-#include <map>
 #include <memory>
 
 #include <nusselt/geometry/convex_polygon.h>
@@ -102,45 +100,63 @@ struct Timed {
 };
 
 /// One row in the making.
-struct Series {
+struct Running {
     const Timed* timed;
     const TimedConfiguration* configuration;
     std::uint32_t light_groups = 0, sample_groups = 0;
-    std::vector<double> light_ns, sample_ns; ///< with the baseline
+    GpuSamplerSeries series;
 };
+
+double half_interquartile_range(const std::vector<double>& values) {
+    return (quantile(values, 0.75) - quantile(values, 0.25)) / 2;
+}
+
+std::optional<double> ratio(double time, double other) {
+    if (time > 0 && other > 0) return time / other;
+    return std::nullopt;
+}
 
 void add_ratios(std::vector<GpuSamplerTiming>& rows) {
     for (GpuSamplerTiming& row : rows)
         for (const GpuSamplerTiming& other : rows) {
             if (other.technique != competitor_of(row.technique) || other.configuration != row.configuration)
                 continue;
-            row.light_ratio = row.light_ns / other.light_ns;
-            row.sample_ratio = row.sample_ns / other.sample_ns;
+            row.light_ratio = ratio(row.light_ns, other.light_ns);
+            row.sample_ratio = ratio(row.sample_ns, other.sample_ns);
         }
 }
 
-std::vector<GpuSamplerTiming> rows_of(const std::vector<Series>& series) {
+/// Mesa's software device runs on as many threads as it is told to.
+std::optional<std::string> llvmpipe_threads(const gpu::DeviceDescription& device) {
+    if (device.name.find("llvmpipe") == std::string::npos) return std::nullopt;
+    const char* threads = std::getenv("LP_NUM_THREADS");
+    return threads == nullptr ? "" : threads;
+}
+
+} // namespace
+
+std::vector<GpuSamplerTiming> rows_of(const std::vector<GpuSamplerSeries>& series) {
     std::vector<GpuSamplerTiming> rows;
-    const Series* baseline = nullptr; // precedes its techniques
-    for (const Series& s : series) {
-        if (std::strcmp(s.timed->shader->technique, "Baseline") == 0) {
+    const GpuSamplerSeries* baseline = nullptr;
+    for (const GpuSamplerSeries& s : series) {
+        if (s.technique == "Baseline") {
             baseline = &s;
             continue;
         }
-        const double median = quantile(s.light_ns, 0.5);
+        assert(baseline != nullptr && baseline->configuration == s.configuration);
+        const double light = quantile(s.light_ns, 0.5), sample = quantile(s.sample_ns, 0.5);
         GpuSamplerTiming row;
-        row.technique = s.timed->shader->technique;
-        row.configuration = s.configuration->name;
-        row.light_ns = median - quantile(baseline->light_ns, 0.5);
-        row.sample_ns = quantile(s.sample_ns, 0.5) - quantile(baseline->sample_ns, 0.5);
-        row.spread = (quantile(s.light_ns, 0.75) - quantile(s.light_ns, 0.25)) / (2 * median);
+        row.technique = s.technique;
+        row.configuration = s.configuration;
+        row.light_ns = light - quantile(baseline->light_ns, 0.5);
+        row.sample_ns = sample - quantile(baseline->sample_ns, 0.5);
+        row.light_spread = half_interquartile_range(s.light_ns) / light;
+        row.sample_spread = half_interquartile_range(s.sample_ns) / sample;
         rows.push_back(row);
     }
     add_ratios(rows);
     return rows;
 }
-
-} // namespace
 
 GpuSamplerTable time_gpu_samplers(const GpuSamplerSettings& settings) {
     const gpu::Device device({.choice = settings.device});
@@ -157,11 +173,11 @@ GpuSamplerTable time_gpu_samplers(const GpuSamplerSettings& settings) {
                                                         {device, shader, 1, kRepeats, columns, sums}}));
     const std::vector<TimedConfiguration> configurations = timed_configurations();
     const auto lights = std::make_unique<TimedLights>();
-    std::vector<Series> series;
+    std::vector<Running> all_running;
     for (const TimedConfiguration& c : configurations)
         for (const auto& timed : all)
             if (timed->shader->kind == c.kind && timed->shader->vertex_count == c.vertex_count)
-                series.push_back({timed.get(), &c, 0, 0, {}, {}});
+                all_running.push_back({timed.get(), &c, 0, 0, {timed->shader->technique, c.name, {}, {}}});
 
     const auto upload = [&](const TimedConfiguration& c) {
         make_timed_lights(c, *lights);
@@ -170,19 +186,21 @@ GpuSamplerTable time_gpu_samplers(const GpuSamplerSettings& settings) {
     };
     for (int repetition = 0; repetition < settings.repetitions; ++repetition) {
         const TimedConfiguration* uploaded = nullptr;
-        for (Series& s : series) {
+        for (Running& s : all_running) {
             if (s.configuration != uploaded) upload(*s.configuration);
             uploaded = s.configuration;
             if (repetition == 0) {
                 s.light_groups = s.timed->lights.calibrated_groups();
                 s.sample_groups = s.timed->samples.calibrated_groups();
             }
-            s.light_ns.push_back(s.timed->lights.run(s.light_groups));
-            s.sample_ns.push_back(s.timed->samples.run(s.sample_groups));
+            s.series.light_ns.push_back(s.timed->lights.run(s.light_groups));
+            s.series.sample_ns.push_back(s.timed->samples.run(s.sample_groups));
         }
     }
-    const char* threads = device.description().kind == "CPU" ? std::getenv("LP_NUM_THREADS") : nullptr;
-    return {device.description(), device.clock(), fused, threads == nullptr ? "" : threads, rows_of(series)};
+    std::vector<GpuSamplerSeries> series;
+    for (const Running& s : all_running) series.push_back(s.series);
+    return {device.description(), device.clock(), fused, llvmpipe_threads(device.description()),
+            rows_of(series)};
 }
 
 } // namespace nusselt::experiments

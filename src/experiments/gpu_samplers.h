@@ -16,9 +16,11 @@ struct GpuSamplerTiming {
     std::string configuration;
     double light_ns = 0;  ///< per light that is prepared and sampled once, with clipping [ns], median
     double sample_ns = 0; ///< per sample, with 1/128 of preparing a light for 128 of them [ns], median
-    double spread = 0;    ///< half the interquartile range of light_ns, with the baseline, over its median
-    /// Time over that of the published formulas, per light and per sample; 0 if there are none.
-    double light_ratio = 0, sample_ratio = 0;
+    /// Half the interquartile range of either time, with the baseline, over its median.
+    double light_spread = 0, sample_spread = 0;
+    /// Time over that of the published formulas, per light and per sample. None without published formulas, or if
+    /// either time is not above the baseline.
+    std::optional<double> light_ratio, sample_ratio;
 };
 
 struct GpuSamplerSettings {
@@ -30,10 +32,20 @@ struct GpuSamplerTable {
     gpu::DeviceDescription device;
     gpu::Clock clock;
     bool fused_fma; ///< which variant of the shaders ran
-    /// Threads of a software device: the environment variable LP_NUM_THREADS, empty if it is not set.
-    std::string software_threads;
+    /// Threads of llvmpipe: the environment variable LP_NUM_THREADS, empty if it is not set. None for other devices.
+    std::optional<std::string> llvmpipe_threads;
     std::vector<GpuSamplerTiming> rows;
 };
+
+/// What was measured of one technique and class of lights, or of the baseline.
+struct GpuSamplerSeries {
+    std::string technique; ///< "Baseline" before the techniques that it belongs to
+    std::string configuration;
+    std::vector<double> light_ns, sample_ns; ///< with the baseline
+};
+
+/// Medians less the baseline, spreads and ratios.
+std::vector<GpuSamplerTiming> rows_of(const std::vector<GpuSamplerSeries>& series);
 
 /// Times all techniques, interleaved, so that a drift of the clock rate hits all alike.
 /// \throws gpu::NoDevice without a device.

@@ -7,16 +7,20 @@ namespace nusselt::gpu {
 
 namespace {
 
+/// For messages.
+std::string name_of(const Device& device, std::size_t bytes) {
+    return device.description().name + ": a buffer of " + size_text(bytes);
+}
+
 vk::raii::Buffer make_buffer(const Device& device, std::size_t bytes) {
     assert(bytes > 0);
     if (bytes > device.limits().maxStorageBufferRange)
-        throw Error(device.description().name + ": a buffer of " + std::to_string(bytes >> 20) +
-                    " MiB is too large, the limit is " +
-                    std::to_string(device.limits().maxStorageBufferRange >> 20) + " MiB; ask for less");
+        throw Error(name_of(device, bytes) + " is too large, the limit is " +
+                    size_text(device.limits().maxStorageBufferRange) + "; ask for less");
     using Usage = vk::BufferUsageFlagBits;
     const vk::BufferCreateInfo info({}, bytes,
                                     Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst);
-    return guarded(device.description().name, [&] { return vk::raii::Buffer(device.handle(), info); });
+    return guarded(name_of(device, bytes), [&] { return vk::raii::Buffer(device.handle(), info); });
 }
 
 vk::MemoryPropertyFlags properties_of(Residence residence) {
@@ -33,7 +37,7 @@ Buffer::Buffer(const Device& device, std::size_t bytes, Residence residence)
       residence_(residence),
       buffer_(make_buffer(device, bytes)),
       memory_(device.allocate(buffer_.getMemoryRequirements(), properties_of(residence))) {
-    guarded(device.description().name, [&] { buffer_.bindMemory(*memory_, 0); });
+    guarded(name_of(device, bytes), [&] { buffer_.bindMemory(*memory_, 0); });
 }
 
 void Buffer::write_bytes(std::span<const std::byte> bytes) {
@@ -46,7 +50,7 @@ void Buffer::write_bytes(std::span<const std::byte> bytes) {
         });
         return;
     }
-    guarded(device_->description().name, [&] {
+    guarded(name_of(*device_, size_) + " that is written", [&] {
         std::memcpy(memory_.mapMemory(0, bytes.size()), bytes.data(), bytes.size());
         memory_.unmapMemory();
     });
@@ -62,7 +66,7 @@ void Buffer::read_bytes(std::span<std::byte> bytes) const {
         staging.read_bytes(bytes);
         return;
     }
-    guarded(device_->description().name, [&] {
+    guarded(name_of(*device_, size_) + " that is read", [&] {
         std::memcpy(bytes.data(), memory_.mapMemory(0, bytes.size()), bytes.size());
         memory_.unmapMemory();
     });

@@ -56,7 +56,7 @@ ComputePipeline::ComputePipeline(const Device& device, std::span<const std::uint
     const vk::DescriptorSetAllocateInfo info(*descriptor_pool_, *set_layout_);
     descriptors_ = vk::raii::DescriptorSets(device.handle(), info).front().release();
 } catch (const vk::SystemError& error) {
-    rethrow(device.description().name + ", compiling a shader", error);
+    rethrow(device.description().name + ": compiling a shader", error);
 }
 
 void ComputePipeline::bind(std::initializer_list<const Buffer*> buffers) {

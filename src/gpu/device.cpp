@@ -5,17 +5,32 @@
 #include <cctype>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 
 namespace nusselt::gpu {
 
 namespace {
 
-DeviceDescription describe(const vk::raii::PhysicalDevice& device) {
+bool has_extension(const vk::raii::PhysicalDevice& device, const char* name) {
+    const auto extensions = device.enumerateDeviceExtensionProperties();
+    return std::any_of(extensions.begin(), extensions.end(), [&](const auto& extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
+}
+
+/// Name and version.
+std::string driver_of(const vk::raii::PhysicalDevice& device) {
+    if (!has_extension(device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME))
+        return "driver version " + std::to_string(device.getProperties().driverVersion);
     const auto chain =
         device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
-    const vk::PhysicalDeviceProperties& basic = chain.get<vk::PhysicalDeviceProperties2>().properties;
     const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+    return std::string(driver.driverName) + ", " + std::string(driver.driverInfo);
+}
+
+DeviceDescription describe(const vk::raii::PhysicalDevice& device) {
+    const vk::PhysicalDeviceProperties basic = device.getProperties();
     const auto kind = [&]() -> std::string {
         switch (basic.deviceType) {
         case vk::PhysicalDeviceType::eDiscreteGpu:
@@ -33,8 +48,7 @@ DeviceDescription describe(const vk::raii::PhysicalDevice& device) {
     const auto version = std::to_string(VK_API_VERSION_MAJOR(basic.apiVersion)) + "." +
                          std::to_string(VK_API_VERSION_MINOR(basic.apiVersion)) + "." +
                          std::to_string(VK_API_VERSION_PATCH(basic.apiVersion));
-    return {basic.deviceName, std::string(driver.driverName) + ", " + std::string(driver.driverInfo), kind(),
-            version};
+    return {basic.deviceName, driver_of(device), kind(), version};
 }
 
 /// The lower the better.
@@ -134,11 +148,11 @@ Device::Device(const DeviceOptions& options) try
       pool_(device_, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, queue_family_)),
       timestamps_(device_, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2)) {
 } catch (const vk::SystemError& error) {
-    rethrow("the Vulkan device", error);
+    rethrow("starting a Vulkan device", error);
 }
 
 void Device::run(const Record& record) const {
-    guarded(description_.name, [&] {
+    guarded(description_.name + ": running commands", [&] {
         const vk::raii::CommandBuffers buffers(
             device_, vk::CommandBufferAllocateInfo(*pool_, vk::CommandBufferLevel::ePrimary, 1));
         const Commands& commands = buffers.front();
@@ -168,11 +182,11 @@ double Device::time(const Record& record) const {
         full_barrier(commands);
         commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_, 1);
     });
-    return guarded(description_.name, [&] {
+    return guarded(description_.name + ": reading timestamps", [&] {
         const auto [result, ticks] = timestamps_.getResults<std::uint64_t>(
             0, 2, 2 * sizeof(std::uint64_t), sizeof(std::uint64_t),
             vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
-        // Of a counter with fewer bits, the difference is right as long as it does not wrap around twice.
+        // Of a counter with fewer bits, the difference is right if it lasts less than one period.
         const std::uint32_t bits = physical_.getQueueFamilyProperties()[queue_family_].timestampValidBits;
         const std::uint64_t elapsed = (ticks[1] - ticks[0]) << (64 - bits) >> (64 - bits);
         return static_cast<double>(elapsed) * static_cast<double>(limits_.timestampPeriod);
@@ -181,17 +195,19 @@ double Device::time(const Record& record) const {
 
 vk::raii::DeviceMemory Device::allocate(const vk::MemoryRequirements& requirements,
                                         vk::MemoryPropertyFlags wanted) const {
+    const std::string activity =
+        description_.name + ": allocating " + size_text(requirements.size) + " of memory";
     const vk::PhysicalDeviceMemoryProperties memory = physical_.getMemoryProperties();
     for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
         const bool fits = (requirements.memoryTypeBits >> i & 1) != 0 &&
                           (memory.memoryTypes[i].propertyFlags & wanted) == wanted &&
                           memory.memoryHeaps[memory.memoryTypes[i].heapIndex].size >= requirements.size;
         if (!fits) continue;
-        return guarded(description_.name, [&] {
+        return guarded(activity, [&] {
             return vk::raii::DeviceMemory(device_, vk::MemoryAllocateInfo(requirements.size, i));
         });
     }
-    throw Error(gpu::describe(description_.name, vk::Result::eErrorOutOfDeviceMemory));
+    throw Error(gpu::describe(activity, vk::Result::eErrorOutOfDeviceMemory));
 }
 
 void full_barrier(const Device::Commands& commands) {

@@ -27,9 +27,11 @@ struct DeviceDescription {
 };
 
 /// The devices that can be chosen. Empty without a loader or driver.
+/// \throws Error if a driver does not start.
 std::vector<DeviceDescription> list_devices();
 
 /// Why Device(options) would throw NoDevice; nothing if it would not.
+/// \throws Error if a driver does not start.
 std::optional<std::string> why_no_device(const DeviceOptions& options = {});
 
 /// What time() measures with.
@@ -44,6 +46,7 @@ public:
     using Record = std::function<void(const Commands&)>;
 
     /// \throws NoDevice if there is none, with what there is if one was asked for by name.
+    /// \throws Error if a driver or the device does not start.
     explicit Device(const DeviceOptions& options = {});
     // Buffers and pipelines keep its address.
     Device(const Device&) = delete;

@@ -1,6 +1,7 @@
 #pragma once
 /// Errors of the GPU side, each one line for the user.
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -18,8 +19,11 @@ class NoDevice : public Error {
     using Error::Error;
 };
 
+/// A size for the user, as in "3 MiB", rounded up.
+std::string size_text(std::uint64_t bytes);
+
 /// One line that names the activity, what went wrong and what to do about it.
-/// \param activity as in "a buffer of 3 MiB".
+/// \param activity as in "DEVICE: a buffer of 3 MiB".
 std::string describe(const std::string& activity, vk::Result result);
 
 /// Throws what Vulkan reported as Error.

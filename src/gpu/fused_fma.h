@@ -5,7 +5,7 @@
 
 namespace nusselt::gpu {
 
-/// Runs fma on operands whose result depends on it. Shaders take exact products from a fused fma, and split
+/// Runs nusselt_fma_is_fused() of shaders/nusselt on the device. Shaders take exact products from a fused fma, and split
 /// numbers where it rounds twice: each exists in both variants (macro NUSSELT_FUSED_FMA).
 bool has_fused_fma(const Device& device);
 

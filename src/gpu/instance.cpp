@@ -47,7 +47,7 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validate
     } catch (const vk::IncompatibleDriverError&) {
         throw NoDevice(kNoDriver);
     } catch (const vk::SystemError& error) {
-        throw NoDevice(describe("Vulkan", static_cast<vk::Result>(error.code().value())));
+        rethrow("starting Vulkan", error);
     }
 }
 
@@ -94,8 +94,8 @@ std::vector<vk::raii::PhysicalDevice> Instance::devices() const {
             if (computes && device.getProperties().apiVersion >= VK_API_VERSION_1_1)
                 usable.push_back(std::move(device));
         }
-    } catch (const vk::InitializationFailedError&) {
-        throw NoDevice(kNoDriver);
+    } catch (const vk::SystemError& error) {
+        rethrow("looking for Vulkan devices", error);
     }
     return usable;
 }

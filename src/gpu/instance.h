@@ -29,12 +29,14 @@ private:
 class Instance {
 public:
     /// \throws NoDevice if there is no Vulkan loader or no driver.
+    /// \throws Error if a driver does not start.
     explicit Instance(Validation validation);
 
     bool validates() const { return validates_; }
     ValidationLog& log() const { return *log_; }
 
     /// All devices with Vulkan 1.1 and a queue for compute shaders, in the order of the loader.
+    /// \throws Error if a driver does not start.
     std::vector<vk::raii::PhysicalDevice> devices() const;
 
 private:

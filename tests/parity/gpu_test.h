@@ -1,18 +1,39 @@
 #pragma once
-/// Fixture of tests on a Vulkan device. Without a device they are skipped, visibly; whatever the validation layer
-/// says is a failure.
+/// Fixture of tests on a Vulkan device. Without a loader or any device they are skipped, visibly, unless one is asked
+/// for; a driver that does not start and whatever the validation layer says are failures.
 
 #include "gpu/device.h"
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <string>
+
 namespace nusselt::parity {
+
+/// Whether the environment asks for a device: CI=true does, whose machines install a software device, NUSSELT_DEVICE,
+/// and NUSSELT_EXPECT_DRIVER, which is part of the name or version of the driver that shall run.
+inline bool needs_device() {
+    const auto value = [](const char* name) -> std::string {
+        const char* text = std::getenv(name);
+        return text == nullptr ? "" : text;
+    };
+    return value("CI") == "true" || !value("NUSSELT_DEVICE").empty() ||
+           !value("NUSSELT_EXPECT_DRIVER").empty();
+}
 
 class GpuTest : public testing::Test {
 protected:
     void SetUp() override {
-        if (const auto reason = gpu::why_no_device()) GTEST_SKIP() << *reason;
+        if (const auto reason = gpu::why_no_device()) {
+            if (needs_device()) FAIL() << *reason;
+            GTEST_SKIP() << *reason;
+        }
         device_.emplace(gpu::DeviceOptions{.validation = gpu::Validation::on});
+        const std::string driver = device().description().driver;
+        if (const char* expected = std::getenv("NUSSELT_EXPECT_DRIVER")) {
+            ASSERT_NE(driver.find(expected), std::string::npos) << driver << " is not " << expected;
+        }
     }
 
     void TearDown() override {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace nusselt::parity {
 
@@ -20,15 +21,25 @@ double quantile(const std::vector<double>& sorted, double share) {
 }
 
 void sort(std::vector<double>& errors) {
-    // What cannot be told counts as the largest error, as in the accuracy tables.
     for (double& error : errors)
-        if (!(error <= 1)) error = 1;
+        if (std::isnan(error)) error = std::numeric_limits<double>::infinity();
     std::sort(errors.begin(), errors.end());
 }
 
-Tail tail_of(Quantity quantity) {
-    return quantity == Quantity::first_random || quantity == Quantity::measure ? Tail::largest
-                                                                               : Tail::quantiles;
+Budget budget_of(Quantity quantity) {
+    switch (quantity) {
+    case Quantity::first_random:
+        return {Tail::largest, 1};
+    case Quantity::measure:
+        return {Tail::largest};
+    case Quantity::second_random:
+    case Quantity::aim:
+    case Quantity::first_inverse:
+    case Quantity::second_inverse:
+        return {Tail::quantiles, 1};
+    default:
+        return {};
+    }
 }
 
 } // namespace
@@ -43,26 +54,33 @@ void Errors::append(const Errors& other) {
 }
 
 void Verdict::add(const std::string& prefix, const Verdict& other) {
+    lights += other.lights;
     for (const std::string& excess : other.excesses) excesses.push_back(prefix + excess);
+    for (const std::string& name : other.vacuous) vacuous.push_back(prefix + name);
     if (other.largest_ratio <= largest_ratio) return;
     largest_ratio = other.largest_ratio;
     where = prefix + other.where;
 }
 
 Verdict compare(const std::string& quantity, std::vector<double> device, std::vector<double> cpp,
-                std::vector<double> floor, Tail tail) {
+                std::vector<double> floor, const Budget& budget) {
     sort(device);
     sort(cpp);
     sort(floor);
     std::vector<std::pair<const char*, double>> shares{{"median", 0.5}, {"99 %", 0.99}, {"99.9 %", 0.999}};
-    if (tail == Tail::largest) shares.emplace_back("largest", 1);
+    if (budget.tail == Tail::largest) shares.emplace_back("largest", 1);
     Verdict verdict;
     for (const auto& [name, share] : shares) {
         const double value = quantile(device, share);
         const double reference = quantile(cpp, share);
         const double least = quantile(floor, share);
-        const double ratio = value / std::max({reference, least, kRounding});
+        const double unit = std::max({reference, least, kRounding});
+        const double ratio = value / unit;
         const std::string where = fmt::format("{}, {}", quantity, name);
+        if (!(kFactor * unit < budget.bound)) {
+            verdict.vacuous.push_back(where);
+            continue;
+        }
         if (ratio > verdict.largest_ratio) {
             verdict.largest_ratio = ratio;
             verdict.where = where;
@@ -79,7 +97,7 @@ Verdict compare(const Errors& device, const Errors& cpp, const Errors& floor) {
     Verdict verdict;
     for (std::size_t i = 0; i < kQuantities; ++i)
         verdict.add("", compare(kQuantityNames[i], device.of[i], cpp.of[i], floor.of[i],
-                                tail_of(static_cast<Quantity>(i))));
+                                budget_of(static_cast<Quantity>(i))));
     const auto count = [&](const char* name, std::int64_t value, std::int64_t limit) {
         if (value > limit) verdict.excesses.push_back(fmt::format("{}: {}, in C++ {}", name, value, limit));
     };

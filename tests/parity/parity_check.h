@@ -4,6 +4,7 @@
 #include "experiments/accuracy_cases.h"
 #include "experiments/hostile/contract.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -12,17 +13,24 @@
 
 namespace nusselt::parity {
 
-/// What errors are measured of, against the technique in long double.
+/// What errors are measured of, against the technique in long double. "In the same direction": in that of the method, so
+/// that no error counts twice.
 enum class Quantity {
-    first_random,  ///< backward error of the first random number
-    second_random, ///< of the second one; lines have none
-    measure,       ///< relative
-    density,       ///< relative to that of the technique in long double in the same direction
-    aim,           ///< angle between the direction and the hit point
-    inverse,       ///< of the first random number that invert() finds for the direction
+    first_random,   ///< backward error of the first random number
+    second_random,  ///< of the second one; lines have none
+    measure,        ///< relative
+    density,        ///< pdf() in the same direction, relative
+    sample_density, ///< density of the sample in the same direction, relative
+    unit_length,    ///< difference of the length of the direction to one
+    aim,            ///< sine of the angle between the direction and the hit point
+    hit_point, ///< distance to where the same direction meets the light, relative to the size of the light
+    first_inverse,  ///< of the first random number that invert() finds for the same direction
+    second_inverse, ///< of the second one
 };
 inline constexpr const char* kQuantityNames[] = {
-    "first random number", "second random number", "measure", "density", "aim", "inverse"};
+    "first random number",   "second random number",    "measure", "density",
+    "density of the sample", "length of the direction", "aim",     "hit point",
+    "first inverse",         "second inverse"};
 inline constexpr std::size_t kQuantities = std::size(kQuantityNames);
 
 /// The errors of one method on one class of lights.
@@ -41,7 +49,9 @@ struct Errors {
 
 /// What came of comparing a device with C++.
 struct Verdict {
+    std::int64_t lights = 0;           ///< how many were judged
     std::vector<std::string> excesses; ///< lines that say which budget is exceeded, and by how much
+    std::vector<std::string> vacuous;  ///< quantities and quantiles whose budget no error can exceed
     double largest_ratio = 0; ///< of an error on the device to that of C++ or the floor; the budget is 3
     std::string where;        ///< the quantity and quantile with the largest ratio
 
@@ -56,58 +66,115 @@ enum class Tail {
     largest,
 };
 
+struct Budget {
+    Tail tail = Tail::quantiles;
+    double bound =
+        std::numeric_limits<double>::infinity(); ///< no error is larger: a budget above it is vacuous
+};
+
 /// Compares errors of one quantity.
 /// \param floor errors of the exact results rounded to float: no method can be asked for less.
 Verdict compare(const std::string& quantity, std::vector<double> device, std::vector<double> cpp,
-                std::vector<double> floor, Tail tail);
+                std::vector<double> floor, const Budget& budget);
 
 /// Compares all quantities, and the counts.
 Verdict compare(const Errors& device, const Errors& cpp, const Errors& floor);
 
-/// Judges what a method returns for a light.
+/// Whether two random numbers make a sample, as of polygons.
+template <class Traits>
+inline constexpr bool kIsPolygonal = !std::is_same_v<typename Traits::template Random<float>, float>;
+
+/// Where a ray from the origin meets the plane of a light.
+template <int N>
+Vec3<experiments::Exact> hit_point(const ConvexPolygon<experiments::Exact, N>& light,
+                                   const Vec3<experiments::Exact>& wi) {
+    return dot(light.normal, light.vertex[0]) / dot(light.normal, wi) * wi;
+}
+/// Where a ray from the origin comes closest to a light, seen from the origin.
+inline Vec3<experiments::Exact> hit_point(const LineSegment<experiments::Exact>& light,
+                                          const Vec3<experiments::Exact>& wi) {
+    const auto across = cross(wi, light.s);
+    return light.p0 - dot(cross(wi, light.p0), across) / dot(across, across) * light.s;
+}
+
+template <int N>
+experiments::Exact size_of(const ConvexPolygon<experiments::Exact, N>& light) {
+    experiments::Exact size = 0;
+    for (const auto& v : light.vertex) size = std::max(size, length(v - light.vertex[0]));
+    return size;
+}
+inline experiments::Exact size_of(const LineSegment<experiments::Exact>& light) { return light.length; }
+
+/// Judges measure and sample of a method, which may have no more.
 /// \tparam Traits of src/experiments/accuracy_techniques.h.
-template <class Traits, class Outputs>
-void judge(const experiments::Case<Traits, float>& c, bool dark, const Outputs& out, Errors& errors) {
+/// \return whether there is a sample of a light.
+template <class Traits>
+bool judge_sample(const experiments::Case<Traits, float>& c, bool dark, const LightSample<float>& sample,
+                  float measure, Errors& errors) {
     using experiments::Exact;
-    const auto& [sample, pdf, inverse, measure] = out;
-    if (!hostile::all_finite(sample.wi) || !is_finite(sample.pdf) || !is_finite(pdf) || !is_finite(measure) ||
-        sample.pdf < 0 || pdf < 0 || measure < 0 || !hostile::in_unit_interval(inverse)) {
+    if (!hostile::all_finite(sample.wi) || !is_finite(sample.pdf) || !is_finite(measure) || sample.pdf < 0 ||
+        measure < 0) {
         ++errors.invalid;
-        return;
+        return false;
     }
     if (dark) {
         errors.spurious += sample.pdf > 0 || (Traits::kMeasuresVisible && measure > 0);
-        return;
+        return false;
     }
-    const Exact exact_measure = c.exact.measure();
-    errors.add(Quantity::measure, std::fabs(measure / exact_measure - 1));
+    errors.add(Quantity::measure, std::fabs(measure / c.exact.measure() - 1));
     if (sample.pdf == 0) {
         ++errors.no_sample;
-        return;
+        return false;
     }
-    const Vec3<Exact> wi = normalize(broadcast<Exact>(sample.wi));
+    const auto direction = broadcast<Exact>(sample.wi);
+    errors.add(Quantity::unit_length, std::fabs(length(direction) - 1));
+    const Vec3<Exact> wi = normalize(direction);
     errors.off_the_light += c.missed_by(wi) > experiments::kTolerance<float>;
     const auto explained = c.exact.invert(wi);
-    const Exact first = Traits::first(explained);
-    errors.add(Quantity::first_random, c.difference(first, Traits::first(c.u)));
-    errors.add(Quantity::inverse, c.difference(first, Traits::first(inverse)));
-    if constexpr (!std::is_same_v<std::decay_t<decltype(c.u)>, float>)
-        errors.add(Quantity::second_random, std::fabs(explained.y - c.u.y));
-    errors.add(Quantity::density, std::fabs(pdf / c.exact.pdf(wi) - 1));
-    errors.add(Quantity::aim, length(cross(wi, normalize(broadcast<Exact>(sample.p)))));
+    errors.add(Quantity::first_random, c.difference(Traits::first(explained), Traits::first(c.u)));
+    if constexpr (kIsPolygonal<Traits>) errors.add(Quantity::second_random, std::fabs(explained.y - c.u.y));
+    errors.add(Quantity::sample_density, std::fabs(sample.pdf / c.exact.pdf(wi) - 1));
+    const auto p = broadcast<Exact>(sample.p);
+    errors.add(Quantity::aim, length(cross(wi, normalize(p))));
+    errors.add(Quantity::hit_point, length(p - hit_point(c.exact_light, wi)) / size_of(c.exact_light));
+    return true;
 }
 
-/// Exact results, rounded to float.
-template <class Kind, class Traits>
-hostile::Outputs<float, typename Kind::template Random<float>>
+/// Judges all that a method returns for a light.
+template <class Traits, class Outputs>
+void judge(const experiments::Case<Traits, float>& c, bool dark, const Outputs& out, Errors& errors) {
+    using experiments::Exact;
+    if (!is_finite(out.pdf) || out.pdf < 0 || !hostile::in_unit_interval(out.inverse)) {
+        ++errors.invalid;
+        return;
+    }
+    if (!judge_sample(c, dark, out.sample, out.measure, errors)) return;
+    const Vec3<Exact> wi = normalize(broadcast<Exact>(out.sample.wi));
+    errors.add(Quantity::density, std::fabs(out.pdf / c.exact.pdf(wi) - 1));
+    const auto explained = c.exact.invert(wi);
+    errors.add(Quantity::first_inverse, c.difference(Traits::first(explained), Traits::first(out.inverse)));
+    if constexpr (kIsPolygonal<Traits>)
+        errors.add(Quantity::second_inverse, std::fabs(explained.y - out.inverse.y));
+}
+
+/// Exact results, each rounded to float: density and inverse are those of the rounded direction.
+template <class Traits>
+hostile::Outputs<float, typename Traits::template Random<float>>
 rounded_outputs(const experiments::Case<Traits, float>& c) {
     using experiments::Exact;
     const auto s = c.exact.sample(Traits::template widened<Exact>(c.u));
-    const auto pdf = static_cast<float>(s.pdf);
-    return {{broadcast<float>(s.wi), pdf, broadcast<float>(s.p)},
-            pdf,
-            c.u,
-            static_cast<float>(c.exact.measure())};
+    const auto direction = broadcast<float>(s.wi);
+    const Vec3<Exact> wi = normalize(broadcast<Exact>(direction));
+    const auto pdf = static_cast<float>(c.exact.pdf(wi));
+    const auto inverse = c.exact.invert(wi);
+    typename Traits::template Random<float> rounded_inverse;
+    if constexpr (kIsPolygonal<Traits>)
+        rounded_inverse = {below_one(static_cast<float>(inverse.x)),
+                           below_one(static_cast<float>(inverse.y))};
+    else
+        rounded_inverse = below_one(static_cast<float>(inverse));
+    return {
+        {direction, pdf, broadcast<float>(s.p)}, pdf, rounded_inverse, static_cast<float>(c.exact.measure())};
 }
 
 } // namespace nusselt::parity

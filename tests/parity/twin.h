@@ -20,12 +20,12 @@ struct DeviceOutputs {
     float unused;
 };
 
-/// \tparam Kind of src/experiments/hostile/techniques.h.
-template <class Kind>
+/// \tparam Traits of src/experiments/accuracy_techniques.h.
+template <class Traits>
 class Twin {
 public:
-    using Light = typename Kind::template Light<float>;
-    using Random = typename Kind::template Random<float>;
+    using Light = typename Traits::template Light<float>;
+    using Random = typename Traits::template Random<float>;
     using Outputs = hostile::Outputs<float, Random>;
 
     struct Input {

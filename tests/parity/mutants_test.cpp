@@ -1,0 +1,68 @@
+// Wrong shaders: what accepts them proves nothing.
+
+#include "shaders/displaced_polygon.h"
+#include "shaders/misinverted_polygon.h"
+#include "shaders/perturbed_polygon.h"
+#include "shaders/unguarded_polygon.h"
+#include "technique_parity.h"
+
+namespace nusselt::parity {
+
+namespace {
+
+using ProjectedPair = PolygonProjectedSolidAnglePair<4>;
+
+class MutantParity : public GpuTest {
+protected:
+    template <class Pair>
+    std::vector<std::string> excesses_of(std::span<const std::uint32_t> shader) const {
+        return judge_twin<Pair>(device(), shader, kRandomLights / 20).excesses;
+    }
+};
+
+/// How many excesses begin with a text.
+auto count_of(const std::vector<std::string>& excesses, const std::string& begin) {
+    return std::count_if(excesses.begin(), excesses.end(),
+                         [&](const std::string& excess) { return excess.rfind(begin, 0) == 0; });
+}
+
+TEST_F(MutantParity, RandomNumbersOffBySixteenRoundingsAreFound) {
+    EXPECT_GT(count_of(excesses_of<ProjectedPair>(shaders::kPerturbedPolygon),
+                       "decentral: first random number, median"),
+              0);
+}
+
+TEST_F(MutantParity, HitPointsBehindTheLightAreFound) {
+    const auto excesses = excesses_of<ProjectedPair>(shaders::kDisplacedPolygon);
+    EXPECT_EQ(count_of(excesses, "decentral: hit point"), 3) << "all quantiles";
+    EXPECT_EQ(count_of(excesses, "decentral:"), 3) << "all else is right";
+}
+
+TEST_F(MutantParity, WrongSecondInversesAreFound) {
+    const auto excesses = excesses_of<ProjectedPair>(shaders::kMisinvertedPolygon);
+    EXPECT_EQ(count_of(excesses, "decentral: second inverse"), 3) << "all quantiles";
+    EXPECT_EQ(count_of(excesses, "decentral:"), 3) << "all else is right";
+}
+
+TEST_F(MutantParity, MissingClippingIsFound) {
+    using Clipped = PolygonClippedSolidAnglePair<4>;
+    const auto excesses = excesses_of<Clipped>(shader_of<PolygonSolidAnglePair<4>>(Variant::split));
+    EXPECT_GT(count_of(excesses, "crossing the horizon:"), 0);
+    EXPECT_EQ(count_of(excesses, "decentral:"), 0) << "above the horizon nothing is missing";
+}
+
+TEST_F(MutantParity, TheVariantForAFusedFmaIsRejectedWhereFmaRoundsTwice) {
+    if (gpu::has_fused_fma(device())) GTEST_SKIP() << "the device fuses fma";
+    EXPECT_FALSE(excesses_of<ProjectedPair>(shader_of<ProjectedPair>(Variant::fused)).empty());
+}
+
+TEST_F(MutantParity, InfiniteDensitiesAreFound) {
+    const std::string violation =
+        first_violation<ProjectedPair>(device(), shaders::kUnguardedPolygon, kHostileLights);
+    EXPECT_NE(violation.find("the density of the sample is negative or not finite"), std::string::npos)
+        << violation;
+}
+
+} // namespace
+
+} // namespace nusselt::parity
