@@ -29,7 +29,7 @@ inline constexpr Scalar kSmallStep = power_of_two<Scalar>(-std::numeric_limits<S
 /// Measure: pdf is the density of wi in solid angle times the radius of the cylinder that tends to 0 [m/sr],
 /// wi.z / measure(). The emission of the light is radiance times radius, so that the radius cancels.
 /// Space: shading space; the shading point is the origin, the normal +z. Clips to the horizon by itself.
-/// Edge cases: no part above the horizon, no length, or origin on the infinite line: pdf = 0, measure 0.
+/// Edge cases: no part above the horizon, no length, or origin on the infinite line up to rounding: pdf = 0, measure 0.
 template <class Real, int Iterations = kLineIterations<Real>>
 class LineProjectedSolidAngle {
 public:

@@ -16,7 +16,7 @@ NUSSELT_NAMESPACE_BEGIN
 /// Measure: pdf is the density of wi in solid angle times the radius of the cylinder that tends to 0 [m/sr],
 /// the constant 1 / measure(). The emission of the light is radiance times radius, so that the radius
 /// cancels. Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
-/// Edge cases: no length, or origin on the infinite line: pdf = 0, measure 0.
+/// Edge cases: no length, or origin on the infinite line up to rounding: pdf = 0, measure 0.
 template <class Real>
 class LineSolidAngle {
 public:
