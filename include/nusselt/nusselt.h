@@ -5,10 +5,15 @@
 #include <nusselt/bsdf/frostbite.h>
 #include <nusselt/bsdf/lambert.h>
 #include <nusselt/estimate/backward_error.h>
+#include <nusselt/estimate/reference_integrals.h>
+#include <nusselt/ltc/line_shading.h>
+#include <nusselt/ltc/polygon_shading.h>
 #include <nusselt/random/light_random.h>
 #include <nusselt/sampling/line_area.h>
+#include <nusselt/sampling/line_ltc.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>
 #include <nusselt/sampling/line_solid_angle.h>
 #include <nusselt/sampling/polygon_area.h>
+#include <nusselt/sampling/polygon_ltc.h>
 #include <nusselt/sampling/polygon_projected_solid_angle.h>
 #include <nusselt/sampling/polygon_solid_angle.h>

@@ -28,6 +28,7 @@ struct Configuration {
     Vec3<T> vertex[8] = {};
     int count = 2;
     T u[2] = {};
+    T lobe[5];
 
     Configuration(FuzzLight light, std::uint64_t seed, std::uint64_t index) {
         hostile::HostileLights<T> lights(seed, index);
@@ -45,6 +46,9 @@ struct Configuration {
         }
         u[0] = lights.random_number();
         if (light != FuzzLight::line) u[1] = lights.random_number();
+        const LtcCoefficients<T> c = lights.lobe();
+        const T entries[] = {c.m00, c.m02, c.m11, c.m20, c.m22};
+        std::copy(entries, entries + 5, lobe);
     }
 
 private:
@@ -68,6 +72,7 @@ void make_block(FuzzLight light, std::uint64_t seed, std::uint64_t first, int co
             block.coordinates[j][2][i] = v.z;
         }
         for (int k = 0; k < 2; ++k) block.u[k][i] = c.u[k];
+        for (int k = 0; k < 5; ++k) block.lobe[k][i] = c.lobe[k];
     }
 }
 
@@ -87,14 +92,16 @@ std::string literals(const T* x, int count) {
 }
 
 template <class T>
-FuzzReport report(FuzzLight light, std::uint64_t seed, const FuzzViolation<T>& v, bool flushed) {
-    const Configuration<T> c(light, seed, v.index);
-    const int dimensions = light == FuzzLight::line ? 1 : 2;
+FuzzReport report(const FuzzTechnique<T>& technique, std::uint64_t seed, const FuzzViolation<T>& v,
+                  bool flushed) {
+    const Configuration<T> c(technique.light, seed, v.index);
+    const int dimensions = technique.light == FuzzLight::line ? 1 : 2;
     std::string text = std::string(v.problem) + "\n  light: ";
     for (int j = 0; j < c.count; ++j) {
         const T coordinates[] = {c.vertex[j].x, c.vertex[j].y, c.vertex[j].z};
         text += (j > 0 ? ",\n         " : "") + literals(coordinates, 3);
     }
+    if (technique.takes_lobe) text += "\n  lobe: " + literals(c.lobe, 5);
     text += fmt::format("\n  u: {}\n  wi: {} pdf: {} p: {}\n  pdf(wi): {} invert(wi): {} measure: {}",
                         literals(c.u, dimensions), literals(v.wi, 3), literal(v.pdf), literals(v.p, 3),
                         literal(v.pdf_of_wi), literals(v.inverse, dimensions), literal(v.measure));
@@ -199,7 +206,7 @@ std::vector<FuzzRow> fuzz(const FuzzTable<T>& table, const FuzzSettings& setting
         FuzzRow row{t.technique->name, t.technique->light, t.violations, 1e9 * t.seconds / checks, {}};
         for (const bool flushed : {false, true})
             for (const FuzzViolation<T>& v : t.found[flushed])
-                row.reports.push_back(report(row.light, settings.seed, v, flushed));
+                row.reports.push_back(report(*t.technique, settings.seed, v, flushed));
         rows.push_back(std::move(row));
     }
     return rows;

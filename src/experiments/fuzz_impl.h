@@ -42,15 +42,25 @@ bool lane(const Mask<T, N>& x, int i) noexcept {
     return x.lane(i);
 }
 
-/// The light and the random numbers of a technique, from the columns that begin at i.
 template <class Kind, class Real>
-typename Kind::template Light<Real> light_of(const FuzzBlock<scalar_t<Real>>& block, int i) noexcept {
+auto geometry_of(const FuzzBlock<scalar_t<Real>>& block, int i) noexcept {
     if constexpr (hostile::kIsPolygon<Kind>) {
         Vec3<Real> vertices[Kind::kVertices];
         for (int j = 0; j < Kind::kVertices; ++j) vertices[j] = vertex<Real>(block, i, j);
         return make_polygon<Kind::kVertices>(vertices, Kind::kVertices);
     } else {
         return make_line(vertex<Real>(block, i, 0), vertex<Real>(block, i, 1));
+    }
+}
+/// The light and the random numbers of a technique, from the columns that begin at i.
+template <class Kind, class Real>
+typename Kind::template Light<Real> light_of(const FuzzBlock<scalar_t<Real>>& block, int i) noexcept {
+    if constexpr (hostile::kHasLobe<Kind>) {
+        const auto entry = [&](int k) { return column<Real>(block.lobe[k], i); };
+        return {geometry_of<Kind, Real>(block, i),
+                {entry(0), entry(1), entry(2), entry(3), entry(4), Real(1)}};
+    } else {
+        return geometry_of<Kind, Real>(block, i);
     }
 }
 template <class Kind, class Real>
@@ -105,7 +115,7 @@ constexpr FuzzTechnique<scalar_t<Real>> technique() {
     FuzzLight light = FuzzLight::line;
     if constexpr (hostile::kIsPolygon<Kind>)
         light = Kind::kVertices == 4 ? FuzzLight::quadrilateral : FuzzLight::octagon;
-    return {Kind::kName, light, check<Kind, Real>};
+    return {Kind::kName, light, check<Kind, Real>, hostile::kHasLobe<Kind>};
 }
 
 template <class Real>
@@ -115,15 +125,20 @@ inline constexpr FuzzTechnique<scalar_t<Real>> kTechniques[] = {
     technique<hostile::PolygonClippedSolidAngleKindOf<4>, Real>(),
     technique<hostile::PolygonProjectedSolidAngleKindOf<4>, Real>(),
     technique<hostile::PolygonBiasedKindOf<4>, Real>(),
+    technique<hostile::PolygonLtcKindOf<4>, Real>(),
+    technique<hostile::PolygonClippedLtcKindOf<4>, Real>(),
     technique<hostile::PolygonAreaKindOf<8>, Real>(),
     technique<hostile::PolygonSolidAngleKindOf<8>, Real>(),
     technique<hostile::PolygonClippedSolidAngleKindOf<8>, Real>(),
     technique<hostile::PolygonProjectedSolidAngleKindOf<8>, Real>(),
     technique<hostile::PolygonBiasedKindOf<8>, Real>(),
+    technique<hostile::PolygonLtcKindOf<8>, Real>(),
     technique<hostile::LineAreaKind, Real>(),
     technique<hostile::LineSolidAngleKind, Real>(),
     technique<hostile::LineClippedSolidAngleKind, Real>(),
     technique<hostile::LineProjectedSolidAngleKind, Real>(),
+    technique<hostile::LineLtcKind, Real>(),
+    technique<hostile::LineClippedLtcKind, Real>(),
 };
 
 template <class Real>

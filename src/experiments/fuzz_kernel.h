@@ -13,6 +13,7 @@ struct FuzzBlock {
     static constexpr int kSize = 512; ///< a multiple of all numbers of lanes
     T coordinates[8][3][kSize];
     T u[2][kSize];
+    T lobe[5][kSize]; ///< m00, m02, m11, m20, m22 of LtcCoefficients, for techniques that take a lobe
 };
 
 /// One configuration for which a technique broke the contract, and what it returned.
@@ -38,6 +39,7 @@ struct FuzzTechnique {
     FuzzLight light;
     /// Checks the first columns of the block, their number rounded up to a whole number of packs.
     void (*check)(const FuzzBlock<T>& block, int columns, FuzzBlockResult<T>& result);
+    bool takes_lobe = false;
 };
 
 template <class T>

@@ -93,6 +93,21 @@ LineSegment<T> line(Input& input) {
     return make_line(begin, input.vector<T>());
 }
 
+/// A lobe that leans by any angle, of any width in each direction and skewed in its plane.
+template <class T>
+LtcCoefficients<T> lobe(Input& input) {
+    constexpr double kQuarterTurn = 1.5707963267948966;
+    const double tilt = kQuarterTurn * static_cast<double>(input.random_number<T>());
+    const double width = std::exp2(-12 * static_cast<double>(input.random_number<T>()));
+    const double aspect = std::exp2(4 * static_cast<double>(input.random_number<T>()) - 3);
+    const double skew = static_cast<double>(input.random_number<T>()) - 0.5;
+    const double sine = std::sin(tilt);
+    const double cosine = std::cos(tilt);
+    return {
+        static_cast<T>(cosine + skew * sine), static_cast<T>(sine - skew * cosine), static_cast<T>(aspect),
+        static_cast<T>(-width * sine),        static_cast<T>(width * cosine),       T(1)};
+}
+
 template <class T>
 void print(const Vec3<T>& v) {
     std::fprintf(stderr, "  {%a, %a, %a}\n", static_cast<double>(v.x), static_cast<double>(v.y),
@@ -107,6 +122,24 @@ void print(const LineSegment<T>& light) {
     print(light.p0);
     print(light.s);
     std::fprintf(stderr, "  %a\n", static_cast<double>(light.length));
+}
+
+template <class T>
+void print(const LtcCoefficients<T>& lobe) {
+    for (const T x : {lobe.m00, lobe.m02, lobe.m11, lobe.m20, lobe.m22})
+        std::fprintf(stderr, "  %a\n", static_cast<double>(x));
+}
+template <class T, int N>
+void print(const hostile::PolygonOnLobe<T, N>& light) {
+    const ConvexPolygon<T, N>& polygon = light;
+    print(polygon);
+    print(light.lobe);
+}
+template <class T>
+void print(const hostile::LineOnLobe<T>& light) {
+    const LineSegment<T>& line = light;
+    print(line);
+    print(light.lobe);
 }
 
 template <class Light>

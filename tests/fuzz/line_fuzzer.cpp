@@ -13,6 +13,9 @@ void check_all(Input& input) {
     check<hostile::LineSolidAngleKind, T>(light, u);
     check<hostile::LineClippedSolidAngleKind, T>(light, u);
     check<hostile::LineProjectedSolidAngleKind, T>(light, u);
+    const LtcCoefficients<T> coefficients = lobe<T>(input);
+    check<hostile::LineLtcKind, T>({light, coefficients}, u);
+    check<hostile::LineClippedLtcKind, T>({light, coefficients}, u);
 }
 
 } // namespace

@@ -15,6 +15,9 @@ void check_all(Input& input) {
     check<hostile::PolygonClippedSolidAngleKindOf<N>, T>(light, u);
     check<hostile::PolygonProjectedSolidAngleKindOf<N>, T>(light, u);
     check<hostile::PolygonBiasedKindOf<N>, T>(light, u);
+    const LtcCoefficients<T> coefficients = lobe<T>(input);
+    check<hostile::PolygonLtcKindOf<N>, T>({light, coefficients}, u);
+    if constexpr (N < 8) check<hostile::PolygonClippedLtcKindOf<N>, T>({light, coefficients}, u);
 }
 
 } // namespace

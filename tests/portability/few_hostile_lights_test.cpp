@@ -14,7 +14,8 @@ class FewHostileLights : public ::testing::Test {};
 using Kinds =
     ::testing::Types<PolygonAreaKind, PolygonSolidAngleKind, PolygonClippedSolidAngleKind,
                      PolygonProjectedSolidAngleKind, PolygonProjectedSolidAngleKindOf<8>, LineAreaKind,
-                     LineSolidAngleKind, LineClippedSolidAngleKind, LineProjectedSolidAngleKind>;
+                     LineSolidAngleKind, LineClippedSolidAngleKind, LineProjectedSolidAngleKind,
+                     PolygonLtcKind, PolygonClippedLtcKind, LineLtcKind, LineClippedLtcKind>;
 TYPED_TEST_SUITE(FewHostileLights, Kinds);
 
 TYPED_TEST(FewHostileLights, PacksNeverFail) {

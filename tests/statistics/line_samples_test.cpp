@@ -8,38 +8,55 @@
 #include "geometry/reference.h"
 #include "hypothesis.h"
 #include "sampling/lights.h"
+#include "sampling/lit_part.h"
 
 namespace nusselt_test {
 namespace {
 
 constexpr int kSamples = 100'000;
 
-using Light = nusselt::LineSegment<float>;
+template <class Kind>
+using Light = typename Kind::template Light<float>;
+
+/// The space in which a technique works: cosine space if it has a lobe.
+template <class Kind>
+class Image {
+public:
+    explicit Image(const Light<Kind>& light) : lobe_(lobe_of(light)) {}
+    Point operator()(const Point& v) const { return lobe_.image(v); }
+
+private:
+    static ReferenceLobe lobe_of([[maybe_unused]] const Light<Kind>& light) {
+        if constexpr (kHasLobe<Kind>) {
+            return ReferenceLobe(light.lobe);
+        } else {
+            return ReferenceLobe(nusselt::LtcCoefficients<float>{1, 0, 1, 0, 1, 1});
+        }
+    }
+
+    ReferenceLobe lobe_;
+};
 
 /// Integral of a measure along a line, as a function of the angle from its closest point: the textbook forms
 /// (Peters 2021, linear lights, Eq. 1 to 3).
 template <class Kind>
 class Distribution {
 public:
-    explicit Distribution(const Light& light) {
-        Point begin = widened_begin(light);
-        Point end = widened_end(light);
+    explicit Distribution(const Light<Kind>& light) : image_(light) {
+        const Segment part = lit_part<Kind>(light);
+        const Point begin = image_(part.begin);
+        const Point end = image_(part.end);
         s_ = normalize(end - begin);
         const Point closest = begin - dot(begin, s_) * s_;
         distance_ = length(closest);
         t_ = normalize(closest);
-        if (Kind::kHorizon == Horizon::kClipped) {
-            const Point crossing = begin + (begin.z / (begin.z - end.z)) * (end - begin);
-            if (begin.z < 0) begin = crossing;
-            if (end.z < 0) end = crossing;
-        }
         low_ = integral_to(begin);
         high_ = integral_to(end);
     }
 
     /// The share of the line before a direction.
     double operator()(const nusselt::Vec3<float>& wi) const {
-        const long double value = integral_to(nusselt::broadcast<long double>(wi));
+        const long double value = integral_to(image_(nusselt::broadcast<long double>(wi)));
         return static_cast<double>((value - low_) / (high_ - low_));
     }
 
@@ -56,6 +73,7 @@ private:
         }
     }
 
+    Image<Kind> image_;
     Point s_, t_;
     long double distance_, low_, high_;
 };
@@ -67,8 +85,8 @@ template <class Kind, class MakeSampler>
 bool samples_are_rejected(const MakeSampler& make_sampler) {
     std::vector<double> p_values;
     UniformFloats random(8);
-    for (const LineCase& light : line_cases()) {
-        const auto local = make_light<float>(light);
+    for (const auto& light : cases<Kind>()) {
+        const auto local = light_for<Kind, float>(light);
         const Distribution<Kind> distribution(local);
         const auto sampler = make_sampler(local);
         std::vector<double> values(kSamples);
@@ -79,7 +97,7 @@ bool samples_are_rejected(const MakeSampler& make_sampler) {
 }
 
 template <class Kind>
-auto sampler_of(const Light& light) {
+auto sampler_of(const Light<Kind>& light) {
     return [technique = typename Kind::template Technique<float>(light)](float u) {
         return technique.sample(u).wi;
     };
@@ -87,14 +105,14 @@ auto sampler_of(const Light& light) {
 
 /// A sampler whose random number is not uniform.
 template <class Kind>
-auto squaring_sampler_of(const Light& light) {
+auto squaring_sampler_of(const Light<Kind>& light) {
     return [technique = typename Kind::template Technique<float>(light)](float u) {
         return technique.sample(u * u).wi;
     };
 }
 
 /// A sampler that stops before the iteration.
-auto starting_sampler_of(const Light& light) {
+auto starting_sampler_of(const nusselt::LineSegment<float>& light) {
     return [technique = nusselt::LineProjectedSolidAngle<float, 0>(light)](float u) {
         return technique.sample(u).wi;
     };
@@ -104,7 +122,7 @@ template <class Kind>
 class LineSamplesTest : public ::testing::Test {};
 
 using Kinds = ::testing::Types<LineAreaKind, LineSolidAngleKind, LineClippedSolidAngleKind,
-                               LineProjectedSolidAngleKind>;
+                               LineProjectedSolidAngleKind, LineLtcKind, LineClippedLtcKind>;
 TYPED_TEST_SUITE(LineSamplesTest, Kinds);
 
 TYPED_TEST(LineSamplesTest, FollowTheirMeasure) {
@@ -133,6 +151,14 @@ TEST(LineMutantsTest, SolidAnglePosingAsProjectedSolidAngleIsRejected) {
 
 TEST(LineMutantsTest, StartOfTheIterationPosingAsProjectedSolidAngleIsRejected) {
     EXPECT_TRUE(samples_are_rejected<LineProjectedSolidAngleKind>(starting_sampler_of));
+}
+
+TEST(LineMutantsTest, ProjectedSolidAnglePosingAsLobeIsRejected) {
+    EXPECT_TRUE(samples_are_rejected<LineLtcKind>(sampler_of<LineProjectedSolidAngleKind>));
+}
+
+TEST(LineMutantsTest, UnclippedLobePosingAsClippedIsRejected) {
+    EXPECT_TRUE(samples_are_rejected<LineClippedLtcKind>(sampler_of<LineLtcKind>));
 }
 
 } // namespace

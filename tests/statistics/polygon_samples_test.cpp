@@ -10,6 +10,7 @@
 #include "geometry/reference.h"
 #include "hypothesis.h"
 #include "sampling/lights.h"
+#include "sampling/lit_part.h"
 
 namespace nusselt_test {
 namespace {
@@ -100,9 +101,12 @@ private:
     nusselt::Vec2<long double> low_, high_;
 };
 
+/// The measure of a part of a light.
 template <class Kind>
-long double measure_of(const Polygon& polygon) {
-    if constexpr (Kind::kMeasure == Measure::kArea) {
+long double measure_of([[maybe_unused]] const Light<Kind>& light, const Polygon& polygon) {
+    if constexpr (kHasLobe<Kind>) {
+        return ReferenceLobe(light.lobe).integral(polygon);
+    } else if constexpr (Kind::kMeasure == Measure::kArea) {
         return integrate(
             polygon, [](const Point&) { return 1.0L; }, 1);
     } else if constexpr (Kind::kMeasure == Measure::kSolidAngle) {
@@ -119,10 +123,10 @@ template <class Kind, class MakeSampler>
 bool samples_are_rejected(const MakeSampler& make_sampler) {
     std::vector<double> p_values;
     UniformFloats random(7);
-    for (const PolygonCase& light : cases<Kind>()) {
+    for (const auto& light : cases<Kind>()) {
         const auto local = light_for<Kind, float>(light);
-        const Polygon whole = vertices_of(local);
-        const Cells cells(Kind::kHorizon == Horizon::kClipped ? above_horizon(whole) : whole);
+        const Cells cells(lit_part<Kind>(local));
+        const auto measure = [&](const Polygon& cell) { return measure_of<Kind>(local, cell); };
         const auto sampler = make_sampler(local);
         std::vector<std::int64_t> observed(Cells::kOutside + 1);
         for (int i = 0; i < kSamples; ++i) {
@@ -130,7 +134,7 @@ bool samples_are_rejected(const MakeSampler& make_sampler) {
             ++observed[cells.index(sampler(Random{x, random()}))];
         }
         p_values.push_back(
-            observed[Cells::kOutside] > 0 ? 0 : chi_square_test(cells.expected(measure_of<Kind>), observed));
+            observed[Cells::kOutside] > 0 ? 0 : chi_square_test(cells.expected(measure), observed));
     }
     return reject(p_values);
 }
@@ -170,7 +174,8 @@ class PolygonSamplesTest : public ::testing::Test {};
 
 using Kinds = ::testing::Types<PolygonAreaKind, PolygonSolidAngleKind, PolygonClippedSolidAngleKind,
                                PolygonProjectedSolidAngleKind, PolygonSolidAngleKindOf<8>,
-                               PolygonProjectedSolidAngleKindOf<8>>;
+                               PolygonProjectedSolidAngleKindOf<8>, PolygonLtcKind, PolygonClippedLtcKind,
+                               PolygonLtcKindOf<8>>;
 TYPED_TEST_SUITE(PolygonSamplesTest, Kinds);
 
 TYPED_TEST(PolygonSamplesTest, FollowTheirMeasure) {
@@ -203,6 +208,14 @@ TEST(PolygonMutantsTest, SolidAnglePosingAsProjectedSolidAngleIsRejected) {
 
 TEST(PolygonMutantsTest, BiasedVariantPosingAsUnbiasedIsRejected) {
     EXPECT_TRUE(samples_are_rejected<PolygonProjectedSolidAngleKind>(sampler_of<PolygonBiasedKind>));
+}
+
+TEST(PolygonMutantsTest, ProjectedSolidAnglePosingAsLobeIsRejected) {
+    EXPECT_TRUE(samples_are_rejected<PolygonLtcKind>(sampler_of<PolygonProjectedSolidAngleKind>));
+}
+
+TEST(PolygonMutantsTest, UnclippedLobePosingAsClippedIsRejected) {
+    EXPECT_TRUE(samples_are_rejected<PolygonClippedLtcKind>(sampler_of<PolygonLtcKind>));
 }
 
 } // namespace

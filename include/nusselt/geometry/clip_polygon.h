@@ -40,8 +40,7 @@ NUSSELT_HD inline ConvexPolygon<Real, N + 1> clip_to_horizon(const ConvexPolygon
     Vec3<Real> down = zero;
     Vec3<Real> up = zero;
     Vec3<Real> sum_of_edges = zero;
-    Mask down_at_vertex = Mask(false);
-    Mask up_at_vertex = Mask(false);
+    Real extents_of_edges = Real(0);
     Vec3<Real> edge[N];
     Mask goes_down[N];
     for (int j = 0; j < N; ++j) {
@@ -62,15 +61,16 @@ NUSSELT_HD inline ConvexPolygon<Real, N + 1> clip_to_horizon(const ConvexPolygon
                                select(a.z == Real(0), a.y, b.y - part.y), Real(0)};
         down = select(goes_down[j], end, down);
         up = select(goes_up, begin, up);
-        down_at_vertex = down_at_vertex | (goes_down[j] & (b.z == Real(0)));
-        up_at_vertex = up_at_vertex | (goes_up & (a.z == Real(0)));
         edge[j] = select(above[j] & above[next], e, select(goes_down[j] | goes_up, part, zero));
         sum_of_edges = sum_of_edges + edge[j];
+        extents_of_edges = extents_of_edges + max(max(abs(edge[j].x), abs(edge[j].y)), abs(edge[j].z));
     }
-    // The sum is rounding where the polygon only touches the horizon.
-    const Mask touches = down_at_vertex & up_at_vertex & (down.x == up.x) & (down.y == up.y);
+    // The sum is rounding, of any direction, where the polygon only touches the horizon.
+    const Real rounding = Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * extents_of_edges;
+    const Mask touches = max(abs(sum_of_edges.x), abs(sum_of_edges.y)) <= rounding;
     const Vec3<Real> along_horizon =
         select(touches, zero, Vec3<Real>{-sum_of_edges.x, -sum_of_edges.y, Real(0)});
+    down = select(touches, up, down);
 
     Mask inserted = Mask(false);
     for (int k = 0; k < N; ++k) {

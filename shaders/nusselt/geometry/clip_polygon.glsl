@@ -27,8 +27,7 @@ ConvexPolygon clip_to_horizon(ConvexPolygon polygon) {
     vec3 down = vec3(0.0);
     vec3 up = vec3(0.0);
     vec3 sum_of_edges = vec3(0.0);
-    bool down_at_vertex = false;
-    bool up_at_vertex = false;
+    float extents_of_edges = 0.0;
     vec3 edge[NUSSELT_MAX_VERTICES];
     bool goes_down[NUSSELT_MAX_VERTICES];
     NUSSELT_UNROLL for (int j = 0; j < n; ++j) {
@@ -45,14 +44,16 @@ ConvexPolygon clip_to_horizon(ConvexPolygon polygon) {
         // A vertex on the horizon stays exactly where it is.
         if (goes_down[j]) down = vec3(b.z == 0.0 ? b.xy : a.xy + part.xy, 0.0);
         if (goes_up) up = vec3(a.z == 0.0 ? a.xy : b.xy - part.xy, 0.0);
-        down_at_vertex = down_at_vertex || (goes_down[j] && b.z == 0.0);
-        up_at_vertex = up_at_vertex || (goes_up && a.z == 0.0);
         edge[j] = a_above && b_above ? e : (goes_down[j] || goes_up ? part : vec3(0.0));
         sum_of_edges = sum_of_edges + edge[j];
+        vec3 extents = abs(edge[j]);
+        extents_of_edges += nusselt_max(nusselt_max(extents.x, extents.y), extents.z);
     }
-    // The sum is rounding where the polygon only touches the horizon.
-    bool touches = down_at_vertex && up_at_vertex && down.x == up.x && down.y == up.y;
+    // The sum is rounding, of any direction, where the polygon only touches the horizon.
+    float rounding = 4.7683716e-7 * extents_of_edges; // four spacings of floats at 1
+    bool touches = nusselt_max(abs(sum_of_edges.x), abs(sum_of_edges.y)) <= rounding;
     vec3 along_horizon = touches ? vec3(0.0) : vec3(-sum_of_edges.xy, 0.0);
+    if (touches) down = up;
 
     ConvexPolygon clipped;
     clipped.normal = polygon.normal;

@@ -11,6 +11,7 @@
 
 #include <nusselt/geometry/convex_polygon.h>
 #include <nusselt/geometry/line_segment.h>
+#include <nusselt/ltc/coefficients.h>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace hostile {
@@ -110,6 +111,26 @@ public:
         Vec3<T> v[2];
         ends(v);
         return make_line(v[0], v[1]);
+    }
+
+    /// A lobe, from an almost perfect mirror to a Lambertian one, seen from any inclination up to the horizon.
+    LtcCoefficients<T> lobe() {
+        double tilt = random_.between(0, kTurn / 4);
+        const int place = random_.index(6);
+        if (place == 0) tilt = 0;
+        if (place == 1) tilt = kTurn / 4 - random_.log_between(1e-9, 1e-1);
+        const double width = random_.index(8) == 0 ? 1 : random_.log_between(2e-4, 1.2);
+        const double aspect = random_.log_between(0.1, 2); // of the widths in the plane of wo and across it
+        const double skew = random_.index(3) == 0 ? 0 : random_.between(-0.6, 0.6);
+        const double scale = random_.index(4) == 0 ? random_.log_between(1e-3, 1e3) : 1;
+        const double sine = std::sin(tilt);
+        const double cosine = std::cos(tilt);
+        return {static_cast<T>(scale * (cosine + skew * sine)),
+                static_cast<T>(scale * (sine - skew * cosine)),
+                static_cast<T>(scale * aspect),
+                static_cast<T>(-scale * width * sine),
+                static_cast<T>(scale * width * cosine),
+                T(1)};
     }
 
 private:

@@ -4,17 +4,30 @@
 #include <type_traits>
 
 #include <nusselt/sampling/line_area.h>
+#include <nusselt/sampling/line_ltc.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>
 #include <nusselt/sampling/line_solid_angle.h>
 #include <nusselt/sampling/polygon_area.h>
+#include <nusselt/sampling/polygon_ltc.h>
 #include <nusselt/sampling/polygon_projected_solid_angle.h>
 #include <nusselt/sampling/polygon_solid_angle.h>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace hostile {
 
-enum class Measure { kArea, kSolidAngle, kProjectedSolidAngle };
+enum class Measure { kArea, kSolidAngle, kProjectedSolidAngle, kLobe };
 enum class Horizon { kIgnored, kClipped };
+
+/// A light and the lobe of the surface: all that a technique for LTCs depends on.
+template <class Real, int N>
+struct PolygonOnLobe : ConvexPolygon<Real, N> {
+    LtcCoefficients<Real> lobe;
+};
+/// \copydoc PolygonOnLobe
+template <class Real>
+struct LineOnLobe : LineSegment<Real> {
+    LtcCoefficients<Real> lobe;
+};
 
 struct AnyPolygonKind {
     template <class Real>
@@ -36,6 +49,9 @@ struct LineKind {
 
 template <class Kind>
 inline constexpr bool kIsPolygon = std::is_base_of_v<AnyPolygonKind, Kind>;
+/// Whether the light comes with a lobe.
+template <class Kind>
+inline constexpr bool kHasLobe = Kind::kMeasure == Measure::kLobe;
 
 template <int N>
 struct PolygonAreaKindOf : PolygonKind<N> {
@@ -77,11 +93,38 @@ struct PolygonBiasedKindOf : PolygonKind<N> {
     static constexpr Measure kMeasure = Measure::kProjectedSolidAngle;
     static constexpr Horizon kHorizon = Horizon::kClipped;
 };
+template <int N, class Horizons>
+struct PolygonOnLobeKind : AnyPolygonKind {
+    static constexpr int kVertices = N;
+    template <class Real>
+    using Light = PolygonOnLobe<Real, N>;
+    template <class Real>
+    struct Technique : PolygonLtc<Real, N, Horizons> {
+        explicit Technique(const Light<Real>& light) noexcept
+            : PolygonLtc<Real, N, Horizons>(light, Ltc<Real>(light.lobe)) {}
+        template <class Single>
+        explicit Technique(const Technique<Single>& single) noexcept
+            : PolygonLtc<Real, N, Horizons>(single) {}
+    };
+    static constexpr Measure kMeasure = Measure::kLobe;
+};
+template <int N>
+struct PolygonLtcKindOf : PolygonOnLobeKind<N, CosineHorizon> {
+    static constexpr const char* kName = "PolygonLtc";
+    static constexpr Horizon kHorizon = Horizon::kIgnored;
+};
+template <int N>
+struct PolygonClippedLtcKindOf : PolygonOnLobeKind<N, BothHorizons> {
+    static constexpr const char* kName = "PolygonClippedLtc";
+    static constexpr Horizon kHorizon = Horizon::kClipped;
+};
 using PolygonAreaKind = PolygonAreaKindOf<4>;
 using PolygonSolidAngleKind = PolygonSolidAngleKindOf<4>;
 using PolygonClippedSolidAngleKind = PolygonClippedSolidAngleKindOf<4>;
 using PolygonProjectedSolidAngleKind = PolygonProjectedSolidAngleKindOf<4>;
 using PolygonBiasedKind = PolygonBiasedKindOf<4>;
+using PolygonLtcKind = PolygonLtcKindOf<4>;
+using PolygonClippedLtcKind = PolygonClippedLtcKindOf<4>;
 
 struct LineAreaKind : LineKind {
     template <class Real>
@@ -109,6 +152,30 @@ struct LineProjectedSolidAngleKind : LineKind {
     using Technique = LineProjectedSolidAngle<Real>;
     static constexpr const char* kName = "LineProjectedSolidAngle";
     static constexpr Measure kMeasure = Measure::kProjectedSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kClipped;
+};
+
+template <class Horizons>
+struct LineOnLobeKind {
+    template <class Real>
+    using Light = LineOnLobe<Real>;
+    template <class Real>
+    using Random = Real;
+    template <class Real>
+    struct Technique : LineLtc<Real, Horizons> {
+        explicit Technique(const Light<Real>& light) noexcept
+            : LineLtc<Real, Horizons>(light, Ltc<Real>(light.lobe)) {}
+        template <class Single>
+        explicit Technique(const Technique<Single>& single) noexcept : LineLtc<Real, Horizons>(single) {}
+    };
+    static constexpr Measure kMeasure = Measure::kLobe;
+};
+struct LineLtcKind : LineOnLobeKind<CosineHorizon> {
+    static constexpr const char* kName = "LineLtc";
+    static constexpr Horizon kHorizon = Horizon::kIgnored;
+};
+struct LineClippedLtcKind : LineOnLobeKind<BothHorizons> {
+    static constexpr const char* kName = "LineClippedLtc";
     static constexpr Horizon kHorizon = Horizon::kClipped;
 };
 

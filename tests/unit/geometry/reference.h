@@ -90,6 +90,20 @@ inline Polygon cut(const Polygon& polygon, const Point& normal) {
     return result;
 }
 
+struct Segment {
+    Point begin, end;
+};
+
+/// The part with dot(normal, p) >= 0.
+inline Segment cut(Segment line, const Point& normal) {
+    const long double begin = dot(normal, line.begin);
+    const long double end = dot(normal, line.end);
+    const Point crossing = line.begin + (begin / (begin - end)) * (line.end - line.begin);
+    if (begin < 0) line.begin = crossing;
+    if (end < 0) line.end = crossing;
+    return line;
+}
+
 inline Polygon above_horizon(const Polygon& polygon) { return cut(polygon, {0, 0, 1}); }
 
 /// Projected solid angle of a polygon above the horizon: Lambert's sum over the edges.

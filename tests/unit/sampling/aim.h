@@ -24,6 +24,21 @@ nusselt::LineSegment<long double> widened(const nusselt::LineSegment<T>& light) 
             light.length};
 }
 
+template <class T>
+nusselt::LtcCoefficients<long double> widened(const nusselt::LtcCoefficients<T>& lobe) {
+    return {lobe.m00, lobe.m02, lobe.m11, lobe.m20, lobe.m22, lobe.albedo};
+}
+template <class T, int N>
+PolygonOnLobe<long double, N> widened(const PolygonOnLobe<T, N>& light) {
+    const nusselt::ConvexPolygon<T, N>& polygon = light;
+    return {widened(polygon), widened(light.lobe)};
+}
+template <class T>
+LineOnLobe<long double> widened(const LineOnLobe<T>& light) {
+    const nusselt::LineSegment<T>& line = light;
+    return {widened(line), widened(light.lobe)};
+}
+
 /// How far a direction passes beyond the farthest of the planes through the origin and the sides of a triangle [rad];
 /// 1 for a triangle without solid angle.
 inline long double miss(const Point& a, const Point& b, const Point& c, const Point& wi) {
@@ -124,7 +139,8 @@ std::string aim_violation(const Light& light, const Random& u, const nusselt::Li
     if (Kind::kMeasure != Measure::kArea && !(miss(light, wi) <= kFactor * tilt))
         return "wi misses the light";
     // Where a ray meets the plane at an angle of the order of `sturdy`, the point errs by more than the direction.
-    constexpr bool kMeetsPlane = kIsPolygon<Kind> && Kind::kMeasure == Measure::kProjectedSolidAngle;
+    constexpr bool kMeetsPlane =
+        kIsPolygon<Kind> && (Kind::kMeasure == Measure::kProjectedSolidAngle || kHasLobe<Kind>);
     const long double offset = kFactor * (kMeetsPlane ? tilt / sturdy : kEpsilon) * extent;
     if (!(length(cross(wi, p)) <= offset)) return "p is not in the direction wi";
     if (dot(wi, p) < -offset) return "p is behind the origin";

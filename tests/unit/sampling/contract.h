@@ -31,11 +31,18 @@ std::string hexadecimal(const Struct& numbers) {
 }
 
 template <class Kind, class T>
-auto hostile_light(HostileLights<T>& lights) {
-    if constexpr (kIsPolygon<Kind>) {
-        return lights.template polygon<Kind::kVertices>();
+typename Kind::template Light<T> hostile_light(HostileLights<T>& lights) {
+    const auto light = [&] {
+        if constexpr (kIsPolygon<Kind>) {
+            return lights.template polygon<Kind::kVertices>();
+        } else {
+            return lights.line();
+        }
+    }();
+    if constexpr (kHasLobe<Kind>) {
+        return {light, lights.lobe()};
     } else {
-        return lights.line();
+        return light;
     }
 }
 

@@ -6,8 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/reference.h"
+#include "geometry/adaptive_quadrature.h"
 #include "lights.h"
+#include "lit_part.h"
 
 namespace nusselt_test {
 namespace {
@@ -17,6 +18,10 @@ class DensityTest : public ::testing::Test {};
 
 template <class Kind>
 using Precise = ::testing::Types<Instance<Kind, double>, Instance<Kind, long double>>;
+
+/// For techniques that share their code with one that is tested in long double too, and many lights.
+template <class Kind>
+using DoubleOnly = ::testing::Types<Instance<Kind, double>>;
 
 TYPED_TEST_SUITE_P(DensityTest);
 
@@ -71,23 +76,14 @@ TYPED_TEST_P(DensityTest, IsTheReciprocalOfTheJacobian) {
     }
 }
 
-/// The part of a light that a technique can reach.
-template <class T, int N>
-Polygon lit_part(const nusselt::ConvexPolygon<T, N>& light, Horizon horizon) {
-    const Polygon whole = vertices_of(light);
-    return horizon == Horizon::kClipped ? above_horizon(whole) : whole;
-}
-struct Segment {
-    Point begin, end;
-};
-template <class T>
-Segment lit_part(const nusselt::LineSegment<T>& light, Horizon horizon) {
-    Segment part{widened_begin(light), widened_end(light)};
-    const Point crossing =
-        part.begin + (part.begin.z / (part.begin.z - part.end.z)) * (part.end - part.begin);
-    if (horizon == Horizon::kClipped && part.begin.z < 0) part.begin = crossing;
-    if (horizon == Horizon::kClipped && part.end.z < 0) part.end = crossing;
-    return part;
+/// What the samples of a technique shall be proportional to: the lobe, or else the cosine.
+template <class Kind, class Light>
+auto importance(const Light& light) {
+    if constexpr (kHasLobe<Kind>) {
+        return [lobe = ReferenceLobe(light.lobe)](const Point& wi) { return lobe.density(wi); };
+    } else {
+        return [](const Point& wi) { return std::max(wi.z, 0.0L); };
+    }
 }
 
 long double reference_area(const Polygon& polygon) {
@@ -119,50 +115,54 @@ long double reference_solid_angle(const Segment& line) {
     return integrate_directions(line, [](const Point&) { return 1.0L; });
 }
 
-/// The integral of the squared cosine over the solid angle.
-long double reference_squared_cosine(const Polygon& polygon) {
-    const Point normal = normalize(cross(polygon[1] - polygon[0], polygon[2] - polygon[0]));
-    return integrate(
-        polygon,
-        [&](const Point& p) {
-            const long double r2 = dot(p, p);
-            return p.z * p.z * std::fabs(dot(normal, p)) / (r2 * r2 * std::sqrt(r2));
-        },
-        128);
+/// The integral of a function squared over the solid angle.
+template <class Function>
+long double reference_square(const Polygon& polygon, const Function& f) {
+    return integrate_solid_angle(
+        polygon, [&](const Point& wi) { return f(wi) * f(wi); }, 1e-9L);
 }
-long double reference_squared_cosine(const Segment& line) {
-    return integrate_directions(line, [](const Point& wi) { return wi.z * wi.z; });
+template <class Function>
+long double reference_square(const Segment& line, const Function& f) {
+    return integrate_directions(line, [&](const Point& wi) { return f(wi) * f(wi); });
 }
 
-long double reference_projected_solid_angle(const Polygon& polygon) { return lambert(polygon); }
-long double reference_projected_solid_angle(const Segment& line) {
-    return integrate_directions(line, [](const Point& wi) { return wi.z; });
+/// The integral of importance() over the part of a light that a technique can reach.
+template <class Kind, class Light>
+long double reference_importance(const Light& light) {
+    const auto part = lit_part<Kind>(light);
+    if constexpr (!kIsPolygon<Kind>) {
+        return integrate_directions(part, importance<Kind>(light));
+    } else if constexpr (kHasLobe<Kind>) {
+        return ReferenceLobe(light.lobe).integral(part);
+    } else {
+        return lambert(above_horizon(part));
+    }
 }
 
 /// Mean of f(sample) / pdf over a grid of random numbers.
-template <class Kind, class T, class Technique, class Function>
-T estimate(const Technique& technique, int count, const Function& f) {
-    T sum = 0;
+template <class Kind, class Technique, class Function>
+long double estimate(const Technique& technique, int count, const Function& f) {
+    using T = decltype(technique.measure());
+    long double sum = 0;
     const auto points = midpoints<Kind, T>(count);
     for (const auto& u : points) {
         const auto sample = technique.sample(u);
-        if (sample.pdf > 0) sum += f(sample.wi) / sample.pdf;
+        if (sample.pdf > 0) sum += f(nusselt::broadcast<long double>(sample.wi)) / sample.pdf;
     }
-    return sum / static_cast<T>(points.size());
+    return sum / static_cast<long double>(points.size());
 }
 
-TYPED_TEST_P(DensityTest, EstimatesProjectedSolidAngle) {
+TYPED_TEST_P(DensityTest, EstimatesImportance) {
     using T = typename TypeParam::Real;
     using Kind = typename TypeParam::Kind;
-    const auto cosine = [](const nusselt::Vec3<T>& wi) { return std::max(wi.z, T(0)); };
     for (const auto& light : cases<Kind>()) {
         const auto local = light_for<Kind, T>(light);
         const typename TypeParam::Technique technique(local);
-        const long double expected = reference_projected_solid_angle(lit_part(local, Horizon::kClipped));
+        const long double expected = reference_importance<Kind>(local);
         const auto error = [&](int count) {
-            return std::fabs(estimate<Kind, T>(technique, count, cosine) / expected - 1);
+            return std::fabs(estimate<Kind>(technique, count, importance<Kind>(local)) / expected - 1);
         };
-        if (Kind::kMeasure == Measure::kProjectedSolidAngle) {
+        if (Kind::kMeasure == Measure::kProjectedSolidAngle || kHasLobe<Kind>) {
             // The estimate has no variance: rounding only.
             EXPECT_LE(error(8), kProjectedBudget) << light.name;
             continue;
@@ -170,29 +170,31 @@ TYPED_TEST_P(DensityTest, EstimatesProjectedSolidAngle) {
         const auto coarse = error(kIsPolygon<Kind> ? 40 : 1500);
         const auto fine = error(kIsPolygon<Kind> ? 160 : 6000);
         EXPECT_LE(coarse, kCoarseBudget) << light.name;
-        EXPECT_LE(fine, std::max<long double>(coarse / 2, kFineBudget)) << light.name;
+        EXPECT_LE(fine, std::max(coarse / 2, static_cast<long double>(kFineBudget))) << light.name;
     }
 }
 
 TYPED_TEST_P(DensityTest, EstimatesSolidAngle) {
     using T = typename TypeParam::Real;
     using Kind = typename TypeParam::Kind;
+    constexpr int kCount = kIsPolygon<Kind> ? 160 : 6000;
     for (const auto& light : cases<Kind>()) {
         const auto local = light_for<Kind, T>(light);
         const typename TypeParam::Technique technique(local);
-        const Horizon horizon = Kind::kHorizon;
-        if constexpr (Kind::kMeasure == Measure::kProjectedSolidAngle) {
+        const auto part = lit_part<Kind>(local);
+        if constexpr (Kind::kMeasure == Measure::kProjectedSolidAngle || kHasLobe<Kind>) {
             // The density vanishes on the horizon, so that the variance of this estimate does not exist. The solid
-            // angle weighted by the squared cosine exists, and is as independent of the technique.
-            const auto squared = [](const nusselt::Vec3<T>& wi) { return wi.z * wi.z; };
-            const long double expected = reference_squared_cosine(lit_part(local, horizon));
-            const T estimated = estimate<Kind, T>(technique, kIsPolygon<Kind> ? 160 : 6000, squared);
-            EXPECT_NEAR(estimated / expected, 1, kSolidAngleBudget<Kind>) << light.name;
+            // angle weighted by the squared cosine or lobe exists, and is as independent of the technique.
+            const auto f = importance<Kind>(local);
+            const long double expected = reference_square(part, f);
+            const auto squared = [&](const Point& wi) { return f(wi) * f(wi); };
+            EXPECT_NEAR(estimate<Kind>(technique, kCount, squared) / expected, 1, kSolidAngleBudget<Kind>)
+                << light.name;
         } else {
-            const auto one = [](const nusselt::Vec3<T>&) { return T(1); };
-            const long double expected = reference_solid_angle(lit_part(local, horizon));
-            const T estimated = estimate<Kind, T>(technique, kIsPolygon<Kind> ? 160 : 6000, one);
-            EXPECT_NEAR(estimated / expected, 1, kSolidAngleBudget<Kind>) << light.name;
+            const auto one = [](const Point&) { return 1.0L; };
+            const long double expected = reference_solid_angle(part);
+            EXPECT_NEAR(estimate<Kind>(technique, kCount, one) / expected, 1, kSolidAngleBudget<Kind>)
+                << light.name;
         }
     }
 }
@@ -203,16 +205,16 @@ TYPED_TEST_P(DensityTest, MeasureIsThatOfTheReference) {
     for (const auto& light : cases<Kind>()) {
         const auto local = light_for<Kind, T>(light);
         const typename TypeParam::Technique technique(local);
-        const auto part = lit_part(local, Kind::kHorizon);
+        const auto part = lit_part<Kind>(local);
         const long double expected = Kind::kMeasure == Measure::kArea ? reference_area(part)
                                      : Kind::kMeasure == Measure::kSolidAngle
                                          ? reference_solid_angle(part)
-                                         : reference_projected_solid_angle(part);
+                                         : reference_importance<Kind>(local);
         EXPECT_NEAR(technique.measure() / expected, 1, kMeasureBudget) << light.name;
     }
 }
 
-REGISTER_TYPED_TEST_SUITE_P(DensityTest, IsTheReciprocalOfTheJacobian, EstimatesProjectedSolidAngle,
+REGISTER_TYPED_TEST_SUITE_P(DensityTest, IsTheReciprocalOfTheJacobian, EstimatesImportance,
                             EstimatesSolidAngle, MeasureIsThatOfTheReference);
 
 INSTANTIATE_TYPED_TEST_SUITE_P(OctagonArea, DensityTest, Precise<PolygonAreaKindOf<8>>);
@@ -226,10 +228,15 @@ INSTANTIATE_TYPED_TEST_SUITE_P(PolygonSolidAngle, DensityTest, Precise<PolygonSo
 INSTANTIATE_TYPED_TEST_SUITE_P(PolygonClippedSolidAngle, DensityTest, Precise<PolygonClippedSolidAngleKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(PolygonProjectedSolidAngle, DensityTest,
                                Precise<PolygonProjectedSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonLtc, DensityTest, Precise<PolygonLtcKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonClippedLtc, DensityTest, DoubleOnly<PolygonClippedLtcKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(OctagonLtc, DensityTest, DoubleOnly<PolygonLtcKindOf<8>>);
 INSTANTIATE_TYPED_TEST_SUITE_P(LineArea, DensityTest, Precise<LineAreaKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(LineSolidAngle, DensityTest, Precise<LineSolidAngleKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(LineClippedSolidAngle, DensityTest, Precise<LineClippedSolidAngleKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(LineProjectedSolidAngle, DensityTest, Precise<LineProjectedSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(LineLtc, DensityTest, Precise<LineLtcKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(LineClippedLtc, DensityTest, Precise<LineClippedLtcKind>);
 
 } // namespace
 } // namespace nusselt_test

@@ -95,14 +95,55 @@ inline std::vector<LineCase> line_cases() {
     };
 }
 
+struct LobeCase {
+    std::string name;
+    nusselt::LtcCoefficients<double> coefficients;
+};
+
+/// All lights of the lists are at least in part within these, and some are below the surface within one of them, which
+/// leans to the eye for that. Exact in every precision.
+inline std::vector<LobeCase> lobe_cases() {
+    return {
+        {"rough", {1, 0.25, 1.25, -0.1875, 0.875, 1}},
+        {"glossy", {0.875, -0.4375, 1.25, 0.15625, 0.375, 1}},
+    };
+}
+
+template <class LightCase>
+struct OnLobe : LightCase {
+    nusselt::LtcCoefficients<double> lobe;
+};
+
+/// Each light with each lobe.
+template <class LightCase>
+std::vector<OnLobe<LightCase>> with_lobes(const std::vector<LightCase>& lights) {
+    std::vector<OnLobe<LightCase>> result;
+    for (const LobeCase& lobe : lobe_cases()) {
+        for (const LightCase& light : lights) {
+            result.push_back({light, lobe.coefficients});
+            result.back().name += ", " + lobe.name + " lobe";
+        }
+    }
+    return result;
+}
+
 template <class Kind>
-auto cases() {
+auto geometry_cases() {
     if constexpr (!kIsPolygon<Kind>) {
         return line_cases();
     } else if constexpr (Kind::kVertices == 4) {
         return polygon_cases();
     } else {
         return many_vertex_cases();
+    }
+}
+
+template <class Kind>
+auto cases() {
+    if constexpr (kHasLobe<Kind>) {
+        return with_lobes(geometry_cases<Kind>());
+    } else {
+        return geometry_cases<Kind>();
     }
 }
 
@@ -119,10 +160,21 @@ nusselt::LineSegment<T> make_light(const LineCase& line) {
     return nusselt::make_line(nusselt::broadcast<T>(line.begin), nusselt::broadcast<T>(line.end));
 }
 
+template <class To, class From>
+nusselt::LtcCoefficients<To> rounded(const nusselt::LtcCoefficients<From>& lobe) {
+    const auto entry = [](From x) { return static_cast<To>(x); };
+    return {entry(lobe.m00), entry(lobe.m02), entry(lobe.m11),
+            entry(lobe.m20), entry(lobe.m22), entry(lobe.albedo)};
+}
+
 /// The light of a case as a technique takes it.
 template <class Kind, class T, class Case>
 typename Kind::template Light<T> light_for(const Case& light) {
-    if constexpr (kIsPolygon<Kind>) {
+    if constexpr (kHasLobe<Kind> && kIsPolygon<Kind>) {
+        return {make_light<T, Kind::kVertices>(light), rounded<T>(light.lobe)};
+    } else if constexpr (kHasLobe<Kind>) {
+        return {make_light<T>(light), rounded<T>(light.lobe)};
+    } else if constexpr (kIsPolygon<Kind>) {
         return make_light<T, Kind::kVertices>(light);
     } else {
         return make_light<T>(light);

@@ -140,10 +140,14 @@ INSTANTIATE_TYPED_TEST_SUITE_P(PolygonBiased, PacksTest, Packs<PolygonBiasedKind
 INSTANTIATE_TYPED_TEST_SUITE_P(OctagonSolidAngle, PacksTest, Packs<PolygonSolidAngleKindOf<8>>);
 INSTANTIATE_TYPED_TEST_SUITE_P(OctagonProjectedSolidAngle, PacksTest,
                                Packs<PolygonProjectedSolidAngleKindOf<8>>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonLtc, PacksTest, Packs<PolygonLtcKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonClippedLtc, PacksTest, Packs<PolygonClippedLtcKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(LineArea, PacksTest, Packs<LineAreaKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(LineSolidAngle, PacksTest, Packs<LineSolidAngleKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(LineClippedSolidAngle, PacksTest, Packs<LineClippedSolidAngleKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(LineProjectedSolidAngle, PacksTest, Packs<LineProjectedSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(LineLtc, PacksTest, Packs<LineLtcKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(LineClippedLtc, PacksTest, Packs<LineClippedLtcKind>);
 
 } // namespace
 } // namespace nusselt_test

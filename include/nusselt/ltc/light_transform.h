@@ -1,0 +1,98 @@
+#pragma once
+/// Lights in the cosine space of a lobe. A linear map takes polygons to polygons and segments to segments, and the
+/// integral of the lobe over the light to that of the clamped cosine over its image.
+
+#include <nusselt/geometry/clip_line.h>
+#include <nusselt/geometry/polygon_measures.h>
+#include <nusselt/ltc/ltc.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// \param light in shading space, with coordinates of order one (with_unit_extent()).
+template <class Real, int N>
+NUSSELT_HD inline ConvexPolygon<Real, N> to_cosine_space(const ConvexPolygon<Real, N>& light,
+                                                         const Ltc<Real>& ltc) noexcept {
+    ConvexPolygon<Real, N> image;
+    NUSSELT_UNROLL
+    for (int j = 0; j < N; ++j) {
+        image.vertex[j] = ltc.to_cosine(light.vertex[j]);
+        image.edge[j] = ltc.to_cosine(light.edge[j]);
+    }
+    image.normal = normalize(ltc.normal_to_cosine(light.normal));
+    return image;
+}
+
+/// \param light in shading space, with coordinates of order one (scaled()).
+template <class Real>
+NUSSELT_HD inline LineSegment<Real> to_cosine_space(const LineSegment<Real>& light,
+                                                    const Ltc<Real>& ltc) noexcept {
+    const Vec3<Real> s = ltc.to_cosine(light.s);
+    const Real stretch = length(s);
+    const Real inverse = Real(1) / select(stretch > Real(0), stretch, Real(1));
+    return {ltc.to_cosine(light.p0), inverse * s, stretch * light.length};
+}
+
+/// dR / dR_c: how much thicker a thin tube is in shading space than its image (Peters 2021, linear lights, Eq. 5, the
+/// reciprocal of the width factor of Heitz and Hill 2017, Linear-Light Shading with Linearly Transformed Cosines).
+/// \param moment cross product of a point and the direction of the line in shading space, of any length.
+/// \returns 0 for the zero vector.
+template <class Real>
+NUSSELT_HD inline Real radius_ratio(const Vec3<Real>& moment, const Ltc<Real>& ltc) noexcept {
+    return length(ltc.normal_to_cosine(normalize(moment))) / ltc.minor();
+}
+
+/// A polygon with coordinates of order one.
+template <class Real, int N>
+struct ScaledPolygon {
+    ConvexPolygon<Real, N> polygon;
+    Real inverse_scale; ///< a power of two: the light is polygon times this
+};
+
+template <class Real, int N>
+NUSSELT_HD inline ScaledPolygon<Real, N> to_unit_extent(const ConvexPolygon<Real, N>& light) noexcept {
+    const Real scale = unit_extent_scale(light);
+    return {with_unit_extent(light, scale), reciprocal_power_of_two(scale)};
+}
+
+/// Which part of a light counts for a lobe: what the lobe reaches. As published (Peters 2021, polygonal lights, Sec.
+/// 4.1): lobes also reach below the surface, but seldom.
+struct CosineHorizon {
+    /// Bound on the number of vertices for polygons with at most N.
+    template <int N>
+    static constexpr int kVertices = N;
+
+    template <class Real, int N>
+    NUSSELT_HD static ScaledPolygon<Real, N> part_of(const ConvexPolygon<Real, N>& light) noexcept {
+        return to_unit_extent(light);
+    }
+    template <class Real>
+    NUSSELT_HD static LineSegment<Real> part_of(const LineSegment<Real>& light) noexcept {
+        return light;
+    }
+};
+
+/// Which part of a light counts for a lobe: what the lobe reaches and is above the surface too.
+struct BothHorizons {
+    /// \copydoc CosineHorizon::kVertices
+    template <int N>
+    static constexpr int kVertices = N + 1;
+
+    template <class Real, int N>
+    NUSSELT_HD static ScaledPolygon<Real, N + 1> part_of(const ConvexPolygon<Real, N>& light) noexcept {
+        const ScaledPolygon<Real, N> whole = to_unit_extent(light);
+        // Once more to an extent of order one, since little may be left of the light.
+        ScaledPolygon<Real, N + 1> part = to_unit_extent(clip_to_horizon(whole.polygon));
+        part.inverse_scale = part.inverse_scale * whole.inverse_scale;
+        return part;
+    }
+    template <class Real>
+    NUSSELT_HD static LineSegment<Real> part_of(const LineSegment<Real>& light) noexcept {
+        const LineExtent<Real> e = clipped_extent(light);
+        const Vec3<Real> far = fma(e.length, e.inward, e.near);
+        Vec3<Real> begin = select(e.begins_near, e.near, far);
+        begin.z = max(begin.z, Real(0));
+        return {begin, light.s, select(e.visible, e.length, Real(0))};
+    }
+};
+
+NUSSELT_NAMESPACE_END

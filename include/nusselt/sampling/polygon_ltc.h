@@ -1,0 +1,104 @@
+#pragma once
+/// Sampling of a convex polygon proportional to a linearly transformed cosine. With a Lambertian emitter and a lobe
+/// that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
+///
+/// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672, Sec. 4.1:
+/// projected solid angle sampling of the image of the polygon in cosine space. Deviation: the hit point lies where the
+/// direction meets the plane of the light in shading space, since the image of a narrow lobe is too flat to tell.
+
+#include <nusselt/ltc/light_transform.h>
+#include <nusselt/sampling/polygon_projected_solid_angle.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// \tparam Real     float, double, long double or a pack of float or double: one light and shading point per lane, or
+///                  many samples of one light (see the broadcasting constructor).
+/// \tparam N        bound on the number of vertices before clipping, 3 to 8, or to 7 with BothHorizons.
+/// \tparam Horizons CosineHorizon, or BothHorizons for samples that are never below the surface.
+///
+/// Measure: pdf is the density of wi with respect to solid angle [1/sr], density(wi) / measure() of the lobe.
+/// Space: shading space with wo in the xz half-plane (shading_frame()); clips by itself.
+/// Edge cases: nothing of the light in the lobe, no area, or origin in the plane of the polygon: pdf = 0, measure 0.
+/// With CosineHorizon samples may lie below the surface, wi.z < 0: they count, with a contribution of zero.
+template <class Real, int N, class Horizons = CosineHorizon>
+class PolygonLtc {
+    static constexpr int kVertices = Horizons::template kVertices<N>;
+
+public:
+    /// \param light in shading space, either winding [m].
+    NUSSELT_HD PolygonLtc(const ConvexPolygon<Real, N>& light, const Ltc<Real>& ltc) noexcept
+        : PolygonLtc(Horizons::part_of(light), ltc) {}
+
+    /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
+    template <class Single>
+    NUSSELT_HD explicit PolygonLtc(const PolygonLtc<Single, N, Horizons>& single) noexcept
+        : ltc_(single.ltc_),
+          image_(single.image_),
+          plane_(broadcast<Real>(single.plane_)),
+          low_(broadcast<Real>(single.low_)),
+          high_(broadcast<Real>(single.high_)),
+          inverse_scale_(single.inverse_scale_),
+          measure_(single.measure_),
+          inverse_measure_(single.inverse_measure_) {}
+
+    /// \param u in [0, 1)^2; as continuous as that of PolygonProjectedSolidAngle.
+    NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        const Vec3<Real> direction = normalize(ltc_.to_shading(image_.sample(u).wi));
+        const Vec3<Real> up{Real(0), Real(0), Real(1)};
+        const Vec3<Real> wi = select(inverse_measure_ > Real(0), direction, up);
+        // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
+        const Vec3<Real> p = min(max(plane_.distance_along(wi) * wi, low_), high_);
+        return {wi, pdf(wi), inverse_scale_ * p};
+    }
+
+    /// \param wi a unit direction towards the light.
+    NUSSELT_HD Real pdf(const Vec3<Real>& wi) const noexcept {
+        const Real density = ltc_.density(wi) * inverse_measure_;
+        return select(is_finite(density), density, Real(0));
+    }
+
+    /// The random numbers for which sample() returns wi, a unit direction on the light. See PolygonProjectedSolidAngle.
+    NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
+        return image_.invert(normalize(ltc_.to_cosine(wi)));
+    }
+
+    /// Integral of the lobe over the light, in [0, 1].
+    NUSSELT_HD Real measure() const noexcept { return measure_; }
+
+private:
+    template <class, int, class>
+    friend class PolygonLtc;
+
+    NUSSELT_HD PolygonLtc(const ScaledPolygon<Real, kVertices>& part, const Ltc<Real>& ltc) noexcept
+        : ltc_(ltc), image_(to_cosine_space(part.polygon, ltc)), inverse_scale_(part.inverse_scale) {
+        Real farthest = Real(0); // squared
+        low_ = high_ = part.polygon.vertex[0];
+        for (const Vec3<Real>& v : part.polygon.vertex) {
+            farthest = max(farthest, dot(v, v));
+            low_ = min(low_, v);
+            high_ = max(high_, v);
+        }
+        plane_ = {part.polygon.normal, plane_distance(part.polygon), sqrt(farthest)};
+        const auto in_lobe = image_.measure() > Real(0);
+        const auto lit = in_lobe & (plane_.distance != Real(0));
+        measure_ = select(lit, Real(1 / kPi<scalar_t<Real>>) * image_.measure(), Real(0));
+        inverse_measure_ = select(lit, Real(1) / select(lit, measure_, Real(1)), Real(0));
+    }
+
+    Ltc<Real> ltc_;
+    PolygonProjectedSolidAngle<Real, kVertices> image_; ///< in cosine space
+
+    // In shading space, of the part of the light that counts, scaled to an extent of order one.
+    LightPlane<Real> plane_;
+    Vec3<Real> low_, high_; ///< axis-aligned box
+    Real inverse_scale_;    ///< a power of two
+
+    Real measure_;
+    Real inverse_measure_; ///< 0 without light
+};
+
+/// Samples are never below the surface (Sec. 4.1 leaves that out for its cost).
+template <class Real, int N>
+using PolygonClippedLtc = PolygonLtc<Real, N, BothHorizons>;
+
+NUSSELT_NAMESPACE_END

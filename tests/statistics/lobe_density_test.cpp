@@ -1,0 +1,102 @@
+/// Densities of samples of lobes: with them, the mean of a function over its density must be its integral.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "geometry/adaptive_quadrature.h"
+#include "hypothesis.h"
+#include "sampling/lights.h"
+#include "sampling/lit_part.h"
+
+namespace nusselt_test {
+namespace {
+
+constexpr int kSamples = 20'000;
+
+template <class Kind>
+using Light = typename Kind::template Light<float>;
+template <class Kind>
+using Technique = typename Kind::template Technique<float>;
+using Direction = nusselt::Vec3<float>;
+
+/// The lobe times a factor that varies by a few times: the estimate has little variance, but some. The lobe is part of
+/// it since the density vanishes with it.
+long double integrand(const ReferenceLobe& lobe, const Point& wi) {
+    return lobe.density(wi) * (2 + wi.x + 0.5L * wi.y);
+}
+
+/// Whether estimates with a density disagree with integrals.
+/// \param density of (technique, light, wi)
+template <class Kind, class Density>
+bool density_is_rejected(const Density& density) {
+    std::vector<double> p_values;
+    UniformFloats random(9);
+    for (const auto& light : cases<Kind>()) {
+        const Light<Kind> local = light_for<Kind, float>(light);
+        const ReferenceLobe lobe(local.lobe);
+        const auto f = [&](const Point& wi) { return integrand(lobe, wi); };
+        long double expected = 0;
+        if constexpr (kIsPolygon<Kind>) {
+            expected = integrate_solid_angle(lit_part<Kind>(local), f, 1e-9L);
+        } else {
+            expected = integrate_per_radius(lit_part<Kind>(local), f);
+        }
+        const Technique<Kind> technique(local);
+        long double sum = 0;
+        long double squares = 0;
+        for (int i = 0; i < kSamples; ++i) {
+            const float x = random();
+            const auto sample = technique.sample(random_of<Kind>(x, random()));
+            if (sample.pdf <= 0) continue;
+            const long double value =
+                f(nusselt::broadcast<long double>(sample.wi)) / density(technique, local, sample.wi);
+            sum += value;
+            squares += value * value;
+        }
+        const long double mean = sum / kSamples;
+        const long double variance = (squares / kSamples - mean * mean) / kSamples;
+        // Small lights hardly vary: rounding in float is no bias.
+        const long double error = std::sqrt(variance + 1e-12L * expected * expected);
+        p_values.push_back(
+            static_cast<double>(std::erfc(std::fabs(mean - expected) / error / std::sqrt(2.0L))));
+    }
+    return reject(p_values);
+}
+
+template <class Kind>
+class LobeDensityTest : public ::testing::Test {};
+
+using Kinds = ::testing::Types<PolygonLtcKind, PolygonClippedLtcKind, PolygonLtcKindOf<8>, LineLtcKind,
+                               LineClippedLtcKind>;
+TYPED_TEST_SUITE(LobeDensityTest, Kinds);
+
+TYPED_TEST(LobeDensityTest, MakesEstimatesUnbiased) {
+    EXPECT_FALSE(density_is_rejected<TypeParam>(
+        [](const auto& technique, const auto&, const Direction& wi) { return technique.pdf(wi); }));
+}
+
+TYPED_TEST(LobeDensityTest, WithoutTheChangeOfSolidAngleIsRejected) {
+    EXPECT_TRUE(
+        density_is_rejected<TypeParam>([](const auto& technique, const auto& light, const Direction& wi) {
+            const ReferenceLobe lobe(light.lobe);
+            const long double r = length(lobe.image(nusselt::broadcast<long double>(wi)));
+            return technique.pdf(wi) * (r * r * r) / lobe.determinant();
+        }));
+}
+
+TEST(LobeDensityMutantsTest, WithoutTheChangeOfRadiusIsRejected) {
+    EXPECT_TRUE(
+        density_is_rejected<LineLtcKind>([](const auto& technique, const auto& light, const Direction& wi) {
+            const nusselt::Ltc<float> ltc(light.lobe);
+            return technique.pdf(wi) / nusselt::radius_ratio(cross(light.p0, light.s), ltc);
+        }));
+}
+
+TEST(LobeDensityMutantsTest, OffByATenthOfAPercentIsRejected) {
+    EXPECT_TRUE(density_is_rejected<PolygonLtcKind>(
+        [](const auto& technique, const auto&, const Direction& wi) { return 1.001L * technique.pdf(wi); }));
+}
+
+} // namespace
+} // namespace nusselt_test
