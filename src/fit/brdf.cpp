@@ -29,7 +29,7 @@ struct Azimuths {
     }
 };
 
-/// Calls f(first, cos_phi, sin_phi, u_y) for packs of nodes of a grid.
+/// Calls f(first, cos_phi, sin_phi, v) for packs of nodes of a grid, v from the middles of intervals of [0, 1].
 template <int kAround, int kOutwards, class Function>
 void for_each_node(const Function& f) {
     static const Azimuths<kAround> azimuths;
@@ -52,10 +52,11 @@ Moments moments(const Slice& slice) {
     constexpr int kAround = 64, kOutwards = 128;
     const Target<Real> target(slice);
     Real albedo(0), mean_x(0), mean_z(0);
-    for_each_node<kAround, kOutwards>([&](int, const Real& cos_phi, const Real& sin_phi, const Real& u_y) {
-        const Vec3<Real> wi = target.sample(cos_phi, sin_phi, u_y);
+    for_each_node<kAround, kOutwards>([&](int, const Real& cos_phi, const Real& sin_phi, const Real& v) {
+        // More nodes where normals are steep: weights change fastest there.
+        const Vec3<Real> wi = target.sample(cos_phi, sin_phi, Real(1) - v * v);
         const Real value = target.eval(wi);
-        const Real weight = select(value > Real(0), value / target.pdf(wi), Real(0));
+        const Real weight = Real(2) * v * select(value > Real(0), value / target.pdf(wi), Real(0));
         albedo = albedo + weight;
         mean_x = mean_x + weight * wi.x;
         mean_z = mean_z + weight * wi.z;
