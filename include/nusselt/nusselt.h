@@ -5,6 +5,7 @@
 #include <nusselt/bsdf/frostbite.h>
 #include <nusselt/bsdf/lambert.h>
 #include <nusselt/estimate/backward_error.h>
+#include <nusselt/ltc/table_file.h>
 #include <nusselt/random/light_random.h>
 #include <nusselt/sampling/line_area.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>

@@ -1,7 +1,7 @@
 #pragma once
 /// Tables of linearly transformed cosines in memory and in files.
 
-#include <nusselt/ltc/table.h>
+#include <nusselt/ltc/table_file.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -21,20 +21,11 @@ struct LtcTable {
     LtcTableView view() const { return {entries.data(), roughnesses, inclinations, f0s}; }
 };
 
-/// The bytes of a table file. Each sample becomes five numbers of 16 bits, rounded to nearest:
-///
-///     angle of the peak, angle of the horizon    u / 65535 is the angle over pi / 2
-///     width_x, width_y / width_x                 u / 65535 is (log2(x) + 24) / 27
-///     albedo                                     u / 65535
-///
-/// where the rows of cosine_from_shading are (cos peak, 0, sin peak) / width_x, (0, 1, 0) / width_y and
-/// (-sin tilt, 0, cos tilt). They follow, sample by sample as in memory, a header of 40 bytes: "nusselt-ltc\0\1\0\0\0",
-/// three numbers of samples, their product times ten, all of 32 bits, and the 64-bit FNV-1a hash of the rest; everything
-/// little-endian. Half floats of the matrix would lose three times as much where lobes are narrow.
+/// The bytes of a table file (nusselt/ltc/table_file.h), numbers rounded to nearest.
 std::string encode(const LtcTable& table);
 
 /// \param name of the source, for messages.
-/// \throws std::runtime_error saying what is wrong: no such file, sizes, length or checksum
+/// \throws std::runtime_error saying what is wrong
 LtcTable decode(std::string_view bytes, const std::string& name);
 
 /// The 64-bit FNV-1a hash of the part of an encoded table that follows the header.
