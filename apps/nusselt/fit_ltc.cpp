@@ -30,8 +30,8 @@ using tables::LtcTable;
 constexpr int kColumnsPerThread = 16;
 constexpr int kMostSamples = 256;
 constexpr double kSecondsBetweenSaves = 20;
-/// Whose lobe the table for engines has.
-constexpr float kEngineF0 = 0.5f;
+/// Whose lobe the table for engines has: between dielectrics and metals, which lose about the same.
+constexpr float kEngineF0 = 0.2f;
 
 fit::TableSize size_of(const std::string& text) {
     fit::TableSize size{};
