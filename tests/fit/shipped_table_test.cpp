@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -21,7 +22,8 @@ using tables::LtcTable;
 const Brdf& specular_brdf() { return find_brdf("frostbite-specular"); }
 
 LtcTable engine_table() {
-    std::ifstream file(std::string(NUSSELT_SOURCE_DIR) + "/data/ltc-frostbite-engine.bin", std::ios::binary);
+    const auto path = std::filesystem::path(NUSSELT_SOURCE_DIR) / "data" / "ltc-frostbite-engine.bin";
+    std::ifstream file(path, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
     return tables::decode_for_engines(bytes, 64, 64, "the engine table");
 }

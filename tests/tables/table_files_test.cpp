@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -16,7 +17,7 @@ namespace nusselt::tables {
 
 namespace {
 
-const std::string kData = std::string(NUSSELT_SOURCE_DIR) + "/data/ltc-frostbite";
+const std::string kData = (std::filesystem::path(NUSSELT_SOURCE_DIR) / "data" / "ltc-frostbite").string();
 
 std::string bytes_of(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
@@ -85,7 +86,7 @@ TEST(LtcTableFile, EveryDamageIsFound) {
     EXPECT_NE(error_of(good.substr(0, good.size() - 1)).find("truncated"), std::string::npos);
     EXPECT_NE(error_of(good + '\0').find("damaged"), std::string::npos);
     EXPECT_THROW(load_ltc_table(kData + "-that-is-missing.bin"), std::runtime_error);
-    EXPECT_THROW(load_ltc_table(std::string(NUSSELT_SOURCE_DIR) + "/data"), std::runtime_error);
+    EXPECT_THROW(load_ltc_table(std::filesystem::path(kData).parent_path()), std::runtime_error);
 }
 
 TEST(LtcTableFile, TheCompiledTableIsTheShippedOne) {
