@@ -9,6 +9,7 @@ set(single_header ${PROJECT_BINARY_DIR}/single-header/nusselt.h)
 install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" -D \"OUTPUT=${single_header}\"
     -P \"${PROJECT_SOURCE_DIR}/scripts/amalgamate.cmake\" COMMAND_ERROR_IS_FATAL ANY)")
 install(FILES ${single_header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/nusselt)
 install(TARGETS nusselt EXPORT nusseltTargets)
 install(EXPORT nusseltTargets NAMESPACE nusselt:: DESTINATION ${package_dir})
 

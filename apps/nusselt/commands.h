@@ -87,6 +87,15 @@ struct BenchFuzzOptions {
     std::optional<std::string> isa;
 };
 
+struct FitLtcOptions {
+    std::string brdf = "frostbite-specular";
+    std::string size = "64x64x51"; ///< roughness, inclination, f0
+    std::string output;            ///< without extension
+    std::optional<std::filesystem::path> checkpoint;
+    std::string commit = "unknown";
+    std::optional<int> threads;
+};
+
 struct ReproduceOptions {
     std::vector<std::string> experiments; ///< empty: all
     std::filesystem::path output = "out/reproduce";
@@ -103,6 +112,7 @@ void setup_compare(CLI::App& app, int& exit_code);
 void setup_bench(CLI::App& app, int& exit_code);
 void setup_reproduce(CLI::App& app, int& exit_code);
 void setup_map(CLI::App& app, int& exit_code);
+void setup_fit_ltc(CLI::App& app, int& exit_code);
 
 // Below `bench`.
 void setup_bench_rays(CLI::App& bench, int& exit_code);
@@ -137,6 +147,10 @@ int run_bench_worst_case(const BenchWorstCaseOptions& options);
 
 /// Draws the map of a technique.
 int run_map(const MapOptions& options);
+
+/// Fits a table of linearly transformed cosines and prints the distribution of its errors.
+/// \returns 0, or 130 if it was interrupted
+int run_fit_ltc(const FitLtcOptions& options);
 
 /// Runs techniques on hostile lights and prints what breaks their contract.
 /// \returns 0, or 1 if anything does

@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
     setup_bench(app, exit_code);
     setup_reproduce(app, exit_code);
     setup_map(app, exit_code);
+    setup_fit_ltc(app, exit_code);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -8,6 +8,7 @@
 #include <nusselt/estimate/reference_integrals.h>
 #include <nusselt/ltc/line_shading.h>
 #include <nusselt/ltc/polygon_shading.h>
+#include <nusselt/ltc/table_file.h>
 #include <nusselt/random/light_random.h>
 #include <nusselt/sampling/line_area.h>
 #include <nusselt/sampling/line_ltc.h>

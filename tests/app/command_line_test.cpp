@@ -72,7 +72,7 @@ void expect_message(const std::string& text, const std::string& part) {
 TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
     for (const char* command :
          {"", "render", "info", "techniques", "compare", "bench", "bench rays", "bench samplers",
-          "bench accuracy", "bench worst-case", "bench fuzz", "map", "reproduce"}) {
+          "bench accuracy", "bench worst-case", "bench fuzz", "map", "reproduce", "fit-ltc"}) {
         const Outcome help = run(std::string(command) + " --help");
         EXPECT_EQ(help.exit_code, 0) << command;
         EXPECT_NE(help.out.find("Usage:"), std::string::npos) << command;
@@ -298,6 +298,43 @@ TEST_F(CommandLine, CtrlCKeepsWorstCases) {
     const auto targets = nlohmann::json::parse(read("stopped.json")).at("targets");
     EXPECT_GT(targets.at("lines").at("starts"), 0);
     EXPECT_EQ(targets.at("lines").at("parameters").size(), 4u);
+}
+
+TEST_F(CommandLine, FitGoesOnWhereItStoppedAndWritesTheSameTable) {
+    const std::string fit = "fit-ltc --size 4x3x2 --commit abc ";
+    const Outcome whole = run(fit + "-o whole --threads 1");
+    EXPECT_EQ(whole.exit_code, 0) << whole.err;
+    EXPECT_NE(whole.out.find("all samples"), std::string::npos) << whole.out;
+    EXPECT_EQ(read("whole.bin").size(), 40u + 4 * 3 * 2 * 10);
+    EXPECT_EQ(read("whole-engine.bin").size(), 4u * 3 * 12);
+    const auto json = nlohmann::json::parse(read("whole.json"));
+    EXPECT_EQ(json.at("commit"), "abc");
+    EXPECT_EQ(json.at("command"), "nusselt fit-ltc --brdf frostbite-specular --size 4x3x2");
+
+    EXPECT_EQ(run(fit + "-o again --threads 3 --checkpoint state").exit_code, 0);
+    EXPECT_EQ(read("again.bin"), read("whole.bin"));
+    // All columns are in the checkpoint by now.
+    EXPECT_EQ(run(fit + "-o resumed --checkpoint state").exit_code, 0);
+    EXPECT_EQ(read("resumed.bin"), read("whole.bin"));
+    EXPECT_EQ(read("resumed.json"), read("whole.json"));
+
+    for (const char* arguments : {"--size 4x3x3 --checkpoint state", "--size 4x3", "--size 1x2x3",
+                                  "--size 4x3x257", "--brdf velvet", "--checkpoint no/such/folder"}) {
+        const Outcome wrong = run(std::string("fit-ltc -o wrong ") + arguments);
+        EXPECT_EQ(wrong.exit_code, 1) << arguments;
+        expect_message(wrong.err, "nusselt: error: ");
+    }
+}
+
+TEST_F(CommandLine, CtrlCKeepsFittedColumns) {
+    const std::string output = path("table"), state = path("state");
+    EXPECT_EQ(run_until_interrupted(
+                  {"fit-ltc", "--size", "64x4x51", "-o", output.c_str(), "--checkpoint", state.c_str()}),
+              130);
+    EXPECT_FALSE(std::filesystem::exists(output + ".bin"));
+    const std::string title = "nusselt ltc fit, version 1, frostbite-specular, 64x4x51\n";
+    EXPECT_EQ(read("state").rfind(title, 0), 0u);
+    EXPECT_GT(std::stoi(read("state").substr(title.size())), 0);
 }
 
 TEST_F(CommandLine, WithoutAGpuTheBenchmarkSaysInOneLineWhatIsMissing) {

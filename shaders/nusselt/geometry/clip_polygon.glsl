@@ -50,7 +50,7 @@ ConvexPolygon clip_to_horizon(ConvexPolygon polygon) {
         extents_of_edges += nusselt_max(nusselt_max(extents.x, extents.y), extents.z);
     }
     // The sum is rounding, of any direction, where the polygon only touches the horizon.
-    float rounding = 4.7683716e-7 * extents_of_edges; // four spacings of floats at 1
+    float rounding = 4.0 * kNusseltEpsilon * extents_of_edges;
     bool touches = nusselt_max(abs(sum_of_edges.x), abs(sum_of_edges.y)) <= rounding;
     vec3 along_horizon = touches ? vec3(0.0) : vec3(-sum_of_edges.xy, 0.0);
     if (touches) down = up;

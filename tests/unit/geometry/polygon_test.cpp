@@ -63,6 +63,23 @@ TYPED_TEST(PolygonTest, ShadingSpaceKeepsSmallEdgesAtADistance) {
                 100 * this->kEpsilon);
 }
 
+TYPED_TEST(PolygonTest, RoundingIsNoEdgeAlongTheHorizon) {
+    using T = TypeParam;
+    // A vertex so little below the horizon that the closing edge would be made of the rounding of the others.
+    const T below = -this->kEpsilon / 8;
+    const nusselt::Vec3<T> v[] = {
+        {T(-0.3), T(0.2), below}, {T(1.1), T(-0.7), T(0.4)}, {T(-0.6), T(0.9), T(0.3)}};
+    const auto clipped = clip_to_horizon(nusselt::make_polygon<3>(v, 3));
+    int along_horizon = 0;
+    for (int j = 0; j < 4; ++j) {
+        if (clipped.vertex[j].z > 0 || clipped.vertex[(j + 1) % 4].z > 0) continue;
+        ++along_horizon;
+        EXPECT_EQ(length(clipped.edge[j]), 0);
+        EXPECT_EQ(length(clipped.vertex[j] - clipped.vertex[(j + 1) % 4]), 0);
+    }
+    EXPECT_EQ(along_horizon, 1);
+}
+
 TYPED_TEST(PolygonTest, MeasuresAgreeWithReferences) {
     using T = TypeParam;
     for (const PolygonCase& light : polygon_cases()) {
