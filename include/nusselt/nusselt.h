@@ -5,6 +5,7 @@
 #include <nusselt/bsdf/frostbite.h>
 #include <nusselt/bsdf/lambert.h>
 #include <nusselt/estimate/backward_error.h>
+#include <nusselt/estimate/direct_light.h>
 #include <nusselt/estimate/reference_integrals.h>
 #include <nusselt/ltc/line_shading.h>
 #include <nusselt/ltc/polygon_shading.h>

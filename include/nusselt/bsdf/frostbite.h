@@ -11,8 +11,8 @@
 /// Disney) but for F90 and E; D is Eq. 33 of Walter et al. 2007, doi:10.2312/EGWR/EGSR07/195-206; V is Eq. 99
 /// of Heitz 2014, JCGT 3(2), over 4 n.l n.v; F is from Schlick 1994, doi:10.1111/1467-8659.1330233.
 
+#include <nusselt/bsdf/components.h>
 #include <nusselt/core/trig.h>
-#include <nusselt/core/vec.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -23,6 +23,14 @@ inline constexpr double kSmallestGgxAlpha = 1e-4;
 /// Smallest denominator of the visibility term. Only directions whose cosines sum to less than 1e-16 reach
 /// it, where the BRDF (though not its product with the cosine) would leave the range of float.
 inline constexpr double kSmallestVisibilityDenominator = 1e-20;
+
+/// The alpha of GGX.
+/// \param roughness perceptual ("linear"), clamped to [0, 1].
+template <class Real>
+NUSSELT_HD inline Real ggx_alpha(const Real& roughness) noexcept {
+    const Real clamped = min(max(roughness, Real(0)), Real(1));
+    return max(clamped * clamped, Real(scalar_t<Real>(kSmallestGgxAlpha)));
+}
 
 /// One surface point seen from one direction: the constructor does what does not depend on the light.
 ///
@@ -44,13 +52,11 @@ public:
     /// \param wo        unit direction to the eye; parallel to the normal is fine.
     /// \param albedo    of the diffuse part, in [0, 1].
     /// \param f0        reflectance of the specular part at normal incidence, in [0, 1].
-    /// \param roughness perceptual ("linear") roughness, clamped to [0, 1]; the alpha of GGX is its square,
-    /// but
-    ///                  at least kSmallestGgxAlpha.
+    /// \param roughness perceptual ("linear") roughness, clamped to [0, 1]; see ggx_alpha().
     NUSSELT_HD Frostbite(const Vec3<Real>& wo, const Vec3<Real>& albedo, const Vec3<Real>& f0,
                          const Real& roughness) noexcept
         : wo_(wo), f0_(f0), roughness_(min(max(roughness, Real(0)), Real(1))) {
-        const Real alpha = max(roughness_ * roughness_, Real(Scalar(kSmallestGgxAlpha)));
+        const Real alpha = ggx_alpha(roughness_);
         alpha2_ = alpha * alpha;
         slant_o_ = slant(wo.z);
         grazing_o_ = fifth_power_of_complement(wo.z);
@@ -60,8 +66,22 @@ public:
     }
 
     NUSSELT_HD Vec3<Real> eval(const Vec3<Real>& wi) const noexcept {
+        const BrdfComponents<Real> components = eval_components(wi);
+        return components.diffuse + components.specular;
+    }
+
+    NUSSELT_HD BrdfComponents<Real> eval_components(const Vec3<Real>& wi) const noexcept {
         const HalfVector half(wo_ + wi);
-        return diffuse(wi, half) + specular(wi, half);
+        return {diffuse(wi, half), specular(wi, half)};
+    }
+
+    /// Estimate of the directional albedo of the diffuse part, for coefficients of multiple importance sampling: off by
+    /// at most 5 %. The half vector is taken to be at 45 degrees from either direction.
+    NUSSELT_HD Vec3<Real> diffuse_albedo() const noexcept {
+        const Real bias = retroreflection(Real(Scalar(0.5)));
+        // The mean of (1 - wi.z)^5 under the cosine is 1 / 21.
+        const Real scatter = (Real(1) + bias * Real(1 / Scalar(21))) * (Real(1) + bias * grazing_o_);
+        return (Real(kPi<Scalar>) * scatter) * diffuse_;
     }
 
     /// The diffuse part of eval().
@@ -102,8 +122,13 @@ private:
         return select(lit, factor, Real(0)) * f;
     }
 
+    /// F90 - 1. \param cos2 squared cosine between the half vector and either direction
+    NUSSELT_HD Real retroreflection(const Real& cos2) const noexcept {
+        return roughness_ * (Real(Scalar(0.5)) + Real(2) * cos2) - Real(1);
+    }
+
     NUSSELT_HD Vec3<Real> diffuse(const Vec3<Real>& wi, const HalfVector& half) const noexcept {
-        const Real bias = roughness_ * (Real(Scalar(0.5)) + Real(2) * half.cos2) - Real(1);
+        const Real bias = retroreflection(half.cos2);
         const Real scatter_i = Real(1) + bias * fifth_power_of_complement(wi.z);
         const Real scatter_o = Real(1) + bias * grazing_o_;
         return where_lit(wi, scatter_i * scatter_o, diffuse_);

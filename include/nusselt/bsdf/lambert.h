@@ -1,8 +1,8 @@
 #pragma once
 /// The Lambertian BRDF.
 
+#include <nusselt/bsdf/components.h>
 #include <nusselt/core/trig.h>
-#include <nusselt/core/vec.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -15,6 +15,10 @@ struct Lambert {
     NUSSELT_HD Vec3<Real> eval(const Vec3<Real>& wi) const noexcept {
         const Real inside = select(wi.z > Real(0), Real(1 / kPi<scalar_t<Real>>), Real(0));
         return inside * albedo;
+    }
+
+    NUSSELT_HD BrdfComponents<Real> eval_components(const Vec3<Real>& wi) const noexcept {
+        return {eval(wi), {Real(0), Real(0), Real(0)}};
     }
 };
 

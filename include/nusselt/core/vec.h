@@ -48,6 +48,11 @@ template <class Real>
 NUSSELT_HD constexpr Vec3<Real> operator*(const Real& s, const Vec3<Real>& a) noexcept {
     return {s * a.x, s * a.y, s * a.z};
 }
+/// Component by component, for colours.
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real> operator*(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
 /// s * a + b, each component rounded once.
 template <class Real>
 NUSSELT_INLINE Vec3<Real> fma(const Real& s, const Vec3<Real>& a, const Vec3<Real>& b) noexcept {

@@ -1,0 +1,49 @@
+#pragma once
+/// Pairs of techniques: one for the diffuse component of a surface, one for the specular component.
+
+#include <nusselt/estimate/surface.h>
+#include <nusselt/sampling/line_ltc.h>
+#include <nusselt/sampling/line_projected_solid_angle.h>
+#include <nusselt/sampling/polygon_ltc.h>
+#include <nusselt/sampling/polygon_projected_solid_angle.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+// A pair has two static functions for each kind of light in shading space, diffuse(light, surface) and
+// specular(light, surface), that make techniques; and two that estimate the integral of a normalised component over the
+// light: diffuse_integral(technique), specular_integral(technique).
+
+/// Projected solid angle and linearly transformed cosine, as published: next to no noise but for shadows.
+struct ProjectedSolidAngleAndLtc {
+    template <class Real, int N, class Brdf>
+    NUSSELT_HD static auto diffuse(const ConvexPolygon<Real, N>& light,
+                                   const GlossySurface<Real, Brdf>& /*surface*/) noexcept {
+        return PolygonProjectedSolidAngle<Real, N>(light);
+    }
+    template <class Real, int N, class Brdf>
+    NUSSELT_HD static auto specular(const ConvexPolygon<Real, N>& light,
+                                    const GlossySurface<Real, Brdf>& surface) noexcept {
+        return PolygonLtc<Real, N>(light, surface.lobe);
+    }
+    template <class Real, class Brdf>
+    NUSSELT_HD static auto diffuse(const LineSegment<Real>& light,
+                                   const GlossySurface<Real, Brdf>& /*surface*/) noexcept {
+        return LineProjectedSolidAngle<Real>(light);
+    }
+    template <class Real, class Brdf>
+    NUSSELT_HD static auto specular(const LineSegment<Real>& light,
+                                    const GlossySurface<Real, Brdf>& surface) noexcept {
+        return LineLtc<Real>(light, surface.lobe);
+    }
+    template <class Technique>
+    NUSSELT_HD static auto diffuse_integral(const Technique& technique) noexcept {
+        using Real = decltype(technique.measure());
+        return Real(1 / kPi<scalar_t<Real>>) * technique.measure();
+    }
+    template <class Technique>
+    NUSSELT_HD static auto specular_integral(const Technique& technique) noexcept {
+        return technique.measure();
+    }
+};
+
+NUSSELT_NAMESPACE_END

@@ -1,0 +1,46 @@
+#pragma once
+/// What is known of a point of a surface before lights are looked at.
+
+#include <nusselt/bsdf/frostbite.h>
+#include <nusselt/bsdf/lambert.h>
+#include <nusselt/ltc/ltc.h>
+#include <nusselt/ltc/table.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// A point of a surface as seen from one direction, in shading space with wo in the xz half-plane (shading_frame()).
+/// \tparam Brdf with eval_components(wi), as Frostbite<Real> and Lambert<Real>.
+template <class Real, class Brdf = Frostbite<Real>>
+struct GlossySurface {
+    Vec3<Real> wo; ///< unit direction to the eye
+    Real alpha;    ///< of GGX
+    Brdf brdf;
+    Ltc<Real> lobe;             ///< fit of the specular component times cosine
+    Vec3<Real> diffuse_albedo;  ///< estimates of the directional albedo of both components, at least 0
+    Vec3<Real> specular_albedo; ///< 0 where there is no specular component: its technique is then left out
+};
+
+/// A surface with the Frostbite BRDF.
+/// \param cos_o     cosine between the normal and the direction to the eye. Below the horizon the surface is black.
+/// \param albedo    of the diffuse part, in [0, 1].
+/// \param f0        reflectance of the specular part at normal incidence, in [0, 1].
+/// \param roughness perceptual, in [0, 1].
+/// \param table     of the specular Frostbite BRDF.
+template <class Real>
+NUSSELT_HD inline GlossySurface<Real> make_glossy_surface(const Real& cos_o, const Vec3<Real>& albedo,
+                                                          const Vec3<Real>& f0, const Real& roughness,
+                                                          const LtcTableView& table) noexcept {
+    const Real sin_o = sqrt(max((Real(1) - cos_o) * (Real(1) + cos_o), Real(0)));
+    const Vec3<Real> wo{sin_o, Real(0), cos_o};
+    const Frostbite<Real> brdf(wo, albedo, f0, roughness);
+    // One lobe has to do for all colour channels.
+    const Real mean_f0 = (f0.x + f0.y + f0.z) * Real(scalar_t<Real>(1) / 3);
+    return {wo,
+            ggx_alpha(roughness),
+            brdf,
+            Ltc<Real>(table.lookup(roughness, cos_o, mean_f0)),
+            brdf.diffuse_albedo(),
+            table.albedo(roughness, cos_o, f0)};
+}
+
+NUSSELT_NAMESPACE_END
