@@ -29,7 +29,7 @@ BEGIN {
     allow("src/visibility", "library src/scene")
     allow("src/tables", "library")
     allow("src/fit", "library src/image")
-    allow("src/render_cpu", "library src/image src/scene src/visibility")
+    allow("src/render_cpu", "library src/image src/scene src/visibility src/tables")
     # SPIR-V as arrays, which the build makes. The two renderers never see each other.
     allow("src/shaders", "")
     allow("src/gpu", "library src/shaders")

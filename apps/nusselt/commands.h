@@ -19,6 +19,9 @@ struct RenderOptions {
     std::vector<std::filesystem::path> outputs; ///< empty: named after the film or the scene
     int samples = 1;
     std::string technique = "projected_solid_angle";
+    std::optional<std::string> strategies;
+    std::string mis = "clamped_optimal";
+    float visibility_estimate = 0.5f;
     std::string sampler = "sobol";
     std::optional<int> camera_rays;
     std::string pixel_position = "jittered";

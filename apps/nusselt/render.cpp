@@ -27,11 +27,22 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+/// A technique for each component of the BRDF, if there are two and techniques for them.
+render_cpu::Strategies default_strategies(const render_cpu::RenderSettings& settings) {
+    const auto both = render_cpu::Strategies::diffuse_ltc;
+    const bool useful = settings.brdf == render_cpu::BrdfChoice::material;
+    return useful && fit_together(settings.technique, both) ? both : render_cpu::Strategies::diffuse;
+}
+
 render_cpu::RenderSettings make_settings(const RenderOptions& options) {
     render_cpu::RenderSettings settings;
     settings.technique = from_name(render_cpu::kTechniques, options.technique);
-    settings.sample_order = from_name(render_cpu::kSampleOrders, options.sampler);
     settings.brdf = from_name(render_cpu::kBrdfChoices, options.brdf);
+    settings.strategies = options.strategies ? from_name(render_cpu::kStrategies, *options.strategies)
+                                             : default_strategies(settings);
+    settings.mis = from_name(render_cpu::kMisHeuristics, options.mis);
+    settings.visibility_estimate = options.visibility_estimate;
+    settings.sample_order = from_name(render_cpu::kSampleOrders, options.sampler);
     settings.pixel_position = from_name(render_cpu::kPixelPositions, options.pixel_position);
     settings.samples = options.samples;
     settings.camera_rays = options.camera_rays;
@@ -73,6 +84,9 @@ nlohmann::ordered_json report_json(const RenderOptions& options, const render_cp
         {"width", scene.film.width},
         {"height", scene.film.height},
         {"technique", render_cpu::name_of(settings.technique)},
+        {"strategies", render_cpu::name_of(settings.strategies)},
+        {"mis", render_cpu::name_of(settings.mis)},
+        {"visibility_estimate", settings.visibility_estimate},
         {"samples", settings.samples},
         {"camera_rays", render_cpu::camera_ray_count(settings)},
         {"pixel_position", render_cpu::name_of(settings.pixel_position)},
@@ -127,17 +141,37 @@ void setup_render(CLI::App& app, int& exit_code) {
         ->allow_extra_args(false);
     command
         ->add_option("--spp", options->samples,
-                     fmt::format("Samples per pixel and light, 1 to {}", render_cpu::kMaxSamples))
+                     fmt::format("Samples per pixel, light and technique, 1 to {}", render_cpu::kMaxSamples))
         ->check(CLI::Range(1, render_cpu::kMaxSamples))
         ->capture_default_str();
     command->add_option("--technique", options->technique, "How lights are sampled; see `nusselt techniques`")
-        ->check(CLI::IsMember(names_of(render_cpu::kTechniques)))
+        ->transform(to_name_of(render_cpu::kTechniques))
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--strategies", options->strategies,
+            "Which techniques take samples: diffuse, only that of --technique, or diffuse+ltc, that one\n"
+            "for the diffuse component of materials and linearly transformed cosines for the specular\n"
+            "one. Default: diffuse+ltc where --technique allows it")
+        ->transform(to_name_of(render_cpu::kStrategies));
+    command
+        ->add_option("--mis", options->mis,
+                     "How the samples of two techniques are combined: a heuristic of multiple importance\n"
+                     "sampling, one sample of either technique, or each component estimated separately")
+        ->transform(to_name_of(render_cpu::kMisHeuristics))
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--visibility-estimate", options->visibility_estimate,
+            "Share of lights that is visible, roughly, for --mis clamped_optimal and optimal; only noise\n"
+            "depends on it")
+        ->check(CLI::Range(0.0f, 1.0f))
         ->capture_default_str();
     command
         ->add_option("--sampler", options->sampler,
                      "Random numbers: independent, Owen-scrambled Sobol' points, or uniform jittered (best\n"
                      "for linear lights)")
-        ->check(CLI::IsMember(names_of(render_cpu::kSampleOrders)))
+        ->transform(to_name_of(render_cpu::kSampleOrders))
         ->capture_default_str();
     command
         ->add_option(
@@ -151,7 +185,7 @@ void setup_render(CLI::App& app, int& exit_code) {
         "the pixel");
     command
         ->add_option("--brdf", options->brdf, "BRDFs of the materials, or Lambertian ones with their albedo")
-        ->check(CLI::IsMember(names_of(render_cpu::kBrdfChoices)))
+        ->transform(to_name_of(render_cpu::kBrdfChoices))
         ->capture_default_str();
     command->add_option("--seed", options->seed, "Chooses the random numbers, 0 to 2^32 - 1")
         ->capture_default_str();
@@ -169,6 +203,11 @@ void setup_render(CLI::App& app, int& exit_code) {
         if (options->camera_rays && options->samples % *options->camera_rays != 0)
             throw CLI::ValidationError("--camera-rays", fmt::format("{} does not divide --spp, which is {}",
                                                                     *options->camera_rays, options->samples));
+        if (options->strategies && !fit_together(from_name(render_cpu::kTechniques, options->technique),
+                                                 from_name(render_cpu::kStrategies, *options->strategies)))
+            throw CLI::ValidationError("--strategies",
+                                       fmt::format("{} needs a --technique of projected solid angles, not {}",
+                                                   *options->strategies, options->technique));
         exit_code = run_render(*options);
     });
 }

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,17 @@ std::vector<std::string> names_of(const Values& values) {
     std::vector<std::string> names;
     for (const auto value : values) names.emplace_back(name_of(value));
     return names;
+}
+
+inline std::string with_underscores(std::string name) {
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+/// Replaces a name, with hyphens or underscores, by the name of a value; an error for all others.
+template <class Values>
+CLI::Validator to_name_of(const Values& values) {
+    return CLI::IsMember(names_of(values), with_underscores);
 }
 
 /// The value of that name. \throws std::invalid_argument if there is none

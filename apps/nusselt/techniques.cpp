@@ -36,6 +36,10 @@ constexpr TechniqueRow kRows[] = {
      "Peters 2021a, Sec. 6.4", "polygon_projected_solid_angle.h"},
     {Technique::projected_solid_angle_biased, "line", "projected solid angle",
      "Peters 2021b, Sec. 3, Alg. 1, 2", "line_projected_solid_angle.h"},
+    {Technique::ltc_analytic, "polygon", "none: no samples, no shadows", "Heitz et al. 2016",
+     "../ltc/polygon_shading.h"},
+    {Technique::ltc_analytic, "line", "none: no samples, no shadows", "Heitz and Hill 2017",
+     "../ltc/line_shading.h"},
 };
 
 } // namespace

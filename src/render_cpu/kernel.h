@@ -43,6 +43,12 @@ struct LineLightRecord {
     scene::Float3 radiance_times_radius;
 };
 
+/// As LtcTableView, of the specular Frostbite BRDF; no entries if the job has no use for them.
+struct LtcTable {
+    const float* entries;
+    std::int32_t roughnesses, inclinations, f0s;
+};
+
 /// Views of the arrays of a scene::Scene, with what kernels need precomputed.
 struct KernelScene {
     const scene::Float3* positions;
@@ -58,6 +64,7 @@ struct KernelScene {
     const LineLightRecord* line_lights;
     std::int32_t polygon_light_count;
     std::int32_t line_light_count;
+    LtcTable ltc;
     scene::Camera camera;
     float radius; ///< of the scene [m]
 };
@@ -66,11 +73,14 @@ struct RenderJob {
     KernelScene scene;
     visibility::RayTracer tracer;
     Technique technique;
+    Strategies strategies;
+    Mis mis;
+    float visibility_estimate;
     SampleOrder sample_order;
     PixelPosition pixel_position;
     std::uint32_t seed;
     std::uint32_t camera_rays;   ///< per pixel
-    std::uint32_t light_samples; ///< per camera ray and light
+    std::uint32_t light_samples; ///< per camera ray, light and technique
     std::int32_t width;
     std::int32_t height;
     float* pixels; ///< 3 * width * height floats, as image::Image

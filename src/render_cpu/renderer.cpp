@@ -2,6 +2,8 @@
 
 #include "render_cpu/flush_denormals.h"
 
+#include "tables/ltc_table.h"
+
 #include <tbb/parallel_for.h>
 #include <x86intrin.h>
 
@@ -109,8 +111,15 @@ RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const vis
 
     RenderJob job{};
     job.scene = arrays_.view(settings.brdf);
+    if (uses_lobes(settings)) {
+        const tables::LtcTable& ltc = tables::frostbite_ltc_table();
+        job.scene.ltc = {ltc.entries.data(), ltc.roughnesses, ltc.inclinations, ltc.f0s};
+    }
     job.tracer = tracer;
     job.technique = settings.technique;
+    job.strategies = settings.strategies;
+    job.mis = settings.mis;
+    job.visibility_estimate = settings.visibility_estimate;
     job.sample_order = settings.sample_order;
     job.pixel_position = settings.pixel_position;
     job.seed = settings.seed;
@@ -152,6 +161,9 @@ RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const vis
 image::Metadata make_metadata(const RenderSettings& settings, Isa isa, const RenderResult& result) {
     return {{"version", NUSSELT_VERSION},
             {"technique", std::string(name_of(settings.technique))},
+            {"strategies", std::string(name_of(settings.strategies))},
+            {"mis", std::string(name_of(settings.mis))},
+            {"visibility_estimate", std::to_string(settings.visibility_estimate)},
             {"samples", std::to_string(settings.samples)},
             {"camera_rays", std::to_string(camera_ray_count(settings))},
             {"pixel_position", std::string(name_of(settings.pixel_position))},

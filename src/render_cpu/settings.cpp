@@ -5,6 +5,21 @@
 
 namespace nusselt::render_cpu {
 
+bool fit_together(Technique technique, Strategies strategies) {
+    switch (strategies) {
+    case Strategies::diffuse:
+        return true;
+    case Strategies::diffuse_ltc:
+        return technique == Technique::projected_solid_angle ||
+               technique == Technique::projected_solid_angle_biased;
+    }
+    return false;
+}
+
+bool uses_lobes(const RenderSettings& settings) {
+    return settings.technique == Technique::ltc_analytic || settings.strategies != Strategies::diffuse;
+}
+
 int camera_ray_count(const RenderSettings& settings) {
     if (settings.camera_rays) return *settings.camera_rays;
     return settings.pixel_position == PixelPosition::center ? 1 : settings.samples;
@@ -15,6 +30,12 @@ void validate(const RenderSettings& settings) {
         throw std::invalid_argument("samples per light and pixel must lie between 1 and " +
                                     std::to_string(kMaxSamples) + ", found " +
                                     std::to_string(settings.samples));
+    if (!fit_together(settings.technique, settings.strategies))
+        throw std::invalid_argument("strategies " + std::string(name_of(settings.strategies)) +
+                                    " do not fit technique " + std::string(name_of(settings.technique)));
+    if (!(settings.visibility_estimate >= 0 && settings.visibility_estimate <= 1))
+        throw std::invalid_argument("the visibility estimate must lie between 0 and 1, found " +
+                                    std::to_string(settings.visibility_estimate));
     const int camera_rays = camera_ray_count(settings);
     if (camera_rays < 1 || settings.samples % camera_rays != 0)
         throw std::invalid_argument("camera rays per pixel must divide the " +
@@ -34,6 +55,38 @@ std::string_view name_of(Technique technique) {
         return "projected_solid_angle";
     case Technique::projected_solid_angle_biased:
         return "projected_solid_angle_biased";
+    case Technique::ltc_analytic:
+        return "ltc_analytic";
+    }
+    return {};
+}
+
+std::string_view name_of(Strategies strategies) {
+    switch (strategies) {
+    case Strategies::diffuse:
+        return "diffuse";
+    case Strategies::diffuse_ltc:
+        return "diffuse+ltc";
+    }
+    return {};
+}
+
+std::string_view name_of(Mis mis) {
+    switch (mis) {
+    case Mis::balance:
+        return "balance";
+    case Mis::power:
+        return "power";
+    case Mis::weighted_balance:
+        return "weighted_balance";
+    case Mis::clamped_optimal:
+        return "clamped_optimal";
+    case Mis::optimal:
+        return "optimal";
+    case Mis::one_sample:
+        return "one_sample";
+    case Mis::separate:
+        return "separate";
     }
     return {};
 }

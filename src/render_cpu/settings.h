@@ -15,6 +15,24 @@ enum class Technique : std::uint32_t {
     clipped_solid_angle,
     projected_solid_angle,
     projected_solid_angle_biased, ///< for line lights the same as projected_solid_angle
+    ltc_analytic,                 ///< integrals of linearly transformed cosines: no samples and no shadows
+};
+
+/// Which techniques take samples of a light.
+enum class Strategies : std::uint32_t {
+    diffuse,     ///< one for all components of the BRDF: that of RenderSettings::technique
+    diffuse_ltc, ///< that one for the diffuse component, linearly transformed cosines for the specular one
+};
+
+/// How samples of several techniques are combined; see nusselt/estimate/mis.h.
+enum class Mis : std::uint32_t {
+    balance,
+    power,
+    weighted_balance,
+    clamped_optimal,
+    optimal,
+    one_sample, ///< one sample of either technique instead of one of each
+    separate,   ///< each technique estimates its own component of the BRDF only
 };
 
 /// How the samples of a pixel and light relate to each other; see nusselt::Sampler.
@@ -33,13 +51,22 @@ inline constexpr int kMaxSamples = 1 << 20;
 
 struct RenderSettings {
     Technique technique = Technique::projected_solid_angle;
-    int samples = 1;                ///< per pixel and light, 1 to kMaxSamples
-    std::optional<int> camera_rays; ///< per pixel, a divisor of samples; default: see camera_ray_count()
+    Strategies strategies = Strategies::diffuse;
+    Mis mis = Mis::clamped_optimal;
+    float visibility_estimate = 0.5f; ///< for Mis::clamped_optimal and optimal, in [0, 1]
+    int samples = 1;                  ///< per pixel, light and technique, 1 to kMaxSamples
+    std::optional<int> camera_rays;   ///< per pixel, a divisor of samples; default: see camera_ray_count()
     PixelPosition pixel_position = PixelPosition::jittered;
     SampleOrder sample_order = SampleOrder::sobol;
     BrdfChoice brdf = BrdfChoice::material;
     std::uint32_t seed = 0;
 };
+
+/// Whether there are samples of these strategies with the technique for the diffuse component.
+bool fit_together(Technique technique, Strategies strategies);
+
+/// Whether linearly transformed cosines are needed.
+bool uses_lobes(const RenderSettings& settings);
 
 /// Camera rays per pixel: as given, else one for each sample if their positions differ, else one.
 int camera_ray_count(const RenderSettings& settings);
@@ -48,14 +75,23 @@ int camera_ray_count(const RenderSettings& settings);
 void validate(const RenderSettings& settings);
 
 // All values in the order in which they are listed to users, and their names.
-inline constexpr std::array kTechniques = {Technique::area, Technique::solid_angle,
-                                           Technique::clipped_solid_angle, Technique::projected_solid_angle,
-                                           Technique::projected_solid_angle_biased};
+inline constexpr std::array kTechniques = {Technique::area,
+                                           Technique::solid_angle,
+                                           Technique::clipped_solid_angle,
+                                           Technique::projected_solid_angle,
+                                           Technique::projected_solid_angle_biased,
+                                           Technique::ltc_analytic};
+inline constexpr std::array kStrategies = {Strategies::diffuse, Strategies::diffuse_ltc};
+inline constexpr std::array kMisHeuristics = {Mis::balance,         Mis::power,   Mis::weighted_balance,
+                                              Mis::clamped_optimal, Mis::optimal, Mis::one_sample,
+                                              Mis::separate};
 inline constexpr std::array kSampleOrders = {SampleOrder::independent, SampleOrder::sobol,
                                              SampleOrder::jittered};
 inline constexpr std::array kPixelPositions = {PixelPosition::jittered, PixelPosition::center};
 inline constexpr std::array kBrdfChoices = {BrdfChoice::material, BrdfChoice::lambert};
 std::string_view name_of(Technique technique);
+std::string_view name_of(Strategies strategies);
+std::string_view name_of(Mis mis);
 std::string_view name_of(SampleOrder order);
 std::string_view name_of(PixelPosition position);
 std::string_view name_of(BrdfChoice brdf);

@@ -1,6 +1,8 @@
 #pragma once
 /// What all techniques return, and the hit point on planar lights.
 
+#include <type_traits>
+
 #include <nusselt/core/vec.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -12,6 +14,15 @@ struct LightSample {
     Real pdf; ///< density of wi; positive and finite, or exactly 0: no sample, wi and p are then meaningless
     Vec3<Real> p; ///< the point on the light [m], relative to the shading point; the shadow ray ends there
 };
+
+/// A sample of a technique. Those for linear lights use u.x only.
+template <class Technique, class Real>
+NUSSELT_HD inline LightSample<Real> draw(const Technique& technique, const Vec2<Real>& u) noexcept {
+    if constexpr (std::is_invocable_v<decltype(&Technique::sample), const Technique&, const Real&>)
+        return technique.sample(u.x);
+    else
+        return technique.sample(u);
+}
 
 /// The plane of a polygonal light as seen from the origin.
 template <class Real>

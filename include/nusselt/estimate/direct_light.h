@@ -90,21 +90,10 @@ public:
         return combined(s, choice.estimate(look_at(s)));
     }
 
-    /// Reflected radiance without shadows for a radiance of 1, exact up to the fit of the lobe and for components that
-    /// are Lambertian; per radius [1/m] for linear lights.
-    NUSSELT_HD Vec3<Real> unshadowed() const noexcept {
-        return Strategies::diffuse_integral(diffuse_) * surface_.diffuse_albedo + techniques_.unshadowed[1];
-    }
+    /// Whether the surface has a specular component; if not, sample_specular() gives nothing.
+    NUSSELT_HD const mask_t<Real>& is_glossy() const noexcept { return is_glossy_; }
 
 private:
-    template <class Technique>
-    NUSSELT_HD static LightSample<Real> draw(const Technique& technique, const Vec2<Real>& u) noexcept {
-        if constexpr (std::is_invocable_v<decltype(&Technique::sample), const Technique&, const Vec2<Real>&>)
-            return technique.sample(u);
-        else
-            return technique.sample(u.x);
-    }
-
     NUSSELT_HD LightSample<Real> draw_specular(const Vec2<Real>& u) const noexcept {
         LightSample<Real> s = draw(specular_, u);
         s.pdf = select(is_glossy_, s.pdf, Real(0));

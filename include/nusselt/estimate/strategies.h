@@ -13,28 +13,8 @@ NUSSELT_NAMESPACE_BEGIN
 // specular(light, surface), that make techniques; and two that estimate the integral of a normalised component over the
 // light: diffuse_integral(technique), specular_integral(technique).
 
-/// Projected solid angle and linearly transformed cosine, as published: next to no noise but for shadows.
-struct ProjectedSolidAngleAndLtc {
-    template <class Real, int N, class Brdf>
-    NUSSELT_HD static auto diffuse(const ConvexPolygon<Real, N>& light,
-                                   const GlossySurface<Real, Brdf>& /*surface*/) noexcept {
-        return PolygonProjectedSolidAngle<Real, N>(light);
-    }
-    template <class Real, int N, class Brdf>
-    NUSSELT_HD static auto specular(const ConvexPolygon<Real, N>& light,
-                                    const GlossySurface<Real, Brdf>& surface) noexcept {
-        return PolygonLtc<Real, N>(light, surface.lobe);
-    }
-    template <class Real, class Brdf>
-    NUSSELT_HD static auto diffuse(const LineSegment<Real>& light,
-                                   const GlossySurface<Real, Brdf>& /*surface*/) noexcept {
-        return LineProjectedSolidAngle<Real>(light);
-    }
-    template <class Real, class Brdf>
-    NUSSELT_HD static auto specular(const LineSegment<Real>& light,
-                                    const GlossySurface<Real, Brdf>& surface) noexcept {
-        return LineLtc<Real>(light, surface.lobe);
-    }
+/// What pairs have in common whose techniques have the integrals of the components as their measures.
+struct CosineMeasures {
     template <class Technique>
     NUSSELT_HD static auto diffuse_integral(const Technique& technique) noexcept {
         using Real = decltype(technique.measure());
@@ -43,6 +23,39 @@ struct ProjectedSolidAngleAndLtc {
     template <class Technique>
     NUSSELT_HD static auto specular_integral(const Technique& technique) noexcept {
         return technique.measure();
+    }
+};
+
+/// Projected solid angle and linearly transformed cosine, as published: next to no noise but for shadows.
+struct ProjectedSolidAngleAndLtc : CosineMeasures {
+    template <class Real, int N, class Surface>
+    NUSSELT_HD static auto diffuse(const ConvexPolygon<Real, N>& light, const Surface& /*surface*/) noexcept {
+        return PolygonProjectedSolidAngle<Real, N>(light);
+    }
+    template <class Real, int N, class Surface>
+    NUSSELT_HD static auto specular(const ConvexPolygon<Real, N>& light, const Surface& surface) noexcept {
+        return PolygonLtc<Real, N>(light, surface.lobe);
+    }
+    template <class Real, class Surface>
+    NUSSELT_HD static auto diffuse(const LineSegment<Real>& light, const Surface& /*surface*/) noexcept {
+        return LineProjectedSolidAngle<Real>(light);
+    }
+    template <class Real, class Surface>
+    NUSSELT_HD static auto specular(const LineSegment<Real>& light, const Surface& surface) noexcept {
+        return LineLtc<Real>(light, surface.lobe);
+    }
+};
+
+/// The same for polygons without iteration and with a fast arctangent (Peters 2021, polygonal lights, Sec. 6.4): cheaper,
+/// slightly biased.
+struct BiasedProjectedSolidAngleAndLtc : CosineMeasures {
+    template <class Real, int N, class Surface>
+    NUSSELT_HD static auto diffuse(const ConvexPolygon<Real, N>& light, const Surface& /*surface*/) noexcept {
+        return PolygonProjectedSolidAngleBiased<Real, N>(light);
+    }
+    template <class Real, int N, class Surface>
+    NUSSELT_HD static auto specular(const ConvexPolygon<Real, N>& light, const Surface& surface) noexcept {
+        return PolygonLtcBiased<Real, N>(light, surface.lobe);
     }
 };
 

@@ -15,12 +15,14 @@ NUSSELT_NAMESPACE_BEGIN
 ///                  many samples of one light (see the broadcasting constructor).
 /// \tparam N        bound on the number of vertices before clipping, 3 to 8, or to 7 with BothHorizons.
 /// \tparam Horizons CosineHorizon, or BothHorizons for samples that are never below the surface.
+/// \tparam Image    technique for the image of the polygon in cosine space, with at most Horizons::kVertices<N> vertices.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr], density(wi) / measure() of the lobe.
 /// Space: shading space with wo in the xz half-plane (shading_frame()); clips by itself.
 /// Edge cases: nothing of the light in the lobe, no area, or origin in the plane of the polygon: pdf = 0, measure 0.
 /// With CosineHorizon samples may lie below the surface, wi.z < 0: they count, with a contribution of zero.
-template <class Real, int N, class Horizons = CosineHorizon>
+template <class Real, int N, class Horizons = CosineHorizon,
+          class Image = PolygonProjectedSolidAngle<Real, Horizons::template kVertices<N>>>
 class PolygonLtc {
     static constexpr int kVertices = Horizons::template kVertices<N>;
 
@@ -30,8 +32,8 @@ public:
         : PolygonLtc(Horizons::part_of(light), ltc) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
-    template <class Single>
-    NUSSELT_HD explicit PolygonLtc(const PolygonLtc<Single, N, Horizons>& single) noexcept
+    template <class Single, class SingleImage>
+    NUSSELT_HD explicit PolygonLtc(const PolygonLtc<Single, N, Horizons, SingleImage>& single) noexcept
         : ltc_(single.ltc_),
           image_(single.image_),
           plane_(broadcast<Real>(single.plane_)),
@@ -66,7 +68,7 @@ public:
     NUSSELT_HD Real measure() const noexcept { return measure_; }
 
 private:
-    template <class, int, class>
+    template <class, int, class, class>
     friend class PolygonLtc;
 
     NUSSELT_HD PolygonLtc(const ScaledPolygon<Real, kVertices>& part, const Ltc<Real>& ltc) noexcept
@@ -86,7 +88,7 @@ private:
     }
 
     Ltc<Real> ltc_;
-    PolygonProjectedSolidAngle<Real, kVertices> image_; ///< in cosine space
+    Image image_; ///< in cosine space
 
     // In shading space, of the part of the light that counts, scaled to an extent of order one.
     LightPlane<Real> plane_;
@@ -100,5 +102,9 @@ private:
 /// Samples are never below the surface (Sec. 4.1 leaves that out for its cost).
 template <class Real, int N>
 using PolygonClippedLtc = PolygonLtc<Real, N, BothHorizons>;
+
+/// Samples deviate from their density as those of PolygonProjectedSolidAngleBiased do; measure() and pdf() do not.
+template <class Real, int N>
+using PolygonLtcBiased = PolygonLtc<Real, N, CosineHorizon, PolygonProjectedSolidAngleBiased<Real, N>>;
 
 NUSSELT_NAMESPACE_END

@@ -38,14 +38,15 @@ inline Sampler sampler_of(render_cpu::SampleOrder order) noexcept {
 
 /// For one sample of one light.
 /// \param sample number among all samples of the pixel
+/// \param pair   number of the pair of dimensions
 inline Vec2<Real> random_for_light(const render_cpu::RenderJob& job, const PixelBlock& block,
-                                   std::uint32_t sample, std::uint32_t light) noexcept {
+                                   std::uint32_t sample, std::uint32_t light, std::uint32_t pair) noexcept {
     const std::uint32_t count = job.camera_rays * job.light_samples;
     const PacketSamples samples(sample);
     float x[kLanes];
     float y[kLanes];
     light_random_lanes(sampler_of(job.sample_order), job.seed, block.x, block.y, samples.number, count, light,
-                       0, x, y);
+                       pair, x, y);
     return {Real::load(x), Real::load(y)};
 }
 

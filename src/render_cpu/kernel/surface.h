@@ -5,9 +5,7 @@
 #include "render_cpu/kernel/lanes.h"
 #include "render_cpu/kernel/texture.h"
 
-#include <nusselt/bsdf/frostbite.h>
-#include <nusselt/bsdf/lambert.h>
-#include <nusselt/core/frame.h>
+#include <nusselt/estimate/surface.h>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
@@ -22,6 +20,14 @@ struct SurfaceBrdf {
         if (!any(is_frostbite)) return lambert.eval(wi);
         return select(is_frostbite, frostbite.eval(wi), lambert.eval(wi));
     }
+
+    BrdfComponents<Real> eval_components(const Vector& wi) const noexcept {
+        const BrdfComponents<Real> of_lambert = lambert.eval_components(wi);
+        if (!any(is_frostbite)) return of_lambert;
+        const BrdfComponents<Real> of_frostbite = frostbite.eval_components(wi);
+        return {select(is_frostbite, of_frostbite.diffuse, of_lambert.diffuse),
+                select(is_frostbite, of_frostbite.specular, of_lambert.specular)};
+    }
 };
 
 /// Shading points. Lanes that are not valid hold finite or infinite numbers or NaN and must be masked.
@@ -29,10 +35,10 @@ struct Surface {
     LaneMask valid;
     Vector position;         ///< world space [m]
     Vector geometric_normal; ///< unit, on the side of the eye
-    Frame<Real> frame;       ///< of the shading normal, on the side of the eye as well
+    Frame<Real> frame;       ///< shading_frame() of the shading normal, on the side of the eye as well
     Real offset;             ///< how far along the geometric normal shadow rays start [m]
     Indices light;           ///< polygonal light that the surface belongs to, -1 for none
-    SurfaceBrdf brdf;
+    GlossySurface<Real, SurfaceBrdf> glossy;
 };
 
 /// Smallest cosine between shading normal and direction to the eye: normals of a mesh that face away from the
@@ -92,8 +98,16 @@ inline Vector shading_normal(const render_cpu::KernelScene& scene, const Interpo
     return normalize(n + missing * wo);
 }
 
-inline SurfaceBrdf make_brdf(const render_cpu::KernelScene& scene, const Interpolation& interpolation,
-                             const Indices& material, const Vector& wo_local) noexcept {
+/// What materials and textures say about each lane.
+struct MaterialLanes {
+    Vector diffuse;
+    Vector f0;
+    Real roughness;
+    LaneMask is_frostbite;
+};
+
+inline MaterialLanes look_up_materials(const render_cpu::KernelScene& scene,
+                                       const Interpolation& interpolation, const Indices& material) noexcept {
     const LaneMask active = interpolation.active;
     Indices texture;
     bool any_texture = false;
@@ -106,13 +120,33 @@ inline SurfaceBrdf make_brdf(const render_cpu::KernelScene& scene, const Interpo
     Vector albedo = gather_vector(rows, kStride, 0, material, active);
     if (any_texture) {
         const Vec2<Real> uv{interpolation.column(scene.uvs, 0), interpolation.column(scene.uvs, 1)};
-        const Vector texels = look_up_textures(scene.textures, texture, uv, active);
-        albedo = {albedo.x * texels.x, albedo.y * texels.y, albedo.z * texels.z};
+        albedo = albedo * look_up_textures(scene.textures, texture, uv, active);
     }
-    const Vector f0 = gather_vector(rows, kStride, 3, material, active);
-    const Real roughness = gather_column(rows, kStride, 6, material, active);
     const Real is_frostbite = gather_column(rows, kStride, 7, material, active);
-    return {{albedo}, Frostbite<Real>(wo_local, albedo, f0, roughness), is_frostbite > Real(0.5f)};
+    return {albedo, gather_vector(rows, kStride, 3, material, active),
+            gather_column(rows, kStride, 6, material, active), is_frostbite > Real(0.5f)};
+}
+
+/// \param wo in shading space
+inline GlossySurface<Real, SurfaceBrdf>
+make_glossy(const render_cpu::LtcTable& table, const MaterialLanes& material, const Vector& wo) noexcept {
+    const SurfaceBrdf brdf{{material.diffuse},
+                           Frostbite<Real>(wo, material.diffuse, material.f0, material.roughness),
+                           material.is_frostbite};
+    const Vector zero{Real(0), Real(0), Real(0)};
+    if (table.entries == nullptr) {
+        const LtcCoefficients<Real> cosine{Real(1), Real(0), Real(1), Real(0), Real(1), Real(0)};
+        return {wo, ggx_alpha(material.roughness), brdf, Ltc<Real>(cosine), zero, zero};
+    }
+    const auto frostbite =
+        make_glossy_surface(wo.z, material.diffuse, material.f0, material.roughness,
+                            {table.entries, table.roughnesses, table.inclinations, table.f0s});
+    return {wo,
+            frostbite.alpha,
+            brdf,
+            frostbite.lobe,
+            select(material.is_frostbite, frostbite.diffuse_albedo, material.diffuse),
+            select(material.is_frostbite, frostbite.specular_albedo, zero)};
 }
 
 /// The shading points of those active lanes that hit a triangle.
@@ -129,7 +163,7 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
     const Vector normal = normalize(cross(e1, e2));
     const Vector geometric_normal = copysign(Real(1), dot(normal, wo)) * normal;
     const Vector n = shading_normal(scene, interpolation, geometric_normal, wo);
-    const auto frame = Frame<Real>::from_normal(n);
+    const auto frame = shading_frame(n, wo);
 
     Indices material;
     Indices light;
@@ -146,7 +180,7 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
             frame,
             Real(kOffsetPerRadius) * Real(scene.radius) + Real(kOffsetPerCoordinate) * coordinate,
             light,
-            make_brdf(scene, interpolation, material, frame.to_local(wo))};
+            make_glossy(scene.ltc, look_up_materials(scene, interpolation, material), frame.to_local(wo))};
 }
 
 } // namespace kernel

@@ -2,8 +2,8 @@
 /// Rendering of a tile: camera rays, what they hit, and what that emits and reflects.
 
 #include "render_cpu/kernel.h"
-#include "render_cpu/kernel/direct_light.h"
 #include "render_cpu/kernel/lanes.h"
+#include "render_cpu/kernel/light_functions.h"
 #include "render_cpu/kernel/surface.h"
 
 NUSSELT_NAMESPACE_BEGIN
@@ -17,12 +17,7 @@ class TileRenderer {
 public:
     TileRenderer(const render_cpu::RenderJob& job, const render_cpu::Tile& tile,
                  render_cpu::TileStatistics& statistics) noexcept
-        : job_(job),
-          tile_(tile),
-          statistics_(statistics),
-          add_polygon4_(polygon_function<4>(job.technique)),
-          add_polygon8_(polygon_function<8>(job.technique)),
-          add_line_(line_function(job.technique)) {}
+        : job_(job), tile_(tile), statistics_(statistics), functions_(light_functions(job)) {}
 
     void render() noexcept {
         for (std::int32_t y = tile_.y_begin; y < tile_.y_end; y += kBlockHeight)
@@ -74,13 +69,13 @@ private:
 
         const Surface surface =
             make_surface(job_.scene, hits, LaneMask::from_bits(on_triangle), -normalize(direction));
-        DirectLight light(job_, block, surface, camera_ray, statistics_);
+        ReflectedLight reflected(job_, block, surface, camera_ray, statistics_);
         for (std::int32_t i = 0; i < job_.scene.polygon_light_count; ++i) {
             const bool is_small = job_.scene.polygon_lights[i].slots == 4;
-            (light.*(is_small ? add_polygon4_ : add_polygon8_))(i);
+            (is_small ? functions_.add_polygon4 : functions_.add_polygon8)(reflected, i);
         }
-        for (std::int32_t i = 0; i < job_.scene.line_light_count; ++i) (light.*add_line_)(i);
-        return emitted + light.radiance();
+        for (std::int32_t i = 0; i < job_.scene.line_light_count; ++i) functions_.add_line(reflected, i);
+        return emitted + reflected.radiance();
     }
 
     visibility::HitPacket<kLanes> trace(std::uint32_t active, const Vector& direction) noexcept {
@@ -145,9 +140,7 @@ private:
     const render_cpu::RenderJob& job_;
     render_cpu::Tile tile_;
     render_cpu::TileStatistics& statistics_;
-    AddLight add_polygon4_;
-    AddLight add_polygon8_;
-    AddLight add_line_;
+    LightFunctions functions_;
 };
 
 } // namespace kernel

@@ -1,0 +1,33 @@
+#include "render_cpu/kernel/light_functions.h"
+
+#include <nusselt/ltc/line_shading.h>
+#include <nusselt/ltc/polygon_shading.h>
+
+NUSSELT_NAMESPACE_BEGIN
+namespace kernel {
+namespace {
+
+template <class Shape>
+void add_light(ReflectedLight& reflected, const LocalLight<Shape>& light) noexcept {
+    if (!any(light.lit)) return;
+    const auto& surface = reflected.surface().glossy;
+    const Vector radiance = diffuse_integral(light.shape) * surface.diffuse_albedo +
+                            lobe_integral(light.shape, surface.lobe) * surface.specular_albedo;
+    reflected.add(light.lit, light.emission, radiance);
+}
+
+template <int N>
+void add_polygon(ReflectedLight& reflected, std::int32_t index) noexcept {
+    add_light(reflected, reflected.polygon<N>(index));
+}
+
+void add_line(ReflectedLight& reflected, std::int32_t index) noexcept {
+    add_light(reflected, reflected.line(index));
+}
+
+} // namespace
+
+LightFunctions analytic_functions() noexcept { return {&add_polygon<4>, &add_polygon<8>, &add_line}; }
+
+} // namespace kernel
+NUSSELT_NAMESPACE_END

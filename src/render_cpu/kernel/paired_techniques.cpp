@@ -1,0 +1,82 @@
+#include "render_cpu/kernel/light_functions.h"
+
+NUSSELT_NAMESPACE_BEGIN
+namespace kernel {
+namespace {
+
+using render_cpu::Mis;
+
+/// The heuristic of the job. That it branches costs next to nothing: all lanes and samples go the same way.
+struct ChosenHeuristic {
+    Mis mis;
+    Real visibility;
+
+    template <int J, int K>
+    MisEstimate<Real> estimate(const MisTechniques<Real, K>& techniques,
+                               const MisSample<Real, K>& sample) const noexcept {
+        switch (mis) {
+        case Mis::balance:
+            return BalanceHeuristic().estimate<J>(techniques, sample);
+        case Mis::power:
+            return PowerHeuristic().estimate<J>(techniques, sample);
+        case Mis::weighted_balance:
+            return WeightedBalanceHeuristic().estimate<J>(techniques, sample);
+        case Mis::optimal:
+            return OptimalHeuristic<Real>{visibility}.template estimate<J>(techniques, sample);
+        case Mis::separate:
+            return SeparateComponents().estimate<J>(techniques, sample);
+        case Mis::clamped_optimal:
+        case Mis::one_sample:
+            break;
+        }
+        return ClampedOptimalHeuristic<Real>{visibility}.template estimate<J>(techniques, sample);
+    }
+};
+
+template <class Pair, class Shape>
+void add_light(ReflectedLight& reflected, const LocalLight<Shape>& light) noexcept {
+    if (!any(light.lit)) return;
+    const render_cpu::RenderJob& job = reflected.job();
+    const DirectLight<Real, Shape, SurfaceBrdf, Pair> estimator(light.shape, reflected.surface().glossy);
+    if (job.mis == Mis::one_sample) {
+        reflected.add(light, [&](std::uint32_t number, CompensatedSum& sum) {
+            reflected.add_sample(light.lit, estimator.sample_one(reflected.random(light, number, 0)), sum);
+        });
+        return;
+    }
+    const ChosenHeuristic heuristic{job.mis, Real(job.visibility_estimate)};
+    reflected.add(light, [&](std::uint32_t number, CompensatedSum& sum) {
+        reflected.add_sample(light.lit,
+                             estimator.sample_diffuse(heuristic, reflected.random(light, number, 0)), sum);
+        const LaneMask glossy = light.lit & estimator.is_glossy();
+        if (!any(glossy)) return;
+        reflected.add_sample(glossy, estimator.sample_specular(heuristic, reflected.random(light, number, 1)),
+                             sum);
+    });
+}
+
+template <class Pair, int N>
+void add_polygon(ReflectedLight& reflected, std::int32_t index) noexcept {
+    add_light<Pair>(reflected, reflected.polygon<N>(index));
+}
+
+template <class Pair>
+void add_line(ReflectedLight& reflected, std::int32_t index) noexcept {
+    add_light<Pair>(reflected, reflected.line(index));
+}
+
+template <class PolygonPair, class LinePair>
+LightFunctions functions() noexcept {
+    return {&add_polygon<PolygonPair, 4>, &add_polygon<PolygonPair, 8>, &add_line<LinePair>};
+}
+
+} // namespace
+
+LightFunctions paired_technique_functions(const render_cpu::RenderJob& job) noexcept {
+    if (job.technique == render_cpu::Technique::projected_solid_angle_biased)
+        return functions<BiasedProjectedSolidAngleAndLtc, ProjectedSolidAngleAndLtc>();
+    return functions<ProjectedSolidAngleAndLtc, ProjectedSolidAngleAndLtc>();
+}
+
+} // namespace kernel
+NUSSELT_NAMESPACE_END

@@ -1,0 +1,166 @@
+#pragma once
+/// Direct light at a packet of shading points: what all ways to estimate it share.
+
+#include "render_cpu/kernel.h"
+#include "render_cpu/kernel/lanes.h"
+#include "render_cpu/kernel/random.h"
+#include "render_cpu/kernel/surface.h"
+
+#include <nusselt/estimate/direct_light.h>
+
+NUSSELT_NAMESPACE_BEGIN
+namespace kernel {
+
+/// Share of the way to the light that shadow rays trace. They must stop before the light, which is in the scene
+/// itself: single precision puts the sampled point, and the triangles around it, up to some 1e-6 of the way
+/// off. Occluders within the last 1e-4 of the way are missed.
+inline constexpr float kShadowRayEnd = 1 - 1e-4f;
+
+/// Lanes whose components are neither NaN nor infinite.
+inline LaneMask is_finite(const Vector& v) noexcept {
+    return is_finite(v.x) & is_finite(v.y) & is_finite(v.z);
+}
+
+/// A light as a packet of shading points sees it.
+template <class Shape>
+struct LocalLight {
+    Shape shape;          ///< in shading space, per lane
+    LaneMask lit;         ///< points that it may light
+    Vec3<float> emission; ///< radiance, of thin lines times radius
+    std::uint32_t number; ///< among all lights of the scene
+};
+
+using LocalLine = LocalLight<LineSegment<Real>>;
+template <int N>
+using LocalPolygon = LocalLight<ConvexPolygon<Real, N>>;
+
+/// The light that one packet of shading points reflects to the eye.
+class ReflectedLight {
+public:
+    /// \param camera_ray number of the camera rays of this packet, below job.camera_rays
+    ReflectedLight(const render_cpu::RenderJob& job, const PixelBlock& block, const Surface& surface,
+                   std::uint32_t camera_ray, render_cpu::TileStatistics& statistics) noexcept
+        : job_(job),
+          block_(block),
+          surface_(surface),
+          first_sample_(camera_ray * job.light_samples),
+          statistics_(statistics) {}
+
+    const render_cpu::RenderJob& job() const noexcept { return job_; }
+    const Surface& surface() const noexcept { return surface_; }
+
+    template <int N>
+    LocalPolygon<N> polygon(std::int32_t index) const noexcept {
+        const render_cpu::PolygonLightRecord& record = job_.scene.polygon_lights[index];
+        ConvexPolygon<float, N> world;
+        for (int j = 0; j < N; ++j) {
+            world.vertex[j] = to_vec(record.vertex[j]);
+            world.edge[j] = to_vec(record.edge[j]);
+        }
+        world.normal = to_vec(record.normal);
+        const auto local = to_shading_space(world, surface_.position, surface_.frame);
+
+        LaneMask lit = surface_.valid & !is_part_of_light(index);
+        // Comparisons with NaN are false: negated they keep it, so that it is counted.
+        if (record.two_sided == 0) lit &= !(dot(local.normal, local.vertex[0]) >= Real(0));
+        Real highest = local.vertex[0].z;
+        for (int j = 1; j < N; ++j) highest = max(highest, local.vertex[j].z);
+        lit &= !(highest <= Real(0));
+        return {local, lit, to_vec(record.radiance), static_cast<std::uint32_t>(index)};
+    }
+
+    LocalLine line(std::int32_t index) const noexcept {
+        const render_cpu::LineLightRecord& record = job_.scene.line_lights[index];
+        const LineSegment<float> world{to_vec(record.begin), to_vec(record.direction), record.length};
+        const auto local = to_shading_space(world, surface_.position, surface_.frame);
+        const Real end = local.p0.z + local.length * local.s.z;
+        return {local, surface_.valid & !(max(local.p0.z, end) <= Real(0)),
+                to_vec(record.radiance_times_radius),
+                static_cast<std::uint32_t>(job_.scene.polygon_light_count + index)};
+    }
+
+    /// Adds the reflected radiance of one light [W/(sr m^2)], the mean over its samples.
+    /// \param sample function of a sample number that adds samples of the light with add_sample()
+    template <class Shape, class Sample>
+    void add(const LocalLight<Shape>& light, const Sample& sample) noexcept {
+        CompensatedSum sum;
+        for (std::uint32_t i = 0; i < job_.light_samples; ++i) sample(first_sample_ + i, sum);
+        const float scale = 1.0f / static_cast<float>(job_.light_samples);
+        add(light.lit, scale * light.emission, sum.sum);
+    }
+
+    /// Adds reflected radiance that is known without samples.
+    void add(LaneMask lit, const Vec3<float>& emission, const Vector& reflected) noexcept {
+        const Vector zero{Real(0), Real(0), Real(0)};
+        radiance_ = radiance_ + select(lit, broadcast<Real>(emission) * reflected, zero);
+    }
+
+    /// Random numbers for one sample of a light.
+    /// \param pair number of the technique that they are for
+    template <class Shape>
+    Vec2<Real> random(const LocalLight<Shape>& light, std::uint32_t sample,
+                      std::uint32_t pair) const noexcept {
+        return random_for_light(job_, block_, sample, light.number, pair);
+    }
+
+    /// Traces shadow rays for a sample and adds what it contributes.
+    /// \param drawn lanes that have a sample
+    void add_sample(LaneMask drawn, const DirectLightSample<Real>& sample, CompensatedSum& sum) noexcept {
+        const LaneMask sound = is_finite(sample.wi) & is_finite(sample.p) & is_finite(sample.shadowed) &
+                               is_finite(sample.constant);
+        statistics_.rejected_samples += count_lanes(drawn & !sound);
+        const Vector zero{Real(0), Real(0), Real(0)};
+        const Vector lit = select(visible(drawn & sound, sample), sample.shadowed, zero);
+        sum.add(lit + select(drawn & sound, sample.constant, zero));
+    }
+
+    const Vector& radiance() const noexcept { return radiance_; }
+
+private:
+    /// Those lanes whose sample contributes and sees the light.
+    LaneMask visible(LaneMask sampled, const DirectLightSample<Real>& sample) noexcept {
+        const Vector to_light = surface_.frame.to_world(sample.p);
+        const auto above_surface = dot(surface_.geometric_normal, to_light) > Real(0);
+        const Vector& reflected = sample.shadowed;
+        const Real largest = max(max(reflected.x, reflected.y), reflected.z);
+        const LaneMask needed = sampled & above_surface & (largest > Real(0));
+        const std::uint32_t active = needed.bits();
+        if (active == 0) return needed;
+
+        const Vector offset = surface_.offset * surface_.geometric_normal;
+        const Vector origin = surface_.position + offset;
+        const Vector direction = to_light - offset;
+        visibility::RayPacket<kLanes> rays;
+        origin.x.store(rays.origin[0]);
+        origin.y.store(rays.origin[1]);
+        origin.z.store(rays.origin[2]);
+        direction.x.store(rays.direction[0]);
+        direction.y.store(rays.direction[1]);
+        direction.z.store(rays.direction[2]);
+        Real(kShadowRayEnd).store(rays.t_far);
+        const visibility::PacketTracer<kLanes>& tracer = job_.tracer;
+        const std::uint64_t begin = __builtin_ia32_rdtsc();
+        const std::uint32_t blocked = tracer.occluded(job_.tracer.context, active, rays);
+        statistics_.shadow_ticks += __builtin_ia32_rdtsc() - begin;
+        statistics_.shadow_rays += count_lanes(needed);
+        return LaneMask::from_bits(active & ~blocked);
+    }
+
+    /// A planar light does not light itself, but rounding may put a point of it in front of its plane.
+    LaneMask is_part_of_light(std::int32_t index) const noexcept {
+        std::uint32_t bits = 0;
+        for (int i = 0; i < kLanes; ++i)
+            bits |= static_cast<std::uint32_t>(surface_.light.lane[i] == index) << i;
+        return LaneMask::from_bits(bits);
+    }
+
+    const render_cpu::RenderJob& job_;
+    const PixelBlock& block_;
+    const Surface& surface_;
+    std::uint32_t first_sample_;
+    render_cpu::TileStatistics& statistics_;
+    Vector radiance_{Real(0), Real(0), Real(0)};
+};
+
+} // namespace kernel
+NUSSELT_NAMESPACE_END

@@ -1,0 +1,75 @@
+#include "render_cpu/kernel/light_functions.h"
+
+#include <nusselt/sampling/line_area.h>
+#include <nusselt/sampling/line_projected_solid_angle.h>
+#include <nusselt/sampling/line_solid_angle.h>
+#include <nusselt/sampling/polygon_area.h>
+#include <nusselt/sampling/polygon_projected_solid_angle.h>
+#include <nusselt/sampling/polygon_solid_angle.h>
+
+NUSSELT_NAMESPACE_BEGIN
+namespace kernel {
+namespace {
+
+/// What a sample of a light contributes through all components of the BRDF.
+DirectLightSample<Real> reflect(const Surface& surface, const LightSample<Real>& sample) noexcept {
+    // Comparisons with NaN are false: negated they keep it, so that it is counted.
+    const LaneMask sampled = !((sample.pdf == Real(0)) | (sample.wi.z <= Real(0)));
+    const Vector zero{Real(0), Real(0), Real(0)};
+    const Real cos_per_pdf = sample.wi.z / select(sampled, sample.pdf, Real(1));
+    return {sample.wi, sample.p, select(sampled, cos_per_pdf * surface.glossy.brdf.eval(sample.wi), zero),
+            zero};
+}
+
+template <class Shape, class Technique>
+void add_light(ReflectedLight& reflected, const LocalLight<Shape>& light,
+               const Technique& technique) noexcept {
+    reflected.add(light, [&](std::uint32_t number, CompensatedSum& sum) {
+        const Vec2<Real> u = reflected.random(light, number, 0);
+        reflected.add_sample(light.lit, reflect(reflected.surface(), draw(technique, u)), sum);
+    });
+}
+
+template <template <class, int> class Technique, int N>
+void add_polygon(ReflectedLight& reflected, std::int32_t index) noexcept {
+    const LocalPolygon<N> light = reflected.polygon<N>(index);
+    if (any(light.lit)) add_light(reflected, light, Technique<Real, N>(light.shape));
+}
+
+template <template <class> class Technique>
+void add_line(ReflectedLight& reflected, std::int32_t index) noexcept {
+    const LocalLine light = reflected.line(index);
+    if (any(light.lit)) add_light(reflected, light, Technique<Real>(light.shape));
+}
+
+template <template <class, int> class Polygon, template <class> class Line>
+LightFunctions functions() noexcept {
+    return {&add_polygon<Polygon, 4>, &add_polygon<Polygon, 8>, &add_line<Line>};
+}
+
+template <class R, int N>
+using PolygonPsa = PolygonProjectedSolidAngle<R, N>;
+template <class R>
+using LinePsa = LineProjectedSolidAngle<R>;
+
+} // namespace
+
+LightFunctions single_technique_functions(render_cpu::Technique technique) noexcept {
+    switch (technique) {
+    case render_cpu::Technique::area:
+        return functions<PolygonArea, LineArea>();
+    case render_cpu::Technique::solid_angle:
+        return functions<PolygonSolidAngle, LineSolidAngle>();
+    case render_cpu::Technique::clipped_solid_angle:
+        return functions<PolygonClippedSolidAngle, LineClippedSolidAngle>();
+    case render_cpu::Technique::projected_solid_angle_biased:
+        return functions<PolygonProjectedSolidAngleBiased, LinePsa>();
+    case render_cpu::Technique::projected_solid_angle:
+    case render_cpu::Technique::ltc_analytic:
+        break;
+    }
+    return functions<PolygonPsa, LinePsa>();
+}
+
+} // namespace kernel
+NUSSELT_NAMESPACE_END
