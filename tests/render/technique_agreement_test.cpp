@@ -44,6 +44,29 @@ TEST_F(TechniqueAgreement, SameExpectation) {
     }
 }
 
+TEST_F(TechniqueAgreement, TwoTechniquesHaveTheSameExpectationWithEachHeuristic) {
+    const auto tracer = renderer_.visibility().tracer();
+    const auto reference = rows(Technique::projected_solid_angle, tracer);
+    settings_.strategies = render_cpu::Strategies::diffuse_ltc;
+    for (const render_cpu::Mis mis : render_cpu::kMisHeuristics) {
+        settings_.mis = mis;
+        // Far from what it should be, and yet without bias.
+        settings_.visibility_estimate = 0.8f;
+        EXPECT_LT(largest_t(rows(Technique::projected_solid_angle, tracer), reference), kLargestT)
+            << render_cpu::name_of(mis);
+    }
+}
+
+/// The test of the test, for optimal MIS, whose estimate does not come from shadow rays alone.
+TEST_F(TechniqueAgreement, RejectsTwoTechniquesThatAreTooDark) {
+    const auto tracer = renderer_.visibility().tracer();
+    const LossyTracer mutant(tracer, 0.03);
+    const auto reference = rows(Technique::projected_solid_angle, tracer);
+    settings_.strategies = render_cpu::Strategies::diffuse_ltc;
+    settings_.mis = render_cpu::Mis::optimal;
+    EXPECT_GT(largest_t(rows(Technique::projected_solid_angle, mutant.tracer()), reference), kLargestT);
+}
+
 TEST_F(TechniqueAgreement, ManyCameraRaysHaveTheSameExpectation) {
     const auto tracer = renderer_.visibility().tracer();
     settings_.pixel_position = render_cpu::PixelPosition::jittered;

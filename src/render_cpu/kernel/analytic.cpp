@@ -13,7 +13,7 @@ void add_light(ReflectedLight& reflected, const LocalLight<Shape>& light) noexce
     const auto& surface = reflected.surface().glossy;
     const Vector radiance = diffuse_integral(light.shape) * surface.diffuse_albedo +
                             lobe_integral(light.shape, surface.lobe) * surface.specular_albedo;
-    reflected.add(light.lit, light.emission, radiance);
+    reflected.add_known(light, radiance);
 }
 
 template <int N>

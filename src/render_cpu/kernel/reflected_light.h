@@ -86,13 +86,16 @@ public:
         CompensatedSum sum;
         for (std::uint32_t i = 0; i < job_.light_samples; ++i) sample(first_sample_ + i, sum);
         const float scale = 1.0f / static_cast<float>(job_.light_samples);
-        add(light.lit, scale * light.emission, sum.sum);
+        add_for(light.lit, scale * light.emission, sum.sum);
     }
 
     /// Adds reflected radiance that is known without samples.
-    void add(LaneMask lit, const Vec3<float>& emission, const Vector& reflected) noexcept {
-        const Vector zero{Real(0), Real(0), Real(0)};
-        radiance_ = radiance_ + select(lit, broadcast<Real>(emission) * reflected, zero);
+    /// \param reflected for an emission of 1
+    template <class Shape>
+    void add_known(const LocalLight<Shape>& light, const Vector& reflected) noexcept {
+        const LaneMask sound = is_finite(reflected);
+        statistics_.rejected_samples += count_lanes(light.lit & !sound);
+        add_for(light.lit & sound, light.emission, reflected);
     }
 
     /// Random numbers for one sample of a light.
@@ -117,6 +120,11 @@ public:
     const Vector& radiance() const noexcept { return radiance_; }
 
 private:
+    void add_for(LaneMask lit, const Vec3<float>& emission, const Vector& reflected) noexcept {
+        const Vector zero{Real(0), Real(0), Real(0)};
+        radiance_ = radiance_ + select(lit, broadcast<Real>(emission) * reflected, zero);
+    }
+
     /// Those lanes whose sample contributes and sees the light.
     LaneMask visible(LaneMask sampled, const DirectLightSample<Real>& sample) noexcept {
         const Vector to_light = surface_.frame.to_world(sample.p);
