@@ -2,6 +2,11 @@
 // what the functions return with closed forms.
 
 #include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <nusselt/simd/pack.h>
 
 #include <nusselt/nusselt.h>
@@ -58,6 +63,36 @@ float direct_light_mis(const ConvexPolygon<float, 4>& light, float emitted, cons
     const Vec wi = sample_brdf(wo, v);
     const float pdf = brdf_pdf(wo, wi);
     if (pdf > 0 && hits(light, wi)) radiance += emitted * brdf(wo, wi) * wi.z / (pdf + technique.pdf(wi));
+    return radiance;
+}
+
+/// A table of lobes in memory.
+struct Lobes {
+    std::vector<float> entries;
+    LtcTableView view;
+};
+
+/// \param bytes of data/ltc-frostbite.bin
+Lobes load_lobes(const std::string& bytes) {
+    const LtcTableFile file = open_ltc_table(bytes.data(), bytes.size());
+    if (file.problem != nullptr) throw std::runtime_error(file.problem);
+    std::vector<float> entries(file.entries());
+    file.decode(entries.data());
+    const LtcTableView table{entries.data(), file.roughnesses, file.inclinations, file.f0s};
+    return {std::move(entries), table};
+}
+
+/// Reflected by a glossy surface at the origin. \param light in world space.
+float glossy_direct_light(const ConvexPolygon<float, 4>& light, const SurfacePoint<float>& point,
+                          const LtcTableView& table, float emitted, const Vec2<float> (&u)[2]) {
+    float radiance = 0;
+    const ClampedOptimalHeuristic<float> heuristic{0.5f};
+    const auto two = sample_direct_light(point, light, table, heuristic, u);
+    for (const auto& s : two.sample) {
+        const bool lit =
+            s.shadowed.x > 0 && visible(point.position, point.position + s.distance * s.direction);
+        radiance += emitted * ((lit ? s.shadowed.x : 0) + s.constant.x);
+    }
     return radiance;
 }
 

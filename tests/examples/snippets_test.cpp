@@ -2,12 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <random>
 
 namespace {
 
 // Above the origin, half in front of it.
 const Vec kCorners[] = {{-0.5f, -0.4f, 1}, {1, -0.4f, 1.2f}, {1, 0.6f, 1.2f}, {-0.5f, 0.6f, 1}};
+const Vec3<double> kCornersInDouble[] = {{kCorners[0].x, kCorners[0].y, kCorners[0].z},
+                                         {kCorners[1].x, kCorners[1].y, kCorners[1].z},
+                                         {kCorners[2].x, kCorners[2].y, kCorners[2].z},
+                                         {kCorners[3].x, kCorners[3].y, kCorners[3].z}};
 constexpr float kEmitted = 3;
 
 /// Radiance that a Lambertian surface at the origin reflects: albedo / pi times projected solid angle.
@@ -40,6 +46,40 @@ TEST(Snippets, MultipleImportanceSamplingIsUnbiased) {
     const double standard_error = std::sqrt((squares / kCount - mean * mean) / kCount);
     EXPECT_NEAR(mean, reflected({0, 0, 1}), 4 * standard_error);
     EXPECT_LT(standard_error, 0.003 * mean);
+}
+
+TEST(Snippets, GlossyLightIsUnbiased) {
+    std::ifstream file(NUSSELT_DATA "/ltc-frostbite.bin", std::ios::binary);
+    const Lobes lobes = load_lobes({std::istreambuf_iterator<char>(file), {}});
+    const auto light = make_polygon<4>(kCorners, 4);
+    const SurfacePoint<float> point{
+        {0, 0, 0}, {0, 0, 1}, normalize(Vec{-1, 0.2f, 1}), {0.3f, 0.3f, 0.3f}, {0.04f, 0.04f, 0.04f}, 0.3f};
+
+    // Midpoints of a fine grid on the light, in world space.
+    const Frostbite<double> brdf({point.wo.x, point.wo.y, point.wo.z}, {0.3, 0.3, 0.3}, {0.04, 0.04, 0.04},
+                                 0.3);
+    const PolygonArea<double, 4> area(make_polygon<4>(kCornersInDouble, 4));
+    constexpr int kGrid = 1000;
+    double expected = 0;
+    for (int i = 0; i < kGrid * kGrid; ++i) {
+        const auto s = area.sample({(i % kGrid + 0.5) / kGrid, (i / kGrid + 0.5) / kGrid});
+        expected += kEmitted * brdf.eval(s.wi).x * s.wi.z / s.pdf / (kGrid * kGrid);
+    }
+
+    std::mt19937_64 engine(1);
+    std::uniform_real_distribution<float> uniform(0, 0.999999f);
+    constexpr int kCount = 100000;
+    double sum = 0, squares = 0;
+    for (int i = 0; i < kCount; ++i) {
+        const Vec2<float> u[2] = {{uniform(engine), uniform(engine)}, {uniform(engine), uniform(engine)}};
+        const double x = glossy_direct_light(light, point, lobes.view, kEmitted, u);
+        sum += x;
+        squares += x * x;
+    }
+    const double mean = sum / kCount;
+    const double standard_error = std::sqrt((squares / kCount - mean * mean) / kCount);
+    EXPECT_NEAR(mean, expected, 4 * standard_error + 1e-5 * expected);
+    EXPECT_LT(standard_error, 1e-3 * mean);
 }
 
 TEST(Snippets, PacksAgreeWithTheClosedForm) {
