@@ -3,6 +3,7 @@
 /// include <nusselt/simd/pack.h> as well.
 
 #include <nusselt/bsdf/frostbite.h>
+#include <nusselt/bsdf/ggx_visible_normals.h>
 #include <nusselt/bsdf/lambert.h>
 #include <nusselt/estimate/backward_error.h>
 #include <nusselt/estimate/reference_integrals.h>
