@@ -16,6 +16,7 @@
 #include <nusselt/sampling/line_projected_solid_angle.h>
 #include <nusselt/sampling/line_solid_angle.h>
 #include <nusselt/sampling/polygon_area.h>
+#include <nusselt/sampling/polygon_brdf.h>
 #include <nusselt/sampling/polygon_ltc.h>
 #include <nusselt/sampling/polygon_projected_solid_angle.h>
 #include <nusselt/sampling/polygon_solid_angle.h>
