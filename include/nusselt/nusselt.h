@@ -3,6 +3,7 @@
 /// include <nusselt/simd/pack.h> as well.
 
 #include <nusselt/bsdf/frostbite.h>
+#include <nusselt/bsdf/ggx_visible_normals.h>
 #include <nusselt/bsdf/lambert.h>
 #include <nusselt/estimate/backward_error.h>
 #include <nusselt/estimate/direct_light.h>
@@ -16,6 +17,7 @@
 #include <nusselt/sampling/line_projected_solid_angle.h>
 #include <nusselt/sampling/line_solid_angle.h>
 #include <nusselt/sampling/polygon_area.h>
+#include <nusselt/sampling/polygon_brdf.h>
 #include <nusselt/sampling/polygon_ltc.h>
 #include <nusselt/sampling/polygon_projected_solid_angle.h>
 #include <nusselt/sampling/polygon_solid_angle.h>

@@ -113,7 +113,7 @@ Optimum optimise(const Problem& problem, const Lobe& start, Freedom freedom) {
 /// How much narrower lobes are across the plane of incidence than in it: reflection about normals that vary turns
 /// directions by an angle proportional to the cosine, which the roughness limits from below.
 double foreshortening(const Slice& slice) {
-    const double alpha = std::max(slice.roughness * slice.roughness, kSmallestGgxAlpha);
+    const double alpha = ggx_alpha(slice.roughness);
     return std::hypot(std::cos(slice.inclination), alpha);
 }
 
@@ -130,7 +130,7 @@ Lobe moved(Lobe lobe, double turn, double narrowing) {
 std::vector<FittedLobe> fit_column(const Brdf& brdf, double roughness, double f0, int inclinations) {
     const auto nodes = std::make_unique<Nodes>();
     std::vector<FittedLobe> column;
-    const double alpha = std::max(roughness * roughness, kSmallestGgxAlpha);
+    const double alpha = ggx_alpha(roughness);
     // Half vectors of a narrow lobe turn by half as much as directions.
     Lobe fixed{0, 0, std::min(2 * alpha, 1.0), std::min(2 * alpha, 1.0)};
     Lobe best = fixed;

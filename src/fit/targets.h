@@ -5,10 +5,10 @@
 ///     sample(cos_phi, sin_phi, u_y)   direction by a density that resembles eval()
 ///     pdf(wi)                         that density [1/sr]
 
-#include "fit/ggx_visible_normals.h"
 #include "fit/slice.h"
 
 #include <nusselt/bsdf/frostbite.h>
+#include <nusselt/bsdf/ggx_visible_normals.h>
 #include <nusselt/bsdf/lambert.h>
 
 #include <algorithm>
@@ -31,12 +31,11 @@ public:
     explicit FrostbiteSpecular(const Slice& slice)
         : brdf_(direction_to_eye<Real>(slice), {Real(0), Real(0), Real(0)},
                 {Real(slice.f0), Real(slice.f0), Real(slice.f0)}, Real(slice.roughness)),
-          normals_(direction_to_eye<Real>(slice),
-                   Real(std::max(slice.roughness * slice.roughness, kSmallestGgxAlpha))) {}
+          normals_(direction_to_eye<Real>(slice), Real(ggx_alpha(slice.roughness))) {}
 
     Real eval(const Vec3<Real>& wi) const noexcept { return brdf_.eval_specular(wi).x * wi.z; }
     Vec3<Real> sample(const Real& cos_phi, const Real& sin_phi, const Real& u_y) const noexcept {
-        return normals_.sample(cos_phi, sin_phi, u_y);
+        return normals_.sample({sin_phi, cos_phi}, u_y);
     }
     Real pdf(const Vec3<Real>& wi) const noexcept { return normals_.pdf(wi); }
 

@@ -12,8 +12,16 @@ bool fit_together(Technique technique, Strategies strategies) {
     case Strategies::diffuse_ltc:
         return technique == Technique::projected_solid_angle ||
                technique == Technique::projected_solid_angle_biased;
+    case Strategies::diffuse_ggx:
+    case Strategies::diffuse_ggx_bounded:
+        return technique == Technique::projected_solid_angle || technique == Technique::solid_angle;
     }
     return false;
+}
+
+bool fit_together(Strategies strategies, Mis mis) {
+    if (strategies == Strategies::diffuse || strategies == Strategies::diffuse_ltc) return true;
+    return mis == Mis::balance || mis == Mis::power || mis == Mis::separate;
 }
 
 bool uses_lobes(const RenderSettings& settings) {
@@ -33,6 +41,9 @@ void validate(const RenderSettings& settings) {
     if (!fit_together(settings.technique, settings.strategies))
         throw std::invalid_argument("strategies " + std::string(name_of(settings.strategies)) +
                                     " do not fit technique " + std::string(name_of(settings.technique)));
+    if (!fit_together(settings.strategies, settings.mis))
+        throw std::invalid_argument("multiple importance sampling by " + std::string(name_of(settings.mis)) +
+                                    " does not fit strategies " + std::string(name_of(settings.strategies)));
     if (!(settings.visibility_estimate >= 0 && settings.visibility_estimate <= 1))
         throw std::invalid_argument("the visibility estimate must lie between 0 and 1, found " +
                                     std::to_string(settings.visibility_estimate));
@@ -67,6 +78,10 @@ std::string_view name_of(Strategies strategies) {
         return "diffuse";
     case Strategies::diffuse_ltc:
         return "diffuse+ltc";
+    case Strategies::diffuse_ggx:
+        return "diffuse+ggx";
+    case Strategies::diffuse_ggx_bounded:
+        return "diffuse+ggx_bounded";
     }
     return {};
 }

@@ -22,6 +22,10 @@ enum class Technique : std::uint32_t {
 enum class Strategies : std::uint32_t {
     diffuse,     ///< one for all components of the BRDF: that of RenderSettings::technique
     diffuse_ltc, ///< that one for the diffuse component, linearly transformed cosines for the specular one
+    // The same with GGX visible normals for the specular one. No such sample hits a linear light: they are left to the
+    // technique for the diffuse component.
+    diffuse_ggx,
+    diffuse_ggx_bounded,
 };
 
 /// How samples of several techniques are combined; see nusselt/estimate/mis.h.
@@ -65,6 +69,10 @@ struct RenderSettings {
 /// Whether there are samples of these strategies with the technique for the diffuse component.
 bool fit_together(Technique technique, Strategies strategies);
 
+/// Whether the heuristic is of use for samples of these strategies: some need to know what lights contribute unshadowed,
+/// which sampling of visible normals does not tell.
+bool fit_together(Strategies strategies, Mis mis);
+
 /// Whether linearly transformed cosines are needed.
 bool uses_lobes(const RenderSettings& settings);
 
@@ -81,7 +89,8 @@ inline constexpr std::array kTechniques = {Technique::area,
                                            Technique::projected_solid_angle,
                                            Technique::projected_solid_angle_biased,
                                            Technique::ltc_analytic};
-inline constexpr std::array kStrategies = {Strategies::diffuse, Strategies::diffuse_ltc};
+inline constexpr std::array kStrategies = {Strategies::diffuse, Strategies::diffuse_ltc,
+                                           Strategies::diffuse_ggx, Strategies::diffuse_ggx_bounded};
 inline constexpr std::array kMisHeuristics = {Mis::balance,         Mis::power,   Mis::weighted_balance,
                                               Mis::clamped_optimal, Mis::optimal, Mis::one_sample,
                                               Mis::separate};

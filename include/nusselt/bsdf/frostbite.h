@@ -12,25 +12,13 @@
 /// of Heitz 2014, JCGT 3(2), over 4 n.l n.v; F is from Schlick 1994, doi:10.1111/1467-8659.1330233.
 
 #include <nusselt/bsdf/components.h>
-#include <nusselt/core/trig.h>
+#include <nusselt/bsdf/ggx.h>
 
 NUSSELT_NAMESPACE_BEGIN
-
-/// Smallest GGX alpha. Rounding turns a half vector of float directions by about 6e-8: lobes must be much
-/// wider for their values to mean something, and the peak 1 / (pi alpha^2) stays far from overflow.
-inline constexpr double kSmallestGgxAlpha = 1e-4;
 
 /// Smallest denominator of the visibility term. Only directions whose cosines sum to less than 1e-16 reach
 /// it, where the BRDF (though not its product with the cosine) would leave the range of float.
 inline constexpr double kSmallestVisibilityDenominator = 1e-20;
-
-/// The alpha of GGX.
-/// \param roughness perceptual ("linear"), clamped to [0, 1].
-template <class Real>
-NUSSELT_HD inline Real ggx_alpha(const Real& roughness) noexcept {
-    const Real clamped = min(max(roughness, Real(0)), Real(1));
-    return max(clamped * clamped, Real(scalar_t<Real>(kSmallestGgxAlpha)));
-}
 
 /// One surface point seen from one direction: the constructor does what does not depend on the light.
 ///
@@ -52,7 +40,7 @@ public:
     /// \param wo        unit direction to the eye; parallel to the normal is fine.
     /// \param albedo    of the diffuse part, in [0, 1].
     /// \param f0        reflectance of the specular part at normal incidence, in [0, 1].
-    /// \param roughness perceptual ("linear") roughness, clamped to [0, 1]; see ggx_alpha().
+    /// \param roughness perceptual ("linear") roughness, clamped to [0, 1]; the alpha of GGX is ggx_alpha() of it.
     NUSSELT_HD Frostbite(const Vec3<Real>& wo, const Vec3<Real>& albedo, const Vec3<Real>& f0,
                          const Real& roughness) noexcept
         : wo_(wo), f0_(f0), roughness_(min(max(roughness, Real(0)), Real(1))) {
@@ -97,12 +85,11 @@ public:
 private:
     /// wo + wi has twice the length of the cosine between each of them and the half vector.
     struct HalfVector {
-        NUSSELT_HD explicit HalfVector(const Vec3<Real>& sum) noexcept
-            : scaled(reciprocal_power_of_two(max(max(abs(sum.x), abs(sum.y)), abs(sum.z))) * sum),
-              cos2(min(Real(Scalar(0.25)) * dot(sum, sum), Real(1))) {}
+        NUSSELT_HD explicit HalfVector(const Vec3<Real>& both) noexcept
+            : sum(both), cos2(min(Real(Scalar(0.25)) * dot(sum, sum), Real(1))) {}
 
-        Vec3<Real> scaled; ///< of a length near one even if the directions almost oppose each other
-        Real cos2;         ///< squared cosine between the half vector and either direction
+        Vec3<Real> sum; ///< of wo and wi
+        Real cos2;      ///< squared cosine between the half vector and either direction
     };
 
     NUSSELT_HD static Real fifth_power_of_complement(const Real& x) noexcept {
@@ -135,13 +122,7 @@ private:
     }
 
     NUSSELT_HD Vec3<Real> specular(const Vec3<Real>& wi, const HalfVector& half) const noexcept {
-        // The textbook's (n.h)^2 (alpha^2 - 1) + 1 cancels in the narrow lobes: with h not normalised it is a
-        // sum of positive terms over |h|^2.
-        const Vec3<Real>& h = half.scaled;
-        const Real plane2 = h.x * h.x + h.y * h.y;
-        const Real height2 = h.z * h.z;
-        const Real ratio = (plane2 + height2) / (plane2 + alpha2_ * height2);
-        const Real distribution = alpha2_ * ratio * ratio * Real(1 / kPi<Scalar>);
+        const Real distribution = ggx_distribution(ggx_ratio(half.sum, alpha2_), alpha2_);
         const Real denominator = wi.z * slant_o_ + wo_.z * slant(wi.z);
         const Real visibility =
             Real(Scalar(0.5)) / max(denominator, Real(Scalar(kSmallestVisibilityDenominator)));

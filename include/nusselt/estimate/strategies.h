@@ -4,8 +4,10 @@
 #include <nusselt/estimate/surface.h>
 #include <nusselt/sampling/line_ltc.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>
+#include <nusselt/sampling/polygon_brdf.h>
 #include <nusselt/sampling/polygon_ltc.h>
 #include <nusselt/sampling/polygon_projected_solid_angle.h>
+#include <nusselt/sampling/polygon_solid_angle.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -56,6 +58,44 @@ struct BiasedProjectedSolidAngleAndLtc : CosineMeasures {
     template <class Real, int N, class Surface>
     NUSSELT_HD static auto specular(const ConvexPolygon<Real, N>& light, const Surface& surface) noexcept {
         return PolygonLtcBiased<Real, N>(light, surface.lobe);
+    }
+};
+
+/// What pairs with sampling of the BRDF have in common: the published competitors, for polygons only. Such samples are not
+/// confined to the light, so that nothing is known of the integral of the specular component: heuristics with
+/// coefficients give them no weight. Meant for BalanceHeuristic.
+/// \tparam Lobe GgxVisibleNormals or GgxBoundedVisibleNormals.
+template <template <class> class Lobe>
+struct BrdfSampling {
+    template <class Real, int N, class Surface>
+    NUSSELT_HD static auto specular(const ConvexPolygon<Real, N>& light, const Surface& surface) noexcept {
+        return PolygonBrdf<Real, N, Lobe<Real>>(light, Lobe<Real>(surface.wo, surface.alpha));
+    }
+    template <class Technique>
+    NUSSELT_HD static auto diffuse_integral(const Technique& technique) noexcept {
+        return CosineMeasures::diffuse_integral(technique);
+    }
+    template <class Real, int N>
+    NUSSELT_HD static Real specular_integral(const PolygonBrdf<Real, N, Lobe<Real>>& /*technique*/) noexcept {
+        return Real(0);
+    }
+};
+
+/// Projected solid angle and visible normals.
+template <template <class> class Lobe>
+struct ProjectedSolidAngleAndBrdf : BrdfSampling<Lobe> {
+    template <class Real, int N, class Surface>
+    NUSSELT_HD static auto diffuse(const ConvexPolygon<Real, N>& light, const Surface& /*surface*/) noexcept {
+        return PolygonProjectedSolidAngle<Real, N>(light);
+    }
+};
+
+/// Solid angle and visible normals: what most renderers do.
+template <template <class> class Lobe>
+struct SolidAngleAndBrdf : BrdfSampling<Lobe> {
+    template <class Real, int N, class Surface>
+    NUSSELT_HD static auto diffuse(const ConvexPolygon<Real, N>& light, const Surface& /*surface*/) noexcept {
+        return PolygonSolidAngle<Real, N>(light);
     }
 };
 

@@ -70,9 +70,35 @@ LightFunctions functions() noexcept {
     return {&add_polygon<PolygonPair, 4>, &add_polygon<PolygonPair, 8>, &add_line<LinePair>};
 }
 
+/// For sampling of the BRDF: lines have samples of one technique only.
+template <class PolygonPair>
+LightFunctions brdf_functions(render_cpu::Technique technique) noexcept {
+    const AddLight line = single_technique_functions(technique).add_line;
+    return {&add_polygon<PolygonPair, 4>, &add_polygon<PolygonPair, 8>, line};
+}
+
+template <template <class> class Lobe>
+LightFunctions brdf_functions_with(render_cpu::Technique technique) noexcept {
+    if (technique == render_cpu::Technique::solid_angle)
+        return brdf_functions<SolidAngleAndBrdf<Lobe>>(technique);
+    return brdf_functions<ProjectedSolidAngleAndBrdf<Lobe>>(technique);
+}
+
+template <class R>
+using VisibleNormals = GgxVisibleNormals<R>;
+
 } // namespace
 
 LightFunctions paired_technique_functions(const render_cpu::RenderJob& job) noexcept {
+    switch (job.strategies) {
+    case render_cpu::Strategies::diffuse_ggx:
+        return brdf_functions_with<VisibleNormals>(job.technique);
+    case render_cpu::Strategies::diffuse_ggx_bounded:
+        return brdf_functions_with<GgxBoundedVisibleNormals>(job.technique);
+    case render_cpu::Strategies::diffuse_ltc:
+    case render_cpu::Strategies::diffuse:
+        break;
+    }
     if (job.technique == render_cpu::Technique::projected_solid_angle_biased)
         return functions<BiasedProjectedSolidAngleAndLtc, ProjectedSolidAngleAndLtc>();
     return functions<ProjectedSolidAngleAndLtc, ProjectedSolidAngleAndLtc>();
