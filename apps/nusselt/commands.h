@@ -20,7 +20,7 @@ struct RenderOptions {
     int samples = 1;
     std::string technique = "projected_solid_angle";
     std::optional<std::string> strategies;
-    std::string mis = "clamped_optimal";
+    std::optional<std::string> mis;
     float visibility_estimate = 0.5f;
     std::string sampler = "sobol";
     std::optional<int> camera_rays;

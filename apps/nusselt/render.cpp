@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <chrono>
@@ -40,7 +41,10 @@ render_cpu::RenderSettings make_settings(const RenderOptions& options) {
     settings.brdf = from_name(render_cpu::kBrdfChoices, options.brdf);
     settings.strategies = options.strategies ? from_name(render_cpu::kStrategies, *options.strategies)
                                              : default_strategies(settings);
-    settings.mis = from_name(render_cpu::kMisHeuristics, options.mis);
+    if (options.mis)
+        settings.mis = from_name(render_cpu::kMisHeuristics, *options.mis);
+    else if (!fit_together(settings.strategies, settings.mis))
+        settings.mis = render_cpu::Mis::balance;
     settings.visibility_estimate = options.visibility_estimate;
     settings.sample_order = from_name(render_cpu::kSampleOrders, options.sampler);
     settings.pixel_position = from_name(render_cpu::kPixelPositions, options.pixel_position);
@@ -49,6 +53,24 @@ render_cpu::RenderSettings make_settings(const RenderOptions& options) {
     settings.seed = options.seed;
     render_cpu::validate(settings);
     return settings;
+}
+
+/// Throws CLI::ValidationError if choices that are possible by themselves do not fit together.
+void check_combination(const RenderOptions& options) {
+    if (!options.strategies) return;
+    const auto strategies = from_name(render_cpu::kStrategies, *options.strategies);
+    std::vector<std::string_view> fitting;
+    for (const auto technique : render_cpu::kTechniques)
+        if (fit_together(technique, strategies)) fitting.push_back(name_of(technique));
+    if (!fit_together(from_name(render_cpu::kTechniques, options.technique), strategies))
+        throw CLI::ValidationError("--strategies",
+                                   fmt::format("{} needs --technique {}, not {}", *options.strategies,
+                                               fmt::join(fitting, " or "), options.technique));
+    if (options.mis && !fit_together(strategies, from_name(render_cpu::kMisHeuristics, *options.mis)))
+        throw CLI::ValidationError(
+            "--mis", fmt::format("{} weighs techniques by what they contribute without shadows, "
+                                 "which is not known for {}; take balance, power or separate",
+                                 *options.mis, *options.strategies));
 }
 
 std::vector<std::filesystem::path> output_paths(const RenderOptions& options, const scene::Film& film) {
@@ -150,16 +172,18 @@ void setup_render(CLI::App& app, int& exit_code) {
     command
         ->add_option(
             "--strategies", options->strategies,
-            "Which techniques take samples: diffuse, only that of --technique, or diffuse+ltc, that one\n"
-            "for the diffuse component of materials and linearly transformed cosines for the specular\n"
-            "one. Default: diffuse+ltc where --technique allows it")
+            "Which techniques take samples: diffuse, only that of --technique; diffuse+ltc, that one for\n"
+            "the diffuse component of materials and linearly transformed cosines for the specular one; or\n"
+            "the same with GGX visible normals, in vain for linear lights. Default: diffuse+ltc where\n"
+            "--technique allows it")
         ->transform(to_name_of(render_cpu::kStrategies));
     command
-        ->add_option("--mis", options->mis,
-                     "How the samples of two techniques are combined: a heuristic of multiple importance\n"
-                     "sampling, one sample of either technique, or each component estimated separately")
-        ->transform(to_name_of(render_cpu::kMisHeuristics))
-        ->capture_default_str();
+        ->add_option(
+            "--mis", options->mis,
+            "How the samples of two techniques are combined: a heuristic of multiple importance\n"
+            "sampling, one sample of either technique, or each component estimated separately. Default:\n"
+            "clamped_optimal, but balance with GGX visible normals")
+        ->transform(to_name_of(render_cpu::kMisHeuristics));
     command
         ->add_option(
             "--visibility-estimate", options->visibility_estimate,
@@ -203,11 +227,7 @@ void setup_render(CLI::App& app, int& exit_code) {
         if (options->camera_rays && options->samples % *options->camera_rays != 0)
             throw CLI::ValidationError("--camera-rays", fmt::format("{} does not divide --spp, which is {}",
                                                                     *options->camera_rays, options->samples));
-        if (options->strategies && !fit_together(from_name(render_cpu::kTechniques, options->technique),
-                                                 from_name(render_cpu::kStrategies, *options->strategies)))
-            throw CLI::ValidationError("--strategies",
-                                       fmt::format("{} needs a --technique of projected solid angles, not {}",
-                                                   *options->strategies, options->technique));
+        check_combination(*options);
         exit_code = run_render(*options);
     });
 }
@@ -223,8 +243,15 @@ int run_render(const RenderOptions& options) {
     apply_resolution(options.resolution, scene);
     Times times;
     times.load = seconds_since(begin);
-    if (!options.quiet)
+    if (!options.quiet) {
         for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+        if (samples_visible_normals(settings.strategies) && !scene.line_lights.empty())
+            fmt::print(
+                stderr,
+                "warning: {} linear lights are sampled by {} alone: samples of visible normals never hit a "
+                "line\n",
+                scene.line_lights.size(), name_of(settings.technique));
+    }
 
     const int threads = options.threads.value_or(render_cpu::default_thread_count());
     const render_cpu::Renderer renderer(scene, threads);

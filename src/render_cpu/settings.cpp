@@ -19,8 +19,12 @@ bool fit_together(Technique technique, Strategies strategies) {
     return false;
 }
 
+bool samples_visible_normals(Strategies strategies) {
+    return strategies == Strategies::diffuse_ggx || strategies == Strategies::diffuse_ggx_bounded;
+}
+
 bool fit_together(Strategies strategies, Mis mis) {
-    if (strategies == Strategies::diffuse || strategies == Strategies::diffuse_ltc) return true;
+    if (!samples_visible_normals(strategies)) return true;
     return mis == Mis::balance || mis == Mis::power || mis == Mis::separate;
 }
 
