@@ -47,14 +47,20 @@ TEST_F(TechniqueAgreement, SameExpectation) {
 TEST_F(TechniqueAgreement, TwoTechniquesHaveTheSameExpectationWithEachHeuristic) {
     const auto tracer = renderer_.visibility().tracer();
     const auto reference = rows(Technique::projected_solid_angle, tracer);
-    settings_.strategies = render_cpu::Strategies::diffuse_ltc;
-    for (const render_cpu::Mis mis : render_cpu::kMisHeuristics) {
-        settings_.mis = mis;
-        // Far from what it should be, and yet without bias.
-        settings_.visibility_estimate = 0.8f;
-        EXPECT_LT(largest_t(rows(Technique::projected_solid_angle, tracer), reference), kLargestT)
-            << render_cpu::name_of(mis);
-    }
+    // Far from what it should be, and yet without bias.
+    settings_.visibility_estimate = 0.8f;
+    for (const auto technique : {Technique::projected_solid_angle, Technique::solid_angle})
+        for (const auto strategies : render_cpu::kStrategies)
+            for (const auto mis : render_cpu::kMisHeuristics) {
+                if (strategies == render_cpu::Strategies::diffuse || !fit_together(technique, strategies) ||
+                    !fit_together(strategies, mis))
+                    continue;
+                settings_.strategies = strategies;
+                settings_.mis = mis;
+                EXPECT_LT(largest_t(rows(technique, tracer), reference), kLargestT)
+                    << render_cpu::name_of(technique) << ", " << render_cpu::name_of(strategies) << ", "
+                    << render_cpu::name_of(mis);
+            }
 }
 
 /// The test of the test, for optimal MIS, whose estimate does not come from shadow rays alone.
