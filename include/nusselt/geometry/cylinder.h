@@ -70,7 +70,7 @@ struct CylinderView {
         const Real x = det(center, direction) / safe_radius;
         c.meets = abs(x) < Real(1);
         const Vec2<Real> closest{touching.x, copysign(touching.y, x)};
-        c.azimuth = select(outside & !c.meets, closest, direction);
+        c.azimuth = select(outside & (!c.meets), closest, direction);
         c.t = c.azimuth.x * m + c.azimuth.y * n;
         const Real side = min(max(x, Real(-1)), Real(1));
         c.offset = side * safe_radius;

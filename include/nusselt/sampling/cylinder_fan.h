@@ -309,7 +309,7 @@ private:
             };
             // From inside, everything around the axis if the axis rises.
             const Real axis_slope = select(view_.l0 > Real(0), s_.z, -s_.z);
-            const auto surrounded = !view_.outside & (axis_slope > Real(0));
+            const auto surrounded = (!view_.outside) & (axis_slope > Real(0));
             sees_left = surrounded | (view_.outside & rises(left, view_.radius));
             sees_right = surrounded | (view_.outside & rises(right, -view_.radius));
 
