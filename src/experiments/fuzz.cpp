@@ -27,6 +27,7 @@ template <class T>
 struct Configuration {
     Vec3<T> vertex[8] = {};
     int count = 2;
+    T radius = 0;
     T u[2] = {};
     T lobe[5];
 
@@ -40,9 +41,11 @@ struct Configuration {
             count = make_polygon<8>(lights);
             break;
         case FuzzLight::line:
+        case FuzzLight::cylinder:
             Vec3<T> ends[2];
             lights.ends(ends);
             std::copy(ends, ends + 2, vertex);
+            if (light == FuzzLight::cylinder) radius = lights.radius(ends);
         }
         u[0] = lights.random_number();
         if (light != FuzzLight::line) u[1] = lights.random_number();
@@ -71,6 +74,7 @@ void make_block(FuzzLight light, std::uint64_t seed, std::uint64_t first, int co
             block.coordinates[j][1][i] = v.y;
             block.coordinates[j][2][i] = v.z;
         }
+        block.radius[i] = c.radius;
         for (int k = 0; k < 2; ++k) block.u[k][i] = c.u[k];
         for (int k = 0; k < 5; ++k) block.lobe[k][i] = c.lobe[k];
     }
@@ -101,6 +105,7 @@ FuzzReport report(const FuzzTechnique<T>& technique, std::uint64_t seed, const F
         const T coordinates[] = {c.vertex[j].x, c.vertex[j].y, c.vertex[j].z};
         text += (j > 0 ? ",\n         " : "") + literals(coordinates, 3);
     }
+    if (technique.light == FuzzLight::cylinder) text += "\n  radius: " + literal(c.radius);
     if (technique.takes_lobe) text += "\n  lobe: " + literals(c.lobe, 5);
     text += fmt::format("\n  u: {}\n  wi: {} pdf: {} p: {}\n  pdf(wi): {} invert(wi): {} measure: {}",
                         literals(c.u, dimensions), literals(v.wi, 3), literal(v.pdf), literals(v.p, 3),
@@ -181,7 +186,8 @@ std::vector<FuzzRow> fuzz(const FuzzTable<T>& table, const FuzzSettings& setting
         for (std::uint64_t b = next_block++; b < block_count; b = next_block++) {
             const std::uint64_t first = b * kColumns;
             const auto columns = static_cast<int>(std::min(kColumns, settings.count - first));
-            for (const FuzzLight light : {FuzzLight::quadrilateral, FuzzLight::octagon, FuzzLight::line}) {
+            for (const FuzzLight light :
+                 {FuzzLight::quadrilateral, FuzzLight::octagon, FuzzLight::line, FuzzLight::cylinder}) {
                 const auto takes = [&](const Tally<T>& t) { return t.technique->light == light; };
                 if (std::none_of(tallies.begin(), tallies.end(), takes)) continue;
                 make_block(light, settings.seed, settings.first + first, columns, *block);
@@ -252,9 +258,11 @@ std::string name_of(FuzzLight light) {
     case FuzzLight::octagon:
         return "octagons";
     case FuzzLight::line:
+        return "lines";
+    case FuzzLight::cylinder:
         break;
     }
-    return "lines";
+    return "cylinders";
 }
 
 } // namespace nusselt::experiments

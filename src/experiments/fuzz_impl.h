@@ -49,7 +49,12 @@ auto geometry_of(const FuzzBlock<scalar_t<Real>>& block, int i) noexcept {
         for (int j = 0; j < Kind::kVertices; ++j) vertices[j] = vertex<Real>(block, i, j);
         return make_polygon<Kind::kVertices>(vertices, Kind::kVertices);
     } else {
-        return make_line(vertex<Real>(block, i, 0), vertex<Real>(block, i, 1));
+        const LineSegment<Real> line = make_line(vertex<Real>(block, i, 0), vertex<Real>(block, i, 1));
+        if constexpr (hostile::kIsCylinder<Kind>) {
+            return Cylinder<Real>{line, column<Real>(block.radius, i)};
+        } else {
+            return line;
+        }
     }
 }
 /// The light and the random numbers of a technique, from the columns that begin at i.
@@ -65,7 +70,7 @@ typename Kind::template Light<Real> light_of(const FuzzBlock<scalar_t<Real>>& bl
 }
 template <class Kind, class Real>
 typename Kind::template Random<Real> random_of(const FuzzBlock<scalar_t<Real>>& block, int i) noexcept {
-    if constexpr (hostile::kIsPolygon<Kind>) {
+    if constexpr (hostile::kTakesPairs<Kind>) {
         return {column<Real>(block.u[0], i), column<Real>(block.u[1], i)};
     } else {
         return column<Real>(block.u[0], i);
@@ -100,7 +105,7 @@ void check(const FuzzBlock<scalar_t<Real>>& block, int columns, FuzzBlockResult<
             v.pdf = lane(out.sample.pdf, k);
             v.pdf_of_wi = lane(out.pdf, k);
             v.measure = lane(out.measure, k);
-            if constexpr (hostile::kIsPolygon<Kind>) {
+            if constexpr (hostile::kTakesPairs<Kind>) {
                 v.inverse[0] = lane(out.inverse.x, k);
                 v.inverse[1] = lane(out.inverse.y, k);
             } else {
@@ -115,6 +120,7 @@ constexpr FuzzTechnique<scalar_t<Real>> technique() {
     FuzzLight light = FuzzLight::line;
     if constexpr (hostile::kIsPolygon<Kind>)
         light = Kind::kVertices == 4 ? FuzzLight::quadrilateral : FuzzLight::octagon;
+    if constexpr (hostile::kIsCylinder<Kind>) light = FuzzLight::cylinder;
     return {Kind::kName, light, check<Kind, Real>, hostile::kHasLobe<Kind>};
 }
 
@@ -139,6 +145,9 @@ inline constexpr FuzzTechnique<scalar_t<Real>> kTechniques[] = {
     technique<hostile::LineProjectedSolidAngleKind, Real>(),
     technique<hostile::LineLtcKind, Real>(),
     technique<hostile::LineClippedLtcKind, Real>(),
+    technique<hostile::CylinderSolidAngleKind, Real>(),
+    technique<hostile::CylinderProjectedSolidAngleKind, Real>(),
+    technique<hostile::CylinderLtcKind, Real>(),
 };
 
 template <class Real>

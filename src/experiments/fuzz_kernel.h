@@ -5,13 +5,14 @@
 
 namespace nusselt::experiments {
 
-enum class FuzzLight { quadrilateral, octagon, line };
+enum class FuzzLight { quadrilateral, octagon, line, cylinder };
 
 /// Hostile configurations, one column each. Polygons with fewer vertices repeat the last one.
 template <class T>
 struct FuzzBlock {
     static constexpr int kSize = 512; ///< a multiple of all numbers of lanes
     T coordinates[8][3][kSize];
+    T radius[kSize]; ///< of cylinders, whose axis has the first two vertices
     T u[2][kSize];
     T lobe[5][kSize]; ///< m00, m02, m11, m20, m22 of LtcCoefficients, for techniques that take a lobe
 };

@@ -34,40 +34,44 @@ NUSSELT_INLINE LineExtent<Real> make_line_extent(const LineSegment<Real>& line) 
                             dot(line.p0, line.s), dot(end, line.s), line.length);
 }
 
-/// The extent of the part of a segment with z > 0, in shading space. The parameters of the line stay; only
-/// an end point moves, to z = 0 exactly.
+/// The part with z > 0 of a segment between two points of its line. The parameters of the line stay; only an end point
+/// moves, to z = 0 exactly. Parameters as those of make_line_extent().
 template <class Real>
-NUSSELT_INLINE LineExtent<Real> clipped_extent(const LineSegment<Real>& line) noexcept {
-    const Vec3<Real> moment = cross(line.p0, line.s);
-    const Vec3<Real> closest = cross(line.s, moment);
-    const Real distance = sqrt(dot(moment, moment));
-    const Vec3<Real> p1 = end_of(line);
-    const Real begin = dot(line.p0, line.s);
-    const Real end = dot(p1, line.s);
-    const Real z0 = without_tiny(line.p0.z);
+NUSSELT_INLINE LineExtent<Real>
+clipped_extent(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& closest,
+               const Real& distance, const Real& begin, const Real& end, const Real& length) noexcept {
+    const Real z0 = without_tiny(p0.z);
     const Real z1 = without_tiny(p1.z);
     const auto rises = (z0 < Real(0)) & (z1 > Real(0));
     const auto falls = (z0 > Real(0)) & (z1 < Real(0));
     const auto crosses = rises | falls;
-    const auto all_above = (z0 >= Real(0)) & (z1 >= Real(0)) & (max(line.p0.z, p1.z) > Real(0));
+    const auto all_above = (z0 >= Real(0)) & (z1 >= Real(0)) & (max(p0.z, p1.z) > Real(0));
     const auto lit = crosses | all_above;
-    const Real visible_length = select(lit, line.length, Real(0));
-    if (!any(crosses))
-        return make_line_extent(line.s, line.p0, p1, closest, distance, begin, end, visible_length);
+    const Real visible_length = select(lit, length, Real(0));
+    if (!any(crosses)) return make_line_extent(s, p0, p1, closest, distance, begin, end, visible_length);
 
-    const Real slope = select(crosses, line.s.z, Real(1));
+    const Real slope = select(crosses, s.z, Real(1));
     // What remains follows from the end above the horizon: the difference of coordinates would cancel.
-    const Real remaining = min(select(rises, z1, z0) / abs(slope), line.length);
+    const Real remaining = min(select(rises, z1, z0) / abs(slope), length);
     // The first formula errs by rounding times the distance over the slope, the second by rounding times the
     // length: the better one gives z = 0 up to rounding also near the axis of the light.
     const auto steep = distance < abs(slope) * max(abs(begin), abs(end));
     const Real crossing =
         select(steep, -closest.z / slope, select(rises, end - remaining, begin + remaining));
-    Vec3<Real> on_horizon = crossing * line.s + closest;
+    Vec3<Real> on_horizon = crossing * s + closest;
     on_horizon.z = Real(0);
-    return make_line_extent(line.s, select(rises, on_horizon, line.p0), select(falls, on_horizon, p1),
-                            closest, distance, select(rises, crossing, begin), select(falls, crossing, end),
+    return make_line_extent(s, select(rises, on_horizon, p0), select(falls, on_horizon, p1), closest,
+                            distance, select(rises, crossing, begin), select(falls, crossing, end),
                             select(crosses, remaining, visible_length));
+}
+
+/// The extent of the part of a segment with z > 0, in shading space.
+template <class Real>
+NUSSELT_INLINE LineExtent<Real> clipped_extent(const LineSegment<Real>& line) noexcept {
+    const Vec3<Real> moment = cross(line.p0, line.s);
+    const Vec3<Real> p1 = end_of(line);
+    return clipped_extent(line.s, line.p0, p1, cross(line.s, moment), sqrt(dot(moment, moment)),
+                          dot(line.p0, line.s), dot(p1, line.s), line.length);
 }
 
 /// The integral 2 int cos(alpha) n . w(alpha) d alpha from the begin of an extent to a point: the projected

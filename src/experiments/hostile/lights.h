@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <nusselt/geometry/convex_polygon.h>
+#include <nusselt/geometry/cylinder.h>
 #include <nusselt/geometry/line_segment.h>
 #include <nusselt/ltc/coefficients.h>
 
@@ -111,6 +112,29 @@ public:
         Vec3<T> v[2];
         ends(v);
         return make_line(v[0], v[1]);
+    }
+
+    /// A cylinder with this axis: thin or fat, or with the point almost on its surface.
+    T radius(const Vec3<T> (&ends)[2]) {
+        const Vec begin = broadcast<double>(ends[0]);
+        const Vec axis = broadcast<double>(ends[1]) - begin;
+        const double distance = length(cross(begin, normalize(axis)));
+        const double extent = std::max(length(begin), length(axis));
+        const int choice = random_.index(12);
+        double radius = extent * random_.log_between(1e-9, 1e3);
+        if (choice < 4) radius = distance * random_.log_between(0.1, 10);
+        if (choice == 4) radius = distance;
+        if (choice == 5) radius = distance * (1 - random_.log_between(1e-16, 1e-2));
+        if (choice == 6) radius = distance * (1 + random_.log_between(1e-16, 1e-2));
+        if (choice == 7) radius = extent * random_.between(0.1, 1);
+        if (choice == 8) radius = random_.index(2) == 0 ? 0 : kSmallest * random_.log_between(1, 1e9);
+        // As the coordinates of the ends.
+        return static_cast<T>(std::min(radius, 1e15));
+    }
+    Cylinder<T> cylinder() {
+        Vec3<T> v[2];
+        ends(v);
+        return {make_line(v[0], v[1]), radius(v)};
     }
 
     /// A lobe, from an almost perfect mirror to a Lambertian one, seen from any inclination up to the horizon.

@@ -3,6 +3,9 @@
 
 #include <type_traits>
 
+#include <nusselt/sampling/cylinder_ltc.h>
+#include <nusselt/sampling/cylinder_projected_solid_angle.h>
+#include <nusselt/sampling/cylinder_solid_angle.h>
 #include <nusselt/sampling/line_area.h>
 #include <nusselt/sampling/line_ltc.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>
@@ -29,6 +32,12 @@ struct LineOnLobe : LineSegment<Real> {
     LtcCoefficients<Real> lobe;
 };
 
+/// \copydoc PolygonOnLobe
+template <class Real>
+struct CylinderOnLobe : Cylinder<Real> {
+    LtcCoefficients<Real> lobe;
+};
+
 struct AnyPolygonKind {
     template <class Real>
     using Random = Vec2<Real>;
@@ -47,8 +56,18 @@ struct LineKind {
     using Random = Real;
 };
 
+struct AnyCylinderKind {
+    template <class Real>
+    using Random = Vec2<Real>;
+};
+
+template <class Kind>
+inline constexpr bool kIsCylinder = std::is_base_of_v<AnyCylinderKind, Kind>;
 template <class Kind>
 inline constexpr bool kIsPolygon = std::is_base_of_v<AnyPolygonKind, Kind>;
+/// Whether samples take two random numbers.
+template <class Kind>
+inline constexpr bool kTakesPairs = kIsPolygon<Kind> || kIsCylinder<Kind>;
 /// Whether the light comes with a lobe.
 template <class Kind>
 inline constexpr bool kHasLobe = Kind::kMeasure == Measure::kLobe;
@@ -177,6 +196,39 @@ struct LineLtcKind : LineOnLobeKind<CosineHorizon> {
 struct LineClippedLtcKind : LineOnLobeKind<BothHorizons> {
     static constexpr const char* kName = "LineClippedLtc";
     static constexpr Horizon kHorizon = Horizon::kClipped;
+};
+
+struct CylinderKind : AnyCylinderKind {
+    template <class Real>
+    using Light = Cylinder<Real>;
+};
+struct CylinderSolidAngleKind : CylinderKind {
+    template <class Real>
+    using Technique = CylinderSolidAngle<Real>;
+    static constexpr const char* kName = "CylinderSolidAngle";
+    static constexpr Measure kMeasure = Measure::kSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kIgnored;
+};
+struct CylinderProjectedSolidAngleKind : CylinderKind {
+    template <class Real>
+    using Technique = CylinderProjectedSolidAngle<Real>;
+    static constexpr const char* kName = "CylinderProjectedSolidAngle";
+    static constexpr Measure kMeasure = Measure::kProjectedSolidAngle;
+    static constexpr Horizon kHorizon = Horizon::kClipped;
+};
+struct CylinderLtcKind : AnyCylinderKind {
+    template <class Real>
+    using Light = CylinderOnLobe<Real>;
+    template <class Real>
+    struct Technique : CylinderLtc<Real> {
+        explicit Technique(const Light<Real>& light) noexcept
+            : CylinderLtc<Real>(light, Ltc<Real>(light.lobe)) {}
+        template <class Single>
+        explicit Technique(const Technique<Single>& single) noexcept : CylinderLtc<Real>(single) {}
+    };
+    static constexpr const char* kName = "CylinderLtc";
+    static constexpr Measure kMeasure = Measure::kLobe;
+    static constexpr Horizon kHorizon = Horizon::kIgnored;
 };
 
 } // namespace hostile

@@ -1,0 +1,194 @@
+#pragma once
+/// Solid cylinders, and the rectangles that half-planes through a shading point cut out of them.
+
+#include <nusselt/geometry/clip_line.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// A tubular light of finite radius: a cylinder that is closed by flat caps and emits outwards, also from its caps. A
+/// point inside receives no light.
+template <class Real>
+struct Cylinder {
+    LineSegment<Real> axis; ///< from the middle of one cap to that of the other
+    Real radius;            ///< [m]
+};
+
+/// The cylinder seen from a shading point: the point becomes the origin, the normal of the frame +z.
+/// \tparam Real may be a pack while the cylinder is scalar: one light, a shading point per lane.
+template <class Real, class LightReal>
+NUSSELT_INLINE Cylinder<Real> to_shading_space(const Cylinder<LightReal>& world, const Vec3<Real>& point,
+                                               const Frame<Real>& frame) noexcept {
+    return {to_shading_space(world.axis, point, frame), Real(world.radius)};
+}
+
+/// Power of two that brings the coordinates of a cylinder to order one, so that their squares stay in range.
+template <class Real>
+NUSSELT_INLINE Real scale_of(const Cylinder<Real>& cylinder) noexcept {
+    const Vec3<Real>& p0 = cylinder.axis.p0;
+    return reciprocal_power_of_two(
+        max(max(max(abs(p0.x), abs(p0.y)), abs(p0.z)), max(cylinder.axis.length, cylinder.radius)));
+}
+
+template <class Real>
+NUSSELT_INLINE Cylinder<Real> scaled(const Cylinder<Real>& cylinder, const Real& scale) noexcept {
+    return {scaled(cylinder.axis, scale), scale * cylinder.radius};
+}
+
+/// Where the half-plane of points l s + rho t, rho >= 0, through the origin meets an infinite cylinder with axis
+/// direction s: the strip of rho in [near, far].
+template <class Real>
+struct CylinderSlice {
+    Vec2<Real> azimuth; ///< t in the basis m, n of the view
+    Vec3<Real> t;       ///< unit, perpendicular to the axis
+    Real offset;        ///< of the half-plane from the axis, to the left of t if s points to the eye
+    Real half_chord;    ///< half the width of the strip outside of the cylinder
+    Real along;         ///< middle of the strip, rho of the axis
+    Real near, far;     ///< near is 0 inside of the infinite cylinder
+    mask_t<Real> meets; ///< false if the half-plane misses the cylinder; it then touches it
+};
+
+/// A cylinder as the origin sees it. Lengths are those of the cylinder, which shall have coordinates of order one
+/// (scaled()).
+template <class Real>
+struct CylinderView {
+    Vec3<Real> s, m, n; ///< right-handed, orthonormal; s is the direction of the axis
+    Vec2<Real> center;  ///< where the infinite axis passes, in the basis m, n
+    Real radius;
+    Real power; ///< squared distance from the axis minus squared radius, accurate relative to itself
+    Vec3<Real> begin, end; ///< of the axis
+    Real l0, l1, length;   ///< coordinates of begin and end along s, and their difference
+    Vec2<Real> touching;   ///< unit, from outside: the half-plane that touches on the side of n
+    mask_t<Real> outside;  ///< of the infinite cylinder; m then leads to its axis
+    mask_t<Real>
+        visible; ///< false inside, on the surface next to it, and for a cylinder without length or radius
+
+    /// The half-plane in a direction, or the closest one that touches the cylinder if that one misses it.
+    /// \param direction unit, in the basis m, n.
+    NUSSELT_HD CylinderSlice<Real> slice(const Vec2<Real>& direction) const noexcept {
+        CylinderSlice<Real> c;
+        const Real safe_radius = select(visible, radius, Real(1));
+        const Real x = det(center, direction) / safe_radius;
+        c.meets = abs(x) < Real(1);
+        const Vec2<Real> closest{touching.x, copysign(touching.y, x)};
+        c.azimuth = select(outside & (!c.meets), closest, direction);
+        c.t = c.azimuth.x * m + c.azimuth.y * n;
+        const Real side = min(max(x, Real(-1)), Real(1));
+        c.offset = side * safe_radius;
+        c.along = dot(center, c.azimuth);
+        // Sums of terms that are not negative: from outside by the sine, from inside by the power.
+        const Real from_outside = safe_radius * safe_radius * ((Real(1) + side) * (Real(1) - side));
+        const Real from_inside = fma(c.along, c.along, -power);
+        c.half_chord = sqrt(max(select(outside, from_outside, from_inside), Real(0)));
+        // The product of near and far is the power: none of them comes from a difference, nor does the larger one fall
+        // below the root.
+        const Real larger = max(abs(c.along) + c.half_chord, sqrt(abs(power)));
+        const Real other = abs(power) / select(larger > Real(0), larger, Real(1));
+        c.far = select(outside | (c.along > Real(0)), larger, other);
+        c.near = select(outside, min(other, c.far), Real(0));
+        return c;
+    }
+
+    /// The unit direction of the half-plane that contains a direction, in the basis m, n.
+    NUSSELT_HD Vec2<Real> azimuth_of(const Vec3<Real>& wi) const noexcept {
+        const Vec3<Real> in_plane = normalize(Vec3<Real>{dot(wi, m), dot(wi, n), Real(0)});
+        const auto parallel = (in_plane.x == Real(0)) & (in_plane.y == Real(0));
+        return {select(parallel, Real(1), in_plane.x), in_plane.y};
+    }
+
+    /// The first point of a ray from the origin that stays in a half-plane and meets the closed cylinder; the closest
+    /// point of the surface in that half-plane if rounding lets it miss.
+    /// \param tangent l / rho of the direction.
+    /// \return (l, rho)
+    NUSSELT_HD Vec2<Real> first_point(const CylinderSlice<Real>& c, const Real& tangent) const noexcept {
+        const Real on_mantle = c.near * tangent;
+        const auto before = on_mantle < l0;
+        const auto beyond = on_mantle > l1;
+        const Real l = select(before, l0, select(beyond, l1, on_mantle));
+        const Real on_cap = l / select(tangent == Real(0), Real(1), tangent);
+        const Real rho = select(before | beyond, min(max(on_cap, c.near), c.far), c.near);
+        return {l, rho};
+    }
+};
+
+/// \param cylinder with coordinates of order one.
+/// \param up       to which m leads as far as it can where the axis does not tell; may be zero.
+template <class Real>
+NUSSELT_INLINE CylinderView<Real> make_cylinder_view(const Cylinder<Real>& cylinder,
+                                                     const Vec3<Real>& up) noexcept {
+    const LineSegment<Real>& axis = cylinder.axis;
+    CylinderView<Real> v;
+    v.s = axis.s;
+    v.begin = axis.p0;
+    v.end = end_of(axis);
+    v.length = axis.length;
+    v.radius = cylinder.radius;
+    const Vec3<Real> moment = cross(axis.p0, v.s);
+    const Vec3<Real> closest = cross(v.s, moment);
+    const Real distance = sqrt(dot(moment, moment));
+    v.power = (distance - v.radius) * (distance + v.radius);
+    v.l0 = dot(v.begin, v.s);
+    v.l1 = dot(v.end, v.s);
+    v.outside = v.power > Real(0);
+    const Real gap = max(max(v.l0, -v.l1), distance - v.radius);
+    v.visible = (v.length > Real(0)) & (v.radius > Real(0)) & (gap > Real(kTiny<scalar_t<Real>>));
+
+    const Vec3<Real> upwards = normalize(cross(v.s, cross(up, v.s)));
+    const auto horizontal = (upwards.x == Real(0)) & (upwards.y == Real(0)) & (upwards.z == Real(0));
+    const Vec3<Real> free = select(horizontal, Frame<Real>::from_normal(v.s).t, upwards);
+    v.m = select(v.outside, normalize(closest), free);
+    v.n = cross(v.s, v.m);
+    v.center = {select(v.outside, distance, dot(closest, v.m)),
+                select(v.outside, Real(0), dot(closest, v.n))};
+    const Real safe_distance = select(v.outside, distance, Real(1));
+    v.touching = {sqrt(max(v.power, Real(0))) / safe_distance, v.radius / safe_distance};
+    return v;
+}
+
+template <class Real, class Single>
+NUSSELT_INLINE CylinderView<Real> broadcast(const CylinderView<Single>& v) noexcept {
+    return {broadcast<Real>(v.s),
+            broadcast<Real>(v.m),
+            broadcast<Real>(v.n),
+            broadcast<Real>(v.center),
+            Real(v.radius),
+            Real(v.power),
+            broadcast<Real>(v.begin),
+            broadcast<Real>(v.end),
+            Real(v.l0),
+            Real(v.l1),
+            Real(v.length),
+            broadcast<Real>(v.touching),
+            mask_t<Real>(v.outside),
+            mask_t<Real>(v.visible)};
+}
+
+/// Where a ray meets a light.
+template <class Real>
+struct LightHit {
+    mask_t<Real> hits;
+    Real distance; ///< [m]; without meaning if it does not hit
+};
+
+/// The first point where a ray from the origin meets a closed cylinder from outside: mantle or caps. Rays that start
+/// inside hit nothing.
+/// \param wi unit direction.
+template <class Real>
+NUSSELT_HD inline LightHit<Real> intersect(const Cylinder<Real>& cylinder, const Vec3<Real>& wi) noexcept {
+    const Real scale = scale_of(cylinder);
+    const CylinderView<Real> view = make_cylinder_view(scaled(cylinder, scale), {Real(0), Real(0), Real(0)});
+    const CylinderSlice<Real> slice = view.slice(view.azimuth_of(wi));
+    const Real sine = dot(wi, view.s);
+    const Real cosine = max(dot(wi, slice.t), Real(0));
+    // The ray passes the strip from l = near tan(alpha) to far tan(alpha).
+    const Real enters = slice.near * sine;
+    const Real leaves = slice.far * sine;
+    const auto overlaps =
+        (max(enters, leaves) >= view.l0 * cosine) & (min(enters, leaves) <= view.l1 * cosine);
+    const auto ahead = (slice.far > Real(0)) & ((cosine > Real(0)) | (sine * (view.l0 + view.l1) > Real(0)));
+    const Real tangent = sine / max(cosine, Real(kTiny<scalar_t<Real>>));
+    const Vec2<Real> p = view.first_point(slice, tangent);
+    const auto hits = view.visible & slice.meets & overlaps & ahead;
+    return {mask_t<Real>(hits), sqrt(dot(p, p)) * reciprocal_power_of_two(scale)};
+}
+
+NUSSELT_NAMESPACE_END

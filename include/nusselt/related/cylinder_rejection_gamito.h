@@ -1,0 +1,69 @@
+#pragma once
+/// A published method, to compare with: sampling of a rectangle around the silhouette of a cylinder.
+///
+/// M. N. Gamito 2016, Solid Angle Sampling of Disk and Cylinder Lights, CGF 35(4), doi:10.1111/cgf.12946. A rectangle
+/// that covers the cylinder as seen from the shading point is sampled by solid angle; directions that miss the cylinder
+/// are no samples. Use CylinderSolidAngle instead: it misses nothing. The rectangle is the smallest one across the
+/// direction to the axis; before a cap it is the square around the cap.
+
+#include <nusselt/geometry/cylinder.h>
+#include <nusselt/sampling/polygon_solid_angle.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// \tparam Real float, double, long double or a pack of float or double: one light and shading point per lane.
+///
+/// Measure: pdf is the density of wi with respect to solid angle [1/sr], the constant 1 / measure().
+/// Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
+/// Edge cases: no length or radius, or origin inside: pdf = 0, measure 0.
+template <class Real>
+class CylinderRejectionGamito {
+public:
+    /// \param light relative to the shading point [m].
+    explicit CylinderRejectionGamito(const Cylinder<Real>& light) noexcept
+        : light_(light), rectangle_(rectangle_around(light)) {}
+
+    /// \param u in [0, 1)^2.
+    /// \return pdf = 0 where the direction misses the cylinder: an estimate counts it as 0.
+    LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        const LightSample<Real> candidate = rectangle_.sample(u);
+        const LightHit<Real> hit = intersect(light_, candidate.wi);
+        return {candidate.wi, select(hit.hits, candidate.pdf, Real(0)), hit.distance * candidate.wi};
+    }
+
+    /// The density of directions in the rectangle, whether they hit the cylinder or not.
+    /// \param wi a unit direction towards the light.
+    Real pdf(const Vec3<Real>& wi) const noexcept { return rectangle_.pdf(wi); }
+
+    /// Solid angle of the rectangle [sr].
+    Real measure() const noexcept { return rectangle_.measure(); }
+
+private:
+    static PolygonSolidAngle<Real, 4> rectangle_around(const Cylinder<Real>& light) noexcept {
+        const Real scale = scale_of(light);
+        const CylinderView<Real> v = make_cylinder_view(scaled(light, scale), {Real(0), Real(0), Real(0)});
+        const Vec3<Real>& t = v.m;
+        // Across the direction to the axis, where the tangents from the origin touch the cylinder.
+        const Real distance = select(v.outside, v.center.x, Real(1));
+        const Real ratio = v.radius / distance;
+        const Real depth = v.power / distance;
+        const Real half_width = ratio * sqrt(max(v.power, Real(0)));
+        const Real low = v.l0 * select(v.l0 < Real(0), Real(1) + ratio, Real(1) - ratio);
+        const Real high = v.l1 * select(v.l1 > Real(0), Real(1) + ratio, Real(1) - ratio);
+        // The square around the nearer cap.
+        const Vec3<Real> cap = select(v.l0 > Real(0), v.begin, v.end);
+
+        const Vec3<Real> center = select(v.outside, depth * t + (Real(0.5) * (low + high)) * v.s, cap);
+        const Vec3<Real> a = select(v.outside, (Real(0.5) * (high - low)) * v.s, v.radius * t);
+        const Vec3<Real> b = select(v.outside, half_width, v.radius) * v.n;
+        const Real size = select(v.visible, reciprocal_power_of_two(scale), Real(0));
+        const Vec3<Real> corners[] = {size * (center - a - b), size * (center + a - b),
+                                      size * (center + a + b), size * (center - a + b)};
+        return PolygonSolidAngle<Real, 4>(make_polygon<4>(corners, 4));
+    }
+
+    Cylinder<Real> light_;
+    PolygonSolidAngle<Real, 4> rectangle_;
+};
+
+NUSSELT_NAMESPACE_END

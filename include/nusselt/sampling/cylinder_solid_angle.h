@@ -1,0 +1,57 @@
+#pragma once
+/// Sampling of the solid angle of a closed cylinder of finite radius without rejection, for surfaces and for volumes.
+
+#include <nusselt/core/light_sample.h>
+#include <nusselt/sampling/cylinder_fan.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// \tparam Real float, double, long double or a pack of float or double: one light and shading point per lane, or many
+///              samples of one light (see the broadcasting constructor).
+///
+/// Measure: pdf is the density of wi with respect to solid angle [1/sr]. It varies little, with the azimuth around the
+/// axis only: the inner integral is exact, the outer one interpolated. 1 / pdf is unbiased.
+/// Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
+/// Edge cases: no length or radius, or origin inside: pdf = 0, measure 0.
+template <class Real>
+class CylinderSolidAngle {
+public:
+    /// \param light relative to the shading point [m].
+    NUSSELT_HD explicit CylinderSolidAngle(const Cylinder<Real>& light) noexcept
+        : CylinderSolidAngle(light, scale_of(light)) {}
+
+    /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
+    template <class Single>
+    NUSSELT_HD explicit CylinderSolidAngle(const CylinderSolidAngle<Single>& single) noexcept
+        : fan_(single.fan_), inverse_scale_(single.inverse_scale_) {}
+
+    /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves along it. Continuous in both.
+    NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        const Vec3<Real> p = fan_.point(u);
+        const Vec3<Real> direction = inverse_length(p) * p;
+        const Vec3<Real> wi = select(measure() > Real(0), direction, {Real(0), Real(0), Real(1)});
+        return {wi, pdf(wi), inverse_scale_ * p};
+    }
+
+    /// \param wi a unit direction towards the light.
+    NUSSELT_HD Real pdf(const Vec3<Real>& wi) const noexcept { return fan_.density_per_importance(wi); }
+
+    /// The random numbers for which sample() returns wi, a unit direction on the light.
+    NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept { return fan_.invert(wi); }
+
+    /// Estimate of the solid angle of the light [sr]: good enough for weights of multiple importance sampling, not for
+    /// shading.
+    NUSSELT_HD Real measure() const noexcept { return fan_.integral(); }
+
+private:
+    template <class>
+    friend class CylinderSolidAngle;
+
+    NUSSELT_HD CylinderSolidAngle(const Cylinder<Real>& light, const Real& scale) noexcept
+        : fan_(scaled(light, scale), {}), inverse_scale_(reciprocal_power_of_two(scale)) {}
+
+    CylinderFan<Real, ShadingSpace<Real>, UniformImportance> fan_; ///< scaled to an extent of order one
+    Real inverse_scale_;
+};
+
+NUSSELT_NAMESPACE_END
