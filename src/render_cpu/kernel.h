@@ -34,11 +34,13 @@ struct PolygonLightRecord {
     std::int32_t two_sided;
 };
 
-/// A line in the form of LineSegment<float>.
+/// A tube, its axis in the form of LineSegment<float>.
 struct LineLightRecord {
     scene::Float3 begin;
     scene::Float3 direction;
     float length;
+    float radius;
+    std::int32_t is_cylinder; ///< 0: it lights surfaces like a line
     scene::Float3 radiance;
     scene::Float3 radiance_times_radius;
 };

@@ -50,14 +50,20 @@ struct PolygonLight {
     bool two_sided = false;
 };
 
-/// A thin tube: a cylinder treated in the limit of a small radius. Its brightness as a linear light is
-/// radiance * radius [W/(sr m)]. Cameras see it as a cylinder of this radius; it casts no shadows.
+/// How the thickness of a tube counts where it lights surfaces.
+enum class TubeModel {
+    cylinder, ///< as it is, with caps
+    line,     ///< in the limit of a small radius: its brightness is radiance * radius [W/(sr m)]
+};
+
+/// A tube. Cameras see it as a cylinder of its radius; it casts no shadows.
 struct LineLight {
     std::string name;
     Float3 begin = {0, 0, 0};
     Float3 end = {0, 0, 0};
     float radius = 0;
     Float3 radiance = {0, 0, 0};
+    TubeModel model = TubeModel::cylinder;
 };
 
 /// Perspective pinhole camera. The ray through raster position (x, y), in pixels with y downwards and pixel

@@ -29,7 +29,7 @@ struct DirectLightSample {
 /// takes over where the lobe is zero; samples below the surface count, with a BRDF of zero.
 ///
 /// \tparam Real       float, double, long double or a pack: one light and surface point per lane.
-/// \tparam Light      ConvexPolygon<Real, N> or LineSegment<Real>.
+/// \tparam Light      ConvexPolygon<Real, N>, LineSegment<Real> or Cylinder<Real>.
 /// \tparam Brdf       see GlossySurface.
 /// \tparam Strategies see strategies.h.
 template <class Real, class Light, class Brdf = Frostbite<Real>, class Strategies = ProjectedSolidAngleAndLtc>
@@ -152,7 +152,7 @@ struct WorldLightSamples {
 
 /// Everything in one call: an unbiased estimate of the light that a point of a surface reflects, from two samples. It is
 /// the sum over both of radiance (visibility shadowed + constant).
-/// \param light     ConvexPolygon or LineSegment in world space; the emission of lines is radiance times radius.
+/// \param light     ConvexPolygon, Cylinder or LineSegment in world space; the emission of lines is radiance times radius.
 /// \param table     of the specular Frostbite BRDF.
 /// \param heuristic such as ClampedOptimalHeuristic<Real>{0.5}.
 /// \param u         two independent points of [0, 1)^2; linear lights use x only.

@@ -2,6 +2,8 @@
 /// Pairs of techniques: one for the diffuse component of a surface, one for the specular component.
 
 #include <nusselt/estimate/surface.h>
+#include <nusselt/sampling/cylinder_ltc.h>
+#include <nusselt/sampling/cylinder_projected_solid_angle.h>
 #include <nusselt/sampling/line_ltc.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>
 #include <nusselt/sampling/polygon_brdf.h>
@@ -45,6 +47,14 @@ struct ProjectedSolidAngleAndLtc : CosineMeasures {
     template <class Real, class Surface>
     NUSSELT_HD static auto specular(const LineSegment<Real>& light, const Surface& surface) noexcept {
         return LineLtc<Real>(light, surface.lobe);
+    }
+    template <class Real, class Surface>
+    NUSSELT_HD static auto diffuse(const Cylinder<Real>& light, const Surface& /*surface*/) noexcept {
+        return CylinderProjectedSolidAngle<Real>(light);
+    }
+    template <class Real, class Surface>
+    NUSSELT_HD static auto specular(const Cylinder<Real>& light, const Surface& surface) noexcept {
+        return CylinderLtc<Real>(light, surface.lobe);
     }
 };
 

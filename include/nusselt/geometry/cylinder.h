@@ -29,6 +29,11 @@ NUSSELT_INLINE Real scale_of(const Cylinder<Real>& cylinder) noexcept {
         max(max(max(abs(p0.x), abs(p0.y)), abs(p0.z)), max(cylinder.axis.length, cylinder.radius)));
 }
 
+template <class Real, class Single>
+NUSSELT_INLINE Cylinder<Real> broadcast(const Cylinder<Single>& c) noexcept {
+    return {{broadcast<Real>(c.axis.p0), broadcast<Real>(c.axis.s), Real(c.axis.length)}, Real(c.radius)};
+}
+
 template <class Real>
 NUSSELT_INLINE Cylinder<Real> scaled(const Cylinder<Real>& cylinder, const Real& scale) noexcept {
     return {scaled(cylinder.axis, scale), scale * cylinder.radius};
@@ -162,11 +167,12 @@ NUSSELT_INLINE CylinderView<Real> broadcast(const CylinderView<Single>& v) noexc
             mask_t<Real>(v.visible)};
 }
 
-/// Where a ray meets a light.
+/// Where a ray meets a light. Without meaning if it does not hit, but for `hits`.
 template <class Real>
 struct LightHit {
     mask_t<Real> hits;
-    Real distance; ///< [m]; without meaning if it does not hit
+    Real distance; ///< [m]
+    Real cosine;   ///< between the ray, backwards, and the normal of the light
 };
 
 /// The first point where a ray from the origin meets a closed cylinder from outside: mantle or caps. Rays that start
@@ -188,7 +194,10 @@ NUSSELT_HD inline LightHit<Real> intersect(const Cylinder<Real>& cylinder, const
     const Real tangent = sine / max(cosine, Real(kTiny<scalar_t<Real>>));
     const Vec2<Real> p = view.first_point(slice, tangent);
     const auto hits = view.visible & slice.meets & overlaps & ahead;
-    return {mask_t<Real>(hits), sqrt(dot(p, p)) * reciprocal_power_of_two(scale)};
+    const auto on_mantle = (p.x > view.l0) & (p.x < view.l1);
+    const Real facing = cosine * slice.half_chord / select(hits, view.radius, Real(1));
+    return {mask_t<Real>(hits), sqrt(dot(p, p)) * reciprocal_power_of_two(scale),
+            select(on_mantle, facing, abs(sine))};
 }
 
 NUSSELT_NAMESPACE_END

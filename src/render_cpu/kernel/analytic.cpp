@@ -25,9 +25,22 @@ void add_line(ReflectedLight& reflected, std::int32_t index) noexcept {
     add_light(reflected, reflected.line(index));
 }
 
+void add_tube(ReflectedLight& reflected, std::int32_t index) noexcept {
+    const LocalTube light = reflected.tube(index);
+    if (!any(light.lit)) return;
+    const auto& surface = reflected.surface().glossy;
+    const LineSegment<Real>& axis = light.shape.axis;
+    const Real& radius = light.shape.radius;
+    reflected.add_known(light, tube_integral(diffuse_integral(axis), radius) * surface.diffuse_albedo +
+                                   tube_integral(lobe_integral(axis, surface.lobe), radius) *
+                                       surface.specular_albedo);
+}
+
 } // namespace
 
-LightFunctions analytic_functions() noexcept { return {&add_polygon<4>, &add_polygon<8>, &add_line}; }
+LightFunctions analytic_functions() noexcept {
+    return {&add_polygon<4>, &add_polygon<8>, &add_line, &add_tube};
+}
 
 } // namespace kernel
 NUSSELT_NAMESPACE_END

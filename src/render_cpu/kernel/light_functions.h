@@ -13,7 +13,8 @@ using AddLight = void (*)(ReflectedLight& reflected, std::int32_t index) noexcep
 struct LightFunctions {
     AddLight add_polygon4; ///< for polygons with up to 4 vertices
     AddLight add_polygon8;
-    AddLight add_line;
+    AddLight add_line; ///< for tubes in the limit of a small radius
+    AddLight add_tube;
 };
 
 /// All samples come from one technique.

@@ -65,16 +65,22 @@ void add_line(ReflectedLight& reflected, std::int32_t index) noexcept {
     add_light<Pair>(reflected, reflected.line(index));
 }
 
-template <class PolygonPair, class LinePair>
-LightFunctions functions() noexcept {
-    return {&add_polygon<PolygonPair, 4>, &add_polygon<PolygonPair, 8>, &add_line<LinePair>};
+template <class Pair>
+void add_tube(ReflectedLight& reflected, std::int32_t index) noexcept {
+    add_light<Pair>(reflected, reflected.tube(index));
 }
 
-/// For sampling of the BRDF: lines have samples of one technique only.
+template <class PolygonPair, class LinePair>
+LightFunctions functions() noexcept {
+    return {&add_polygon<PolygonPair, 4>, &add_polygon<PolygonPair, 8>, &add_line<LinePair>,
+            &add_tube<LinePair>};
+}
+
+/// For sampling of the BRDF: lines and tubes have samples of one technique only.
 template <class PolygonPair>
 LightFunctions brdf_functions(render_cpu::Technique technique) noexcept {
-    const AddLight line = single_technique_functions(technique).add_line;
-    return {&add_polygon<PolygonPair, 4>, &add_polygon<PolygonPair, 8>, line};
+    const LightFunctions single = single_technique_functions(technique);
+    return {&add_polygon<PolygonPair, 4>, &add_polygon<PolygonPair, 8>, single.add_line, single.add_tube};
 }
 
 template <template <class> class Lobe>

@@ -7,6 +7,7 @@
 #include "render_cpu/kernel/surface.h"
 
 #include <nusselt/estimate/direct_light.h>
+#include <nusselt/geometry/cylinder.h>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
@@ -31,6 +32,7 @@ struct LocalLight {
 };
 
 using LocalLine = LocalLight<LineSegment<Real>>;
+using LocalTube = LocalLight<Cylinder<Real>>;
 template <int N>
 using LocalPolygon = LocalLight<ConvexPolygon<Real, N>>;
 
@@ -77,6 +79,19 @@ public:
         return {local, surface_.valid & !(max(local.p0.z, end) <= Real(0)),
                 to_vec(record.radiance_times_radius),
                 static_cast<std::uint32_t>(job_.scene.polygon_light_count + index)};
+    }
+
+    /// A tube as the cylinder that it is.
+    LocalTube tube(std::int32_t index) const noexcept {
+        const LocalLine axis = line(index);
+        const render_cpu::LineLightRecord& record = job_.scene.line_lights[index];
+        const LineSegment<Real>& l = axis.shape;
+        const Real slope = sqrt(max(Real(1) - l.s.z * l.s.z, Real(0)));
+        const Real highest = max(l.p0.z, l.p0.z + l.length * l.s.z) + Real(record.radius) * slope;
+        return {{l, Real(record.radius)},
+                surface_.valid & !(highest <= Real(0)),
+                to_vec(record.radiance),
+                axis.number};
     }
 
     /// Adds the reflected radiance of one light [W/(sr m^2)], the mean over its samples.

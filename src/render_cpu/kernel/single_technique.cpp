@@ -1,5 +1,8 @@
 #include "render_cpu/kernel/light_functions.h"
 
+#include <nusselt/sampling/cylinder_area.h>
+#include <nusselt/sampling/cylinder_projected_solid_angle.h>
+#include <nusselt/sampling/cylinder_solid_angle.h>
 #include <nusselt/sampling/line_area.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>
 #include <nusselt/sampling/line_solid_angle.h>
@@ -42,9 +45,15 @@ void add_line(ReflectedLight& reflected, std::int32_t index) noexcept {
     if (any(light.lit)) add_light(reflected, light, Technique<Real>(light.shape));
 }
 
-template <template <class, int> class Polygon, template <class> class Line>
+template <template <class> class Technique>
+void add_tube(ReflectedLight& reflected, std::int32_t index) noexcept {
+    const LocalTube light = reflected.tube(index);
+    if (any(light.lit)) add_light(reflected, light, Technique<Real>(light.shape));
+}
+
+template <template <class, int> class Polygon, template <class> class Line, template <class> class Tube>
 LightFunctions functions() noexcept {
-    return {&add_polygon<Polygon, 4>, &add_polygon<Polygon, 8>, &add_line<Line>};
+    return {&add_polygon<Polygon, 4>, &add_polygon<Polygon, 8>, &add_line<Line>, &add_tube<Tube>};
 }
 
 template <class R, int N>
@@ -57,18 +66,18 @@ using LinePsa = LineProjectedSolidAngle<R>;
 LightFunctions single_technique_functions(render_cpu::Technique technique) noexcept {
     switch (technique) {
     case render_cpu::Technique::area:
-        return functions<PolygonArea, LineArea>();
+        return functions<PolygonArea, LineArea, CylinderArea>();
     case render_cpu::Technique::solid_angle:
-        return functions<PolygonSolidAngle, LineSolidAngle>();
+        return functions<PolygonSolidAngle, LineSolidAngle, CylinderSolidAngle>();
     case render_cpu::Technique::clipped_solid_angle:
-        return functions<PolygonClippedSolidAngle, LineClippedSolidAngle>();
+        return functions<PolygonClippedSolidAngle, LineClippedSolidAngle, CylinderSolidAngle>();
     case render_cpu::Technique::projected_solid_angle_biased:
-        return functions<PolygonProjectedSolidAngleBiased, LinePsa>();
+        return functions<PolygonProjectedSolidAngleBiased, LinePsa, CylinderProjectedSolidAngle>();
     case render_cpu::Technique::projected_solid_angle:
     case render_cpu::Technique::ltc_analytic:
         break;
     }
-    return functions<PolygonPsa, LinePsa>();
+    return functions<PolygonPsa, LinePsa, CylinderProjectedSolidAngle>();
 }
 
 } // namespace kernel

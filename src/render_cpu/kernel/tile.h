@@ -74,7 +74,10 @@ private:
             const bool is_small = job_.scene.polygon_lights[i].slots == 4;
             (is_small ? functions_.add_polygon4 : functions_.add_polygon8)(reflected, i);
         }
-        for (std::int32_t i = 0; i < job_.scene.line_light_count; ++i) functions_.add_line(reflected, i);
+        for (std::int32_t i = 0; i < job_.scene.line_light_count; ++i) {
+            const bool is_cylinder = job_.scene.line_lights[i].is_cylinder != 0;
+            (is_cylinder ? functions_.add_tube : functions_.add_line)(reflected, i);
+        }
         return emitted + reflected.radiance();
     }
 

@@ -1,0 +1,81 @@
+#pragma once
+/// Uniform sampling of the surface of a closed cylinder, caps included. Cheap to prepare, but half of the samples or more
+/// lie on the far side, and it is noisy close to the light.
+
+#include <nusselt/core/light_sample.h>
+#include <nusselt/geometry/cylinder.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// \tparam Real float, double, long double or a pack of float or double, one light and shading point per lane.
+///
+/// Measure: pdf is the density of wi with respect to solid angle [1/sr]: |p|^2 / (area cos_light).
+/// Space: any frame with the shading point as origin; no clipping, so that wi may point below the horizon.
+/// Edge cases: points that face away from the origin, no length or radius: pdf = 0.
+template <class Real>
+class CylinderArea {
+public:
+    /// \param light relative to the shading point [m].
+    NUSSELT_HD explicit CylinderArea(const Cylinder<Real>& light) noexcept
+        : light_(light), frame_(Frame<Real>::from_normal(light.axis.s)) {}
+
+    /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
+    template <class Single>
+    NUSSELT_HD explicit CylinderArea(const CylinderArea<Single>& single) noexcept
+        : light_(broadcast<Real>(single.light_)),
+          frame_{broadcast<Real>(single.frame_.t), broadcast<Real>(single.frame_.b),
+                 broadcast<Real>(single.frame_.n)} {}
+
+    /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves from the middle of the cap at the begin over
+    ///          the mantle to the middle of the other cap.
+    NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        const Real& radius = light_.radius;
+        const Real& length = light_.axis.length;
+        // Along the profile, in units of the circumference, a cap counts half its radius.
+        const Real half = Real(scalar_t<Real>(0.5)) * radius;
+        const Real position = u.y * (length + radius);
+        const auto on_first = position < half;
+        const auto on_mantle = (!on_first) & (position < half + length);
+        const Real to_middle = max(select(on_first, position, length + radius - position), Real(0));
+        const Real on_cap = radius * sqrt(min(to_middle / select(half > Real(0), half, Real(1)), Real(1)));
+        const Real rho = select(on_mantle, radius, on_cap);
+        const Real along = select(on_first, Real(0), min(position - half, length));
+
+        // The azimuth in [-pi, pi).
+        const Real turn = Real(kPi<scalar_t<Real>>) * fma(Real(2), u.x, Real(-1));
+        const SinCos<Real> half_turn = sincos_half_turn(abs(turn));
+        const Vec3<Real> outwards = half_turn.cos * frame_.t + copysign(half_turn.sin, turn) * frame_.b;
+        const Vec3<Real> p = fma(rho, outwards, fma(along, light_.axis.s, light_.axis.p0));
+        const Vec3<Real> on_caps = select(on_first, -light_.axis.s, light_.axis.s);
+        const Vec3<Real> normal = select(on_mantle, outwards, on_caps);
+        const Vec3<Real> wi = inverse_length(p) * p;
+        return {wi, density(nusselt::length(p), -dot(wi, normal)), p};
+    }
+
+    /// \param wi a unit direction towards the light.
+    NUSSELT_HD Real pdf(const Vec3<Real>& wi) const noexcept {
+        const LightHit<Real> hit = intersect(light_, wi);
+        return select(hit.hits, density(hit.distance, hit.cosine), Real(0));
+    }
+
+    /// Area of mantle and caps [m^2].
+    NUSSELT_HD Real measure() const noexcept {
+        return Real(2 * kPi<scalar_t<Real>>) * light_.radius * (light_.axis.length + light_.radius);
+    }
+
+private:
+    template <class>
+    friend class CylinderArea;
+
+    NUSSELT_HD Real density(const Real& distance, const Real& cosine) const noexcept {
+        const Real denominator = measure() * cosine;
+        const auto lit = denominator > Real(0);
+        const Real density = distance / select(lit, denominator, Real(1)) * distance;
+        return select(lit & (density > Real(0)) & is_finite(density), density, Real(0));
+    }
+
+    Cylinder<Real> light_;
+    Frame<Real> frame_; ///< n is the direction of the axis
+};
+
+NUSSELT_NAMESPACE_END
