@@ -22,23 +22,32 @@ struct TechniqueRow {
 constexpr TechniqueRow kRows[] = {
     {Technique::area, "polygon", "area", "Turk 1992", "polygon_area.h"},
     {Technique::area, "line", "length", "", "line_area.h"},
+    {Technique::area, "tube", "area", "", "cylinder_area.h"},
     {Technique::solid_angle, "polygon", "solid angle", "Peters 2021a, Sec. 5", "polygon_solid_angle.h"},
     {Technique::solid_angle, "line", "solid angle", "Peters 2021b, Sec. 3.1", "line_solid_angle.h"},
+    {Technique::solid_angle, "tube", "solid angle, nearly", "", "cylinder_solid_angle.h"},
     {Technique::clipped_solid_angle, "polygon", "solid angle above the horizon", "Peters 2021a, Sec. 5",
      "polygon_solid_angle.h"},
     {Technique::clipped_solid_angle, "line", "solid angle above the horizon", "Peters 2021b, Sec. 3.1, 3.3",
      "line_solid_angle.h"},
+    {Technique::clipped_solid_angle, "tube", "solid angle, nearly", "", "cylinder_solid_angle.h"},
     {Technique::projected_solid_angle, "polygon", "projected solid angle", "Peters 2021a, Sec. 3",
      "polygon_projected_solid_angle.h"},
     {Technique::projected_solid_angle, "line", "projected solid angle", "Peters 2021b, Sec. 3, Alg. 1, 2",
      "line_projected_solid_angle.h"},
+    {Technique::projected_solid_angle, "tube", "projected solid angle, nearly", "",
+     "cylinder_projected_solid_angle.h"},
     {Technique::projected_solid_angle_biased, "polygon", "projected solid angle, roughly",
      "Peters 2021a, Sec. 6.4", "polygon_projected_solid_angle.h"},
     {Technique::projected_solid_angle_biased, "line", "projected solid angle",
      "Peters 2021b, Sec. 3, Alg. 1, 2", "line_projected_solid_angle.h"},
+    {Technique::projected_solid_angle_biased, "tube", "projected solid angle, nearly", "",
+     "cylinder_projected_solid_angle.h"},
     {Technique::ltc_analytic, "polygon", "none: no samples, no shadows", "Heitz et al. 2016",
      "../ltc/polygon_shading.h"},
     {Technique::ltc_analytic, "line", "none: no samples, no shadows", "Heitz and Hill 2017",
+     "../ltc/line_shading.h"},
+    {Technique::ltc_analytic, "tube", "none: no samples, no shadows", "Heitz and Hill 2017",
      "../ltc/line_shading.h"},
 };
 
@@ -57,6 +66,9 @@ int run_techniques() {
         fmt::print(kFormat, render_cpu::name_of(row.technique), row.light, row.density, row.paper,
                    row.header);
     fmt::print("\n"
+               "Tubes are linear lights with their radius; lines the limit of a small one, for\n"
+               "Shape \"line\" with \"bool finite\" false. The samples of the specular component\n"
+               "(--strategies diffuse+ltc) are those of polygon_ltc.h, line_ltc.h and cylinder_ltc.h.\n\n"
                "Turk 1992     G. Turk, Generating Random Points in Triangles, Graphics Gems I\n"
                "Peters 2021a  C. Peters, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4),\n"
                "              doi:10.1145/3450626.3459672\n"

@@ -30,7 +30,12 @@ scene::Scene make_panel_scene() {
 }
 
 scene::LineLight make_tube() {
-    return {"tube", {-0.5f, -0.3f, 0.3f}, {0.6f, 0.4f, 0.8f}, 0.01f, {kRadiance, kRadiance, kRadiance}};
+    return {.name = "tube",
+            .begin = {-0.5f, -0.3f, 0.3f},
+            .end = {0.6f, 0.4f, 0.8f},
+            .radius = 0.01f,
+            .radiance = {kRadiance, kRadiance, kRadiance},
+            .model = scene::TubeModel::line};
 }
 
 scene::Scene make_tube_scene() {
