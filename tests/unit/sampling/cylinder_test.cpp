@@ -69,6 +69,10 @@ Estimate estimate(const Technique& technique, const Function& f) {
 template <class Kind>
 constexpr long double kDeviationBudget = kHasLobe<Kind> ? 0.55L : 0.35L;
 
+/// Errors of the interpolant: 0.075 at most without a lobe, 0.22 with one.
+template <class Kind>
+constexpr double kMeasureBudget = kHasLobe<Kind> ? 0.3 : 0.1;
+
 TYPED_TEST(CylinderTest, EstimatesItsImportanceWithSmallVariance) {
     for (const auto& light : cases<TypeParam>()) {
         const auto local = light_for<TypeParam, double>(light);
@@ -79,19 +83,6 @@ TYPED_TEST(CylinderTest, EstimatesItsImportanceWithSmallVariance) {
         const Estimate found = estimate(technique, f);
         EXPECT_NEAR(found.mean / expected, 1, kBudget) << light.name;
         EXPECT_LE(found.deviation, kDeviationBudget<TypeParam>) << light.name;
-    }
-}
-
-/// Errors of the interpolant: 0.075 at most without a lobe, 0.22 with one.
-template <class Kind>
-constexpr double kMeasureBudget = kHasLobe<Kind> ? 0.3 : 0.1;
-
-TYPED_TEST(CylinderTest, MeasureIsAnEstimateOfTheIntegral) {
-    for (const auto& light : cases<TypeParam>()) {
-        const auto local = light_for<TypeParam, double>(light);
-        const typename TypeParam::template Technique<double> technique(local);
-        const long double expected = integrate_solid_angle(solid(local), importance<TypeParam>(local),
-                                                           kQuadratureTolerance * technique.measure());
         EXPECT_NEAR(technique.measure() / expected, 1, kMeasureBudget<TypeParam>) << light.name;
     }
 }
@@ -103,7 +94,7 @@ TYPED_TEST(CylinderTest, DensityIntegratesToOne) {
         const auto density = [&](const Point& wi) -> long double {
             return technique.pdf(nusselt::broadcast<double>(wi));
         };
-        EXPECT_NEAR(integrate_solid_angle(solid(local), density, 1e-5L), 1, kBudget) << light.name;
+        EXPECT_NEAR(integrate_solid_angle(solid(local), density, 3e-5L), 1, kBudget) << light.name;
     }
 }
 
