@@ -62,7 +62,7 @@ PolygonLightRecord make_record(const scene::PolygonLight& light) {
 
 LineLightRecord make_record(const scene::LineLight& light) {
     const auto line = make_line(to_vec(light.begin), to_vec(light.end));
-    const bool is_cylinder = light.model == scene::TubeModel::cylinder;
+    const bool is_cylinder = light.model == scene::TubeModel::solid;
     return {to_float3(line.p0),
             to_float3(line.s),
             line.length,

@@ -460,17 +460,17 @@ void Parser::shape() {
     shape.type = read_string();
     shape.parameters = read_parameters();
     if (inside_object_) return;
-    if (!is_supported_shape(shape.type)) {
-        scene_.warnings.add(location_, "shape \"" + shape.type + "\" is not supported and left out");
-        return;
-    }
     const GraphicsState& state = state_.current();
     shape.world_from_object = state.ctm;
     shape.reverse_orientation = state.reverse_orientation;
     shape.emission = state.emission;
+    if (!is_supported(shape)) {
+        scene_.warnings.add(location_, "shape \"" + shape.type + "\" is not supported and left out");
+        return;
+    }
     if (shape.type == "plymesh") shape.mesh_path = resolve(shape.parameters.string("filename", ""));
-    // Lines are no surfaces, they need no material.
-    if (shape.type != "line") {
+    // Tubes are no surfaces, they need no material.
+    if (!is_tube(shape.type)) {
         shape.material = used_material(*state.material);
         if (shape.material == kInvisible && is_black(shape.emission.radiance)) return;
         if (shape.material == kInvisible) shape.material = black_material();

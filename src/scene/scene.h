@@ -50,20 +50,20 @@ struct PolygonLight {
     bool two_sided = false;
 };
 
-/// How the thickness of a tube counts where it lights surfaces.
-enum class TubeModel {
-    cylinder, ///< as it is, with caps
-    line,     ///< in the limit of a small radius: its brightness is radiance * radius [W/(sr m)]
+/// What light a tube gives.
+enum class TubeModel : std::uint32_t {
+    linear, ///< that of a linear light with brightness radiance * radius [W/(sr m)]: the limit of a small radius
+    solid, ///< that of a closed cylinder, which shines outwards from its mantle and its caps
 };
 
-/// A tube. Cameras see it as a cylinder of its radius; it casts no shadows.
+/// A tube. Cameras see it as a cylinder of this radius; it casts no shadows.
 struct LineLight {
     std::string name;
     Float3 begin = {0, 0, 0};
     Float3 end = {0, 0, 0};
     float radius = 0;
     Float3 radiance = {0, 0, 0};
-    TubeModel model = TubeModel::cylinder;
+    TubeModel model = TubeModel::linear;
 };
 
 /// Perspective pinhole camera. The ray through raster position (x, y), in pixels with y downwards and pixel

@@ -110,7 +110,7 @@ Mesh read_polygon(ShapeDirective& shape) {
     return mesh;
 }
 
-Mesh build_line(ShapeDirective& shape) {
+LineLight light_of_line(ShapeDirective& shape) {
     ParameterList& parameters = shape.parameters;
     std::vector<Float3> ends = parameters.points("P");
     for (const std::string_view name : {"p0", "p1"})
@@ -122,27 +122,73 @@ Mesh build_line(ShapeDirective& shape) {
     const double scale = std::cbrt(std::fabs(linear_determinant(shape.world_from_object)));
 
     LineLight line;
-    line.name = light_name(shape);
+    line.model = parameters.boolean("finite", false) ? TubeModel::solid : TubeModel::linear;
     line.begin = to_float(transform_point(shape.world_from_object, to_double(ends[0])));
     line.end = to_float(transform_point(shape.world_from_object, to_double(ends[1])));
     line.radius = static_cast<float>(parameters.real("radius", 0) * scale);
-    line.radiance = shape.emission.radiance;
-    if (!is_valid_coordinate(line.begin) || !is_valid_coordinate(line.end))
-        throw SceneError(parameters.location(),
-                         "shape \"line\": an end point is not finite or beyond 1e15 m");
-    if (!(line.radius > 0))
-        throw SceneError(parameters.location_of("radius"), "shape \"line\": radius must be positive, found " +
-                                                               to_text(parameters.real("radius", 0)));
-    if (!(length(to_double(line.end) - to_double(line.begin)) > 0))
-        throw SceneError(parameters.location(), "shape \"line\": both end points are equal");
+    return line;
+}
 
+/// By how much a transform scales the cross section of a cylinder around the z axis. Throws SceneError if that does not
+/// stay round, or if the axis does not stay perpendicular to it.
+double cross_section_scale(const ShapeDirective& shape) {
+    const Double3 x = transform_vector(shape.world_from_object, {1, 0, 0});
+    const Double3 y = transform_vector(shape.world_from_object, {0, 1, 0});
+    const Double3 z = transform_vector(shape.world_from_object, {0, 0, 1});
+    // Scene files round angles and matrices to a few digits.
+    constexpr double kTolerance = 1e-3;
+    const double scale = std::sqrt(length(x) * length(y));
+    const bool is_round = std::fabs(length(x) - length(y)) <= kTolerance * scale &&
+                          std::fabs(dot(x, y)) <= kTolerance * scale * scale;
+    const double across = std::max(std::fabs(dot(x, z)), std::fabs(dot(y, z)));
+    if (!is_round || across > kTolerance * scale * length(z))
+        throw SceneError(shape.parameters.location(),
+                         "shape \"cylinder\": the transform scales its cross section by " +
+                             to_text(length(x)) + " along x and " + to_text(length(y)) +
+                             " along y or shears it; it must stay a cylinder");
+    return scale;
+}
+
+LineLight light_of_cylinder(ShapeDirective& shape, Warnings& warnings) {
+    ParameterList& parameters = shape.parameters;
+    if (const double phi_max = parameters.real("phimax", 360); phi_max != 360)
+        throw SceneError(parameters.location_of("phimax"),
+                         "shape \"cylinder\": phimax must be 360, found " + to_text(phi_max));
+    if (shape.reverse_orientation)
+        warnings.add(parameters.location(),
+                     "shape \"cylinder\": ReverseOrientation is ignored, it emits outwards");
+
+    LineLight line;
+    line.model = TubeModel::solid;
+    const double z_min = parameters.real("zmin", -1);
+    const double z_max = parameters.real("zmax", 1);
+    line.begin = to_float(transform_point(shape.world_from_object, {0, 0, z_min}));
+    line.end = to_float(transform_point(shape.world_from_object, {0, 0, z_max}));
+    line.radius = static_cast<float>(parameters.real("radius", 1) * cross_section_scale(shape));
+    return line;
+}
+
+Mesh build_tube(ShapeDirective& shape) {
     Mesh mesh;
+    ParameterList& parameters = shape.parameters;
+    LineLight line = shape.type == "line" ? light_of_line(shape) : light_of_cylinder(shape, mesh.warnings);
+    line.name = light_name(shape);
+    line.radiance = shape.emission.radiance;
+    const std::string subject = "shape \"" + shape.type + "\": ";
+    if (!is_valid_coordinate(line.begin) || !is_valid_coordinate(line.end))
+        throw SceneError(parameters.location(), subject + "an end point is not finite or beyond 1e15 m");
+    if (!(line.radius > 0))
+        throw SceneError(parameters.location_of("radius"),
+                         subject + "radius must be positive, found " + to_text(parameters.real("radius", 0)));
+    if (!(length(to_double(line.end) - to_double(line.begin)) > 0))
+        throw SceneError(parameters.location(), subject + "both end points are equal");
+
     if (is_black(line.radiance)) {
-        mesh.warnings.add(parameters.location(), "shape \"line\": ignored where it does not emit light");
+        mesh.warnings.add(parameters.location(), subject + "ignored where it does not emit light");
     } else {
         mesh.line_lights = {line};
     }
-    parameters.warn_unused("shape \"line\"", mesh.warnings);
+    parameters.warn_unused("shape \"" + shape.type + '"', mesh.warnings);
     return mesh;
 }
 
@@ -225,13 +271,18 @@ constexpr std::pair<std::string_view, Reader> kReaders[] = {{"trianglemesh", rea
 
 } // namespace
 
-bool is_supported_shape(std::string_view type) {
-    return type == "line" || std::any_of(std::begin(kReaders), std::end(kReaders),
-                                         [&](const auto& reader) { return reader.first == type; });
+bool is_tube(std::string_view type) { return type == "line" || type == "cylinder"; }
+
+bool is_supported(const ShapeDirective& shape) {
+    // Cylinders are lights, not surfaces.
+    if (shape.type == "cylinder") return !is_black(shape.emission.radiance);
+    return shape.type == "line" ||
+           std::any_of(std::begin(kReaders), std::end(kReaders),
+                       [&](const auto& reader) { return reader.first == shape.type; });
 }
 
 Mesh build_mesh(ShapeDirective& shape) {
-    if (shape.type == "line") return build_line(shape);
+    if (is_tube(shape.type)) return build_tube(shape);
     const auto* const reader = std::find_if(std::begin(kReaders), std::end(kReaders),
                                             [&](const auto& entry) { return entry.first == shape.type; });
     Mesh mesh = reader->second(shape);

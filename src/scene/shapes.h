@@ -24,13 +24,16 @@ struct ShapeDirective {
     Transform world_from_object;
     bool reverse_orientation = false;
     Emission emission; ///< black for surfaces that do not emit
-    int material = -1; ///< -1 for invisible surfaces; they are needed for lines only
+    int material = -1; ///< -1 for invisible surfaces; they are needed for tubes only
 };
 
 inline bool is_black(const Float3& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
-/// Whether build_mesh() knows shapes of this type.
-bool is_supported_shape(std::string_view type);
+/// Whether build_mesh() knows shapes of this type and emission.
+bool is_supported(const ShapeDirective& shape);
+
+/// Whether a type of shape is a tubular light, which needs no material.
+bool is_tube(std::string_view type);
 
 /// Triangles in world space. Those of emitters are oriented such that (v1 - v0) x (v2 - v0) points to the
 /// side that emits in pbrt: the side of the shading normals if there are any, else that of the right-hand

@@ -35,7 +35,7 @@ scene::LineLight make_tube() {
             .end = {0.6f, 0.4f, 0.8f},
             .radius = 0.01f,
             .radiance = {kRadiance, kRadiance, kRadiance},
-            .model = scene::TubeModel::line};
+            .model = scene::TubeModel::linear};
 }
 
 scene::Scene make_tube_scene() {

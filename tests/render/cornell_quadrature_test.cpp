@@ -206,7 +206,7 @@ protected:
     ///               room
     void load(const char* file, int height) {
         scene_ = scene::load_scene(std::string(NUSSELT_SOURCE_DIR "/scenes/") + file);
-        for (scene::LineLight& light : scene_.line_lights) light.model = scene::TubeModel::line;
+        for (scene::LineLight& light : scene_.line_lights) light.model = scene::TubeModel::linear;
         render_cpu::resize_film(scene_, height + 1, height);
         const Quadrature quadrature(scene_);
         for (int y = 0; y < height; ++y)

@@ -62,10 +62,13 @@ TEST(HostileScenes, DegenerateLights) {
     add_polygon_light(scene,
                       {Float3{0, -0.5f, -1}, Float3{0, 0.5f, -1}, Float3{0, 0.5f, 1}, Float3{0, -0.5f, 1}},
                       radiance, true, 1);
-    scene.line_lights.push_back({"point", p, p, 0.01f, radiance});
-    scene.line_lights.push_back({"no radius", p, {1, 0, 1}, 0, radiance});
-    scene.line_lights.push_back({"on the floor", {-1, -1, 0}, {1, 1, 0}, 0.01f, radiance});
-    scene.line_lights.push_back({"through the floor", {0.3f, 0.2f, -1}, {0.3f, 0.2f, 1}, 0.01f, radiance});
+    for (const scene::TubeModel model : {scene::TubeModel::linear, scene::TubeModel::solid}) {
+        scene.line_lights.push_back({"point", p, p, 0.01f, radiance, model});
+        scene.line_lights.push_back({"no radius", p, {1, 0, 1}, 0, radiance, model});
+        scene.line_lights.push_back({"on the floor", {-1, -1, 0}, {1, 1, 0}, 0.01f, radiance, model});
+        scene.line_lights.push_back(
+            {"through the floor", {0.3f, 0.2f, -1}, {0.3f, 0.2f, 1}, 0.01f, radiance, model});
+    }
     expect_sane_images(scene);
 }
 

@@ -208,6 +208,61 @@ TEST_F(Shapes, LineErrors) {
     EXPECT_EQ(warning(dark), "scene.pbrt:3: shape \"line\": ignored where it does not emit light");
 }
 
+TEST_F(Shapes, FiniteLine) {
+    const std::string line = "AreaLightSource \"diffuse\" \"rgb L\" [5 6 7]\n"
+                             "Shape \"line\" \"point3 P\" [0 0 0 1 0 0] \"float radius\" 0.5 ";
+    EXPECT_EQ(shapes(line).line_lights.at(0).model, TubeModel::linear);
+    EXPECT_EQ(shapes(line + "\"bool finite\" false").line_lights.at(0).model, TubeModel::linear);
+    const Scene scene = shapes(line + "\"bool finite\" true");
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_EQ(scene.line_lights.at(0).model, TubeModel::solid);
+    EXPECT_EQ(scene.line_lights.at(0).radius, 0.5f);
+}
+
+TEST_F(Shapes, Cylinder) {
+    const Scene scene = shapes(
+        "AttributeBegin Translate 1 0 0 Rotate 90 0 1 0 Scale 2 2 3 AreaLightSource \"diffuse\" \"rgb L\" "
+        "[5 6 7]\n"
+        "Shape \"cylinder\" \"float radius\" 0.25 \"float zmin\" 0 \"float zmax\" 2 \"float phimax\" 360\n"
+        "Shape \"cylinder\" AttributeEnd\n");
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_TRUE(scene.triangles.empty());
+    ASSERT_EQ(scene.line_lights.size(), 2u);
+    const LineLight& tube = scene.line_lights[0];
+    EXPECT_EQ(tube.model, TubeModel::solid);
+    expect_near(tube.begin, {1, 0, 0}, 1e-6f);
+    expect_near(tube.end, {7, 0, 0}, 1e-6f);
+    EXPECT_NEAR(tube.radius, 0.5, 1e-7);
+    EXPECT_EQ(tube.radiance.y, 6);
+    EXPECT_EQ(tube.name.substr(0, 12), "cylinder at ");
+    // The defaults of pbrt.
+    expect_near(scene.line_lights[1].begin, {-2, 0, 0}, 1e-6f);
+    expect_near(scene.line_lights[1].end, {4, 0, 0}, 1e-6f);
+    EXPECT_NEAR(scene.line_lights[1].radius, 2, 1e-6);
+}
+
+TEST_F(Shapes, CylinderErrors) {
+    const std::string light = "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n";
+    EXPECT_EQ(error(light + "Shape \"cylinder\" \"float radius\" 1\n\"float phimax\" 180"),
+              "scene.pbrt:3: shape \"cylinder\": phimax must be 360, found 180");
+    EXPECT_EQ(
+        error(light + "Scale 1 2 1 Shape \"cylinder\""),
+        "scene.pbrt:2: shape \"cylinder\": the transform scales its cross section by 1 along x and 2 along y "
+        "or shears it; it must stay a cylinder");
+    EXPECT_NE(error(light + "ConcatTransform [1 0 0 0 0 1 0 0 0.5 0 1 0 0 0 0 1] Shape \"cylinder\"")
+                  .find("shears it"),
+              std::string::npos);
+    EXPECT_EQ(error(light + "Shape \"cylinder\" \"float radius\" -1"),
+              "scene.pbrt:2: shape \"cylinder\": radius must be positive, found -1");
+    EXPECT_EQ(error(light + "Shape \"cylinder\" \"float zmin\" 1"),
+              "scene.pbrt:2: shape \"cylinder\": both end points are equal");
+    EXPECT_EQ(warning(shapes(light + "ReverseOrientation Shape \"cylinder\"")),
+              "scene.pbrt:4: shape \"cylinder\": ReverseOrientation is ignored, it emits outwards");
+    // As any surface that is not supported.
+    EXPECT_EQ(warning(shapes(std::string(kTriangle) + "Shape \"cylinder\"")),
+              "scene.pbrt:4: shape \"cylinder\" is not supported and left out");
+}
+
 TEST_F(Shapes, AlphaIsIgnoredWithAWarning) {
     EXPECT_EQ(warning(shapes(std::string(kTriangle) + "\"float alpha\" 0.5")),
               "scene.pbrt:4: shape \"trianglemesh\": alpha is ignored, the surface is opaque");

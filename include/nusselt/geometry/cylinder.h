@@ -59,7 +59,7 @@ struct CylinderView {
     Vec3<Real> s, m, n; ///< right-handed, orthonormal; s is the direction of the axis
     Vec2<Real> center;  ///< where the infinite axis passes, in the basis m, n
     Real radius;
-    Real power; ///< squared distance from the axis minus squared radius, accurate relative to itself
+    Real gap, sum;         ///< distance from the axis minus and plus the radius
     Vec3<Real> begin, end; ///< of the axis
     Real l0, l1, length;   ///< coordinates of begin and end along s, and their difference
     Vec2<Real> touching;   ///< unit, from outside: the half-plane that touches on the side of n
@@ -73,21 +73,24 @@ struct CylinderView {
         CylinderSlice<Real> c;
         const Real safe_radius = select(visible, radius, Real(1));
         const Real x = det(center, direction) / safe_radius;
-        c.meets = abs(x) < Real(1);
+        c.meets = (abs(x) < Real(1)) & ((!outside) | (dot(center, direction) > Real(0)));
         const Vec2<Real> closest{touching.x, copysign(touching.y, x)};
         c.azimuth = select(outside & (!c.meets), closest, direction);
         c.t = c.azimuth.x * m + c.azimuth.y * n;
         const Real side = min(max(x, Real(-1)), Real(1));
         c.offset = side * safe_radius;
         c.along = dot(center, c.azimuth);
-        // Sums of terms that are not negative: from outside by the sine, from inside by the power.
-        const Real from_outside = safe_radius * safe_radius * ((Real(1) + side) * (Real(1) - side));
-        const Real from_inside = fma(c.along, c.along, -power);
-        c.half_chord = sqrt(max(select(outside, from_outside, from_inside), Real(0)));
-        // The product of near and far is the power: none of them comes from a difference, nor does the larger one fall
-        // below the root.
-        const Real larger = max(abs(c.along) + c.half_chord, sqrt(abs(power)));
-        const Real other = abs(power) / select(larger > Real(0), larger, Real(1));
+        // Sums of terms that are not negative; products may be too small to be represented.
+        const Real inside_along = select(outside, Real(0), c.along / safe_radius);
+        const Real inside_gap = (-gap / safe_radius) * (sum / safe_radius);
+        const Real squared =
+            select(outside, (Real(1) + side) * (Real(1) - side), fma(inside_along, inside_along, inside_gap));
+        c.half_chord = sqrt(max(squared, Real(0))) * safe_radius;
+        // The product of near and far is that of gap and sum: none of them comes from a difference, nor does the
+        // larger one fall below the root.
+        const Real larger = max(abs(c.along) + c.half_chord, sqrt(abs(gap)) * sqrt(sum));
+        const auto apart = larger > Real(kTiny<scalar_t<Real>>);
+        const Real other = abs(gap) * (sum / select(apart, larger, Real(1)));
         c.far = select(outside | (c.along > Real(0)), larger, other);
         c.near = select(outside, min(other, c.far), Real(0));
         return c;
@@ -129,13 +132,14 @@ NUSSELT_INLINE CylinderView<Real> make_cylinder_view(const Cylinder<Real>& cylin
     v.radius = cylinder.radius;
     const Vec3<Real> moment = cross(axis.p0, v.s);
     const Vec3<Real> closest = cross(v.s, moment);
-    const Real distance = sqrt(dot(moment, moment));
-    v.power = (distance - v.radius) * (distance + v.radius);
+    const Real distance = length(moment);
+    v.gap = distance - v.radius;
+    v.sum = distance + v.radius;
     v.l0 = dot(v.begin, v.s);
     v.l1 = dot(v.end, v.s);
-    v.outside = v.power > Real(0);
-    const Real gap = max(max(v.l0, -v.l1), distance - v.radius);
-    v.visible = (v.length > Real(0)) & (v.radius > Real(0)) & (gap > Real(kTiny<scalar_t<Real>>));
+    v.outside = v.gap > Real(0);
+    const Real apart = max(max(v.l0, -v.l1), v.gap);
+    v.visible = (v.length > Real(0)) & (v.radius > Real(0)) & (apart > Real(kTiny<scalar_t<Real>>));
 
     const Vec3<Real> upwards = normalize(cross(v.s, cross(up, v.s)));
     const auto horizontal = (upwards.x == Real(0)) & (upwards.y == Real(0)) & (upwards.z == Real(0));
@@ -145,7 +149,8 @@ NUSSELT_INLINE CylinderView<Real> make_cylinder_view(const Cylinder<Real>& cylin
     v.center = {select(v.outside, distance, dot(closest, v.m)),
                 select(v.outside, Real(0), dot(closest, v.n))};
     const Real safe_distance = select(v.outside, distance, Real(1));
-    v.touching = {sqrt(max(v.power, Real(0))) / safe_distance, v.radius / safe_distance};
+    v.touching = {sqrt(max(v.gap, Real(0)) / safe_distance) * sqrt(v.sum / safe_distance),
+                  v.radius / safe_distance};
     return v;
 }
 
@@ -156,7 +161,8 @@ NUSSELT_INLINE CylinderView<Real> broadcast(const CylinderView<Single>& v) noexc
             broadcast<Real>(v.n),
             broadcast<Real>(v.center),
             Real(v.radius),
-            Real(v.power),
+            Real(v.gap),
+            Real(v.sum),
             broadcast<Real>(v.begin),
             broadcast<Real>(v.end),
             Real(v.l0),
@@ -196,7 +202,7 @@ NUSSELT_HD inline LightHit<Real> intersect(const Cylinder<Real>& cylinder, const
     const auto hits = view.visible & slice.meets & overlaps & ahead;
     const auto on_mantle = (p.x > view.l0) & (p.x < view.l1);
     const Real facing = cosine * slice.half_chord / select(hits, view.radius, Real(1));
-    return {mask_t<Real>(hits), sqrt(dot(p, p)) * reciprocal_power_of_two(scale),
+    return {mask_t<Real>(hits), length(Vec3<Real>{p.x, p.y, Real(0)}) * reciprocal_power_of_two(scale),
             select(on_mantle, facing, abs(sine))};
 }
 

@@ -46,8 +46,8 @@ private:
         // Across the direction to the axis, where the tangents from the origin touch the cylinder.
         const Real distance = select(v.outside, v.center.x, Real(1));
         const Real ratio = v.radius / distance;
-        const Real depth = v.power / distance;
-        const Real half_width = ratio * sqrt(max(v.power, Real(0)));
+        const Real depth = v.gap * (v.sum / distance);
+        const Real half_width = ratio * sqrt(max(v.gap, Real(0))) * sqrt(v.sum);
         const Real low = v.l0 * select(v.l0 < Real(0), Real(1) + ratio, Real(1) - ratio);
         const Real high = v.l1 * select(v.l1 > Real(0), Real(1) + ratio, Real(1) - ratio);
         // The square around the nearer cap.

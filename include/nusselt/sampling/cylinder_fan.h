@@ -130,7 +130,8 @@ public:
         for (int i = 0; i < kAzimuthNodes; ++i) value[i] = fma(largest, Real(kLeastShare<Scalar>), value[i]);
         warp_ = Warp(value);
         const Real normalization = warp_.integral() * range_;
-        const auto lit = view_.visible & (normalization > Real(0)) & (integral_ > Real(0)) &
+        // Callers divide the integral by pi, and denormal numbers may be flushed.
+        const auto lit = view_.visible & (integral_ > Real(4 * std::numeric_limits<Scalar>::min())) &
                          is_finite(normalization) & is_finite(Real(1) / normalization);
         integral_ = select(lit, integral_, Real(0));
         inverse_normalization_ = select(lit, Real(1) / select(lit, normalization, Real(1)), Real(0));
@@ -257,9 +258,11 @@ private:
         const Real rho0 = select(begins_far, h.slice.far, h.slice.near);
         const Real rho1 = select(ends_far, h.slice.far, h.slice.near);
         const Real steepest = Real(kSteepest<Scalar>);
+        const auto clamped = [](const Real& x, const Real& limit) { return min(max(x, -limit), limit); };
         const auto tangent = [&](const Real& l, const Real& rho) {
-            const Real steepness = fma(stretch_, l / rho, h.shear) / h.widening;
-            return min(max(steepness, -steepest), steepest);
+            // rho may be 0.
+            const Real slope = clamped(l / rho, Real(1 / kTiny<Scalar>));
+            return clamped(fma(stretch_, slope, h.shear) / h.widening, steepest);
         };
         const Real tangent0 = tangent(view_.l0, rho0);
         const Real tangent1 = tangent(view_.l1, rho1);
@@ -309,7 +312,7 @@ private:
             };
             // From inside, everything around the axis if the axis rises.
             const Real axis_slope = select(view_.l0 > Real(0), s_.z, -s_.z);
-            const auto surrounded = (!view_.outside) & (axis_slope > Real(0));
+            const auto surrounded = (!view_.outside) & (axis_slope > Real(kTiny<Scalar>));
             sees_left = surrounded | (view_.outside & rises(left, view_.radius));
             sees_right = surrounded | (view_.outside & rises(right, -view_.radius));
 

@@ -121,13 +121,13 @@ public:
         const double distance = length(cross(begin, normalize(axis)));
         const double extent = std::max(length(begin), length(axis));
         const int choice = random_.index(12);
-        double radius = extent * random_.log_between(1e-9, 1e3);
-        if (choice < 4) radius = distance * random_.log_between(0.1, 10);
-        if (choice == 4) radius = distance;
-        if (choice == 5) radius = distance * (1 - random_.log_between(1e-16, 1e-2));
-        if (choice == 6) radius = distance * (1 + random_.log_between(1e-16, 1e-2));
-        if (choice == 7) radius = extent * random_.between(0.1, 1);
-        if (choice == 8) radius = random_.index(2) == 0 ? 0 : kSmallest * random_.log_between(1, 1e9);
+        double radius = distance * random_.log_between(1e-6, 1);
+        if (choice == 0) radius = distance;
+        if (choice == 1) radius = distance * (1 - random_.log_between(1e-16, 1e-2));
+        if (choice == 2) radius = distance * (1 + random_.log_between(1e-16, 1e-2));
+        if (choice == 3) radius = extent * random_.between(0.1, 1);
+        if (choice == 4) radius = extent * random_.log_between(1e-9, 1e3);
+        if (choice == 5) radius = random_.index(2) == 0 ? 0 : kSmallest * random_.log_between(1, 1e9);
         // As the coordinates of the ends.
         return static_cast<T>(std::min(radius, 1e15));
     }

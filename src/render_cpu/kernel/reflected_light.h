@@ -124,8 +124,12 @@ public:
     /// Traces shadow rays for a sample and adds what it contributes.
     /// \param drawn lanes that have a sample
     void add_sample(LaneMask drawn, const DirectLightSample<Real>& sample, CompensatedSum& sum) noexcept {
-        const LaneMask sound = is_finite(sample.wi) & is_finite(sample.p) & is_finite(sample.shadowed) &
-                               is_finite(sample.constant);
+        const auto is_zero = [](const Vector& v) {
+            return (v.x == Real(0)) & (v.y == Real(0)) & (v.z == Real(0));
+        };
+        // Direction and point have no meaning without a density.
+        const LaneMask has_way = is_zero(sample.shadowed) | (is_finite(sample.wi) & is_finite(sample.p));
+        const LaneMask sound = has_way & is_finite(sample.shadowed) & is_finite(sample.constant);
         statistics_.rejected_samples += count_lanes(drawn & !sound);
         const Vector zero{Real(0), Real(0), Real(0)};
         const Vector lit = select(visible(drawn & sound, sample), sample.shadowed, zero);

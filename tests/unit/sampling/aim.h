@@ -38,6 +38,15 @@ LineOnLobe<long double> widened(const LineOnLobe<T>& light) {
     const nusselt::LineSegment<T>& line = light;
     return {widened(line), widened(light.lobe)};
 }
+template <class T>
+nusselt::Cylinder<long double> widened(const nusselt::Cylinder<T>& light) {
+    return {widened(light.axis), light.radius};
+}
+template <class T>
+CylinderOnLobe<long double> widened(const CylinderOnLobe<T>& light) {
+    const nusselt::Cylinder<T>& cylinder = light;
+    return {widened(cylinder), widened(light.lobe)};
+}
 
 /// How far a direction passes beyond the farthest of the planes through the origin and the sides of a triangle [rad];
 /// 1 for a triangle without solid angle.
@@ -72,6 +81,20 @@ long double miss(const nusselt::LineSegment<T>& light, const Point& wi) {
         {std::fabs(dot(n, wi)), -dot(cross(n, normalize(begin)), wi), -dot(cross(normalize(end), n), wi)});
 }
 
+/// For cylinders the angle under which the width appears that must be added on all sides for a hit, up to a factor of 2.
+template <class T>
+long double miss(const nusselt::Cylinder<T>& light, const Point& wi) {
+    const auto wide = widened(light);
+    long double added = std::numeric_limits<long double>::epsilon() * (wide.axis.length + wide.radius);
+    for (int i = 0; i < 64; ++i, added *= 2) {
+        const nusselt::LineSegment<long double> axis = {wide.axis.p0 - added * wide.axis.s, wide.axis.s,
+                                                        wide.axis.length + 2 * added};
+        const auto hit = intersect(nusselt::Cylinder<long double>{axis, wide.radius + added}, wi);
+        if (hit.hits) return added / hit.distance;
+    }
+    return 1;
+}
+
 /// Distance of the origin from the infinite line of a light.
 inline long double carrier_distance(const nusselt::LineSegment<long double>& wide) {
     return length(cross(wide.p0, wide.s));
@@ -87,11 +110,22 @@ long double sturdiness(const nusselt::ConvexPolygon<long double, N>& wide, long 
 inline long double sturdiness(const nusselt::LineSegment<long double>& wide, long double extent) {
     return std::min(carrier_distance(wide) / extent, 1.0L);
 }
+/// For cylinders the distance of the infinite mantle and of the surface, and its sizes. Before a cap and next to the
+/// infinite mantle, half of the half-planes around the point see next to nothing.
+inline long double sturdiness(const nusselt::Cylinder<long double>& wide, long double extent) {
+    const long double begin = dot(wide.axis.p0, wide.axis.s);
+    const long double outside = carrier_distance(wide.axis) - wide.radius;
+    const long double gap = std::max({begin, -begin - wide.axis.length, outside});
+    return std::min(
+        {std::fabs(outside) / extent, gap / extent, wide.axis.length / extent, wide.radius / extent, 1.0L});
+}
 
 /// How large a light appears to a technique, without unit: the measure, for lines times their distance.
 template <class Kind, class WideLight>
 long double apparent_size(const WideLight& wide) {
-    if constexpr (!kIsPolygon<Kind>) {
+    if constexpr (kIsCylinder<Kind>) {
+        return typename Kind::template Technique<long double>(wide).measure();
+    } else if constexpr (!kIsPolygon<Kind>) {
         if constexpr (Kind::kMeasure == Measure::kArea) return apparent_size<LineSolidAngleKind>(wide);
         return carrier_distance(wide) * typename Kind::template Technique<long double>(wide).measure();
     } else if constexpr (Kind::kMeasure == Measure::kArea) {

@@ -35,6 +35,8 @@ typename Kind::template Light<T> hostile_light(HostileLights<T>& lights) {
     const auto light = [&] {
         if constexpr (kIsPolygon<Kind>) {
             return lights.template polygon<Kind::kVertices>();
+        } else if constexpr (kIsCylinder<Kind>) {
+            return lights.cylinder();
         } else {
             return lights.line();
         }
@@ -48,7 +50,7 @@ typename Kind::template Light<T> hostile_light(HostileLights<T>& lights) {
 
 template <class Kind, class T>
 auto hostile_random(HostileLights<T>& lights) {
-    if constexpr (kIsPolygon<Kind>) {
+    if constexpr (kTakesPairs<Kind>) {
         const T x = lights.random_number();
         return nusselt::Vec2<T>{x, lights.random_number()};
     } else {

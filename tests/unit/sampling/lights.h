@@ -22,6 +22,12 @@ struct LineCase {
     nusselt::Vec3<double> begin, end;
 };
 
+struct CylinderCase {
+    std::string name;
+    nusselt::Vec3<double> begin, end;
+    double radius;
+};
+
 /// Spanned by two vectors about a center; exact in every precision for short binary coordinates.
 inline std::vector<nusselt::Vec3<double>>
 octagon(const nusselt::Vec3<double>& center, const nusselt::Vec3<double>& a, const nusselt::Vec3<double>& b) {
@@ -95,6 +101,25 @@ inline std::vector<LineCase> line_cases() {
     };
 }
 
+/// From outside, from before a cap, and cut by the horizon in each way.
+inline std::vector<CylinderCase> cylinder_cases() {
+    return {
+        {"above", {-1, 2, 0.5}, {1.5, 1, 1.25}, 0.3125},
+        {"end-on", {0.5, 0.25, 1}, {4, 0.5, 1.25}, 0.375},
+        {"through the floor", {1, -1, -0.5}, {1, 1, 0.75}, 0.625},
+        {"vertical", {0.25, 0, 1}, {0.25, 0, 3}, 0.1875},
+        {"close", {-1, 0.625, 0.375}, {1, 0.625, 0.375}, 0.6},
+        {"before a cap", {0.125, 0, 1}, {0.25, 0.125, 3}, 0.5},
+        {"before a cap, backwards", {0.25, 0.125, 3}, {0.125, 0, 1}, 0.5},
+        {"before a cap, through the floor", {0.5, 0, 0.25}, {3, 0, -0.25}, 0.5},
+        {"before a cap, half below", {0.625, 0, -0.125}, {2, 0, -0.125}, 0.5},
+        {"before a wide cap", {0.125, 0.5, 0.25}, {1, 0.5, 0.5}, 4},
+        {"thin", {-1, 0.5, 1}, {1, 0.5, 1}, 0.0078125},
+        {"mostly below", {1, -1, -0.25}, {1, 1, -0.125}, 0.375},
+        {"long and close", {-50, 0.25, 0.5}, {70, 0.25, 0.625}, 0.25},
+    };
+}
+
 struct LobeCase {
     std::string name;
     nusselt::LtcCoefficients<double> coefficients;
@@ -129,7 +154,9 @@ std::vector<OnLobe<LightCase>> with_lobes(const std::vector<LightCase>& lights) 
 
 template <class Kind>
 auto geometry_cases() {
-    if constexpr (!kIsPolygon<Kind>) {
+    if constexpr (kIsCylinder<Kind>) {
+        return cylinder_cases();
+    } else if constexpr (!kIsPolygon<Kind>) {
         return line_cases();
     } else if constexpr (Kind::kVertices == 4) {
         return polygon_cases();
@@ -158,6 +185,12 @@ nusselt::ConvexPolygon<T, N> make_light(const PolygonCase& polygon) {
 template <class T>
 nusselt::LineSegment<T> make_light(const LineCase& line) {
     return nusselt::make_line(nusselt::broadcast<T>(line.begin), nusselt::broadcast<T>(line.end));
+}
+
+template <class T>
+nusselt::Cylinder<T> make_light(const CylinderCase& cylinder) {
+    return {nusselt::make_line(nusselt::broadcast<T>(cylinder.begin), nusselt::broadcast<T>(cylinder.end)),
+            static_cast<T>(cylinder.radius)};
 }
 
 template <class To, class From>
@@ -195,19 +228,19 @@ inline long double first(long double u) { return u; }
 /// Random numbers as a technique takes them, built from one or two coordinates.
 template <class Kind, class T>
 typename Kind::template Random<T> random_of(T x, [[maybe_unused]] T y) {
-    if constexpr (kIsPolygon<Kind>) {
+    if constexpr (kTakesPairs<Kind>) {
         return {x, y};
     } else {
         return x;
     }
 }
 
-/// The midpoints of a regular grid: count^2 points for polygons, count for lines.
+/// The midpoints of a regular grid: count^2 points for polygons and cylinders, count for lines.
 template <class Kind, class T>
 std::vector<typename Kind::template Random<T>> midpoints(int count) {
     std::vector<typename Kind::template Random<T>> points;
     for (int i = 0; i < count; ++i) {
-        for (int j = 0; j < (kIsPolygon<Kind> ? count : 1); ++j) {
+        for (int j = 0; j < (kTakesPairs<Kind> ? count : 1); ++j) {
             points.push_back(random_of<Kind>((static_cast<T>(i) + T(0.5)) / static_cast<T>(count),
                                              (static_cast<T>(j) + T(0.5)) / static_cast<T>(count)));
         }

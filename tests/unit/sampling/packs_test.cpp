@@ -148,6 +148,10 @@ INSTANTIATE_TYPED_TEST_SUITE_P(LineClippedSolidAngle, PacksTest, Packs<LineClipp
 INSTANTIATE_TYPED_TEST_SUITE_P(LineProjectedSolidAngle, PacksTest, Packs<LineProjectedSolidAngleKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(LineLtc, PacksTest, Packs<LineLtcKind>);
 INSTANTIATE_TYPED_TEST_SUITE_P(LineClippedLtc, PacksTest, Packs<LineClippedLtcKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(CylinderSolidAngle, PacksTest, Packs<CylinderSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(CylinderProjectedSolidAngle, PacksTest,
+                               Packs<CylinderProjectedSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(CylinderLtc, PacksTest, Packs<CylinderLtcKind>);
 
 } // namespace
 } // namespace nusselt_test

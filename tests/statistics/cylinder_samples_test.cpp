@@ -1,0 +1,99 @@
+/// Samples of cylinders and their densities: the mean of a function over the density must be its integral, which
+/// quadrature over the surface tells.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "geometry/cylinder_reference.h"
+#include "hypothesis.h"
+#include "ltc/reference.h"
+#include "sampling/lights.h"
+
+namespace nusselt_test {
+namespace {
+
+constexpr int kSamples = 20'000;
+
+template <class Kind>
+using Light = typename Kind::template Light<float>;
+template <class Kind>
+using Technique = typename Kind::template Technique<float>;
+using Random = nusselt::Vec2<float>;
+using Direction = nusselt::Vec3<float>;
+
+/// What a density must be positive on, times factors that vary by a few times: estimates have little variance, but some.
+template <class Kind>
+auto integrand(const Light<Kind>& light) {
+    const auto importance = [light](const Point& wi) {
+        if constexpr (Kind::kMeasure == Measure::kLobe) return ReferenceLobe(light.lobe).density(wi);
+        return Kind::kMeasure == Measure::kSolidAngle ? 1.0L : std::max(wi.z, 0.0L);
+    };
+    const Point s = solid(light).axis();
+    return [importance, s](const Point& wi) {
+        return importance(wi) * (2 + wi.x + 0.5L * wi.y) * (1.5L + dot(s, wi));
+    };
+}
+
+/// Whether estimates with samples and densities disagree with integrals.
+/// \param warp    of random numbers that shall be uniform.
+/// \param density of (technique, wi)
+template <class Kind, class Warp, class Density>
+bool is_rejected(const Warp& warp, const Density& density) {
+    std::vector<double> p_values;
+    UniformFloats random(10);
+    for (const auto& light : cases<Kind>()) {
+        const Light<Kind> local = light_for<Kind, float>(light);
+        const auto f = integrand<Kind>(local);
+        const Technique<Kind> technique(local);
+        const long double expected = integrate_solid_angle(solid(local), f, 1e-5L * technique.measure());
+        long double sum = 0;
+        long double squares = 0;
+        for (int i = 0; i < kSamples; ++i) {
+            const float x = random();
+            const auto sample = technique.sample(warp({x, random()}));
+            if (!(sample.pdf > 0)) continue;
+            const long double value =
+                f(nusselt::broadcast<long double>(sample.wi)) / density(technique, sample.wi);
+            sum += value;
+            squares += value * value;
+        }
+        const long double mean = sum / kSamples;
+        const long double variance = (squares / kSamples - mean * mean) / kSamples;
+        // Small lights hardly vary: neither rounding in float nor the tolerance of the integral is a bias.
+        const long double error = std::sqrt(variance + 1e-9L * expected * expected);
+        p_values.push_back(
+            static_cast<double>(std::erfc(std::fabs(mean - expected) / error / std::sqrt(2.0L))));
+    }
+    return reject(p_values);
+}
+
+Random unwarped(const Random& u) { return u; }
+
+constexpr auto kOwnDensity = [](const auto& technique, const Direction& wi) { return technique.pdf(wi); };
+
+template <class Kind>
+class CylinderSamplesTest : public ::testing::Test {};
+
+using Kinds = ::testing::Types<CylinderSolidAngleKind, CylinderProjectedSolidAngleKind, CylinderLtcKind>;
+TYPED_TEST_SUITE(CylinderSamplesTest, Kinds);
+
+TYPED_TEST(CylinderSamplesTest, FollowTheirDensity) {
+    EXPECT_FALSE(is_rejected<TypeParam>(unwarped, kOwnDensity));
+}
+
+TYPED_TEST(CylinderSamplesTest, SquaredRandomNumbersAreRejected) {
+    EXPECT_TRUE(is_rejected<TypeParam>([](const Random& u) { return Random{u.x * u.x, u.y}; }, kOwnDensity));
+    EXPECT_TRUE(is_rejected<TypeParam>([](const Random& u) { return Random{u.x, u.y * u.y}; }, kOwnDensity));
+}
+
+TEST(CylinderMutantsTest, DensityWithoutTheAzimuthIsRejected) {
+    // As if the interpolant were exact.
+    EXPECT_TRUE(is_rejected<CylinderProjectedSolidAngleKind>(
+        unwarped, [](const auto& technique, const Direction& wi) { return wi.z / technique.measure(); }));
+    EXPECT_TRUE(is_rejected<CylinderSolidAngleKind>(
+        unwarped, [](const auto& technique, const Direction&) { return 1 / technique.measure(); }));
+}
+
+} // namespace
+} // namespace nusselt_test
