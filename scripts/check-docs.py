@@ -2,8 +2,8 @@
 """Checks of the documentation. Usage: scripts/check-docs.py code|regions|links ROOT, or pictures ROOT PROGRAM
   code      each paragraph of C++ in README.md and docs/ is part of a file in examples/, which the tests compile;
             comments and white space do not count
-  regions   each page of docs/techniques on techniques for lights alone has tables of accuracy and cost, and none is
-            empty
+  regions   each page of docs/techniques but the index and those named below has tables of accuracy and cost, and none
+            is empty
   links     files that README.md and docs/ link to exist
   pictures  docs/techniques/images/NAME.svg is what `PROGRAM map NAME` draws
 """
@@ -31,13 +31,13 @@ def code(root):
                     yield f"{page}: not in any file of examples/:\n{paragraph}"
 
 
-# What these are about depends on the surface too: the benchmarks of lights do not measure it.
-SURFACES = ["ggx_visible_normals.md", "ltc.md", "mis.md"]
+# The benchmarks of polygons and lines do not measure these; their numbers come from tests.
+UNMEASURED = ["cylinder.md", "ggx_visible_normals.md", "ltc.md", "mis.md"]
 
 
 def regions(root):
     for page in sorted((root / "docs/techniques").glob("*.md")):
-        if page.name in ["README.md", *SURFACES]:
+        if page.name in ["README.md", *UNMEASURED]:
             continue
         text = page.read_text()
         found = re.findall(r"<!-- generated: (\w+) \w+ -->\n(.*?)<!-- end -->", text, re.DOTALL)

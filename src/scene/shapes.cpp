@@ -122,7 +122,7 @@ LineLight light_of_line(ShapeDirective& shape) {
     const double scale = std::cbrt(std::fabs(linear_determinant(shape.world_from_object)));
 
     LineLight line;
-    line.model = parameters.boolean("finite", false) ? TubeModel::solid : TubeModel::linear;
+    line.model = parameters.boolean("finite", true) ? TubeModel::solid : TubeModel::linear;
     line.begin = to_float(transform_point(shape.world_from_object, to_double(ends[0])));
     line.end = to_float(transform_point(shape.world_from_object, to_double(ends[1])));
     line.radius = static_cast<float>(parameters.real("radius", 0) * scale);

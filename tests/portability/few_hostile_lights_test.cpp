@@ -15,7 +15,8 @@ using Kinds =
     ::testing::Types<PolygonAreaKind, PolygonSolidAngleKind, PolygonClippedSolidAngleKind,
                      PolygonProjectedSolidAngleKind, PolygonProjectedSolidAngleKindOf<8>, LineAreaKind,
                      LineSolidAngleKind, LineClippedSolidAngleKind, LineProjectedSolidAngleKind,
-                     PolygonLtcKind, PolygonClippedLtcKind, LineLtcKind, LineClippedLtcKind>;
+                     PolygonLtcKind, PolygonClippedLtcKind, LineLtcKind, LineClippedLtcKind,
+                     CylinderSolidAngleKind, CylinderProjectedSolidAngleKind, CylinderLtcKind>;
 TYPED_TEST_SUITE(FewHostileLights, Kinds);
 
 TYPED_TEST(FewHostileLights, PacksNeverFail) {

@@ -57,6 +57,9 @@ void use_all(int seed) {
     use<LineSolidAngle<Real>>("LineSolidAngle", line, u.x);
     use<LineClippedSolidAngle<Real>>("LineClippedSolidAngle", line, u.x);
     use<LineProjectedSolidAngle<Real>>("LineProjectedSolidAngle", line, u.x);
+    const Cylinder<Real> cylinder{line, Real(0.25f)};
+    use<CylinderSolidAngle<Real>>("CylinderSolidAngle", cylinder, u);
+    use<CylinderProjectedSolidAngle<Real>>("CylinderProjectedSolidAngle", cylinder, u);
 }
 
 } // namespace use_techniques

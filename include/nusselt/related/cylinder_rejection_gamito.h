@@ -4,14 +4,15 @@
 /// M. N. Gamito 2016, Solid Angle Sampling of Disk and Cylinder Lights, CGF 35(4), doi:10.1111/cgf.12946. A rectangle
 /// that covers the cylinder as seen from the shading point is sampled by solid angle; directions that miss the cylinder
 /// are no samples. Use CylinderSolidAngle instead: it misses nothing. The rectangle is the smallest one across the
-/// direction to the axis; before a cap it is the square around the cap.
+/// direction to the axis; before a cap it is the square around the cap. It is sampled as two triangles where the paper uses
+/// a map for rectangles, with the same density.
 
 #include <nusselt/geometry/cylinder.h>
-#include <nusselt/sampling/polygon_solid_angle.h>
+#include <nusselt/related/polygon_solid_angle_peters.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// \tparam Real float, double, long double or a pack of float or double: one light and shading point per lane.
+/// \tparam Real float, double or long double.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr], the constant 1 / measure().
 /// Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
@@ -21,25 +22,25 @@ class CylinderRejectionGamito {
 public:
     /// \param light relative to the shading point [m].
     explicit CylinderRejectionGamito(const Cylinder<Real>& light) noexcept
-        : light_(light), rectangle_(rectangle_around(light)) {}
+        : light_(light), rectangle_(rectangle_around(light)), visible_(rectangle_.measure() > Real(0)) {}
 
     /// \param u in [0, 1)^2.
     /// \return pdf = 0 where the direction misses the cylinder: an estimate counts it as 0.
     LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
-        const LightSample<Real> candidate = rectangle_.sample(u);
-        const LightHit<Real> hit = intersect(light_, candidate.wi);
-        return {candidate.wi, select(hit.hits, candidate.pdf, Real(0)), hit.distance * candidate.wi};
+        const Vec3<Real> up{Real(0), Real(0), Real(1)};
+        const Vec3<Real> wi = visible_ ? rectangle_.sample(u).wi : up;
+        const LightHit<Real> hit = intersect(light_, wi);
+        return {wi, hit.hits ? pdf(wi) : Real(0), hit.distance * wi};
     }
 
     /// The density of directions in the rectangle, whether they hit the cylinder or not.
-    /// \param wi a unit direction towards the light.
-    Real pdf(const Vec3<Real>& wi) const noexcept { return rectangle_.pdf(wi); }
+    Real pdf(const Vec3<Real>&) const noexcept { return visible_ ? Real(1) / rectangle_.measure() : Real(0); }
 
     /// Solid angle of the rectangle [sr].
-    Real measure() const noexcept { return rectangle_.measure(); }
+    Real measure() const noexcept { return visible_ ? rectangle_.measure() : Real(0); }
 
 private:
-    static PolygonSolidAngle<Real, 4> rectangle_around(const Cylinder<Real>& light) noexcept {
+    static PolygonSolidAnglePeters<Real, 4> rectangle_around(const Cylinder<Real>& light) noexcept {
         const Real scale = scale_of(light);
         const CylinderView<Real> v = make_cylinder_view(scaled(light, scale), {Real(0), Real(0), Real(0)});
         const Vec3<Real>& t = v.m;
@@ -59,11 +60,12 @@ private:
         const Real size = select(v.visible, reciprocal_power_of_two(scale), Real(0));
         const Vec3<Real> corners[] = {size * (center - a - b), size * (center + a - b),
                                       size * (center + a + b), size * (center - a + b)};
-        return PolygonSolidAngle<Real, 4>(make_polygon<4>(corners, 4));
+        return PolygonSolidAnglePeters<Real, 4>(make_polygon<4>(corners, 4));
     }
 
     Cylinder<Real> light_;
-    PolygonSolidAngle<Real, 4> rectangle_;
+    PolygonSolidAnglePeters<Real, 4> rectangle_;
+    bool visible_;
 };
 
 NUSSELT_NAMESPACE_END

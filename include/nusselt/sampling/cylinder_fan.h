@@ -7,7 +7,6 @@
 /// interpolant of these integrals.
 
 #include <nusselt/geometry/cylinder.h>
-#include <nusselt/ltc/ltc.h>
 #include <nusselt/sampling/cosine_arc.h>
 #include <nusselt/sampling/piecewise_linear.h>
 
@@ -35,10 +34,6 @@ struct ShadingSpace {
 template <class Real, class Single>
 NUSSELT_HD inline ShadingSpace<Real> broadcast(const ShadingSpace<Single>&) noexcept {
     return {};
-}
-template <class Real, class Single>
-NUSSELT_HD inline Ltc<Real> broadcast(const Ltc<Single>& ltc) noexcept {
-    return Ltc<Real>(ltc);
 }
 
 /// Importance of directions: all alike. Integrals are twice those over the solid angle, per azimuth.
@@ -85,7 +80,8 @@ struct CosineImportance {
     }
 };
 
-/// \tparam Space Ltc or ShadingSpace: where the importance is that of the directions.
+/// \tparam Space      ShadingSpace, or Ltc for its cosine space: where directions have the importance.
+/// \tparam Importance UniformImportance or CosineImportance.
 template <class Real, class Space, class Importance>
 class CylinderFan {
     using Scalar = scalar_t<Real>;
@@ -276,7 +272,7 @@ private:
         const Real length = select(steep0 | steep1, tangent1 - tangent0, difference);
 
         const Real height_of_t = fma(azimuth.x, height_of_m_, azimuth.y * height_of_n_);
-        const Real height_sideways = h.slice.offset * fma(azimuth.x, height_of_n_, -azimuth.y * height_of_m_);
+        const Real height_sideways = h.slice.offset * height_to_the_left_of(azimuth);
         const Real height_across = h.slice.half_chord * height_of_t;
         const auto corner = [&](const Real& steepness, const mask_t<Real>& steep, const mask_t<Real>& far,
                                 const Real& axis_height, const Real& distance) {
@@ -320,7 +316,7 @@ private:
             high = rightmost;
             const Vec3<Real> up = normalize(Vec3<Real>{height_of_m_, height_of_n_, Real(0)});
             const Real rise = view_.radius * fma(up.x, height_of_m_, up.y * height_of_n_);
-            for (const Real& height : {begin_height_, end_height_}) {
+            const auto include_rim = [&](const Real& height) {
                 const auto crosses = abs(height) < rise;
                 const Real upwards = -height / select(crosses, rise, Real(1));
                 const Real sideways = sqrt(max((Real(1) - upwards) * (Real(1) + upwards), Real(0)));
@@ -330,7 +326,9 @@ private:
                 const Real angle1 = angle_of(middle + half);
                 low = select(crosses, min(low, min(angle0, angle1)), low);
                 high = select(crosses, max(high, max(angle0, angle1)), high);
-            }
+            };
+            include_rim(begin_height_);
+            include_rim(end_height_);
         }
         low_ = select(sees_right, rightmost, max(low, rightmost));
         range_ = max(select(sees_left, leftmost, min(high, leftmost)) - low_, Real(0));

@@ -3,9 +3,16 @@
 /// With a lobe that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 
 #include <nusselt/core/light_sample.h>
+#include <nusselt/ltc/ltc.h>
 #include <nusselt/sampling/cylinder_fan.h>
 
 NUSSELT_NAMESPACE_BEGIN
+
+/// The same lobe in every lane of a pack.
+template <class Real, class Single>
+NUSSELT_HD inline Ltc<Real> broadcast(const Ltc<Single>& ltc) noexcept {
+    return Ltc<Real>(ltc);
+}
 
 /// \tparam Real float, double, long double or a pack of float or double: one light and shading point per lane, or many
 ///              samples of one light (see the broadcasting constructor).
