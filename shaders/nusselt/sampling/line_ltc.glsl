@@ -10,7 +10,7 @@
 /// the lobe over the measure. The emission of the light is radiance times radius, so that the radius cancels. Space:
 /// shading space with wo in the xz half-plane (shading_frame()); clips by itself. Edge cases: nothing of the light in
 /// the lobe, no length, or origin on the infinite line: pdf = 0, measure 0. Samples may lie below the surface, wi.z <
-/// 0, but after line_clipped_ltc_prepare(): they count, with a contribution of zero.
+/// 0: they count, with a contribution of zero. After line_clipped_ltc_prepare() none does.
 
 #include "../ltc/light_transform.glsl"
 #include "../sampling/line_projected_solid_angle.glsl"

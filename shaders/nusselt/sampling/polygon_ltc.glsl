@@ -9,7 +9,7 @@
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr], that of the lobe over the measure. Space:
 /// shading space with wo in the xz half-plane (shading_frame()); clips by itself. Edge cases: nothing of the light in
 /// the lobe, no area, or origin in the plane of the polygon: pdf = 0, measure 0. Samples may lie below the surface,
-/// wi.z < 0, but after polygon_clipped_ltc_prepare(): they count, with a contribution of zero.
+/// wi.z < 0: they count, with a contribution of zero. After polygon_clipped_ltc_prepare() none does.
 
 #include "../ltc/light_transform.glsl"
 #include "../sampling/polygon_projected_solid_angle.glsl"
