@@ -8,6 +8,7 @@
 #include "shader_runner.h"
 
 #include <fmt/core.h>
+#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <iostream>
@@ -119,20 +120,25 @@ Verdict judge_group(const gpu::Device& device, std::span<const std::uint32_t> sh
     const auto results = ShaderRunner(device, shader, Group::kInputs, table).run(inputs);
     constexpr std::size_t kCount = std::size(Group::kOutputs);
     std::array<std::vector<double>, kCount> of_device, of_cpp, floor;
-    Verdict verdict;
-    for (std::size_t i = 0; i < calls; ++i) {
+    for (std::size_t k = 0; k < kCount; ++k)
+        for (auto* errors : {&of_device[k], &of_cpp[k], &floor[k]}) errors->resize(calls);
+    tbb::parallel_for(std::size_t{0}, calls, [&](std::size_t i) {
         const float* in = &inputs[Group::kInputs * i];
         const auto exact = Group::template call<long double>(in);
         const auto single = Group::template call<float>(in);
         for (std::size_t k = 0; k < kCount; ++k) {
             const Output& output = Group::kOutputs[k];
-            if (!std::isfinite(results[i][k]))
-                verdict.excesses.push_back(fmt::format("{} of call {} is not finite", output.name, i));
-            of_device[k].push_back(error(output, results[i][k], exact[k]));
-            of_cpp[k].push_back(error(output, single[k], exact[k]));
-            floor[k].push_back(error(output, static_cast<float>(exact[k]), exact[k]));
+            of_device[k][i] = error(output, results[i][k], exact[k]);
+            of_cpp[k][i] = error(output, single[k], exact[k]);
+            floor[k][i] = error(output, static_cast<float>(exact[k]), exact[k]);
         }
-    }
+    });
+    Verdict verdict;
+    for (std::size_t i = 0; i < calls; ++i)
+        for (std::size_t k = 0; k < kCount; ++k)
+            if (!std::isfinite(results[i][k]))
+                verdict.excesses.push_back(
+                    fmt::format("{} of call {} is not finite", Group::kOutputs[k].name, i));
     for (std::size_t k = 0; k < kCount; ++k)
         verdict.add("", compare(Group::kOutputs[k].name, of_device[k], of_cpp[k], floor[k], {Tail::largest}));
     return verdict;
@@ -141,11 +147,12 @@ Verdict judge_group(const gpu::Device& device, std::span<const std::uint32_t> sh
 /// Judges all variants of the shader of a group that give the right results on a device.
 /// \param table what the shader finds in the third buffer, if anything.
 template <class Group>
-void expect_group_parity(const gpu::Device& device, std::span<const std::uint32_t> table = {}) {
+void expect_group_parity(const gpu::Device& device, std::size_t calls = kCalls,
+                         std::span<const std::uint32_t> table = {}) {
     std::vector<std::span<const std::uint32_t>> variants{Group::kSplit};
     if (gpu::has_fused_fma(device)) variants.emplace_back(Group::kFused);
     for (const auto shader : variants) {
-        const Verdict verdict = judge_group<Group>(device, shader, kCalls, table);
+        const Verdict verdict = judge_group<Group>(device, shader, calls, table);
         for (const std::string& excess : verdict.excesses) ADD_FAILURE() << excess;
         for (const std::string& where : verdict.vacuous)
             ADD_FAILURE() << "a budget that cannot fail: " << where;

@@ -32,7 +32,12 @@ template <class Base>
 const std::vector<OnLobes<Base>>& classes_of(const OnLobes<Base>*) {
     static const std::vector<OnLobes<Base>> classes = [] {
         std::vector<OnLobes<Base>> result;
-        for (const Base& base : classes_of(static_cast<const Base*>(nullptr))) result.push_back({&base});
+        for (const Base& base : classes_of(static_cast<const Base*>(nullptr))) {
+            result.push_back({&base});
+            // These lie in front of the eye, from where lobes lean.
+            if (base.name == std::string_view("in the horizon plane"))
+                result.back().visibility = experiments::Visibility::no_one;
+        }
         return result;
     }();
     return classes;
