@@ -1,3 +1,5 @@
+#ifndef PARITY_BUFFERS_GLSL
+#define PARITY_BUFFERS_GLSL
 // Numbers in and out, for each light or call.
 
 layout(local_size_x = 64) in;
@@ -17,3 +19,5 @@ void write_vec3(uint at, vec3 v) {
     outputs[at + 1u] = v.y;
     outputs[at + 2u] = v.z;
 }
+
+#endif

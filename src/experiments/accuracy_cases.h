@@ -65,7 +65,7 @@ std::vector<Case<Technique, Real>> make_cases(const typename Technique::Class& l
                                 typename Technique::Reference(exact_light), false};
         if (!is_dark<Technique>(lights) && !(c.exact.measure() > kSmallestMeasure)) continue;
         if constexpr (Technique::kCyclic)
-            c.cyclic = !(Technique::miss(exact_light, {0, 0, 1}) > kTolerance<float>);
+            c.cyclic = !(c.missed_by(Technique::pole(exact_light)) > kTolerance<float>);
         cases.push_back(c);
     }
     return cases;

@@ -145,11 +145,17 @@ struct Absent {};
 struct CommonTraits {
     static constexpr bool kClips = true;           ///< to the horizon
     static constexpr bool kMeasuresVisible = true; ///< measure() is what the shading point sees
-    static constexpr bool kCyclic = false;         ///< u = 0 and u = 1 coincide if the zenith is in the light
+    static constexpr bool kCyclic = false;         ///< u = 0 and u = 1 coincide if the pole is in the light
     static constexpr bool kHasFloor = true;        ///< false if it is biased by design
     template <class Real>
     using Plain = Absent;    ///< transcription of the published formulas
     using TwoSteps = Absent; ///< as many steps as in float, without its rounding
+
+    /// The unit direction around which the first random number turns.
+    template <class Light>
+    static Vec3<Exact> pole(const Light&) {
+        return {0, 0, 1};
+    }
 };
 
 template <int N>

@@ -1,10 +1,6 @@
 // Functions below the techniques: on the device, in C++ with float, and in C++ with long double.
 
-#include "experiments/hostile/lights.h"
-#include "gpu/fused_fma.h"
-#include "gpu_test.h"
-#include "parity_check.h"
-#include "shader_runner.h"
+#include "function_parity.h"
 #include "shaders/arithmetic_fused.h"
 #include "shaders/arithmetic_split.h"
 #include "shaders/bsdf_fused.h"
@@ -31,59 +27,13 @@
 #include <nusselt/random/sobol.h>
 #include <nusselt/random/unit_interval.h>
 
-#include <fmt/core.h>
-
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <iostream>
 
 namespace nusselt::parity {
 
 namespace {
-
-using hostile::RandomSource;
-
-constexpr std::size_t kCalls = 1'200'000;
-
-/// Whether the next inputs shall be degenerate: more than 1e5 of the calls.
-bool is_degenerate(RandomSource& random) { return random.index(8) == 0; }
-
-Vec3<double> axis(RandomSource& random) {
-    const Vec3<double> axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
-    return axes[random.index(6)];
-}
-
-/// How errors are measured.
-enum class Error {
-    relative, ///< to the exact value
-    absolute, ///< as they are, of numbers of order one
-    measure, ///< relative, where what is dimmer than kSmallestMeasure counts as that: rounding moves dark lights
-};
-
-struct Output {
-    const char* name;
-    Error error;
-};
-
-template <class Real>
-using Results = std::array<Real, kOutputSize>;
-
-template <class Real>
-void put(Results<Real>& results, std::size_t at, const Vec3<Real>& v) {
-    results[at] = v.x;
-    results[at + 1] = v.y;
-    results[at + 2] = v.z;
-}
-
-template <class Real>
-Vec3<Real> get(const float* inputs) {
-    return {inputs[0], inputs[1], inputs[2]};
-}
-
-void put(std::vector<float>& inputs, const Vec3<double>& v) {
-    for (const double x : {v.x, v.y, v.z}) inputs.push_back(static_cast<float>(x));
-}
 
 /// Each group of functions has a shader, draws inputs and makes the same calls in C++.
 struct Arithmetic {
@@ -272,41 +222,6 @@ void draw_surface(RandomSource& random, const Vec3<double>& corner, std::vector<
     put(inputs, random.direction());
 }
 
-/// A parallelogram with coordinates that are multiples of 2^-10, so that its corners are exactly in a plane.
-struct Parallelogram {
-    Vec3<double> corner, a, b;
-
-    explicit Parallelogram(RandomSource& random)
-        : corner(rounded(random)), a(rounded(random)), b(rounded(random)) {
-        if (!is_degenerate(random)) return;
-        switch (random.index(4)) {
-        case 0: // repeated vertices
-            b = {0, 0, 0};
-            break;
-        case 1: // no area
-            b = 2.0 * a;
-            break;
-        case 2: // a sliver
-            b = a + 0x1p-10 * axis(random);
-            break;
-        default: // all but a point
-            a = 0x1p-10 * axis(random);
-            b = 0x1p-10 * axis(random);
-        }
-    }
-
-    void put_corners(std::vector<float>& inputs) const {
-        for (const Vec3<double>& v : {corner, corner + a, corner + a + b, corner + b}) put(inputs, v);
-    }
-
-private:
-    static Vec3<double> rounded(RandomSource& random) {
-        const Vec3<double> v = random.direction();
-        return 0x1p-10 *
-               Vec3<double>{std::round(0x1p10 * v.x), std::round(0x1p10 * v.y), std::round(0x1p10 * v.z)};
-    }
-};
-
 struct Polygons {
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kPolygonSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kPolygonFused;
@@ -408,66 +323,12 @@ struct Lines {
     }
 };
 
-double error(const Output& output, long double value, long double exact) {
-    const long double off = std::fabs(value - exact);
-    if (off == 0) return 0;
-    switch (output.error) {
-    case Error::absolute:
-        return static_cast<double>(off);
-    case Error::measure:
-        return static_cast<double>(off / std::max(std::fabs(exact), experiments::kSmallestMeasure));
-    case Error::relative:
-        break;
-    }
-    return static_cast<double>(off / std::fabs(exact));
-}
-
-/// Compares a shader of a group with C++.
-template <class Group>
-Verdict judge_group(const gpu::Device& device, std::span<const std::uint32_t> shader, std::size_t calls) {
-    std::vector<float> inputs;
-    for (std::size_t i = 0; i < calls; ++i) {
-        RandomSource random(1, i);
-        Group::draw(random, inputs);
-    }
-    const auto results = ShaderRunner(device, shader, Group::kInputs).run(inputs);
-    constexpr std::size_t kCount = std::size(Group::kOutputs);
-    std::array<std::vector<double>, kCount> of_device, of_cpp, floor;
-    Verdict verdict;
-    for (std::size_t i = 0; i < calls; ++i) {
-        const float* in = &inputs[Group::kInputs * i];
-        const auto exact = Group::template call<long double>(in);
-        const auto single = Group::template call<float>(in);
-        for (std::size_t k = 0; k < kCount; ++k) {
-            const Output& output = Group::kOutputs[k];
-            if (!std::isfinite(results[i][k]))
-                verdict.excesses.push_back(fmt::format("{} of call {} is not finite", output.name, i));
-            of_device[k].push_back(error(output, results[i][k], exact[k]));
-            of_cpp[k].push_back(error(output, single[k], exact[k]));
-            floor[k].push_back(error(output, static_cast<float>(exact[k]), exact[k]));
-        }
-    }
-    for (std::size_t k = 0; k < kCount; ++k)
-        verdict.add("", compare(Group::kOutputs[k].name, of_device[k], of_cpp[k], floor[k], {Tail::largest}));
-    return verdict;
-}
-
 template <class Group>
 class FunctionParity : public GpuTest {};
 using Groups = testing::Types<Arithmetic, Trigonometry, Frames, Brdfs, Polygons, Clipping, Lines>;
 TYPED_TEST_SUITE(FunctionParity, Groups);
 
-TYPED_TEST(FunctionParity, IsAsAccurateAsCpp) {
-    std::vector<std::span<const std::uint32_t>> variants{TypeParam::kSplit};
-    if (gpu::has_fused_fma(this->device())) variants.emplace_back(TypeParam::kFused);
-    for (const auto shader : variants) {
-        const Verdict verdict = judge_group<TypeParam>(this->device(), shader, kCalls);
-        for (const std::string& excess : verdict.excesses) ADD_FAILURE() << excess;
-        for (const std::string& where : verdict.vacuous)
-            ADD_FAILURE() << "a budget that cannot fail: " << where;
-        std::cout << fmt::format("largest ratio to C++: {:.2f}, {}\n", verdict.largest_ratio, verdict.where);
-    }
-}
+TYPED_TEST(FunctionParity, IsAsAccurateAsCpp) { expect_group_parity<TypeParam>(this->device()); }
 
 class FunctionMutant : public GpuTest {};
 

@@ -55,6 +55,26 @@ TEST(ParityBudget, CountsDirectionsOffTheLightAndWhatIsNoNumber) {
     EXPECT_EQ(excesses_of(device, cpp, {}).size(), 1u) << "also where C++ has them";
 }
 
+TEST(ParityBudget, LeavesRoomForChanceWhereImagesAreRounded) {
+    const auto excesses = [](const Errors& device, const Errors& cpp) {
+        return compare(device, cpp, {}, Images::rounded).excesses.size();
+    };
+    // One error of a thousand is beyond 99.9 %, ten are not.
+    Errors device = errors_up_to(1e-6);
+    for (auto& errors : device.of) errors.back() = 1;
+    EXPECT_EQ(excesses(device, errors_up_to(1e-6)), 0u);
+    for (auto& errors : device.of) std::fill(errors.end() - 10, errors.end(), 1.0);
+    EXPECT_GT(excesses(device, errors_up_to(1e-6)), 0u);
+
+    Errors some, none;
+    some.no_sample = 130;
+    EXPECT_EQ(excesses(some, none), 1u);
+    none.no_sample = 100;
+    EXPECT_EQ(excesses(some, none), 0u);
+    ++some.no_sample;
+    EXPECT_EQ(excesses(some, none), 1u);
+}
+
 TEST(ParityBudget, TakesWhatCannotBeToldAsTheLargestError) {
     Errors device = errors_up_to(1e-6);
     device.add(Quantity::first_random, std::numeric_limits<double>::quiet_NaN());

@@ -12,6 +12,7 @@ namespace {
 template <class AnyTraits>
 struct RelatedPair {
     using Traits = AnyTraits;
+    static constexpr Images kImages = Images::same;
     using Outputs = typename Twin<Traits>::Outputs;
 
     static Outputs outputs_of(const typename Twin<Traits>::Input& in) {

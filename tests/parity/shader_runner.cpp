@@ -13,13 +13,20 @@ constexpr std::size_t kWorkGroup = 64; // as in shaders/parity/buffers.glsl
 } // namespace
 
 ShaderRunner::ShaderRunner(const gpu::Device& device, std::span<const std::uint32_t> shader,
-                           std::size_t input_size)
+                           std::size_t input_size, std::span<const std::uint32_t> table)
     : device_(&device),
       input_size_(input_size),
       inputs_(device, kBatch * input_size * sizeof(float), gpu::Residence::host_visible),
       outputs_(device, kBatch * kOutputSize * sizeof(float), gpu::Residence::host_visible),
-      pipeline_(device, shader, {.storage_buffers = 2, .push_constant_size = sizeof(std::uint32_t)}) {
-    pipeline_.bind({&inputs_, &outputs_});
+      pipeline_(device, shader,
+                {.storage_buffers = table.empty() ? 2u : 3u, .push_constant_size = sizeof(std::uint32_t)}) {
+    if (table.empty()) {
+        pipeline_.bind({&inputs_, &outputs_});
+        return;
+    }
+    table_.emplace(device, table.size_bytes(), gpu::Residence::host_visible);
+    table_->write(table);
+    pipeline_.bind({&inputs_, &outputs_, &*table_});
 }
 
 std::vector<std::array<float, kOutputSize>> ShaderRunner::run(std::span<const float> inputs) {

@@ -4,6 +4,7 @@
 #include "gpu/compute_pipeline.h"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,7 +17,9 @@ inline constexpr std::size_t kOutputSize = 12;
 class ShaderRunner {
 public:
     /// \param input_size floats for each light or call.
-    ShaderRunner(const gpu::Device& device, std::span<const std::uint32_t> shader, std::size_t input_size);
+    /// \param table      what the shader finds in a third buffer; empty if it has none.
+    ShaderRunner(const gpu::Device& device, std::span<const std::uint32_t> shader, std::size_t input_size,
+                 std::span<const std::uint32_t> table = {});
 
     /// \param inputs input_size floats for each light or call.
     std::vector<std::array<float, kOutputSize>> run(std::span<const float> inputs);
@@ -25,6 +28,7 @@ private:
     const gpu::Device* device_;
     std::size_t input_size_;
     gpu::Buffer inputs_, outputs_;
+    std::optional<gpu::Buffer> table_;
     gpu::ComputePipeline pipeline_;
 };
 

@@ -21,6 +21,7 @@ constexpr VacuousBudget kVacuousBudgets[] = {
     {"square of 1 mm at 40 m: first random number, largest", kCorner},
     {"square of 1 mm at 40 m: second random number, 99.9 %", kCorner},
     {"pointing at the point within 1e-4: first random number, largest", kForeshortened},
+    {"pointing at the point within 1e-4: first random number, 99.99 %", kForeshortened},
 };
 
 } // namespace

@@ -30,6 +30,7 @@ struct TechniquePair {
     using Traits = AnyTraits;
     using Kind = AnyKind;
     static constexpr const char* kName = Traits::kName;
+    static constexpr Images kImages = hostile::kHasLobe<Kind> ? Images::rounded : Images::same;
     using Outputs = typename Twin<Traits>::Outputs;
 
     static Outputs outputs_of(const typename Twin<Traits>::Input& in) {
@@ -117,7 +118,7 @@ Verdict judge_class(const typename Pair::Traits::Class& lights, int count,
         begin += size;
         judged += bright;
     }
-    Verdict verdict = compare(device, cpp, floor);
+    Verdict verdict = compare(device, cpp, floor, Pair::kImages);
     verdict.lights = judged;
     return verdict;
 }

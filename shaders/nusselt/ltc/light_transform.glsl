@@ -1,0 +1,70 @@
+#ifndef NUSSELT_LTC_LIGHT_TRANSFORM_GLSL
+#define NUSSELT_LTC_LIGHT_TRANSFORM_GLSL
+/// Lights in the cosine space of a lobe. A linear map takes polygons to polygons and segments to segments, and the
+/// integral of the lobe over the light to that of the clamped cosine over its image. Twin of
+/// include/nusselt/ltc/light_transform.h.
+///
+/// What the lobe reaches of a light counts. Lobes also reach below the surface, but seldom (Peters 2021, polygonal
+/// lights, Sec. 4.1); part_above_horizon() leaves that out.
+
+#include "../geometry/clip_line.glsl"
+#include "../geometry/polygon_measures.glsl"
+#include "../ltc/ltc.glsl"
+
+/// \param light in shading space, with coordinates of order one (with_unit_extent()).
+ConvexPolygon to_cosine_space(ConvexPolygon light, Ltc ltc) {
+    ConvexPolygon image;
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
+        image.vertex[j] = ltc_to_cosine(ltc, light.vertex[j]);
+        image.edge[j] = ltc_to_cosine(ltc, light.edge[j]);
+    }
+    image.normal = nusselt_normalize(ltc_normal_to_cosine(ltc, light.normal));
+    return image;
+}
+
+/// \param light in shading space, with coordinates of order one (scaled()).
+LineSegment to_cosine_space(LineSegment light, Ltc ltc) {
+    vec3 s = ltc_to_cosine(ltc, light.s);
+    float stretch = nusselt_length(s);
+    float inverse = 1.0 / (stretch > 0.0 ? stretch : 1.0);
+    return LineSegment(ltc_to_cosine(ltc, light.p0), inverse * s, stretch * light.len);
+}
+
+/// dR / dR_c: how much thicker a thin tube is in shading space than its image (Peters 2021, linear lights, Eq. 5, the
+/// reciprocal of the width factor of Heitz and Hill 2017, Linear-Light Shading with Linearly Transformed Cosines).
+/// \param moment cross product of a point and the direction of the line in shading space, of any length.
+/// \returns 0 for the zero vector.
+float radius_ratio(vec3 moment, Ltc ltc) {
+    return nusselt_length(ltc_normal_to_cosine(ltc, nusselt_normalize(moment))) / ltc.minor;
+}
+
+/// A polygon with coordinates of order one.
+struct ScaledPolygon {
+    ConvexPolygon polygon;
+    float inverse_scale; ///< a power of two: the light is polygon times this
+};
+
+ScaledPolygon to_unit_extent(ConvexPolygon light) {
+    return ScaledPolygon(with_unit_extent(light), reciprocal_power_of_two(unit_extent_scale(light)));
+}
+
+/// What remains of a polygon above the surface, which can be clipped once more, in cosine space.
+/// \param light in shading space, of at most NUSSELT_MAX_VERTICES - 1 vertices.
+ScaledPolygon part_above_horizon(ConvexPolygon light) {
+    ScaledPolygon whole = to_unit_extent(light);
+    // Once more to an extent of order one, since little may be left of the light.
+    ScaledPolygon part = to_unit_extent(clip_to_horizon(whole.polygon));
+    part.inverse_scale = part.inverse_scale * whole.inverse_scale;
+    return part;
+}
+
+/// What remains of a line above the surface.
+/// \param light in shading space, with coordinates of order one (scaled()).
+LineSegment part_above_horizon(LineSegment light) {
+    LineExtent e = clipped_extent(light);
+    vec3 begin = e.begins_near ? e.near : exact_fma(e.len, e.inward, e.near);
+    begin.z = nusselt_max(begin.z, 0.0);
+    return LineSegment(begin, light.s, e.visible ? e.len : 0.0);
+}
+
+#endif

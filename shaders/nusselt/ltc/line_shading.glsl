@@ -1,0 +1,79 @@
+#ifndef NUSSELT_LTC_LINE_SHADING_GLSL
+#define NUSSELT_LTC_LINE_SHADING_GLSL
+/// Analytic, unshadowed shading with linear lights, and tubes and strips approximated by them.
+///
+/// E. Heitz, S. Hill 2017, Linear-Light Shading with Linearly Transformed Cosines, GPU Zen. Twin of
+/// include/nusselt/ltc/line_shading.h, where the deviations stand.
+///
+/// Integrals of normalised lobes: times the albedo of the lobe and the radiance of the light they are radiance.
+
+#include "../ltc/light_transform.glsl"
+
+/// Integral of the Lambertian lobe over the part of a linear light above the surface, per radius [1/m].
+/// \param light in shading space [m].
+float diffuse_integral(LineSegment light) { return (1.0 / kNusseltPi) * projected_solid_angle(light); }
+
+/// \param part  the part of a light that counts, with coordinates of order one.
+/// \param scale by which it is larger than the light.
+float lobe_integral_of_part(LineSegment part, float scale, Ltc ltc) {
+    float ratio = radius_ratio(nusselt_cross(part.p0, part.s), ltc);
+    return ratio > 0.0 ? diffuse_integral(to_cosine_space(part, ltc)) / ratio * scale : 0.0;
+}
+
+/// Integral of a lobe over a linear light, per radius [1/m]; 0 without length or where its line meets the origin.
+/// \param light in shading space with wo in the xz half-plane [m].
+float lobe_integral(LineSegment light, Ltc ltc) {
+    float scale = scale_of(light);
+    return lobe_integral_of_part(scaled(light, scale), scale, ltc);
+}
+
+/// The same over the part of the light above the surface.
+float clipped_lobe_integral(LineSegment light, Ltc ltc) {
+    float scale = scale_of(light);
+    return lobe_integral_of_part(part_above_horizon(scaled(light, scale)), scale, ltc);
+}
+
+/// A tube of small radius instead of an infinitely thin one, without its end caps. A lobe has no more to give than 1.
+/// \param line_integral of a lobe over the axis of the tube, per radius [1/m].
+/// \param radius        [m]
+/// \returns integral of the lobe over the tube, in [0, 1]. The error is of the order of radius over distance.
+float tube_integral(float line_integral, float radius) { return nusselt_min(line_integral * radius, 1.0); }
+
+/// The same with end caps.
+/// \param caps caps_integral() of the lobe.
+float tube_integral(float line_integral, float radius, float caps) {
+    return nusselt_min(nusselt_fma(line_integral, radius, caps), 1.0);
+}
+
+/// The integral over a small disk, over pi.
+/// \param p      its centre.
+/// \param inward unit normal of the side that does not shine.
+float small_disk_integral(vec3 p, vec3 inward, float radius, Ltc ltc) {
+    float distance = nusselt_length(p);
+    if (!(distance > 0.0)) return 0.0;
+    vec3 wi = nusselt_normalize(p);
+    float ratio = radius / distance;
+    return ltc_density(ltc, wi) * nusselt_max(dot(wi, inward), 0.0) * ratio * ratio;
+}
+
+/// The end caps of a tube as small disks, for tube_integral(). Heitz and Hill advise against it by default: bright
+/// spots show where a lobe is narrower than the tube.
+/// \param light  the axis, in shading space [m].
+/// \param radius [m]
+float caps_integral(LineSegment light, float radius, Ltc ltc) {
+    return kNusseltPi * (small_disk_integral(light.p0, light.s, radius, ltc) +
+                         small_disk_integral(end_of(light), -light.s, radius, ltc));
+}
+
+/// A narrow strip instead of a thin tube: it looks the thinner the more it turns its edge to the point.
+/// \param light         the middle line, in shading space [m].
+/// \param normal        of the strip, unit, perpendicular to the line; both sides shine.
+/// \param width         of the strip [m].
+/// \param line_integral of a lobe over the line, per radius [1/m].
+/// \returns integral of the lobe over the strip, in [0, 1]. The error is of the order of width over distance.
+float strip_integral(LineSegment light, vec3 normal, float width, float line_integral) {
+    vec3 to_line = nusselt_cross(light.s, nusselt_normalize(nusselt_cross(light.p0, light.s)));
+    return tube_integral(line_integral * abs(dot(to_line, normal)), 0.5 * width);
+}
+
+#endif

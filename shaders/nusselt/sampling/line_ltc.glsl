@@ -1,0 +1,90 @@
+#ifndef NUSSELT_SAMPLING_LINE_LTC_GLSL
+#define NUSSELT_SAMPLING_LINE_LTC_GLSL
+/// Sampling of a linear light proportional to a linearly transformed cosine. With a lobe that fits the specular BRDF
+/// times cosine, the noise that remains comes from shadows and from the misfit.
+///
+/// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Sec. 4.1 with Eq. 5.
+/// Twin of include/nusselt/sampling/line_ltc.h, where the deviation stands.
+///
+/// Measure: pdf is the density of wi in solid angle times the radius of the cylinder that tends to 0 [m/sr], that of
+/// the lobe over the measure. The emission of the light is radiance times radius, so that the radius cancels. Space:
+/// shading space with wo in the xz half-plane (shading_frame()); clips by itself. Edge cases: nothing of the light in
+/// the lobe, no length, or origin on the infinite line: pdf = 0, measure 0. Samples may lie below the surface, wi.z <
+/// 0: they count, with a contribution of zero. After line_clipped_ltc_prepare() none does.
+
+#include "../ltc/light_transform.glsl"
+#include "../sampling/line_projected_solid_angle.glsl"
+
+struct LineLtc {
+    Ltc ltc;
+    LineProjectedSolidAngle image; ///< in cosine space
+    // In shading space, of the part of the light that counts, scaled to an extent of order one.
+    vec3 s;
+    vec3 closest;        ///< point of the infinite line
+    float l0, l1;        ///< coordinates of the end points along s, 0 at the closest point
+    float inverse_scale; ///< a power of two
+    float measure;
+    float inverse_measure; ///< 0 without light
+};
+
+/// \param part  the part of the light that counts, scaled.
+/// \param scale by which it is larger than the light.
+LineLtc line_ltc_prepare_part(LineSegment part, float scale, Ltc ltc) {
+    LineLtc self;
+    self.ltc = ltc;
+    self.image = line_projected_solid_angle_prepare(to_cosine_space(part, ltc));
+    self.s = part.s;
+    self.inverse_scale = reciprocal_power_of_two(scale);
+    vec3 moment = nusselt_cross(part.p0, part.s);
+    self.closest = nusselt_cross(part.s, moment);
+    self.l0 = dot(part.p0, part.s);
+    self.l1 = dot(end_of(part), part.s);
+    // The reciprocal of what the density of directions on the image is divided by.
+    float ratio = kNusseltPi * radius_ratio(moment, ltc);
+    float in_lobe = line_projected_solid_angle_measure(self.image);
+    bool seen = nusselt_length(moment) > kNusseltSmallestDistance && in_lobe > 0.0 && ratio > 0.0;
+    float measure = in_lobe / (seen ? ratio : 1.0) * scale;
+    float inverse_measure = ratio / (seen ? in_lobe : 1.0) * self.inverse_scale;
+    bool lit = seen && measure > 0.0 && is_finite(measure) && is_finite(inverse_measure);
+    self.measure = lit ? measure : 0.0;
+    self.inverse_measure = lit ? inverse_measure : 0.0;
+    return self;
+}
+
+/// \param light in shading space [m].
+LineLtc line_ltc_prepare(LineSegment light, Ltc ltc) {
+    float scale = scale_of(light);
+    return line_ltc_prepare_part(scaled(light, scale), scale, ltc);
+}
+
+/// For the part of a light above the surface: samples are never below it.
+LineLtc line_clipped_ltc_prepare(LineSegment light, Ltc ltc) {
+    float scale = scale_of(light);
+    return line_ltc_prepare_part(part_above_horizon(scaled(light, scale)), scale, ltc);
+}
+
+/// Integral of the lobe over the light per radius [1/m].
+float line_ltc_measure(LineLtc self) { return self.measure; }
+
+/// \param wi a unit direction towards the light.
+float line_ltc_pdf(LineLtc self, vec3 wi) {
+    float density = ltc_density(self.ltc, wi) * self.inverse_measure;
+    return is_finite(density) ? density : 0.0;
+}
+
+/// \param u in [0, 1); increasing u moves from the begin of the light to its end.
+LightSample line_ltc_sample(LineLtc self, float u) {
+    // Only the coordinate along the light comes from cosine space: rounding there must not leave the light.
+    vec3 image = line_projected_solid_angle_sample(self.image, u).p;
+    float along = dot(ltc_to_shading(self.ltc, image), self.s) / self.ltc.minor;
+    vec3 p = exact_fma(nusselt_min(nusselt_max(along, self.l0), self.l1), self.s, self.closest);
+    vec3 wi = inverse_length(p) * p;
+    return LightSample(wi, line_ltc_pdf(self, wi), self.inverse_scale * p);
+}
+
+/// The random number for which the sample is wi, a unit direction on the light.
+float line_ltc_invert(LineLtc self, vec3 wi) {
+    return line_projected_solid_angle_invert(self.image, nusselt_normalize(ltc_to_cosine(self.ltc, wi)));
+}
+
+#endif

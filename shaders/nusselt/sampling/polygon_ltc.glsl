@@ -1,0 +1,87 @@
+#ifndef NUSSELT_SAMPLING_POLYGON_LTC_GLSL
+#define NUSSELT_SAMPLING_POLYGON_LTC_GLSL
+/// Sampling of a convex polygon proportional to a linearly transformed cosine. With a Lambertian emitter and a lobe
+/// that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
+///
+/// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672: Sec. 4.1.
+/// Twin of include/nusselt/sampling/polygon_ltc.h, where the deviation stands.
+///
+/// Measure: pdf is the density of wi with respect to solid angle [1/sr], that of the lobe over the measure. Space:
+/// shading space with wo in the xz half-plane (shading_frame()); clips by itself. Edge cases: nothing of the light in
+/// the lobe, no area, or origin in the plane of the polygon: pdf = 0, measure 0. Samples may lie below the surface,
+/// wi.z < 0: they count, with a contribution of zero. After polygon_clipped_ltc_prepare() none does.
+
+#include "../ltc/light_transform.glsl"
+#include "../sampling/polygon_projected_solid_angle.glsl"
+
+struct PolygonLtc {
+    Ltc ltc;
+    PolygonProjectedSolidAngle image; ///< in cosine space
+    // In shading space, of the part of the light that counts, scaled to an extent of order one.
+    LightPlane plane;
+    vec3 low, high;      ///< axis-aligned box
+    float inverse_scale; ///< a power of two
+    float measure;
+    float inverse_measure; ///< 0 without light
+};
+
+/// \param part the part of the light that counts.
+PolygonLtc polygon_ltc_prepare_part(ScaledPolygon part, Ltc ltc) {
+    PolygonLtc self;
+    self.ltc = ltc;
+    self.image = polygon_projected_solid_angle_prepare(to_cosine_space(part.polygon, ltc));
+    self.inverse_scale = part.inverse_scale;
+    float farthest = 0.0; // squared
+    self.low = part.polygon.vertex[0];
+    self.high = part.polygon.vertex[0];
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
+        vec3 v = part.polygon.vertex[j];
+        farthest = nusselt_max(farthest, dot(v, v));
+        self.low = nusselt_min(self.low, v);
+        self.high = nusselt_max(self.high, v);
+    }
+    self.plane = LightPlane(part.polygon.normal, plane_distance(part.polygon), sqrt(farthest));
+    float in_lobe = polygon_projected_solid_angle_measure(self.image);
+    bool lit = in_lobe > 0.0 && self.plane.distance != 0.0;
+    self.measure = lit ? (1.0 / kNusseltPi) * in_lobe : 0.0;
+    self.inverse_measure = lit ? 1.0 / self.measure : 0.0;
+    return self;
+}
+
+/// \param light in shading space, either winding [m].
+PolygonLtc polygon_ltc_prepare(ConvexPolygon light, Ltc ltc) {
+    return polygon_ltc_prepare_part(to_unit_extent(light), ltc);
+}
+
+/// For the part of a light above the surface: samples are never below it.
+/// \param light of at most NUSSELT_MAX_VERTICES - 1 vertices, since it is clipped twice.
+PolygonLtc polygon_clipped_ltc_prepare(ConvexPolygon light, Ltc ltc) {
+    return polygon_ltc_prepare_part(part_above_horizon(light), ltc);
+}
+
+/// Integral of the lobe over the light, in [0, 1].
+float polygon_ltc_measure(PolygonLtc self) { return self.measure; }
+
+/// \param wi a unit direction towards the light.
+float polygon_ltc_pdf(PolygonLtc self, vec3 wi) {
+    float density = ltc_density(self.ltc, wi) * self.inverse_measure;
+    return is_finite(density) ? density : 0.0;
+}
+
+/// \param u in [0, 1)^2; as continuous as that of polygon_projected_solid_angle_sample().
+LightSample polygon_ltc_sample(PolygonLtc self, vec2 u) {
+    vec3 wi = vec3(0.0, 0.0, 1.0);
+    if (self.inverse_measure > 0.0)
+        wi = nusselt_normalize(ltc_to_shading(self.ltc, polygon_projected_solid_angle_sample(self.image, u).wi));
+    // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
+    vec3 p = nusselt_min(nusselt_max(light_plane_distance_along(self.plane, wi) * wi, self.low), self.high);
+    return LightSample(wi, polygon_ltc_pdf(self, wi), self.inverse_scale * p);
+}
+
+/// The random numbers for which the sample is wi, a unit direction on the light. See
+/// polygon_projected_solid_angle_invert().
+vec2 polygon_ltc_invert(PolygonLtc self, vec3 wi) {
+    return polygon_projected_solid_angle_invert(self.image, nusselt_normalize(ltc_to_cosine(self.ltc, wi)));
+}
+
+#endif
