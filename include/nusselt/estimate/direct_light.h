@@ -107,7 +107,8 @@ private:
         const BrdfComponents<Real> brdf = surface_.brdf.eval_components(s.wi);
         const Real cosine = select(above, s.wi.z, Real(0));
         const Vec3<Real> zero{Real(0), Real(0), Real(0)};
-        return {{select(above, diffuse_.pdf(s.wi), Real(0)),
+        // Densities are those that samples really have, below the surface too: OptimalHeuristic counts on it.
+        return {{select(drawn, diffuse_.pdf(s.wi), Real(0)),
                  select(drawn & is_glossy_, specular_.pdf(s.wi), Real(0))},
                 {select(above, cosine * brdf.diffuse, zero), select(above, cosine * brdf.specular, zero)}};
     }
