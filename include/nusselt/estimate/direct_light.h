@@ -115,7 +115,9 @@ private:
 
     NUSSELT_HD static DirectLightSample<Real> combined(const LightSample<Real>& s,
                                                        const MisEstimate<Real>& estimate) noexcept {
-        return {s.wi, s.p, estimate.shadowed, estimate.constant};
+        // At a line that almost meets the point this is beyond all floats, and infinity times no visibility NaN.
+        const auto most = Real(std::numeric_limits<scalar_t<Real>>::max());
+        return {s.wi, s.p, min(Vec3<Real>{most, most, most}, estimate.shadowed), estimate.constant};
     }
 
     const Surface& surface_;

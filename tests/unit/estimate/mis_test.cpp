@@ -77,6 +77,9 @@ struct OptimalWithoutBlackSamples {
     }
 };
 
+template <class Kept>
+OptimalWithoutBlackSamples(Kept) -> OptimalWithoutBlackSamples<Kept>;
+
 /// The coefficient that is added for a sample and the control variate that is subtracted cancel at each point in the mean.
 /// Only one of them must not be left out.
 TEST(Mis, OptimalMayLeaveOutBlackSamplesButNotByHalves) {
