@@ -80,6 +80,32 @@ inline double kolmogorov_smirnov_test(std::vector<double> values) {
     return std::clamp(sum, 0.0, 1.0);
 }
 
+/// Two-sided p-value of Student's t distribution. \param degrees_of_freedom even.
+inline double student_t_p_value(double t, int degrees_of_freedom) {
+    const double angle = std::atan(std::fabs(t) / std::sqrt(degrees_of_freedom));
+    const double squared_cosine = std::cos(angle) * std::cos(angle);
+    double term = std::sin(angle);
+    double within = 0;
+    for (int k = 0; 2 * k < degrees_of_freedom; ++k) {
+        within += term;
+        term *= squared_cosine * (2 * k + 1) / (2 * k + 2);
+    }
+    return std::max(1 - within, 0.0);
+}
+
+/// p-value of Student's test that an odd number of independent values have a mean within `slack` of an expected one.
+inline double student_t_test(const std::vector<double>& values, double expected, double slack) {
+    const auto count = static_cast<double>(values.size());
+    double mean = 0;
+    for (const double x : values) mean += x / count;
+    double variance = 0;
+    for (const double x : values) variance += (x - mean) * (x - mean) / (count - 1);
+    const double off = std::max(std::fabs(mean - expected) - slack, 0.0);
+    if (off == 0) return 1;
+    if (variance == 0) return 0;
+    return student_t_p_value(off / std::sqrt(variance / count), static_cast<int>(values.size()) - 1);
+}
+
 /// Whether the smallest of several independent p-values is too small, at a significance of 0.1 % for all
 /// tests together (Šidák's correction). Seeds are fixed: a correct sampler passes always or never.
 inline bool reject(const std::vector<double>& p_values) {

@@ -37,6 +37,21 @@ TEST(HypothesisTest, KolmogorovSmirnov) {
     EXPECT_LT(kolmogorov_smirnov_test(uniform), 1e-10);
 }
 
+TEST(HypothesisTest, StudentValuesFromTables) {
+    EXPECT_NEAR(student_t_p_value(4.302653, 2), 0.05, 1e-6);
+    EXPECT_NEAR(student_t_p_value(-2.119905, 16), 0.05, 1e-6);
+    EXPECT_NEAR(student_t_p_value(4.014996, 16), 0.001, 1e-6);
+    EXPECT_EQ(student_t_p_value(0, 16), 1);
+}
+
+TEST(HypothesisTest, StudentComparesMeans) {
+    // Mean 2, standard error 1 / sqrt(3).
+    EXPECT_NEAR(student_t_test({1, 2, 3}, 1, 0), student_t_p_value(std::sqrt(3), 2), 1e-12);
+    EXPECT_NEAR(student_t_test({1, 2, 3}, 1, 0.25), student_t_p_value(0.75 * std::sqrt(3), 2), 1e-12);
+    EXPECT_EQ(student_t_test({1, 2, 3}, 2.2, 0.25), 1);
+    EXPECT_EQ(student_t_test({1, 1, 1}, 2, 0.25), 0);
+}
+
 TEST(HypothesisTest, CorrectsForTheNumberOfTests) {
     EXPECT_TRUE(reject({0.5, 0.0004, 0.9}) == false);
     EXPECT_TRUE(reject({0.5, 0.0003, 0.9}));

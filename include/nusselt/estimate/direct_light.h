@@ -107,14 +107,17 @@ private:
         const BrdfComponents<Real> brdf = surface_.brdf.eval_components(s.wi);
         const Real cosine = select(above, s.wi.z, Real(0));
         const Vec3<Real> zero{Real(0), Real(0), Real(0)};
-        return {{select(above, diffuse_.pdf(s.wi), Real(0)),
+        // Densities are those that samples really have, below the surface too: OptimalHeuristic counts on it.
+        return {{select(drawn, diffuse_.pdf(s.wi), Real(0)),
                  select(drawn & is_glossy_, specular_.pdf(s.wi), Real(0))},
                 {select(above, cosine * brdf.diffuse, zero), select(above, cosine * brdf.specular, zero)}};
     }
 
     NUSSELT_HD static DirectLightSample<Real> combined(const LightSample<Real>& s,
                                                        const MisEstimate<Real>& estimate) noexcept {
-        return {s.wi, s.p, estimate.shadowed, estimate.constant};
+        // At a line that almost meets the point this is beyond all floats, and infinity times no visibility NaN.
+        const auto most = Real(std::numeric_limits<scalar_t<Real>>::max());
+        return {s.wi, s.p, min(Vec3<Real>{most, most, most}, estimate.shadowed), estimate.constant};
     }
 
     const Surface& surface_;

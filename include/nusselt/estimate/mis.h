@@ -50,10 +50,13 @@ NUSSELT_HD inline Vec3<Real> sum_of(const Vec3<Real> (&terms)[K]) noexcept {
     return sum;
 }
 
+/// Always finite. Denormal denominators, whose reciprocals are not, count as 0: as good as no sample has them.
 template <class Real>
 NUSSELT_HD inline Real ratio_or_zero(const Real& numerator, const Real& denominator) noexcept {
-    const auto usable = denominator > Real(0);
-    return select(usable, numerator / select(usable, denominator, Real(1)), Real(0));
+    using Limits = std::numeric_limits<scalar_t<Real>>;
+    const auto usable = denominator >= Real(Limits::min());
+    const Real ratio = numerator / select(usable, denominator, Real(1));
+    return select(usable, min(ratio, Real(Limits::max())), Real(0));
 }
 
 template <class Real>

@@ -75,7 +75,7 @@ struct BiasedProjectedSolidAngleAndLtc : CosineMeasures {
 /// confined to the light, so that nothing is known of the integral of the specular component: heuristics with
 /// coefficients give them no weight. Meant for BalanceHeuristic.
 /// \tparam Lobe GgxVisibleNormals or GgxBoundedVisibleNormals.
-template <template <class> class Lobe>
+template <template <class...> class Lobe>
 struct BrdfSampling {
     template <class Real, int N, class Surface>
     NUSSELT_HD static auto specular(const ConvexPolygon<Real, N>& light, const Surface& surface) noexcept {
@@ -92,7 +92,7 @@ struct BrdfSampling {
 };
 
 /// Projected solid angle and visible normals.
-template <template <class> class Lobe>
+template <template <class...> class Lobe>
 struct ProjectedSolidAngleAndBrdf : BrdfSampling<Lobe> {
     template <class Real, int N, class Surface>
     NUSSELT_HD static auto diffuse(const ConvexPolygon<Real, N>& light, const Surface& /*surface*/) noexcept {
@@ -101,7 +101,7 @@ struct ProjectedSolidAngleAndBrdf : BrdfSampling<Lobe> {
 };
 
 /// Solid angle and visible normals: what most renderers do.
-template <template <class> class Lobe>
+template <template <class...> class Lobe>
 struct SolidAngleAndBrdf : BrdfSampling<Lobe> {
     template <class Real, int N, class Surface>
     NUSSELT_HD static auto diffuse(const ConvexPolygon<Real, N>& light, const Surface& /*surface*/) noexcept {

@@ -273,7 +273,24 @@ TEST(Frostbite, PartsAddUp) {
     for (int i = 0; i < 1000; ++i) {
         const Surface<float> s = surfaces.next();
         const Frostbite<float> brdf = s.frostbite();
-        ASSERT_EQ(brdf.eval(s.wi).x, brdf.eval_diffuse(s.wi).x + brdf.eval_specular(s.wi).x);
+        const auto parts = brdf.eval_components(s.wi);
+        for (const auto channel : {&Vec3<float>::x, &Vec3<float>::y, &Vec3<float>::z}) {
+            ASSERT_EQ(parts.diffuse.*channel, brdf.eval_diffuse(s.wi).*channel);
+            ASSERT_EQ(parts.specular.*channel, brdf.eval_specular(s.wi).*channel);
+            ASSERT_EQ(brdf.eval(s.wi).*channel, parts.diffuse.*channel + parts.specular.*channel);
+        }
+    }
+}
+
+TEST(Lambert, HasNoSpecularPart) {
+    const Lambert<float> lambert{{0.3f, 0.5f, 1}};
+    for (const float z : {1.0f, 0.6f, 0.0f, -0.6f}) {
+        const Vec3<float> wi{0, std::sqrt(1 - z * z), z};
+        const auto parts = lambert.eval_components(wi);
+        EXPECT_EQ(parts.diffuse.x, lambert.eval(wi).x);
+        EXPECT_EQ(parts.diffuse.y, lambert.eval(wi).y);
+        EXPECT_EQ(parts.diffuse.z, lambert.eval(wi).z);
+        EXPECT_EQ(dot(parts.specular, parts.specular), 0);
     }
 }
 
@@ -375,6 +392,25 @@ TEST(FrostbiteAlbedo, IsAtMostOneButForDielectricsAtGrazingAngles) {
     // What the renormalisation is for, and that this test sees it.
     EXPECT_GT(original.low, 1);
     EXPECT_GT(original.high, 1.1);
+}
+
+/// All inclinations, down to the horizon: where all goes to zero, the estimate does too.
+TEST(FrostbiteAlbedo, OfTheDiffusePartIsEstimatedWithin5Percent) {
+    double largest = 0;
+    for (int i = 0; i <= 20; ++i) {
+        const double roughness = i / 20.0;
+        for (int k = 0; k <= 40; ++k) {
+            const Vec3<double> wo = direction(std::max(std::cos(kPi<double> / 2 * k / 40), 1e-4), 0);
+            const Frostbite<double> brdf(wo, {1, 0.5, 0}, grey(0.04), roughness);
+            const double albedo = smooth_albedo([&](auto wi) { return brdf.eval_diffuse(wi).x; });
+            largest = std::max(largest, std::fabs(brdf.diffuse_albedo().x / albedo - 1));
+            EXPECT_DOUBLE_EQ(brdf.diffuse_albedo().y, brdf.diffuse_albedo().x / 2);
+            EXPECT_EQ(brdf.diffuse_albedo().z, 0);
+        }
+    }
+    EXPECT_LT(largest, 0.05);
+    const Frostbite<double> horizontal({1, 0, 0}, grey(1.0), grey(0.04), 0);
+    EXPECT_EQ(horizontal.diffuse_albedo().x, 0);
 }
 
 /// One lane at a time computes a hostile surface while its neighbours hold poison.
