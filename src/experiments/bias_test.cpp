@@ -32,11 +32,46 @@ std::vector<double> averages(const image::Image& image, int side) {
     return sums;
 }
 
+/// Relative to the mean over the image. A cell that next to no sample sees lit has no normal noise.
+constexpr double kDark = 0.01;
+
 /// A normal variable that is as unlikely as one of Student's distribution (Wallace 1959).
 double normal_from_student(double t, double freedom) {
     const double z = std::sqrt(freedom * std::log1p(t * t / freedom)) * (8 * freedom + 1) / (8 * freedom + 3);
     return std::copysign(z, t);
 }
+
+/// The difference of two means with their variances.
+struct Difference {
+    double value = 0;
+    double reference = 0;
+    double variance[2] = {0, 0};
+    double freedom[2] = {0, 0}; ///< of the variances
+
+    /// Of something independent.
+    void add(const Difference& other) {
+        value += other.value;
+        reference += other.reference;
+        for (int k = 0; k < 2; ++k) {
+            variance[k] += other.variance[k];
+            freedom[k] = other.freedom[k];
+        }
+    }
+
+    void append_score(std::vector<double>& scores) const {
+        const double sum = variance[0] + variance[1];
+        const double rounding = kRounding * std::fabs(reference);
+        if (sum == 0 && std::fabs(value) <= rounding) return;
+        if (sum == 0) {
+            scores.push_back(std::copysign(std::numeric_limits<double>::infinity(), value));
+            return;
+        }
+        // Welch and Satterthwaite.
+        const double welch =
+            sum * sum / (variance[0] * variance[0] / freedom[0] + variance[1] * variance[1] / freedom[1]);
+        scores.push_back(normal_from_student(value / std::sqrt(sum + rounding * rounding), welch));
+    }
+};
 
 double largest_magnitude(const std::vector<double>& values) {
     double largest = 0;
@@ -61,32 +96,36 @@ void CellStatistics::add(const image::Image& frame) {
     }
 }
 
+double CellStatistics::variance_of_mean(std::size_t i) const {
+    return squares_[i] / (frames_ - 1.0) / frames_;
+}
+
 std::vector<double> CellStatistics::z_scores(const CellStatistics& other) const {
     std::vector<double> scores;
-    const auto variance_of_mean = [](const CellStatistics& s, std::size_t i) {
-        return s.squares_[i] / (s.frames_ - 1.0) / s.frames_;
-    };
-    for (std::size_t i = 0; i < mean_.size(); ++i) {
-        const double difference = mean_[i] - other.mean_[i];
-        const double a = variance_of_mean(*this, i);
-        const double b = variance_of_mean(other, i);
-        const double rounding = kRounding * std::fabs(other.mean_[i]);
-        if (a + b == 0 && std::fabs(difference) <= rounding) continue;
-        if (a + b == 0) {
-            scores.push_back(std::copysign(std::numeric_limits<double>::infinity(), difference));
-            continue;
+    const double cells = static_cast<double>(mean_.size() / 3);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        double average = 0;
+        for (std::size_t i = channel; i < mean_.size(); i += 3) average += other.mean_[i] / cells;
+        Difference dark;
+        for (std::size_t i = channel; i < mean_.size(); i += 3) {
+            const Difference difference{mean_[i] - other.mean_[i],
+                                        other.mean_[i],
+                                        {variance_of_mean(i), other.variance_of_mean(i)},
+                                        {frames_ - 1.0, other.frames_ - 1.0}};
+            if (other.mean_[i] < kDark * average)
+                dark.add(difference);
+            else
+                difference.append_score(scores);
         }
-        const double freedom = (a + b) * (a + b) / (a * a / (frames_ - 1.0) + b * b / (other.frames_ - 1.0));
-        const double t = difference / std::sqrt(a + b + rounding * rounding);
-        scores.push_back(normal_from_student(t, freedom));
+        dark.append_score(scores);
     }
     return scores;
 }
 
 bool BiasTest::passes() const {
     // Too small a sum of squares is no sign of bias.
-    const double worst = std::min(
-        {p_value(frame, 3), p_value(largest_cell, cells), chi_square > 0 ? p_value(chi_square, 0.5) : 1.0});
+    const double worst = std::min({p_value(frame, 3), p_value(largest_cell, std::max(cells, 1)),
+                                   chi_square > 0 ? p_value(chi_square, 0.5) : 1.0});
     return worst > kSignificance / 3;
 }
 

@@ -3,6 +3,7 @@
 
 #include "image/image.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace nusselt::experiments {
@@ -17,12 +18,15 @@ public:
     void add(const image::Image& frame);
 
     /// How far the means of two renderers are apart in standard deviations, for each cell and channel: Welch's t, brought
-    /// to a normal distribution. Cells without noise are left out unless they differ. Differences below 1e-5 of the
-    /// mean are taken for rounding.
+    /// to a normal distribution. Cells without noise are left out unless they differ. Cells darker than a hundredth
+    /// of the image are taken together. Differences below 1e-5 of the mean are taken for rounding.
     /// \param other with cells of the same side, of images of the same size; both with at least two frames.
     std::vector<double> z_scores(const CellStatistics& other) const;
 
 private:
+    /// \param i cell and channel, an index into mean_.
+    double variance_of_mean(std::size_t i) const;
+
     int side_;
     int frames_ = 0;
     std::vector<double> mean_;
@@ -32,7 +36,7 @@ private:
 /// Statistics that are approximately normal if the means agree: standard deviations from what is to be expected.
 struct BiasTest {
     double frame = 0;        ///< the largest one of the channels of the mean over the image
-    double largest_cell = 0; ///< the largest one of cells of 8 x 8 pixels
+    double largest_cell = 0; ///< the largest one of cells of 16 x 16 pixels
     double chi_square = 0;   ///< sum of squares over these cells
     int cells = 0;           ///< their number, times channels
     double pixels_beyond_three =
@@ -52,7 +56,7 @@ public:
 
 private:
     CellStatistics pixels_{1};
-    CellStatistics cells_{8};
+    CellStatistics cells_{16};
     CellStatistics frame_{1 << 20};
 };
 

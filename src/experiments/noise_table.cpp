@@ -185,8 +185,8 @@ double largest_noise(const NoiseTableResult& result, const NoiseLimit& limit) {
     for (const NoiseRow& row : result.rows)
         if (angle != angles.end() && row.estimator->label == limit.estimator &&
             row.surface->name == limit.surface)
-            largest = std::max(largest,
-                               row.noise[static_cast<std::size_t>(angle - angles.begin())].root_mean_square);
+            largest =
+                std::max(largest, row.noise[static_cast<std::size_t>(angle - angles.begin())].*limit.noise);
     if (largest < 0) throw std::logic_error("table " + result.table->name + " lacks what a limit is for");
     return largest;
 }
