@@ -34,8 +34,9 @@ BEGIN {
     allow("src/shaders", "")
     allow("src/gpu", "library src/shaders")
     below = "library src/image src/scene src/visibility src/render_cpu src/gpu src/shaders"
+    below = below " src/tables"
     allow("src/experiments", below)
-    allow("apps/nusselt", below " src/experiments src/tables src/fit")
+    allow("apps/nusselt", below " src/experiments src/fit")
 
     allow("shaders/interface", "shaders/nusselt")
     below = "shaders/nusselt shaders/interface"

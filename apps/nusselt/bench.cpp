@@ -9,6 +9,7 @@ void setup_bench(CLI::App& app, int& exit_code) {
         app.add_subcommand("bench", "Measure how long rays and samples take, and how exact samples are");
     command->require_subcommand(1);
     setup_bench_rays(*command, exit_code);
+    setup_bench_strategies(*command, exit_code);
     setup_bench_samplers(*command, exit_code);
     setup_bench_gpu_samplers(*command, exit_code);
     setup_bench_accuracy(*command, exit_code);

@@ -45,6 +45,15 @@ struct BenchRaysOptions {
     std::optional<std::string> isa;
 };
 
+struct BenchStrategiesOptions {
+    std::filesystem::path scene;
+    int samples = 1;
+    int repetitions = 15;
+    std::optional<int> threads;
+    std::optional<std::string> resolution; ///< "WIDTHxHEIGHT"
+    std::optional<std::string> isa;
+};
+
 struct BenchSamplersOptions {
     int repetitions = 31;
     std::optional<std::string> isa;
@@ -119,6 +128,7 @@ void setup_fit_ltc(CLI::App& app, int& exit_code);
 
 // Below `bench`.
 void setup_bench_rays(CLI::App& bench, int& exit_code);
+void setup_bench_strategies(CLI::App& bench, int& exit_code);
 void setup_bench_samplers(CLI::App& bench, int& exit_code);
 void setup_bench_gpu_samplers(CLI::App& bench, int& exit_code);
 void setup_bench_accuracy(CLI::App& bench, int& exit_code);
@@ -134,6 +144,9 @@ int run_techniques();
 
 /// Compares the time of rendering with that of tracing the same rays.
 int run_bench_rays(const BenchRaysOptions& options);
+
+/// Measures what a second technique for the specular component costs.
+int run_bench_strategies(const BenchStrategiesOptions& options);
 
 /// Measures the cost of each technique and prints or writes the table.
 int run_bench_samplers(const BenchSamplersOptions& options);

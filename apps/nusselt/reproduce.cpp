@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "render_setup.h"
 
+#include "experiments/noise_table.h"
 #include "experiments/run.h"
 #include "image/atomic_file.h"
 
@@ -17,39 +18,49 @@ namespace nusselt::app {
 namespace {
 
 using experiments::Experiment;
-using experiments::ExperimentResult;
+using experiments::NoiseTable;
+
+/// What all kinds of experiments have.
+struct Heading {
+    std::string name;
+    std::string source;
+    std::string description;
+};
+
+std::vector<Heading> all_headings() {
+    std::vector<Heading> headings;
+    for (const Experiment& e : experiments::all_experiments())
+        headings.push_back({e.name, e.source, e.description});
+    for (const NoiseTable& t : experiments::all_noise_tables())
+        headings.push_back({t.name, t.source, t.description});
+    return headings;
+}
 
 void print_list() {
-    for (const Experiment& e : experiments::all_experiments())
-        fmt::print("{:<18}{}\n{:<18}{}\n", e.name, e.source, "", e.description);
+    for (const Heading& h : all_headings())
+        fmt::print("{:<18}{}\n{:<18}{}\n", h.name, h.source, "", h.description);
 }
 
-std::vector<const Experiment*> selected(const std::vector<std::string>& names) {
-    std::vector<const Experiment*> result;
-    for (const Experiment& e : experiments::all_experiments())
-        if (names.empty() || std::find(names.begin(), names.end(), e.name) != names.end())
-            result.push_back(&e);
-    return result;
+bool is_chosen(const ReproduceOptions& options, const std::string& name) {
+    const std::vector<std::string>& names = options.experiments;
+    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
 }
 
-void print_table(const ExperimentResult& result) {
-    fmt::print("\n{}: {}\n{:.1f} % of the pixels outside penumbrae, mean radiance {:.4g}\n\n",
-               result.experiment->name, result.experiment->source, 100 * result.share_outside_penumbrae,
-               result.mean);
-    fmt::print("{:<32}{:>12}{:>28}{:>10}{:>10}\n", "technique", "RMSE", "outside penumbrae / mean", "invalid",
-               "seconds");
-    for (const auto& v : result.variants)
-        fmt::print("{:<32}{:>12.4g}{:>28.3g}{:>10}{:>10.3f}\n", v.label, v.rmse, v.rmse_outside_penumbrae,
-                   v.invalid_pixels, v.seconds);
-    for (const auto& e : result.expectations)
-        fmt::print("{}: {}\n", e.holds ? "holds" : "DOES NOT HOLD", e.text);
+/// Prints and writes the result of one experiment. \returns whether all expectations hold
+template <class Result>
+bool report(const Result& result, const std::filesystem::path& folder) {
+    fmt::print("\n{}", experiments::to_text(result));
+    experiments::write_report(result, folder);
+    return std::all_of(result.expectations.begin(), result.expectations.end(),
+                       [](const experiments::ExpectationResult& e) { return e.holds; });
 }
 
-void write_index(const std::filesystem::path& folder, const std::vector<const Experiment*>& experiments) {
-    image::write_atomically(folder / "index.html", [&](std::ofstream& file) {
+void write_index(const ReproduceOptions& options) {
+    image::write_atomically(options.output / "index.html", [&](std::ofstream& file) {
         file << "<!DOCTYPE html>\n<meta charset=\"utf-8\"><title>Nusselt: experiments</title>\n<ul>\n";
-        for (const Experiment* e : experiments)
-            file << fmt::format("<li><a href=\"{0}/index.html\">{0}</a>: {1}\n", e->name, e->source);
+        for (const Heading& h : all_headings())
+            if (is_chosen(options, h.name))
+                file << fmt::format("<li><a href=\"{0}/index.html\">{0}</a>: {1}\n", h.name, h.source);
         file << "</ul>\n";
     });
 }
@@ -63,7 +74,7 @@ void setup_reproduce(CLI::App& app, int& exit_code) {
         "Render the comparisons of the papers and check what they claim. Prints a table and writes a\n"
         "page with all images for each experiment. The exit code is 1 if an expectation fails.");
     std::vector<std::string> names;
-    for (const Experiment& e : experiments::all_experiments()) names.push_back(e.name);
+    for (const Heading& h : all_headings()) names.push_back(h.name);
     command->add_option("EXPERIMENT", options->experiments, "Names of experiments, see --list. Default: all")
         ->check(CLI::IsMember(names));
     command->add_flag_callback(
@@ -100,17 +111,17 @@ int run_reproduce(const ReproduceOptions& options) {
     settings.width = options.width;
     settings.threads = options.threads.value_or(0);
     bool all_hold = true;
-    const std::vector<const Experiment*> chosen = selected(options.experiments);
-    for (const Experiment* experiment : chosen) {
-        const ExperimentResult result =
-            experiments::run_experiment(*experiment, settings, [&](std::string_view step) {
-                fmt::print(stderr, "{}: {}\n", experiment->name, step);
-            });
-        print_table(result);
-        experiments::write_report(result, options.output / experiment->name);
-        for (const auto& e : result.expectations) all_hold = all_hold && e.holds;
+    for (const Experiment& experiment : experiments::all_experiments()) {
+        if (!is_chosen(options, experiment.name)) continue;
+        const auto result = experiments::run_experiment(experiment, settings, [&](std::string_view step) {
+            fmt::print(stderr, "{}: {}\n", experiment.name, step);
+        });
+        all_hold = report(result, options.output / experiment.name) && all_hold;
     }
-    write_index(options.output, chosen);
+    for (const NoiseTable& table : experiments::all_noise_tables())
+        if (is_chosen(options, table.name))
+            all_hold = report(experiments::measure_noise(table), options.output / table.name) && all_hold;
+    write_index(options);
     fmt::print("\n{}\n", (options.output / "index.html").string());
     return all_hold ? 0 : 1;
 }

@@ -1,31 +1,58 @@
 #include "experiments/run.h"
 
+#include "experiments/report_table.h"
 #include "image/atomic_file.h"
 #include "image/difference.h"
 #include "image/io.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
 namespace nusselt::experiments {
 
 namespace {
 
-constexpr const char* kStyle =
-    "body{font:16px/1.5 sans-serif;max-width:80em;margin:2em auto;padding:0 1em}"
-    "table{border-collapse:collapse;margin:1em 0}td,th{padding:.3em 1em;border-bottom:1px solid "
-    "#ccc;text-align:right}"
-    "td:first-child,th:first-child{text-align:left}figure{display:inline-block;margin:.5em}"
-    "img{max-width:100%;image-rendering:pixelated}.no{color:#b00}";
-
-std::string table(const ExperimentResult& result) {
-    std::string html =
-        "<table><tr><th>technique<th>RMSE<th>RMSE outside penumbrae / mean<th>invalid pixels<th>seconds\n";
+Table error_table(const ExperimentResult& result) {
+    Table table = {{"technique", "RMSE", "clamped at 1", "outside penumbrae / mean", "bias / mean",
+                    "invalid pixels", "seconds"}};
     for (const VariantResult& v : result.variants)
-        html += fmt::format("<tr><td>{}<td>{:.4g}<td>{:.3g}<td>{}<td>{:.3f}\n", v.label, v.rmse,
-                            v.rmse_outside_penumbrae, v.invalid_pixels, v.seconds);
-    return html + "</table>\n";
+        table.push_back({v.label, fmt::format("{:.4g}", v.errors.frame.rmse),
+                         fmt::format("{:.4g}", v.errors.frame.rmse_clamped),
+                         fmt::format("{:.3g}", v.errors.rmse_outside_penumbrae),
+                         fmt::format("{:+.1e}", v.errors.frame.relative_bias),
+                         fmt::format("{}", v.errors.invalid_pixels), fmt::format("{:.3f}", v.seconds)});
+    return table;
+}
+
+Table inset_table(const ExperimentResult& result) {
+    Table table = {{"RMSE in insets (relative to their mean)"}};
+    for (const Inset& inset : result.experiment->insets) table[0].push_back(inset.name);
+    for (const VariantResult& v : result.variants) {
+        table.push_back({v.label});
+        for (const RegionErrors& e : v.errors.insets)
+            table.back().push_back(fmt::format("{:.4g} ({:.2f} %)", e.rmse, 100 * e.relative_rmse));
+    }
+    return table;
+}
+
+Table bias_table(const ExperimentResult& result) {
+    Table table = {{"bias, in standard deviations", "mean of frame", "worst cell", "cells", "chi-square",
+                    "pixels beyond 3"}};
+    for (const VariantResult& v : result.variants)
+        table.push_back({v.label, fmt::format("{:.1f}", v.bias->frame),
+                         fmt::format("{:.1f}", v.bias->largest_cell), fmt::format("{}", v.bias->cells),
+                         fmt::format("{:.1f}", v.bias->chi_square),
+                         fmt::format("{:.2f} %", 100 * v.bias->pixels_beyond_three)});
+    return table;
+}
+
+std::vector<Table> tables(const ExperimentResult& result) {
+    std::vector<Table> all = {error_table(result)};
+    if (!result.experiment->insets.empty()) all.push_back(inset_table(result));
+    if (!result.variants.empty() && result.variants[0].bias) all.push_back(bias_table(result));
+    return all;
 }
 
 std::string figure(const std::string& label, const std::string& file) {
@@ -35,20 +62,27 @@ std::string figure(const std::string& label, const std::string& file) {
 
 } // namespace
 
+std::string to_text(const ExperimentResult& result) {
+    std::string text = fmt::format("{}: {}\n{:.1f} % of the pixels outside penumbrae, mean radiance {:.4g}\n",
+                                   result.experiment->name, result.experiment->source,
+                                   100 * result.share_outside_penumbrae, result.mean);
+    for (const Table& table : tables(result)) text += "\n" + to_text(table);
+    return text + "\n" + to_text(result.expectations);
+}
+
 void write_report(const ExperimentResult& result, const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);
     const Experiment& experiment = *result.experiment;
     std::string html =
-        fmt::format("<!DOCTYPE html>\n<meta charset=\"utf-8\"><title>{0}</title><style>{1}</style>\n"
-                    "<h1>{0}</h1>\n<p>{2}. {3} Reference: {4} samples per pixel; mean radiance {5:.4g}; "
-                    "{6:.1f} % of the pixels lie outside penumbrae.</p>\n",
-                    experiment.name, kStyle, experiment.source, experiment.description,
-                    result.reference_settings.samples, result.mean, 100 * result.share_outside_penumbrae);
-    html += table(result) + "<ul>\n";
-    for (const ExpectationResult& e : result.expectations)
-        html += fmt::format("<li{}>{}: {}\n", e.holds ? "" : " class=\"no\"", e.text,
-                            e.holds ? "holds" : "does not hold");
-    html += "</ul>\n<h2>Images</h2>\n";
+        page_head(experiment.name) +
+        fmt::format(
+            "<p>{}. {} Reference: {} samples per pixel; mean radiance {:.4g}; {:.1f} % of the pixels lie "
+            "outside penumbrae.</p>\n",
+            experiment.source, experiment.description,
+            experiment.reference_frames * result.reference_settings.samples, result.mean,
+            100 * result.share_outside_penumbrae);
+    for (const Table& table : tables(result)) html += to_html(table);
+    html += to_html(result.expectations) + "<h2>Images</h2>\n";
 
     image::write_image(folder / "reference.exr", result.reference);
     image::write_image(folder / "reference.png", result.reference);

@@ -1,6 +1,5 @@
 #include "experiments/run.h"
 
-#include "image/metrics.h"
 #include "render_cpu/film.h"
 #include "render_cpu/renderer.h"
 #include "scene/load.h"
@@ -9,7 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
+#include <utility>
+#include <variant>
 
 namespace nusselt::experiments {
 
@@ -26,13 +28,18 @@ visibility::RayTracer without_shadows(visibility::RayTracer tracer) {
     return tracer;
 }
 
+/// Shares of a light below a thousandth may go unnoticed.
+constexpr int kPenumbraSamples = 1024;
+
 /// Which pixels see each light entirely or not at all. Uniform samples of the area of the lights decide, with
 /// and without shadows: outside of penumbrae both images agree to the bit, or that with shadows is black.
 /// Independent of the techniques under test except area sampling.
 std::vector<bool> outside_penumbrae(const render_cpu::Renderer& renderer, render_cpu::Isa isa,
                                     const render_cpu::RenderSettings& reference) {
     render_cpu::RenderSettings settings = reference;
+    settings.samples = std::min(settings.samples, kPenumbraSamples);
     settings.technique = render_cpu::Technique::area;
+    settings.strategies = render_cpu::Strategies::diffuse;
     const image::Image traced = renderer.render(settings, isa).image;
     const auto open = without_shadows(renderer.visibility().tracer());
     const image::Image unshadowed = renderer.render(settings, isa, open).image;
@@ -45,46 +52,117 @@ std::vector<bool> outside_penumbrae(const render_cpu::Renderer& renderer, render
     return mask;
 }
 
-double mean_radiance(const image::Image& image) {
-    double sum = 0;
-    for (const float value : image.pixels) sum += value;
-    return sum / static_cast<double>(image.pixels.size());
-}
-
-/// Root mean square difference over the channels of the pixels in the mask.
-double rmse_in(const std::vector<bool>& mask, const image::Image& a, const image::Image& reference) {
-    double sum = 0;
-    double count = 0;
-    for (std::size_t i = 0; i < mask.size(); ++i) {
-        if (!mask[i]) continue;
-        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
-            const double difference =
-                static_cast<double>(a.pixels[c]) - static_cast<double>(reference.pixels[c]);
-            sum += difference * difference;
-        }
-        count += 3;
-    }
-    return count > 0 ? std::sqrt(sum / count) : std::nan("");
-}
-
-double measured(const ExperimentResult& result, const std::string& variant, Metric metric) {
+const VariantResult& variant_of(const ExperimentResult& result, const std::string& label) {
     const auto found = std::find_if(result.variants.begin(), result.variants.end(),
-                                    [&](const VariantResult& v) { return v.label == variant; });
+                                    [&](const VariantResult& v) { return v.label == label; });
     if (found == result.variants.end())
-        throw std::logic_error("experiment " + result.experiment->name + " expects something of " + variant +
+        throw std::logic_error("experiment " + result.experiment->name + " expects something of " + label +
                                ", which it does not render");
-    return metric == Metric::rmse ? found->rmse : found->rmse_outside_penumbrae;
+    return *found;
 }
 
-bool holds(const ExperimentResult& result, const Expectation& expectation) {
-    if (const auto* limit = std::get_if<AtMost>(&expectation))
-        return measured(result, limit->variant, limit->metric) <= limit->limit;
-    const auto& falling = std::get<Falling>(expectation);
-    for (std::size_t i = 1; i < falling.variants.size(); ++i)
-        if (!(measured(result, falling.variants[i], falling.metric) <
-              measured(result, falling.variants[i - 1], falling.metric)))
+const RegionErrors& errors_in(const ExperimentResult& result, const ImageErrors& errors,
+                              const std::string& inset) {
+    if (inset.empty()) return errors.frame;
+    const std::vector<Inset>& insets = result.experiment->insets;
+    for (std::size_t i = 0; i < insets.size(); ++i)
+        if (insets[i].name == inset) return errors.insets[i];
+    throw std::logic_error("experiment " + result.experiment->name + " has no inset " + inset);
+}
+
+double measured(const ExperimentResult& result, const std::string& variant, const Metric& metric) {
+    const ImageErrors& errors = variant_of(result, variant).errors;
+    const RegionErrors& region = errors_in(result, errors, metric.inset);
+    switch (metric.measure) {
+    case Measure::rmse:
+        return region.rmse;
+    case Measure::rmse_clamped:
+        return region.rmse_clamped;
+    case Measure::relative_rmse:
+        return region.relative_rmse;
+    case Measure::rmse_outside_penumbrae:
+        break;
+    }
+    return errors.rmse_outside_penumbrae;
+}
+
+bool holds(const ExperimentResult& result, const AtMost& expected) {
+    return measured(result, expected.variant, expected.metric) <= expected.limit;
+}
+
+bool holds(const ExperimentResult& result, const AtMostTimes& expected) {
+    const double value = measured(result, expected.variant, expected.metric);
+    return std::all_of(expected.others.begin(), expected.others.end(), [&](const std::string& other) {
+        return value <= expected.factor * measured(result, other, expected.metric);
+    });
+}
+
+bool holds(const ExperimentResult& result, const Falling& expected) {
+    for (std::size_t i = 1; i < expected.variants.size(); ++i)
+        if (!(measured(result, expected.variants[i], expected.metric) <
+              measured(result, expected.variants[i - 1], expected.metric)))
             return false;
     return true;
+}
+
+bool holds(const ExperimentResult& result, const Unbiased& expected) {
+    return std::all_of(expected.variants.begin(), expected.variants.end(), [&](const std::string& label) {
+        const VariantResult& variant = variant_of(result, label);
+        if (!variant.bias)
+            throw std::logic_error("experiment " + result.experiment->name +
+                                   " needs several frames to find out about bias");
+        return variant.bias->passes();
+    });
+}
+
+/// Variants and reference have different random numbers: even and odd seeds.
+std::uint32_t seed_of_frame(int frame, bool is_reference) {
+    return 2 * static_cast<std::uint32_t>(frame) + (is_reference ? 1u : 0u);
+}
+
+/// What all frames of all variants are compared with.
+struct Reference {
+    image::Image image;
+    BiasStatistics statistics;
+};
+
+Reference render_reference(const render_cpu::Renderer& renderer, render_cpu::Isa isa,
+                           render_cpu::RenderSettings settings, int frames) {
+    Reference reference;
+    std::vector<double> sums;
+    for (int i = 0; i < frames; ++i) {
+        settings.seed = seed_of_frame(i, true);
+        image::Image frame = renderer.render(settings, isa).image;
+        reference.statistics.add(frame);
+        sums.resize(frame.pixels.size());
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += static_cast<double>(frame.pixels[k]);
+        reference.image = std::move(frame);
+    }
+    for (std::size_t k = 0; k < sums.size(); ++k)
+        reference.image.pixels[k] = static_cast<float>(sums[k] / frames);
+    return reference;
+}
+
+VariantResult render_variant(const render_cpu::Renderer& renderer, render_cpu::Isa isa,
+                             const Variant& variant, const Experiment& experiment, const Reference& reference,
+                             const std::vector<bool>& outside) {
+    ImageErrorSums errors(reference.image, outside, experiment.insets);
+    BiasStatistics statistics;
+    VariantResult result;
+    result.label = variant.label;
+    render_cpu::RenderSettings settings = variant.settings;
+    for (int i = 0; i < experiment.frames; ++i) {
+        settings.seed = seed_of_frame(i, false);
+        render_cpu::RenderResult rendered = renderer.render(settings, isa);
+        errors.add(rendered.image);
+        statistics.add(rendered.image);
+        result.seconds += rendered.statistics.render_seconds / experiment.frames;
+        if (i == 0) result.image = std::move(rendered.image);
+    }
+    result.errors = errors.errors();
+    if (experiment.frames > 1 && experiment.reference_frames > 1)
+        result.bias = statistics.compare(reference.statistics);
+    return result;
 }
 
 } // namespace
@@ -104,9 +182,11 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunSettings&
     result.experiment = &experiment;
     result.reference_settings = experiment.reference;
     if (settings.reference_samples > 0) result.reference_settings.samples = settings.reference_samples;
-    progress(fmt::format("reference, {} samples per pixel", result.reference_settings.samples));
-    result.reference = renderer.render(result.reference_settings, isa).image;
-    result.mean = mean_radiance(result.reference);
+    progress(fmt::format("reference, {} samples per pixel",
+                         experiment.reference_frames * result.reference_settings.samples));
+    Reference reference =
+        render_reference(renderer, isa, result.reference_settings, experiment.reference_frames);
+    result.mean = mean_radiance(reference.image);
     progress("penumbrae");
     const std::vector<bool> mask = outside_penumbrae(renderer, isa, result.reference_settings);
     result.share_outside_penumbrae =
@@ -114,19 +194,13 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunSettings&
 
     for (const Variant& variant : experiment.variants) {
         progress(variant.label);
-        render_cpu::RenderResult rendered = renderer.render(variant.settings, isa);
-        const image::Comparison comparison = image::compare(rendered.image, result.reference);
-        VariantResult row;
-        row.label = variant.label;
-        row.seconds = rendered.statistics.render_seconds;
-        row.rmse = comparison.rmse;
-        row.rmse_outside_penumbrae = rmse_in(mask, rendered.image, result.reference) / result.mean;
-        row.invalid_pixels = comparison.invalid_a.count;
-        row.image = std::move(rendered.image);
-        result.variants.push_back(std::move(row));
+        result.variants.push_back(render_variant(renderer, isa, variant, experiment, reference, mask));
     }
-    for (const Expectation& expectation : experiment.expectations)
-        result.expectations.push_back({to_text(expectation), holds(result, expectation)});
+    result.reference = std::move(reference.image);
+    for (const Expectation& expectation : experiment.expectations) {
+        const bool held = std::visit([&](const auto& e) { return holds(result, e); }, expectation);
+        result.expectations.push_back({to_text(expectation), held});
+    }
     return result;
 }
 

@@ -1,28 +1,25 @@
 #pragma once
 /// Runs experiments and reports them.
 
+#include "experiments/bias_test.h"
 #include "experiments/experiment.h"
+#include "experiments/image_errors.h"
+#include "experiments/report_table.h"
 #include "image/image.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string_view>
 
 namespace nusselt::experiments {
 
 struct VariantResult {
     std::string label;
-    image::Image image;
-    double seconds = 0; ///< of the render phase
-    double rmse = 0;
-    double rmse_outside_penumbrae = 0; ///< relative to the mean of the reference
-    std::int64_t invalid_pixels = 0;
-};
-
-struct ExpectationResult {
-    std::string text;
-    bool holds = false;
+    image::Image image; ///< the first frame
+    double seconds = 0; ///< of the render phase of a frame
+    ImageErrors errors;
+    std::optional<BiasTest> bias; ///< if there are several frames of it and of the reference
 };
 
 struct ExperimentResult {
@@ -37,7 +34,7 @@ struct ExperimentResult {
 
 struct RunSettings {
     std::filesystem::path scenes; ///< folder with the shipped scenes
-    int reference_samples = 0;    ///< per pixel and light; 0: as the experiment says
+    int reference_samples = 0;    ///< per pixel, light and frame of the reference; 0: as the experiment says
     int width = 0;                ///< of the images in pixels; 0: as the scene says
     int threads = 0;              ///< 0: all cores
 };
@@ -46,6 +43,9 @@ struct RunSettings {
 /// \throws std::runtime_error if a scene cannot be loaded
 ExperimentResult run_experiment(const Experiment& experiment, const RunSettings& settings,
                                 const std::function<void(std::string_view)>& progress);
+
+/// The numbers of all variants and what became of the expectations, as text.
+std::string to_text(const ExperimentResult& result);
 
 /// Writes a page index.html with a table and the images as PNG and EXR into a folder, which is created.
 void write_report(const ExperimentResult& result, const std::filesystem::path& folder);

@@ -70,9 +70,9 @@ void expect_message(const std::string& text, const std::string& part) {
 }
 
 TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
-    for (const char* command :
-         {"", "render", "info", "techniques", "compare", "bench", "bench rays", "bench samplers",
-          "bench accuracy", "bench worst-case", "bench fuzz", "map", "reproduce", "fit-ltc"}) {
+    for (const char* command : {"", "render", "info", "techniques", "compare", "bench", "bench rays",
+                                "bench strategies", "bench samplers", "bench accuracy", "bench worst-case",
+                                "bench fuzz", "map", "reproduce", "fit-ltc"}) {
         const Outcome help = run(std::string(command) + " --help");
         EXPECT_EQ(help.exit_code, 0) << command;
         EXPECT_NE(help.out.find("Usage:"), std::string::npos) << command;
@@ -203,7 +203,8 @@ TEST_F(CommandLine, TellsWhatASceneAndTheProgramContain) {
         EXPECT_NE(techniques.out.find(name), std::string::npos) << name;
     const Outcome list = run("reproduce --list");
     EXPECT_EQ(list.exit_code, 0);
-    EXPECT_NE(list.out.find("line-diffuse"), std::string::npos) << list.out;
+    for (const char* name : {"line-diffuse", "planes"})
+        EXPECT_NE(list.out.find(name), std::string::npos) << list.out;
 }
 
 TEST_F(CommandLine, ReproduceWritesAPage) {
@@ -212,6 +213,13 @@ TEST_F(CommandLine, ReproduceWritesAPage) {
     EXPECT_EQ(reproduce.exit_code, 0) << reproduce.out << reproduce.err;
     EXPECT_NE(read("pages/index.html").find("line-diffuse/index.html"), std::string::npos);
     EXPECT_NE(read("pages/line-diffuse/index.html").find("reference.png"), std::string::npos);
+}
+
+TEST_F(CommandLine, TimesASecondTechnique) {
+    const Outcome bench =
+        run("bench strategies '" + kScenes + "/planes.pbrt' --resolution 64x48 --repetitions 3");
+    EXPECT_EQ(bench.exit_code, 0) << bench.err;
+    EXPECT_NE(bench.out.find("diffuse+ltc"), std::string::npos) << bench.out;
 }
 
 TEST_F(CommandLine, WorstCaseSearchGoesOnWhereItStopped) {

@@ -82,6 +82,32 @@ TEST(ShippedScenes, Bollards) {
     EXPECT_EQ(scene.film.height, 720);
 }
 
+TEST(ShippedScenes, Wall) {
+    const Scene scene = shipped("wall.pbrt");
+    expect_facing(scene, 0, 4, to_double(scene.camera.origin));
+    EXPECT_EQ(scene.materials[0].roughness, 1);
+    EXPECT_NEAR(scene.materials[1].roughness, 0.3, 1e-6);
+    ASSERT_EQ(scene.polygon_lights.size(), 1u);
+    EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).x, 1);
+}
+
+TEST(ShippedScenes, Planes) {
+    const Scene scene = shipped("planes.pbrt");
+    expect_facing(scene, 0, 6, to_double(scene.camera.origin));
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_NEAR(scene.materials[i].roughness, 0.2 * (static_cast<double>(i) + 1), 1e-6);
+    ASSERT_EQ(scene.polygon_lights.size(), 1u);
+    EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).y, -1);
+}
+
+TEST(ShippedScenes, Biased) {
+    const Scene scene = shipped("biased.pbrt");
+    expect_facing(scene, 0, 2, to_double(scene.camera.origin));
+    EXPECT_NEAR(scene.materials[0].roughness, 0.15, 1e-6);
+    ASSERT_EQ(scene.polygon_lights.size(), 1u);
+    EXPECT_GT(emitting_normal(scene.polygon_lights[0]).z, 0);
+}
+
 TEST(ShippedScenes, Room) {
     const Scene scene = shipped("room.pbrt");
     expect_facing(scene, 0, 12, to_double(scene.camera.origin));
