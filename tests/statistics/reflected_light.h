@@ -2,6 +2,7 @@
 /// Lights over glossy surfaces, half of them in shadow, and what the surfaces reflect of them by quadrature.
 
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -23,7 +24,8 @@ using Surface = nusselt::GlossySurface<double>;
 class ShippedTable {
 public:
     ShippedTable() {
-        std::ifstream stream(NUSSELT_SOURCE_DIR "/data/ltc-frostbite.bin", std::ios::binary);
+        const auto path = std::filesystem::path(NUSSELT_SOURCE_DIR) / "data" / "ltc-frostbite.bin";
+        std::ifstream stream(path, std::ios::binary);
         const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
         const auto file = nusselt::open_ltc_table(bytes.data(), bytes.size());
         if (file.problem != nullptr) throw std::runtime_error(file.problem);
