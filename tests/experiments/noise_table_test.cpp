@@ -9,7 +9,7 @@ namespace nusselt::experiments {
 
 namespace {
 
-/// The noise in percent at the first angle.
+/// The noise at the first angle.
 double noise_of(const NoiseTableResult& result, const std::string& estimator) {
     return std::find_if(result.rows.begin(), result.rows.end(),
                         [&](const NoiseRow& row) { return row.estimator->label == estimator; })
@@ -36,9 +36,8 @@ TEST(NoiseTable, LimitsFailForAnotherEstimator) {
         EXPECT_FALSE(e.holds) << e.text;
 }
 
-// On a surface without a specular component both samples of the optimal estimator go to the same technique, which is
-// nearly perfect.
-TEST(NoiseTable, HasNoNoiseWhereTheTechniqueIsExact) {
+// A rough surface without reflectance at normal incidence is almost Lambertian seen from above.
+TEST(NoiseTable, IsLowWhereTheTechniqueIsAlmostExact) {
     NoiseTable diffuse = all_noise_tables()[0];
     diffuse.surfaces = {{"rough", 0.5, 0}};
     diffuse.roughnesses = {1};
