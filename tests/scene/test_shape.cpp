@@ -211,7 +211,7 @@ TEST_F(Shapes, LineErrors) {
 TEST_F(Shapes, FiniteLine) {
     const std::string line = "AreaLightSource \"diffuse\" \"rgb L\" [5 6 7]\n"
                              "Shape \"line\" \"point3 P\" [0 0 0 1 0 0] \"float radius\" 0.5 ";
-    EXPECT_EQ(shapes(line).line_lights.at(0).model, TubeModel::linear);
+    EXPECT_EQ(shapes(line).line_lights.at(0).model, TubeModel::solid);
     EXPECT_EQ(shapes(line + "\"bool finite\" false").line_lights.at(0).model, TubeModel::linear);
     const Scene scene = shapes(line + "\"bool finite\" true");
     EXPECT_TRUE(scene.warnings.empty());
