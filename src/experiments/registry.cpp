@@ -56,6 +56,14 @@ std::vector<Variant> two_rays_each(std::initializer_list<Mis> heuristics) {
     return variants;
 }
 
+/// One sample of the technique and one of visible normals, under the balance heuristic.
+Variant with_visible_normals(Technique technique) {
+    RenderSettings settings = noise_measurement(technique, 1, SampleOrder::independent);
+    settings.strategies = render_cpu::Strategies::diffuse_ggx;
+    settings.mis = Mis::balance;
+    return {std::string(name_of(technique)) + " + GGX", settings};
+}
+
 std::vector<std::string> labels_of(const std::vector<Variant>& variants) {
     std::vector<std::string> labels;
     for (const Variant& variant : variants) labels.push_back(variant.label);
@@ -118,6 +126,8 @@ Experiment wall() {
         two_rays_each({Mis::balance, Mis::power, Mis::weighted_balance, Mis::clamped_optimal, Mis::optimal,
                        Mis::one_sample, Mis::separate}),
         {}};
+    for (const Technique technique : {Technique::solid_angle, Technique::projected_solid_angle})
+        experiment.variants.push_back(with_visible_normals(technique));
     const std::vector<std::string> two_rays = labels_of(experiment.variants);
     // One technique is unbiased without any weights; with many samples it says so of the reference.
     experiment.variants.push_back(

@@ -73,7 +73,9 @@ struct CylinderView {
         CylinderSlice<Real> c;
         const Real safe_radius = select(visible, radius, Real(1));
         const Real x = det(center, direction) / safe_radius;
-        c.meets = (abs(x) < Real(1)) & ((!outside) | (dot(center, direction) > Real(0)));
+        const auto crosses = abs(x) < Real(1);
+        const auto ahead = dot(center, direction) > Real(0);
+        c.meets = crosses & ((!outside) | ahead);
         const Vec2<Real> closest{touching.x, copysign(touching.y, x)};
         c.azimuth = select(outside & (!c.meets), closest, direction);
         c.t = c.azimuth.x * m + c.azimuth.y * n;
@@ -194,13 +196,16 @@ NUSSELT_HD inline LightHit<Real> intersect(const Cylinder<Real>& cylinder, const
     // The ray passes the strip from l = near tan(alpha) to far tan(alpha).
     const Real enters = slice.near * sine;
     const Real leaves = slice.far * sine;
-    const auto overlaps =
-        (max(enters, leaves) >= view.l0 * cosine) & (min(enters, leaves) <= view.l1 * cosine);
-    const auto ahead = (slice.far > Real(0)) & ((cosine > Real(0)) | (sine * (view.l0 + view.l1) > Real(0)));
+    const auto reaches = max(enters, leaves) >= view.l0 * cosine;
+    const auto starts = min(enters, leaves) <= view.l1 * cosine;
+    // Along the axis, the caps must lie ahead.
+    const auto ahead = max(cosine, sine * (view.l0 + view.l1)) > Real(0);
+    const auto wide = slice.far > Real(0);
     const Real tangent = sine / max(cosine, Real(kTiny<scalar_t<Real>>));
     const Vec2<Real> p = view.first_point(slice, tangent);
-    const auto hits = view.visible & slice.meets & overlaps & ahead;
-    const auto on_mantle = (p.x > view.l0) & (p.x < view.l1);
+    const auto hits = view.visible & slice.meets & reaches & starts & ahead & wide;
+    const auto beyond_begin = p.x > view.l0;
+    const auto on_mantle = beyond_begin & (p.x < view.l1);
     const Real facing = cosine * slice.half_chord / select(hits, view.radius, Real(1));
     return {mask_t<Real>(hits), length(Vec3<Real>{p.x, p.y, Real(0)}) * reciprocal_power_of_two(scale),
             select(on_mantle, facing, abs(sine))};

@@ -126,9 +126,10 @@ public:
         for (int i = 0; i < kAzimuthNodes; ++i) value[i] = fma(largest, Real(kLeastShare<Scalar>), value[i]);
         warp_ = Warp(value);
         const Real normalization = warp_.integral() * range_;
+        const auto fits = is_finite(max(normalization, Real(1) / normalization));
         // Callers divide the integral by pi, and denormal numbers may be flushed.
-        const auto lit = view_.visible & (integral_ > Real(4 * std::numeric_limits<Scalar>::min())) &
-                         is_finite(normalization) & is_finite(Real(1) / normalization);
+        const auto shines = integral_ > Real(4 * std::numeric_limits<Scalar>::min());
+        const auto lit = view_.visible & shines & fits;
         integral_ = select(lit, integral_, Real(0));
         inverse_normalization_ = select(lit, Real(1) / select(lit, normalization, Real(1)), Real(0));
     }
