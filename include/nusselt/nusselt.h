@@ -12,6 +12,7 @@
 #include <nusselt/ltc/polygon_shading.h>
 #include <nusselt/ltc/table_file.h>
 #include <nusselt/random/light_random.h>
+#include <nusselt/sampling/cylinder_area.h>
 #include <nusselt/sampling/cylinder_ltc.h>
 #include <nusselt/sampling/cylinder_projected_solid_angle.h>
 #include <nusselt/sampling/cylinder_solid_angle.h>
