@@ -21,7 +21,7 @@ struct RenderOptions {
     std::string technique = "projected_solid_angle";
     std::optional<std::string> strategies;
     std::optional<std::string> mis;
-    float visibility_estimate = 0.5f;
+    std::optional<float> visibility_estimate;
     std::string sampler = "sobol";
     std::optional<int> camera_rays;
     std::string pixel_position = "jittered";

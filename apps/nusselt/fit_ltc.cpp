@@ -28,7 +28,6 @@ using fit::TableFit;
 using tables::LtcTable;
 
 constexpr int kColumnsPerThread = 16;
-constexpr int kMostSamples = 256;
 constexpr double kSecondsBetweenSaves = 20;
 /// Whose lobe the table for engines has: between dielectrics and metals, which lose about the same.
 constexpr float kEngineF0 = 0.2f;
@@ -36,12 +35,16 @@ constexpr float kEngineF0 = 0.2f;
 fit::TableSize size_of(const std::string& text) {
     fit::TableSize size{};
     int end = 0;
-    const auto is_fine = [](int n) { return n >= 2 && n <= kMostSamples; };
+    constexpr int kMost = LtcTableFile::kMostSamples;
+    constexpr std::int64_t kMostInAll = LtcTableView::kMostFloats / LtcTableView::kStride;
+    const auto is_fine = [](int n) { return n >= 2 && n <= kMost; };
     if (std::sscanf(text.c_str(), "%dx%dx%d%n", &size.roughness, &size.inclination, &size.f0, &end) != 3 ||
         static_cast<std::size_t>(end) != text.size() || !is_fine(size.roughness) ||
-        !is_fine(size.inclination) || !is_fine(size.f0))
+        !is_fine(size.inclination) || !is_fine(size.f0) ||
+        std::int64_t{size.roughness} * size.inclination * size.f0 >= kMostInAll)
         throw std::runtime_error(fmt::format(
-            "--size '{}': must be three numbers from 2 to {}, such as 64x64x51", text, kMostSamples));
+            "--size '{}': must be three numbers from 2 to {}, such as 64x64x51, with a product below {}",
+            text, kMost, kMostInAll));
     return size;
 }
 

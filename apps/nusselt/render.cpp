@@ -28,24 +28,25 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// A technique for each component of the BRDF, if there are two and techniques for them.
-render_cpu::Strategies default_strategies(const render_cpu::RenderSettings& settings) {
+/// As asked for. By default a technique for each component of the BRDF, if there are two and techniques for them.
+render_cpu::Strategies strategies_of(const RenderOptions& options, render_cpu::Technique technique,
+                                     render_cpu::BrdfChoice brdf) {
+    if (options.strategies) return from_name(render_cpu::kStrategies, *options.strategies);
     const auto both = render_cpu::Strategies::diffuse_ltc;
-    const bool useful = settings.brdf == render_cpu::BrdfChoice::material;
-    return useful && fit_together(settings.technique, both) ? both : render_cpu::Strategies::diffuse;
+    const bool useful = brdf == render_cpu::BrdfChoice::material;
+    return useful && allows(technique, both) ? both : render_cpu::Strategies::diffuse;
 }
 
 render_cpu::RenderSettings make_settings(const RenderOptions& options) {
     render_cpu::RenderSettings settings;
     settings.technique = from_name(render_cpu::kTechniques, options.technique);
     settings.brdf = from_name(render_cpu::kBrdfChoices, options.brdf);
-    settings.strategies = options.strategies ? from_name(render_cpu::kStrategies, *options.strategies)
-                                             : default_strategies(settings);
+    settings.strategies = strategies_of(options, settings.technique, settings.brdf);
     if (options.mis)
         settings.mis = from_name(render_cpu::kMisHeuristics, *options.mis);
-    else if (!fit_together(settings.strategies, settings.mis))
+    else if (!allows(settings.strategies, settings.mis))
         settings.mis = render_cpu::Mis::balance;
-    settings.visibility_estimate = options.visibility_estimate;
+    if (options.visibility_estimate) settings.visibility_estimate = *options.visibility_estimate;
     settings.sample_order = from_name(render_cpu::kSampleOrders, options.sampler);
     settings.pixel_position = from_name(render_cpu::kPixelPositions, options.pixel_position);
     settings.samples = options.samples;
@@ -57,20 +58,29 @@ render_cpu::RenderSettings make_settings(const RenderOptions& options) {
 
 /// Throws CLI::ValidationError if choices that are possible by themselves do not fit together.
 void check_combination(const RenderOptions& options) {
-    if (!options.strategies) return;
-    const auto strategies = from_name(render_cpu::kStrategies, *options.strategies);
-    std::vector<std::string_view> fitting;
-    for (const auto technique : render_cpu::kTechniques)
-        if (fit_together(technique, strategies)) fitting.push_back(name_of(technique));
-    if (!fit_together(from_name(render_cpu::kTechniques, options.technique), strategies))
+    const auto technique = from_name(render_cpu::kTechniques, options.technique);
+    const auto brdf = from_name(render_cpu::kBrdfChoices, options.brdf);
+    const auto strategies = strategies_of(options, technique, brdf);
+    if (!allows(technique, strategies)) {
+        std::vector<std::string_view> others;
+        for (const auto other : render_cpu::kTechniques)
+            if (allows(other, strategies)) others.push_back(name_of(other));
         throw CLI::ValidationError("--strategies",
-                                   fmt::format("{} needs --technique {}, not {}", *options.strategies,
-                                               fmt::join(fitting, " or "), options.technique));
-    if (options.mis && !fit_together(strategies, from_name(render_cpu::kMisHeuristics, *options.mis)))
+                                   fmt::format("{} needs --technique {}, not {}", name_of(strategies),
+                                               fmt::join(others, " or "), options.technique));
+    }
+    if (strategies == render_cpu::Strategies::diffuse && (options.mis || options.visibility_estimate))
+        throw CLI::ValidationError(options.mis ? "--mis" : "--visibility-estimate",
+                                   "there is nothing to combine with --strategies diffuse");
+    if (options.mis && !allows(strategies, from_name(render_cpu::kMisHeuristics, *options.mis))) {
+        std::vector<std::string_view> others;
+        for (const auto other : render_cpu::kMisHeuristics)
+            if (allows(strategies, other)) others.push_back(name_of(other));
         throw CLI::ValidationError(
             "--mis", fmt::format("{} weighs techniques by what they contribute without shadows, "
-                                 "which is not known for {}; take balance, power or separate",
-                                 *options.mis, *options.strategies));
+                                 "which is not known for {}; take {}",
+                                 *options.mis, name_of(strategies), fmt::join(others, " or ")));
+    }
 }
 
 std::vector<std::filesystem::path> output_paths(const RenderOptions& options, const scene::Film& film) {
@@ -100,6 +110,7 @@ nlohmann::ordered_json report_json(const RenderOptions& options, const render_cp
     const auto rate = [](std::uint64_t rays, double seconds) {
         return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
     };
+    const bool is_combined = settings.strategies != render_cpu::Strategies::diffuse;
     return {
         {"scene", options.scene.string()},
         {"triangles", scene.triangles.size()},
@@ -107,8 +118,8 @@ nlohmann::ordered_json report_json(const RenderOptions& options, const render_cp
         {"height", scene.film.height},
         {"technique", render_cpu::name_of(settings.technique)},
         {"strategies", render_cpu::name_of(settings.strategies)},
-        {"mis", render_cpu::name_of(settings.mis)},
-        {"visibility_estimate", settings.visibility_estimate},
+        {"mis", is_combined ? nlohmann::ordered_json(render_cpu::name_of(settings.mis)) : nullptr},
+        {"visibility_estimate", is_combined ? nlohmann::ordered_json(settings.visibility_estimate) : nullptr},
         {"samples", settings.samples},
         {"camera_rays", render_cpu::camera_ray_count(settings)},
         {"pixel_position", render_cpu::name_of(settings.pixel_position)},
@@ -174,8 +185,8 @@ void setup_render(CLI::App& app, int& exit_code) {
             "--strategies", options->strategies,
             "Which techniques take samples: diffuse, only that of --technique; diffuse+ltc, that one for\n"
             "the diffuse component of materials and linearly transformed cosines for the specular one; or\n"
-            "the same with GGX visible normals, in vain for linear lights. Default: diffuse+ltc where\n"
-            "--technique allows it")
+            "the same with GGX visible normals, for polygons only. Default: diffuse+ltc with techniques of\n"
+            "projected solid angles and --brdf material, else diffuse")
         ->transform(to_name_of(render_cpu::kStrategies));
     command
         ->add_option(
@@ -188,9 +199,8 @@ void setup_render(CLI::App& app, int& exit_code) {
         ->add_option(
             "--visibility-estimate", options->visibility_estimate,
             "Share of lights that is visible, roughly, for --mis clamped_optimal and optimal; only noise\n"
-            "depends on it")
-        ->check(CLI::Range(0.0f, 1.0f))
-        ->capture_default_str();
+            "depends on it. Default: 0.5")
+        ->check(CLI::Range(0.0f, 1.0f));
     command
         ->add_option("--sampler", options->sampler,
                      "Random numbers: independent, Owen-scrambled Sobol' points, or uniform jittered (best\n"
@@ -246,11 +256,11 @@ int run_render(const RenderOptions& options) {
     if (!options.quiet) {
         for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
         if (samples_visible_normals(settings.strategies) && !scene.line_lights.empty())
-            fmt::print(
-                stderr,
-                "warning: {} linear lights are sampled by {} alone: samples of visible normals never hit a "
-                "line\n",
-                scene.line_lights.size(), name_of(settings.technique));
+            fmt::print(stderr,
+                       "warning: {} tubes and lines are sampled by {} alone: visible normals are for "
+                       "polygons, no sample "
+                       "ever hits a line\n",
+                       scene.line_lights.size(), name_of(settings.technique));
     }
 
     const int threads = options.threads.value_or(render_cpu::default_thread_count());

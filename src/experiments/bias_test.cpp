@@ -75,7 +75,9 @@ struct Difference {
 
 double largest_magnitude(const std::vector<double>& values) {
     double largest = 0;
-    for (const double value : values) largest = std::max(largest, std::fabs(value));
+    for (const double value : values)
+        largest =
+            std::max(largest, std::isnan(value) ? std::numeric_limits<double>::infinity() : std::fabs(value));
     return largest;
 }
 

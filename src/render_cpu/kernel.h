@@ -40,13 +40,13 @@ struct LineLightRecord {
     scene::Float3 direction;
     float length;
     float radius;
-    std::int32_t is_cylinder; ///< 0: it lights surfaces like a line
+    scene::TubeModel model;
     scene::Float3 radiance;
     scene::Float3 radiance_times_radius;
 };
 
 /// As LtcTableView, of the specular Frostbite BRDF; no entries if the job has no use for them.
-struct LtcTable {
+struct LtcTableRecord {
     const float* entries;
     std::int32_t roughnesses, inclinations, f0s;
 };
@@ -66,7 +66,7 @@ struct KernelScene {
     const LineLightRecord* line_lights;
     std::int32_t polygon_light_count;
     std::int32_t line_light_count;
-    LtcTable ltc;
+    LtcTableRecord ltc;
     scene::Camera camera;
     float radius; ///< of the scene [m]
 };

@@ -62,12 +62,11 @@ PolygonLightRecord make_record(const scene::PolygonLight& light) {
 
 LineLightRecord make_record(const scene::LineLight& light) {
     const auto line = make_line(to_vec(light.begin), to_vec(light.end));
-    const bool is_cylinder = light.model == scene::TubeModel::solid;
     return {to_float3(line.p0),
             to_float3(line.s),
             line.length,
             light.radius,
-            is_cylinder ? 1 : 0,
+            light.model,
             light.radiance,
             times(light.radius, light.radiance)};
 }

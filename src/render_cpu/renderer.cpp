@@ -159,20 +159,23 @@ RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const vis
 }
 
 image::Metadata make_metadata(const RenderSettings& settings, Isa isa, const RenderResult& result) {
-    return {{"version", NUSSELT_VERSION},
-            {"technique", std::string(name_of(settings.technique))},
-            {"strategies", std::string(name_of(settings.strategies))},
-            {"mis", std::string(name_of(settings.mis))},
-            {"visibility_estimate", std::to_string(settings.visibility_estimate)},
-            {"samples", std::to_string(settings.samples)},
-            {"camera_rays", std::to_string(camera_ray_count(settings))},
-            {"pixel_position", std::string(name_of(settings.pixel_position))},
-            {"sampler", std::string(name_of(settings.sample_order))},
-            {"brdf", std::string(name_of(settings.brdf))},
-            {"seed", std::to_string(settings.seed)},
-            {"isa", std::string(name_of(isa))},
-            {"render_seconds", std::to_string(result.statistics.render_seconds)},
-            {"finished_fraction", std::to_string(result.finished_fraction)}};
+    image::Metadata metadata = {{"version", NUSSELT_VERSION},
+                                {"technique", std::string(name_of(settings.technique))},
+                                {"strategies", std::string(name_of(settings.strategies))},
+                                {"samples", std::to_string(settings.samples)},
+                                {"camera_rays", std::to_string(camera_ray_count(settings))},
+                                {"pixel_position", std::string(name_of(settings.pixel_position))},
+                                {"sampler", std::string(name_of(settings.sample_order))},
+                                {"brdf", std::string(name_of(settings.brdf))},
+                                {"seed", std::to_string(settings.seed)},
+                                {"isa", std::string(name_of(isa))},
+                                {"render_seconds", std::to_string(result.statistics.render_seconds)},
+                                {"finished_fraction", std::to_string(result.finished_fraction)}};
+    if (settings.strategies != Strategies::diffuse) {
+        metadata["mis"] = std::string(name_of(settings.mis));
+        metadata["visibility_estimate"] = std::to_string(settings.visibility_estimate);
+    }
+    return metadata;
 }
 
 } // namespace nusselt::render_cpu

@@ -5,7 +5,7 @@
 
 namespace nusselt::render_cpu {
 
-bool fit_together(Technique technique, Strategies strategies) {
+bool allows(Technique technique, Strategies strategies) {
     switch (strategies) {
     case Strategies::diffuse:
         return true;
@@ -23,7 +23,7 @@ bool samples_visible_normals(Strategies strategies) {
     return strategies == Strategies::diffuse_ggx || strategies == Strategies::diffuse_ggx_bounded;
 }
 
-bool fit_together(Strategies strategies, Mis mis) {
+bool allows(Strategies strategies, Mis mis) {
     if (!samples_visible_normals(strategies)) return true;
     return mis == Mis::balance || mis == Mis::power || mis == Mis::separate;
 }
@@ -42,10 +42,10 @@ void validate(const RenderSettings& settings) {
         throw std::invalid_argument("samples per light and pixel must lie between 1 and " +
                                     std::to_string(kMaxSamples) + ", found " +
                                     std::to_string(settings.samples));
-    if (!fit_together(settings.technique, settings.strategies))
+    if (!allows(settings.technique, settings.strategies))
         throw std::invalid_argument("strategies " + std::string(name_of(settings.strategies)) +
                                     " do not fit technique " + std::string(name_of(settings.technique)));
-    if (!fit_together(settings.strategies, settings.mis))
+    if (!allows(settings.strategies, settings.mis))
         throw std::invalid_argument("multiple importance sampling by " + std::string(name_of(settings.mis)) +
                                     " does not fit strategies " + std::string(name_of(settings.strategies)));
     if (!(settings.visibility_estimate >= 0 && settings.visibility_estimate <= 1))

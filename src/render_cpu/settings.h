@@ -67,13 +67,13 @@ struct RenderSettings {
 };
 
 /// Whether there are samples of these strategies with the technique for the diffuse component.
-bool fit_together(Technique technique, Strategies strategies);
+bool allows(Technique technique, Strategies strategies);
 
 bool samples_visible_normals(Strategies strategies);
 
 /// Whether the heuristic is of use for samples of these strategies: some need to know what lights contribute unshadowed,
 /// which sampling of visible normals does not tell.
-bool fit_together(Strategies strategies, Mis mis);
+bool allows(Strategies strategies, Mis mis);
 
 /// Whether linearly transformed cosines are needed.
 bool uses_lobes(const RenderSettings& settings);

@@ -63,7 +63,7 @@ struct LineLight {
     Float3 end = {0, 0, 0};
     float radius = 0;
     Float3 radiance = {0, 0, 0};
-    TubeModel model = TubeModel::linear;
+    TubeModel model = TubeModel::solid;
 };
 
 /// Perspective pinhole camera. The ray through raster position (x, y), in pixels with y downwards and pixel

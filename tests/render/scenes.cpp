@@ -160,7 +160,8 @@ scene::Scene make_box_scene(int size) {
                       {Float3{-0.4f, -0.3f, 1.9f}, Float3{-0.4f, 0.3f, 1.9f}, Float3{0.3f, 0.3f, 1.8f},
                        Float3{0.3f, -0.3f, 1.8f}},
                       {6, 6, 5}, false, 0);
-    scene.line_lights.push_back({"tube", {0.9f, -0.8f, 1.5f}, {0.8f, 0.9f, 1.2f}, 0.01f, {60, 60, 80}});
+    scene.line_lights.push_back(
+        {"tube", {0.9f, -0.8f, 1.5f}, {0.8f, 0.9f, 1.2f}, 0.01f, {60, 60, 80}, scene::TubeModel::linear});
     scene.line_lights.push_back(
         {"pipe", {-0.6f, -0.7f, 1.1f}, {-0.8f, 0.3f, 1.6f}, 0.07f, {3, 8, 3}, scene::TubeModel::solid});
     set_camera(scene, {0, -4, 1}, {0, 0, 1}, {0, 0, 1}, 0.32, size, size);

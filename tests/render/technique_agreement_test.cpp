@@ -52,8 +52,8 @@ TEST_F(TechniqueAgreement, TwoTechniquesHaveTheSameExpectationWithEachHeuristic)
     for (const auto technique : {Technique::projected_solid_angle, Technique::solid_angle})
         for (const auto strategies : render_cpu::kStrategies)
             for (const auto mis : render_cpu::kMisHeuristics) {
-                if (strategies == render_cpu::Strategies::diffuse || !fit_together(technique, strategies) ||
-                    !fit_together(strategies, mis))
+                if (strategies == render_cpu::Strategies::diffuse || !allows(technique, strategies) ||
+                    !allows(strategies, mis))
                     continue;
                 settings_.strategies = strategies;
                 settings_.mis = mis;

@@ -25,7 +25,7 @@ struct DirectLightSample {
 
 /// One light at one surface point: techniques for both components, whose samples any heuristic can combine.
 ///
-/// Unbiased for all heuristics: the technique for the diffuse component covers all of the light above the surface and
+/// Unbiased for all heuristics, unless a technique of the pair is biased itself: the technique for the diffuse component covers all of the light above the surface and
 /// takes over where the lobe is zero; samples below the surface count, with a BRDF of zero.
 ///
 /// \tparam Real       float, double, long double or a pack: one light and surface point per lane.
@@ -102,7 +102,8 @@ private:
 
     /// Densities and components at a sample.
     NUSSELT_HD MisSample<Real, 2> look_at(const LightSample<Real>& s) const noexcept {
-        const auto drawn = s.pdf > Real(0);
+        // NaN, which no technique should return, counts as drawn, so that it is noticed.
+        const auto drawn = s.pdf != Real(0);
         const auto above = drawn & (s.wi.z > Real(0));
         const BrdfComponents<Real> brdf = surface_.brdf.eval_components(s.wi);
         const Real cosine = select(above, s.wi.z, Real(0));
@@ -116,8 +117,12 @@ private:
     NUSSELT_HD static DirectLightSample<Real> combined(const LightSample<Real>& s,
                                                        const MisEstimate<Real>& estimate) noexcept {
         // At a line that almost meets the point this is beyond all floats, and infinity times no visibility NaN.
-        const auto most = Real(std::numeric_limits<scalar_t<Real>>::max());
-        return {s.wi, s.p, min(Vec3<Real>{most, most, most}, estimate.shadowed), estimate.constant};
+        const auto limited = [](const Real& x) {
+            const auto most = Real(std::numeric_limits<scalar_t<Real>>::max());
+            return select(x > most, Real(0), x);
+        };
+        const Vec3<Real>& f = estimate.shadowed;
+        return {s.wi, s.p, {limited(f.x), limited(f.y), limited(f.z)}, estimate.constant};
     }
 
     const Surface& surface_;

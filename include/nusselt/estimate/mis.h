@@ -50,13 +50,15 @@ NUSSELT_HD inline Vec3<Real> sum_of(const Vec3<Real> (&terms)[K]) noexcept {
     return sum;
 }
 
-/// Always finite. Denormal denominators, whose reciprocals are not, count as 0: as good as no sample has them.
+/// Finite if both are. Denormal denominators, whose reciprocals are not, count as 0: as good as no sample has them.
 template <class Real>
 NUSSELT_HD inline Real ratio_or_zero(const Real& numerator, const Real& denominator) noexcept {
     using Limits = std::numeric_limits<scalar_t<Real>>;
-    const auto usable = denominator >= Real(Limits::min());
-    const Real ratio = numerator / select(usable, denominator, Real(1));
-    return select(usable, min(ratio, Real(Limits::max())), Real(0));
+    const auto vanishes = denominator < Real(Limits::min());
+    const Real ratio = numerator / select(vanishes, Real(1), denominator);
+    // NaN stays what it is, so that it is noticed.
+    const auto overflows = ratio > Real(Limits::max());
+    return select(vanishes, Real(0), select(overflows, Real(Limits::max()), ratio));
 }
 
 template <class Real>

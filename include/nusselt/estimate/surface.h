@@ -20,6 +20,22 @@ struct GlossySurface {
     Vec3<Real> specular_albedo; ///< 0 where there is no specular component: its technique is then left out
 };
 
+/// What a table says of a specular component.
+template <class Real>
+struct SpecularFit {
+    Ltc<Real> lobe;
+    Vec3<Real> albedo;
+};
+
+/// \param table of the component, by perceptual roughness, cosine of the direction to the eye, and reflectance.
+template <class Real>
+NUSSELT_HD inline SpecularFit<Real> fit_of(const LtcTableView& table, const Real& roughness,
+                                           const Real& cos_o, const Vec3<Real>& f0) noexcept {
+    // One lobe has to do for all colour channels.
+    const Real mean_f0 = (f0.x + f0.y + f0.z) * Real(scalar_t<Real>(1) / 3);
+    return {Ltc<Real>(table.lookup(roughness, cos_o, mean_f0)), table.albedo(roughness, cos_o, f0)};
+}
+
 /// A surface with the Frostbite BRDF.
 /// \param cos_o     cosine between the normal and the direction to the eye. Below the horizon the surface is black.
 /// \param albedo    of the diffuse part, in [0, 1].
@@ -33,14 +49,8 @@ NUSSELT_HD inline GlossySurface<Real> make_glossy_surface(const Real& cos_o, con
     const Real sin_o = sqrt(max((Real(1) - cos_o) * (Real(1) + cos_o), Real(0)));
     const Vec3<Real> wo{sin_o, Real(0), cos_o};
     const Frostbite<Real> brdf(wo, albedo, f0, roughness);
-    // One lobe has to do for all colour channels.
-    const Real mean_f0 = (f0.x + f0.y + f0.z) * Real(scalar_t<Real>(1) / 3);
-    return {wo,
-            ggx_alpha(roughness),
-            brdf,
-            Ltc<Real>(table.lookup(roughness, cos_o, mean_f0)),
-            brdf.diffuse_albedo(),
-            table.albedo(roughness, cos_o, f0)};
+    const SpecularFit<Real> fit = fit_of(table, roughness, cos_o, f0);
+    return {wo, ggx_alpha(roughness), brdf, fit.lobe, brdf.diffuse_albedo(), fit.albedo};
 }
 
 NUSSELT_NAMESPACE_END

@@ -20,6 +20,8 @@ NUSSELT_NAMESPACE_BEGIN
 struct LtcTableView {
     /// Of floats per sample: m00, m02 (a unit vector together), 1 / m11, -m20, m22, albedo; all at least 0.
     static constexpr int kStride = 6;
+    /// Tables have fewer floats than this: float counts them exactly.
+    static constexpr std::int64_t kMostFloats = std::int64_t{1} << 24;
 
     const float* entries; ///< index ((roughness * inclinations + inclination) * f0s + f0) * kStride
     int roughnesses;      ///< numbers of samples, at least 2
@@ -118,7 +120,6 @@ private:
     NUSSELT_HD static Offsets<Real> offsets_of(const int (&strides)[3], const Real& a, const Real& b,
                                                const Real& c) noexcept {
         Offsets<Real> result;
-        // Of less than 2^24 floats, as float counts them.
         const Real offset = a * Real(strides[0]) + b * Real(strides[1]) + c * Real(strides[2]);
         if constexpr (Offsets<Real>::kLanes == 1) {
             result.lane[0] = static_cast<std::int32_t>(offset);

@@ -95,6 +95,8 @@ inline LtcTableFile open_ltc_table(const void* data, std::size_t size) noexcept 
             return with_problem("less than 2 or more than 256 samples along an axis");
         *samples[i] = static_cast<int>(n);
     }
+    if (file.entries() >= static_cast<std::size_t>(LtcTableView::kMostFloats))
+        return with_problem("too many samples in all");
     const std::size_t length = size - LtcTableFile::kHeaderBytes;
     const std::size_t expected = file.entries() / static_cast<std::size_t>(LtcTableView::kStride) *
                                  LtcTableFile::kNumbers * sizeof(std::uint16_t);

@@ -12,7 +12,7 @@ void add_light(ReflectedLight& reflected, const LocalLight<Shape>& light) noexce
     if (!any(light.lit)) return;
     const auto& surface = reflected.surface().glossy;
     const Vector radiance = diffuse_integral(light.shape) * surface.diffuse_albedo +
-                            lobe_integral(light.shape, surface.lobe) * surface.specular_albedo;
+                            lobe_integral<BothHorizons>(light.shape, surface.lobe) * surface.specular_albedo;
     reflected.add_known(light, radiance);
 }
 
@@ -32,7 +32,7 @@ void add_tube(ReflectedLight& reflected, std::int32_t index) noexcept {
     const LineSegment<Real>& axis = light.shape.axis;
     const Real& radius = light.shape.radius;
     reflected.add_known(light, tube_integral(diffuse_integral(axis), radius) * surface.diffuse_albedo +
-                                   tube_integral(lobe_integral(axis, surface.lobe), radius) *
+                                   tube_integral(lobe_integral<BothHorizons>(axis, surface.lobe), radius) *
                                        surface.specular_albedo);
 }
 

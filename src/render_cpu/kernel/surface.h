@@ -128,8 +128,9 @@ inline MaterialLanes look_up_materials(const render_cpu::KernelScene& scene,
 }
 
 /// \param wo in shading space
-inline GlossySurface<Real, SurfaceBrdf>
-make_glossy(const render_cpu::LtcTable& table, const MaterialLanes& material, const Vector& wo) noexcept {
+inline GlossySurface<Real, SurfaceBrdf> make_glossy(const render_cpu::LtcTableRecord& table,
+                                                    const MaterialLanes& material,
+                                                    const Vector& wo) noexcept {
     const SurfaceBrdf brdf{{material.diffuse},
                            Frostbite<Real>(wo, material.diffuse, material.f0, material.roughness),
                            material.is_frostbite};
@@ -138,15 +139,14 @@ make_glossy(const render_cpu::LtcTable& table, const MaterialLanes& material, co
         const LtcCoefficients<Real> cosine{Real(1), Real(0), Real(1), Real(0), Real(1), Real(0)};
         return {wo, ggx_alpha(material.roughness), brdf, Ltc<Real>(cosine), zero, zero};
     }
-    const auto frostbite =
-        make_glossy_surface(wo.z, material.diffuse, material.f0, material.roughness,
-                            {table.entries, table.roughnesses, table.inclinations, table.f0s});
+    const LtcTableView view{table.entries, table.roughnesses, table.inclinations, table.f0s};
+    const SpecularFit<Real> fit = fit_of(view, material.roughness, wo.z, material.f0);
     return {wo,
-            frostbite.alpha,
+            ggx_alpha(material.roughness),
             brdf,
-            frostbite.lobe,
-            select(material.is_frostbite, frostbite.diffuse_albedo, material.diffuse),
-            select(material.is_frostbite, frostbite.specular_albedo, zero)};
+            fit.lobe,
+            select(material.is_frostbite, brdf.frostbite.diffuse_albedo(), material.diffuse),
+            select(material.is_frostbite, fit.albedo, zero)};
 }
 
 /// The shading points of those active lanes that hit a triangle.

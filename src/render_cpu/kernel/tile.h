@@ -75,8 +75,8 @@ private:
             (is_small ? functions_.add_polygon4 : functions_.add_polygon8)(reflected, i);
         }
         for (std::int32_t i = 0; i < job_.scene.line_light_count; ++i) {
-            const bool is_cylinder = job_.scene.line_lights[i].is_cylinder != 0;
-            (is_cylinder ? functions_.add_tube : functions_.add_line)(reflected, i);
+            const bool is_solid = job_.scene.line_lights[i].model == scene::TubeModel::solid;
+            (is_solid ? functions_.add_tube : functions_.add_line)(reflected, i);
         }
         return emitted + reflected.radiance();
     }
