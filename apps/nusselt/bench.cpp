@@ -5,8 +5,8 @@
 namespace nusselt::app {
 
 void setup_bench(CLI::App& app, int& exit_code) {
-    CLI::App* command =
-        app.add_subcommand("bench", "Measure how long rays and samples take, and how exact samples are");
+    CLI::App* command = app.add_subcommand(
+        "bench", "Measure how long rays and samples take, and how exact and noisy samples are");
     command->require_subcommand(1);
     setup_bench_rays(*command, exit_code);
     setup_bench_strategies(*command, exit_code);
@@ -15,6 +15,7 @@ void setup_bench(CLI::App& app, int& exit_code) {
     setup_bench_accuracy(*command, exit_code);
     setup_bench_worst_case(*command, exit_code);
     setup_bench_fuzz(*command, exit_code);
+    setup_bench_tubes(*command, exit_code);
 }
 
 } // namespace nusselt::app

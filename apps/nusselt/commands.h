@@ -99,6 +99,10 @@ struct BenchFuzzOptions {
     std::optional<std::string> isa;
 };
 
+struct BenchTubesOptions {
+    int repetitions = 31;
+};
+
 struct FitLtcOptions {
     std::string brdf = "frostbite-specular";
     std::string size = "64x64x51"; ///< roughness, inclination, f0
@@ -134,6 +138,7 @@ void setup_bench_gpu_samplers(CLI::App& bench, int& exit_code);
 void setup_bench_accuracy(CLI::App& bench, int& exit_code);
 void setup_bench_worst_case(CLI::App& bench, int& exit_code);
 void setup_bench_fuzz(CLI::App& bench, int& exit_code);
+void setup_bench_tubes(CLI::App& bench, int& exit_code);
 
 /// Renders and writes the images.
 /// \returns 0, or 130 if it was interrupted
@@ -171,6 +176,9 @@ int run_fit_ltc(const FitLtcOptions& options);
 /// Runs techniques on hostile lights and prints what breaks their contract.
 /// \returns 0, or 1 if anything does
 int run_bench_fuzz(const BenchFuzzOptions& options);
+
+/// Measures noise and cost of sampling cylinders and prints the table.
+int run_bench_tubes(const BenchTubesOptions& options);
 
 /// Runs experiments, prints their tables and writes a page for each.
 /// \returns 0, or 1 if an expectation does not hold

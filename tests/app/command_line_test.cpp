@@ -72,7 +72,7 @@ void expect_message(const std::string& text, const std::string& part) {
 TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
     for (const char* command : {"", "render", "info", "techniques", "compare", "bench", "bench rays",
                                 "bench strategies", "bench samplers", "bench accuracy", "bench worst-case",
-                                "bench fuzz", "map", "reproduce", "fit-ltc"}) {
+                                "bench fuzz", "bench tubes", "map", "reproduce", "fit-ltc"}) {
         const Outcome help = run(std::string(command) + " --help");
         EXPECT_EQ(help.exit_code, 0) << command;
         EXPECT_NE(help.out.find("Usage:"), std::string::npos) << command;
@@ -95,6 +95,7 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo) {
                                   "bench worst-case --time nan",
                                   "bench worst-case --starts -1",
                                   "bench accuracy --count 0",
+                                  "bench tubes --repetitions 0",
                                   "bench fuzz --count -1",
                                   "bench fuzz --count 18446744073709551616",
                                   "bench fuzz --seed -3",
@@ -220,6 +221,13 @@ TEST_F(CommandLine, TimesASecondTechnique) {
         run("bench strategies '" + kScenes + "/planes.pbrt' --resolution 64x48 --repetitions 3");
     EXPECT_EQ(bench.exit_code, 0) << bench.err;
     EXPECT_NE(bench.out.find("diffuse+ltc"), std::string::npos) << bench.out;
+}
+
+TEST_F(CommandLine, PrintsTheNoiseOfTubes) {
+    const Outcome bench = run("bench tubes --repetitions 1");
+    EXPECT_EQ(bench.exit_code, 0) << bench.err;
+    for (const char* text : {"rejection", "before a wide cap", "long and close"})
+        EXPECT_NE(bench.out.find(text), std::string::npos) << bench.out;
 }
 
 TEST_F(CommandLine, WorstCaseSearchGoesOnWhereItStopped) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/tube_lights.h"
 #include "techniques.h"
 
 namespace nusselt_test {
@@ -22,11 +23,7 @@ struct LineCase {
     nusselt::Vec3<double> begin, end;
 };
 
-struct CylinderCase {
-    std::string name;
-    nusselt::Vec3<double> begin, end;
-    double radius;
-};
+using CylinderCase = nusselt::experiments::TubeLight;
 
 /// Spanned by two vectors about a center; exact in every precision for short binary coordinates.
 inline std::vector<nusselt::Vec3<double>>
@@ -101,24 +98,7 @@ inline std::vector<LineCase> line_cases() {
     };
 }
 
-/// From outside, from before a cap, and cut by the horizon in each way.
-inline std::vector<CylinderCase> cylinder_cases() {
-    return {
-        {"above", {-1, 2, 0.5}, {1.5, 1, 1.25}, 0.3125},
-        {"end-on", {0.5, 0.25, 1}, {4, 0.5, 1.25}, 0.375},
-        {"through the floor", {1, -1, -0.5}, {1, 1, 0.75}, 0.625},
-        {"vertical", {0.25, 0, 1}, {0.25, 0, 3}, 0.1875},
-        {"close", {-1, 0.625, 0.375}, {1, 0.625, 0.375}, 0.6},
-        {"before a cap", {0.125, 0, 1}, {0.25, 0.125, 3}, 0.5},
-        {"before a cap, backwards", {0.25, 0.125, 3}, {0.125, 0, 1}, 0.5},
-        {"before a cap, through the floor", {0.5, 0, 0.25}, {3, 0, -0.25}, 0.5},
-        {"before a cap, half below", {0.625, 0, -0.125}, {2, 0, -0.125}, 0.5},
-        {"before a wide cap", {0.125, 0.5, 0.25}, {1, 0.5, 0.5}, 4},
-        {"thin", {-1, 0.5, 1}, {1, 0.5, 1}, 0.0078125},
-        {"mostly below", {1, -1, -0.25}, {1, 1, -0.125}, 0.375},
-        {"long and close", {-50, 0.25, 0.5}, {70, 0.25, 0.625}, 0.25},
-    };
-}
+inline std::vector<CylinderCase> cylinder_cases() { return nusselt::experiments::tube_lights(); }
 
 struct LobeCase {
     std::string name;
@@ -130,7 +110,7 @@ struct LobeCase {
 inline std::vector<LobeCase> lobe_cases() {
     return {
         {"rough", {1, 0.25, 1.25, -0.1875, 0.875, 1}},
-        {"glossy", {0.875, -0.4375, 1.25, 0.15625, 0.375, 1}},
+        {"glossy", nusselt::experiments::kGlossyLobe},
     };
 }
 
