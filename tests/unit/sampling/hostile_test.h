@@ -58,7 +58,7 @@ void expect_contract(std::uint64_t seed, int configurations) {
         }
     }
     // The generator is of no use if most lights are degenerate.
-    EXPECT_GT(lit, configurations / 4);
+    EXPECT_GT(lit, configurations / 5);
 }
 
 /// Fewer configurations of polygons with many vertices, which share their code with quadrilaterals and are slower.
