@@ -42,7 +42,7 @@ struct Counts {
 };
 
 /// What a sample adds to the reflected light.
-double share(const DirectLightSample<double>& s) {
+double share(const DirectLightSample<double>& s, Visibility visibility) {
     return visibility(s.wi) * sum_of_channels(s.shadowed) + sum_of_channels(s.constant);
 }
 
@@ -87,9 +87,9 @@ std::vector<double> p_values_of(const std::vector<ReflectedLight<Light>>& list, 
         const auto means = means_of([&](const auto& next) {
             double sum = 0;
             for (int i = 0; i < counts.diffuse; ++i)
-                sum += share(estimator.sample_diffuse(heuristic, next()));
+                sum += share(estimator.sample_diffuse(heuristic, next()), reflected.visibility);
             for (int i = 0; i < counts.specular; ++i)
-                sum += share(estimator.sample_specular(heuristic, next()));
+                sum += share(estimator.sample_specular(heuristic, next()), reflected.visibility);
             return sum;
         });
         p_values.push_back(p_value(means, reflected.truth));
@@ -132,9 +132,10 @@ void expect_unbiased_by_components(const std::vector<ReflectedLight<Light>>& lis
     std::vector<double> one_sample;
     for (const auto& reflected : list) {
         const Estimator<Strategies, Light> estimator(reflected.light, reflected.surface);
-        one_sample.push_back(
-            p_value(means_of([&](const auto& next) { return share(estimator.sample_one(next())); }),
-                    reflected.truth));
+        one_sample.push_back(p_value(means_of([&](const auto& next) {
+                                         return share(estimator.sample_one(next()), reflected.visibility);
+                                     }),
+                                     reflected.truth));
     }
     EXPECT_TRUE(unbiased(one_sample, list)) << "one sample";
 }
@@ -149,6 +150,12 @@ TEST(DirectLightOfPolygons, IsUnbiased) {
 
 TEST(DirectLightOfLines, IsUnbiased) {
     const auto list = reflected_lines(surfaces(kAllRoughnesses));
+    expect_unbiased_by_densities<nusselt::ProjectedSolidAngleAndLtc>(list);
+    expect_unbiased_by_components<nusselt::ProjectedSolidAngleAndLtc>(list);
+}
+
+TEST(DirectLightOfCylinders, IsUnbiased) {
+    const auto list = reflected_cylinders(surfaces(kAllRoughnesses));
     expect_unbiased_by_densities<nusselt::ProjectedSolidAngleAndLtc>(list);
     expect_unbiased_by_components<nusselt::ProjectedSolidAngleAndLtc>(list);
 }
@@ -226,6 +233,10 @@ TEST(DirectLightMutants, OfPolygonsAreRejected) {
 
 TEST(DirectLightMutants, OfLinesAreRejected) {
     expect_mutants_rejected(reflected_lines(surfaces(kAllRoughnesses)));
+}
+
+TEST(DirectLightMutants, OfCylindersAreRejected) {
+    expect_mutants_rejected(reflected_cylinders(surfaces(kAllRoughnesses)));
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// Lights over glossy surfaces, half of them in shadow, and what the surfaces reflect of them by quadrature.
+/// Lights over glossy surfaces, in part in shadow, and what the surfaces reflect of them by quadrature.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,6 +13,7 @@
 #include <nusselt/ltc/table_file.h>
 
 #include "geometry/adaptive_quadrature.h"
+#include "geometry/cylinder_reference.h"
 #include "sampling/lights.h"
 
 namespace nusselt_test {
@@ -84,11 +85,30 @@ inline std::vector<LineCase> lines_to_reflect() {
     };
 }
 
+inline std::vector<CylinderCase> cylinders_to_reflect() {
+    return {
+        {"across the highlight", {-1.5, -1, 0.8}, {-1.2, 1, 0.9}, 0.25},
+        {"through the horizon", {-1, -1, -0.2}, {-1, 1, 0.4}, 0.3},
+        {"before a cap", {-0.6, 0.05, 0.7}, {-2, 0.2, 2}, 0.4},
+        {"before a cap, through the horizon", {-2, 0.1, -0.2}, {-0.6, 0.1, 0.1}, 0.4},
+        {"beyond the lobe", {1.2, -0.6, 0.2}, {1.1, 0.8, 0.4}, 0.1},
+        {"overhead and thin", {-3, 0.1, 0.4}, {2, -0.2, 0.4}, 0.02},
+    };
+}
+
 /// Something beside the surface lets little light through. It halves highlights.
 inline constexpr double kTransmitted = 0.3;
 inline constexpr Direction kFree{0, 1, 0};
 
-inline double visibility(const Direction& wi) { return dot(kFree, wi) > 0 ? 1 : kTransmitted; }
+/// Share of the light from a direction that arrives.
+using Visibility = double (*)(const Direction& wi);
+
+inline double half_shadow(const Direction& wi) { return dot(kFree, wi) > 0 ? 1 : kTransmitted; }
+
+/// Without the edge, along which quadrature over curved surfaces is slow.
+inline double gradual_shadow(const Direction& wi) {
+    return 0.5 * ((1 + kTransmitted) + (1 - kTransmitted) * dot(kFree, wi));
+}
 
 inline double sum_of_channels(const Direction& colour) { return colour.x + colour.y + colour.z; }
 
@@ -98,6 +118,7 @@ struct ReflectedLight {
     std::string name;
     Surface surface;
     Light light;
+    Visibility visibility;
     double truth;
 };
 
@@ -128,7 +149,7 @@ reflected_polygons(const std::vector<NamedSurface>& surfaces) {
             const auto truth = with_shadow([&](const Point& side) {
                 return integrate_solid_angle(cut(lit, side), f, kQuadratureTolerance);
             });
-            list.push_back({s.name + ", " + light.name, s.surface, polygon, truth});
+            list.push_back({s.name + ", " + light.name, s.surface, polygon, half_shadow, truth});
         }
     }
     return list;
@@ -145,7 +166,25 @@ reflected_lines(const std::vector<NamedSurface>& surfaces) {
             const auto f = integrand_of(s.surface);
             const auto truth =
                 with_shadow([&](const Point& side) { return integrate_per_radius(cut(lit, side), f); });
-            list.push_back({s.name + ", " + light.name, s.surface, line, truth});
+            list.push_back({s.name + ", " + light.name, s.surface, line, half_shadow, truth});
+        }
+    }
+    return list;
+}
+
+/// \copydoc reflected_polygons
+inline std::vector<ReflectedLight<nusselt::Cylinder<double>>>
+reflected_cylinders(const std::vector<NamedSurface>& surfaces) {
+    std::vector<ReflectedLight<nusselt::Cylinder<double>>> list;
+    for (const NamedSurface& s : surfaces) {
+        for (const CylinderCase& light : cylinders_to_reflect()) {
+            const auto cylinder = make_light<double>(light);
+            const auto f = [brdf = integrand_of(s.surface)](const Point& wi) {
+                return wi.z > 0 ? gradual_shadow(nusselt::broadcast<double>(wi)) * brdf(wi) : 0;
+            };
+            const auto truth =
+                static_cast<double>(integrate_solid_angle(solid(cylinder), f, kQuadratureTolerance));
+            list.push_back({s.name + ", " + light.name, s.surface, cylinder, gradual_shadow, truth});
         }
     }
     return list;

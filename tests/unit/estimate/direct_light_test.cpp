@@ -27,6 +27,7 @@ using nusselt::WeightedBalanceHeuristic;
 using Colour = Vec3<double>;
 using Optimal = nusselt::OptimalHeuristic<double>;
 using Direct = nusselt::ProjectedSolidAngleAndLtc;
+using Biased = nusselt::BiasedProjectedSolidAngleAndLtc;
 using ByBrdf = nusselt::SolidAngleAndBrdf<nusselt::GgxVisibleNormals>;
 
 /// The ends of lights and horizons, where densities may be 0, are none of these.
@@ -162,6 +163,12 @@ TEST(DirectLightHostile, PolygonsAreFinite) {
     expect_no_surprises<PolygonReflection<float>, Direct>(31, 100'000);
 }
 TEST(DirectLightHostile, LinesAreFinite) { expect_no_surprises<LineReflection<float>, Direct>(32, 100'000); }
+TEST(DirectLightHostile, CylindersAreFinite) {
+    expect_no_surprises<CylinderReflection<float>, Direct>(34, 100'000);
+}
+TEST(DirectLightHostile, BiasedSamplesAreFinite) {
+    expect_no_surprises<PolygonReflection<float>, Biased>(35, 100'000);
+}
 TEST(DirectLightHostile, SamplesOfTheBrdfAreFinite) {
     expect_no_surprises<PolygonReflection<float>, ByBrdf>(33, 100'000);
 }
@@ -169,14 +176,17 @@ TEST(DirectLightHostile, SamplesOfTheBrdfAreFinite) {
 /// A case with its light from a list, with moderate sizes and distances.
 template <class T, class Case>
 Case ordinary(HostileReflections<T>& reflections, int i) {
+    const auto lights = [] {
+        if constexpr (std::is_same_v<Case, PolygonReflection<T>>) {
+            return polygon_cases();
+        } else if constexpr (std::is_same_v<Case, CylinderReflection<T>>) {
+            return cylinder_cases();
+        } else {
+            return line_cases();
+        }
+    }();
     Case c;
-    if constexpr (std::is_same_v<Case, PolygonReflection<T>>) {
-        const auto lights = polygon_cases();
-        c.light = make_light<T>(lights[static_cast<std::size_t>(i) % lights.size()]);
-    } else {
-        const auto lights = line_cases();
-        c.light = make_light<T>(lights[static_cast<std::size_t>(i) % lights.size()]);
-    }
+    c.light = make_light<T>(lights[static_cast<std::size_t>(i) % lights.size()]);
     reflections.fill(c);
     return c;
 }
@@ -213,6 +223,9 @@ TEST(DirectLightPacks, LanesEqualScalars) {
     expect_lanes_equal_scalars<Direct, PolygonReflection, NativeFloat>();
     expect_lanes_equal_scalars<Direct, PolygonReflection, NativeDouble>();
     expect_lanes_equal_scalars<Direct, LineReflection, NativeFloat>();
+    expect_lanes_equal_scalars<Direct, CylinderReflection, NativeFloat>();
+    expect_lanes_equal_scalars<Direct, CylinderReflection, NativeDouble>();
+    expect_lanes_equal_scalars<Biased, PolygonReflection, NativeFloat>();
     expect_lanes_equal_scalars<ByBrdf, PolygonReflection, NativeFloat>();
 }
 
@@ -264,6 +277,7 @@ using Quadrilateral = nusselt::ConvexPolygon<T, 4>;
 TEST(DirectLightPrecision, FloatIsCloseToDouble) {
     expect_precise<Quadrilateral>(polygon_cases());
     expect_precise<nusselt::LineSegment>(line_cases());
+    expect_precise<nusselt::Cylinder>(cylinder_cases());
 }
 
 } // namespace

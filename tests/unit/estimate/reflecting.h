@@ -39,6 +39,8 @@ template <class Real>
 using PolygonReflection = Reflection<Real, nusselt::ConvexPolygon<Real, 4>>;
 template <class Real>
 using LineReflection = Reflection<Real, nusselt::LineSegment<Real>>;
+template <class Real>
+using CylinderReflection = Reflection<Real, nusselt::Cylinder<Real>>;
 
 /// Everything is legal and much of it is extreme: black, white and coloured surfaces, mirrors, eyes below the surface.
 template <class T>
@@ -51,6 +53,8 @@ public:
         Case c;
         if constexpr (std::is_same_v<Case, PolygonReflection<T>>)
             c.light = lights_.template polygon<4>();
+        else if constexpr (std::is_same_v<Case, CylinderReflection<T>>)
+            c.light = lights_.cylinder();
         else
             c.light = lights_.line();
         fill(c);
