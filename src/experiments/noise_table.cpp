@@ -49,17 +49,15 @@ std::vector<NoiseTable> make_noise_tables() {
 
 /// One channel of an estimate from two samples.
 /// \param u two random points.
-using Estimate = double;
-
 template <class Heuristic>
-Estimate estimate_with(const DirectLight<Real, Light>& light, const Heuristic& heuristic,
+double estimate_with(const DirectLight<Real, Light>& light, const Heuristic& heuristic,
                        const Vec2<Real> (&u)[2]) {
     const auto a = light.sample_diffuse(heuristic, u[0]);
     const auto b = light.sample_specular(heuristic, u[1]);
     return (a.shadowed.x + a.constant.x) + (b.shadowed.x + b.constant.x);
 }
 
-Estimate estimate_with_both(const DirectLight<Real, Light>& light, const NoiseEstimator& estimator,
+double estimate_with_both(const DirectLight<Real, Light>& light, const NoiseEstimator& estimator,
                             const Vec2<Real> (&u)[2]) {
     const Real visibility = estimator.visibility_estimate;
     switch (estimator.mis) {
@@ -82,9 +80,9 @@ Estimate estimate_with_both(const DirectLight<Real, Light>& light, const NoiseEs
 }
 
 /// The mean of two samples of projected solid angle.
-Estimate estimate_with_one(const PolygonProjectedSolidAngle<Real, 4>& technique, const Surface& surface,
+double estimate_with_one(const PolygonProjectedSolidAngle<Real, 4>& technique, const Surface& surface,
                            const Vec2<Real> (&u)[2]) {
-    Estimate sum = 0;
+    double sum = 0;
     for (const Vec2<Real>& point : u) {
         const LightSample<Real> s = technique.sample(point);
         if (s.pdf > 0) sum += surface.brdf.eval(s.wi).x * s.wi.z / s.pdf;
@@ -97,7 +95,7 @@ struct ShadingPoint {
     ShadingPoint(const Light& light, const Surface& surface_here)
         : surface(surface_here), technique(light), both(light, surface_here) {}
 
-    Estimate estimate(const NoiseEstimator& estimator, const Vec2<Real> (&u)[2]) const {
+    double estimate(const NoiseEstimator& estimator, const Vec2<Real> (&u)[2]) const {
         if (estimator.strategies == Strategies::diffuse) return estimate_with_one(technique, surface, u);
         return estimate_with_both(both, estimator, u);
     }

@@ -11,7 +11,8 @@ struct FittedLobe {
     Lobe lobe;
     double albedo;
     double
-        error; ///< integral of |BRDF times cosine / albedo - density of the lobe| over the sphere, in [0, 2]
+        error; ///< integral of |BRDF times cosine / albedo - density of the lobe| over the sphere, in [0, 2],
+               ///< of the BRDF that was fitted: for the smallest f0 not quite the one asked for
 };
 
 /// A lobe for each inclination of wo from 0 to pi / 2 in equal steps. Depends on nothing but the arguments.

@@ -92,7 +92,7 @@ TEST(ShippedLtcTable, InterpolatesWell) {
     EXPECT_GT(mean_error(mutant, samples), at_samples * 1.1);
 }
 
-/// With one lobe for all reflectances, errors grow by at most half.
+/// With one lobe for all reflectances, errors grow, by at most 55 %.
 TEST(EngineLtcTable, FitsAlmostAsWell) {
     for (const double f0 : {0.04, 0.2, 1.0}) {
         std::vector<Slice> slices;
