@@ -51,14 +51,14 @@ std::vector<NoiseTable> make_noise_tables() {
 /// \param u two random points.
 template <class Heuristic>
 double estimate_with(const DirectLight<Real, Light>& light, const Heuristic& heuristic,
-                       const Vec2<Real> (&u)[2]) {
+                     const Vec2<Real> (&u)[2]) {
     const auto a = light.sample_diffuse(heuristic, u[0]);
     const auto b = light.sample_specular(heuristic, u[1]);
     return (a.shadowed.x + a.constant.x) + (b.shadowed.x + b.constant.x);
 }
 
 double estimate_with_both(const DirectLight<Real, Light>& light, const NoiseEstimator& estimator,
-                            const Vec2<Real> (&u)[2]) {
+                          const Vec2<Real> (&u)[2]) {
     const Real visibility = estimator.visibility_estimate;
     switch (estimator.mis) {
     case Mis::balance:
@@ -81,7 +81,7 @@ double estimate_with_both(const DirectLight<Real, Light>& light, const NoiseEsti
 
 /// The mean of two samples of projected solid angle.
 double estimate_with_one(const PolygonProjectedSolidAngle<Real, 4>& technique, const Surface& surface,
-                           const Vec2<Real> (&u)[2]) {
+                         const Vec2<Real> (&u)[2]) {
     double sum = 0;
     for (const Vec2<Real>& point : u) {
         const LightSample<Real> s = technique.sample(point);

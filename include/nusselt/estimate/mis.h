@@ -90,8 +90,8 @@ NUSSELT_HD inline Vec3<Real> expected_integrand(const MisTechniques<Real, K>& te
 
 // All heuristics are functions of the techniques, a sample of technique J, and its densities and components. They are
 // unbiased for any coefficients c_k >= 0 that do not depend on the samples, as long as some n_k p_k (balance, power,
-// optimal, clamped optimal with v < 1), some c_k p_k (weighted balance, clamped optimal with v = 1) or p_0 (separate) is
-// positive wherever the integrand is not zero. For the optimal heuristic densities must integrate to 1 over what is sampled.
+// optimal, clamped optimal with v < 1), some c_k p_k (weighted balance, clamped optimal with v = 1) or p_0 (separate)
+// is positive wherever the integrand is not zero. For the optimal heuristic, densities must integrate to 1.
 
 /// Weights proportional to n_k p_k (Veach and Guibas 1995).
 struct BalanceHeuristic {
