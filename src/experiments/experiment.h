@@ -59,7 +59,7 @@ struct Falling {
     std::vector<std::string> variants;
 };
 
-/// That the mean over all frames of each variant is that of the reference, see bias_test.h. Needs several frames of both.
+/// That the mean over all frames of each variant is that of the reference, see bias_statistics.h. Needs several frames of both.
 struct Unbiased {
     std::vector<std::string> variants;
 };

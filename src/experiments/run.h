@@ -1,7 +1,7 @@
 #pragma once
 /// Runs experiments and reports them.
 
-#include "experiments/bias_test.h"
+#include "experiments/bias_statistics.h"
 #include "experiments/experiment.h"
 #include "experiments/image_errors.h"
 #include "experiments/report_table.h"

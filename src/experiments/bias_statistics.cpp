@@ -1,4 +1,4 @@
-#include "experiments/bias_test.h"
+#include "experiments/bias_statistics.h"
 
 #include <algorithm>
 #include <cmath>
