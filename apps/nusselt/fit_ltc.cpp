@@ -48,8 +48,8 @@ fit::TableSize size_of(const std::string& text) {
     return size;
 }
 
-/// Fits until all is done or Ctrl-C; with a checkpoint, both leave it up to date.
-void fit_columns(const FitLtcOptions& options, TableFit& table, tbb::task_arena& arena) {
+/// Fits until all is done or Ctrl-C; with a checkpoint, both leave it up to date. Returns how many columns it fitted.
+int fit_columns(const FitLtcOptions& options, TableFit& table, tbb::task_arena& arena) {
     const auto save = [&] {
         if (options.checkpoint) table.save(*options.checkpoint);
     };
@@ -71,6 +71,7 @@ void fit_columns(const FitLtcOptions& options, TableFit& table, tbb::task_arena&
     }
     progress.finish();
     save();
+    return table.finished_columns() - first;
 }
 
 /// Calls f(roughness, inclination, f0) in the order of LtcTableView.
@@ -166,7 +167,8 @@ std::string sidecar(const FitLtcOptions& options, const TableFit& fitted, const 
                         {"percentile_99", e.percentile_99},
                         {"largest", e.largest}};
     const nlohmann::ordered_json json = {
-        {"command", fmt::format("nusselt fit-ltc --brdf {} --size {}", options.brdf, options.size)},
+        {"command", fmt::format("nusselt fit-ltc --brdf {} --size {} -o {}", options.brdf, options.size,
+                                options.output)},
         {"commit", options.commit},
         {"brdf", options.brdf},
         {"axes",
@@ -200,8 +202,16 @@ int run_fit_ltc(const FitLtcOptions& options) {
     TableFit fitted(brdf, size_of(options.size));
     tbb::task_arena arena(options.threads.value_or(render_cpu::default_thread_count()));
     const InterruptGuard guard;
-    fit_columns(options, fitted, arena);
-    if (interrupted) return kInterruptedExitCode;
+    const auto begin = std::chrono::steady_clock::now();
+    const int columns = fit_columns(options, fitted, arena);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (interrupted) {
+        fmt::print(stderr, "stopped after {} of {} columns; {}\n", fitted.finished_columns(),
+                   fitted.columns(),
+                   options.checkpoint ? "the same command continues" : "without --checkpoint, they are lost");
+        return kInterruptedExitCode;
+    }
+    fmt::print("{} columns in {:.0f} s\n", columns, seconds);
 
     const LtcTable table = table_of(fitted);
     const std::string encoded = tables::encode(table);

@@ -325,7 +325,7 @@ TEST_F(CommandLine, FitGoesOnWhereItStoppedAndWritesTheSameTable) {
     EXPECT_EQ(read("whole-engine.bin").size(), 4u * 3 * 12);
     const auto json = nlohmann::json::parse(read("whole.json"));
     EXPECT_EQ(json.at("commit"), "abc");
-    EXPECT_EQ(json.at("command"), "nusselt fit-ltc --brdf frostbite-specular --size 4x3x2");
+    EXPECT_EQ(json.at("command"), "nusselt fit-ltc --brdf frostbite-specular --size 4x3x2 -o whole");
 
     EXPECT_EQ(run(fit + "-o again --threads 3 --checkpoint state").exit_code, 0);
     EXPECT_EQ(read("again.bin"), read("whole.bin"));
