@@ -332,7 +332,9 @@ TEST_F(CommandLine, FitGoesOnWhereItStoppedAndWritesTheSameTable) {
     // All columns are in the checkpoint by now.
     EXPECT_EQ(run(fit + "-o resumed --checkpoint state").exit_code, 0);
     EXPECT_EQ(read("resumed.bin"), read("whole.bin"));
-    EXPECT_EQ(read("resumed.json"), read("whole.json"));
+    auto resumed = nlohmann::json::parse(read("resumed.json"));
+    resumed["command"] = json.at("command");
+    EXPECT_EQ(resumed, json);
 
     for (const char* arguments : {"--size 4x3x3 --checkpoint state", "--size 4x3", "--size 1x2x3",
                                   "--size 4x3x257", "--brdf velvet", "--checkpoint no/such/folder"}) {
