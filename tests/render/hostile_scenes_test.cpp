@@ -7,27 +7,54 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace nusselt::render_test {
 namespace {
 
 constexpr int kSize = 24;
 
+using render_cpu::RenderSettings;
+
+/// All ways to sample lights, with all ways to combine the samples.
+std::vector<RenderSettings> all_settings() {
+    std::vector<RenderSettings> all;
+    for (const auto technique : render_cpu::kTechniques)
+        for (const auto strategies : render_cpu::kStrategies)
+            for (const auto mis : render_cpu::kMisHeuristics) {
+                if (!allows(technique, strategies) || !allows(strategies, mis)) continue;
+                // One technique leaves nothing to combine.
+                if (strategies == render_cpu::Strategies::diffuse && mis != RenderSettings().mis) continue;
+                RenderSettings settings;
+                settings.technique = technique;
+                settings.strategies = strategies;
+                settings.mis = mis;
+                all.push_back(settings);
+            }
+    return all;
+}
+
+std::string description_of(const RenderSettings& settings) {
+    std::string text(name_of(settings.technique));
+    for (const auto name : {name_of(settings.strategies), name_of(settings.mis)})
+        text.append(", ").append(name);
+    return text;
+}
+
 void expect_sane_images(const scene::Scene& scene) {
     const render_cpu::Renderer renderer(scene, 2);
     for (const render_cpu::Isa isa :
          {render_cpu::Isa::sse42, render_cpu::Isa::avx2, render_cpu::Isa::avx512}) {
         if (!is_supported(isa)) continue;
-        for (const auto technique : render_cpu::kTechniques) {
-            render_cpu::RenderSettings settings;
-            settings.technique = technique;
+        for (RenderSettings settings : all_settings()) {
             settings.samples = 4;
+            const bool may_be_negative = settings.mis == render_cpu::Mis::optimal;
             const render_cpu::RenderResult result = renderer.render(settings, isa);
             ASSERT_EQ(result.statistics.rejected_samples, 0u)
-                << render_cpu::name_of(technique) << ", " << name_of(isa);
+                << description_of(settings) << ", " << name_of(isa);
             for (const float value : result.image.pixels)
-                ASSERT_TRUE(std::isfinite(value) && value >= 0)
-                    << value << " with " << render_cpu::name_of(technique) << ", " << name_of(isa);
+                ASSERT_TRUE(std::isfinite(value) && (may_be_negative || value >= 0))
+                    << value << " with " << description_of(settings) << ", " << name_of(isa);
         }
     }
 }
@@ -126,28 +153,39 @@ TEST(HostileScenes, SizesThatFillNoTile) {
     }
 }
 
-/// The test of the test: NaN and infinity in materials do not reach the image, but are counted.
-TEST(HostileScenes, RejectedSamplesAreCounted) {
-    const float nan = std::numeric_limits<float>::quiet_NaN();
-    const float infinity = std::numeric_limits<float>::infinity();
-    void (*const mutations[])(scene::Scene&, float) = {
-        [](scene::Scene& scene, float bad) { scene.materials[0].diffuse.x = bad; },
-        [](scene::Scene& scene, float bad) { scene.materials[0].diffuse.z = bad; },
-    };
-    for (std::size_t i = 0; i < std::size(mutations); ++i)
-        for (const float bad : {nan, infinity}) {
+/// Expects that a spoiled scene has pixels without NaN and infinity, and that some samples were rejected for that.
+void expect_rejections(const scene::Scene& spoiled, const RenderSettings& settings, const std::string& what) {
+    const render_cpu::Renderer renderer(spoiled, 2);
+    const auto result = renderer.render(settings, render_cpu::choose_isa());
+    EXPECT_GT(result.statistics.rejected_samples, 0u) << what << ", " << description_of(settings);
+    for (const float value : result.image.pixels) ASSERT_TRUE(std::isfinite(value)) << what;
+}
+
+// The tests of the test: NaN and infinity in materials do not reach the image, but are counted.
+
+TEST(HostileScenes, RejectedSamplesOfDiffuseSurfacesAreCounted) {
+    for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity()})
+        for (float Float3::*const channel : {&Float3::x, &Float3::z}) {
             scene::Scene scene = make_box_scene(kSize);
-            mutations[i](scene, bad);
-            const render_cpu::Renderer renderer(scene, 2);
-            for (const auto technique : render_cpu::kTechniques) {
-                render_cpu::RenderSettings settings;
-                settings.technique = technique;
-                const auto result = renderer.render(settings, render_cpu::choose_isa());
-                EXPECT_GT(result.statistics.rejected_samples, 0u)
-                    << "mutation " << i << " with " << bad << ", " << render_cpu::name_of(technique);
-                for (const float value : result.image.pixels) ASSERT_TRUE(std::isfinite(value));
+            scene.materials[0].diffuse.*channel = bad;
+            for (const RenderSettings& settings : all_settings()) {
+                // Two techniques take what is beyond all floats for a light that almost meets the point.
+                if (std::isinf(bad) && settings.strategies != render_cpu::Strategies::diffuse) continue;
+                expect_rejections(scene, settings, "diffuse albedo " + std::to_string(bad));
             }
         }
+}
+
+TEST(HostileScenes, RejectedSamplesOfGlossySurfacesAreCounted) {
+    for (float Float3::*const channel : {&Float3::x, &Float3::z}) {
+        scene::Scene scene = make_box_scene(kSize);
+        scene.materials[1].f0.*channel = std::nanf("");
+        for (const RenderSettings& settings : all_settings()) {
+            // The table of lobes, all that it knows of f0, takes NaN for 0.
+            if (settings.technique == render_cpu::Technique::ltc_analytic) continue;
+            expect_rejections(scene, settings, "f0 NaN");
+        }
+    }
 }
 
 } // namespace
