@@ -116,6 +116,25 @@ TEST(Run, ExpectationsFailForAnImpostor) {
         EXPECT_FALSE(expectation.holds) << expectation.text;
 }
 
+// Shading without shadows posing as the biased variant, and noise posing as analytic shading.
+TEST(Run, LimitsOfErrorsFailForImpostors) {
+    render_cpu::RenderSettings unshadowed;
+    unshadowed.technique = render_cpu::Technique::ltc_analytic;
+    const Variant impostors[] = {{"projected_solid_angle_biased", unshadowed}, {"ltc_analytic", {}}};
+    const char* const names[] = {"biased", "planes-image"};
+    for (int i = 0; i < 2; ++i) {
+        Experiment mutant = experiment(names[i]);
+        mutant.variants = {impostors[i]};
+        auto& expectations = mutant.expectations;
+        const auto is_no_limit = [](const Expectation& e) { return !std::holds_alternative<AtMost>(e); };
+        expectations.erase(std::remove_if(expectations.begin(), expectations.end(), is_no_limit),
+                           expectations.end());
+        const ExperimentResult result = run(mutant);
+        ASSERT_EQ(result.expectations.size(), 1u) << names[i];
+        EXPECT_FALSE(result.expectations[0].holds) << result.expectations[0].text;
+    }
+}
+
 TEST(Run, NamesTheMissingScene) {
     Experiment lost = experiment("line-diffuse");
     lost.scene = "no-such-scene.pbrt";
