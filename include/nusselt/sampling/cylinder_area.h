@@ -58,6 +58,31 @@ public:
         return select(hit.hits, density(hit.distance, hit.cosine), Real(0));
     }
 
+    /// The random numbers for which sample() returns wi, a unit direction on the light.
+    NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
+        const Real& radius = light_.radius;
+        const Real& length = light_.axis.length;
+        const Real distance = intersect(light_, wi).distance;
+        const Vec3<Real> from_begin = distance * wi - light_.axis.p0;
+        const Real along = dot(from_begin, light_.axis.s);
+        const Real x = dot(from_begin, frame_.t);
+        const Real y = dot(from_begin, frame_.b);
+        const Real turn = copysign(atan2_positive(abs(y), x), y);
+        // At the rims, where rounding decides, both parts of the profile meet.
+        const Real rounding = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon()) * (distance + length);
+        const Real half = Real(scalar_t<Real>(0.5)) * radius;
+        const Real safe_radius = select(radius > Real(0), radius, Real(1));
+        const Real share = min((x * x + y * y) / (safe_radius * safe_radius), Real(1));
+        const auto on_first = along <= rounding;
+        const auto on_second = along >= length - rounding;
+        const Real on_cap = select(on_first, half * share, length + radius - half * share);
+        const Real position = select(on_first | on_second, on_cap, half + along);
+        const Real profile = length + radius;
+        return {
+            below_one(fma(turn, Real(scalar_t<Real>(0.5) / kPi<scalar_t<Real>>), Real(scalar_t<Real>(0.5)))),
+            below_one(position / select(profile > Real(0), profile, Real(1)))};
+    }
+
     /// Area of mantle and caps [m^2].
     NUSSELT_HD Real measure() const noexcept {
         return Real(2 * kPi<scalar_t<Real>>) * light_.radius * (light_.axis.length + light_.radius);

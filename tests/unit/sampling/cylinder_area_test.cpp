@@ -58,7 +58,7 @@ TEST(CylinderArea, EstimatesSolidAngles) {
     }
 }
 
-TEST(CylinderArea, DensityOfADirectionIsThatOfTheSample) {
+TEST(CylinderArea, DensityAndRandomNumbersOfADirectionAreThoseOfTheSample) {
     for (const CylinderCase& light : cylinder_cases()) {
         const Technique technique(make_light<double>(light));
         for (int i = 0; i < 64; ++i) {
@@ -67,6 +67,9 @@ TEST(CylinderArea, DensityOfADirectionIsThatOfTheSample) {
                 // Directions that graze the silhouette meet the cylinder anywhere along them.
                 if (!(s.pdf > 0 && s.pdf < 1e6)) continue;
                 EXPECT_NEAR(technique.pdf(s.wi) / s.pdf, 1, 1e-6) << light.name;
+                const auto u = technique.invert(s.wi);
+                EXPECT_NEAR(u.x, (i + 0.5) / 64, 1e-6) << light.name;
+                EXPECT_NEAR(u.y, (j + 0.5) / 64, 1e-6) << light.name;
             }
         }
     }
