@@ -139,7 +139,7 @@ NUSSELT_INLINE CylinderView<Real> make_cylinder_view(const Cylinder<Real>& cylin
     v.sum = distance + v.radius;
     v.l0 = dot(v.begin, v.s);
     v.l1 = dot(v.end, v.s);
-    v.outside = v.gap > Real(0);
+    v.outside = (v.gap >= Real(0)) & (distance > Real(0));
     const Real apart = max(max(v.l0, -v.l1), v.gap);
     v.visible = (v.length > Real(0)) & (v.radius > Real(0)) & (apart > Real(kTiny<scalar_t<Real>>));
 

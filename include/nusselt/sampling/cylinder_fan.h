@@ -317,6 +317,10 @@ private:
             high = rightmost;
             const Vec3<Real> up = normalize(Vec3<Real>{height_of_m_, height_of_n_, Real(0)});
             const Real rise = view_.radius * fma(up.x, height_of_m_, up.y * height_of_n_);
+            // A rim wholly above the horizon: the lines that touch it rise too, whatever rounding says of them.
+            const auto has_rim_above = axis_height >= rise;
+            sees_left = sees_left | has_rim_above;
+            sees_right = sees_right | has_rim_above;
             const auto include_rim = [&](const Real& height) {
                 const auto crosses = abs(height) < rise;
                 const Real upwards = -height / select(crosses, rise, Real(1));
