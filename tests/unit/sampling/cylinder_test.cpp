@@ -113,6 +113,45 @@ TYPED_TEST(CylinderTest, DensityIsTheReciprocalOfTheJacobian) {
     }
 }
 
+/// Where rounding decides on which side of the horizon, or of the mantle, something is.
+template <class T>
+void expect_projected_solid_angle(const CylinderCase& light) {
+    const auto cylinder = make_light<T>(light);
+    const nusselt::CylinderProjectedSolidAngle<T> technique(cylinder);
+    constexpr int kSide = 128;
+    double sum = 0;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const auto s = technique.sample({(T(i % kSide) + T(0.5)) / kSide, (T(i / kSide) + T(0.5)) / kSide});
+        if (s.pdf > 0) sum += s.wi.z / s.pdf / (kSide * kSide);
+    }
+    const auto cosine = [](const Point& wi) { return std::max(wi.z, 0.0L); };
+    const auto expected = static_cast<double>(integrate_solid_angle(solid(cylinder), cosine, 1e-5L));
+    EXPECT_NEAR(sum / expected, 1, 2e-3) << light.name;
+    EXPECT_NEAR(static_cast<double>(technique.measure()) / expected, 1, 0.35) << light.name;
+}
+
+TEST(CylinderProjectedSolidAngleTest, LightsThatLieOnTheFloorAreSeen) {
+    for (const double azimuth : {0.0, 0.7, 1.0, 1.5707963267948966, 2.5}) {
+        const nusselt::Vec3<double> along{std::cos(azimuth), std::sin(azimuth), 0};
+        for (const double height : {0.5, 0.499, 0.5 + 1e-7, 0.5 - 1e-7}) {
+            const nusselt::Vec3<double> begin = nusselt::Vec3<double>{0.5, 0.3, height} + 0.5 * along;
+            const CylinderCase light{"lying at " + std::to_string(azimuth), begin, begin + 2.0 * along, 0.5};
+            expect_projected_solid_angle<float>(light);
+            expect_projected_solid_angle<double>(light);
+        }
+    }
+}
+
+TEST(CylinderProjectedSolidAngleTest, LightsAboveAtADistanceOfTheRadiusAreSeen) {
+    for (const double azimuth : {0.0, 0.7, 1.5707963267948966, 2.5}) {
+        const nusselt::Vec3<double> begin{std::cos(azimuth), std::sin(azimuth), 0.3};
+        const CylinderCase light{"above at " + std::to_string(azimuth), begin,
+                                 begin + nusselt::Vec3<double>{0, 0, 1}, 1};
+        expect_projected_solid_angle<float>(light);
+        expect_projected_solid_angle<double>(light);
+    }
+}
+
 /// Inside the closed cylinder, on its mantle, and without length or radius.
 TYPED_TEST(CylinderTest, IsDarkWithoutAnOutside) {
     const std::vector<CylinderCase> dark = {{"inside", {-1, 0.1, 0.1}, {1, 0.1, 0.1}, 0.5},
