@@ -5,6 +5,7 @@
 #include "fit/table_error.h"
 #include "fit/table_fit.h"
 #include "image/atomic_file.h"
+#include "image/io.h"
 #include "render_cpu/renderer.h"
 #include "tables/engine_table.h"
 
@@ -199,6 +200,9 @@ std::string sidecar(const FitLtcOptions& options, const TableFit& fitted, const 
 
 int run_fit_ltc(const FitLtcOptions& options) {
     const fit::Brdf& brdf = fit::find_brdf(options.brdf);
+    // Now, not after minutes of fitting.
+    for (const char* extension : {".bin", "-engine.bin", ".json"})
+        image::check_writable(options.output + extension);
     TableFit fitted(brdf, size_of(options.size));
     tbb::task_arena arena(options.threads.value_or(render_cpu::default_thread_count()));
     const InterruptGuard guard;

@@ -177,9 +177,14 @@ Mesh build_tube(ShapeDirective& shape) {
     const std::string subject = "shape \"" + shape.type + "\": ";
     if (!is_valid_coordinate(line.begin) || !is_valid_coordinate(line.end))
         throw SceneError(parameters.location(), subject + "an end point is not finite or beyond 1e15 m");
-    if (!(line.radius > 0))
+    const double given = parameters.real("radius", line.radius);
+    if (!(given > 0))
         throw SceneError(parameters.location_of("radius"),
-                         subject + "radius must be positive, found " + to_text(parameters.real("radius", 0)));
+                         subject + "radius must be positive, found " + to_text(given));
+    if (!(line.radius > 0) || !is_valid_coordinate({line.radius, 0, 0}))
+        throw SceneError(parameters.location_of("radius"),
+                         subject + "radius must be positive and at most 1e15 m after the transform, found " +
+                             to_text(line.radius));
     if (!(length(to_double(line.end) - to_double(line.begin)) > 0))
         throw SceneError(parameters.location(), subject + "both end points are equal");
 

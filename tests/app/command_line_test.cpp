@@ -344,6 +344,13 @@ TEST_F(CommandLine, FitGoesOnWhereItStoppedAndWritesTheSameTable) {
     }
 }
 
+TEST_F(CommandLine, FitFindsOutEarlyThatItCannotWrite) {
+    // The whole table would take minutes.
+    const Outcome wrong = run("fit-ltc -o no/such/folder/table");
+    EXPECT_EQ(wrong.exit_code, 1);
+    expect_message(wrong.err, "nusselt: error: ");
+}
+
 TEST_F(CommandLine, CtrlCKeepsFittedColumns) {
     const std::string output = path("table"), state = path("state");
     EXPECT_EQ(run_until_interrupted(
