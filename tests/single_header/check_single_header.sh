@@ -22,7 +22,7 @@ for compiler in "$@"; do
     wait $!
     "$work/folder" >"$work/folder.txt"
     "$work/single" >"$work/single.txt"
-    [ "$(wc -l <"$work/folder.txt")" -eq 360 ] || { echo "$compiler: the program prints too little"; exit 1; }
+    [ "$(wc -l <"$work/folder.txt")" -eq 440 ] || { echo "$compiler: the program prints too little"; exit 1; }
     cmp "$work/folder.txt" "$work/single.txt"
     ! grep -q nan "$work/single.txt" || { echo "$compiler: NaN"; exit 1; }
 done

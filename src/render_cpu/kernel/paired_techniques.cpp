@@ -36,8 +36,15 @@ struct ChosenHeuristic {
 template <class Pair, class Shape>
 void add_light(ReflectedLight& reflected, const LocalLight<Shape>& light) noexcept {
     if (!any(light.lit)) return;
+    const auto& surface = reflected.surface().glossy;
+    const Vector& specular = surface.specular_albedo;
+    const LaneMask glossy = light.lit & (max(max(specular.x, specular.y), specular.z) > Real(0));
+    if (!any(glossy)) {
+        add_samples(reflected, light, Pair::diffuse(light.shape, surface));
+        return;
+    }
     const render_cpu::RenderJob& job = reflected.job();
-    const DirectLight<Real, Shape, SurfaceBrdf, Pair> estimator(light.shape, reflected.surface().glossy);
+    const DirectLight<Real, Shape, SurfaceBrdf, Pair> estimator(light.shape, surface);
     if (job.mis == Mis::one_sample) {
         reflected.add(light, [&](std::uint32_t number, CompensatedSum& sum) {
             reflected.add_sample(light.lit, estimator.sample_one(reflected.random(light, number, 0)), sum);
@@ -48,8 +55,6 @@ void add_light(ReflectedLight& reflected, const LocalLight<Shape>& light) noexce
     reflected.add(light, [&](std::uint32_t number, CompensatedSum& sum) {
         reflected.add_sample(light.lit,
                              estimator.sample_diffuse(heuristic, reflected.random(light, number, 0)), sum);
-        const LaneMask glossy = light.lit & estimator.is_glossy();
-        if (!any(glossy)) return;
         reflected.add_sample(glossy, estimator.sample_specular(heuristic, reflected.random(light, number, 1)),
                              sum);
     });

@@ -189,5 +189,25 @@ private:
     Vector radiance_{Real(0), Real(0), Real(0)};
 };
 
+/// What a sample of a light contributes through all components of the BRDF.
+inline DirectLightSample<Real> reflect(const Surface& surface, const LightSample<Real>& sample) noexcept {
+    // Comparisons with NaN are false: negated they keep it, so that it is counted.
+    const LaneMask sampled = !((sample.pdf == Real(0)) | (sample.wi.z <= Real(0)));
+    const Vector zero{Real(0), Real(0), Real(0)};
+    const Real cos_per_pdf = sample.wi.z / select(sampled, sample.pdf, Real(1));
+    return {sample.wi, sample.p, select(sampled, cos_per_pdf * surface.glossy.brdf.eval(sample.wi), zero),
+            zero};
+}
+
+/// Adds the light of one technique alone.
+template <class Shape, class Technique>
+void add_samples(ReflectedLight& reflected, const LocalLight<Shape>& light,
+                 const Technique& technique) noexcept {
+    reflected.add(light, [&](std::uint32_t number, CompensatedSum& sum) {
+        const Vec2<Real> u = reflected.random(light, number, 0);
+        reflected.add_sample(light.lit, reflect(reflected.surface(), draw(technique, u)), sum);
+    });
+}
+
 } // namespace kernel
 NUSSELT_NAMESPACE_END

@@ -14,41 +14,22 @@ NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 namespace {
 
-/// What a sample of a light contributes through all components of the BRDF.
-DirectLightSample<Real> reflect(const Surface& surface, const LightSample<Real>& sample) noexcept {
-    // Comparisons with NaN are false: negated they keep it, so that it is counted.
-    const LaneMask sampled = !((sample.pdf == Real(0)) | (sample.wi.z <= Real(0)));
-    const Vector zero{Real(0), Real(0), Real(0)};
-    const Real cos_per_pdf = sample.wi.z / select(sampled, sample.pdf, Real(1));
-    return {sample.wi, sample.p, select(sampled, cos_per_pdf * surface.glossy.brdf.eval(sample.wi), zero),
-            zero};
-}
-
-template <class Shape, class Technique>
-void add_light(ReflectedLight& reflected, const LocalLight<Shape>& light,
-               const Technique& technique) noexcept {
-    reflected.add(light, [&](std::uint32_t number, CompensatedSum& sum) {
-        const Vec2<Real> u = reflected.random(light, number, 0);
-        reflected.add_sample(light.lit, reflect(reflected.surface(), draw(technique, u)), sum);
-    });
-}
-
 template <template <class, int> class Technique, int N>
 void add_polygon(ReflectedLight& reflected, std::int32_t index) noexcept {
     const LocalPolygon<N> light = reflected.polygon<N>(index);
-    if (any(light.lit)) add_light(reflected, light, Technique<Real, N>(light.shape));
+    if (any(light.lit)) add_samples(reflected, light, Technique<Real, N>(light.shape));
 }
 
 template <template <class> class Technique>
 void add_line(ReflectedLight& reflected, std::int32_t index) noexcept {
     const LocalLine light = reflected.line(index);
-    if (any(light.lit)) add_light(reflected, light, Technique<Real>(light.shape));
+    if (any(light.lit)) add_samples(reflected, light, Technique<Real>(light.shape));
 }
 
 template <template <class> class Technique>
 void add_tube(ReflectedLight& reflected, std::int32_t index) noexcept {
     const LocalTube light = reflected.tube(index);
-    if (any(light.lit)) add_light(reflected, light, Technique<Real>(light.shape));
+    if (any(light.lit)) add_samples(reflected, light, Technique<Real>(light.shape));
 }
 
 template <template <class, int> class Polygon, template <class> class Line, template <class> class Tube>

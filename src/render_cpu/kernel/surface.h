@@ -135,9 +135,9 @@ inline GlossySurface<Real, SurfaceBrdf> make_glossy(const render_cpu::LtcTableRe
                            Frostbite<Real>(wo, material.diffuse, material.f0, material.roughness),
                            material.is_frostbite};
     const Vector zero{Real(0), Real(0), Real(0)};
-    if (table.entries == nullptr) {
+    if (table.entries == nullptr || !any(material.is_frostbite)) {
         const LtcCoefficients<Real> cosine{Real(1), Real(0), Real(1), Real(0), Real(1), Real(0)};
-        return {wo, ggx_alpha(material.roughness), brdf, Ltc<Real>(cosine), zero, zero};
+        return {wo, ggx_alpha(material.roughness), brdf, Ltc<Real>(cosine), material.diffuse, zero};
     }
     const LtcTableView view{table.entries, table.roughnesses, table.inclinations, table.f0s};
     const SpecularFit<Real> fit = fit_of(view, material.roughness, wo.z, material.f0);
