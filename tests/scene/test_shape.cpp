@@ -254,10 +254,9 @@ TEST_F(Shapes, CylinderErrors) {
               std::string::npos);
     EXPECT_EQ(error(light + "Shape \"cylinder\" \"float radius\" -1"),
               "scene.pbrt:2: shape \"cylinder\": radius must be positive, found -1");
-    EXPECT_EQ(
-        error(light + "Shape \"cylinder\" \"float radius\" 1e20"),
-        "scene.pbrt:2: shape \"cylinder\": radius must be positive and at most 1e15 m after the transform, "
-        "found 1e+20");
+    EXPECT_NE(
+        error(light + "Shape \"cylinder\" \"float radius\" 1e20").find("at most 1e15 m after the transform"),
+        std::string::npos);
     EXPECT_EQ(error(light + "Shape \"cylinder\" \"float zmin\" 1"),
               "scene.pbrt:2: shape \"cylinder\": both end points are equal");
     EXPECT_EQ(warning(shapes(light + "ReverseOrientation Shape \"cylinder\"")),
