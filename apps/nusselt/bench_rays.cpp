@@ -1,3 +1,4 @@
+#include "bench_frames.h"
 #include "commands.h"
 #include "render_setup.h"
 
@@ -20,12 +21,6 @@
 namespace nusselt::app {
 
 namespace {
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// Traces all recorded rays again with all threads of the arena.
 /// \returns the time of Embree's functions alone, the mean over the threads [s]
@@ -109,15 +104,7 @@ void setup_bench_rays(CLI::App& bench, int& exit_code) {
         "rays",
         "For each technique: time of the render phase against the time that Embree's functions alone take\n"
         "for the same rays in the same packets, without any conversion. Medians of runs in turn.");
-    command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
-    command->add_option("--spp", options->samples, "Samples per pixel and light, 1 to 64")
-        ->check(CLI::Range(1, 64))
-        ->capture_default_str();
-    command->add_option("--repetitions", options->repetitions, "Runs of each kind, 1 to 1000")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
-    add_machine_options(*command, options->threads, options->isa);
-    add_resolution_option(*command, options->resolution);
+    add_frame_options(*command, *options, "pixel and light");
     command->add_option(
         "--json", options->json,
         "Write the numbers as JSON to a file, or with - to the standard output instead of the\n"

@@ -1,3 +1,4 @@
+#include "bench_frames.h"
 #include "commands.h"
 #include "render_setup.h"
 
@@ -15,12 +16,6 @@ namespace nusselt::app {
 namespace {
 
 using render_cpu::Strategies;
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// Times of one choice of strategies, a number for each repetition [s].
 struct StrategiesRow {
@@ -82,15 +77,7 @@ void setup_bench_strategies(CLI::App& bench, int& exit_code) {
         "What a second technique for the specular component costs, with clamped optimal multiple\n"
         "importance sampling: times of frames, and their ratios to one diffuse sample. Shading is all\n"
         "but tracing, summed over threads. Medians of runs in turn.");
-    command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
-    command->add_option("--spp", options->samples, "Samples per pixel, light and technique, 1 to 64")
-        ->check(CLI::Range(1, 64))
-        ->capture_default_str();
-    command->add_option("--repetitions", options->repetitions, "Runs of each kind, 1 to 1000")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
-    add_machine_options(*command, options->threads, options->isa);
-    add_resolution_option(*command, options->resolution);
+    add_frame_options(*command, *options, "pixel, light and technique");
     command->callback([options, &exit_code] { exit_code = run_bench_strategies(*options); });
 }
 

@@ -35,23 +35,22 @@ struct RenderOptions {
     std::optional<std::string> isa;
 };
 
-struct BenchRaysOptions {
+/// Of benchmarks of whole frames.
+struct BenchFramesOptions {
     std::filesystem::path scene;
     int samples = 1;
     int repetitions = 9;
     std::optional<int> threads;
     std::optional<std::string> resolution; ///< "WIDTHxHEIGHT"
-    std::optional<std::string> json;       ///< "-" is the standard output, instead of the table
     std::optional<std::string> isa;
 };
 
-struct BenchStrategiesOptions {
-    std::filesystem::path scene;
-    int samples = 1;
-    int repetitions = 15;
-    std::optional<int> threads;
-    std::optional<std::string> resolution; ///< "WIDTHxHEIGHT"
-    std::optional<std::string> isa;
+struct BenchRaysOptions : BenchFramesOptions {
+    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
+};
+
+struct BenchStrategiesOptions : BenchFramesOptions {
+    BenchStrategiesOptions() { repetitions = 15; }
 };
 
 struct BenchSamplersOptions {

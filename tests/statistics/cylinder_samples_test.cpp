@@ -47,23 +47,15 @@ bool is_rejected(const Warp& warp, const Density& density) {
         const auto f = integrand<Kind>(local);
         const Technique<Kind> technique(local);
         const long double expected = integrate_solid_angle(solid(local), f, 1e-5L * technique.measure());
-        long double sum = 0;
-        long double squares = 0;
+        MeanTest test;
         for (int i = 0; i < kSamples; ++i) {
             const float x = random();
             const auto sample = technique.sample(warp({x, random()}));
             if (!(sample.pdf > 0)) continue;
-            const long double value =
-                f(nusselt::broadcast<long double>(sample.wi)) / density(technique, sample.wi);
-            sum += value;
-            squares += value * value;
+            test.add(f(nusselt::broadcast<long double>(sample.wi)) / density(technique, sample.wi));
         }
-        const long double mean = sum / kSamples;
-        const long double variance = (squares / kSamples - mean * mean) / kSamples;
         // Small lights hardly vary: neither rounding in float nor the tolerance of the integral is a bias.
-        const long double error = std::sqrt(variance + 1e-9L * expected * expected);
-        p_values.push_back(
-            static_cast<double>(std::erfc(std::fabs(mean - expected) / error / std::sqrt(2.0L))));
+        p_values.push_back(test.p_value(kSamples, expected, 1e-9L));
     }
     return reject(p_values);
 }

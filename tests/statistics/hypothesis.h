@@ -106,6 +106,29 @@ inline double student_t_test(const std::vector<double>& values, double expected,
     return student_t_p_value(off / std::sqrt(variance / count), static_cast<int>(values.size()) - 1);
 }
 
+/// The mean of many independent values, against an expected one. Values that are left out count as zero.
+class MeanTest {
+public:
+    void add(long double value) {
+        sum_ += value;
+        squares_ += value * value;
+    }
+
+    /// Two-sided p-value of a normal mean.
+    /// \param count    of all values.
+    /// \param slack    what is no bias, as a variance relative to the square of the expected mean
+    double p_value(int count, long double expected, long double slack) const {
+        const long double mean = sum_ / count;
+        const long double variance = (squares_ / count - mean * mean) / count;
+        const long double error = std::sqrt(variance + slack * expected * expected);
+        return static_cast<double>(std::erfc(std::fabs(mean - expected) / error / std::sqrt(2.0L)));
+    }
+
+private:
+    long double sum_ = 0;
+    long double squares_ = 0;
+};
+
 /// Whether the smallest of several independent p-values is too small, at a significance of 0.1 % for all
 /// tests together (Šidák's correction). Seeds are fixed: a correct sampler passes always or never.
 inline bool reject(const std::vector<double>& p_values) {

@@ -43,23 +43,15 @@ bool density_is_rejected(const Density& density) {
             expected = integrate_per_radius(lit_part<Kind>(local), f);
         }
         const Technique<Kind> technique(local);
-        long double sum = 0;
-        long double squares = 0;
+        MeanTest test;
         for (int i = 0; i < kSamples; ++i) {
             const float x = random();
             const auto sample = technique.sample(random_of<Kind>(x, random()));
             if (sample.pdf <= 0) continue;
-            const long double value =
-                f(nusselt::broadcast<long double>(sample.wi)) / density(technique, local, sample.wi);
-            sum += value;
-            squares += value * value;
+            test.add(f(nusselt::broadcast<long double>(sample.wi)) / density(technique, local, sample.wi));
         }
-        const long double mean = sum / kSamples;
-        const long double variance = (squares / kSamples - mean * mean) / kSamples;
         // Small lights hardly vary: rounding in float is no bias.
-        const long double error = std::sqrt(variance + 1e-12L * expected * expected);
-        p_values.push_back(
-            static_cast<double>(std::erfc(std::fabs(mean - expected) / error / std::sqrt(2.0L))));
+        p_values.push_back(test.p_value(kSamples, expected, 1e-12L));
     }
     return reject(p_values);
 }

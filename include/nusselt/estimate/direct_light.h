@@ -46,13 +46,12 @@ public:
         : surface_(surface),
           diffuse_(Strategies::diffuse(light, surface)),
           specular_(Strategies::specular(light, surface)) {
-        const Vec3<Real>& albedo = surface.specular_albedo;
-        is_glossy_ = max(max(albedo.x, albedo.y), albedo.z) > Real(0);
+        is_glossy_ = surface.is_glossy();
         const auto least = Real(scalar_t<Real>(kSmallestDiffuseAlbedo));
         const Vec3<Real> clamped = max(surface.diffuse_albedo, Vec3<Real>{least, least, least});
         techniques_ = {{diffuse_samples, specular_samples},
                        {Strategies::diffuse_integral(diffuse_) * clamped,
-                        Strategies::specular_integral(specular_) * albedo}};
+                        Strategies::specular_integral(specular_) * surface.specular_albedo}};
     }
 
     /// A sample of the technique for the diffuse component.
@@ -64,7 +63,7 @@ public:
         return combined(s, heuristic.template estimate<0>(techniques_, look_at(s)));
     }
 
-    /// A sample of the technique for the specular component.
+    /// A sample of the technique for the specular component; none where the surface is not glossy.
     /// \param u random in [0, 1)^2, independent of that for the diffuse component; linear lights use x only.
     template <class Heuristic>
     NUSSELT_HD DirectLightSample<Real> sample_specular(const Heuristic& heuristic,
@@ -89,9 +88,6 @@ public:
         }
         return combined(s, choice.estimate(look_at(s)));
     }
-
-    /// Whether the surface has a specular component; if not, sample_specular() gives nothing.
-    NUSSELT_HD const mask_t<Real>& is_glossy() const noexcept { return is_glossy_; }
 
 private:
     NUSSELT_HD LightSample<Real> draw_specular(const Vec2<Real>& u) const noexcept {

@@ -18,6 +18,11 @@ struct GlossySurface {
     Ltc<Real> lobe;             ///< fit of the specular component times cosine
     Vec3<Real> diffuse_albedo;  ///< estimates of the directional albedo of both components, at least 0
     Vec3<Real> specular_albedo; ///< 0 where there is no specular component: its technique is then left out
+
+    /// Whether there is a specular component.
+    NUSSELT_HD mask_t<Real> is_glossy() const noexcept {
+        return max(max(specular_albedo.x, specular_albedo.y), specular_albedo.z) > Real(0);
+    }
 };
 
 /// What a table says of a specular component.

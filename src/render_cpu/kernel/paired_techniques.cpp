@@ -37,8 +37,7 @@ template <class Pair, class Shape>
 void add_light(ReflectedLight& reflected, const LocalLight<Shape>& light) noexcept {
     if (!any(light.lit)) return;
     const auto& surface = reflected.surface().glossy;
-    const Vector& specular = surface.specular_albedo;
-    const LaneMask glossy = light.lit & (max(max(specular.x, specular.y), specular.z) > Real(0));
+    const LaneMask glossy = light.lit & surface.is_glossy();
     if (!any(glossy)) {
         add_samples(reflected, light, Pair::diffuse(light.shape, surface));
         return;

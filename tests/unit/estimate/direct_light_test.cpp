@@ -113,7 +113,7 @@ TEST(DirectLight, LambertianSurfacesNeedOneTechnique) {
         const auto polygon = make_light<double>(light);
         const DirectLight<double, std::decay_t<decltype(polygon)>, Lambert<double>> estimator(polygon,
                                                                                               surface);
-        EXPECT_FALSE(estimator.is_glossy());
+        EXPECT_FALSE(surface.is_glossy());
         const auto share = static_cast<double>(lambert(above_horizon(vertices_of(polygon))) / kPi);
         for (const Vec2<double>& u : kRandomNumbers) {
             const auto check = [&](const auto& heuristic) {

@@ -1,0 +1,27 @@
+#include "bench_frames.h"
+
+#include "render_setup.h"
+
+#include <algorithm>
+
+namespace nusselt::app {
+
+void add_frame_options(CLI::App& command, BenchFramesOptions& options, const std::string& samples_of) {
+    command.add_option("SCENE", options.scene, "Scene file in pbrt syntax, version 3 or 4")->required();
+    command.add_option("--spp", options.samples, "Samples per " + samples_of + ", 1 to 64")
+        ->check(CLI::Range(1, 64))
+        ->capture_default_str();
+    command.add_option("--repetitions", options.repetitions, "Runs of each kind, 1 to 1000")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    add_machine_options(command, options.threads, options.isa);
+    add_resolution_option(command, options.resolution);
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+} // namespace nusselt::app
