@@ -50,8 +50,9 @@ void print_materials(const scene::Scene& scene) {
         const bool is_lambert = material.model == scene::BrdfModel::lambert;
         fmt::print("  {}: {}, diffuse {}", material.name, is_lambert ? "lambert" : "frostbite",
                    text(material.diffuse));
-        if (material.diffuse_texture >= 0)
-            fmt::print(" times {}", scene.textures[static_cast<std::size_t>(material.diffuse_texture)].name);
+        if (material.diffuse_texture.texture >= 0)
+            fmt::print(" times {}",
+                       scene.textures[static_cast<std::size_t>(material.diffuse_texture.texture)].name);
         if (!is_lambert) fmt::print(", f0 {}, roughness {:.4g}", text(material.f0), material.roughness);
         fmt::print("\n");
     }
@@ -66,15 +67,16 @@ void print_lights(const scene::Scene& scene) {
     for (const scene::PolygonLight& light : scene.polygon_lights) {
         const double area = polygon_area(light);
         const double sides = light.two_sided ? 2 : 1;
-        fmt::print("  {}: {} vertices, {:.6g} m^2, radiance {} W/(sr m^2), {}power {} W\n", light.name,
-                   light.vertices.size(), area, text(light.radiance), light.two_sided ? "two-sided, " : "",
+        fmt::print("  {}: {} vertices, {:.6g} m^2, radiance {} W/(sr m^2), {}power {} W\n",
+                   scene.emitters[light.emitter].name, light.vertices.size(), area, text(light.radiance),
+                   light.two_sided ? "two-sided, " : "",
                    text(scaled(sides * area * std::numbers::pi, light.radiance)));
     }
     for (const scene::LineLight& light : scene.line_lights) {
         const double extent = length(to_double(light.end) - to_double(light.begin));
         const double area = 2 * std::numbers::pi * static_cast<double>(light.radius) * extent;
-        fmt::print("  {}: length {:.6g} m, radius {:.6g} m, radiance {} W/(sr m^2), power {} W\n", light.name,
-                   extent, light.radius, text(light.radiance),
+        fmt::print("  {}: length {:.6g} m, radius {:.6g} m, radiance {} W/(sr m^2), power {} W\n",
+                   scene.emitters[light.emitter].name, extent, light.radius, text(light.radiance),
                    text(scaled(area * std::numbers::pi, light.radiance)));
     }
 }

@@ -45,11 +45,11 @@ void set_polygon(const std::vector<scene::Float3>& vertices, PolygonLightRecord&
     record.slots = N;
 }
 
-PolygonLightRecord make_record(const scene::PolygonLight& light) {
+PolygonLightRecord make_record(const scene::Scene& scene, const scene::PolygonLight& light) {
     const std::size_t count = light.vertices.size();
     if (count < 3 || count > 8)
-        throw std::runtime_error("light " + light.name + ": polygonal lights have 3 to 8 vertices, not " +
-                                 std::to_string(count));
+        throw std::runtime_error("light " + scene.emitters[light.emitter].name +
+                                 ": polygonal lights have 3 to 8 vertices, not " + std::to_string(count));
     PolygonLightRecord record{};
     if (count <= 4)
         set_polygon<4>(light.vertices, record);
@@ -80,14 +80,14 @@ KernelArrays::KernelArrays(const scene::Scene& scene) : scene_(scene) {
         materials_.push_back(make_row(material));
         lambert_materials_.push_back(materials_.back());
         lambert_materials_.back().is_frostbite = 0;
-        material_texture_.push_back(material.diffuse_texture);
+        material_texture_.push_back(material.diffuse_texture.texture);
     }
     for (const scene::Texture& texture : scene.textures) {
         check_float_count(texture.texels.size(), "texture " + texture.name);
         textures_.push_back({texture.texels.data(), texture.width, texture.height});
     }
     for (const scene::PolygonLight& light : scene.polygon_lights)
-        polygon_lights_.push_back(make_record(light));
+        polygon_lights_.push_back(make_record(scene, light));
     for (const scene::LineLight& light : scene.line_lights) line_lights_.push_back(make_record(light));
 }
 

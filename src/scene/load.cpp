@@ -36,13 +36,14 @@ std::vector<ImageRequest> select_images(const std::vector<ImageRequest>& images,
     std::vector<ImageRequest> used;
     std::vector<int> new_index(images.size(), -1);
     for (Material& material : materials) {
-        if (material.diffuse_texture < 0) continue;
-        int& index = new_index[static_cast<std::size_t>(material.diffuse_texture)];
+        const int texture = material.diffuse_texture.texture;
+        if (texture < 0) continue;
+        int& index = new_index[static_cast<std::size_t>(texture)];
         if (index < 0) {
             index = static_cast<int>(used.size());
-            used.push_back(images[static_cast<std::size_t>(material.diffuse_texture)]);
+            used.push_back(images[static_cast<std::size_t>(texture)]);
         }
-        material.diffuse_texture = index;
+        material.diffuse_texture.texture = index;
     }
     return used;
 }
@@ -91,6 +92,10 @@ void join_meshes(const std::vector<ShapeDirective>& shapes, std::vector<Mesh>& m
         total.vertices += mesh.positions.size();
         total.triangles += mesh.triangles.size();
         total.lights += mesh.polygon_lights.size();
+        const auto emitter = static_cast<std::uint32_t>(scene.emitters.size());
+        for (PolygonLight& light : mesh.polygon_lights) light.emitter = emitter;
+        for (LineLight& light : mesh.line_lights) light.emitter = emitter;
+        if (!mesh.emitter_name.empty()) scene.emitters.push_back({std::move(mesh.emitter_name)});
         std::move(mesh.polygon_lights.begin(), mesh.polygon_lights.end(),
                   std::back_inserter(scene.polygon_lights));
         std::move(mesh.line_lights.begin(), mesh.line_lights.end(), std::back_inserter(scene.line_lights));

@@ -97,7 +97,7 @@ private:
     void set_albedo(std::string_view name, double fallback, const Float3& factor) {
         const TextureValue albedo = value(name, grey(fallback));
         material_.diffuse = product(albedo.factor, factor);
-        material_.diffuse_texture = albedo.image;
+        material_.diffuse_texture.texture = albedo.image;
     }
     void set_black() { material_.diffuse = {0, 0, 0}; }
     /// \param prefix of the names of the parameters: "" or "conductor."
@@ -289,7 +289,7 @@ bool Reduction::disney() {
     };
     material_.f0 = {f0(base.factor.x), f0(base.factor.y), f0(base.factor.z)};
     material_.diffuse = product(base.factor, grey(1 - metallic));
-    material_.diffuse_texture = base.image;
+    material_.diffuse_texture.texture = base.image;
     material_.roughness = roughness_from_alpha(std::pow(real("roughness", 0.5), 2));
     return true;
 }
@@ -331,7 +331,7 @@ std::optional<Material> Reduction::run() {
             warnings_.add(parameters_.location_of(name), "bump", "bump and normal maps are ignored");
     }
     // The factor of an image may exceed 1: the image is darker.
-    if (material_.diffuse_texture < 0) check_reflectance(material_.diffuse, "diffuse reflectance");
+    if (material_.diffuse_texture.texture < 0) check_reflectance(material_.diffuse, "diffuse reflectance");
     check_reflectance(material_.f0, "specular reflectance");
     parameters_.ignore({"type"});
     if (is_known) parameters_.warn_unused("material \"" + type_ + '"', warnings_);

@@ -3,7 +3,10 @@
 /// metres and W/(sr m^2). Types of include/nusselt do not appear here on purpose: their names differ between
 /// instruction sets, while this data crosses from baseline code into code compiled for each of them.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +29,13 @@ struct Texture {
     std::vector<float> texels;
 };
 
+/// Where a surface looks up a texture: at scale * uv + offset.
+struct TextureUse {
+    int texture = -1; ///< index into Scene::textures, -1 for none
+    Float2 scale = {1, 1};
+    Float2 offset = {0, 0};
+};
+
 enum class BrdfModel : std::uint32_t {
     lambert,   ///< diffuse / pi; f0 and roughness are unused
     frostbite, ///< Disney diffuse (renormalised) plus GGX
@@ -36,15 +46,21 @@ struct Material {
     std::string name;
     BrdfModel model = BrdfModel::lambert;
     Float3 diffuse = {0.5f, 0.5f, 0.5f}; ///< diffuse albedo, multiplied by the texture if there is one
-    int diffuse_texture = -1;            ///< index into Scene::textures, -1 for none
-    Float3 f0 = {0.04f, 0.04f, 0.04f};   ///< specular reflectance at normal incidence
-    float roughness = 1.0f;              ///< perceptual roughness in [0, 1]; the GGX alpha is its square
+    TextureUse diffuse_texture;
+    Float3 f0 = {0.04f, 0.04f, 0.04f}; ///< specular reflectance at normal incidence
+    float roughness = 1.0f;            ///< perceptual roughness in [0, 1]; the GGX alpha is its square
+};
+
+/// One light as the user sees it: an emissive shape, which may consist of many polygons, or a tube. Light rigs and
+/// layers of images refer to lights by these.
+struct Emitter {
+    std::string name;
 };
 
 /// A convex planar light of 3 to 8 vertices. It emits `radiance` to the side from which the vertices appear
 /// counter-clockwise, or to both sides.
 struct PolygonLight {
-    std::string name;
+    std::uint32_t emitter = 0; ///< index into Scene::emitters
     std::vector<Float3> vertices;
     Float3 radiance = {0, 0, 0};
     bool two_sided = false;
@@ -58,7 +74,7 @@ enum class TubeModel : std::uint32_t {
 
 /// A tube. Cameras see it as a cylinder of this radius; it casts no shadows.
 struct LineLight {
-    std::string name;
+    std::uint32_t emitter = 0; ///< index into Scene::emitters
     Float3 begin = {0, 0, 0};
     Float3 end = {0, 0, 0};
     float radius = 0;
@@ -66,19 +82,44 @@ struct LineLight {
     TubeModel model = TubeModel::solid;
 };
 
-/// Perspective pinhole camera. The ray through raster position (x, y), in pixels with y downwards and pixel
-/// centres at half integers, starts at `origin` and has the (not normalised) direction
-/// corner + x * right + y * down.
+/// A camera whose rays depend linearly on the raster position (x, y), in pixels of the whole film with y downwards and
+/// pixel centres at half integers: a ray starts at origin + x * origin_right + y * origin_down and has the (not
+/// normalised) direction corner + x * right + y * down. Perspective cameras have rays from one point, orthographic ones
+/// parallel rays.
 struct Camera {
     Float3 origin = {0, 0, 0};
+    Float3 origin_right = {0, 0, 0};
+    Float3 origin_down = {0, 0, 0};
     Float3 corner = {0, 0, 1};
     Float3 right = {1, 0, 0};
     Float3 down = {0, 1, 0};
 };
 
+enum class FilterKind : std::uint32_t { box, triangle, gaussian, mitchell };
+
+/// How a pixel weighs radiance around its centre. The defaults are a box of one pixel.
+struct PixelFilter {
+    FilterKind kind = FilterKind::box;
+    float radius_x = 0.5f; ///< half the width of its support in pixels
+    float radius_y = 0.5f;
+    float sigma = 0.5f; ///< gaussian: standard deviation in pixels; its value at the radius is subtracted
+    float b = 1.0f / 3; ///< mitchell
+    float c = 1.0f / 3; ///< mitchell
+};
+
+/// Pixels x_begin <= x < x_end, y_begin <= y < y_end of a film.
+struct PixelBounds {
+    int x_begin = 0;
+    int y_begin = 0;
+    int x_end = 0;
+    int y_end = 0;
+};
+
 struct Film {
     int width = 640;
     int height = 480;
+    std::optional<PixelBounds> crop; ///< the pixels to render, not empty; nothing for all
+    PixelFilter filter;
     std::string filename; ///< as written in the scene file; may be empty
 };
 
@@ -86,25 +127,48 @@ struct Triangle {
     std::uint32_t vertex[3];
 };
 
+/// Surfaces that instances share, in coordinates of their own: a range of Scene::triangles. They do not emit.
+struct Object {
+    std::string name;
+    std::uint32_t first_triangle = 0;
+    std::uint32_t triangle_count = 0;
+};
+
+/// A copy of an object.
+struct Instance {
+    std::uint32_t object = 0; ///< index into Scene::objects
+    /// Affine and invertible; rows of four: the linear part, then the translation.
+    std::array<float, 12> world_from_object = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+};
+
 struct Scene {
     // Vertices, all arrays equally long. A zero normal means: use the geometric normal of the triangle.
     std::vector<Float3> positions;
     std::vector<Float3> normals;
     std::vector<Float2> uvs;
-    // Triangles, all arrays equally long. The geometric normal is (v1 - v0) x (v2 - v0).
+    // Triangles, all arrays equally long. The geometric normal is (v1 - v0) x (v2 - v0). Those in world space come
+    // first, then those of objects.
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> triangle_material; ///< index into materials
     std::vector<std::int32_t> triangle_light; ///< index into polygon_lights, -1 for surfaces that do not emit
+    std::vector<Object> objects;
+    std::vector<Instance> instances;
 
     std::vector<Material> materials;
     std::vector<Texture> textures;
-    std::vector<PolygonLight> polygon_lights;
-    std::vector<LineLight> line_lights;
+    std::vector<Emitter> emitters;
+    std::vector<PolygonLight> polygon_lights; ///< in the order of their emitters
+    std::vector<LineLight> line_lights;       ///< likewise
     Camera camera;
     Film film;
 
     std::vector<std::string> warnings; ///< "file:line: message", in order, each kind once
     double radius = 0;                 ///< half the diagonal of the bounding box of surfaces and lights [m]
 };
+
+/// Number of triangles that belong to no object.
+inline std::size_t world_triangle_count(const Scene& scene) {
+    return scene.objects.empty() ? scene.triangles.size() : scene.objects.front().first_triangle;
+}
 
 } // namespace nusselt::scene

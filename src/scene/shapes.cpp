@@ -18,7 +18,7 @@ bool flips_orientation(const ShapeDirective& shape) {
     return shape.reverse_orientation != (linear_determinant(shape.world_from_object) < 0);
 }
 
-std::string light_name(const ShapeDirective& shape) {
+std::string emitter_name(const ShapeDirective& shape) {
     return shape.type + " at " + to_string(shape.parameters.location());
 }
 
@@ -172,7 +172,6 @@ Mesh build_tube(ShapeDirective& shape) {
     Mesh mesh;
     ParameterList& parameters = shape.parameters;
     LineLight line = shape.type == "line" ? light_of_line(shape) : light_of_cylinder(shape, mesh.warnings);
-    line.name = light_name(shape);
     line.radiance = shape.emission.radiance;
     const std::string subject = "shape \"" + shape.type + "\": ";
     if (!is_valid_coordinate(line.begin) || !is_valid_coordinate(line.end))
@@ -192,6 +191,7 @@ Mesh build_tube(ShapeDirective& shape) {
         mesh.warnings.add(parameters.location(), subject + "ignored where it does not emit light");
     } else {
         mesh.line_lights = {line};
+        mesh.emitter_name = emitter_name(shape);
     }
     parameters.warn_unused("shape \"" + shape.type + '"', mesh.warnings);
     return mesh;
@@ -252,7 +252,6 @@ void orient_by_shading_normals(Mesh& mesh) {
 
 void add_light(const ShapeDirective& shape, std::vector<Float3> vertices, Mesh& mesh) {
     PolygonLight& light = mesh.polygon_lights.emplace_back();
-    light.name = light_name(shape);
     light.vertices = std::move(vertices);
     light.radiance = shape.emission.radiance;
     light.two_sided = shape.emission.two_sided;
@@ -266,6 +265,7 @@ void add_polygon_lights(const ShapeDirective& shape, Mesh& mesh) {
             mesh.triangle_light[triangle] = static_cast<std::int32_t>(mesh.polygon_lights.size());
         add_light(shape, std::move(polygon.vertices), mesh);
     }
+    if (!mesh.polygon_lights.empty()) mesh.emitter_name = emitter_name(shape);
 }
 
 using Reader = Mesh (*)(ShapeDirective&);

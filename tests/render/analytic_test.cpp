@@ -36,7 +36,7 @@ scene::Scene under_panel() {
 
 scene::Scene under_tube_of(scene::TubeModel model) {
     scene::Scene scene = make_floor_in_view();
-    scene.line_lights.push_back({"tube", {-0.6f, 1, 0.6f}, {0.7f, 0.7f, 0.9f}, 0.01f, kRadiance, model});
+    add_line_light(scene, "tube", {0, {-0.6f, 1, 0.6f}, {0.7f, 0.7f, 0.9f}, 0.01f, kRadiance, model});
     return scene;
 }
 scene::Scene under_thin_line() { return under_tube_of(scene::TubeModel::linear); }

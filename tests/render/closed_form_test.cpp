@@ -30,8 +30,7 @@ scene::Scene make_panel_scene() {
 }
 
 scene::LineLight make_tube() {
-    return {.name = "tube",
-            .begin = {-0.5f, -0.3f, 0.3f},
+    return {.begin = {-0.5f, -0.3f, 0.3f},
             .end = {0.6f, 0.4f, 0.8f},
             .radius = 0.01f,
             .radiance = {kRadiance, kRadiance, kRadiance},
@@ -40,7 +39,7 @@ scene::LineLight make_tube() {
 
 scene::Scene make_tube_scene() {
     scene::Scene scene = make_floor(kSize);
-    scene.line_lights.push_back(make_tube());
+    add_line_light(scene, "tube", make_tube());
     return scene;
 }
 

@@ -90,11 +90,11 @@ TEST(HostileScenes, DegenerateLights) {
                       {Float3{0, -0.5f, -1}, Float3{0, 0.5f, -1}, Float3{0, 0.5f, 1}, Float3{0, -0.5f, 1}},
                       radiance, true, 1);
     for (const scene::TubeModel model : {scene::TubeModel::linear, scene::TubeModel::solid}) {
-        scene.line_lights.push_back({"point", p, p, 0.01f, radiance, model});
-        scene.line_lights.push_back({"no radius", p, {1, 0, 1}, 0, radiance, model});
-        scene.line_lights.push_back({"on the floor", {-1, -1, 0}, {1, 1, 0}, 0.01f, radiance, model});
-        scene.line_lights.push_back(
-            {"through the floor", {0.3f, 0.2f, -1}, {0.3f, 0.2f, 1}, 0.01f, radiance, model});
+        add_line_light(scene, "point", {0, p, p, 0.01f, radiance, model});
+        add_line_light(scene, "no radius", {0, p, {1, 0, 1}, 0, radiance, model});
+        add_line_light(scene, "on the floor", {0, {-1, -1, 0}, {1, 1, 0}, 0.01f, radiance, model});
+        add_line_light(scene, "through the floor",
+                       {0, {0.3f, 0.2f, -1}, {0.3f, 0.2f, 1}, 0.01f, radiance, model});
     }
     expect_sane_images(scene);
 }
@@ -109,6 +109,7 @@ TEST(HostileScenes, LightWithEightCornersOneOfThemRepeated) {
     light.vertices.push_back(light.vertices.back());
     light.radiance = {1, 1, 1};
     light.two_sided = true;
+    scene.emitters.push_back({"octagon"});
     scene.polygon_lights.push_back(light);
     expect_sane_images(scene);
 }
@@ -137,7 +138,7 @@ TEST(HostileScenes, ShadingNormalsOfAllKinds) {
 TEST(HostileScenes, TextureCoordinatesOfAllKinds) {
     scene::Scene scene = make_box_scene(kSize);
     scene.textures.push_back({"checker", 2, 1, {1, 1, 1, 0, 0, 0}});
-    for (scene::Material& material : scene.materials) material.diffuse_texture = 0;
+    for (scene::Material& material : scene.materials) material.diffuse_texture.texture = 0;
     const float infinity = std::numeric_limits<float>::infinity();
     const float kinds[] = {0, -1e-9f, 1e9f, -infinity, infinity, std::nanf(""), 0.5f};
     for (std::size_t i = 0; i < scene.uvs.size(); ++i)

@@ -77,13 +77,20 @@ void add_quad(scene::Scene& scene, const std::array<Float3, 4>& corners, int mat
 void add_polygon_light(scene::Scene& scene, const std::array<Float3, 4>& corners, const Float3& radiance,
                        bool two_sided, int material) {
     scene::PolygonLight light;
-    light.name = "panel";
+    light.emitter = static_cast<std::uint32_t>(scene.emitters.size());
+    scene.emitters.push_back({"panel"});
     light.vertices.assign(corners.begin(), corners.end());
     light.radiance = radiance;
     light.two_sided = two_sided;
     const int index = static_cast<int>(scene.polygon_lights.size());
     scene.polygon_lights.push_back(light);
     add_quad(scene, corners, material, index);
+}
+
+void add_line_light(scene::Scene& scene, const char* name, scene::LineLight light) {
+    light.emitter = static_cast<std::uint32_t>(scene.emitters.size());
+    scene.emitters.push_back({name});
+    scene.line_lights.push_back(light);
 }
 
 void set_camera(scene::Scene& scene, const Float3& eye, const Float3& target, const Float3& up,
@@ -160,10 +167,11 @@ scene::Scene make_box_scene(int size) {
                       {Float3{-0.4f, -0.3f, 1.9f}, Float3{-0.4f, 0.3f, 1.9f}, Float3{0.3f, 0.3f, 1.8f},
                        Float3{0.3f, -0.3f, 1.8f}},
                       {6, 6, 5}, false, 0);
-    scene.line_lights.push_back(
-        {"tube", {0.9f, -0.8f, 1.5f}, {0.8f, 0.9f, 1.2f}, 0.01f, {60, 60, 80}, scene::TubeModel::linear});
-    scene.line_lights.push_back(
-        {"pipe", {-0.6f, -0.7f, 1.1f}, {-0.8f, 0.3f, 1.6f}, 0.07f, {3, 8, 3}, scene::TubeModel::solid});
+    add_line_light(
+        scene, "tube",
+        {0, {0.9f, -0.8f, 1.5f}, {0.8f, 0.9f, 1.2f}, 0.01f, {60, 60, 80}, scene::TubeModel::linear});
+    add_line_light(scene, "pipe",
+                   {0, {-0.6f, -0.7f, 1.1f}, {-0.8f, 0.3f, 1.6f}, 0.07f, {3, 8, 3}, scene::TubeModel::solid});
     set_camera(scene, {0, -4, 1}, {0, 0, 1}, {0, 0, 1}, 0.32, size, size);
     set_radius(scene);
     return scene;

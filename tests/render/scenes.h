@@ -19,6 +19,9 @@ void add_quad(scene::Scene& scene, const std::array<Float3, 4>& corners, int mat
 void add_polygon_light(scene::Scene& scene, const std::array<Float3, 4>& corners, const Float3& radiance,
                        bool two_sided, int material);
 
+/// Adds a tube as an emitter of its own.
+void add_line_light(scene::Scene& scene, const char* name, scene::LineLight light);
+
 /// A pinhole camera with square pixels. \param tangent of half the field of view along the height
 void set_camera(scene::Scene& scene, const Float3& eye, const Float3& target, const Float3& up,
                 double tangent, int width, int height);

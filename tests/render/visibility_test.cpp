@@ -26,7 +26,7 @@ protected:
     static constexpr std::uint32_t kAll = static_cast<std::uint32_t>((std::uint64_t{1} << kWidth) - 1);
 
     Visibility() : scene_(make_floor(8)) {
-        scene_.line_lights.push_back({"tube", {-3, 0, 1}, {3, 0, 1}, 0.1f, {1, 1, 1}});
+        add_line_light(scene_, "tube", {0, {-3, 0, 1}, {3, 0, 1}, 0.1f, {1, 1, 1}});
         embree_.emplace(scene_);
     }
 
@@ -178,7 +178,7 @@ TYPED_TEST(Visibility, NoRayPassesBetweenTriangles) {
 }
 
 TEST(TubeMesh, HasTheCrossSectionOfTheCylinder) {
-    const auto mesh = visibility::make_tube_mesh({{"tube", {1, 2, 3}, {1, 2, 5}, 0.5f, {1, 1, 1}}});
+    const auto mesh = visibility::make_tube_mesh({{0, {1, 2, 3}, {1, 2, 5}, 0.5f, {1, 1, 1}}});
     ASSERT_EQ(mesh.triangles.size(), static_cast<std::size_t>(visibility::kTrianglesPerTube));
     // Closed, oriented outwards: the divergence theorem gives the volume.
     double volume = 0;

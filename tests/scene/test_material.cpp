@@ -32,7 +32,7 @@ TEST_F(Materials, Lambertian) {
         const Material material = silently(text);
         EXPECT_EQ(material.model, BrdfModel::lambert);
         expect_near(material.diffuse, {0.1f, 0.2f, 0.3f}, 0);
-        EXPECT_EQ(material.diffuse_texture, -1);
+        EXPECT_EQ(material.diffuse_texture.texture, -1);
     }
     for (const std::string text : {"", "Material \"matte\"", "Material \"diffuse\""})
         expect_near(silently(text).diffuse, {0.5f, 0.5f, 0.5f}, 0);

@@ -29,7 +29,7 @@ protected:
         for (const std::uint32_t material : scene.triangle_material)
             bad += material >= scene.materials.size();
         for (const Material& material : scene.materials)
-            bad += material.diffuse_texture >= static_cast<int>(scene.textures.size());
+            bad += material.diffuse_texture.texture >= static_cast<int>(scene.textures.size());
         for (const Texture& texture : scene.textures)
             bad += texture.texels.size() != 3 * static_cast<std::size_t>(texture.width * texture.height);
         EXPECT_EQ(bad, 0u);

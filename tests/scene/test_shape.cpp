@@ -134,7 +134,7 @@ TEST_F(Shapes, Polygon) {
     ASSERT_EQ(scene.polygon_lights.size(), 1u);
     EXPECT_EQ(scene.polygon_lights[0].vertices.size(), 5u);
     for (const int light : scene.triangle_light) EXPECT_EQ(light, 0);
-    EXPECT_EQ(scene.polygon_lights[0].name.substr(0, 11), "polygon at ");
+    EXPECT_EQ(scene.emitters[scene.polygon_lights[0].emitter].name.substr(0, 11), "polygon at ");
     EXPECT_EQ(shapes("Shape \"polygon\" \"point3 P\" [0 0 0 2 0 0 3 1 0 2 2 0]").triangles.size(), 2u);
 }
 
@@ -234,7 +234,7 @@ TEST_F(Shapes, Cylinder) {
     expect_near(tube.end, {7, 0, 0}, 1e-6f);
     EXPECT_NEAR(tube.radius, 0.5, 1e-7);
     EXPECT_EQ(tube.radiance.y, 6);
-    EXPECT_EQ(tube.name.substr(0, 12), "cylinder at ");
+    EXPECT_EQ(scene.emitters[tube.emitter].name.substr(0, 12), "cylinder at ");
     // The defaults of pbrt.
     expect_near(scene.line_lights[1].begin, {-2, 0, 0}, 1e-6f);
     expect_near(scene.line_lights[1].end, {4, 0, 0}, 1e-6f);

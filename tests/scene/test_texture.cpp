@@ -41,7 +41,7 @@ protected:
     Float3 constant(const std::string& parameters, const std::string& before = "") const {
         const Scene scene = textured(parameters, before);
         EXPECT_TRUE(scene.textures.empty());
-        EXPECT_EQ(scene.materials.at(0).diffuse_texture, -1);
+        EXPECT_EQ(scene.materials.at(0).diffuse_texture.texture, -1);
         return scene.materials[0].diffuse;
     }
 };
@@ -50,7 +50,7 @@ TEST_F(Textures, RowZeroIsTheBottomAndTexelsAreLinear) {
     const Scene scene = textured("\"imagemap\" \"string filename\" \"a.tga\" \"bool trilinear\" \"true\"");
     EXPECT_TRUE(scene.warnings.empty());
     ASSERT_EQ(scene.textures.size(), 1u);
-    EXPECT_EQ(scene.materials[0].diffuse_texture, 0);
+    EXPECT_EQ(scene.materials[0].diffuse_texture.texture, 0);
     const Texture& texture = scene.textures[0];
     EXPECT_EQ(texture.width, 2);
     EXPECT_EQ(texture.height, 2);
@@ -107,8 +107,8 @@ TEST_F(Textures, EachFileIsDecodedOnceAndOnlyIfUsed) {
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_EQ(scene.textures.size(), 1u);
     ASSERT_EQ(scene.materials.size(), 2u);
-    EXPECT_EQ(scene.materials[0].diffuse_texture, 0);
-    EXPECT_EQ(scene.materials[1].diffuse_texture, 0);
+    EXPECT_EQ(scene.materials[0].diffuse_texture.texture, 0);
+    EXPECT_EQ(scene.materials[1].diffuse_texture.texture, 0);
     EXPECT_EQ(scene.materials[0].diffuse.x, 0.5f);
 }
 
@@ -126,7 +126,7 @@ TEST_F(Textures, ConstantsAndProducts) {
         {0.625f, 0.4375f, 0.75f}, 1e-6f);
     const Scene product = textured("\"scale\" \"texture tex\" \"i\" \"texture scale\" \"c\"", colours);
     EXPECT_TRUE(product.warnings.empty());
-    EXPECT_EQ(product.materials.at(0).diffuse_texture, 0);
+    EXPECT_EQ(product.materials.at(0).diffuse_texture.texture, 0);
     expect_near(product.materials[0].diffuse, {0.5f, 0.25f, 1}, 0);
 }
 
