@@ -20,13 +20,25 @@ struct Float3 {
     float x, y, z;
 };
 
-/// Linear RGB texels, three floats each. Row 0 is the row at texture coordinate v = 0 (the bottom of the
-/// image file). Lookups are bilinear with texel centres at (i + 0.5) / size and wrap around.
+/// What a texture is outside of the unit square.
+enum class TextureWrap : std::uint32_t {
+    repeat, ///< the same again
+    clamp,  ///< the nearest texel of the border
+    black,  ///< 0
+};
+
+enum class TextureFilter : std::uint32_t { bilinear, nearest };
+
+/// Linear texels. Row 0 is the row at texture coordinate v = 0 (the bottom of the image file), texel centres lie at
+/// (i + 0.5) / size.
 struct Texture {
     std::string name;
     int width = 0;
     int height = 0;
-    std::vector<float> texels;
+    std::vector<float> texels; ///< channels * width * height; finite and not negative
+    int channels = 3;          ///< 3 for RGB, 1 for grey
+    TextureWrap wrap = TextureWrap::repeat;
+    TextureFilter filter = TextureFilter::bilinear;
 };
 
 /// Where a surface looks up a texture: at scale * uv + offset.
@@ -41,14 +53,24 @@ enum class BrdfModel : std::uint32_t {
     frostbite, ///< Disney diffuse (renormalised) plus GGX
 };
 
-/// What a surface reduces to (docs/materials.md lists the reductions from the materials of pbrt).
+/// What a surface reduces to (docs/materials.md lists the reductions from the materials of pbrt). Textures are
+/// multiplied with the numbers beside them; where those are no colours, the first channel of a texture counts.
 struct Material {
     std::string name;
     BrdfModel model = BrdfModel::lambert;
-    Float3 diffuse = {0.5f, 0.5f, 0.5f}; ///< diffuse albedo, multiplied by the texture if there is one
+    Float3 diffuse = {0.5f, 0.5f, 0.5f}; ///< diffuse albedo
     TextureUse diffuse_texture;
     Float3 f0 = {0.04f, 0.04f, 0.04f}; ///< specular reflectance at normal incidence
-    float roughness = 1.0f;            ///< perceptual roughness in [0, 1]; the GGX alpha is its square
+    TextureUse f0_texture;
+    float roughness = 1.0f; ///< perceptual roughness in [0, 1]; the GGX alpha is its square
+    TextureUse roughness_texture;
+    float alpha = 1.0f; ///< probability that the surface is there
+    TextureUse alpha_texture;
+    float bump = 1.0f; ///< height of texels of value 1 of the bump texture [m]
+    TextureUse bump_texture;
+    /// Normals in the tangent frame (dp/du orthogonalised, normal x that, normal), a component n as (n + 1) / 2. Takes
+    /// precedence over the bump texture.
+    TextureUse normal_texture;
 };
 
 /// One light as the user sees it: an emissive shape, which may consist of many polygons, or a tube. Light rigs and
