@@ -51,6 +51,23 @@ struct LtcTableRecord {
     std::int32_t roughnesses, inclinations, f0s;
 };
 
+/// An instance as kernels need it, floats only.
+struct InstanceRecord {
+    float world_from_object[12]; ///< as Instance::world_from_object
+    float normal_from_object[9]; ///< rows of three; inverse transpose of the linear part, times any number
+    float rounding;              ///< how many times rounding errors grow on the way to the object and back
+};
+
+/// Cells of tabulated pixel filters.
+inline constexpr int kFilterCells = 512;
+
+/// How camera rays spread over a pixel along one axis.
+struct FilterAxis {
+    float radius;         ///< of a box filter [pixels]
+    const float* offsets; ///< see PixelFilterTable, null for boxes
+    const float* weights;
+};
+
 /// Views of the arrays of a scene::Scene, with what kernels need precomputed.
 struct KernelScene {
     const scene::Float3* positions;
@@ -64,10 +81,14 @@ struct KernelScene {
     const TextureView* textures;
     const PolygonLightRecord* polygon_lights;
     const LineLightRecord* line_lights;
+    const InstanceRecord* instances;
     std::int32_t polygon_light_count;
     std::int32_t line_light_count;
     LtcTableRecord ltc;
     scene::Camera camera;
+    FilterAxis filter_x, filter_y;
+    scene::PixelBounds image; ///< the pixels of the film that the image has
+    std::int32_t film_width, film_height;
     float radius; ///< of the scene [m]
 };
 
@@ -83,12 +104,10 @@ struct RenderJob {
     std::uint32_t seed;
     std::uint32_t camera_rays;   ///< per pixel
     std::uint32_t light_samples; ///< per camera ray, light and technique
-    std::int32_t width;
-    std::int32_t height;
-    float* pixels; ///< 3 * width * height floats, as image::Image
+    float* pixels;               ///< 3 floats for each pixel of scene.image, as image::Image
 };
 
-/// Pixels x_begin <= x < x_end, y_begin <= y < y_end.
+/// Pixels x_begin <= x < x_end, y_begin <= y < y_end of the film.
 struct Tile {
     std::int32_t x_begin, y_begin, x_end, y_end;
 };

@@ -1,8 +1,12 @@
 #include "render_cpu/kernel_arrays.h"
 
+#include "render_cpu/film.h"
+
 #include <nusselt/geometry/convex_polygon.h>
 #include <nusselt/geometry/line_segment.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -71,9 +75,51 @@ LineLightRecord make_record(const scene::LineLight& light) {
             times(light.radius, light.radiance)};
 }
 
+InstanceRecord make_record(const scene::Scene& scene, const scene::Instance& instance) {
+    InstanceRecord record{};
+    const auto& m = instance.world_from_object;
+    std::copy(m.begin(), m.end(), record.world_from_object);
+    const auto entry = [&](std::size_t row, std::size_t column) -> double {
+        return m[4 * (row % 3) + column % 3];
+    };
+    double cofactor[3][3];
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            cofactor[i][j] =
+                entry(i + 1, j + 1) * entry(i + 2, j + 2) - entry(i + 1, j + 2) * entry(i + 2, j + 1);
+    double determinant = 0;
+    double largest = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+        determinant += entry(0, j) * cofactor[0][j];
+        for (const auto& row : cofactor) largest = std::max(largest, std::fabs(row[j]));
+    }
+    if (determinant == 0 || !std::isfinite(determinant))
+        throw std::runtime_error("object " + scene.objects[instance.object].name +
+                                 ": the transform of an instance cannot be inverted");
+    for (std::size_t i = 0; i < 3; ++i) {
+        double growth = 0;
+        for (std::size_t j = 0; j < 3; ++j) {
+            // Cofactors over the determinant are the transposed inverse.
+            record.normal_from_object[3 * i + j] = static_cast<float>(cofactor[i][j] / largest);
+            for (std::size_t k = 0; k < 3; ++k)
+                growth += std::fabs(entry(i, k) * cofactor[j][k] / determinant);
+        }
+        record.rounding = std::max(record.rounding, static_cast<float>(growth));
+    }
+    return record;
+}
+
+FilterAxis view_of(const PixelFilterTable& table, float radius) {
+    if (table.offsets.empty()) return {radius, nullptr, nullptr};
+    return {radius, table.offsets.data(), table.weights.data()};
+}
+
 } // namespace
 
-KernelArrays::KernelArrays(const scene::Scene& scene) : scene_(scene) {
+KernelArrays::KernelArrays(const scene::Scene& scene)
+    : scene_(scene),
+      filter_x_(make_filter_table(scene.film.filter, scene.film.filter.radius_x)),
+      filter_y_(make_filter_table(scene.film.filter, scene.film.filter.radius_y)) {
     check_float_count(3 * scene.positions.size(), "vertices");
     check_float_count(8 * scene.materials.size(), "materials");
     for (const scene::Material& material : scene.materials) {
@@ -89,6 +135,9 @@ KernelArrays::KernelArrays(const scene::Scene& scene) : scene_(scene) {
     for (const scene::PolygonLight& light : scene.polygon_lights)
         polygon_lights_.push_back(make_record(scene, light));
     for (const scene::LineLight& light : scene.line_lights) line_lights_.push_back(make_record(light));
+    check_float_count(sizeof(InstanceRecord) / sizeof(float) * scene.instances.size(), "instances");
+    for (const scene::Instance& instance : scene.instances)
+        instances_.push_back(make_record(scene, instance));
 }
 
 KernelScene KernelArrays::view(BrdfChoice brdf) const {
@@ -106,7 +155,13 @@ KernelScene KernelArrays::view(BrdfChoice brdf) const {
     view.line_lights = line_lights_.data();
     view.polygon_light_count = static_cast<std::int32_t>(polygon_lights_.size());
     view.line_light_count = static_cast<std::int32_t>(line_lights_.size());
+    view.instances = instances_.data();
     view.camera = scene_.camera;
+    view.filter_x = view_of(filter_x_, scene_.film.filter.radius_x);
+    view.filter_y = view_of(filter_y_, scene_.film.filter.radius_y);
+    view.image = rendered_pixels(scene_.film);
+    view.film_width = scene_.film.width;
+    view.film_height = scene_.film.height;
     view.radius = static_cast<float>(scene_.radius);
     return view;
 }

@@ -2,6 +2,7 @@
 /// The arrays behind KernelScene.
 
 #include "render_cpu/kernel.h"
+#include "render_cpu/pixel_filter.h"
 
 #include <vector>
 
@@ -11,8 +12,8 @@ namespace nusselt::render_cpu {
 class KernelArrays {
 public:
     /// \param scene must outlive this object
-    /// \throws std::runtime_error if the scene has more data than 32-bit indices reach, or a light with other
-    ///         than 3 to 8 vertices
+    /// \throws std::runtime_error if the scene has more data than 32-bit indices reach, a light with other than 3 to
+    ///         8 vertices, an instance whose transform cannot be inverted or a pixel filter without weight
     explicit KernelArrays(const scene::Scene& scene);
 
     /// Views of this object and its scene.
@@ -26,6 +27,9 @@ private:
     std::vector<TextureView> textures_;
     std::vector<PolygonLightRecord> polygon_lights_;
     std::vector<LineLightRecord> line_lights_;
+    std::vector<InstanceRecord> instances_;
+    PixelFilterTable filter_x_;
+    PixelFilterTable filter_y_;
 };
 
 } // namespace nusselt::render_cpu

@@ -1,5 +1,6 @@
 #include "render_cpu/renderer.h"
 
+#include "render_cpu/film.h"
 #include "render_cpu/flush_denormals.h"
 
 #include "tables/ltc_table.h"
@@ -38,11 +39,13 @@ private:
     std::uint64_t begin_ticks_ = __rdtsc();
 };
 
-std::vector<Tile> make_tiles(int width, int height) {
+/// The tiles of the film that have some of these pixels, cut to them.
+std::vector<Tile> make_tiles(const scene::PixelBounds& pixels) {
     std::vector<Tile> tiles;
-    for (int y = 0; y < height; y += kTileSize)
-        for (int x = 0; x < width; x += kTileSize)
-            tiles.push_back({x, y, std::min(x + kTileSize, width), std::min(y + kTileSize, height)});
+    for (int y = pixels.y_begin; y < pixels.y_end; y += kTileSize - y % kTileSize)
+        for (int x = pixels.x_begin; x < pixels.x_end; x += kTileSize - x % kTileSize)
+            tiles.push_back({x, y, std::min(x + kTileSize - x % kTileSize, pixels.x_end),
+                             std::min(y + kTileSize - y % kTileSize, pixels.y_end)});
     return tiles;
 }
 
@@ -107,7 +110,8 @@ RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const vis
                               const RenderMonitor& monitor) const {
     validate(settings);
     RenderResult result;
-    result.image = image::make_image(scene_.film.width, scene_.film.height);
+    const scene::PixelBounds pixels = rendered_pixels(scene_.film);
+    result.image = image::make_image(pixels.x_end - pixels.x_begin, pixels.y_end - pixels.y_begin);
 
     RenderJob job{};
     job.scene = arrays_.view(settings.brdf);
@@ -125,12 +129,10 @@ RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const vis
     job.seed = settings.seed;
     job.camera_rays = static_cast<std::uint32_t>(camera_ray_count(settings));
     job.light_samples = static_cast<std::uint32_t>(settings.samples) / job.camera_rays;
-    job.width = result.image.width;
-    job.height = result.image.height;
     job.pixels = result.image.pixels.data();
 
     const RenderTile render_tile = kernel_for(isa);
-    const std::vector<Tile> tiles = make_tiles(job.width, job.height);
+    const std::vector<Tile> tiles = make_tiles(pixels);
     Tally tally(result.image.pixels.size() / 3, monitor);
     const TickClock clock;
     arena_.execute([&] {

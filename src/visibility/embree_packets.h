@@ -3,6 +3,7 @@
 
 #include "visibility/embree_scene.h"
 #include "visibility/ray_packets.h"
+#include "visibility/scene_parts.h"
 
 #include <embree3/rtcore.h>
 
@@ -17,9 +18,7 @@ inline constexpr unsigned kSurfaceMask = 1;
 inline constexpr unsigned kTubeMask = 2;
 
 /// The scene behind RayTracer::context of EmbreeScene::tracer().
-inline RTCScene embree_scene(const void* context) {
-    return static_cast<RTCScene>(const_cast<void*>(context));
-}
+inline RTCScene embree_scene(const void* context) { return static_cast<const TracedScene*>(context)->embree; }
 
 /// Lanes that Embree can take: without branches, so that it vectorises.
 template <int N>

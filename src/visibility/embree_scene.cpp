@@ -1,8 +1,14 @@
 #include "visibility/embree_scene.h"
 
+#include "visibility/alpha.h"
 #include "visibility/embree_packets.h"
+#include "visibility/scene_parts.h"
 #include "visibility/tube_mesh.h"
 
+#include <nusselt/random/pcg.h>
+#include <nusselt/random/unit_interval.h>
+
+#include <bit>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -11,8 +17,8 @@ namespace nusselt::visibility {
 
 namespace {
 
-constexpr unsigned kSurfaceGeometry = 0;
-constexpr unsigned kTubeGeometry = 1;
+/// Scenes with this many triangles are stored compactly; see docs/performance.md.
+constexpr std::size_t kManyTriangles = 2'000'000;
 
 struct DeviceDeleter {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -20,8 +26,16 @@ struct DeviceDeleter {
 struct SceneDeleter {
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 };
+struct BufferDeleter {
+    void operator()(RTCBuffer buffer) const { rtcReleaseBuffer(buffer); }
+};
+struct GeometryDeleter {
+    void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
 using Device = std::unique_ptr<RTCDeviceTy, DeviceDeleter>;
 using SceneHandle = std::unique_ptr<RTCSceneTy, SceneDeleter>;
+using Buffer = std::unique_ptr<RTCBufferTy, BufferDeleter>;
+using Geometry = std::unique_ptr<RTCGeometryTy, GeometryDeleter>;
 
 [[noreturn]] void throw_embree_error(RTCError code) {
     if (code == RTC_ERROR_OUT_OF_MEMORY)
@@ -42,35 +56,99 @@ Device make_device() {
     return device;
 }
 
-void attach_triangles(RTCDevice device, RTCScene scene, const std::vector<scene::Float3>& positions,
-                      const std::vector<scene::Triangle>& triangles, unsigned id, unsigned mask) {
-    if (triangles.empty()) return;
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Embree allocates and pads: it reads 16 bytes at a time, also at the last vertex.
-    void* vertex_buffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                  sizeof(scene::Float3), positions.size());
-    void* index_buffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                 sizeof(scene::Triangle), triangles.size());
-    if (vertex_buffer != nullptr && index_buffer != nullptr) {
-        std::memcpy(vertex_buffer, positions.data(), positions.size() * sizeof(scene::Float3));
-        std::memcpy(index_buffer, triangles.data(), triangles.size() * sizeof(scene::Triangle));
+/// A number in [0, 1) that depends on nothing but the ray and the triangle: no two hits of a ray share it.
+float random_of(RTCRayN* ray, RTCHitN* hit, unsigned n, unsigned i, std::uint32_t triangle) {
+    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+    const UInt4 place = pcg4d({bits(RTCRayN_org_x(ray, n, i)), bits(RTCRayN_org_y(ray, n, i)),
+                               bits(RTCRayN_org_z(ray, n, i)), triangle});
+    const UInt4 way = {bits(RTCRayN_dir_x(ray, n, i)), bits(RTCRayN_dir_y(ray, n, i)),
+                       bits(RTCRayN_dir_z(ray, n, i)), RTCHitN_instID(hit, n, i, 0)};
+    return to_unit<float>(pcg4d({place.x ^ way.x, place.y ^ way.y, place.z ^ way.z, place.w ^ way.w}).x);
+}
+
+/// Lets rays pass surfaces that are partly there. Called by Embree for hits on kPartialGeometry of a part.
+void filter_hits(const RTCFilterFunctionNArguments* arguments) {
+    const auto& part = *static_cast<const ScenePart*>(arguments->geometryUserPtr);
+    const unsigned n = arguments->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (arguments->valid[i] == 0) continue;
+        RTCHitN* hit = arguments->hit;
+        const std::uint32_t triangle = part.partial[RTCHitN_primID(hit, n, i)];
+        const float alpha = alpha_at(*part.scene, triangle, RTCHitN_u(hit, n, i), RTCHitN_v(hit, n, i));
+        if (!(random_of(arguments->ray, hit, n, i, triangle) < alpha)) arguments->valid[i] = 0;
     }
-    rtcSetGeometryMask(geometry, mask);
+}
+
+/// A buffer of Embree's own, as it reads 16 bytes at a time, also at the last vertex.
+Buffer make_position_buffer(RTCDevice device, const std::vector<scene::Float3>& positions) {
+    const std::size_t bytes = positions.size() * sizeof(scene::Float3);
+    Buffer buffer(rtcNewBuffer(device, bytes + sizeof(scene::Float3)));
+    check_for_error(device);
+    std::memcpy(rtcGetBufferData(buffer.get()), positions.data(), bytes);
+    return buffer;
+}
+
+Geometry make_triangle_geometry(RTCDevice device, RTCBuffer positions, std::size_t position_count,
+                                unsigned mask) {
+    Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+    rtcSetGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions, 0,
+                         sizeof(scene::Float3), position_count);
+    rtcSetGeometryMask(geometry.get(), mask);
+    return geometry;
+}
+
+/// Indices that outlive the geometry.
+void share_indices(RTCGeometry geometry, const scene::Triangle* triangles, std::size_t count) {
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles, 0,
+                               sizeof(scene::Triangle), count);
+}
+
+void copy_indices(RTCDevice device, RTCGeometry geometry, const std::vector<scene::Triangle>& triangles,
+                  const std::vector<std::uint32_t>& chosen) {
+    auto* target = static_cast<scene::Triangle*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(scene::Triangle), chosen.size()));
+    check_for_error(device);
+    for (const std::uint32_t triangle : chosen) *target++ = triangles[triangle];
+}
+
+void attach(RTCDevice device, RTCScene scene, RTCGeometry geometry, unsigned id) {
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, id);
-    rtcReleaseGeometry(geometry);
+    check_for_error(device);
+}
+
+SceneHandle make_scene(RTCDevice device, std::size_t triangle_count) {
+    SceneHandle scene(rtcNewScene(device));
+    // Watertight: without this, rays through shared edges may pass between triangles. Costs a tenth of the time.
+    unsigned flags = RTC_SCENE_FLAG_ROBUST;
+    if (triangle_count >= kManyTriangles) flags |= RTC_SCENE_FLAG_COMPACT;
+    rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(flags));
+    return scene;
+}
+
+void commit(RTCDevice device, RTCScene scene) {
+    // Unlike rtcCommitScene() this keeps to the arena of the caller.
+    rtcJoinCommitScene(scene);
     check_for_error(device);
 }
 
 template <int N>
-void intersect(const void* scene, std::uint32_t active, const RayPacket<N>& rays, HitPacket<N>& hits) {
+void miss(int lane, HitPacket<N>& hits) {
+    hits.triangle[lane] = hits.instance[lane] = hits.tube[lane] = -1;
+}
+
+/// For scenes without instances and without surfaces that are partly there.
+template <int N>
+void intersect_plain(const void* context, std::uint32_t active, const RayPacket<N>& rays,
+                     HitPacket<N>& hits) {
     ClosestHitQuery<N> query(active, rays);
-    query.trace(embree_scene(scene));
+    query.trace(embree_scene(context));
     const auto& hit = query.packet.hit;
     for (int i = 0; i < N; ++i) {
         const auto primitive = static_cast<std::int32_t>(hit.primID[i]);
         const unsigned geometry = hit.geomID[i];
-        hits.triangle[i] = geometry == kSurfaceGeometry ? primitive : -1;
+        hits.triangle[i] = geometry == kFullGeometry ? primitive : -1;
+        hits.instance[i] = -1;
         hits.tube[i] = geometry == kTubeGeometry ? primitive / kTrianglesPerTube : -1;
         hits.u[i] = hit.u[i];
         hits.v[i] = hit.v[i];
@@ -78,9 +156,33 @@ void intersect(const void* scene, std::uint32_t active, const RayPacket<N>& rays
 }
 
 template <int N>
-std::uint32_t occluded(const void* scene, std::uint32_t active, const RayPacket<N>& rays) {
+void intersect(const void* context, std::uint32_t active, const RayPacket<N>& rays, HitPacket<N>& hits) {
+    const auto& scene = *static_cast<const TracedScene*>(context);
+    ClosestHitQuery<N> query(active, rays);
+    query.trace(scene.embree);
+    const auto& hit = query.packet.hit;
+    for (int i = 0; i < N; ++i) {
+        const unsigned geometry = hit.geomID[i];
+        const unsigned instance = hit.instID[0][i];
+        miss(i, hits);
+        hits.u[i] = hit.u[i];
+        hits.v[i] = hit.v[i];
+        if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
+        if (geometry == kTubeGeometry) {
+            hits.tube[i] = static_cast<std::int32_t>(hit.primID[i]) / kTrianglesPerTube;
+            continue;
+        }
+        hits.triangle[i] =
+            static_cast<std::int32_t>(scene.part_of(instance).triangle_of(geometry, hit.primID[i]));
+        if (instance != RTC_INVALID_GEOMETRY_ID)
+            hits.instance[i] = static_cast<std::int32_t>(instance - kFirstInstance);
+    }
+}
+
+template <int N>
+std::uint32_t occluded(const void* context, std::uint32_t active, const RayPacket<N>& rays) {
     ShadowQuery<N> query(active, rays);
-    query.trace(embree_scene(scene));
+    query.trace(embree_scene(context));
     std::uint32_t blocked = 0;
     for (int i = 0; i < N; ++i) {
         // Embree sets tfar to minus infinity where something is in the way.
@@ -93,35 +195,101 @@ std::uint32_t occluded(const void* scene, std::uint32_t active, const RayPacket<
 } // namespace
 
 struct EmbreeScene::State {
-    Device device;
-    SceneHandle scene;
+    explicit State(const scene::Scene& scene_to_trace);
+
+    void attach_part(RTCScene target, const ScenePart& part);
+    void attach_tubes();
+    void attach_instances();
+
+    const scene::Scene& scene;
+    Device device = make_device();
+    Buffer positions;
+    std::vector<SceneHandle> objects;
+    SceneHandle world;
+    TracedScene traced;
 };
 
-EmbreeScene::EmbreeScene(const scene::Scene& scene) : state_(std::make_unique<State>()) {
-    state_->device = make_device();
-    state_->scene.reset(rtcNewScene(state_->device.get()));
-    // Watertight: without this, rays through shared edges may pass between triangles. Costs a tenth of the
-    // time.
-    rtcSetSceneFlags(state_->scene.get(), RTC_SCENE_FLAG_ROBUST);
-    attach_triangles(state_->device.get(), state_->scene.get(), scene.positions, scene.triangles,
-                     kSurfaceGeometry, kSurfaceMask);
-    const TubeMesh tubes = make_tube_mesh(scene.line_lights);
-    attach_triangles(state_->device.get(), state_->scene.get(), tubes.positions, tubes.triangles,
-                     kTubeGeometry, kTubeMask);
-    // Unlike rtcCommitScene() this keeps to the arena of the caller.
-    rtcJoinCommitScene(state_->scene.get());
-    check_for_error(state_->device.get());
+EmbreeScene::State::State(const scene::Scene& scene_to_trace) : scene(scene_to_trace) {
+    if (!scene.triangles.empty()) positions = make_position_buffer(device.get(), scene.positions);
+    traced.scene = &scene;
+    // Filters point to the parts: these must stay where they are.
+    traced.parts = make_parts(scene);
+    for (std::size_t i = 1; i < traced.parts.size(); ++i) {
+        objects.push_back(make_scene(device.get(), scene.triangles.size()));
+        attach_part(objects.back().get(), traced.parts[i]);
+        commit(device.get(), objects.back().get());
+    }
+    world = make_scene(device.get(), scene.triangles.size());
+    attach_part(world.get(), traced.parts[0]);
+    attach_tubes();
+    attach_instances();
+    commit(device.get(), world.get());
+    traced.embree = world.get();
+    // The scene keeps what it needs of them.
+    positions.reset();
+    objects.clear();
 }
+
+void EmbreeScene::State::attach_part(RTCScene target, const ScenePart& part) {
+    const auto make_geometry = [&] {
+        return make_triangle_geometry(device.get(), positions.get(), scene.positions.size(), kSurfaceMask);
+    };
+    if (part.is_full ? part.triangle_count > 0 : !part.full.empty()) {
+        const Geometry geometry = make_geometry();
+        if (part.is_full)
+            share_indices(geometry.get(), scene.triangles.data() + part.first_triangle, part.triangle_count);
+        else
+            copy_indices(device.get(), geometry.get(), scene.triangles, part.full);
+        attach(device.get(), target, geometry.get(), kFullGeometry);
+    }
+    if (part.partial.empty()) return;
+    const Geometry geometry = make_geometry();
+    copy_indices(device.get(), geometry.get(), scene.triangles, part.partial);
+    rtcSetGeometryUserData(geometry.get(), const_cast<ScenePart*>(&part));
+    rtcSetGeometryIntersectFilterFunction(geometry.get(), filter_hits);
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), filter_hits);
+    attach(device.get(), target, geometry.get(), kPartialGeometry);
+}
+
+void EmbreeScene::State::attach_tubes() {
+    const TubeMesh tubes = make_tube_mesh(scene.line_lights);
+    if (tubes.triangles.empty()) return;
+    const Buffer tube_positions = make_position_buffer(device.get(), tubes.positions);
+    const Geometry geometry =
+        make_triangle_geometry(device.get(), tube_positions.get(), tubes.positions.size(), kTubeMask);
+    void* indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            sizeof(scene::Triangle), tubes.triangles.size());
+    check_for_error(device.get());
+    std::memcpy(indices, tubes.triangles.data(), tubes.triangles.size() * sizeof(scene::Triangle));
+    attach(device.get(), world.get(), geometry.get(), kTubeGeometry);
+}
+
+void EmbreeScene::State::attach_instances() {
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const scene::Instance& instance = scene.instances[i];
+        const Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+        rtcSetGeometryInstancedScene(geometry.get(), objects[instance.object].get());
+        rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR,
+                                instance.world_from_object.data());
+        rtcSetGeometryMask(geometry.get(), kSurfaceMask);
+        attach(device.get(), world.get(), geometry.get(), kFirstInstance + static_cast<unsigned>(i));
+    }
+}
+
+EmbreeScene::EmbreeScene(const scene::Scene& scene) : state_(std::make_unique<State>(scene)) {}
 
 EmbreeScene::~EmbreeScene() = default;
 EmbreeScene::EmbreeScene(EmbreeScene&&) noexcept = default;
 EmbreeScene& EmbreeScene::operator=(EmbreeScene&&) noexcept = default;
 
 RayTracer EmbreeScene::tracer() const {
-    return {{intersect<4>, occluded<4>},
-            {intersect<8>, occluded<8>},
-            {intersect<16>, occluded<16>},
-            state_->scene.get()};
+    const TracedScene& traced = state_->traced;
+    if (traced.parts.size() == 1 && traced.parts[0].is_full)
+        return {{intersect_plain<4>, occluded<4>},
+                {intersect_plain<8>, occluded<8>},
+                {intersect_plain<16>, occluded<16>},
+                &traced};
+    return {{intersect<4>, occluded<4>}, {intersect<8>, occluded<8>}, {intersect<16>, occluded<16>}, &traced};
 }
 
 } // namespace nusselt::visibility

@@ -13,13 +13,14 @@ namespace nusselt::visibility {
 inline constexpr float kLargestRayCoordinate = 1e18f;
 
 /// The bounding volume hierarchy of a scene. Shadow rays see all triangles (emitters included), camera rays
-/// also the tubes of line lights. Immutable, usable from several threads at once.
+/// also the tubes of line lights. Surfaces with an alpha below 1 are there with that probability, independently for
+/// each ray and triangle: what happens is a hash of both. Immutable, usable from several threads at once.
 class EmbreeScene {
 public:
-    /// Builds the hierarchy with the threads of the caller's oneTBB arena. Copies the geometry that it needs;
-    /// the scene may be destroyed afterwards. \throws std::runtime_error if Embree reports an error (such as
-    /// a lack of memory) or was built without
-    ///         ray masks
+    /// Builds the hierarchy with the threads of the caller's oneTBB arena.
+    /// \param scene must outlive this object
+    /// \throws std::runtime_error if Embree reports an error (such as a lack of memory) or was built without ray
+    ///         masks
     explicit EmbreeScene(const scene::Scene& scene);
     ~EmbreeScene();
     EmbreeScene(EmbreeScene&&) noexcept;

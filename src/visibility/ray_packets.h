@@ -19,6 +19,7 @@ struct RayPacket {
 template <int N>
 struct HitPacket {
     std::int32_t triangle[N]; ///< index into Scene::triangles, -1 for none
+    std::int32_t instance[N]; ///< index into Scene::instances that the triangle is part of, -1 for none
     std::int32_t tube[N];     ///< index into Scene::line_lights, -1 for none
     /// Barycentric coordinates: the hit is v0 + u (v1 - v0) + v (v2 - v0). Meaningless without a triangle.
     alignas(4 * N) float u[N];

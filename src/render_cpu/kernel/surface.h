@@ -2,6 +2,7 @@
 /// From hits to shading points.
 
 #include "render_cpu/kernel.h"
+#include "render_cpu/kernel/instances.h"
 #include "render_cpu/kernel/lanes.h"
 #include "render_cpu/kernel/texture.h"
 
@@ -87,10 +88,18 @@ inline Interpolation make_interpolation(const render_cpu::KernelScene& scene,
     return result;
 }
 
-/// \param wo unit, world space
-inline Vector shading_normal(const render_cpu::KernelScene& scene, const Interpolation& interpolation,
-                             const Vector& geometric_normal, const Vector& wo) noexcept {
-    const Vector interpolated = normalize(interpolation.vectors(scene.normals));
+/// The normal of the mesh in world space: unit length, or zero where it has none.
+inline Vector interpolated_normal(const render_cpu::KernelScene& scene, const Interpolation& interpolation,
+                                  const InstanceLanes& instances) noexcept {
+    Vector n = interpolation.vectors(scene.normals);
+    if (any(instances.mask)) n = WorldFromObject(scene, instances).normal(n);
+    return normalize(n);
+}
+
+/// \param interpolated see interpolated_normal()
+/// \param wo           unit, world space
+inline Vector shading_normal(const Vector& interpolated, const Vector& geometric_normal,
+                             const Vector& wo) noexcept {
     const auto usable = dot(interpolated, interpolated) > Real(0.5f);
     Vector n = select(usable, interpolated, geometric_normal);
     n = copysign(Real(1), dot(n, geometric_normal)) * n;
@@ -156,13 +165,23 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
     const Interpolation interpolation = make_interpolation(scene, hits, active);
     const float* positions = &scene.positions->x;
     const Vector v0 = gather_vector(positions, 3, 0, interpolation.vertex[0], active);
-    const Vector e1 = gather_vector(positions, 3, 0, interpolation.vertex[1], active) - v0;
-    const Vector e2 = gather_vector(positions, 3, 0, interpolation.vertex[2], active) - v0;
+    Vector e1 = gather_vector(positions, 3, 0, interpolation.vertex[1], active) - v0;
+    Vector e2 = gather_vector(positions, 3, 0, interpolation.vertex[2], active) - v0;
+    Vector position = v0 + (interpolation.u * e1 + interpolation.v * e2);
+    Real coordinate = max(max(abs(position.x), abs(position.y)), abs(position.z));
+    const InstanceLanes instances = instance_lanes(hits);
+    if (any(instances.mask)) {
+        const WorldFromObject transform(scene, instances);
+        coordinate = transform.largest_coordinate(position, coordinate);
+        position = transform.point(position);
+        e1 = transform.vector(e1);
+        e2 = transform.vector(e2);
+    }
 
-    const Vector position = v0 + (interpolation.u * e1 + interpolation.v * e2);
     const Vector normal = normalize(cross(e1, e2));
     const Vector geometric_normal = copysign(Real(1), dot(normal, wo)) * normal;
-    const Vector n = shading_normal(scene, interpolation, geometric_normal, wo);
+    const Vector n =
+        shading_normal(interpolated_normal(scene, interpolation, instances), geometric_normal, wo);
     const auto frame = shading_frame(n, wo);
 
     Indices material;
@@ -172,7 +191,6 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
         material.lane[i] = static_cast<std::int32_t>(scene.triangle_material[triangle]);
         light.lane[i] = scene.triangle_light[triangle];
     }
-    const Real coordinate = max(max(abs(position.x), abs(position.y)), abs(position.z));
     const auto has_normal = dot(normal, normal) > Real(0.5f);
     return {active & has_normal & is_finite(coordinate),
             position,

@@ -20,8 +20,10 @@ public:
         : job_(job), tile_(tile), statistics_(statistics), functions_(light_functions(job)) {}
 
     void render() noexcept {
-        for (std::int32_t y = tile_.y_begin; y < tile_.y_end; y += kBlockHeight)
-            for (std::int32_t x = tile_.x_begin; x < tile_.x_end; x += kBlockWidth) render_block(x, y);
+        const std::int32_t x_begin = tile_.x_begin - tile_.x_begin % kBlockWidth;
+        const std::int32_t y_begin = tile_.y_begin - tile_.y_begin % kBlockHeight;
+        for (std::int32_t y = y_begin; y < tile_.y_end; y += kBlockHeight)
+            for (std::int32_t x = x_begin; x < tile_.x_end; x += kBlockWidth) render_block(x, y);
     }
 
 private:
@@ -30,7 +32,7 @@ private:
         const std::uint64_t traced_before = statistics_.primary_ticks + statistics_.shadow_ticks;
         const PixelBlock block = make_block(x_begin, y_begin);
         CompensatedSum sum;
-        for (std::uint32_t i = 0; i < job_.camera_rays; ++i) sum.add(radiance(block, i));
+        for (std::uint32_t i = 0; i < job_.camera_rays; ++i) sum.add(weighted_radiance(block, i));
         write(block, Real(1.0f / static_cast<float>(job_.camera_rays)) * sum.sum);
         const std::uint64_t traced = statistics_.primary_ticks + statistics_.shadow_ticks - traced_before;
         statistics_.shading_ticks += __builtin_ia32_rdtsc() - begin - traced;
@@ -39,28 +41,41 @@ private:
     PixelBlock make_block(std::int32_t x_begin, std::int32_t y_begin) const noexcept {
         PixelBlock block;
         std::uint32_t inside = 0;
+        std::uint32_t traced = 0;
         for (int i = 0; i < kLanes; ++i) {
             const std::int32_t x = x_begin + i % kBlockWidth;
             const std::int32_t y = y_begin + i / kBlockWidth;
             block.x[i] = static_cast<std::uint32_t>(x);
             block.y[i] = static_cast<std::uint32_t>(y);
-            inside |= static_cast<std::uint32_t>(x < tile_.x_end && y < tile_.y_end) << i;
+            const bool in_tile =
+                x >= tile_.x_begin && x < tile_.x_end && y >= tile_.y_begin && y < tile_.y_end;
+            inside |= static_cast<std::uint32_t>(in_tile) << i;
+            const bool in_film = x < job_.scene.film_width && y < job_.scene.film_height;
+            traced |= static_cast<std::uint32_t>(in_film) << i;
         }
         block.inside = LaneMask::from_bits(inside);
+        block.traced = LaneMask::from_bits(traced);
         return block;
     }
 
-    Vector camera_direction(const PixelBlock& block, std::uint32_t camera_ray) const noexcept {
-        const Vec2<Real> raster = raster_positions(job_, block, camera_ray);
-        const scene::Camera& camera = job_.scene.camera;
-        return broadcast<Real>(to_vec(camera.corner)) + raster.x * broadcast<Real>(to_vec(camera.right)) +
-               raster.y * broadcast<Real>(to_vec(camera.down));
+    static Vector linear(const Vec2<Real>& raster, const scene::Float3& corner, const scene::Float3& right,
+                         const scene::Float3& down) noexcept {
+        return broadcast<Real>(to_vec(corner)) + raster.x * broadcast<Real>(to_vec(right)) +
+               raster.y * broadcast<Real>(to_vec(down));
     }
 
-    /// Radiance that arrives at the camera along one ray per pixel.
-    Vector radiance(const PixelBlock& block, std::uint32_t camera_ray) noexcept {
-        const Vector direction = camera_direction(block, camera_ray);
-        const visibility::HitPacket<kLanes> hits = trace(block.inside.bits(), direction);
+    /// Radiance that arrives at the camera along one ray per pixel, times the weight of the ray.
+    Vector weighted_radiance(const PixelBlock& block, std::uint32_t camera_ray) noexcept {
+        const scene::Camera& camera = job_.scene.camera;
+        const CameraSamples samples = camera_samples(job_, block, camera_ray);
+        const Vector origin = linear(samples.raster, camera.origin, camera.origin_right, camera.origin_down);
+        const Vector direction = linear(samples.raster, camera.corner, camera.right, camera.down);
+        return samples.weight * radiance(block, camera_ray, origin, direction);
+    }
+
+    Vector radiance(const PixelBlock& block, std::uint32_t camera_ray, const Vector& origin,
+                    const Vector& direction) noexcept {
+        const visibility::HitPacket<kLanes> hits = trace(block.traced.bits(), origin, direction);
         std::uint32_t on_triangle = 0;
         for (int i = 0; i < kLanes; ++i)
             on_triangle |= static_cast<std::uint32_t>(hits.triangle[i] >= 0) << i;
@@ -81,12 +96,12 @@ private:
         return emitted + reflected.radiance();
     }
 
-    visibility::HitPacket<kLanes> trace(std::uint32_t active, const Vector& direction) noexcept {
+    visibility::HitPacket<kLanes> trace(std::uint32_t active, const Vector& origin,
+                                        const Vector& direction) noexcept {
         visibility::RayPacket<kLanes> rays;
-        const Vec3<float> origin = to_vec(job_.scene.camera.origin);
-        Real(origin.x).store(rays.origin[0]);
-        Real(origin.y).store(rays.origin[1]);
-        Real(origin.z).store(rays.origin[2]);
+        origin.x.store(rays.origin[0]);
+        origin.y.store(rays.origin[1]);
+        origin.z.store(rays.origin[2]);
         direction.x.store(rays.direction[0]);
         direction.y.store(rays.direction[1]);
         direction.z.store(rays.direction[2]);
@@ -132,8 +147,11 @@ private:
         const std::uint32_t inside = block.inside.bits();
         for (int i = 0; i < kLanes; ++i) {
             if ((inside >> i & 1u) == 0) continue;
-            const auto width = static_cast<std::uint64_t>(job_.width);
-            float* pixel = job_.pixels + 3 * (block.y[i] * width + block.x[i]);
+            const scene::PixelBounds& image = job_.scene.image;
+            const auto width = static_cast<std::int64_t>(image.x_end - image.x_begin);
+            const std::int64_t x = static_cast<std::int32_t>(block.x[i]) - image.x_begin;
+            const std::int64_t y = static_cast<std::int32_t>(block.y[i]) - image.y_begin;
+            float* pixel = job_.pixels + 3 * (y * width + x);
             pixel[0] = lanes.x[i];
             pixel[1] = lanes.y[i];
             pixel[2] = lanes.z[i];

@@ -1,0 +1,23 @@
+#pragma once
+/// Pixel filters as distributions of camera rays.
+
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace nusselt::render_cpu {
+
+/// A filter along one axis in kFilterCells cells of equal probability: the inverse of the cumulative distribution of its
+/// absolute value. With the weights, expectations are those of a filter that is constant in each cell and has the same
+/// integral there. Empty for boxes, whose rays are uniform.
+struct PixelFilterTable {
+    std::vector<float> offsets; ///< ends of the cells, from minus to plus the radius [pixels]
+    std::vector<float>
+        weights; ///< of the radiance in a cell: negative in the lobes of a Mitchell filter; mean 1
+};
+
+/// \param radius of the filter along the axis [pixels]
+/// \throws std::runtime_error if the filter has no positive integral
+PixelFilterTable make_filter_table(const scene::PixelFilter& filter, float radius);
+
+} // namespace nusselt::render_cpu

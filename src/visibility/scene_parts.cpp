@@ -1,0 +1,40 @@
+#include "visibility/scene_parts.h"
+
+#include "visibility/alpha.h"
+
+#include <algorithm>
+
+namespace nusselt::visibility {
+
+namespace {
+
+bool is_always_there(const scene::Material& material) { return presence_of(material) == Presence::full; }
+
+ScenePart make_part(const scene::Scene& scene, std::uint32_t first_triangle, std::uint32_t triangle_count) {
+    ScenePart part{&scene, first_triangle, triangle_count, true, {}, {}};
+    // Most scenes need no look at their triangles.
+    if (std::all_of(scene.materials.begin(), scene.materials.end(), is_always_there)) return part;
+    const std::uint32_t end = first_triangle + triangle_count;
+    const auto is_full = [&](std::uint32_t material) { return is_always_there(scene.materials[material]); };
+    const auto materials = scene.triangle_material.begin();
+    part.is_full = std::all_of(materials + first_triangle, materials + end, is_full);
+    if (part.is_full) return part;
+    for (std::uint32_t triangle = first_triangle; triangle < end; ++triangle) {
+        const Presence presence = presence_of(scene.materials[scene.triangle_material[triangle]]);
+        if (presence == Presence::full) part.full.push_back(triangle);
+        if (presence == Presence::partial) part.partial.push_back(triangle);
+    }
+    return part;
+}
+
+} // namespace
+
+std::vector<ScenePart> make_parts(const scene::Scene& scene) {
+    std::vector<ScenePart> parts;
+    parts.push_back(make_part(scene, 0, static_cast<std::uint32_t>(world_triangle_count(scene))));
+    for (const scene::Object& object : scene.objects)
+        parts.push_back(make_part(scene, object.first_triangle, object.triangle_count));
+    return parts;
+}
+
+} // namespace nusselt::visibility

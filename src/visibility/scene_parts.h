@@ -1,0 +1,50 @@
+#pragma once
+/// How the triangles of a scene are distributed over geometries of Embree, and from there back.
+
+#include "scene/scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace nusselt::visibility {
+
+// Numbers of geometries in the world and in objects.
+inline constexpr unsigned kFullGeometry = 0;
+inline constexpr unsigned kTubeGeometry = 1;
+inline constexpr unsigned kPartialGeometry = 2; ///< surfaces with an alpha below 1: hits pass a filter
+inline constexpr unsigned kFirstInstance = 3;
+
+/// The triangles of the world or of an object.
+struct ScenePart {
+    const scene::Scene* scene = nullptr;
+    std::uint32_t first_triangle = 0;
+    std::uint32_t triangle_count = 0;
+    /// Whether all triangles of the range make up kFullGeometry in their order; else the lists say which do.
+    bool is_full = true;
+    std::vector<std::uint32_t> full, partial; ///< indices into Scene::triangles
+
+    std::uint32_t triangle_of(unsigned geometry, unsigned primitive) const {
+        if (geometry == kPartialGeometry) return partial[primitive];
+        return is_full ? first_triangle + primitive : full[primitive];
+    }
+};
+
+/// The world, then the objects. \param scene must outlive the result
+std::vector<ScenePart> make_parts(const scene::Scene& scene);
+
+/// What RayTracer::context of EmbreeScene::tracer() points to.
+struct TracedScene {
+    RTCScene embree = nullptr;
+    const scene::Scene* scene = nullptr;
+    std::vector<ScenePart> parts;
+
+    /// \param instance RTC_INVALID_GEOMETRY_ID for hits on the world
+    const ScenePart& part_of(unsigned instance) const {
+        if (instance == RTC_INVALID_GEOMETRY_ID) return parts[0];
+        return parts[1 + scene->instances[instance - kFirstInstance].object];
+    }
+};
+
+} // namespace nusselt::visibility
