@@ -11,8 +11,8 @@ namespace nusselt::render_cpu {
 class KernelArrays {
 public:
     /// \param scene must outlive this object
-    /// \throws std::runtime_error if the scene has more data than 32-bit indices reach, or a light with other
-    ///         than 3 to 8 vertices
+    /// \throws std::runtime_error if the scene has more data than 32-bit indices reach, or a light with
+    ///         fewer than 3 vertices
     explicit KernelArrays(const scene::Scene& scene);
 
     /// Views of this object and its scene.
