@@ -50,7 +50,7 @@ std::uint32_t texture_kinds(const MaterialTextures& textures) {
 }
 
 template <int N>
-void set_polygon(const std::vector<scene::Float3>& vertices, PolygonLightRecord& record) {
+void set_polygon(const scene::PolygonVertices& vertices, PolygonLightRecord& record) {
     Vec3<float> corners[N];
     for (std::size_t j = 0; j < vertices.size(); ++j) corners[j] = to_vec(vertices[j]);
     const auto polygon = make_polygon<N>(corners, static_cast<int>(vertices.size()));
@@ -64,9 +64,9 @@ void set_polygon(const std::vector<scene::Float3>& vertices, PolygonLightRecord&
 
 PolygonLightRecord make_record(const scene::Scene& scene, const scene::PolygonLight& light) {
     const std::size_t count = light.vertices.size();
-    if (count < 3 || count > 8)
+    if (count < 3)
         throw std::runtime_error("light " + scene.emitters[light.emitter].name +
-                                 ": polygonal lights have 3 to 8 vertices, not " + std::to_string(count));
+                                 ": polygonal lights have at least 3 vertices, not " + std::to_string(count));
     PolygonLightRecord record{};
     if (count <= 4)
         set_polygon<4>(light.vertices, record);

@@ -12,8 +12,8 @@ namespace nusselt::render_cpu {
 class KernelArrays {
 public:
     /// \param scene must outlive this object
-    /// \throws std::runtime_error if the scene has more data than 32-bit indices reach, a light with other than 3 to
-    ///         8 vertices, an instance whose transform cannot be inverted or a pixel filter without weight
+    /// \throws std::runtime_error if the scene has more data than 32-bit indices reach, a light with fewer than 3
+    ///         vertices, an instance whose transform cannot be inverted or a pixel filter without weight
     explicit KernelArrays(const scene::Scene& scene);
 
     /// Views of this object and its scene.

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <string>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
+#include <unordered_map>
 #include <utility>
 
 namespace nusselt::scene {
@@ -22,13 +25,6 @@ struct Bounds {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-};
-
-/// Where the contents of a mesh begin in the arrays of the scene.
-struct Offsets {
-    std::size_t vertices = 0;
-    std::size_t triangles = 0;
-    std::size_t lights = 0;
 };
 
 std::vector<Mesh> build_meshes(std::vector<ShapeDirective>& shapes) {
@@ -51,52 +47,98 @@ void set_mappings(const std::vector<BakedTexture>& textures, std::vector<Materia
     }
 }
 
-void copy_mesh(const Mesh& mesh, int material, const Offsets& offsets, Scene& scene) {
-    const auto at = [](auto& array, std::size_t offset) {
-        return array.begin() + static_cast<std::ptrdiff_t>(offset);
-    };
-    std::copy(mesh.positions.begin(), mesh.positions.end(), at(scene.positions, offsets.vertices));
-    std::copy(mesh.normals.begin(), mesh.normals.end(), at(scene.normals, offsets.vertices));
-    std::copy(mesh.uvs.begin(), mesh.uvs.end(), at(scene.uvs, offsets.vertices));
-    const auto base = static_cast<std::uint32_t>(offsets.vertices);
-    std::transform(mesh.triangles.begin(), mesh.triangles.end(), at(scene.triangles, offsets.triangles),
-                   [base](const Triangle& t) {
-                       return Triangle{{t.vertex[0] + base, t.vertex[1] + base, t.vertex[2] + base}};
-                   });
-    std::fill_n(at(scene.triangle_material, offsets.triangles), mesh.triangles.size(),
-                static_cast<std::uint32_t>(material));
-    const auto first_light = static_cast<std::int32_t>(offsets.lights);
-    std::transform(mesh.triangle_light.begin(), mesh.triangle_light.end(),
-                   at(scene.triangle_light, offsets.triangles),
-                   [first_light](std::int32_t light) { return light + first_light; });
+/// "sphere at scene.pbrt:7", the file relative to the folder of the scene. Shapes of equal names get numbers.
+class EmitterNames {
+public:
+    explicit EmitterNames(const std::filesystem::path& scene) : folder_(scene.parent_path()) {}
+
+    std::string name(const ShapeDirective& shape) {
+        const Location& location = shape.parameters.location();
+        const std::filesystem::path relative = location.file->path.lexically_relative(folder_);
+        const std::string file = relative.empty() ? location.file->path.string() : relative.string();
+        const std::string name = shape.type + " at " + file + ":" + std::to_string(location.line);
+        const std::size_t count = ++counts_[name];
+        return count == 1 ? name : name + " #" + std::to_string(count);
+    }
+
+private:
+    std::filesystem::path folder_;
+    std::unordered_map<std::string, std::size_t> counts_;
+};
+
+void name_emitters(const std::vector<ShapeDirective>& shapes, std::vector<Mesh>& meshes, EmitterNames names,
+                   std::vector<Emitter>& emitters) {
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        if (meshes[i].polygon_lights.empty() && meshes[i].line_lights.empty()) continue;
+        const auto emitter = static_cast<std::uint32_t>(emitters.size());
+        for (PolygonLight& light : meshes[i].polygon_lights) light.emitter = emitter;
+        for (LineLight& light : meshes[i].line_lights) light.emitter = emitter;
+        emitters.push_back({names.name(shapes[i])});
+    }
+}
+
+/// Shifts what triangles refer to by what other meshes have before them.
+void renumber(std::vector<Mesh>& meshes) {
+    std::size_t vertices = 0;
+    std::size_t lights = 0;
+    for (Mesh& mesh : meshes) {
+        const auto first_vertex = static_cast<std::uint32_t>(vertices);
+        const auto first_light = static_cast<std::int32_t>(lights);
+        vertices += mesh.positions.size();
+        lights += mesh.polygon_lights.size();
+        if (vertices > std::numeric_limits<std::uint32_t>::max())
+            throw std::runtime_error("the scene has more than 2^32 vertices");
+        if (first_vertex > 0)
+            for (Triangle& triangle : mesh.triangles)
+                for (std::uint32_t& vertex : triangle.vertex) vertex += first_vertex;
+        if (first_light > 0)
+            for (std::int32_t& light : mesh.triangle_light) light += first_light;
+    }
+}
+
+/// One array of the scene from those of the meshes, which are released: scenes fill the memory, so that there must be
+/// little that exists twice.
+/// \param sizes    how many elements each mesh has in the scene
+/// \param missing  value of the elements of meshes without this array
+template <class T>
+std::vector<T> take_arrays(std::vector<Mesh>& meshes, std::vector<T> Mesh::*array,
+                           const std::vector<std::size_t>& sizes, const T& missing) {
+    std::vector<std::size_t> offsets(meshes.size());
+    std::exclusive_scan(sizes.begin(), sizes.end(), offsets.begin(), std::size_t{0});
+    const std::size_t total = meshes.empty() ? 0 : offsets.back() + sizes.back();
+    for (Mesh& mesh : meshes)
+        if ((mesh.*array).size() == total) return std::exchange(mesh.*array, {});
+    std::vector<T> result(total, missing);
+    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t i) {
+        const std::vector<T> part = std::exchange(meshes[i].*array, {});
+        std::copy(part.begin(), part.end(), result.begin() + static_cast<std::ptrdiff_t>(offsets[i]));
+    });
+    return result;
+}
+
+template <class T>
+std::vector<std::size_t> sizes_of(const std::vector<Mesh>& meshes, std::vector<T> Mesh::*array) {
+    std::vector<std::size_t> sizes;
+    for (const Mesh& mesh : meshes) sizes.push_back((mesh.*array).size());
+    return sizes;
 }
 
 void join_meshes(const std::vector<ShapeDirective>& shapes, std::vector<Mesh>& meshes, Scene& scene) {
-    std::vector<Offsets> offsets;
-    Offsets total;
-    for (Mesh& mesh : meshes) {
-        offsets.push_back(total);
-        total.vertices += mesh.positions.size();
-        total.triangles += mesh.triangles.size();
-        total.lights += mesh.polygon_lights.size();
-        const auto emitter = static_cast<std::uint32_t>(scene.emitters.size());
-        for (PolygonLight& light : mesh.polygon_lights) light.emitter = emitter;
-        for (LineLight& light : mesh.line_lights) light.emitter = emitter;
-        if (!mesh.emitter_name.empty()) scene.emitters.push_back({std::move(mesh.emitter_name)});
-        std::move(mesh.polygon_lights.begin(), mesh.polygon_lights.end(),
-                  std::back_inserter(scene.polygon_lights));
-        std::move(mesh.line_lights.begin(), mesh.line_lights.end(), std::back_inserter(scene.line_lights));
-    }
-    if (total.vertices > std::numeric_limits<std::uint32_t>::max())
-        throw std::runtime_error("the scene has more than 2^32 vertices");
-    scene.positions.resize(total.vertices);
-    scene.normals.resize(total.vertices);
-    scene.uvs.resize(total.vertices);
-    scene.triangles.resize(total.triangles);
-    scene.triangle_material.resize(total.triangles);
-    scene.triangle_light.resize(total.triangles, -1);
-    tbb::parallel_for(std::size_t{0}, meshes.size(),
-                      [&](std::size_t i) { copy_mesh(meshes[i], shapes[i].material, offsets[i], scene); });
+    renumber(meshes);
+    const std::vector<std::size_t> vertices = sizes_of(meshes, &Mesh::positions);
+    const std::vector<std::size_t> triangles = sizes_of(meshes, &Mesh::triangles);
+    scene.positions = take_arrays(meshes, &Mesh::positions, vertices, {});
+    scene.normals = take_arrays(meshes, &Mesh::normals, vertices, {0, 0, 0});
+    scene.uvs = take_arrays(meshes, &Mesh::uvs, vertices, {0, 0});
+    scene.triangles = take_arrays(meshes, &Mesh::triangles, triangles, {});
+    scene.triangle_light = take_arrays(meshes, &Mesh::triangle_light, triangles, -1);
+    scene.triangle_material.reserve(scene.triangles.size());
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        scene.triangle_material.insert(scene.triangle_material.end(), triangles[i],
+                                       static_cast<std::uint32_t>(shapes[i].material));
+    scene.polygon_lights =
+        take_arrays(meshes, &Mesh::polygon_lights, sizes_of(meshes, &Mesh::polygon_lights), {});
+    scene.line_lights = take_arrays(meshes, &Mesh::line_lights, sizes_of(meshes, &Mesh::line_lights), {});
 }
 
 void collect_mesh_warnings(const std::vector<ShapeDirective>& shapes, const std::vector<Mesh>& meshes,
@@ -116,6 +158,8 @@ void collect_mesh_warnings(const std::vector<ShapeDirective>& shapes, const std:
 double scene_radius(const Scene& scene) {
     Bounds bounds;
     for (const Float3& p : scene.positions) bounds.add(to_double(p));
+    for (const PolygonLight& light : scene.polygon_lights)
+        for (const Float3& p : light.vertices) bounds.add(to_double(p));
     for (const LineLight& line : scene.line_lights) {
         const Double3 margin = {line.radius, line.radius, line.radius};
         for (const Float3& end : {line.begin, line.end}) {
@@ -142,9 +186,10 @@ Scene load_scene(const std::filesystem::path& path) {
     description.warnings.append(texture_warnings);
     set_mappings(textures, scene.materials);
     for (BakedTexture& texture : textures) scene.textures.push_back(std::move(texture.texture));
+    name_emitters(description.shapes, meshes, EmitterNames(path), scene.emitters);
     join_meshes(description.shapes, meshes, scene);
     collect_mesh_warnings(description.shapes, meshes, description.warnings);
-    if (scene.triangles.empty() && scene.line_lights.empty())
+    if (scene.triangles.empty() && scene.polygon_lights.empty() && scene.line_lights.empty())
         description.warnings.add({&description.sources.front(), 1}, "the scene is empty");
     scene.radius = scene_radius(scene);
     scene.warnings = description.warnings.lines();

@@ -5,7 +5,6 @@
 #include "scene/scene.h"
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace nusselt::scene {
@@ -18,7 +17,6 @@ struct Mesh {
     std::vector<std::int32_t> triangle_light; ///< empty, or per triangle an index into polygon_lights
     std::vector<PolygonLight> polygon_lights;
     std::vector<LineLight> line_lights;
-    std::string emitter_name;             ///< of all its lights; empty if there are none
     std::size_t degenerate_triangles = 0; ///< left out
     Warnings warnings;
 };

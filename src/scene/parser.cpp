@@ -95,6 +95,7 @@ private:
     std::optional<int> black_material_;
     TextureTable textures_;
     AlphaVariants alpha_variants_;
+    LeftOutShapes left_out_shapes_;
     std::optional<CameraDirective> camera_;
     int include_depth_ = 0;
     bool inside_object_ = false;
@@ -152,6 +153,7 @@ SceneDescription Parser::run() {
     coordinate_systems_["world"] = {};
     parse_file(main_path_, nullptr);
     state_.warn_if_open(scene_.warnings);
+    left_out_shapes_.warn(scene_.warnings);
     const Location begin{&scene_.sources.front(), 1};
     if (!camera_) scene_.warnings.add(begin, "there is no Camera, it looks from the origin along +z");
     if (!camera_) camera_.emplace().location = begin;
@@ -374,29 +376,8 @@ void Parser::light_source() {
 void Parser::area_light_source() {
     const std::string type = read_string();
     ParameterList parameters = read_parameters();
-    // pbrt v2's name for it.
-    if (type != "diffuse" && type != "area") {
-        scene_.warnings.add(location_, "AreaLightSource \"" + type + "\" is not supported and ignored");
-        return;
-    }
-    const Float3 radiance = parameters.colour("L", {1, 1, 1}, scene_.warnings);
-    // v3 also scales by a colour.
-    const auto scale = static_cast<float>(parameters.real("scale", 1));
-    const Float3 tint = parameters.colour("scale", {scale, scale, scale}, scene_.warnings);
-    Emission emission;
-    emission.radiance = {radiance.x * tint.x, radiance.y * tint.y, radiance.z * tint.z};
-    emission.two_sided = parameters.boolean("twosided", false);
-    for (const float value : {emission.radiance.x, emission.radiance.y, emission.radiance.z})
-        if (!(value >= 0 && value <= std::numeric_limits<float>::max()))
-            throw SceneError(location_, "AreaLightSource: radiance must be finite and not negative, found " +
-                                            to_text(value));
-    if (parameters.optional_real("power"))
-        scene_.warnings.add(location_, "AreaLightSource: power is ignored, L and scale give the radiance");
-    if (!parameters.string("filename", "").empty())
-        scene_.warnings.add(location_, "AreaLightSource: images of emission are ignored, L is used");
-    parameters.ignore({"samples", "nsamples", "xsamples", "ysamples"});
-    parameters.warn_unused("AreaLightSource", scene_.warnings);
-    state_.current().emission = emission;
+    const std::filesystem::path image = resolve(parameters.string("filename", ""));
+    state_.current().emission = read_emission(type, parameters, image, scene_.warnings);
 }
 
 MaterialEntry& Parser::add_material(const std::string& name, const std::string& type,
@@ -478,13 +459,13 @@ void Parser::shape() {
     shape.world_from_object = state.ctm;
     shape.reverse_orientation = state.reverse_orientation;
     shape.emission = state.emission;
-    if (!is_supported(shape)) {
-        scene_.warnings.add(location_, "shape \"" + shape.type + "\" is not supported and left out");
+    if (!is_supported(shape.type)) {
+        left_out_shapes_.add(shape.type, location_);
         return;
     }
     if (shape.type == "plymesh") shape.mesh_path = resolve(shape.parameters.string("filename", ""));
     // Tubes are no surfaces, they need no material.
-    if (!is_tube(shape.type)) {
+    if (!is_tube(shape)) {
         shape.material = used_material(*state.material);
         if (shape.material == kInvisible && is_black(shape.emission.radiance)) return;
         if (shape.material == kInvisible) shape.material = black_material();

@@ -1,6 +1,7 @@
 #include "scene/ply.h"
 
 #include "scene/ply_header.h"
+#include "scene/polygon_triangulation.h"
 
 #include <algorithm>
 #include <bit>
@@ -18,7 +19,10 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-[[noreturn]] void fail_truncated() { throw std::runtime_error("PLY file ends before its last element"); }
+/// The data end too early; where that is is known to who reads elements.
+struct Truncated {};
+
+[[noreturn]] void fail_truncated() { throw Truncated(); }
 
 /// The value at `bytes`, of a type and byte order that are known at compile time.
 template <class T, bool kSwap>
@@ -86,7 +90,7 @@ public:
         const bool ends_here = length == data_.size() || kSpace.find(data_[length]) != std::string_view::npos;
         if (error == std::errc::invalid_argument || !ends_here)
             throw std::runtime_error(
-                "PLY data: expected a number, found '" +
+                "expected a number, found '" +
                 std::string(data_.substr(0, std::min<std::size_t>(data_.find_first_of(kSpace), 40))) + "'");
         data_.remove_prefix(length);
         return value;
@@ -106,7 +110,7 @@ template <class Reader>
 std::size_t read_list_length(Reader& reader, const PlyProperty& property) {
     const double length = reader.read(property.count_type);
     if (!(length >= 0) || length != std::floor(length))
-        throw std::runtime_error("PLY data: bad list length " + to_text(length));
+        throw std::runtime_error("list length " + to_text(length));
     if (length > static_cast<double>(reader.capacity(property.type))) fail_truncated();
     return static_cast<std::size_t>(length);
 }
@@ -114,6 +118,18 @@ std::size_t read_list_length(Reader& reader, const PlyProperty& property) {
 template <class Reader>
 void skip_property(Reader& reader, const PlyProperty& property) {
     reader.skip(property.type, property.is_list ? read_list_length(reader, property) : 1);
+}
+
+/// Calls a function with the index of each row of an element, which errors then name.
+template <class Function>
+void for_each_row(const PlyElement& element, const Function& read_row) {
+    std::size_t row = 0;
+    try {
+        for (; row < element.count; ++row) read_row(row);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error("PLY data: " + std::string(element.name) + " " + std::to_string(row) + ": " +
+                                 error.what());
+    }
 }
 
 /// Throws unless the rest of the file can hold each column of the element, lists being empty at least.
@@ -154,7 +170,7 @@ void read_vertices(Reader& reader, const PlyElement& element, Mesh& mesh) {
     if (has_normals) mesh.normals.resize(element.count);
     if (has_uvs) mesh.uvs.resize(element.count);
 
-    for (std::size_t i = 0; i < element.count; ++i) {
+    for_each_row(element, [&](std::size_t i) {
         float row[kColumns] = {};
         for (std::size_t j = 0; j < columns.size(); ++j) {
             if (columns[j]) {
@@ -166,64 +182,108 @@ void read_vertices(Reader& reader, const PlyElement& element, Mesh& mesh) {
         mesh.positions[i] = {row[kX], row[kY], row[kZ]};
         if (has_normals) mesh.normals[i] = {row[kNormalX], row[kNormalY], row[kNormalZ]};
         if (has_uvs) mesh.uvs[i] = {row[kU], row[kV]};
-    }
+    });
 }
 
-template <class Reader>
-void read_polygon(Reader& reader, const PlyProperty& property, std::size_t face, Mesh& mesh) {
-    const std::size_t length = read_list_length(reader, property);
-    if (length < 3) ++mesh.degenerate_triangles;
-    Triangle triangle{};
-    for (std::size_t i = 0; i < length; ++i) {
-        const double index = reader.read(property.type);
-        if (!(index >= 0 && index < static_cast<double>(mesh.positions.size())))
-            throw std::runtime_error("PLY data: face " + std::to_string(face) + " has the vertex index " +
-                                     to_text(index) + ", but there are " +
-                                     std::to_string(mesh.positions.size()) + " vertices");
-        triangle.vertex[std::min<std::size_t>(i, 2)] = static_cast<std::uint32_t>(index);
-        if (i < 2) continue;
-        mesh.triangles.push_back(triangle);
-        triangle.vertex[1] = triangle.vertex[2];
-    }
+[[noreturn]] void fail_index(double index, std::size_t vertices) {
+    throw std::runtime_error("vertex index " + to_text(index) + ", but there are " +
+                             std::to_string(vertices) + " vertices");
 }
+
+/// Reads polygons into a mesh that has its vertices.
+class FaceReader {
+public:
+    explicit FaceReader(Mesh& mesh) : mesh_(mesh) {}
+
+    template <class Reader>
+    void read(Reader& reader, const PlyProperty& property) {
+        corners_.resize(read_list_length(reader, property));
+        for (std::uint32_t& corner : corners_) {
+            const double index = reader.read(property.type);
+            if (!(index >= 0 && index < static_cast<double>(mesh_.positions.size())))
+                fail_index(index, mesh_.positions.size());
+            corner = static_cast<std::uint32_t>(index);
+        }
+        if (corners_.size() < 3) {
+            ++mesh_.degenerate_triangles;
+        } else if (corners_.size() == 3) {
+            mesh_.triangles.push_back({{corners_[0], corners_[1], corners_[2]}});
+        } else {
+            split();
+        }
+    }
+
+private:
+    void split() {
+        positions_.clear();
+        for (const std::uint32_t corner : corners_) positions_.push_back(to_double(mesh_.positions[corner]));
+        for (const Triangle& t : triangulate_polygon(positions_))
+            mesh_.triangles.push_back(
+                {{corners_[t.vertex[0]], corners_[t.vertex[1]], corners_[t.vertex[2]]}});
+    }
+
+    Mesh& mesh_;
+    std::vector<std::uint32_t> corners_;
+    std::vector<Double3> positions_;
+};
 
 template <class Reader>
 void read_faces(Reader& reader, const PlyElement& element, Mesh& mesh) {
-    mesh.triangles.reserve(element.count);
-    for (std::size_t face = 0; face < element.count; ++face) {
+    mesh.triangles.reserve(mesh.triangles.size() + element.count);
+    FaceReader faces(mesh);
+    for_each_row(element, [&](std::size_t) {
         for (const PlyProperty& property : element.properties) {
             if (property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index")) {
-                read_polygon(reader, property, face, mesh);
+                faces.read(reader, property);
             } else {
                 skip_property(reader, property);
             }
         }
+    });
+}
+
+template <class Reader>
+void read_element(Reader& reader, const PlyElement& element, Mesh& mesh) {
+    check_count(reader, element);
+    if (element.name == "vertex") {
+        if (element.count > std::numeric_limits<std::uint32_t>::max())
+            throw std::runtime_error("PLY file has more than 2^32 vertices");
+        read_vertices(reader, element, mesh);
+    } else if (element.name == "face") {
+        read_faces(reader, element, mesh);
+    } else {
+        for_each_row(element, [&](std::size_t) {
+            for (const PlyProperty& property : element.properties) skip_property(reader, property);
+        });
     }
+}
+
+/// The elements that make a mesh: one of vertices, then one of faces.
+void check_elements(const PlyHeader& header) {
+    int vertices = 0;
+    int faces = 0;
+    for (const PlyElement& element : header.elements) {
+        if (element.name == "vertex") ++vertices;
+        if (element.name == "face") ++faces;
+        if (faces > vertices)
+            throw std::runtime_error("PLY header: element 'face' must follow element 'vertex'");
+        if (vertices > 1 || faces > 1)
+            throw std::runtime_error("PLY header: element '" + std::string(element.name) + "' appears twice");
+    }
+    if (faces == 0) throw std::runtime_error("PLY header: there is no element 'face'");
 }
 
 template <class Reader>
 Mesh read_elements(Reader reader, const PlyHeader& header) {
     Mesh mesh;
-    bool has_vertices = false;
-    bool has_faces = false;
     for (const PlyElement& element : header.elements) {
-        if (element.properties.empty()) continue;
-        check_count(reader, element);
-        if (element.name == "vertex") {
-            if (element.count > std::numeric_limits<std::uint32_t>::max())
-                throw std::runtime_error("PLY file has more than 2^32 vertices");
-            read_vertices(reader, element, mesh);
-            has_vertices = true;
-        } else if (element.name == "face") {
-            if (!has_vertices) throw std::runtime_error("PLY file: faces before vertices are not supported");
-            read_faces(reader, element, mesh);
-            has_faces = true;
-        } else {
-            for (std::size_t i = 0; i < element.count; ++i)
-                for (const PlyProperty& property : element.properties) skip_property(reader, property);
+        try {
+            if (!element.properties.empty()) read_element(reader, element, mesh);
+        } catch (const Truncated&) {
+            throw std::runtime_error("PLY file ends before the last of " + std::to_string(element.count) +
+                                     " of element '" + std::string(element.name) + "'");
         }
     }
-    if (!has_faces) throw std::runtime_error("PLY file has no element 'face'");
     return mesh;
 }
 
@@ -231,6 +291,7 @@ Mesh read_elements(Reader reader, const PlyHeader& header) {
 
 Mesh read_ply(std::string_view bytes) {
     const PlyHeader header = read_ply_header(bytes);
+    check_elements(header);
     const std::string_view data = bytes.substr(header.size);
     switch (header.format) {
     case PlyFormat::ascii:

@@ -104,17 +104,18 @@ std::optional<std::string> find_polygon_defect(const std::vector<Double3>& verti
     return std::nullopt;
 }
 
+bool is_straight(const Float3& before, const Float3& corner, const Float3& after) {
+    constexpr double kMinTurn = 1e-5; // sine of the angle by which the outline turns
+    const Double3 a = to_double(corner) - to_double(before);
+    const Double3 b = to_double(after) - to_double(corner);
+    return length(cross(a, b)) <= kMinTurn * length(a) * length(b);
+}
+
 std::vector<Float3> without_collinear_vertices(const std::vector<Float3>& vertices) {
-    // Relative to the product of the edge lengths, i.e. the sine of the angle by which the outline turns.
-    constexpr double kMinTurn = 1e-5;
     std::vector<Float3> result = vertices;
     for (std::size_t i = 0; i < result.size() && result.size() > 3;) {
         const std::size_t n = result.size();
-        const Double3 previous = to_double(result[(i + n - 1) % n]);
-        const Double3 current = to_double(result[i]);
-        const Double3 a = current - previous;
-        const Double3 b = to_double(result[(i + 1) % n]) - current;
-        if (length(cross(a, b)) <= kMinTurn * length(a) * length(b)) {
+        if (is_straight(result[(i + n - 1) % n], result[i], result[(i + 1) % n])) {
             result.erase(result.begin() + static_cast<std::ptrdiff_t>(i));
             // The turn at the previous vertex has changed.
             i = i > 0 ? i - 1 : 0;

@@ -11,7 +11,7 @@
 
 namespace nusselt::scene {
 
-constexpr std::size_t kMaxPolygonVertices = 8;
+constexpr std::size_t kMaxPolygonVertices = PolygonVertices::kCapacity;
 
 /// Sum of cross products of consecutive vertices: the right-hand normal, twice the area in length.
 Double3 area_vector(const std::vector<Double3>& vertices);
@@ -21,19 +21,24 @@ Double3 area_vector(const std::vector<Double3>& vertices);
 /// 1e-6 of the largest coordinate are tolerated.
 std::optional<std::string> find_polygon_defect(const std::vector<Double3>& vertices);
 
+/// Whether an outline turns by so little at a corner that it may be dropped.
+bool is_straight(const Float3& before, const Float3& corner, const Float3& after);
+
 /// Removes vertices that coincide with a neighbour or lie on the line through both neighbours.
 std::vector<Float3> without_collinear_vertices(const std::vector<Float3>& vertices);
 
-/// A convex polygon made of triangles of a mesh.
-struct MergedPolygon {
-    std::vector<Float3> vertices;         ///< 3 to 8, no collinear ones; same orientation as the triangles
-    std::vector<std::uint32_t> triangles; ///< indices into the given list
+/// Triangles of a mesh, joined to convex polygons.
+struct PolygonPartition {
+    /// 3 to 8 vertices each, no collinear ones; same orientation as their triangles.
+    std::vector<PolygonVertices> polygons;
+    std::vector<std::int32_t> polygon_of_triangle;
 };
 
-/// Greedily joins adjacent triangles to convex planar polygons of at most eight vertices. Adjacent are those
-/// that share an edge between exactly equal positions and run through it in opposite directions. The
-/// triangles must not be degenerate. The result is in the order of the first triangle of each polygon.
-std::vector<MergedPolygon> merge_coplanar_triangles(const std::vector<Float3>& positions,
-                                                    const std::vector<Triangle>& triangles);
+/// Joins adjacent triangles to convex planar polygons of at most eight vertices: a flat region that is such a polygon as
+/// a whole becomes one, others are joined greedily. Adjacent are those that share an edge between exactly equal
+/// positions and run through it in opposite directions, if no third triangle does. The triangles must not be degenerate.
+/// Polygons are in the order of their first triangles. Time and memory grow linearly, up to sorting.
+PolygonPartition merge_coplanar_triangles(const std::vector<Float3>& positions,
+                                          const std::vector<Triangle>& triangles);
 
 } // namespace nusselt::scene

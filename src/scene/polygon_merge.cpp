@@ -1,207 +1,234 @@
+#include "scene/flat_region.h"
 #include "scene/polygon.h"
 
 #include <algorithm>
-#include <map>
-#include <tuple>
-#include <unordered_map>
+#include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace nusselt::scene {
 
 namespace {
 
-using VertexId = std::uint32_t;
 using PolygonId = std::uint32_t;
 
-/// A polygon under construction. Collinear vertices stay in the outline, since neighbours need them.
-struct Outline {
-    std::vector<VertexId> vertices;
-    std::vector<std::uint32_t> triangles;
-    Double3 unit_normal;
-};
+/// Longer outlines, with the points on straight sides, do not grow any more: each step looks at the whole outline.
+constexpr std::size_t kMaxOutline = 64;
 
-/// The part of two outlines that coincides: `count` edges, from the vertices `a` and `b` on (in the direction
-/// of the respective outline).
+/// The part of two outlines that coincides: `count` edges, from the edges at `a` and `b` on (in the direction of the
+/// respective outline).
 struct SharedChain {
     std::size_t a, b, count;
 };
 
-class Merger {
+/// Greedily joins the triangles of a flat region.
+class RegionMerger {
 public:
-    Merger(const std::vector<Float3>& positions, const std::vector<Triangle>& triangles);
-    std::vector<MergedPolygon> run();
+    /// \param index_of  per triangle of the mesh its index in `triangles`, unless it belongs to another region
+    RegionMerger(const ConnectedMesh& mesh, const std::vector<TriangleId>& triangles,
+                 const std::vector<std::uint32_t>& index_of, const std::vector<bool>& is_inside);
+    void append_to(PolygonPartition& partition);
 
 private:
-    static std::uint64_t edge_key(VertexId begin, VertexId end) {
-        return (static_cast<std::uint64_t>(begin) << 32) | end;
-    }
-    void claim_edges(PolygonId polygon);
-    void grow(PolygonId polygon);
-    bool grow_once(PolygonId polygon);
-    bool try_merge(PolygonId polygon, PolygonId neighbour, std::size_t edge);
-    SharedChain shared_chain(const Outline& a, const Outline& b, std::size_t edge) const;
-    bool turns_right(VertexId before, VertexId corner, VertexId after, const Double3& normal) const;
-    bool is_planar(const std::vector<VertexId>& vertices) const;
-    std::vector<Float3> corners(const std::vector<VertexId>& vertices) const;
+    using Outline =
+        std::vector<EdgeId>; ///< straight sides may consist of many edges, since neighbours need them
 
-    std::vector<Float3> positions_; ///< distinct ones
+    void grow(PolygonId polygon);
+    bool try_merge(PolygonId polygon, EdgeId edge);
+    SharedChain shared_chain(const Outline& a, const Outline& b, EdgeId edge) const;
+    bool turns_right(EdgeId incoming, EdgeId outgoing, const Double3& normal) const;
+    bool is_light(const Outline& outline) const;
+    std::vector<Float3> points(const Outline& outline) const;
+    PolygonId owner(std::size_t index);
+
+    const ConnectedMesh& mesh_;
+    const std::vector<TriangleId>& triangles_;
+    const std::vector<std::uint32_t>& index_of_;
+    const std::vector<bool>& is_inside_;
     std::vector<Outline> outlines_; ///< emptied when merged into another
-    std::unordered_map<std::uint64_t, PolygonId> polygon_of_edge_;
+    std::vector<PolygonId> parent_; ///< forest of what was merged into what
 };
 
-Merger::Merger(const std::vector<Float3>& positions, const std::vector<Triangle>& triangles) {
-    std::map<std::tuple<float, float, float>, VertexId> ids;
-    std::vector<VertexId> id_of;
-    for (const Float3& p : positions) {
-        const auto [entry, is_new] =
-            ids.try_emplace({p.x, p.y, p.z}, static_cast<VertexId>(positions_.size()));
-        if (is_new) positions_.push_back(p);
-        id_of.push_back(entry->second);
-    }
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-        Outline& outline = outlines_.emplace_back();
-        std::vector<Double3> points;
-        for (const std::uint32_t vertex : triangles[i].vertex) {
-            outline.vertices.push_back(id_of[vertex]);
-            points.push_back(to_double(positions[vertex]));
-        }
-        outline.triangles = {i};
-        outline.unit_normal = normalized(area_vector(points));
-        claim_edges(static_cast<PolygonId>(i));
-    }
-}
-
-void Merger::claim_edges(PolygonId polygon) {
-    const std::vector<VertexId>& vertices = outlines_[polygon].vertices;
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        polygon_of_edge_[edge_key(vertices[i], vertices[(i + 1) % vertices.size()])] = polygon;
-}
-
-std::vector<MergedPolygon> Merger::run() {
-    for (PolygonId polygon = 0; polygon < outlines_.size(); ++polygon) grow(polygon);
-    std::vector<MergedPolygon> result;
-    for (Outline& outline : outlines_) {
-        if (outline.vertices.empty()) continue;
-        std::sort(outline.triangles.begin(), outline.triangles.end());
-        result.push_back({corners(outline.vertices), outline.triangles});
-    }
-    const auto first_triangle = [](const MergedPolygon& a, const MergedPolygon& b) {
-        return a.triangles.front() < b.triangles.front();
+/// Whether an outline without right turns goes around its inside once only: seen from its first point, the others
+/// follow each other within half a turn.
+bool goes_around_once(const std::vector<Double3>& points, const Double3& normal) {
+    const auto is_left = [&](const Double3& a, const Double3& b) {
+        constexpr double kTolerance = 1e-6; // of the sine of the angle
+        return dot(cross(a, b), normal) >= -kTolerance * length(a) * length(b);
     };
-    std::sort(result.begin(), result.end(), first_triangle);
-    return result;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+        const Double3 next = points[i + 1] - points[0];
+        if (!is_left(points[i] - points[0], next) || !is_left(points[1] - points[0], next)) return false;
+    }
+    return true;
 }
 
-void Merger::grow(PolygonId polygon) {
-    while (grow_once(polygon)) {
+RegionMerger::RegionMerger(const ConnectedMesh& mesh, const std::vector<TriangleId>& triangles,
+                           const std::vector<std::uint32_t>& index_of, const std::vector<bool>& is_inside)
+    : mesh_(mesh),
+      triangles_(triangles),
+      index_of_(index_of),
+      is_inside_(is_inside),
+      parent_(triangles.size()) {
+    for (const TriangleId t : triangles) outlines_.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    std::iota(parent_.begin(), parent_.end(), 0u);
+}
+
+PolygonId RegionMerger::owner(std::size_t index) {
+    while (parent_[index] != index) {
+        parent_[index] = parent_[parent_[index]];
+        index = parent_[index];
+    }
+    return static_cast<PolygonId>(index);
+}
+
+void RegionMerger::append_to(PolygonPartition& partition) {
+    for (PolygonId polygon = 0; polygon < outlines_.size(); ++polygon) grow(polygon);
+    std::vector<std::int32_t> number(outlines_.size(), -1);
+    for (PolygonId polygon = 0; polygon < outlines_.size(); ++polygon) {
+        if (outlines_[polygon].empty()) continue;
+        number[polygon] = static_cast<std::int32_t>(partition.polygons.size());
+        partition.polygons.emplace_back(without_collinear_vertices(points(outlines_[polygon])));
+    }
+    for (std::size_t i = 0; i < triangles_.size(); ++i)
+        partition.polygon_of_triangle[triangles_[i]] = number[owner(i)];
+}
+
+/// Goes around the outline until no edge leads to a polygon that can be joined.
+void RegionMerger::grow(PolygonId polygon) {
+    const Outline& outline = outlines_[polygon];
+    std::size_t failures = 0;
+    for (std::size_t i = 0; failures < outline.size(); ++i) {
+        const EdgeId mate = mesh_.mate(outline[i % outline.size()]);
+        const bool has_neighbour = mate != kNoEdge && is_inside_[mate / 3];
+        if (has_neighbour && try_merge(polygon, outline[i % outline.size()])) {
+            failures = 0;
+        } else {
+            ++failures;
+        }
     }
 }
 
-bool Merger::grow_once(PolygonId polygon) {
-    const std::vector<VertexId>& vertices = outlines_[polygon].vertices;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const auto found = polygon_of_edge_.find(edge_key(vertices[(i + 1) % vertices.size()], vertices[i]));
-        if (found != polygon_of_edge_.end() && found->second != polygon &&
-            try_merge(polygon, found->second, i))
-            return true;
-    }
-    return false;
-}
-
-SharedChain Merger::shared_chain(const Outline& a, const Outline& b, std::size_t edge) const {
-    const auto& va = a.vertices;
-    const auto& vb = b.vertices;
-    const std::size_t na = va.size();
-    const std::size_t nb = vb.size();
-    std::size_t begin = edge; // in a
-    std::size_t end =
-        static_cast<std::size_t>(std::find(vb.begin(), vb.end(), va[begin]) - vb.begin()); // in b
+SharedChain RegionMerger::shared_chain(const Outline& a, const Outline& b, EdgeId edge) const {
+    const std::size_t na = a.size();
+    const std::size_t nb = b.size();
+    const auto index = [](const Outline& outline, EdgeId e) {
+        return static_cast<std::size_t>(std::find(outline.begin(), outline.end(), e) - outline.begin());
+    };
+    std::size_t begin = index(a, edge);
+    std::size_t end = index(b, mesh_.mate(edge)); // of the chain in b, which runs backwards
     std::size_t count = 1;
-    while (count < std::min(na, nb) - 1 && va[(begin + na - 1) % na] == vb[(end + 1) % nb]) {
+    const std::size_t limit = std::min(na, nb) - 1;
+    while (count < limit && mesh_.mate(a[(begin + na - 1) % na]) == b[(end + 1) % nb]) {
         begin = (begin + na - 1) % na;
         end = (end + 1) % nb;
         ++count;
     }
-    while (count < std::min(na, nb) - 1 &&
-           va[(begin + count + 1) % na] == vb[(end + 2 * nb - count - 1) % nb])
-        ++count;
-    return {begin, (end + 2 * nb - count) % nb, count};
+    while (count < limit && mesh_.mate(a[(begin + count) % na]) == b[(end + nb - count) % nb]) ++count;
+    return {begin, (end + nb + 1 - count) % nb, count};
 }
 
-bool Merger::turns_right(VertexId before, VertexId corner, VertexId after, const Double3& normal) const {
-    const Double3 a = to_double(positions_[corner]) - to_double(positions_[before]);
-    const Double3 b = to_double(positions_[after]) - to_double(positions_[corner]);
-    constexpr double kTolerance = 1e-6; // of the sine of the angle
-    return dot(cross(a, b), normal) < -kTolerance * length(a) * length(b);
+bool RegionMerger::turns_right(EdgeId incoming, EdgeId outgoing, const Double3& normal) const {
+    const Double3 corner = to_double(mesh_.position(mesh_.begin_of(outgoing)));
+    const Double3 a = corner - to_double(mesh_.position(mesh_.begin_of(incoming)));
+    const Double3 b = to_double(mesh_.position(mesh_.end_of(outgoing))) - corner;
+    const double sine = dot(cross(a, b), normal); // times the lengths of both
+    const double tolerance = 1e-6 * length(a) * length(b);
+    const bool turns_back = std::fabs(sine) <= tolerance && dot(a, b) < 0;
+    return sine < -tolerance || turns_back;
 }
 
-bool Merger::is_planar(const std::vector<VertexId>& vertices) const {
-    std::vector<Double3> points;
-    for (const VertexId vertex : vertices) points.push_back(to_double(positions_[vertex]));
-    const Double3 normal = normalized(area_vector(points));
-    double extent = 0;
-    double low = 0;
-    double high = 0;
-    for (const Double3& point : points) {
-        const Double3 offset = point - points[0];
-        extent = std::max(extent, length(offset));
-        low = std::min(low, dot(offset, normal));
-        high = std::max(high, dot(offset, normal));
-    }
-    constexpr double kTolerance = 1e-5;
-    return high - low <= kTolerance * extent;
+std::vector<Float3> RegionMerger::points(const Outline& outline) const {
+    std::vector<Float3> result;
+    for (const EdgeId edge : outline) result.push_back(mesh_.position(mesh_.begin_of(edge)));
+    return result;
 }
 
-std::vector<Float3> Merger::corners(const std::vector<VertexId>& vertices) const {
-    std::vector<Float3> points;
-    for (const VertexId vertex : vertices) points.push_back(positions_[vertex]);
-    return without_collinear_vertices(points);
+/// Whether an outline that nowhere turns right is a simple polygon in one plane with few enough corners.
+bool RegionMerger::is_light(const Outline& outline) const {
+    // A vertex that appears twice means a second contact beside the chain, around a hole.
+    std::vector<PointId> sorted;
+    for (const EdgeId edge : outline) sorted.push_back(mesh_.begin_of(edge));
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return false;
+    const std::vector<Float3> vertices = points(outline);
+    if (without_collinear_vertices(vertices).size() > kMaxPolygonVertices) return false;
+    std::vector<Double3> exact;
+    for (const Float3& vertex : vertices) exact.push_back(to_double(vertex));
+    const Double3 normal = normalized(area_vector(exact));
+    return is_planar(exact, normal) && goes_around_once(exact, normal);
 }
 
-bool Merger::try_merge(PolygonId polygon, PolygonId neighbour, std::size_t edge) {
+bool RegionMerger::try_merge(PolygonId polygon, EdgeId edge) {
+    const PolygonId neighbour = owner(index_of_[mesh_.mate(edge) / 3]);
+    if (neighbour == polygon) return false;
     Outline& a = outlines_[polygon];
     Outline& b = outlines_[neighbour];
-    constexpr double kMinCosine = 1 - 1e-6; // coarse; is_planar() decides
-    if (dot(a.unit_normal, b.unit_normal) < kMinCosine) return false;
-
-    const std::size_t na = a.vertices.size();
-    const std::size_t nb = b.vertices.size();
     const SharedChain chain = shared_chain(a, b, edge);
+    const std::size_t na = a.size();
+    const std::size_t nb = b.size();
+    if (na + nb - 2 * chain.count < 3 || na + nb - 2 * chain.count > kMaxOutline) return false;
     // The union is convex where the chain ends, else nowhere concave if its parts are convex.
     const std::size_t a_end = (chain.a + chain.count) % na;
     const std::size_t b_end = (chain.b + chain.count) % nb;
-    if (turns_right(a.vertices[(chain.a + na - 1) % na], a.vertices[chain.a], b.vertices[(b_end + 1) % nb],
-                    a.unit_normal) ||
-        turns_right(b.vertices[(chain.b + nb - 1) % nb], b.vertices[chain.b], a.vertices[(a_end + 1) % na],
-                    a.unit_normal))
+    const Double3 normal = mesh_.area_vector(edge / 3);
+    const Double3 unit_normal = normalized(normal);
+    if (turns_right(a[(chain.a + na - 1) % na], b[b_end], unit_normal) ||
+        turns_right(b[(chain.b + nb - 1) % nb], a[a_end], unit_normal))
         return false;
 
-    std::vector<VertexId> joined;
-    for (std::size_t i = 0; i < na - chain.count; ++i) joined.push_back(a.vertices[(a_end + i) % na]);
-    for (std::size_t i = 0; i < nb - chain.count; ++i) joined.push_back(b.vertices[(b_end + i) % nb]);
-    // A vertex that appears twice means a second contact beside the chain, around a hole.
-    std::vector<VertexId> sorted = joined;
-    std::sort(sorted.begin(), sorted.end());
-    if (joined.size() < 3 || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return false;
-    if (corners(joined).size() > kMaxPolygonVertices || !is_planar(joined)) return false;
-
-    for (std::size_t i = 0; i < chain.count; ++i) {
-        const VertexId begin = a.vertices[(chain.a + i) % na];
-        const VertexId end = a.vertices[(chain.a + i + 1) % na];
-        polygon_of_edge_.erase(edge_key(begin, end));
-        polygon_of_edge_.erase(edge_key(end, begin));
-    }
-    a.vertices = std::move(joined);
-    a.triangles.insert(a.triangles.end(), b.triangles.begin(), b.triangles.end());
+    Outline joined;
+    for (std::size_t i = 0; i < na - chain.count; ++i) joined.push_back(a[(a_end + i) % na]);
+    for (std::size_t i = 0; i < nb - chain.count; ++i) joined.push_back(b[(b_end + i) % nb]);
+    if (!is_light(joined)) return false;
+    a = std::move(joined);
     b = {};
-    claim_edges(polygon);
+    parent_[neighbour] = polygon;
     return true;
+}
+
+/// Triangles that are connected to `seed` by flat edges, which become `is_inside`.
+void collect_region(const ConnectedMesh& mesh, TriangleId seed, std::vector<bool>& is_inside,
+                    std::vector<TriangleId>& region) {
+    region = {seed};
+    is_inside[seed] = true;
+    for (std::size_t i = 0; i < region.size(); ++i) {
+        for (EdgeId edge = 3 * region[i]; edge < 3 * region[i] + 3; ++edge) {
+            const auto neighbour = mesh.flat_neighbour(edge);
+            if (!neighbour || is_inside[*neighbour]) continue;
+            is_inside[*neighbour] = true;
+            region.push_back(*neighbour);
+        }
+    }
+    std::sort(region.begin(), region.end());
 }
 
 } // namespace
 
-std::vector<MergedPolygon> merge_coplanar_triangles(const std::vector<Float3>& positions,
-                                                    const std::vector<Triangle>& triangles) {
-    return Merger(positions, triangles).run();
+PolygonPartition merge_coplanar_triangles(const std::vector<Float3>& positions,
+                                          const std::vector<Triangle>& triangles) {
+    const ConnectedMesh mesh(positions, triangles);
+    PolygonPartition result;
+    result.polygon_of_triangle.resize(triangles.size(), -1);
+    std::vector<bool> is_inside(triangles.size(), false); // the current region
+    std::vector<std::uint32_t> index_of;
+    std::vector<TriangleId> region;
+    for (TriangleId seed = 0; seed < triangles.size(); ++seed) {
+        if (result.polygon_of_triangle[seed] >= 0) continue;
+        collect_region(mesh, seed, is_inside, region);
+        if (const auto polygon = as_convex_polygon(mesh, region, is_inside)) {
+            for (const TriangleId triangle : region)
+                result.polygon_of_triangle[triangle] = static_cast<std::int32_t>(result.polygons.size());
+            result.polygons.push_back(*polygon);
+        } else {
+            index_of.resize(triangles.size());
+            for (std::size_t i = 0; i < region.size(); ++i)
+                index_of[region[i]] = static_cast<std::uint32_t>(i);
+            RegionMerger(mesh, region, index_of, is_inside).append_to(result);
+        }
+        for (const TriangleId triangle : region) is_inside[triangle] = false;
+    }
+    return result;
 }
 
 } // namespace nusselt::scene

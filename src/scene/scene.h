@@ -6,7 +6,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -79,11 +81,50 @@ struct Emitter {
     std::string name;
 };
 
+/// The corners of a polygonal light, in place: scenes have hundreds of thousands of such lights.
+class PolygonVertices {
+public:
+    static constexpr std::size_t kCapacity = 8;
+
+    PolygonVertices() = default;
+    PolygonVertices(std::initializer_list<Float3> vertices) { assign(vertices.begin(), vertices.end()); }
+    PolygonVertices(const std::vector<Float3>& vertices) { assign(vertices.begin(), vertices.end()); }
+    /// \throws std::length_error if these are too many
+    template <class Iterator>
+    void assign(Iterator begin, Iterator end) {
+        size_ = 0;
+        for (; begin != end; ++begin) push_back(*begin);
+    }
+    /// \throws std::length_error if it is full
+    void push_back(const Float3& vertex) {
+        if (size_ == kCapacity) throw std::length_error("polygonal lights have at most 8 vertices");
+        vertices_[size_++] = vertex;
+    }
+
+    std::size_t size() const { return size_; }
+    const Float3* begin() const { return vertices_.data(); }
+    const Float3* end() const { return vertices_.data() + size_; }
+    Float3* begin() { return vertices_.data(); }
+    Float3* end() { return vertices_.data() + size_; }
+    const Float3& operator[](std::size_t i) const { return vertices_[i]; }
+    Float3& operator[](std::size_t i) { return vertices_[i]; }
+    /// \throws std::out_of_range
+    const Float3& at(std::size_t i) const {
+        if (i >= size_) throw std::out_of_range("vertex of a polygonal light");
+        return vertices_[i];
+    }
+    const Float3& back() const { return vertices_[size_ - 1]; }
+
+private:
+    std::array<Float3, kCapacity> vertices_ = {};
+    std::uint32_t size_ = 0;
+};
+
 /// A convex planar light of 3 to 8 vertices. It emits `radiance` to the side from which the vertices appear
 /// counter-clockwise, or to both sides.
 struct PolygonLight {
     std::uint32_t emitter = 0; ///< index into Scene::emitters
-    std::vector<Float3> vertices;
+    PolygonVertices vertices;
     Float3 radiance = {0, 0, 0};
     bool two_sided = false;
 };

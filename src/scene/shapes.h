@@ -1,20 +1,16 @@
 #pragma once
 /// Shape directives and their conversion to triangles and lights in world space.
 
+#include "scene/emission.h"
 #include "scene/mesh.h"
 #include "scene/parameters.h"
 #include "scene/transform.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 namespace nusselt::scene {
-
-/// An AreaLightSource directive.
-struct Emission {
-    Float3 radiance = {0, 0, 0};
-    bool two_sided = false;
-};
 
 /// A Shape directive with the graphics state that applies to it.
 struct ShapeDirective {
@@ -27,13 +23,14 @@ struct ShapeDirective {
     int material = -1; ///< -1 for invisible surfaces; they are needed for tubes only
 };
 
-inline bool is_black(const Float3& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
+/// Whether build_mesh() knows shapes of this type.
+bool is_supported(std::string_view type);
 
-/// Whether build_mesh() knows shapes of this type and emission.
-bool is_supported(const ShapeDirective& shape);
+/// Whether the shape becomes a tubular light, which needs no material.
+bool is_tube(ShapeDirective& shape);
 
-/// Whether a type of shape is a tubular light, which needs no material.
-bool is_tube(std::string_view type);
+/// Whether pbrt's normal is the reverse of the right-hand normal of the vertices in world space.
+bool flips_orientation(const ShapeDirective& shape);
 
 /// Triangles in world space. Those of emitters are oriented such that (v1 - v0) x (v2 - v0) points to the
 /// side that emits in pbrt: the side of the shading normals if there are any, else that of the right-hand
@@ -41,5 +38,17 @@ bool is_tube(std::string_view type);
 /// Their triangle_light refers to polygon_lights, to which coplanar neighbours have been merged. Throws
 /// SceneError. Touches nothing but `shape`, so that shapes may be built in parallel.
 Mesh build_mesh(ShapeDirective& shape);
+
+/// Counts shapes that are left out because their type is not supported.
+class LeftOutShapes {
+public:
+    void add(const std::string& type, const Location& location);
+    /// One warning for all, at the first of them.
+    void warn(Warnings& warnings) const;
+
+private:
+    std::map<std::string, std::size_t> counts_;
+    Location first_;
+};
 
 } // namespace nusselt::scene

@@ -101,12 +101,12 @@ TEST_F(Emitters, ErrorsAndWarnings) {
     EXPECT_EQ(error("\nAreaLightSource \"diffuse\" \"rgb L\" [-1 0 0]"),
               "scene.pbrt:2: AreaLightSource: radiance must be finite and not negative, found -1");
     const std::string rest = "\nCamera \"perspective\"\n" + std::string(kTriangle);
-    EXPECT_EQ(warning(load("AreaLightSource \"diffuse\" \"float power\" 100" + rest)),
-              "scene.pbrt:1: AreaLightSource: power is ignored, L and scale give the radiance");
-    EXPECT_EQ(warning(load("AreaLightSource \"diffuse\" \"string filename\" \"x.png\"" + rest)),
-              "scene.pbrt:1: AreaLightSource: images of emission are ignored, L is used");
-    EXPECT_EQ(warning(load("AreaLightSource \"laser\"" + rest)),
-              "scene.pbrt:1: AreaLightSource \"laser\" is not supported and ignored");
+    EXPECT_EQ(warning(load("AreaLightSource \"diffuse\" AreaLightSource \"laser\"" + rest)),
+              "scene.pbrt:1: AreaLightSource \"laser\" is not supported: its shapes do not emit");
+    EXPECT_TRUE(load("AreaLightSource \"diffuse\" AreaLightSource \"laser\"" + rest).polygon_lights.empty());
+    // The area of the triangle overflows nothing, but the radiance does.
+    EXPECT_EQ(error("AreaLightSource \"diffuse\" \"float power\" 1e38 Scale 1e-2 1e-2 1" + rest),
+              "scene.pbrt:3: AreaLightSource: radiance must be finite and not negative, found inf");
     EXPECT_EQ(warning(load("AreaLightSource \"diffuse\" \"blackbody L\" 5000" + rest)),
               "scene.pbrt:1: spectra are not supported: \"blackbody L\" is replaced by its default; give rgb "
               "instead");

@@ -100,7 +100,8 @@ void expect_binary_mesh(const std::string& format, bool big_endian) {
 
     // Whatever is missing at the end, the reader says so and stays within the file.
     for (std::size_t size = 0; size < data.text().size(); ++size)
-        EXPECT_EQ(failure(header + data.text().substr(0, size)), "PLY file ends before its last element")
+        EXPECT_EQ(failure(header + data.text().substr(0, size)).substr(0, 29),
+                  "PLY file ends before the last")
             << size;
 }
 
@@ -149,13 +150,14 @@ TEST(Ply, BadHeaders) {
     EXPECT_EQ(failure(kAsciiHeader + "element vertex 1\nproperty x\n"),
               "PLY header: malformed property: 'property x'");
     EXPECT_EQ(failure(kAsciiHeader + "colour blue\n"), "PLY header: unknown line: 'colour blue'");
-    EXPECT_EQ(failure(kAsciiHeader + "element vertex 1\nproperty float x\nend_header\n0\n"),
+    EXPECT_EQ(failure(kAsciiHeader + "element vertex 1\nproperty float x\nelement face 0\nproperty int x\n"
+                                     "end_header\n0\n"),
               "PLY header: element vertex lacks x, y or z");
     EXPECT_EQ(failure(kAsciiHeader + kVertexHeader + "end_header\n0 0 0 0 0 0 0 0 0\n"),
-              "PLY file has no element 'face'");
+              "PLY header: there is no element 'face'");
     EXPECT_EQ(failure(kAsciiHeader +
                       "element face 1\nproperty list uchar int vertex_indices\nend_header\n3 0 1 2\n"),
-              "PLY file: faces before vertices are not supported");
+              "PLY header: element 'face' must follow element 'vertex'");
 }
 
 TEST(Ply, HugeCountsAreRefusedBeforeMemoryIsAllocated) {
@@ -165,38 +167,41 @@ TEST(Ply, HugeCountsAreRefusedBeforeMemoryIsAllocated) {
         const std::string body(600, '0');
         for (const std::string count : {"1000", "4000000000", "18446744073709551615"}) {
             EXPECT_EQ(failure(begin + "element vertex " + count + "\n" + xyz + kFaceHeader + body),
-                      "PLY file ends before its last element");
+                      "PLY file ends before the last of " + count + " of element 'vertex'");
             EXPECT_EQ(failure(begin + "element vertex 0\n" + xyz + "element face " + count +
                               "\nproperty list uchar int vertex_indices\nend_header\n" + body),
-                      "PLY file ends before its last element");
-            EXPECT_EQ(failure(begin + "element vertex " + count + "\nelement face " + count +
-                              "\nend_header\n" + body),
-                      "PLY file has no element 'face'");
+                      "PLY file ends before the last of " + count + " of element 'face'");
+            // Elements without properties take no memory.
+            EXPECT_EQ(read_ply(begin + "element vertex " + count + "\nelement face " + count +
+                               "\nend_header\n" + body)
+                          .triangles.size(),
+                      0u);
         }
     }
     const std::string list = "element vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
                              "element face 1\nproperty list uint int vertex_indices\nend_header\n";
-    EXPECT_EQ(failure("ply\nformat binary_little_endian 1.0\n" + list + "\xff\xff\xff\xff"),
-              "PLY file ends before its last element");
-    EXPECT_EQ(failure(kAsciiHeader + list + "4294967295 0"), "PLY file ends before its last element");
-    EXPECT_EQ(failure(kAsciiHeader + list + "-1 0"), "PLY data: bad list length -1");
-    EXPECT_EQ(failure(kAsciiHeader + list + "1.5 0"), "PLY data: bad list length 1.5");
-    EXPECT_EQ(failure(kAsciiHeader + list + "nan 0"), "PLY data: bad list length nan");
+    const std::string truncated = "PLY file ends before the last of 1 of element 'face'";
+    EXPECT_EQ(failure("ply\nformat binary_little_endian 1.0\n" + list + "\xff\xff\xff\xff"), truncated);
+    EXPECT_EQ(failure(kAsciiHeader + list + "4294967295 0"), truncated);
+    EXPECT_EQ(failure(kAsciiHeader + list + "-1 0"), "PLY data: face 0: list length -1");
+    EXPECT_EQ(failure(kAsciiHeader + list + "1.5 0"), "PLY data: face 0: list length 1.5");
+    EXPECT_EQ(failure(kAsciiHeader + list + "nan 0"), "PLY data: face 0: list length nan");
 }
 
 TEST(Ply, BadData) {
     const std::string header = kAsciiHeader + kVertexHeader + kFaceHeader;
-    EXPECT_EQ(failure(header + "0 0 0 1 0 0 0 x 0 3 0 1 2"), "PLY data: expected a number, found 'x'");
+    EXPECT_EQ(failure(header + "0 0 0 1 0 0 0 x 0 3 0 1 2"),
+              "PLY data: vertex 2: expected a number, found 'x'");
     EXPECT_EQ(failure(header + "0 0 0 1 0 0 0 1.0.0 0 3 0 1 2"),
-              "PLY data: expected a number, found '1.0.0'");
+              "PLY data: vertex 2: expected a number, found '1.0.0'");
     EXPECT_EQ(failure(header + "0 0 0 1 0 0 0 1 0 3 0 1 3"),
-              "PLY data: face 0 has the vertex index 3, but there are 3 vertices");
+              "PLY data: face 0: vertex index 3, but there are 3 vertices");
     EXPECT_EQ(failure(header + "0 0 0 1 0 0 0 1 0 3 0 1 -1"),
-              "PLY data: face 0 has the vertex index -1, but there are 3 vertices");
+              "PLY data: face 0: vertex index -1, but there are 3 vertices");
     EXPECT_EQ(failure(header + "0 0 0 1 0 0 0 1 0 3 0 1 nan"),
-              "PLY data: face 0 has the vertex index nan, but there are 3 vertices");
+              "PLY data: face 0: vertex index nan, but there are 3 vertices");
     for (std::size_t size = header.size(); size + 2 < kAscii.size(); ++size)
-        EXPECT_EQ(failure(kAscii.substr(0, size)), "PLY file ends before its last element");
+        EXPECT_EQ(failure(kAscii.substr(0, size)).substr(0, 29), "PLY file ends before the last");
 }
 
 class PlyInScene : public SceneTest {};

@@ -19,30 +19,32 @@ struct Soup {
     }
 };
 
-double area(const std::vector<Float3>& vertices) {
+double area(const PolygonVertices& vertices) {
     std::vector<Double3> points;
     for (const Float3& v : vertices) points.push_back(to_double(v));
     return 0.5 * length(area_vector(points));
 }
 
 /// Each triangle belongs to one polygon; areas agree; all polygons are convex, planar, oriented to +z.
-void expect_partition(const Soup& soup, const std::vector<MergedPolygon>& polygons) {
-    std::vector<int> owners(soup.triangles.size(), 0);
-    for (const MergedPolygon& polygon : polygons) {
-        double triangle_area = 0;
-        for (const std::uint32_t i : polygon.triangles) {
-            ++owners[i];
-            const Triangle& t = soup.triangles[i];
-            triangle_area +=
-                area({soup.positions[t.vertex[0]], soup.positions[t.vertex[1]], soup.positions[t.vertex[2]]});
-        }
-        EXPECT_NEAR(area(polygon.vertices), triangle_area, 1e-5 * triangle_area);
+void expect_partition(const Soup& soup, const PolygonPartition& partition) {
+    std::vector<double> triangle_area(partition.polygons.size(), 0);
+    ASSERT_EQ(partition.polygon_of_triangle.size(), soup.triangles.size());
+    for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
+        const Triangle& t = soup.triangles[i];
+        triangle_area.at(static_cast<std::size_t>(partition.polygon_of_triangle[i])) +=
+            area({soup.positions[t.vertex[0]], soup.positions[t.vertex[1]], soup.positions[t.vertex[2]]});
+    }
+    for (std::size_t i = 0; i < partition.polygons.size(); ++i) {
+        EXPECT_NEAR(area(partition.polygons[i]), triangle_area[i], 1e-5 * triangle_area[i]);
         std::vector<Double3> points;
-        for (const Float3& v : polygon.vertices) points.push_back(to_double(v));
+        for (const Float3& v : partition.polygons[i]) points.push_back(to_double(v));
         EXPECT_EQ(find_polygon_defect(points), std::nullopt);
         EXPECT_GT(area_vector(points).z, 0);
     }
-    for (const int count : owners) EXPECT_EQ(count, 1);
+}
+
+std::vector<PolygonVertices> polygons_of(const Soup& soup) {
+    return merge_coplanar_triangles(soup.positions, soup.triangles).polygons;
 }
 
 Soup grid(std::uint32_t columns, std::uint32_t rows) {
@@ -70,20 +72,22 @@ Soup fan_of(std::uint32_t corners) {
 
 TEST(PolygonMerge, QuadBecomesOnePolygon) {
     const Soup soup = grid(1, 1);
-    const auto polygons = merge_coplanar_triangles(soup.positions, soup.triangles);
+    const auto partition = merge_coplanar_triangles(soup.positions, soup.triangles);
+    const auto& polygons = partition.polygons;
     ASSERT_EQ(polygons.size(), 1u);
-    EXPECT_EQ(polygons[0].vertices.size(), 4u);
-    EXPECT_EQ(polygons[0].triangles, (std::vector<std::uint32_t>{0, 1}));
-    expect_partition(soup, polygons);
+    EXPECT_EQ(polygons[0].size(), 4u);
+    EXPECT_EQ(partition.polygon_of_triangle, (std::vector<std::int32_t>{0, 0}));
+    expect_partition(soup, partition);
 }
 
 TEST(PolygonMerge, StripsAndGridsBecomeRectangles) {
     for (const auto& [columns, rows] : {std::pair{7u, 1u}, {1u, 9u}, {6u, 5u}, {20u, 20u}}) {
         const Soup soup = grid(columns, rows);
-        const auto polygons = merge_coplanar_triangles(soup.positions, soup.triangles);
+        const auto partition = merge_coplanar_triangles(soup.positions, soup.triangles);
+        const auto& polygons = partition.polygons;
         ASSERT_EQ(polygons.size(), 1u) << columns << " x " << rows;
-        EXPECT_EQ(polygons[0].vertices.size(), 4u);
-        expect_partition(soup, polygons);
+        EXPECT_EQ(polygons[0].size(), 4u);
+        expect_partition(soup, partition);
     }
 }
 
@@ -95,21 +99,23 @@ TEST(PolygonMerge, VerticesAreComparedByPosition) {
         for (const std::uint32_t vertex : t.vertex) separate.positions.push_back(soup.positions[vertex]);
         separate.triangles.push_back({{first, first + 1, first + 2}});
     }
-    EXPECT_EQ(merge_coplanar_triangles(separate.positions, separate.triangles).size(), 1u);
+    EXPECT_EQ(polygons_of(separate).size(), 1u);
 }
 
 TEST(PolygonMerge, FansStopAtEightVertices) {
     for (std::uint32_t corners = 3; corners <= 8; ++corners) {
         const Soup soup = fan_of(corners);
-        const auto polygons = merge_coplanar_triangles(soup.positions, soup.triangles);
+        const auto partition = merge_coplanar_triangles(soup.positions, soup.triangles);
+        const auto& polygons = partition.polygons;
         ASSERT_EQ(polygons.size(), 1u);
-        EXPECT_EQ(polygons[0].vertices.size(), corners);
-        expect_partition(soup, polygons);
+        EXPECT_EQ(polygons[0].size(), corners);
+        expect_partition(soup, partition);
     }
     const Soup soup = fan_of(12);
-    const auto polygons = merge_coplanar_triangles(soup.positions, soup.triangles);
+    const auto partition = merge_coplanar_triangles(soup.positions, soup.triangles);
+    const auto& polygons = partition.polygons;
     EXPECT_EQ(polygons.size(), 2u);
-    expect_partition(soup, polygons);
+    expect_partition(soup, partition);
 }
 
 TEST(PolygonMerge, FanAroundACentreLosesTheCentre) {
@@ -117,10 +123,11 @@ TEST(PolygonMerge, FanAroundACentreLosesTheCentre) {
     soup.positions.push_back({0, 0, 0});
     soup.triangles.clear();
     for (std::uint32_t i = 0; i < 8; ++i) soup.triangles.push_back({{8, i, (i + 1) % 8}});
-    const auto polygons = merge_coplanar_triangles(soup.positions, soup.triangles);
-    expect_partition(soup, polygons);
+    const auto partition = merge_coplanar_triangles(soup.positions, soup.triangles);
+    const auto& polygons = partition.polygons;
+    expect_partition(soup, partition);
     ASSERT_EQ(polygons.size(), 1u);
-    EXPECT_EQ(polygons[0].vertices.size(), 8u);
+    EXPECT_EQ(polygons[0].size(), 8u);
 }
 
 TEST(PolygonMerge, LShapesStaySplit) {
@@ -129,41 +136,43 @@ TEST(PolygonMerge, LShapesStaySplit) {
     soup.add_quad(0, 1, 4, 5);
     soup.add_quad(1, 2, 3, 4);
     soup.add_quad(5, 4, 6, 7);
-    const auto polygons = merge_coplanar_triangles(soup.positions, soup.triangles);
+    const auto partition = merge_coplanar_triangles(soup.positions, soup.triangles);
+    const auto& polygons = partition.polygons;
     EXPECT_EQ(polygons.size(), 2u);
-    expect_partition(soup, polygons);
+    expect_partition(soup, partition);
 }
 
 TEST(PolygonMerge, RingsKeepTheirHole) {
     Soup soup = grid(3, 3);
     soup.triangles.erase(soup.triangles.begin() + 8, soup.triangles.begin() + 10); // the middle
-    const auto polygons = merge_coplanar_triangles(soup.positions, soup.triangles);
+    const auto partition = merge_coplanar_triangles(soup.positions, soup.triangles);
+    const auto& polygons = partition.polygons;
     EXPECT_EQ(polygons.size(), 4u);
-    expect_partition(soup, polygons);
+    expect_partition(soup, partition);
 }
 
 TEST(PolygonMerge, BentAndOpposedTrianglesStaySplit) {
     Soup bent;
     bent.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.01f}};
     bent.add_quad(0, 1, 2, 3);
-    EXPECT_EQ(merge_coplanar_triangles(bent.positions, bent.triangles).size(), 2u);
+    EXPECT_EQ(polygons_of(bent).size(), 2u);
 
     Soup sheet; // both sides of one triangle
     sheet.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     sheet.triangles = {{{0, 1, 2}}, {{0, 2, 1}}};
-    EXPECT_EQ(merge_coplanar_triangles(sheet.positions, sheet.triangles).size(), 2u);
+    EXPECT_EQ(polygons_of(sheet).size(), 2u);
 
     Soup doubled; // the same triangle twice
     doubled.positions = sheet.positions;
     doubled.triangles = {{{0, 1, 2}}, {{0, 1, 2}}};
-    EXPECT_EQ(merge_coplanar_triangles(doubled.positions, doubled.triangles).size(), 2u);
+    EXPECT_EQ(polygons_of(doubled).size(), 2u);
 }
 
 TEST(PolygonMerge, ApartButCoplanarTrianglesStaySplit) {
     Soup soup;
     soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
     soup.triangles = {{{0, 1, 2}}, {{3, 4, 5}}};
-    EXPECT_EQ(merge_coplanar_triangles(soup.positions, soup.triangles).size(), 2u);
+    EXPECT_EQ(polygons_of(soup).size(), 2u);
 }
 
 TEST(PolygonMerge, RandomPiecesOfGridsArePartitioned) {
@@ -174,6 +183,47 @@ TEST(PolygonMerge, RandomPiecesOfGridsArePartitioned) {
         soup.triangles.resize(1 + random() % soup.triangles.size());
         expect_partition(soup, merge_coplanar_triangles(soup.positions, soup.triangles));
     }
+}
+
+TEST(PolygonMerge, ThirdTrianglesAtAnEdgeSeparate) {
+    Soup fins; // three triangles around the edge from 0 to 1, two of them in one plane
+    fins.positions = {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+    fins.triangles = {{{0, 1, 2}}, {{0, 3, 1}}, {{0, 1, 4}}};
+    EXPECT_EQ(polygons_of(fins).size(), 3u);
+}
+
+TEST(PolygonMerge, OverlappingTrianglesAreNotOnePolygon) {
+    // Eight triangles around a point that go around it twice: their outline is a closed loop, but it covers more
+    // area than it encloses.
+    Soup soup = fan_of(4);
+    soup.positions.push_back({0, 0, 0});
+    soup.triangles.clear();
+    for (std::uint32_t i = 0; i < 4; ++i) soup.positions.push_back(soup.positions[i]);
+    for (std::uint32_t i = 5; i < 9; ++i) {
+        soup.positions[i].x *= 1.5f;
+        soup.positions[i].y *= 1.5f;
+    }
+    const std::uint32_t ring[] = {0, 6, 2, 8, 5, 1, 7, 3}; // every step a quarter
+    for (std::uint32_t i = 0; i < 8; ++i) soup.triangles.push_back({{4, ring[i], ring[(i + 1) % 8]}});
+    const auto partition = merge_coplanar_triangles(soup.positions, soup.triangles);
+    EXPECT_GT(partition.polygons.size(), 1u);
+    double sum = 0;
+    for (const PolygonVertices& polygon : partition.polygons) sum += area(polygon);
+    double expected = 0;
+    for (const Triangle& t : soup.triangles)
+        expected +=
+            area({soup.positions[t.vertex[0]], soup.positions[t.vertex[1]], soup.positions[t.vertex[2]]});
+    EXPECT_NEAR(sum, expected, 1e-6);
+}
+
+TEST(PolygonMerge, LargeRegionsTakeLinearTime) {
+    // Quadratic algorithms take minutes here.
+    Soup soup = grid(500, 400);
+    EXPECT_EQ(polygons_of(soup).size(), 1u);
+    soup.triangles.pop_back(); // neither a rectangle nor convex with few corners
+    const auto partition = merge_coplanar_triangles(soup.positions, soup.triangles);
+    EXPECT_LT(partition.polygons.size(), soup.triangles.size() / 50);
+    expect_partition(soup, partition);
 }
 
 TEST(CollinearVertices, AreRemoved) {

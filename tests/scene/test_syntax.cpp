@@ -39,7 +39,7 @@ TEST_F(Syntax, BadNumbersNameFileLineAndValue) {
     EXPECT_EQ(error("Translate 1 2 1x"), "scene.pbrt:1: expected a number, found '1x'");
     EXPECT_EQ(error("Translate 1 2"), "scene.pbrt:1: expected a number, found the end of the file");
     EXPECT_EQ(error("Translate 1 \"2\" 3"), "scene.pbrt:1: expected a number, found \"2\"");
-    EXPECT_EQ(error("Shape \"trianglemesh\" \"point3 P\" [0 0 0\nShape \"sphere\""),
+    EXPECT_EQ(error("Shape \"trianglemesh\" \"point3 P\" [0 0 0\nShape \"cone\""),
               "scene.pbrt:2: expected a number, found 'Shape'");
 }
 
@@ -90,15 +90,15 @@ TEST_F(Syntax, UnknownThingsAreWarnedOfOnceWithTheirLine) {
              "Sampler \"halton\" \"integer pixelsamples\" 4 Integrator \"path\" Accelerator \"bvh\"\n"
              "ColorSpace \"srgb\" Option \"string msereferenceimage\" \"x\"\n"
              "LightSource \"infinite\" \"rgb L\" [1 1 1]\n"
-             "Shape \"sphere\" \"float radius\" 2\n"
-             "Shape \"sphere\" \"float radius\" 3\n" +
+             "Shape \"cone\" \"float radius\" 2\n"
+             "Shape \"cone\" \"float radius\" 3\n" +
              std::string(kTriangle) + "\"float fuzz\" 3 \"spline knots\" [1 2]\n");
     ASSERT_EQ(scene.warnings.size(), 5u);
     EXPECT_EQ(without_folder(scene.warnings[0]), "scene.pbrt:2: directive 'Mystery' is unknown and skipped");
     EXPECT_EQ(without_folder(scene.warnings[1]),
               "scene.pbrt:6: LightSource \"infinite\" is not supported and ignored");
     EXPECT_EQ(without_folder(scene.warnings[2]),
-              "scene.pbrt:7: shape \"sphere\" is not supported and left out");
+              "scene.pbrt:7: shapes that are not supported are left out, the first one here: 2 \"cone\"");
     EXPECT_EQ(without_folder(scene.warnings[3]),
               "scene.pbrt:10: shape \"trianglemesh\": parameter \"float fuzz\" is unknown and ignored");
     EXPECT_EQ(without_folder(scene.warnings[4]),

@@ -1,0 +1,89 @@
+#include "scene/emission.h"
+
+#include "scene/texture_image.h"
+#include "scene/vector_math.h"
+
+#include <limits>
+#include <numbers>
+
+namespace nusselt::scene {
+
+namespace {
+
+bool is_radiance(float value) { return value >= 0 && value <= std::numeric_limits<float>::max(); }
+
+/// Of linear sRGB.
+double luminance(const Float3& c) { return dot({0.2126, 0.7152, 0.0722}, to_double(c)); }
+
+Float3 mean_colour(const Texture& texture) {
+    Double3 sum;
+    const auto channels = static_cast<std::size_t>(texture.channels);
+    const std::size_t green = channels > 1 ? 1 : 0;
+    for (std::size_t i = 0; i + channels <= texture.texels.size(); i += channels)
+        sum = sum + Double3{texture.texels[i], texture.texels[i + green], texture.texels[i + 2 * green]};
+    return to_float((static_cast<double>(channels) / static_cast<double>(texture.texels.size())) * sum);
+}
+
+/// The parameter "L", or the mean of the image that takes its place.
+Float3 read_colour(ParameterList& parameters, const std::filesystem::path& image_path, bool has_power,
+                   Warnings& warnings) {
+    const Float3 constant = parameters.colour("L", {1, 1, 1}, warnings);
+    if (parameters.string("filename", "").empty()) return constant;
+    const Location location = parameters.location_of("filename");
+    ImageRequest request;
+    request.path = image_path;
+    request.location = location;
+    const Float3 mean = mean_colour(decode_image(request, warnings));
+    warnings.add(location, "AreaLightSource: the image of the emission is replaced by its mean colour");
+    // The power is that of the image, whatever its brightness.
+    const double brightness = luminance(mean);
+    return has_power && brightness > 0 ? to_float((1 / brightness) * to_double(mean)) : mean;
+}
+
+std::optional<double> read_power(ParameterList& parameters) {
+    const std::optional<double> power = parameters.optional_real("power");
+    // In pbrt negative values, -1 by default, stand for none.
+    return power && *power > 0 ? power : std::nullopt;
+}
+
+void check_radiance(const Float3& radiance, const Location& location) {
+    for (const float value : {radiance.x, radiance.y, radiance.z})
+        if (!is_radiance(value))
+            throw SceneError(location, "AreaLightSource: radiance must be finite and not negative, found " +
+                                           to_text(value));
+}
+
+} // namespace
+
+Emission read_emission(const std::string& type, ParameterList& parameters,
+                       const std::filesystem::path& image_path, Warnings& warnings) {
+    // "area" is pbrt v2's name for it.
+    if (type != "diffuse" && type != "area") {
+        warnings.add(parameters.location(),
+                     "AreaLightSource \"" + type + "\" is not supported: its shapes do not emit");
+        return {};
+    }
+    Emission emission;
+    emission.power = read_power(parameters);
+    const Float3 colour = read_colour(parameters, image_path, emission.power.has_value(), warnings);
+    // v3 also scales by a colour.
+    const auto scale = static_cast<float>(parameters.real("scale", 1));
+    const Float3 tint = parameters.colour("scale", {scale, scale, scale}, warnings);
+    emission.radiance = {colour.x * tint.x, colour.y * tint.y, colour.z * tint.z};
+    emission.two_sided = parameters.boolean("twosided", false);
+    check_radiance(emission.radiance, parameters.location());
+    parameters.ignore({"samples", "nsamples", "xsamples", "ysamples"});
+    parameters.warn_unused("AreaLightSource", warnings);
+    return emission;
+}
+
+Float3 radiance_of(const Emission& emission, double area, const Location& location) {
+    if (!emission.power) return emission.radiance;
+    const double sides = emission.two_sided ? 2 : 1;
+    const Float3 radiance =
+        to_float((*emission.power / (sides * std::numbers::pi * area)) * to_double(emission.radiance));
+    check_radiance(radiance, location);
+    return radiance;
+}
+
+} // namespace nusselt::scene
