@@ -1,24 +1,9 @@
 #include "scene/diagnostics.h"
 
 #include <charconv>
-#include <fstream>
-#include <system_error>
+#include <utility>
 
 namespace nusselt::scene {
-
-FileBytes::FileBytes(const std::filesystem::path& path) {
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) throw std::runtime_error("no such file");
-    if (!std::filesystem::is_regular_file(status)) throw std::runtime_error("not a regular file");
-    const auto size = std::filesystem::file_size(path, error);
-    std::ifstream stream(path, std::ios::binary);
-    if (error || !stream) throw std::runtime_error("cannot be opened");
-    data_ = std::make_unique_for_overwrite<char[]>(size);
-    stream.read(data_.get(), static_cast<std::streamsize>(size));
-    if (!stream) throw std::runtime_error("cannot be read");
-    size_ = size;
-}
 
 std::string to_text(double value) {
     char buffer[32];

@@ -1,8 +1,9 @@
 #pragma once
 /// Positions in scene files, errors and warnings that name them.
 
+#include "scene/file_bytes.h"
+
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -10,19 +11,6 @@
 #include <vector>
 
 namespace nusselt::scene {
-
-/// The bytes of a file. The memory is not zeroed before it is read.
-class FileBytes {
-public:
-    FileBytes() = default;
-    /// Throws std::runtime_error with the reason if `path` is no readable regular file.
-    explicit FileBytes(const std::filesystem::path& path);
-    std::string_view view() const { return {data_.get(), size_}; }
-
-private:
-    std::unique_ptr<char[]> data_;
-    std::size_t size_ = 0;
-};
 
 /// A scene text. Tokens, parameters and locations point into it.
 struct SourceFile {
