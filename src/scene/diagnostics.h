@@ -25,16 +25,18 @@ struct Location {
 
 /// The shortest decimal text of a number.
 std::string to_text(double value);
+/// Text from a file as messages show it: at most 60 bytes, an ellipsis in place of the rest.
+std::string shortened(std::string_view text);
 /// "file:line"
 std::string to_string(const Location& location);
 
-/// An error in the user's scene: what() is "file:line: message".
+/// An error in the user's scene: what() is "file:line: message", one line without control characters.
 class SceneError : public std::runtime_error {
 public:
     SceneError(const Location& location, std::string_view message);
 };
 
-/// Collects warnings, the first of each kind only.
+/// Collects warnings, the first of each kind only, and at most 200 kinds.
 class Warnings {
 public:
     /// \param kind  warnings of equal kind count as repetitions

@@ -5,7 +5,6 @@
 #include <limits>
 #include <new>
 #include <stdexcept>
-#include <string>
 #include <system_error>
 #include <zlib.h>
 
@@ -76,6 +75,15 @@ void FileBytes::resize(std::size_t size) {
     static_cast<void>(data_.release());
     data_.reset(static_cast<char*>(memory));
     size_ = size;
+}
+
+std::filesystem::path find_file(const std::string& name, const std::filesystem::path& first_folder,
+                                const std::filesystem::path& second_folder) {
+    std::error_code ignored;
+    const std::filesystem::path first = first_folder / name;
+    if (std::filesystem::exists(first, ignored)) return first;
+    const std::filesystem::path second = second_folder / name;
+    return std::filesystem::exists(second, ignored) ? second : first;
 }
 
 bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 
 namespace nusselt::scene {
@@ -34,6 +35,10 @@ private:
     std::unique_ptr<char, Free> data_;
     std::size_t size_ = 0;
 };
+
+/// Where a file that a scene names is: in the first of two folders, or in the second one if it is only there.
+std::filesystem::path find_file(const std::string& name, const std::filesystem::path& first_folder,
+                                const std::filesystem::path& second_folder);
 
 /// Whether these are the first bytes of a gzip file.
 bool is_gzip(std::string_view bytes);

@@ -84,7 +84,9 @@ void copy_mesh(const Mesh& mesh, int material, const Offsets& offsets, Scene& sc
                    [first_light](std::int32_t light) { return light + first_light; });
 }
 
-void join_meshes(const std::vector<ShapeDirective>& shapes, std::vector<Mesh>& meshes, Scene& scene) {
+/// \return where each mesh begins, and where the last one ends
+std::vector<Offsets> join_meshes(const std::vector<ShapeDirective>& shapes, std::vector<Mesh>& meshes,
+                                 Scene& scene) {
     std::vector<Offsets> offsets;
     Offsets total;
     for (Mesh& mesh : meshes) {
@@ -100,6 +102,7 @@ void join_meshes(const std::vector<ShapeDirective>& shapes, std::vector<Mesh>& m
                   std::back_inserter(scene.polygon_lights));
         std::move(mesh.line_lights.begin(), mesh.line_lights.end(), std::back_inserter(scene.line_lights));
     }
+    offsets.push_back(total);
     if (total.vertices > std::numeric_limits<std::uint32_t>::max())
         throw std::runtime_error("the scene has more than 2^32 vertices");
     scene.positions.resize(total.vertices);
@@ -110,6 +113,51 @@ void join_meshes(const std::vector<ShapeDirective>& shapes, std::vector<Mesh>& m
     scene.triangle_light.resize(total.triangles, -1);
     tbb::parallel_for(std::size_t{0}, meshes.size(),
                       [&](std::size_t i) { copy_mesh(meshes[i], shapes[i].material, offsets[i], scene); });
+    return offsets;
+}
+
+/// Adds the image of a box under an affine transform.
+void add_box(const Bounds& box, const Transform& world_from_object, Bounds& bounds) {
+    for (const double x : {box.low.x, box.high.x})
+        for (const double y : {box.low.y, box.high.y})
+            for (const double z : {box.low.z, box.high.z})
+                bounds.add(transform_point(world_from_object, {x, y, z}));
+}
+
+/// The objects that have triangles, and their instances.
+/// \param offsets  of meshes, as join_meshes() returns them
+/// \return a bounding box of all instances
+Bounds add_instances(const SceneDescription& description, const std::vector<Offsets>& offsets, Scene& scene) {
+    constexpr std::size_t kEmpty = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> new_index(description.objects.size(), kEmpty);
+    std::vector<Bounds> boxes;
+    for (std::size_t i = 0; i < description.objects.size(); ++i) {
+        const ObjectShapes& object = description.objects[i];
+        const Offsets& begin = offsets[object.first_shape];
+        const Offsets& end = offsets[object.first_shape + object.shape_count];
+        if (begin.triangles == end.triangles) continue;
+        new_index[i] = scene.objects.size();
+        scene.objects.push_back({object.name, static_cast<std::uint32_t>(begin.triangles),
+                                 static_cast<std::uint32_t>(end.triangles - begin.triangles)});
+        Bounds& box = boxes.emplace_back();
+        for (std::size_t v = begin.vertices; v < end.vertices; ++v) box.add(to_double(scene.positions[v]));
+    }
+    Bounds all;
+    for (const InstanceDirective& instance : description.instances) {
+        const std::size_t object = new_index[instance.object];
+        if (object == kEmpty) continue;
+        const auto rows = instance_rows(instance.world_from_object);
+        Bounds box;
+        add_box(boxes[object], instance.world_from_object, box);
+        if (!rows || !is_valid_coordinate(to_float(box.low)) || !is_valid_coordinate(to_float(box.high)))
+            throw SceneError(instance.location, "ObjectInstance: object \"" +
+                                                    shortened(scene.objects[object].name) +
+                                                    "\" lies beyond 1e15 m");
+        scene.instances.push_back({static_cast<std::uint32_t>(object), *rows});
+        all.add(box.low);
+        all.add(box.high);
+    }
+    return all;
 }
 
 void collect_mesh_warnings(const std::vector<ShapeDirective>& shapes, const std::vector<Mesh>& meshes,
@@ -126,9 +174,10 @@ void collect_mesh_warnings(const std::vector<ShapeDirective>& shapes, const std:
                      std::to_string(degenerate) + " degenerate triangles are left out, the first ones here");
 }
 
-double scene_radius(const Scene& scene) {
-    Bounds bounds;
-    for (const Float3& p : scene.positions) bounds.add(to_double(p));
+/// \param bounds  of instances
+/// \param world_vertices  number of vertices that belong to no object
+double scene_radius(const Scene& scene, Bounds bounds, std::size_t world_vertices) {
+    for (std::size_t i = 0; i < world_vertices; ++i) bounds.add(to_double(scene.positions[i]));
     for (const LineLight& line : scene.line_lights) {
         const Double3 margin = {line.radius, line.radius, line.radius};
         for (const Float3& end : {line.begin, line.end}) {
@@ -149,11 +198,14 @@ Scene load_scene(const std::filesystem::path& path) {
     scene.camera = make_camera(description.camera, description.film);
     const std::vector<ImageRequest> images = select_images(description.images, scene.materials);
     std::vector<Mesh> meshes = read_files(images, description.shapes, scene.textures);
-    join_meshes(description.shapes, meshes, scene);
+    const std::vector<Offsets> offsets = join_meshes(description.shapes, meshes, scene);
+    const Bounds instances = add_instances(description, offsets, scene);
     collect_mesh_warnings(description.shapes, meshes, description.warnings);
     if (scene.triangles.empty() && scene.line_lights.empty())
         description.warnings.add({&description.sources.front(), 1}, "the scene is empty");
-    scene.radius = scene_radius(scene);
+    const std::size_t world_shapes =
+        description.objects.empty() ? description.shapes.size() : description.objects.front().first_shape;
+    scene.radius = scene_radius(scene, instances, offsets[world_shapes].vertices);
     scene.warnings = description.warnings.lines();
     return scene;
 }

@@ -107,14 +107,6 @@ TEST_F(Emitters, ErrorsAndWarnings) {
               "scene.pbrt:1: AreaLightSource: images of emission are ignored, L is used");
     EXPECT_EQ(warning(load("AreaLightSource \"laser\"" + rest)),
               "scene.pbrt:1: AreaLightSource \"laser\" is not supported and ignored");
-    EXPECT_EQ(warning(load("AreaLightSource \"diffuse\" \"blackbody L\" 5000" + rest)),
-              "scene.pbrt:1: spectra are not supported: \"blackbody L\" is replaced by its default; give rgb "
-              "instead");
-    const Scene spectrum = load("AreaLightSource \"diffuse\" \"spectrum L\" [400 1 700 3]" + rest);
-    EXPECT_EQ(spectrum.polygon_lights.at(0).radiance.x, 2);
-    EXPECT_EQ(warning(spectrum),
-              "scene.pbrt:1: spectra are not supported: \"spectrum L\" becomes the grey 2; give rgb "
-              "for colour");
 }
 
 } // namespace
