@@ -4,6 +4,7 @@
 #include "scene/spectrum.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace nusselt::scene {
 
@@ -12,6 +13,8 @@ namespace {
 [[noreturn]] void fail(const Parameter& parameter, const std::string& message) {
     throw SceneError(parameter.location, "parameter " + declaration(parameter) + ": " + message);
 }
+
+std::string rounded_text(double value) { return to_text(std::round(value * 1e3) / 1e3); }
 
 /// What a parameter says in linear sRGB, before clamping.
 class ColourReader {
@@ -121,8 +124,8 @@ std::optional<Float3> ParameterList::optional_colour(std::string_view name, Warn
     const bool is_outside = !(colour.x >= 0 && colour.y >= 0 && colour.z >= 0);
     if (is_outside && !is_given_negative) {
         warnings.add(parameter->location, "gamut",
-                     "parameter " + declaration(*parameter) + ": the colour (" + to_text(colour.x) + ", " +
-                         to_text(colour.y) + ", " + to_text(colour.z) +
+                     "parameter " + declaration(*parameter) + ": the colour (" + rounded_text(colour.x) +
+                         ", " + rounded_text(colour.y) + ", " + rounded_text(colour.z) +
                          ") lies outside of the gamut of sRGB, negative components become 0");
         colour = {std::max(colour.x, 0.0), std::max(colour.y, 0.0), std::max(colour.z, 0.0)};
     }
