@@ -1,28 +1,37 @@
 #include "scene/diagnostics.h"
 
+#include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <system_error>
+#include <utility>
 
 namespace nusselt::scene {
 
-FileBytes::FileBytes(const std::filesystem::path& path) {
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) throw std::runtime_error("no such file");
-    if (!std::filesystem::is_regular_file(status)) throw std::runtime_error("not a regular file");
-    const auto size = std::filesystem::file_size(path, error);
-    std::ifstream stream(path, std::ios::binary);
-    if (error || !stream) throw std::runtime_error("cannot be opened");
-    data_ = std::make_unique_for_overwrite<char[]>(size);
-    stream.read(data_.get(), static_cast<std::streamsize>(size));
-    if (!stream) throw std::runtime_error("cannot be read");
-    size_ = size;
+namespace {
+
+constexpr std::size_t kMaxWarnings = 200;
+
+/// Names in messages come from files and may hold anything.
+std::string message_line(const Location& location, std::string_view message) {
+    std::string line = to_string(location) + ": " + std::string(message);
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+    std::replace_if(line.begin(), line.end(), is_control, '?');
+    return line;
 }
+
+} // namespace
 
 std::string to_text(double value) {
     char buffer[32];
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+std::string shortened(std::string_view text) {
+    constexpr std::size_t kMaxBytes = 60;
+    if (text.size() <= kMaxBytes) return std::string(text);
+    std::size_t size = kMaxBytes;
+    const auto continues_character = [&] { return (static_cast<unsigned char>(text[size]) & 0xc0) == 0x80; };
+    while (size > 0 && continues_character()) --size;
+    return std::string(text.substr(0, size)) + "...";
 }
 
 std::string to_string(const Location& location) {
@@ -30,10 +39,10 @@ std::string to_string(const Location& location) {
 }
 
 SceneError::SceneError(const Location& location, std::string_view message)
-    : std::runtime_error(to_string(location) + ": " + std::string(message)) {}
+    : std::runtime_error(message_line(location, message)) {}
 
 void Warnings::add(const Location& location, std::string kind, std::string_view message) {
-    add_entry({std::move(kind), to_string(location) + ": " + std::string(message)});
+    add_entry({std::move(kind), message_line(location, message)});
 }
 
 void Warnings::add(const Location& location, std::string_view message) {
@@ -45,7 +54,9 @@ void Warnings::append(const Warnings& other) {
 }
 
 void Warnings::add_entry(Entry entry) {
-    if (kinds_.insert(entry.kind).second) entries_.push_back(std::move(entry));
+    if (entries_.size() > kMaxWarnings || !kinds_.insert(entry.kind).second) return;
+    entries_.push_back(std::move(entry));
+    if (entries_.size() == kMaxWarnings) entries_.push_back({"", "further kinds of warnings are not shown"});
 }
 
 std::vector<std::string> Warnings::lines() const {

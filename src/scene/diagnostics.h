@@ -1,8 +1,9 @@
 #pragma once
 /// Positions in scene files, errors and warnings that name them.
 
+#include "scene/file_bytes.h"
+
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -10,19 +11,6 @@
 #include <vector>
 
 namespace nusselt::scene {
-
-/// The bytes of a file. The memory is not zeroed before it is read.
-class FileBytes {
-public:
-    FileBytes() = default;
-    /// Throws std::runtime_error with the reason if `path` is no readable regular file.
-    explicit FileBytes(const std::filesystem::path& path);
-    std::string_view view() const { return {data_.get(), size_}; }
-
-private:
-    std::unique_ptr<char[]> data_;
-    std::size_t size_ = 0;
-};
 
 /// A scene text. Tokens, parameters and locations point into it.
 struct SourceFile {
@@ -37,16 +25,18 @@ struct Location {
 
 /// The shortest decimal text of a number.
 std::string to_text(double value);
+/// Text from a file as messages show it: at most 60 bytes, an ellipsis in place of the rest.
+std::string shortened(std::string_view text);
 /// "file:line"
 std::string to_string(const Location& location);
 
-/// An error in the user's scene: what() is "file:line: message".
+/// An error in the user's scene: what() is "file:line: message", one line without control characters.
 class SceneError : public std::runtime_error {
 public:
     SceneError(const Location& location, std::string_view message);
 };
 
-/// Collects warnings, the first of each kind only.
+/// Collects warnings, the first of each kind only, and at most 200 kinds.
 class Warnings {
 public:
     /// \param kind  warnings of equal kind count as repetitions

@@ -27,7 +27,7 @@ Float3 mean_colour(const Texture& texture) {
 /// The parameter "L", or the mean of the image that takes its place.
 Float3 read_colour(ParameterList& parameters, const std::filesystem::path& image_path, bool has_power,
                    Warnings& warnings) {
-    const Float3 constant = parameters.colour("L", {1, 1, 1}, warnings);
+    const Float3 constant = parameters.colour("L", {1, 1, 1}, warnings, SpectrumUse::illuminant);
     if (parameters.string("filename", "").empty()) return constant;
     const Location location = parameters.location_of("filename");
     ImageRequest request;

@@ -4,6 +4,8 @@ namespace nusselt::scene {
 
 namespace {
 
+constexpr std::size_t kMaxDepth = 1024;
+
 std::string name_of(StateBlock block) {
     switch (block) {
     case StateBlock::attribute:
@@ -21,6 +23,10 @@ std::string name_of(StateBlock block) {
 } // namespace
 
 void StateStack::push(StateBlock block, const Location& location) {
+    if (saved_.size() >= kMaxDepth)
+        throw SceneError(location, "more than " + std::to_string(kMaxDepth) +
+                                       " blocks in each other; are there " + name_of(block) +
+                                       "End directives missing?");
     saved_.push_back({block, location, current_});
 }
 
@@ -28,11 +34,14 @@ void StateStack::pop(StateBlock block, const Location& location) {
     if (saved_.empty())
         throw SceneError(location, name_of(block) + "End without " + name_of(block) + "Begin");
     const Saved& top = saved_.back();
+    if (top.block != block && block == StateBlock::import)
+        throw SceneError(top.location, name_of(top.block) + "Begin is never ended in the imported file");
     if (top.block != block)
         throw SceneError(location, name_of(block) + "End inside of the " + name_of(top.block) +
                                        " block begun at " + to_string(top.location));
     if (block == StateBlock::transform) {
         current_.ctm = top.state.ctm;
+        current_.moves_begin = top.state.moves_begin;
     } else {
         current_ = top.state;
     }

@@ -5,7 +5,10 @@
 #include "scene/shapes.h"
 #include "scene/transform.h"
 
+#include <array>
+#include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace nusselt::scene {
@@ -19,19 +22,30 @@ struct MaterialEntry {
     std::optional<int> index;
 };
 
+/// Of whose parameters an Attribute directive sets defaults.
+enum class AttributeTarget : std::size_t { shape, light, material, texture, medium };
+constexpr std::array<std::string_view, 5> kAttributeTargets = {"shape", "light", "material", "texture",
+                                                               "medium"};
+
 struct GraphicsState {
-    Transform ctm; ///< current transform
+    Transform ctm;           ///< current transform, at the begin of the shutter's time
+    bool moves_begin = true; ///< whether transforms apply to the begin of the shutter's time
     bool reverse_orientation = false;
+    const ColourSpace* colour_space = &kSrgb;
     Emission emission;
     MaterialEntry* material = nullptr;
+    /// By target; null where there are none.
+    std::array<std::shared_ptr<const std::vector<Parameter>>, kAttributeTargets.size()> defaults;
 };
 
-/// What opened a block. A block of transforms restores only the transform at its end.
+/// What opened a block. A block of transforms restores only transforms at its end.
 enum class StateBlock { attribute, transform, object, import };
 
 class StateStack {
 public:
     GraphicsState& current() { return current_; }
+    const GraphicsState& current() const { return current_; }
+    /// Throws SceneError if there are too many blocks in each other.
     void push(StateBlock block, const Location& location);
     /// Throws SceneError unless the innermost block is of this kind.
     void pop(StateBlock block, const Location& location);

@@ -123,6 +123,25 @@ std::vector<std::size_t> sizes_of(const std::vector<Mesh>& meshes, std::vector<T
     return sizes;
 }
 
+/// Where the contents of a mesh begin in the arrays of the scene.
+struct Offsets {
+    std::size_t vertices = 0;
+    std::size_t triangles = 0;
+};
+
+/// Where each mesh begins, and where the last one ends.
+std::vector<Offsets> offsets_of(const std::vector<Mesh>& meshes) {
+    std::vector<Offsets> offsets;
+    Offsets total;
+    for (const Mesh& mesh : meshes) {
+        offsets.push_back(total);
+        total.vertices += mesh.positions.size();
+        total.triangles += mesh.triangles.size();
+    }
+    offsets.push_back(total);
+    return offsets;
+}
+
 void join_meshes(const std::vector<ShapeDirective>& shapes, std::vector<Mesh>& meshes, Scene& scene) {
     renumber(meshes);
     const std::vector<std::size_t> vertices = sizes_of(meshes, &Mesh::positions);
@@ -141,6 +160,50 @@ void join_meshes(const std::vector<ShapeDirective>& shapes, std::vector<Mesh>& m
     scene.line_lights = take_arrays(meshes, &Mesh::line_lights, sizes_of(meshes, &Mesh::line_lights), {});
 }
 
+/// Adds the image of a box under an affine transform.
+void add_box(const Bounds& box, const Transform& world_from_object, Bounds& bounds) {
+    for (const double x : {box.low.x, box.high.x})
+        for (const double y : {box.low.y, box.high.y})
+            for (const double z : {box.low.z, box.high.z})
+                bounds.add(transform_point(world_from_object, {x, y, z}));
+}
+
+/// The objects that have triangles, and their instances.
+/// \param offsets  of meshes, see offsets_of()
+/// \return a bounding box of all instances
+Bounds add_instances(const SceneDescription& description, const std::vector<Offsets>& offsets, Scene& scene) {
+    constexpr std::size_t kEmpty = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> new_index(description.objects.size(), kEmpty);
+    std::vector<Bounds> boxes;
+    for (std::size_t i = 0; i < description.objects.size(); ++i) {
+        const ObjectShapes& object = description.objects[i];
+        const Offsets& begin = offsets[object.first_shape];
+        const Offsets& end = offsets[object.first_shape + object.shape_count];
+        if (begin.triangles == end.triangles) continue;
+        new_index[i] = scene.objects.size();
+        scene.objects.push_back({object.name, static_cast<std::uint32_t>(begin.triangles),
+                                 static_cast<std::uint32_t>(end.triangles - begin.triangles)});
+        Bounds& box = boxes.emplace_back();
+        for (std::size_t v = begin.vertices; v < end.vertices; ++v) box.add(to_double(scene.positions[v]));
+    }
+    Bounds all;
+    for (const InstanceDirective& instance : description.instances) {
+        const std::size_t object = new_index[instance.object];
+        if (object == kEmpty) continue;
+        const auto rows = instance_rows(instance.world_from_object);
+        Bounds box;
+        add_box(boxes[object], instance.world_from_object, box);
+        if (!rows || !is_valid_coordinate(to_float(box.low)) || !is_valid_coordinate(to_float(box.high)))
+            throw SceneError(instance.location, "ObjectInstance: object \"" +
+                                                    shortened(scene.objects[object].name) +
+                                                    "\" lies beyond 1e15 m");
+        scene.instances.push_back({static_cast<std::uint32_t>(object), *rows});
+        all.add(box.low);
+        all.add(box.high);
+    }
+    return all;
+}
+
 void collect_mesh_warnings(const std::vector<ShapeDirective>& shapes, const std::vector<Mesh>& meshes,
                            Warnings& warnings) {
     std::size_t degenerate = 0;
@@ -155,9 +218,10 @@ void collect_mesh_warnings(const std::vector<ShapeDirective>& shapes, const std:
                      std::to_string(degenerate) + " degenerate triangles are left out, the first ones here");
 }
 
-double scene_radius(const Scene& scene) {
-    Bounds bounds;
-    for (const Float3& p : scene.positions) bounds.add(to_double(p));
+/// \param bounds  of instances
+/// \param world_vertices  number of vertices that belong to no object
+double scene_radius(const Scene& scene, Bounds bounds, std::size_t world_vertices) {
+    for (std::size_t i = 0; i < world_vertices; ++i) bounds.add(to_double(scene.positions[i]));
     for (const PolygonLight& light : scene.polygon_lights)
         for (const Float3& p : light.vertices) bounds.add(to_double(p));
     for (const LineLight& line : scene.line_lights) {
@@ -187,11 +251,15 @@ Scene load_scene(const std::filesystem::path& path) {
     set_mappings(textures, scene.materials);
     for (BakedTexture& texture : textures) scene.textures.push_back(std::move(texture.texture));
     name_emitters(description.shapes, meshes, EmitterNames(path), scene.emitters);
+    const std::vector<Offsets> offsets = offsets_of(meshes);
     join_meshes(description.shapes, meshes, scene);
+    const Bounds instances = add_instances(description, offsets, scene);
     collect_mesh_warnings(description.shapes, meshes, description.warnings);
     if (scene.triangles.empty() && scene.polygon_lights.empty() && scene.line_lights.empty())
         description.warnings.add({&description.sources.front(), 1}, "the scene is empty");
-    scene.radius = scene_radius(scene);
+    const std::size_t world_shapes =
+        description.objects.empty() ? description.shapes.size() : description.objects.front().first_shape;
+    scene.radius = scene_radius(scene, instances, offsets[world_shapes].vertices);
     scene.warnings = description.warnings.lines();
     return scene;
 }

@@ -14,15 +14,15 @@ namespace {
 
 ParameterKind kind_of(std::string_view type) {
     static constexpr std::pair<std::string_view, ParameterKind> kKinds[] = {
-        {"integer", ParameterKind::integer}, {"float", ParameterKind::real},
-        {"point2", ParameterKind::point2},   {"vector2", ParameterKind::point2},
-        {"point", ParameterKind::point3},    {"point3", ParameterKind::point3},
-        {"vector", ParameterKind::point3},   {"vector3", ParameterKind::point3},
-        {"normal", ParameterKind::point3},   {"normal3", ParameterKind::point3},
-        {"rgb", ParameterKind::colour},      {"color", ParameterKind::colour},
-        {"spectrum", ParameterKind::colour}, {"blackbody", ParameterKind::colour},
-        {"bool", ParameterKind::boolean},    {"string", ParameterKind::string},
-        {"texture", ParameterKind::texture}};
+        {"integer", ParameterKind::integer},  {"float", ParameterKind::real},
+        {"point2", ParameterKind::point2},    {"vector2", ParameterKind::point2},
+        {"point", ParameterKind::point3},     {"point3", ParameterKind::point3},
+        {"vector", ParameterKind::point3},    {"vector3", ParameterKind::point3},
+        {"normal", ParameterKind::point3},    {"normal3", ParameterKind::point3},
+        {"rgb", ParameterKind::colour},       {"color", ParameterKind::colour},
+        {"xyz", ParameterKind::colour},       {"spectrum", ParameterKind::colour},
+        {"blackbody", ParameterKind::colour}, {"bool", ParameterKind::boolean},
+        {"string", ParameterKind::string},    {"texture", ParameterKind::texture}};
     for (const auto& [name, kind] : kKinds)
         if (name == type) return kind;
     return ParameterKind::unsupported;
@@ -41,10 +41,6 @@ bool takes_numbers(const Parameter& parameter) {
     default:
         return true;
     }
-}
-
-std::string declaration(const Parameter& parameter) {
-    return '"' + std::string(parameter.type) + ' ' + std::string(parameter.name) + '"';
 }
 
 Float3 float3_at(const std::vector<double>& numbers, std::size_t i) {
@@ -117,20 +113,25 @@ void read_values(Tokenizer& tokens, Parameter& parameter) {
 
 } // namespace
 
+std::string declaration(const Parameter& parameter) {
+    return '"' + shortened(parameter.type) + ' ' + shortened(parameter.name) + '"';
+}
+
 double parse_number(std::string_view text, const Location& location) {
     const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
     double value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (end != digits.data() + digits.size() || error == std::errc::invalid_argument)
-        throw SceneError(location, "expected a number, found '" + std::string(text) + "'");
+        throw SceneError(location, "expected a number, found '" + shortened(text) + "'");
     // from_chars reports underflow like overflow and leaves the value unset; strtod tells them apart.
     if (error == std::errc::result_out_of_range) value = std::strtod(std::string(digits).c_str(), nullptr);
     if (!(std::fabs(value) <= std::numeric_limits<float>::max()))
-        throw SceneError(location, "number out of range: '" + std::string(text) + "'");
+        throw SceneError(location, "number out of range: '" + shortened(text) + "'");
     return value;
 }
 
-ParameterList::ParameterList(Tokenizer& tokens, const Location& directive) : location_(directive) {
+ParameterList::ParameterList(Tokenizer& tokens, const Location& directive, ParameterContext context)
+    : location_(directive), context_(std::move(context)) {
     while (tokens.peek().kind == TokenKind::string) {
         const Token token = tokens.next();
         Parameter& parameter = parameters_.emplace_back();
@@ -153,14 +154,18 @@ Location ParameterList::location_of(std::string_view name) const {
     return location_;
 }
 
-Parameter* ParameterList::find(std::string_view name, ParameterKind kind) {
-    for (Parameter& parameter : parameters_) {
-        if (parameter.name == name && parameter.kind == kind) {
-            parameter.used = true;
-            return &parameter;
-        }
+const Parameter* ParameterList::find(std::string_view name, ParameterKind kind) {
+    const auto is_wanted = [&](const Parameter& parameter) {
+        return parameter.name == name && parameter.kind == kind;
+    };
+    const auto found = std::find_if(parameters_.begin(), parameters_.end(), is_wanted);
+    if (found != parameters_.end()) {
+        found->used = true;
+        return &*found;
     }
-    return nullptr;
+    if (context_.defaults == nullptr) return nullptr;
+    const auto fallback = std::find_if(context_.defaults->rbegin(), context_.defaults->rend(), is_wanted);
+    return fallback != context_.defaults->rend() ? &*fallback : nullptr;
 }
 
 const Parameter* ParameterList::find_single(std::string_view name, ParameterKind kind) {
@@ -210,38 +215,8 @@ std::optional<std::string> ParameterList::texture(std::string_view name) {
     return parameter != nullptr ? std::optional(parameter->strings[0]) : std::nullopt;
 }
 
-std::optional<Float3> ParameterList::optional_colour(std::string_view name, Warnings& warnings) {
-    const Parameter* parameter = find(name, ParameterKind::colour);
-    if (parameter == nullptr) return std::nullopt;
-    const std::vector<double>& numbers = parameter->numbers;
-    if (parameter->type == "rgb" || parameter->type == "color") {
-        if (numbers.size() != 3 || !parameter->strings.empty())
-            throw SceneError(parameter->location, "parameter " + declaration(*parameter) +
-                                                      ": expected 3 numbers, found " +
-                                                      std::to_string(numbers.size()));
-        return float3_at(numbers, 0);
-    }
-    if (parameter->type == "spectrum" && !numbers.empty() && numbers.size() % 2 == 0) {
-        double sum = 0;
-        for (std::size_t i = 1; i < numbers.size(); i += 2) sum += numbers[i];
-        const float mean = static_cast<float>(sum / static_cast<double>(numbers.size() / 2));
-        warnings.add(parameter->location, "spectrum values",
-                     "spectra are not supported: " + declaration(*parameter) + " becomes the grey " +
-                         to_text(mean) + "; give rgb for colour");
-        return Float3{mean, mean, mean};
-    }
-    warnings.add(parameter->location, "spectrum " + declaration(*parameter),
-                 "spectra are not supported: " + declaration(*parameter) +
-                     " is replaced by its default; give rgb instead");
-    return std::nullopt;
-}
-
-Float3 ParameterList::colour(std::string_view name, const Float3& fallback, Warnings& warnings) {
-    return optional_colour(name, warnings).value_or(fallback);
-}
-
 std::optional<std::string> ParameterList::spectrum_name(std::string_view name) {
-    Parameter* parameter = find(name, ParameterKind::colour);
+    const Parameter* parameter = find(name, ParameterKind::colour);
     if (parameter == nullptr || parameter->strings.size() != 1) return std::nullopt;
     return parameter->strings[0];
 }
@@ -287,6 +262,11 @@ std::vector<double> ParameterList::reals(std::string_view name) {
     return parameter != nullptr ? parameter->numbers : std::vector<double>{};
 }
 
+std::vector<double> ParameterList::integers(std::string_view name) {
+    const Parameter* parameter = find(name, ParameterKind::integer);
+    return parameter != nullptr ? parameter->numbers : std::vector<double>{};
+}
+
 std::vector<std::uint32_t> ParameterList::indices(std::string_view name, std::size_t limit) {
     const Parameter* parameter = find(name, ParameterKind::integer);
     std::vector<std::uint32_t> result;
@@ -305,9 +285,22 @@ std::vector<std::uint32_t> ParameterList::indices(std::string_view name, std::si
     return result;
 }
 
+std::size_t ParameterList::value_count() const {
+    return std::accumulate(parameters_.begin(), parameters_.end(), std::size_t{0},
+                           [](std::size_t sum, const Parameter& parameter) {
+                               return sum + parameter.numbers.size() + parameter.strings.size();
+                           });
+}
+
 void ParameterList::ignore(std::initializer_list<std::string_view> names) {
     for (Parameter& parameter : parameters_)
         if (std::find(names.begin(), names.end(), parameter.name) != names.end()) parameter.used = true;
+}
+
+std::vector<Parameter> ParameterList::appended_to(const std::vector<Parameter>& outer) const {
+    std::vector<Parameter> result = outer;
+    result.insert(result.end(), parameters_.begin(), parameters_.end());
+    return result;
 }
 
 void ParameterList::warn_unused(std::string_view owner, Warnings& warnings) const {

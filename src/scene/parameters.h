@@ -1,12 +1,14 @@
 #pragma once
 /// Typed parameter lists: "type name" value pairs behind a directive.
 
+#include "scene/colour_space.h"
 #include "scene/diagnostics.h"
 #include "scene/scene.h"
 #include "scene/tokenizer.h"
 
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +31,21 @@ struct Parameter {
     bool used = false;
 };
 
+/// How messages show a parameter: its quoted type and name.
+std::string declaration(const Parameter& parameter);
+
+/// The version of pbrt that a scene was written for.
+enum class PbrtVersion { v3, v4 };
+
+/// What the meaning of parameters depends on besides their text.
+struct ParameterContext {
+    PbrtVersion version = PbrtVersion::v4;
+    const ColourSpace* colour_space = &kSrgb;
+    const SourceFile* main_file = nullptr; ///< files are looked for beside it too; may be null
+    /// Parameters that apply where a directive does not name them, the most important one last; may be null.
+    std::shared_ptr<const std::vector<Parameter>> defaults;
+};
+
 /// The parameters of one directive. Look-ups go by name and kind and mark what they find as used, so that
 /// warn_unused() can name the rest; a parameter of the right name but another kind counts as unknown.
 /// All look-ups throw SceneError if the number of values is wrong.
@@ -36,7 +53,7 @@ class ParameterList {
 public:
     ParameterList() = default;
     /// Reads all parameters that follow. Throws SceneError on malformed ones.
-    ParameterList(Tokenizer& tokens, const Location& directive);
+    ParameterList(Tokenizer& tokens, const Location& directive, ParameterContext context = {});
 
     /// Position of the directive.
     const Location& location() const { return location_; }
@@ -51,10 +68,15 @@ public:
     /// All values of a parameter of type string; none if it is missing.
     std::vector<std::string> strings(std::string_view name);
     std::optional<std::string> texture(std::string_view name);
-    /// Of type rgb or color. A spectrum is reduced to a grey of its mean value with a warning, or to nothing
-    /// (also with a warning) if it is given by name. `real_name` of a black body likewise.
-    std::optional<Float3> optional_colour(std::string_view name, Warnings& warnings);
-    Float3 colour(std::string_view name, const Float3& fallback, Warnings& warnings);
+    /// In linear sRGB, from any type of colour or spectrum; docs/materials.md has the rules. Negative where the text
+    /// gives negative numbers; what lies outside of the gamut is clamped with a warning. Throws SceneError if a file of
+    /// samples cannot be read or the values do not fit the type.
+    std::optional<Float3> optional_colour(std::string_view name, Warnings& warnings,
+                                          SpectrumUse use = SpectrumUse::albedo);
+    Float3 colour(std::string_view name, const Float3& fallback, Warnings& warnings,
+                  SpectrumUse use = SpectrumUse::albedo) {
+        return optional_colour(name, warnings, use).value_or(fallback);
+    }
     /// Name of a spectrum like "metal-Cu-eta", if the parameter is given in this way.
     std::optional<std::string> spectrum_name(std::string_view name);
 
@@ -63,20 +85,26 @@ public:
     /// Pairs, of type point2 or float.
     std::vector<Float2> pairs(std::string_view name);
     std::vector<double> reals(std::string_view name);
+    std::vector<double> integers(std::string_view name);
     /// Non-negative integers below `limit`; anything else is an error that names value and position.
     std::vector<std::uint32_t> indices(std::string_view name, std::size_t limit);
 
+    /// Numbers and strings of all parameters.
+    std::size_t value_count() const;
     /// Marks parameters as used that have no meaning here.
     void ignore(std::initializer_list<std::string_view> names);
+    /// Parameters of this list behind those of `outer`.
+    std::vector<Parameter> appended_to(const std::vector<Parameter>& outer) const;
     /// One warning per kind of unused parameter, saying that it is ignored by `owner`.
     void warn_unused(std::string_view owner, Warnings& warnings) const;
 
 private:
-    Parameter* find(std::string_view name, ParameterKind kind);
+    const Parameter* find(std::string_view name, ParameterKind kind);
     const Parameter* find_single(std::string_view name, ParameterKind kind);
 
     std::vector<Parameter> parameters_;
     Location location_;
+    ParameterContext context_;
 };
 
 } // namespace nusselt::scene

@@ -2,11 +2,12 @@
 
 #include "scene/alpha.h"
 #include "scene/graphics_state.h"
-#include "scene/tokenizer.h"
+#include "scene/ignored_lights.h"
+#include "scene/source_reader.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
+#include <memory>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -15,11 +16,14 @@ namespace nusselt::scene {
 
 namespace {
 
-constexpr int kMaxIncludeDepth = 32;
+struct FilterDirective {
+    std::string type;
+    ParameterList parameters;
+};
 
 class Parser {
 public:
-    explicit Parser(const std::filesystem::path& main_path) : main_path_(main_path) {
+    explicit Parser(const std::filesystem::path& main_path) : reader_(main_path, scene_.sources) {
         materials_.push_back({{"default", "matte", ParameterList(), {}}, {}});
         state_.current().material = &materials_.back();
     }
@@ -31,7 +35,7 @@ private:
 
     static const std::unordered_map<std::string_view, Handler>& handlers();
 
-    void parse_file(const std::filesystem::path& path, const Location* includer);
+    void parse_file();
     void parse_directive(const Token& directive);
     void skip_unknown_directive(const Token& directive);
 
@@ -45,6 +49,7 @@ private:
     void concat_transform();
     void coordinate_system();
     void coord_sys_transform();
+    void transform_times();
     void reverse_orientation() {
         state_.current().reverse_orientation = !state_.current().reverse_orientation;
     }
@@ -56,6 +61,7 @@ private:
     void object_begin();
     void object_end();
     void object_instance();
+    void attribute();
     void world_begin();
     void world_end() {}
     void include();
@@ -64,8 +70,10 @@ private:
     void film();
     void pixel_filter();
     void ignore_with_parameters();
-    void ignore_option() { ParameterList(*tokens_, location_); }
-    void ignore_string() { read_string(); }
+    void ignore_option() { read_parameters(); }
+    void ignore_medium();
+    void medium_interface();
+    void color_space();
     void light_source();
     void area_light_source();
     void material();
@@ -74,20 +82,22 @@ private:
     void texture();
     void shape();
 
-    // Arguments.
-    std::string read_string();
-    double read_number();
-    Double3 read_vector();
-    Transform read_matrix();
-    ParameterList read_parameters() { return {*tokens_, location_}; }
-    std::filesystem::path resolve(const std::string& name) const;
-    void concatenate(const Transform& t) { state_.current().ctm = state_.current().ctm * t; }
+    std::string read_string() { return reader_.read_string(); }
+    ParameterContext context() const {
+        return {version_, state_.current().colour_space, &reader_.main_file(), nullptr};
+    }
+    ParameterList read_parameters() { return {reader_.tokens(), location_, context()}; }
+    /// With the defaults that Attribute directives set.
+    ParameterList read_parameters(AttributeTarget target);
+    std::filesystem::path resolve(const std::string& name) const { return reader_.resolve(name, location_); }
+    void concatenate(const Transform& t) { set_transform(state_.current().ctm * t); }
+    void set_transform(const Transform& t);
     MaterialEntry& add_material(const std::string& name, const std::string& type, ParameterList parameters);
     int used_material(MaterialEntry& entry);
     int black_material();
 
-    std::filesystem::path main_path_;
     SceneDescription scene_;
+    SourceReader reader_;
     StateStack state_;
     std::deque<MaterialEntry> materials_;
     std::unordered_map<std::string, MaterialEntry*> named_materials_;
@@ -96,12 +106,14 @@ private:
     TextureTable textures_;
     AlphaVariants alpha_variants_;
     LeftOutShapes left_out_shapes_;
+    ObjectTable objects_;
+    IgnoredLights ignored_lights_;
     std::optional<CameraDirective> camera_;
-    int include_depth_ = 0;
-    bool inside_object_ = false;
+    std::optional<FilterDirective> pixel_filter_;
+    std::optional<Location> world_begin_;
+    PbrtVersion version_ = PbrtVersion::v4; ///< until the film tells
 
-    Tokenizer* tokens_ = nullptr; ///< of the file that is being read
-    Location location_;           ///< of the directive that is being read
+    Location location_; ///< of the directive that is being read
 };
 
 const std::unordered_map<std::string_view, Parser::Handler>& Parser::handlers() {
@@ -115,6 +127,7 @@ const std::unordered_map<std::string_view, Parser::Handler>& Parser::handlers() 
         {"ConcatTransform", &Parser::concat_transform},
         {"CoordinateSystem", &Parser::coordinate_system},
         {"CoordSysTransform", &Parser::coord_sys_transform},
+        {"TransformTimes", &Parser::transform_times},
         {"ReverseOrientation", &Parser::reverse_orientation},
         {"ActiveTransform", &Parser::active_transform},
         {"AttributeBegin", &Parser::attribute_begin},
@@ -124,6 +137,7 @@ const std::unordered_map<std::string_view, Parser::Handler>& Parser::handlers() 
         {"ObjectBegin", &Parser::object_begin},
         {"ObjectEnd", &Parser::object_end},
         {"ObjectInstance", &Parser::object_instance},
+        {"Attribute", &Parser::attribute},
         {"WorldBegin", &Parser::world_begin},
         {"WorldEnd", &Parser::world_end},
         {"Include", &Parser::include},
@@ -136,8 +150,10 @@ const std::unordered_map<std::string_view, Parser::Handler>& Parser::handlers() 
         {"SurfaceIntegrator", &Parser::ignore_with_parameters},
         {"Renderer", &Parser::ignore_with_parameters},
         {"Accelerator", &Parser::ignore_with_parameters},
-        {"ColorSpace", &Parser::ignore_string},
+        {"ColorSpace", &Parser::color_space},
         {"Option", &Parser::ignore_option},
+        {"MakeNamedMedium", &Parser::ignore_medium},
+        {"MediumInterface", &Parser::medium_interface},
         {"LightSource", &Parser::light_source},
         {"AreaLightSource", &Parser::area_light_source},
         {"Material", &Parser::material},
@@ -151,39 +167,29 @@ const std::unordered_map<std::string_view, Parser::Handler>& Parser::handlers() 
 
 SceneDescription Parser::run() {
     coordinate_systems_["world"] = {};
-    parse_file(main_path_, nullptr);
+    parse_file();
     state_.warn_if_open(scene_.warnings);
     left_out_shapes_.warn(scene_.warnings);
+    ignored_lights_.warn(scene_.warnings);
     const Location begin{&scene_.sources.front(), 1};
     if (!camera_) scene_.warnings.add(begin, "there is no Camera, it looks from the origin along +z");
     if (!camera_) camera_.emplace().location = begin;
     scene_.camera = *camera_;
     scene_.textures = textures_.plan();
+    if (pixel_filter_)
+        scene_.film.filter =
+            read_pixel_filter(pixel_filter_->type, pixel_filter_->parameters, version_, scene_.warnings);
+    scene_.objects = objects_.append_shapes(scene_.shapes);
+    scene_.instances = objects_.instances();
     return std::move(scene_);
 }
 
-void Parser::parse_file(const std::filesystem::path& path, const Location* includer) {
-    if (includer != nullptr && include_depth_ >= kMaxIncludeDepth)
-        throw SceneError(*includer, "more than " + std::to_string(kMaxIncludeDepth) +
-                                        " nested includes; does '" + path.string() + "' include itself?");
-    SourceFile source{path, {}};
-    try {
-        source.bytes = FileBytes(path);
-    } catch (const std::runtime_error& error) {
-        const std::string message = "scene file '" + path.string() + "': " + error.what();
-        if (includer != nullptr) throw SceneError(*includer, message);
-        throw std::runtime_error(message);
-    }
-    Tokenizer tokens(scene_.sources.emplace_back(std::move(source)));
-    Tokenizer* const outer = std::exchange(tokens_, &tokens);
-    ++include_depth_;
-    while (tokens.peek().kind != TokenKind::end) parse_directive(tokens.next());
-    --include_depth_;
-    tokens_ = outer;
+void Parser::parse_file() {
+    while (reader_.tokens().peek().kind != TokenKind::end) parse_directive(reader_.tokens().next());
 }
 
 void Parser::parse_directive(const Token& directive) {
-    location_ = tokens_->location(directive);
+    location_ = reader_.tokens().location(directive);
     if (directive.kind != TokenKind::word)
         throw SceneError(location_, "expected a directive, found " + Tokenizer::describe(directive));
     const auto handler = handlers().find(directive.text);
@@ -198,130 +204,121 @@ void Parser::skip_unknown_directive(const Token& directive) {
     const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
     if (!is_capital(directive.text.front()))
         throw SceneError(location_, "expected a directive, found " + Tokenizer::describe(directive));
-    scene_.warnings.add(location_, "directive '" + std::string(directive.text) + "' is unknown and skipped");
+    scene_.warnings.add(location_, "directive '" + shortened(directive.text) + "' is unknown and skipped");
     const auto is_argument = [&](const Token& token) {
         return token.kind != TokenKind::end &&
                (token.kind != TokenKind::word || !is_capital(token.text.front()));
     };
-    while (is_argument(tokens_->peek())) tokens_->next();
+    while (is_argument(reader_.tokens().peek())) reader_.tokens().next();
 }
 
-// ---- Arguments
-// ----------------------------------------------------------------------------------------------
-
-std::string Parser::read_string() {
-    const Token token = tokens_->next();
-    if (token.kind != TokenKind::string)
-        throw SceneError(tokens_->location(token),
-                         "expected a quoted string, found " + Tokenizer::describe(token));
-    return unescape(token.text);
-}
-
-double Parser::read_number() {
-    const Token token = tokens_->next();
-    if (token.kind != TokenKind::word)
-        throw SceneError(tokens_->location(token), "expected a number, found " + Tokenizer::describe(token));
-    return parse_number(token.text, tokens_->location(token));
-}
-
-Double3 Parser::read_vector() {
-    const double x = read_number();
-    const double y = read_number();
-    const double z = read_number();
-    return {x, y, z};
-}
-
-Transform Parser::read_matrix() {
-    const auto read_bracket = [&](TokenKind kind, std::string_view text) {
-        const Token token = tokens_->next();
-        if (token.kind != kind)
-            throw SceneError(tokens_->location(token), "expected '" + std::string(text) +
-                                                           "' around 16 numbers, found " +
-                                                           Tokenizer::describe(token));
-    };
-    const bool has_brackets = tokens_->peek().kind == TokenKind::open_bracket;
-    if (has_brackets) read_bracket(TokenKind::open_bracket, "[");
-    std::array<double, 16> entries{};
-    for (double& entry : entries) entry = read_number();
-    if (has_brackets) read_bracket(TokenKind::close_bracket, "]");
-    return from_columns(entries);
-}
-
-std::filesystem::path Parser::resolve(const std::string& name) const {
-    // pbrt looks beside the main file; beside the including file is what people expect.
-    const std::filesystem::path beside_includer = location_.file->path.parent_path() / name;
-    if (std::filesystem::exists(beside_includer)) return beside_includer;
-    const std::filesystem::path beside_main = main_path_.parent_path() / name;
-    return std::filesystem::exists(beside_main) ? beside_main : beside_includer;
+ParameterList Parser::read_parameters(AttributeTarget target) {
+    ParameterContext context = this->context();
+    context.defaults = state_.current().defaults[static_cast<std::size_t>(target)];
+    return {reader_.tokens(), location_, std::move(context)};
 }
 
 // ---- Transforms and state
 // -----------------------------------------------------------------------------------
 
-void Parser::identity() { state_.current().ctm = {}; }
-void Parser::translate() { concatenate(translation(read_vector())); }
-void Parser::scale() { concatenate(scaling(read_vector())); }
+void Parser::set_transform(const Transform& t) {
+    if (state_.current().moves_begin) {
+        state_.current().ctm = t;
+    } else {
+        scene_.warnings.add(location_, "motion",
+                            "moving objects stand still: transforms for EndTime alone are ignored");
+    }
+}
+
+void Parser::identity() { set_transform({}); }
+void Parser::translate() { concatenate(translation(reader_.read_vector())); }
+void Parser::scale() { concatenate(scaling(reader_.read_vector())); }
 
 void Parser::rotate() {
-    const double degrees = read_number();
-    const Double3 axis = read_vector();
+    const double degrees = reader_.read_number();
+    const Double3 axis = reader_.read_vector();
     if (length(axis) == 0) throw SceneError(location_, "Rotate: the axis is zero");
     concatenate(rotation(degrees, axis));
 }
 
 void Parser::look_at_directive() {
-    const Double3 eye = read_vector();
-    const Double3 target = read_vector();
-    const Double3 up = read_vector();
+    const Double3 eye = reader_.read_vector();
+    const Double3 target = reader_.read_vector();
+    const Double3 up = reader_.read_vector();
     const auto t = look_at(eye, target, up);
     if (!t) throw SceneError(location_, "LookAt: the viewing direction is zero or parallel to the up vector");
     concatenate(*t);
 }
 
-void Parser::transform() { state_.current().ctm = read_matrix(); }
-void Parser::concat_transform() { concatenate(read_matrix()); }
+void Parser::transform() { set_transform(reader_.read_matrix()); }
+void Parser::concat_transform() { concatenate(reader_.read_matrix()); }
 void Parser::coordinate_system() { coordinate_systems_[read_string()] = state_.current().ctm; }
 
 void Parser::coord_sys_transform() {
     const std::string name = read_string();
     const auto found = coordinate_systems_.find(name);
     if (found == coordinate_systems_.end())
-        throw SceneError(location_, "coordinate system \"" + name + "\" is not defined");
+        throw SceneError(location_, "coordinate system \"" + shortened(name) + "\" is not defined");
     state_.current().ctm = found->second;
 }
 
+void Parser::transform_times() {
+    reader_.read_number();
+    reader_.read_number();
+}
+
 void Parser::active_transform() {
-    const Token token = tokens_->next();
-    if (token.text != "All")
-        throw SceneError(location_,
-                         "ActiveTransform " + std::string(token.text) +
-                             ": moving objects are not supported, remove the transforms for one time");
+    const Token token = reader_.tokens().next();
+    if (token.text != "All" && token.text != "StartTime" && token.text != "EndTime")
+        throw SceneError(location_, "ActiveTransform: expected All, StartTime or EndTime, found " +
+                                        Tokenizer::describe(token));
+    state_.current().moves_begin = token.text != "EndTime";
 }
 
 void Parser::object_begin() {
     const std::string name = read_string();
-    scene_.warnings.add(location_, "object instances",
-                        "object instances are not supported: shapes of object \"" + name + "\" are left out");
+    objects_.begin(name, location_, scene_.warnings);
     state_.push(StateBlock::object, location_);
-    inside_object_ = true;
 }
 
 void Parser::object_end() {
     state_.pop(StateBlock::object, location_);
-    inside_object_ = false;
+    objects_.end();
 }
 
-void Parser::object_instance() { read_string(); }
+void Parser::object_instance() { objects_.add_instance(read_string(), state_.current().ctm, location_); }
+
+void Parser::attribute() {
+    const std::string name = read_string();
+    const ParameterList parameters = read_parameters();
+    const auto target = std::find(kAttributeTargets.begin(), kAttributeTargets.end(), name);
+    if (target == kAttributeTargets.end())
+        throw SceneError(location_,
+                         "Attribute \"" + shortened(name) +
+                             "\": expected \"shape\", \"light\", \"material\", \"texture\" or \"medium\"");
+    auto& defaults = state_.current().defaults[static_cast<std::size_t>(target - kAttributeTargets.begin())];
+    auto all = parameters.appended_to(defaults != nullptr ? *defaults : std::vector<Parameter>{});
+    constexpr std::size_t kMaxDefaults = 64;
+    if (all.size() > kMaxDefaults)
+        throw SceneError(location_, "Attribute \"" + name + "\": more than " + std::to_string(kMaxDefaults) +
+                                        " parameters; enclose them in AttributeBegin and AttributeEnd");
+    defaults = std::make_shared<const std::vector<Parameter>>(std::move(all));
+}
 
 void Parser::world_begin() {
+    if (world_begin_)
+        throw SceneError(location_, "WorldBegin again, the world begins at " + to_string(*world_begin_) +
+                                        "; split the file, one world each");
+    world_begin_ = location_;
     state_.current().ctm = {};
+    state_.current().moves_begin = true;
     coordinate_systems_["world"] = {};
 }
 
 void Parser::include() {
-    const std::string name = read_string();
-    const Location includer = location_;
-    parse_file(resolve(name), &includer);
+    reader_.open(read_string(), location_);
+    parse_file();
+    reader_.close();
 }
 
 void Parser::import() {
@@ -346,17 +343,13 @@ void Parser::film() {
     const std::string type = read_string();
     ParameterList parameters = read_parameters();
     scene_.film = read_film(type, parameters, scene_.warnings);
+    version_ = type == "image" ? PbrtVersion::v3 : PbrtVersion::v4;
 }
 
+/// Its defaults depend on the version, which the film may tell later.
 void Parser::pixel_filter() {
-    const std::string type = read_string();
-    ParameterList parameters = read_parameters();
-    // What v4 calls radius is called width in v3: half the size of the box in pixels.
-    bool is_one_pixel = true;
-    for (const std::string_view name : {"xradius", "yradius", "xwidth", "ywidth"})
-        is_one_pixel = is_one_pixel && parameters.real(name, 0.5) == 0.5;
-    if (type != "box" || !is_one_pixel)
-        scene_.warnings.add(location_, "PixelFilter \"" + type + "\": a box of one pixel is used");
+    std::string type = read_string();
+    pixel_filter_ = {std::move(type), read_parameters()};
 }
 
 void Parser::ignore_with_parameters() {
@@ -367,15 +360,37 @@ void Parser::ignore_with_parameters() {
 // ---- Lights, materials, shapes
 // ------------------------------------------------------------------------------
 
+void Parser::ignore_medium() {
+    ignore_with_parameters();
+    scene_.warnings.add(location_, "media", "participating media are ignored");
+}
+
+void Parser::medium_interface() {
+    read_string();
+    // v3 allows one name for both sides.
+    if (reader_.tokens().peek().kind == TokenKind::string) read_string();
+    scene_.warnings.add(location_, "media", "participating media are ignored");
+}
+
+void Parser::color_space() {
+    const std::string name = read_string();
+    const ColourSpace* const space = find_colour_space(name);
+    if (space == nullptr)
+        throw SceneError(location_,
+                         "ColorSpace \"" + shortened(name) +
+                             "\" is unknown; use \"srgb\", \"dci-p3\", \"rec2020\" or \"aces2065-1\"");
+    state_.current().colour_space = space;
+}
+
 void Parser::light_source() {
     const std::string type = read_string();
     read_parameters();
-    scene_.warnings.add(location_, "LightSource \"" + type + "\" is not supported and ignored");
+    ignored_lights_.add(type, location_);
 }
 
 void Parser::area_light_source() {
     const std::string type = read_string();
-    ParameterList parameters = read_parameters();
+    ParameterList parameters = read_parameters(AttributeTarget::light);
     const std::filesystem::path image = resolve(parameters.string("filename", ""));
     state_.current().emission = read_emission(type, parameters, image, scene_.warnings);
 }
@@ -390,16 +405,16 @@ MaterialEntry& Parser::add_material(const std::string& name, const std::string& 
 
 void Parser::material() {
     const std::string type = read_string();
-    state_.current().material = &add_material(type, type, read_parameters());
+    state_.current().material = &add_material(type, type, read_parameters(AttributeTarget::material));
 }
 
 void Parser::make_named_material() {
     const std::string name = read_string();
-    ParameterList parameters = read_parameters();
+    ParameterList parameters = read_parameters(AttributeTarget::material);
     const std::string type = parameters.string("type", "matte");
     if (named_materials_.contains(name))
-        scene_.warnings.add(location_,
-                            "material \"" + name + "\" is defined again; the new one applies from here on");
+        scene_.warnings.add(location_, "material \"" + shortened(name) +
+                                           "\" is defined again; the new one applies from here on");
     named_materials_[name] = &add_material(name, type, std::move(parameters));
 }
 
@@ -407,7 +422,7 @@ void Parser::named_material() {
     const std::string name = read_string();
     const auto found = named_materials_.find(name);
     if (found == named_materials_.end())
-        throw SceneError(location_, "material \"" + name + "\" is not defined");
+        throw SceneError(location_, "material \"" + shortened(name) + "\" is not defined");
     state_.current().material = found->second;
 }
 
@@ -416,10 +431,11 @@ void Parser::texture() {
     directive.name = read_string();
     const std::string type = read_string();
     directive.texture_class = read_string();
-    directive.parameters = read_parameters();
+    directive.parameters = read_parameters(AttributeTarget::texture);
     if (type != "float" && type != "spectrum" && type != "color")
-        throw SceneError(location_, "texture \"" + directive.name +
-                                        "\": expected type \"float\" or \"spectrum\", found \"" + type + '"');
+        throw SceneError(location_, "texture \"" + shortened(directive.name) +
+                                        "\": expected type \"float\" or \"spectrum\", found \"" +
+                                        shortened(type) + '"');
     directive.type = type == "float" ? TextureType::number : TextureType::colour;
     directive.image_path = resolve(directive.parameters.string("filename", ""));
     textures_.define(directive, scene_.warnings);
@@ -453,8 +469,7 @@ int Parser::black_material() {
 void Parser::shape() {
     ShapeDirective shape;
     shape.type = read_string();
-    shape.parameters = read_parameters();
-    if (inside_object_) return;
+    shape.parameters = read_parameters(AttributeTarget::shape);
     const GraphicsState& state = state_.current();
     shape.world_from_object = state.ctm;
     shape.reverse_orientation = state.reverse_orientation;
@@ -472,7 +487,10 @@ void Parser::shape() {
         shape.material = alpha_variants_.material(shape.material, shape.parameters, textures_,
                                                   scene_.materials, scene_.warnings);
     }
-    scene_.shapes.push_back(std::move(shape));
+    if (objects_.is_open())
+        objects_.add_shape(std::move(shape));
+    else
+        scene_.shapes.push_back(std::move(shape));
 }
 
 } // namespace

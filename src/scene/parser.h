@@ -2,7 +2,9 @@
 /// Directives of a scene file: graphics state, options, lists of what the file describes.
 
 #include "scene/camera.h"
+#include "scene/film.h"
 #include "scene/materials.h"
+#include "scene/objects.h"
 #include "scene/shapes.h"
 #include "scene/textures.h"
 
@@ -15,8 +17,10 @@ namespace nusselt::scene {
 
 /// A scene file after parsing; meshes and images are still to be read.
 struct SceneDescription {
-    std::deque<SourceFile> sources; ///< all locations point into these
-    std::vector<ShapeDirective> shapes;
+    std::deque<SourceFile> sources;     ///< all locations point into these
+    std::vector<ShapeDirective> shapes; ///< those of the world first, then those of objects
+    std::vector<ObjectShapes> objects;  ///< in the order of their shapes
+    std::vector<InstanceDirective> instances;
     std::vector<Material> materials; ///< used ones; their textures are indices of requests of `textures`
     TexturePlan textures;
     CameraDirective camera;

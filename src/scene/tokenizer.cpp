@@ -54,8 +54,8 @@ Token Tokenizer::scan() {
             if (rest_[i] == '"') return take(TokenKind::string, 1, i, i + 1);
             if (rest_[i] == '\\') ++i;
         }
-        throw SceneError({source_, line_}, "string without closing quote: " +
-                                               std::string(rest_.substr(0, rest_.find('\n')).substr(0, 40)));
+        throw SceneError({source_, line_},
+                         "string without closing quote: " + shortened(rest_.substr(0, rest_.find('\n'))));
     default:
         break;
     }
@@ -67,11 +67,11 @@ Token Tokenizer::scan() {
 std::string Tokenizer::describe(const Token& token) {
     switch (token.kind) {
     case TokenKind::string:
-        return '"' + std::string(token.text) + '"';
+        return '"' + shortened(token.text) + '"';
     case TokenKind::end:
         return "the end of the file";
     default:
-        return "'" + std::string(token.text) + "'";
+        return "'" + shortened(token.text) + "'";
     }
 }
 

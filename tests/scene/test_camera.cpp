@@ -89,8 +89,8 @@ TEST_F(CameraDirectives, FilmDefaultsDependOnTheVersion) {
 }
 
 TEST_F(CameraDirectives, Errors) {
-    EXPECT_EQ(error("\nCamera \"orthographic\""),
-              "scene.pbrt:2: camera \"orthographic\" is not supported; use \"perspective\"");
+    EXPECT_EQ(error("\nCamera \"spherical\""),
+              "scene.pbrt:2: camera \"spherical\" is not supported; use \"perspective\" or \"orthographic\"");
     EXPECT_EQ(error("Camera \"perspective\"\n\"float fov\" 180"),
               "scene.pbrt:2: camera: fov must lie between 0 and 180 degrees, found 180");
     EXPECT_EQ(error("Camera \"perspective\" \"float screenwindow\" [1 2 3]"),
@@ -109,7 +109,7 @@ TEST_F(CameraDirectives, Warnings) {
     EXPECT_EQ(warning(load(std::string(kTriangle))),
               "scene.pbrt:1: there is no Camera, it looks from the origin along +z");
     EXPECT_EQ(warning(load("Camera \"perspective\" \"float lensradius\" 0.1\n" + std::string(kTriangle))),
-              "scene.pbrt:1: camera: lensradius is ignored, the camera is a pinhole");
+              "scene.pbrt:1: camera: lensradius is ignored, everything is in focus");
 }
 
 } // namespace

@@ -152,6 +152,8 @@ std::map<std::string, Numbers> facts(const Scene& scene) {
         result["texture " + texture.name] = {static_cast<double>(texture.width),
                                              static_cast<double>(texture.height)};
     append(result["camera origin"], scene.camera.origin);
+    append(result["camera origin right"], scene.camera.origin_right);
+    append(result["camera origin down"], scene.camera.origin_down);
     append(result["camera corner"], scene.camera.corner);
     append(result["camera right"], scene.camera.right);
     append(result["camera down"], scene.camera.down);
@@ -160,7 +162,10 @@ std::map<std::string, Numbers> facts(const Scene& scene) {
         result["crop"] = {static_cast<double>(crop->x_begin), static_cast<double>(crop->y_begin),
                           static_cast<double>(crop->x_end), static_cast<double>(crop->y_end)};
     const PixelFilter& filter = scene.film.filter;
-    result["filter " + name_of(filter.kind)] = {filter.radius_x, filter.radius_y};
+    Numbers& shape = result["filter " + name_of(filter.kind)];
+    shape = {filter.radius_x, filter.radius_y};
+    if (filter.kind == FilterKind::gaussian) shape.push_back(filter.sigma);
+    if (filter.kind == FilterKind::mitchell) shape.insert(shape.end(), {filter.b, filter.c});
     return result;
 }
 

@@ -107,14 +107,6 @@ TEST_F(Emitters, ErrorsAndWarnings) {
     // The area of the triangle overflows nothing, but the radiance does.
     EXPECT_EQ(error("AreaLightSource \"diffuse\" \"float power\" 1e38 Scale 1e-2 1e-2 1" + rest),
               "scene.pbrt:3: AreaLightSource: radiance must be finite and not negative, found inf");
-    EXPECT_EQ(warning(load("AreaLightSource \"diffuse\" \"blackbody L\" 5000" + rest)),
-              "scene.pbrt:1: spectra are not supported: \"blackbody L\" is replaced by its default; give rgb "
-              "instead");
-    const Scene spectrum = load("AreaLightSource \"diffuse\" \"spectrum L\" [400 1 700 3]" + rest);
-    EXPECT_EQ(spectrum.polygon_lights.at(0).radiance.x, 2);
-    EXPECT_EQ(warning(spectrum),
-              "scene.pbrt:1: spectra are not supported: \"spectrum L\" becomes the grey 2; give rgb "
-              "for colour");
 }
 
 } // namespace

@@ -96,9 +96,9 @@ TEST_F(Syntax, UnknownThingsAreWarnedOfOnceWithTheirLine) {
     ASSERT_EQ(scene.warnings.size(), 5u);
     EXPECT_EQ(without_folder(scene.warnings[0]), "scene.pbrt:2: directive 'Mystery' is unknown and skipped");
     EXPECT_EQ(without_folder(scene.warnings[1]),
-              "scene.pbrt:6: LightSource \"infinite\" is not supported and ignored");
-    EXPECT_EQ(without_folder(scene.warnings[2]),
               "scene.pbrt:7: shapes that are not supported are left out, the first one here: 2 \"cone\"");
+    EXPECT_EQ(without_folder(scene.warnings[2]),
+              "scene.pbrt:6: 1 light source is ignored (1 infinite): only area lights are rendered");
     EXPECT_EQ(without_folder(scene.warnings[3]),
               "scene.pbrt:10: shape \"trianglemesh\": parameter \"float fuzz\" is unknown and ignored");
     EXPECT_EQ(without_folder(scene.warnings[4]),
@@ -167,32 +167,45 @@ TEST_F(Syntax, EmptySceneIsLegal) {
     EXPECT_EQ(scene.radius, 0);
 }
 
-TEST_F(Syntax, ObjectsAreLeftOut) {
-    const Scene scene =
-        load("Camera \"perspective\"\nObjectBegin \"chair\" Translate 1 1 1\n" + std::string(kTriangle) +
-             "ObjectEnd ObjectInstance \"chair\"\n" + std::string(kTriangle));
-    EXPECT_EQ(scene.triangles.size(), 1u);
-    EXPECT_EQ(scene.positions[0].x, 0);
-    EXPECT_EQ(warning(scene),
-              "scene.pbrt:2: object instances are not supported: shapes of object \"chair\" are left out");
+TEST_F(Syntax, MessagesAreOneShortLine) {
+    const std::string name(100000, 'x');
+    EXPECT_EQ(error("NamedMaterial \"" + name + '"'),
+              "scene.pbrt:1: material \"" + name.substr(0, 60) + "...\" is not defined");
+    EXPECT_EQ(error("Translate " + name),
+              "scene.pbrt:1: expected a number, found '" + name.substr(0, 60) + "...'");
+    EXPECT_EQ(error("CoordSysTransform \"a\\nb\""), "scene.pbrt:1: coordinate system \"a?b\" is not defined");
+    EXPECT_EQ(error(std::string("\x01\0\x7f", 3)),
+              "scene.pbrt:1: expected a directive, found '" + std::string(3, '?') + "'");
+    // 59 bytes and one character of two bytes do not fit into 60.
+    const std::string cut = name.substr(0, 59);
+    EXPECT_EQ(error(cut + "\xc3\xa4\xc3\xa4"), "scene.pbrt:1: expected a directive, found '" + cut + "...'");
 }
 
-TEST_F(Syntax, MotionIsRefused) {
-    EXPECT_EQ(load("ActiveTransform All\n" + std::string(kTriangle)).triangles.size(), 1u);
-    EXPECT_EQ(error("\nActiveTransform EndTime"),
-              "scene.pbrt:2: ActiveTransform EndTime: moving objects are not "
-              "supported, remove the transforms for one time");
+TEST_F(Syntax, WarningsAreLimited) {
+    std::string text = "Camera \"perspective\"\n" + std::string(kTriangle);
+    for (int i = 0; i < 1000; ++i) text += "Mystery" + std::to_string(i) + "\n";
+    const Scene scene = load(text);
+    ASSERT_EQ(scene.warnings.size(), 201u);
+    EXPECT_EQ(without_folder(scene.warnings[199]),
+              "scene.pbrt:202: directive 'Mystery199' is unknown and skipped");
+    EXPECT_EQ(scene.warnings[200], "further kinds of warnings are not shown");
 }
 
-TEST_F(Syntax, OnlyABoxOfOnePixelFiltersSilently) {
-    const std::string rest = "\nCamera \"perspective\"\n" + std::string(kTriangle);
-    EXPECT_TRUE(load("PixelFilter \"box\"" + rest).warnings.empty());
-    EXPECT_TRUE(
-        load("PixelFilter \"box\" \"float xradius\" 0.5 \"float ywidth\" 0.5" + rest).warnings.empty());
-    EXPECT_EQ(warning(load("PixelFilter \"box\" \"float xwidth\" 1" + rest)),
-              "scene.pbrt:1: PixelFilter \"box\": a box of one pixel is used");
-    EXPECT_EQ(warning(load("PixelFilter \"gaussian\"" + rest)),
-              "scene.pbrt:1: PixelFilter \"gaussian\": a box of one pixel is used");
+TEST_F(Syntax, BlocksInEachOtherAreLimited) {
+    std::string text;
+    for (int i = 0; i < 1000000; ++i) text += "AttributeBegin\n";
+    EXPECT_EQ(error(text),
+              "scene.pbrt:1025: more than 1024 blocks in each other; are there AttributeEnd directives "
+              "missing?");
+}
+
+TEST_F(Syntax, RepeatedTextIsLimited) {
+    write("large.inc", std::string(1 << 20, ' '));
+    std::string text;
+    for (int i = 0; i < 1100; ++i) text += "Include \"large.inc\"\n";
+    EXPECT_EQ(error(text),
+              "scene.pbrt:1026: the same files are included again more than 100000 times or for more than "
+              "1073741824 bytes of text; use ObjectInstance for copies");
 }
 
 } // namespace

@@ -1,0 +1,117 @@
+#include "scene/file_bytes.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+#include <zlib.h>
+
+namespace nusselt::scene {
+
+namespace {
+
+/// zlib's stream of one gzip file.
+class InflateStream {
+public:
+    InflateStream() {
+        constexpr int kLargestWindow = 15;
+        constexpr int kGzipOnly = 16;
+        if (inflateInit2(&stream_, kLargestWindow + kGzipOnly) != Z_OK) throw std::bad_alloc();
+    }
+    ~InflateStream() { inflateEnd(&stream_); }
+    InflateStream(const InflateStream&) = delete;
+    InflateStream& operator=(const InflateStream&) = delete;
+
+    /// Moves bytes from the front of `input` to the front of `output`, which both shrink.
+    /// \return whether a part of the file is complete
+    bool step(std::string_view& input, char*& output, std::size_t output_size) {
+        constexpr std::size_t kMaxStep = std::numeric_limits<uInt>::max();
+        // zlib does not write to its input.
+        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(input.data()));
+        stream_.avail_in = static_cast<uInt>(std::min(input.size(), kMaxStep));
+        stream_.next_out = reinterpret_cast<Bytef*>(output);
+        stream_.avail_out = static_cast<uInt>(std::min(output_size, kMaxStep));
+        const uInt available = stream_.avail_in;
+        const int result = inflate(&stream_, Z_NO_FLUSH);
+        if (result == Z_MEM_ERROR) throw std::bad_alloc();
+        if (result == Z_BUF_ERROR && input.empty()) throw std::runtime_error("its gzip data ends early");
+        if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR)
+            throw std::runtime_error("its gzip data is broken" + (stream_.msg != nullptr
+                                                                      ? ": " + std::string(stream_.msg)
+                                                                      : std::string()));
+        input.remove_prefix(available - stream_.avail_in);
+        output = reinterpret_cast<char*>(stream_.next_out);
+        return result == Z_STREAM_END;
+    }
+    void restart() { inflateReset(&stream_); }
+
+private:
+    z_stream stream_ = {};
+};
+
+} // namespace
+
+FileBytes::FileBytes(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) throw std::runtime_error("no such file");
+    if (!std::filesystem::is_regular_file(status)) throw std::runtime_error("not a regular file");
+    const auto size = std::filesystem::file_size(path, error);
+    std::ifstream stream(path, std::ios::binary);
+    if (error || !stream) throw std::runtime_error("cannot be opened");
+    if (size > kMaxFileBytes)
+        throw std::runtime_error("larger than " + std::to_string(kMaxFileBytes) + " bytes");
+    resize(size);
+    stream.read(data_.get(), static_cast<std::streamsize>(size));
+    if (!stream) throw std::runtime_error("cannot be read");
+    if (is_gzip(view())) *this = inflated(view(), kMaxFileBytes);
+}
+
+void FileBytes::resize(std::size_t size) {
+    void* const memory = std::realloc(data_.get(), std::max<std::size_t>(size, 1));
+    if (memory == nullptr) throw std::bad_alloc();
+    static_cast<void>(data_.release());
+    data_.reset(static_cast<char*>(memory));
+    size_ = size;
+}
+
+std::filesystem::path find_file(const std::string& name, const std::filesystem::path& first_folder,
+                                const std::filesystem::path& second_folder) {
+    std::error_code ignored;
+    const std::filesystem::path first = first_folder / name;
+    if (std::filesystem::exists(first, ignored)) return first;
+    const std::filesystem::path second = second_folder / name;
+    return std::filesystem::exists(second, ignored) ? second : first;
+}
+
+bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
+
+FileBytes inflated(std::string_view gzip, std::uint64_t max_size) {
+    InflateStream stream;
+    FileBytes result;
+    std::size_t used = 0;
+    std::string_view rest = gzip;
+    for (bool is_complete = false; !is_complete;) {
+        if (used == result.size_) {
+            // One byte beyond the limit tells a file that is too large.
+            if (used > max_size)
+                throw std::runtime_error("decompresses to more than " + std::to_string(max_size) + " bytes");
+            result.resize(
+                std::min<std::uint64_t>(std::max<std::size_t>(4 * gzip.size(), 2 * used), max_size + 1));
+        }
+        char* output = result.data_.get() + used;
+        const bool part_ends = stream.step(rest, output, result.size_ - used);
+        used = static_cast<std::size_t>(output - result.data_.get());
+        if (!part_ends) continue;
+        is_complete = rest.find_first_not_of('\0') == std::string_view::npos;
+        stream.restart();
+    }
+    if (used > max_size)
+        throw std::runtime_error("decompresses to more than " + std::to_string(max_size) + " bytes");
+    result.resize(used);
+    return result;
+}
+
+} // namespace nusselt::scene

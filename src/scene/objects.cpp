@@ -1,0 +1,109 @@
+#include "scene/objects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+namespace nusselt::scene {
+
+namespace {
+
+// Lights are not instanced, so a short text may ask for very many of them.
+constexpr std::size_t kMaxCopies = std::size_t{1} << 17;
+constexpr std::size_t kMaxCopiedValues = std::size_t{1} << 26;
+
+bool emits(const ShapeDirective& shape) { return shape.type == "line" || !is_black(shape.emission.radiance); }
+
+/// Roughly how many numbers describe a shape.
+std::size_t value_count(const ShapeDirective& shape) {
+    std::error_code no_file;
+    const auto bytes = shape.mesh_path.empty() ? 0 : std::filesystem::file_size(shape.mesh_path, no_file);
+    return shape.parameters.value_count() + (no_file ? 0 : bytes / sizeof(float));
+}
+
+std::optional<std::array<float, 12>> affine_rows(const Transform& t) {
+    const auto& last = t.m[3];
+    if (last[0] != 0 || last[1] != 0 || last[2] != 0) return std::nullopt;
+    constexpr double kMax = 1e15;
+    std::array<float, 12> rows{};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double entry = t.m[i / 4][i % 4] / last[3];
+        if (!(std::fabs(entry) <= kMax)) return std::nullopt;
+        rows[i] = static_cast<float>(entry);
+    }
+    return rows;
+}
+
+} // namespace
+
+std::optional<std::array<float, 12>> instance_rows(const Transform& t) {
+    const auto back = inverse(t);
+    if (!back || !affine_rows(*back)) return std::nullopt;
+    return affine_rows(t);
+}
+
+void ObjectTable::begin(const std::string& name, const Location& location, Warnings& warnings) {
+    if (is_open_)
+        throw SceneError(location, "ObjectBegin inside of the definition of object \"" +
+                                       shortened(definitions_.back().name) + "\" begun at " +
+                                       to_string(definitions_.back().location));
+    if (by_name_.contains(name))
+        warnings.add(location,
+                     "object \"" + shortened(name) + "\" is defined again; the new one applies from here on");
+    by_name_[name] = definitions_.size();
+    definitions_.push_back({name, location, {}, false});
+    is_open_ = true;
+}
+
+void ObjectTable::add_instance(const std::string& name, const Transform& transform,
+                               const Location& location) {
+    if (is_open_)
+        throw SceneError(location, "ObjectInstance inside of the definition of object \"" +
+                                       shortened(definitions_.back().name) +
+                                       "\": objects cannot contain instances");
+    const auto found = by_name_.find(name);
+    if (found == by_name_.end())
+        throw SceneError(location, "object \"" + shortened(name) +
+                                       "\" is not defined; ObjectBegin must come before its instances");
+    if (!instance_rows(transform))
+        throw SceneError(location, "ObjectInstance: the transform of object \"" + shortened(name) +
+                                       "\" cannot be inverted or exceeds 1e15");
+    definitions_[found->second].is_used = true;
+    instances_.push_back({found->second, transform, location});
+}
+
+std::vector<ObjectShapes> ObjectTable::append_shapes(std::vector<ShapeDirective>& shapes) {
+    std::size_t copies = 0;
+    std::size_t values = 0;
+    for (const InstanceDirective& instance : instances_) {
+        for (const ShapeDirective& shape : definitions_[instance.object].shapes) {
+            if (!emits(shape)) continue;
+            values += value_count(shape);
+            if (++copies > kMaxCopies || values > kMaxCopiedValues)
+                throw SceneError(instance.location, "instances have more than " + std::to_string(kMaxCopies) +
+                                                        " shapes that emit light, or more than " +
+                                                        std::to_string(kMaxCopiedValues) +
+                                                        " numbers in these; leave lights out of objects");
+            ShapeDirective& copy = shapes.emplace_back(shape);
+            copy.world_from_object = instance.world_from_object * shape.world_from_object;
+        }
+    }
+    std::vector<ObjectShapes> objects;
+    std::vector<std::size_t> new_index(definitions_.size());
+    for (std::size_t i = 0; i < definitions_.size(); ++i) {
+        Definition& definition = definitions_[i];
+        std::erase_if(definition.shapes, emits);
+        if (!definition.is_used) continue;
+        new_index[i] = objects.size();
+        objects.push_back({definition.name, shapes.size(), definition.shapes.size()});
+        std::move(definition.shapes.begin(), definition.shapes.end(), std::back_inserter(shapes));
+    }
+    for (InstanceDirective& instance : instances_) instance.object = new_index[instance.object];
+    return objects;
+}
+
+} // namespace nusselt::scene
