@@ -126,6 +126,8 @@ void collect_mesh_warnings(const std::vector<ShapeDirective>& shapes, const std:
                      std::to_string(degenerate) + " degenerate triangles are left out, the first ones here");
 }
 
+} // namespace
+
 double scene_radius(const Scene& scene) {
     Bounds bounds;
     for (const Float3& p : scene.positions) bounds.add(to_double(p));
@@ -138,8 +140,6 @@ double scene_radius(const Scene& scene) {
     }
     return bounds.low.x <= bounds.high.x ? 0.5 * length(bounds.high - bounds.low) : 0;
 }
-
-} // namespace
 
 Scene load_scene(const std::filesystem::path& path) {
     SceneDescription description = parse_scene(path);
