@@ -27,9 +27,9 @@ std::string position_text(std::string_view text, std::size_t offset) {
 /// The reason in the words of the parser, without its name and its own account of the position.
 std::string syntax_reason(std::string_view what) {
     const std::size_t colon = what.find(": ");
-    std::string reason(colon == what.npos ? what : what.substr(colon + 2));
-    std::replace(reason.begin(), reason.end(), '\n', ' ');
-    return "this is no JSON: " + reason;
+    const std::string_view reason = colon == what.npos ? what : what.substr(colon + 2);
+    // The last words that it read may be any bytes.
+    return "this is no JSON: " + std::string(reason.substr(0, reason.find("; last read")));
 }
 
 /// Where a number stands that the parser could not represent; it says which one, in quotes, but not where.

@@ -18,6 +18,10 @@ namespace {
 /// Of the surfaces of lights that are added without a material.
 constexpr const char* kBlackMaterial = "black surface of a light";
 
+// Of materials without a specular component that get one.
+constexpr Float3 kDefaultF0 = {0.04f, 0.04f, 0.04f};
+constexpr float kDefaultRoughness = 0.5f;
+
 [[noreturn]] void fail(const std::string& where, const std::string& field, const std::string& message) {
     throw std::runtime_error(where + "." + field + ": " + message);
 }
@@ -118,6 +122,12 @@ void RigApplication::apply(const MaterialEntry& entry) {
     if (selected.empty()) fail(entry.where, "material", nothing_selected("material", entry.materials, names));
     for (const std::size_t i : selected) {
         Material& material = scene_.materials[i];
+        const bool becomes_glossy = material.model == BrdfModel::lambert &&
+                                    entry.model.value_or(material.model) == BrdfModel::frostbite;
+        if (becomes_glossy) {
+            material.f0 = kDefaultF0;
+            material.roughness = kDefaultRoughness;
+        }
         if (entry.model) material.model = *entry.model;
         if (entry.f0) material.f0 = *entry.f0;
         if (entry.roughness) material.roughness = *entry.roughness;
