@@ -16,6 +16,7 @@ namespace nusselt::app {
 
 struct RenderOptions {
     std::filesystem::path scene;
+    std::vector<std::filesystem::path> rigs;    ///< in the order in which they are applied
     std::vector<std::filesystem::path> outputs; ///< empty: named after the film or the scene
     int samples = 1;
     std::string technique = "projected_solid_angle";
@@ -33,6 +34,11 @@ struct RenderOptions {
     bool quiet = false;
     std::optional<std::string> json; ///< "-" is the standard output
     std::optional<std::string> isa;
+};
+
+struct LightsOptions {
+    std::filesystem::path scene;
+    std::vector<std::filesystem::path> rigs;
 };
 
 /// Of benchmarks of whole frames.
@@ -122,6 +128,7 @@ struct ReproduceOptions {
 
 void setup_render(CLI::App& app, int& exit_code);
 void setup_info(CLI::App& app, int& exit_code);
+void setup_lights(CLI::App& app, int& exit_code);
 void setup_techniques(CLI::App& app, int& exit_code);
 void setup_compare(CLI::App& app, int& exit_code);
 void setup_bench(CLI::App& app, int& exit_code);
@@ -142,6 +149,9 @@ void setup_bench_tubes(CLI::App& bench, int& exit_code);
 /// Renders and writes the images.
 /// \returns 0, or 130 if it was interrupted
 int run_render(const RenderOptions& options);
+
+/// Prints the lights of a scene as a rig.
+int run_lights(const LightsOptions& options);
 
 /// Prints the table of techniques.
 int run_techniques();

@@ -1,6 +1,6 @@
 #include "info.h"
+#include "render_setup.h"
 
-#include "scene/load.h"
 #include "scene/vector_math.h"
 
 #include <algorithm>
@@ -116,12 +116,13 @@ void setup_info(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<InfoOptions>();
     CLI::App* const command = app.add_subcommand("info", "Print what a scene file contains");
     command->add_option("SCENE", options->scene, "Scene file in pbrt syntax (v3 or v4)")->required();
+    add_rigs_option(*command, options->rigs);
     command->callback([options, &exit_code] { exit_code = run_info(*options); });
 }
 
 int run_info(const InfoOptions& options) try {
     const auto begin = std::chrono::steady_clock::now();
-    const scene::Scene scene = scene::load_scene(options.scene);
+    const scene::Scene scene = load_scene(options.scene, options.rigs);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
 
     print_geometry(scene);

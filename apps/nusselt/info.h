@@ -4,11 +4,13 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <vector>
 
 namespace nusselt::app {
 
 struct InfoOptions {
     std::filesystem::path scene;
+    std::vector<std::filesystem::path> rigs;
 };
 
 /// Adds the subcommand. Its callback stores the result of run_info() in exit_code, which must live until the

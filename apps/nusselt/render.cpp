@@ -7,7 +7,6 @@
 #include "image/io.h"
 #include "render_cpu/film.h"
 #include "render_cpu/renderer.h"
-#include "scene/load.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -223,6 +222,7 @@ void setup_render(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--seed", options->seed, "Chooses the random numbers, 0 to 2^32 - 1")
         ->capture_default_str();
+    add_rigs_option(*command, options->rigs);
     add_machine_options(*command, options->threads, options->isa);
     add_resolution_option(*command, options->resolution);
     command->add_option("--exposure", options->exposure, "Brightens PNG images by this many stops, -64 to 64")
@@ -249,7 +249,7 @@ int run_render(const RenderOptions& options) {
     check_outputs(options);
 
     const InterruptGuard guard;
-    scene::Scene scene = scene::load_scene(options.scene);
+    scene::Scene scene = load_scene(options.scene, options.rigs);
     apply_resolution(options.resolution, scene);
     Times times;
     times.load = seconds_since(begin);

@@ -1,11 +1,13 @@
 #include "scene/load.h"
 
+#include "scene/bounds.h"
 #include "scene/parser.h"
 #include "scene/vector_math.h"
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
@@ -15,17 +17,6 @@
 namespace nusselt::scene {
 
 namespace {
-
-struct Bounds {
-    Double3 low = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max(),
-                   std::numeric_limits<double>::max()};
-    Double3 high = -1.0 * low;
-
-    void add(const Double3& p) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-};
 
 std::vector<Mesh> build_meshes(std::vector<ShapeDirective>& shapes) {
     std::vector<Mesh> meshes(shapes.size());
@@ -123,25 +114,6 @@ std::vector<std::size_t> sizes_of(const std::vector<Mesh>& meshes, std::vector<T
     return sizes;
 }
 
-/// Where the contents of a mesh begin in the arrays of the scene.
-struct Offsets {
-    std::size_t vertices = 0;
-    std::size_t triangles = 0;
-};
-
-/// Where each mesh begins, and where the last one ends.
-std::vector<Offsets> offsets_of(const std::vector<Mesh>& meshes) {
-    std::vector<Offsets> offsets;
-    Offsets total;
-    for (const Mesh& mesh : meshes) {
-        offsets.push_back(total);
-        total.vertices += mesh.positions.size();
-        total.triangles += mesh.triangles.size();
-    }
-    offsets.push_back(total);
-    return offsets;
-}
-
 void join_meshes(const std::vector<ShapeDirective>& shapes, std::vector<Mesh>& meshes, Scene& scene) {
     renumber(meshes);
     const std::vector<std::size_t> vertices = sizes_of(meshes, &Mesh::positions);
@@ -160,48 +132,35 @@ void join_meshes(const std::vector<ShapeDirective>& shapes, std::vector<Mesh>& m
     scene.line_lights = take_arrays(meshes, &Mesh::line_lights, sizes_of(meshes, &Mesh::line_lights), {});
 }
 
-/// Adds the image of a box under an affine transform.
-void add_box(const Bounds& box, const Transform& world_from_object, Bounds& bounds) {
-    for (const double x : {box.low.x, box.high.x})
-        for (const double y : {box.low.y, box.high.y})
-            for (const double z : {box.low.z, box.high.z})
-                bounds.add(transform_point(world_from_object, {x, y, z}));
-}
-
 /// The objects that have triangles, and their instances.
-/// \param offsets  of meshes, see offsets_of()
-/// \return a bounding box of all instances
-Bounds add_instances(const SceneDescription& description, const std::vector<Offsets>& offsets, Scene& scene) {
-    constexpr std::size_t kEmpty = std::numeric_limits<std::size_t>::max();
-    std::vector<std::size_t> new_index(description.objects.size(), kEmpty);
+/// \param triangle_counts  of all shapes
+void add_instances(const SceneDescription& description, const std::vector<std::size_t>& triangle_counts,
+                   Scene& scene) {
+    std::vector<std::size_t> first_triangle(triangle_counts.size() + 1);
+    std::partial_sum(triangle_counts.begin(), triangle_counts.end(), first_triangle.begin() + 1);
+    std::vector<std::optional<std::uint32_t>> new_index(description.objects.size());
     std::vector<Bounds> boxes;
     for (std::size_t i = 0; i < description.objects.size(); ++i) {
         const ObjectShapes& object = description.objects[i];
-        const Offsets& begin = offsets[object.first_shape];
-        const Offsets& end = offsets[object.first_shape + object.shape_count];
-        if (begin.triangles == end.triangles) continue;
-        new_index[i] = scene.objects.size();
-        scene.objects.push_back({object.name, static_cast<std::uint32_t>(begin.triangles),
-                                 static_cast<std::uint32_t>(end.triangles - begin.triangles)});
-        Bounds& box = boxes.emplace_back();
-        for (std::size_t v = begin.vertices; v < end.vertices; ++v) box.add(to_double(scene.positions[v]));
+        const std::size_t first = first_triangle[object.first_shape];
+        const std::size_t count = first_triangle[object.first_shape + object.shape_count] - first;
+        if (count == 0) continue;
+        new_index[i] = static_cast<std::uint32_t>(scene.objects.size());
+        scene.objects.push_back(
+            {object.name, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)});
+        boxes.push_back(triangle_bounds(scene, first, count));
     }
-    Bounds all;
     for (const InstanceDirective& instance : description.instances) {
-        const std::size_t object = new_index[instance.object];
-        if (object == kEmpty) continue;
+        const std::optional<std::uint32_t> object = new_index[instance.object];
+        if (!object) continue;
         const auto rows = instance_rows(instance.world_from_object);
-        Bounds box;
-        add_box(boxes[object], instance.world_from_object, box);
+        const Bounds box = rows ? transformed(boxes[*object], *rows) : Bounds();
         if (!rows || !is_valid_coordinate(to_float(box.low)) || !is_valid_coordinate(to_float(box.high)))
             throw SceneError(instance.location, "ObjectInstance: object \"" +
-                                                    shortened(scene.objects[object].name) +
+                                                    shortened(scene.objects[*object].name) +
                                                     "\" lies beyond 1e15 m");
-        scene.instances.push_back({static_cast<std::uint32_t>(object), *rows});
-        all.add(box.low);
-        all.add(box.high);
+        scene.instances.push_back({*object, *rows});
     }
-    return all;
 }
 
 void collect_mesh_warnings(const std::vector<ShapeDirective>& shapes, const std::vector<Mesh>& meshes,
@@ -216,22 +175,6 @@ void collect_mesh_warnings(const std::vector<ShapeDirective>& shapes, const std:
     if (degenerate > 0)
         warnings.add(shapes[first].parameters.location(),
                      std::to_string(degenerate) + " degenerate triangles are left out, the first ones here");
-}
-
-/// \param bounds  of instances
-/// \param world_vertices  number of vertices that belong to no object
-double scene_radius(const Scene& scene, Bounds bounds, std::size_t world_vertices) {
-    for (std::size_t i = 0; i < world_vertices; ++i) bounds.add(to_double(scene.positions[i]));
-    for (const PolygonLight& light : scene.polygon_lights)
-        for (const Float3& p : light.vertices) bounds.add(to_double(p));
-    for (const LineLight& line : scene.line_lights) {
-        const Double3 margin = {line.radius, line.radius, line.radius};
-        for (const Float3& end : {line.begin, line.end}) {
-            bounds.add(to_double(end) - margin);
-            bounds.add(to_double(end) + margin);
-        }
-    }
-    return bounds.low.x <= bounds.high.x ? 0.5 * length(bounds.high - bounds.low) : 0;
 }
 
 } // namespace
@@ -251,15 +194,13 @@ Scene load_scene(const std::filesystem::path& path) {
     set_mappings(textures, scene.materials);
     for (BakedTexture& texture : textures) scene.textures.push_back(std::move(texture.texture));
     name_emitters(description.shapes, meshes, EmitterNames(path), scene.emitters);
-    const std::vector<Offsets> offsets = offsets_of(meshes);
+    const std::vector<std::size_t> triangle_counts = sizes_of(meshes, &Mesh::triangles);
     join_meshes(description.shapes, meshes, scene);
-    const Bounds instances = add_instances(description, offsets, scene);
+    add_instances(description, triangle_counts, scene);
     collect_mesh_warnings(description.shapes, meshes, description.warnings);
     if (scene.triangles.empty() && scene.polygon_lights.empty() && scene.line_lights.empty())
         description.warnings.add({&description.sources.front(), 1}, "the scene is empty");
-    const std::size_t world_shapes =
-        description.objects.empty() ? description.shapes.size() : description.objects.front().first_shape;
-    scene.radius = scene_radius(scene, instances, offsets[world_shapes].vertices);
+    scene.radius = scene_radius(scene);
     scene.warnings = description.warnings.lines();
     return scene;
 }
