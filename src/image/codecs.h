@@ -3,6 +3,7 @@
 /// contents; io.cpp adds the path.
 
 #include "image/image.h"
+#include "image/layers.h"
 
 #include <cstdint>
 #include <fstream>
@@ -19,6 +20,7 @@ void check_size(std::int64_t width, std::int64_t height);
 /// \param name  of the file, for messages of OpenEXR
 void encode_exr(std::ofstream& stream, const std::string& name, const Image& image, const Metadata& metadata);
 Image decode_exr(std::ifstream& stream, const std::string& name);
+LayeredImage decode_exr_layers(std::ifstream& stream, const std::string& name);
 Metadata decode_exr_metadata(std::ifstream& stream, const std::string& name);
 
 void encode_hdr(std::ostream& stream, const Image& image);

@@ -126,6 +126,10 @@ Image read_image(const std::filesystem::path& path) {
     fail_to_read(path, "unknown extension '" + extension + "'; use .exr, .hdr, .png, .jpg, .jpeg or .tga");
 }
 
+LayeredImage read_layers(const std::filesystem::path& path) {
+    return decode_file(path, [&](std::ifstream& stream) { return decode_exr_layers(stream, path.string()); });
+}
+
 Metadata read_exr_metadata(const std::filesystem::path& path) {
     return decode_file(path,
                        [&](std::ifstream& stream) { return decode_exr_metadata(stream, path.string()); });
