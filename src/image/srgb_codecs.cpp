@@ -17,8 +17,7 @@ namespace {
 constexpr int kChannelCount = 3;
 
 unsigned char code_from_linear(double linear) {
-    if (!(linear > 0)) return 0; // also NaN
-    return linear >= 1 ? 255 : static_cast<unsigned char>(std::lround(255 * srgb_from_linear(linear)));
+    return static_cast<unsigned char>(std::lround(255 * display_code(linear)));
 }
 
 /// \param codes  from stb, which owns the memory; null if decoding failed
