@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     CLI::App app("Nusselt: renders direct light of polygonal and linear lights with little noise.\n"
                  "`nusselt COMMAND --help` tells more.");
     app.name("nusselt");
-    app.footer("Exit codes: 0 success, 1 error, 2 wrong usage, 130 stopped by Ctrl-C.");
+    app.footer("Exit codes: 0 success, 1 error, 2 wrong usage, 3 broken limit of compare, 130 stopped by Ctrl-C.");
     app.require_subcommand(1);
     app.set_help_all_flag("--help-all", "Print the help of all commands and exit");
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
