@@ -35,6 +35,14 @@ struct RenderOptions {
     std::optional<std::string> isa;
 };
 
+struct ConvertOptions {
+    std::filesystem::path input;
+    std::optional<std::filesystem::path> output; ///< needed unless the layers are listed
+    double exposure = 0;                         ///< stops
+    std::optional<std::string> layer;            ///< of an EXR file; default: the picture
+    bool list_layers = false;
+};
+
 /// Of benchmarks of whole frames.
 struct BenchFramesOptions {
     std::filesystem::path scene;
@@ -124,6 +132,7 @@ void setup_render(CLI::App& app, int& exit_code);
 void setup_info(CLI::App& app, int& exit_code);
 void setup_techniques(CLI::App& app, int& exit_code);
 void setup_compare(CLI::App& app, int& exit_code);
+void setup_convert(CLI::App& app, int& exit_code);
 void setup_bench(CLI::App& app, int& exit_code);
 void setup_reproduce(CLI::App& app, int& exit_code);
 void setup_map(CLI::App& app, int& exit_code);
@@ -142,6 +151,9 @@ void setup_bench_tubes(CLI::App& bench, int& exit_code);
 /// Renders and writes the images.
 /// \returns 0, or 130 if it was interrupted
 int run_render(const RenderOptions& options);
+
+/// Converts an image to another format, or prints the layers of an EXR file.
+int run_convert(const ConvertOptions& options);
 
 /// Prints the table of techniques.
 int run_techniques();

@@ -2,6 +2,7 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "render_setup.h"
+#include "validators.h"
 
 #include "image/atomic_file.h"
 #include "image/io.h"

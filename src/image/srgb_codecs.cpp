@@ -62,7 +62,7 @@ Image decode_srgb(std::istream& stream) {
     int height = 0;
     int channels_in_file = 0;
     if (stbi_info_from_memory(bytes, size, &width, &height, &channels_in_file) != 0)
-        check_size(width, height);
+        check_srgb_file(file, width, height);
     if (stbi_is_16_bit_from_memory(bytes, size) != 0) {
         stbi_us* codes =
             stbi_load_16_from_memory(bytes, size, &width, &height, &channels_in_file, kChannelCount);
