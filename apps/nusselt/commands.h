@@ -41,6 +41,14 @@ struct LightsOptions {
     std::vector<std::filesystem::path> rigs;
 };
 
+struct ConvertOptions {
+    std::filesystem::path input;
+    std::optional<std::filesystem::path> output; ///< needed unless the layers are listed
+    double exposure = 0;                         ///< stops
+    std::optional<std::string> layer;            ///< of an EXR file; default: the picture
+    bool list_layers = false;
+};
+
 /// Of benchmarks of whole frames.
 struct BenchFramesOptions {
     std::filesystem::path scene;
@@ -131,6 +139,7 @@ void setup_info(CLI::App& app, int& exit_code);
 void setup_lights(CLI::App& app, int& exit_code);
 void setup_techniques(CLI::App& app, int& exit_code);
 void setup_compare(CLI::App& app, int& exit_code);
+void setup_convert(CLI::App& app, int& exit_code);
 void setup_bench(CLI::App& app, int& exit_code);
 void setup_reproduce(CLI::App& app, int& exit_code);
 void setup_map(CLI::App& app, int& exit_code);
@@ -152,6 +161,9 @@ int run_render(const RenderOptions& options);
 
 /// Prints the lights of a scene as a rig.
 int run_lights(const LightsOptions& options);
+
+/// Converts an image to another format, or prints the layers of an EXR file.
+int run_convert(const ConvertOptions& options);
 
 /// Prints the table of techniques.
 int run_techniques();

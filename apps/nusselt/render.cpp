@@ -2,6 +2,7 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "render_setup.h"
+#include "validators.h"
 
 #include "image/atomic_file.h"
 #include "image/io.h"
@@ -226,7 +227,7 @@ void setup_render(CLI::App& app, int& exit_code) {
     add_machine_options(*command, options->threads, options->isa);
     add_resolution_option(*command, options->resolution);
     command->add_option("--exposure", options->exposure, "Brightens PNG images by this many stops, -64 to 64")
-        ->check(CLI::Range(-64.0, 64.0))
+        ->check(exposure())
         ->capture_default_str();
     command->add_flag("-q,--quiet", options->quiet, "Print errors only, no warnings and no progress");
     command->add_option(
