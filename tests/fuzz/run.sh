@@ -9,14 +9,16 @@ cd "$(dirname "$0")/../.."
 harness=$1 seconds=$2
 shift 2
 corpora=("tests/fuzz/corpus/$harness")
-dictionary=$harness
+dictionary=$harness longest=8192
+# Compressed images are shorter: the largest that a file can hold is to stay below the limit of an allocation.
 case "$harness" in
     pbrt) corpora+=(tests/scene/corpus) ;;
-    texture) corpora=(tests/fuzz/corpus/image) dictionary=image ;;
+    image) longest=2048 ;;
+    texture) corpora=(tests/fuzz/corpus/image) dictionary=image longest=2048 ;;
     exr_metadata) dictionary=image ;;
 esac
-options=(-max_total_time="$seconds" -timeout=5 -rss_limit_mb=2048 -malloc_limit_mb=256 -max_len=8192 -print_final_stats=1
-    -print_funcs=0)
+options=(-max_total_time="$seconds" -timeout=5 -rss_limit_mb=2048 -malloc_limit_mb=256 -max_len="$longest"
+    -print_final_stats=1 -print_funcs=0)
 if [ -f "tests/fuzz/dictionaries/$dictionary.dict" ]; then
     options+=(-dict="tests/fuzz/dictionaries/$dictionary.dict")
 fi

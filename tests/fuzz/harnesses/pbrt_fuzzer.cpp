@@ -16,9 +16,9 @@ constexpr std::string_view kNames = "0123456789";
 /// With a copy of what lies beside the scenes of the corpus.
 struct CorpusFolder : Folder {
     CorpusFolder() {
+        const std::filesystem::path corpus = std::filesystem::path(NUSSELT_SOURCE_DIR) / "tests/scene/corpus";
         std::set<std::filesystem::path> companions;
-        for (const auto& entry :
-             std::filesystem::recursive_directory_iterator(NUSSELT_SOURCE_DIR "/tests/scene/corpus"))
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus))
             if (entry.is_regular_file() && entry.path().extension() != ".pbrt")
                 companions.insert(entry.path());
         for (const std::filesystem::path& companion : companions)
