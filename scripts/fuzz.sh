@@ -1,24 +1,30 @@
 #!/usr/bin/env bash
-# Looks for lights that break techniques: each libFuzzer harness for the given time, then COUNT hostile
-# configurations per technique in float and double, with a new seed.
-# Usage: scripts/fuzz.sh [SECONDS [COUNT]]   (default: 600 s, 1e8)
+# Looks for lights that break techniques and for files that break readers: each libFuzzer harness for the given time,
+# then COUNT hostile configurations per technique in float and double, with a new seed. COUNT 0 leaves these out.
+# Usage: scripts/fuzz.sh [SECONDS [COUNT [HARNESS...]]]   (default: 600 s, 1e8, all harnesses)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 seconds=${1:-600} count=${2:-100000000}
+harnesses=("${@:3}")
 seed=$(date +%s)
-folder=build/release/tests/fuzz
 status=0
 
 cmake --preset release -DNUSSELT_BUILD_TESTS=ON >/dev/null
-cmake --build --preset release --target nusselt_app
 cmake --build --preset release --target fuzzers
+if [ ${#harnesses[@]} -eq 0 ]; then
+    programs=(build/fuzz/tests/fuzz/harnesses/*_fuzzer)
+    programs=("${programs[@]##*/}")
+    harnesses=("${programs[@]%_fuzzer}")
+fi
 
-for harness in polygon line clip; do
+for harness in "${harnesses[@]}"; do
     echo "== libFuzzer: $harness, $seconds s"
-    "$folder/${harness}_fuzzer" -max_total_time="$seconds" -timeout=10 -artifact_prefix="$folder/$harness-" \
-        "$folder/found/$harness" "tests/fuzz/corpus/$harness" || status=1
+    tests/fuzz/run.sh "$harness" "$seconds" || status=1
 done
+[ "$count" -gt 0 ] || exit $status
+
+cmake --build --preset release --target nusselt_app
 for scalar in float double; do
     echo "== hostile lights: $scalar, seed $seed"
     build/release/apps/nusselt/nusselt bench fuzz --scalar "$scalar" --seed "$seed" --count "$count" || status=1

@@ -1,0 +1,69 @@
+#pragma once
+/// Files made of the bytes of libFuzzer, and what every reader of files promises.
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace nusselt::fuzz {
+
+/// A folder of its own in the system's folder for temporary files (TMPDIR), removed at the end.
+class Folder {
+public:
+    Folder() {
+        std::string pattern = (std::filesystem::temp_directory_path() / "nusselt_fuzz_XXXXXX").string();
+        if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
+        path_ = pattern;
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    ~Folder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+
+    std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
+    void write(std::string_view name, std::string_view bytes) const {
+        std::ofstream(path_ / name, std::ios::binary) << bytes;
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+inline std::string_view text(const std::uint8_t* data, std::size_t size) {
+    return {reinterpret_cast<const char*>(data), size};
+}
+
+/// \param problem  empty if there is none
+inline void fail_if_any(std::string_view problem) {
+    if (problem.empty()) return;
+    std::fprintf(stderr, "%.*s\n", static_cast<int>(problem.size()), problem.data());
+    std::abort();
+}
+
+/// What users read is one line, also if names in their files are longer.
+inline std::string_view problem_of_message(std::string_view message) {
+    if (message.empty()) return "a message is empty";
+    return message.find('\n') != std::string_view::npos ? "a message has more than one line"
+                                                        : std::string_view();
+}
+
+/// Calls a reader that may refuse its input with a std::runtime_error of one line; other exceptions end the program.
+template <class Reader>
+void read_or_refuse(const Reader& reader) {
+    try {
+        reader();
+    } catch (const std::runtime_error& error) {
+        const std::string_view problem = problem_of_message(error.what());
+        if (!problem.empty()) std::fprintf(stderr, "[%s]\n", error.what());
+        fail_if_any(problem);
+    }
+}
+
+} // namespace nusselt::fuzz

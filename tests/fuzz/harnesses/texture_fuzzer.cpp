@@ -1,0 +1,36 @@
+/// Image files as textures of a scene.
+
+#include "files.h"
+#include "scene_contract.h"
+
+namespace nusselt::fuzz {
+namespace {
+
+/// With one scene per name of the image, so that no format stands in the way of another.
+struct SceneFolder : Folder {
+    static constexpr std::string_view kExtensions[] = {"exr", "hdr", "png"};
+
+    SceneFolder() {
+        for (const std::string_view extension : kExtensions)
+            write(std::string(extension) + ".pbrt",
+                  "Camera \"perspective\"\nWorldBegin\n"
+                  "Texture \"image\" \"spectrum\" \"imagemap\" \"string filename\" \"image." +
+                      std::string(extension) +
+                      "\"\n"
+                      "Material \"matte\" \"texture Kd\" \"image\"\n"
+                      "Shape \"trianglemesh\" \"point3 P\" [0 0 5 1 0 5 0 1 5]\n");
+    }
+};
+
+} // namespace
+} // namespace nusselt::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace nusselt::fuzz;
+    static const SceneFolder kFolder;
+    for (const std::string_view extension : SceneFolder::kExtensions) {
+        kFolder.write("image." + std::string(extension), text(data, size));
+        load_or_refuse(kFolder / (std::string(extension) + ".pbrt"));
+    }
+    return 0;
+}
