@@ -88,6 +88,32 @@ TEST_F(CameraDirectives, FilmDefaultsDependOnTheVersion) {
               "x.exr");
 }
 
+TEST_F(CameraDirectives, OrthographicRaysAreParallel) {
+    const Scene scene = camera("Film \"rgb\" \"integer xresolution\" 200 \"integer yresolution\" 100\n"
+                               "LookAt 0 0 10  0 0 0  0 1 0 Camera \"orthographic\"");
+    const Camera& c = scene.camera;
+    const auto origin = [&](double x, double y) {
+        return to_float(to_double(c.origin) + x * to_double(c.origin_right) + y * to_double(c.origin_down));
+    };
+    expect_near(direction(scene, 0, 0), {0, 0, -1}, 1e-6f);
+    expect_near(direction(scene, 17, 93), {0, 0, -1}, 1e-6f);
+    // Looking along -z with y up, +x of the image is -x of the world.
+    expect_near(origin(100, 50), {0, 0, 10}, 1e-6f);
+    expect_near(origin(0, 0), {2, 1, 10}, 1e-6f);
+    expect_near(origin(200, 100), {-2, -1, 10}, 1e-6f);
+}
+
+TEST_F(CameraDirectives, CropsOfTheWholeFilmAreNone) {
+    const std::string film = "Camera \"perspective\" Film \"rgb\" ";
+    EXPECT_FALSE(camera(film).film.crop);
+    EXPECT_FALSE(camera(film + "\"float cropwindow\" [0 1 0 1]").film.crop);
+    EXPECT_FALSE(camera(film + "\"integer pixelbounds\" [-9 9999 0 720]").film.crop);
+    EXPECT_TRUE(camera(film + "\"float cropwindow\" [0 1 0 0.99]").film.crop);
+    // The rays of a crop are those of the whole film.
+    EXPECT_EQ(camera(film + "\"float cropwindow\" [0.5 1 0 0.5]").camera.corner.x,
+              camera(film).camera.corner.x);
+}
+
 TEST_F(CameraDirectives, Errors) {
     EXPECT_EQ(error("\nCamera \"spherical\""),
               "scene.pbrt:2: camera \"spherical\" is not supported; use \"perspective\" or \"orthographic\"");
