@@ -50,7 +50,9 @@ using StbPixels = std::unique_ptr<Value, void (*)(void*)>;
 
 template <class Value>
 StbPixels<Value> owned(Value* pixels) {
-    if (pixels == nullptr) throw std::runtime_error(stbi_failure_reason());
+    if (pixels == nullptr)
+        throw std::runtime_error(std::string("cannot be decoded (") + stbi_failure_reason() +
+                                 "); is it complete?");
     return {pixels, stbi_image_free};
 }
 
@@ -104,7 +106,9 @@ void decode_bytes(std::string_view file, ImageRequest::Encoding encoding, Textur
     int* const height = &texture.height;
     int in_file = 0;
     if (stbi_info_from_memory(bytes, size, width, height, &in_file) == 0)
-        throw std::runtime_error(stbi_failure_reason());
+        throw std::runtime_error(
+            std::string("it is damaged, too large or none of PNG, JPEG, TGA, BMP, HDR, EXR and PFM (") +
+            stbi_failure_reason() + ')');
     check_size(texture, size);
     if (stbi_is_hdr_from_memory(bytes, size) != 0) {
         const auto pixels = owned(stbi_loadf_from_memory(bytes, size, width, height, &in_file, 3));

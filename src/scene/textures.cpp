@@ -63,7 +63,7 @@ struct Procedure {
 };
 constexpr Procedure kProcedures[] = {
     {"fbm", {0.5f, 0.5f, 0.5f}},  {"wrinkled", {0.5f, 0.5f, 0.5f}}, {"windy", {0.5f, 0.5f, 0.5f}},
-    {"ptex", {0.5f, 0.5f, 0.5f}}, {"uv", {0.5f, 0.5f, 0}},          {"marble", {0.80f, 0.79f, 0.83f}},
+    {"uv", {0.5f, 0.5f, 0}},          {"marble", {0.80f, 0.79f, 0.83f}},
 };
 
 /// The share of the surface that "dots" cover: half of the cells have a disk of radius 0.35.
@@ -165,13 +165,10 @@ TextureValue TextureTable::reduce_procedure(TextureDirective& directive, Warning
         std::find_if(std::begin(kProcedures), std::end(kProcedures), [&](const Procedure& procedure) {
             return procedure.texture_class == directive.texture_class;
         });
-    const TextureValue replacement =
-        found != std::end(kProcedures) ? TextureValue{found->mean, -1} : grey_value(0.5);
-    const Float3& c = replacement.factor;
-    warnings.add(directive.parameters.location(), class_of(directive) +
-                                                      ": not supported, replaced by its mean " +
-                                                      to_text(c.x) + ' ' + to_text(c.y) + ' ' + to_text(c.z));
-    return replacement;
+    const bool is_known = found != std::end(kProcedures);
+    warnings.add(directive.parameters.location(), class_of(directive) + ": not supported, replaced by " +
+                                                      (is_known ? "its mean" : "the grey 0.5"));
+    return is_known ? TextureValue{found->mean, -1} : grey_value(0.5);
 }
 
 TextureValue TextureTable::reduce(TextureDirective& directive, Warnings& warnings) {
