@@ -13,10 +13,10 @@ namespace kernel {
 struct PixelBlock {
     alignas(4 * kLanes) std::uint32_t x[kLanes];
     alignas(4 * kLanes) std::uint32_t y[kLanes];
-    LaneMask inside; ///< the tile
-    LaneMask
-        traced; ///< the film: what a packet holds must not depend on the tile, as neighbours in a packet may
-                ///< change the rounding of a hit
+    Vec2<Real> corner; ///< x and y
+    LaneMask inside;   ///< the tile
+    /// The film: which rays make up a packet must not depend on the tile, as neighbours may change the rounding of hits.
+    LaneMask traced;
 };
 
 /// The same sample of all pixels of a packet.
@@ -59,43 +59,42 @@ struct CameraSamples {
     Real weight;       ///< of the radiance that arrives; its mean is 1
 };
 
-/// Distributes random numbers as the pixel filter wants it, in place; monotone, so that stratified ones stay that.
-/// Multiplies weights.
-inline void apply_filter(const render_cpu::FilterAxis& filter, float (&u)[kLanes],
-                         float (&weight)[kLanes]) noexcept {
-    if (filter.offsets == nullptr) {
-        for (float& x : u) x = 0.5f + filter.radius * (2 * x - 1);
-        return;
-    }
+/// Distances from the centre of the pixel along one axis, distributed as the pixel filter wants it. Monotone in `u`, so
+/// that stratified numbers stay that. Multiplies the weight.
+inline Real filtered_offset(const render_cpu::FilterAxis& filter, const Real& u, Real& weight) noexcept {
+    if (filter.offsets == nullptr) return Real(filter.radius) * (Real(2) * u - Real(1));
     constexpr auto kCells = static_cast<float>(render_cpu::kFilterCells);
+    float position[kLanes];
+    float offset[kLanes];
+    float cell_weight[kLanes];
+    (Real(kCells) * u).store(position);
     for (int i = 0; i < kLanes; ++i) {
-        const float position = u[i] * kCells;
-        const auto cell = static_cast<std::int32_t>(position);
+        const auto cell = static_cast<std::int32_t>(position[i]);
         const float begin = filter.offsets[cell];
-        u[i] = 0.5f + (begin + (position - static_cast<float>(cell)) * (filter.offsets[cell + 1] - begin));
-        weight[i] *= filter.weights[cell];
+        const float part = position[i] - static_cast<float>(cell);
+        offset[i] = begin + part * (filter.offsets[cell + 1] - begin);
+        cell_weight[i] = filter.weights[cell];
     }
+    weight = weight * Real::load(cell_weight);
+    return Real::load(offset);
 }
 
-inline CameraSamples camera_samples(const render_cpu::RenderJob& job, const PixelBlock& block,
-                                    std::uint32_t camera_ray) noexcept {
-    float x[kLanes];
-    float y[kLanes];
-    float weight[kLanes];
-    for (float& lane : weight) lane = 1;
-    if (job.pixel_position == render_cpu::PixelPosition::center) {
-        for (int i = 0; i < kLanes; ++i) x[i] = y[i] = 0.5f;
-    } else {
+/// Not inlined: g++ leaves the hashes scalar when they are part of a large function.
+[[gnu::noinline]] inline CameraSamples
+camera_samples(const render_cpu::RenderJob& job, const PixelBlock& block, std::uint32_t camera_ray) noexcept {
+    Vec2<Real> offset{Real(0), Real(0)};
+    Real weight = Real(1);
+    if (job.pixel_position != render_cpu::PixelPosition::center) {
         const PacketSamples samples(camera_ray);
-        camera_random_lanes(sampler_of(job.sample_order), job.seed, block.x, block.y, samples.number, x, y);
-        apply_filter(job.scene.filter_x, x, weight);
-        apply_filter(job.scene.filter_y, y, weight);
+        float u_x[kLanes];
+        float u_y[kLanes];
+        camera_random_lanes(sampler_of(job.sample_order), job.seed, block.x, block.y, samples.number, u_x,
+                            u_y);
+        offset = {filtered_offset(job.scene.filter_x, Real::load(u_x), weight),
+                  filtered_offset(job.scene.filter_y, Real::load(u_y), weight)};
     }
-    for (int i = 0; i < kLanes; ++i) {
-        x[i] += static_cast<float>(static_cast<std::int32_t>(block.x[i]));
-        y[i] += static_cast<float>(static_cast<std::int32_t>(block.y[i]));
-    }
-    return {{Real::load(x), Real::load(y)}, Real::load(weight)};
+    const Real half = Real(0.5f);
+    return {{(half + offset.x) + block.corner.x, (half + offset.y) + block.corner.y}, weight};
 }
 
 } // namespace kernel

@@ -40,21 +40,23 @@ private:
 
     PixelBlock make_block(std::int32_t x_begin, std::int32_t y_begin) const noexcept {
         PixelBlock block;
-        std::uint32_t inside = 0;
-        std::uint32_t traced = 0;
+        float x[kLanes];
+        float y[kLanes];
         for (int i = 0; i < kLanes; ++i) {
-            const std::int32_t x = x_begin + i % kBlockWidth;
-            const std::int32_t y = y_begin + i / kBlockWidth;
-            block.x[i] = static_cast<std::uint32_t>(x);
-            block.y[i] = static_cast<std::uint32_t>(y);
-            const bool in_tile =
-                x >= tile_.x_begin && x < tile_.x_end && y >= tile_.y_begin && y < tile_.y_end;
-            inside |= static_cast<std::uint32_t>(in_tile) << i;
-            const bool in_film = x < job_.scene.film_width && y < job_.scene.film_height;
-            traced |= static_cast<std::uint32_t>(in_film) << i;
+            const std::int32_t column = x_begin + i % kBlockWidth;
+            const std::int32_t row = y_begin + i / kBlockWidth;
+            block.x[i] = static_cast<std::uint32_t>(column);
+            block.y[i] = static_cast<std::uint32_t>(row);
+            x[i] = static_cast<float>(column);
+            y[i] = static_cast<float>(row);
         }
-        block.inside = LaneMask::from_bits(inside);
-        block.traced = LaneMask::from_bits(traced);
+        block.corner = {Real::load(x), Real::load(y)};
+        const auto are_below = [&](std::int32_t x_end, std::int32_t y_end) {
+            return (block.corner.x < Real(x_end)) & (block.corner.y < Real(y_end));
+        };
+        block.traced = are_below(job_.scene.film_width, job_.scene.film_height);
+        block.inside = are_below(tile_.x_end, tile_.y_end) & (block.corner.x >= Real(tile_.x_begin)) &
+                       (block.corner.y >= Real(tile_.y_begin));
         return block;
     }
 
@@ -145,13 +147,13 @@ private:
     void write(const PixelBlock& block, const Vector& rgb) noexcept {
         const Lanes lanes = store(rgb);
         const std::uint32_t inside = block.inside.bits();
+        const scene::PixelBounds& image = job_.scene.image;
+        const std::int64_t width = image.x_end - image.x_begin;
+        const std::int64_t first = (static_cast<std::int32_t>(block.y[0]) - image.y_begin) * width +
+                                   static_cast<std::int32_t>(block.x[0]) - image.x_begin;
         for (int i = 0; i < kLanes; ++i) {
             if ((inside >> i & 1u) == 0) continue;
-            const scene::PixelBounds& image = job_.scene.image;
-            const auto width = static_cast<std::int64_t>(image.x_end - image.x_begin);
-            const std::int64_t x = static_cast<std::int32_t>(block.x[i]) - image.x_begin;
-            const std::int64_t y = static_cast<std::int32_t>(block.y[i]) - image.y_begin;
-            float* pixel = job_.pixels + 3 * (y * width + x);
+            float* pixel = job_.pixels + 3 * (first + i / kBlockWidth * width + i % kBlockWidth);
             pixel[0] = lanes.x[i];
             pixel[1] = lanes.y[i];
             pixel[2] = lanes.z[i];
