@@ -1,6 +1,7 @@
 #include "image/exr_part.h"
 
 #include "image/codecs.h"
+#include "image/exr_header.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -36,10 +37,11 @@ int decoding_thread_count() {
     return count;
 }
 
-/// The stream is on its first byte before and after.
-Imf::IStream& with_magic_number(Imf::IStream& source) {
+/// The stream, which `source` reads, is on its first byte before and after.
+Imf::IStream& checked(Imf::IStream& source, std::istream& stream) {
     if (!Imf::isOpenExrFile(source))
         throw std::runtime_error("this is not an OpenEXR file, or it is empty; check its name");
+    check_exr_attributes(stream);
     return source;
 }
 
@@ -91,7 +93,7 @@ void check_file_size(const Imf::Header& header, std::int64_t pixel_count, std::i
 } // namespace
 
 ExrPart::ExrPart(std::ifstream& stream, const std::string& name)
-    : source_(stream, name.c_str()), file_(with_magic_number(source_), decoding_thread_count(), false) {
+    : source_(stream, name.c_str()), file_(checked(source_, stream), decoding_thread_count(), false) {
     if (header().hasType() && Imf::isDeepData(header().type()))
         throw std::runtime_error("deep images are not supported; flatten it first");
     const auto& window = header().dataWindow();

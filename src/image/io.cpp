@@ -23,8 +23,12 @@ std::string lower_case_extension(const std::filesystem::path& path) {
     return extension;
 }
 
+/// \param problem  may quote the file, hence contain anything
 [[noreturn]] void fail_to_read(const std::filesystem::path& path, const std::string& problem) {
-    throw std::runtime_error("cannot read '" + path.string() + "': " + problem);
+    std::string message = "cannot read '" + path.string() + "': " + problem;
+    std::replace_if(
+        message.begin(), message.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
+    throw std::runtime_error(message);
 }
 
 std::ifstream open_for_reading(const std::filesystem::path& path) {
