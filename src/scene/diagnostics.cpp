@@ -12,7 +12,8 @@ constexpr std::size_t kMaxWarnings = 200;
 
 /// Names in messages come from files and may hold anything.
 std::string message_line(const Location& location, std::string_view message) {
-    std::string line = to_string(location) + ": " + std::string(message);
+    constexpr std::size_t kMaxBytes = 1000;
+    std::string line = to_string(location) + ": " + shortened(message, kMaxBytes);
     const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
     std::replace_if(line.begin(), line.end(), is_control, '?');
     return line;
@@ -25,10 +26,9 @@ std::string to_text(double value) {
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
-std::string shortened(std::string_view text) {
-    constexpr std::size_t kMaxBytes = 60;
-    if (text.size() <= kMaxBytes) return std::string(text);
-    std::size_t size = kMaxBytes;
+std::string shortened(std::string_view text, std::size_t max_bytes) {
+    if (text.size() <= max_bytes) return std::string(text);
+    std::size_t size = max_bytes;
     const auto continues_character = [&] { return (static_cast<unsigned char>(text[size]) & 0xc0) == 0x80; };
     while (size > 0 && continues_character()) --size;
     return std::string(text.substr(0, size)) + "...";

@@ -3,6 +3,7 @@
 
 #include "scene/file_bytes.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -25,12 +26,13 @@ struct Location {
 
 /// The shortest decimal text of a number.
 std::string to_text(double value);
-/// Text from a file as messages show it: at most 60 bytes, an ellipsis in place of the rest.
-std::string shortened(std::string_view text);
+/// Text from a file as messages show it: an ellipsis in place of what exceeds `max_bytes`.
+std::string shortened(std::string_view text, std::size_t max_bytes = 60);
 /// "file:line"
 std::string to_string(const Location& location);
 
-/// An error in the user's scene: what() is "file:line: message", one line without control characters.
+/// An error in the user's scene: what() is "file:line: message", one line without control characters,
+/// the message cut to 1000 bytes.
 class SceneError : public std::runtime_error {
 public:
     SceneError(const Location& location, std::string_view message);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <numeric>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -55,7 +56,7 @@ void ObjectTable::begin(const std::string& name, const Location& location, Warni
         warnings.add(location,
                      "object \"" + shortened(name) + "\" is defined again; the new one applies from here on");
     by_name_[name] = definitions_.size();
-    definitions_.push_back({name, location, {}, false});
+    definitions_.push_back({name, location, {}, {}, false});
     is_open_ = true;
 }
 
@@ -76,18 +77,37 @@ void ObjectTable::add_instance(const std::string& name, const Transform& transfo
     instances_.push_back({found->second, transform, location});
 }
 
-std::vector<ObjectShapes> ObjectTable::append_shapes(std::vector<ShapeDirective>& shapes) {
+void ObjectTable::add_shape(ShapeDirective shape) {
+    Definition& definition = definitions_.back();
+    (emits(shape) ? definition.emitters : definition.surfaces).push_back(std::move(shape));
+}
+
+void ObjectTable::check_copies() const {
+    std::vector<std::size_t> value_counts;
+    for (const Definition& definition : definitions_) {
+        const auto add = [](std::size_t sum, const ShapeDirective& shape) {
+            return sum + value_count(shape);
+        };
+        value_counts.push_back(
+            std::accumulate(definition.emitters.begin(), definition.emitters.end(), std::size_t{0}, add));
+    }
     std::size_t copies = 0;
     std::size_t values = 0;
     for (const InstanceDirective& instance : instances_) {
-        for (const ShapeDirective& shape : definitions_[instance.object].shapes) {
-            if (!emits(shape)) continue;
-            values += value_count(shape);
-            if (++copies > kMaxCopies || values > kMaxCopiedValues)
-                throw SceneError(instance.location, "instances have more than " + std::to_string(kMaxCopies) +
-                                                        " shapes that emit light, or more than " +
-                                                        std::to_string(kMaxCopiedValues) +
-                                                        " numbers in these; leave lights out of objects");
+        copies += definitions_[instance.object].emitters.size();
+        values += value_counts[instance.object];
+        if (copies > kMaxCopies || values > kMaxCopiedValues)
+            throw SceneError(instance.location, "instances have more than " + std::to_string(kMaxCopies) +
+                                                    " shapes that emit light, or more than " +
+                                                    std::to_string(kMaxCopiedValues) +
+                                                    " numbers in these; leave lights out of objects");
+    }
+}
+
+std::vector<ObjectShapes> ObjectTable::append_shapes(std::vector<ShapeDirective>& shapes) {
+    check_copies();
+    for (const InstanceDirective& instance : instances_) {
+        for (const ShapeDirective& shape : definitions_[instance.object].emitters) {
             ShapeDirective& copy = shapes.emplace_back(shape);
             copy.world_from_object = instance.world_from_object * shape.world_from_object;
         }
@@ -96,11 +116,10 @@ std::vector<ObjectShapes> ObjectTable::append_shapes(std::vector<ShapeDirective>
     std::vector<std::size_t> new_index(definitions_.size());
     for (std::size_t i = 0; i < definitions_.size(); ++i) {
         Definition& definition = definitions_[i];
-        std::erase_if(definition.shapes, emits);
         if (!definition.is_used) continue;
         new_index[i] = objects.size();
-        objects.push_back({definition.name, shapes.size(), definition.shapes.size()});
-        std::move(definition.shapes.begin(), definition.shapes.end(), std::back_inserter(shapes));
+        objects.push_back({definition.name, shapes.size(), definition.surfaces.size()});
+        std::move(definition.surfaces.begin(), definition.surfaces.end(), std::back_inserter(shapes));
     }
     for (InstanceDirective& instance : instances_) instance.object = new_index[instance.object];
     return objects;

@@ -31,7 +31,7 @@ public:
     void end() { is_open_ = false; }
     bool is_open() const { return is_open_; }
     /// To the definition that is open.
-    void add_shape(ShapeDirective shape) { definitions_.back().shapes.push_back(std::move(shape)); }
+    void add_shape(ShapeDirective shape);
 
     /// Throws SceneError if no object has this name, if it is used inside of a definition, or if `transform` has no
     /// inverse.
@@ -47,9 +47,11 @@ private:
     struct Definition {
         std::string name;
         Location location;
-        std::vector<ShapeDirective> shapes;
+        std::vector<ShapeDirective> surfaces; ///< that do not emit
+        std::vector<ShapeDirective> emitters;
         bool is_used = false;
     };
+    void check_copies() const;
 
     std::vector<Definition> definitions_;
     std::unordered_map<std::string, std::size_t> by_name_;

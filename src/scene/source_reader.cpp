@@ -9,8 +9,8 @@ namespace {
 constexpr std::size_t kMaxIncludeDepth = 32;
 
 // Files that include others twice multiply quickly.
-constexpr int kMaxRepeatedIncludes = 100000;
-constexpr std::size_t kMaxRepeatedBytes = std::size_t{1} << 30;
+constexpr int kMaxRepeatedIncludes = 10000;
+constexpr std::size_t kMaxRepeatedBytes = std::size_t{1} << 28;
 
 } // namespace
 

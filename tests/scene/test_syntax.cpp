@@ -176,6 +176,8 @@ TEST_F(Syntax, MessagesAreOneShortLine) {
     EXPECT_EQ(error("CoordSysTransform \"a\\nb\""), "scene.pbrt:1: coordinate system \"a?b\" is not defined");
     EXPECT_EQ(error(std::string("\x01\0\x7f", 3)),
               "scene.pbrt:1: expected a directive, found '" + std::string(3, '?') + "'");
+    EXPECT_EQ(error("Material \"matte\" \"texture Kd\" \"" + name + "\"\n" + std::string(kTriangle)),
+              "scene.pbrt:1: texture \"" + name.substr(0, 991) + "...");
     // 59 bytes and one character of two bytes do not fit into 60.
     const std::string cut = name.substr(0, 59);
     EXPECT_EQ(error(cut + "\xc3\xa4\xc3\xa4"), "scene.pbrt:1: expected a directive, found '" + cut + "...'");
@@ -202,10 +204,10 @@ TEST_F(Syntax, BlocksInEachOtherAreLimited) {
 TEST_F(Syntax, RepeatedTextIsLimited) {
     write("large.inc", std::string(1 << 20, ' '));
     std::string text;
-    for (int i = 0; i < 1100; ++i) text += "Include \"large.inc\"\n";
+    for (int i = 0; i < 300; ++i) text += "Include \"large.inc\"\n";
     EXPECT_EQ(error(text),
-              "scene.pbrt:1026: the same files are included again more than 100000 times or for more than "
-              "1073741824 bytes of text; use ObjectInstance for copies");
+              "scene.pbrt:258: the same files are included again more than 10000 times or for more than "
+              "268435456 bytes of text; use ObjectInstance for copies");
 }
 
 } // namespace
