@@ -6,7 +6,8 @@ namespace nusselt::app {
 
 void setup_bench(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand(
-        "bench", "Measure how long rays and samples take, and how exact and noisy samples are");
+        "bench",
+        "Measure how long rays and samples take, how exact and noisy samples are, how large scenes may be");
     command->require_subcommand(1);
     setup_bench_rays(*command, exit_code);
     setup_bench_strategies(*command, exit_code);
@@ -16,6 +17,7 @@ void setup_bench(CLI::App& app, int& exit_code) {
     setup_bench_worst_case(*command, exit_code);
     setup_bench_fuzz(*command, exit_code);
     setup_bench_tubes(*command, exit_code);
+    setup_bench_scale(*command, exit_code);
 }
 
 } // namespace nusselt::app

@@ -116,6 +116,12 @@ struct BenchTubesOptions {
     int repetitions = 31;
 };
 
+struct BenchScaleOptions {
+    std::uint64_t triangles = 10'000'000;
+    std::uint64_t emissive = 100'000;
+    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
+};
+
 struct FitLtcOptions {
     std::string brdf = "frostbite-specular";
     std::string size = "64x64x51"; ///< roughness, inclination, f0
@@ -154,6 +160,7 @@ void setup_bench_accuracy(CLI::App& bench, int& exit_code);
 void setup_bench_worst_case(CLI::App& bench, int& exit_code);
 void setup_bench_fuzz(CLI::App& bench, int& exit_code);
 void setup_bench_tubes(CLI::App& bench, int& exit_code);
+void setup_bench_scale(CLI::App& bench, int& exit_code);
 
 /// Renders and writes the images.
 /// \returns 0, or 130 if it was interrupted
@@ -200,6 +207,9 @@ int run_bench_fuzz(const BenchFuzzOptions& options);
 
 /// Measures noise and cost of sampling cylinders and prints the table.
 int run_bench_tubes(const BenchTubesOptions& options);
+
+/// Measures time and memory of large scenes and prints or writes the tables.
+int run_bench_scale(const BenchScaleOptions& options);
 
 /// Runs experiments, prints their tables and writes a page for each.
 /// \returns 0, or 1 if an expectation does not hold

@@ -1,6 +1,7 @@
 #include "info.h"
 #include "render_setup.h"
 
+#include "scene/scene_size.h"
 #include "scene/vector_math.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace nusselt::app {
 
@@ -42,6 +44,7 @@ void print_geometry(const scene::Scene& scene) {
     }
     if (!scene.positions.empty()) fmt::print("bounding box ({}) to ({}) m\n", text(low), text(high));
     fmt::print("radius       {:.6g} m\n", scene.radius);
+    fmt::print("arrays       {:.6g} MB\n", 1e-6 * static_cast<double>(scene::array_bytes(scene)));
 }
 
 void print_materials(const scene::Scene& scene) {
@@ -73,17 +76,47 @@ void print_materials(const scene::Scene& scene) {
         fmt::print("  {}: {} x {}\n", texture.name, texture.width, texture.height);
 }
 
-void print_lights(const scene::Scene& scene) {
-    fmt::print("\n{} polygon lights, {} line lights\n", scene.polygon_lights.size(),
-               scene.line_lights.size());
-    for (const scene::PolygonLight& light : scene.polygon_lights) {
-        const double area = polygon_area(light);
-        const double sides = light.two_sided ? 2 : 1;
-        fmt::print("  {}: {} vertices, {:.6g} m^2, radiance {} W/(sr m^2), {}power {} W\n",
-                   scene.emitters[light.emitter].name, light.vertices.size(), area, text(light.radiance),
-                   light.two_sided ? "two-sided, " : "",
-                   text(scaled(sides * area * std::numbers::pi, light.radiance)));
+double power(const scene::PolygonLight& light) {
+    const double sides = light.two_sided ? 2 : 1;
+    const Double3 radiance = to_double(light.radiance);
+    return sides * std::numbers::pi * polygon_area(light) * std::max({radiance.x, radiance.y, radiance.z});
+}
+
+/// All polygons of an emitter.
+void print_emitter(const scene::Scene& scene, std::size_t begin, std::size_t end) {
+    double area = 0;
+    std::size_t vertices = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+        area += polygon_area(scene.polygon_lights[i]);
+        vertices += scene.polygon_lights[i].vertices.size();
     }
+    const scene::PolygonLight& light = scene.polygon_lights[begin];
+    const double sides = light.two_sided ? 2 : 1;
+    fmt::print("  {}: ", scene.emitters[light.emitter].name);
+    if (end - begin > 1) fmt::print("{} polygons, ", end - begin);
+    fmt::print("{} vertices, {:.6g} m^2, radiance {} W/(sr m^2), {}power {} W\n", vertices, area,
+               text(light.radiance), light.two_sided ? "two-sided, " : "",
+               text(scaled(sides * area * std::numbers::pi, light.radiance)));
+}
+
+/// Counts polygons that contribute next to nothing but cost as much time as others.
+void print_weak_lights(const scene::Scene& scene) {
+    constexpr double kWeak = 1e-6;
+    double total = 0;
+    for (const scene::PolygonLight& light : scene.polygon_lights) total += power(light);
+    const auto weak = std::count_if(scene.polygon_lights.begin(), scene.polygon_lights.end(),
+                                    [&](const auto& light) { return power(light) < kWeak * total; });
+    if (weak > 0) fmt::print("  {} polygons have less than {:g} of the power of all polygons\n", weak, kWeak);
+}
+
+void print_lights(const scene::Scene& scene) {
+    const std::vector<scene::PolygonLight>& lights = scene.polygon_lights;
+    fmt::print("\n{} polygon lights, {} line lights\n", lights.size(), scene.line_lights.size());
+    for (std::size_t begin = 0, end = 0; begin < lights.size(); begin = end) {
+        while (end < lights.size() && lights[end].emitter == lights[begin].emitter) ++end;
+        print_emitter(scene, begin, end);
+    }
+    print_weak_lights(scene);
     for (const scene::LineLight& light : scene.line_lights) {
         const double extent = length(to_double(light.end) - to_double(light.begin));
         const double area = 2 * std::numbers::pi * static_cast<double>(light.radius) * extent;

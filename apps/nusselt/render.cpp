@@ -8,6 +8,7 @@
 #include "image/io.h"
 #include "render_cpu/film.h"
 #include "render_cpu/renderer.h"
+#include "scene/scene_size.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -114,6 +115,7 @@ nlohmann::ordered_json report_json(const RenderOptions& options, const render_cp
     return {
         {"scene", options.scene.string()},
         {"triangles", scene.triangles.size()},
+        {"scene_bytes", scene::array_bytes(scene)},
         {"width", scene.film.width},
         {"height", scene.film.height},
         {"technique", render_cpu::name_of(settings.technique)},

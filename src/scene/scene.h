@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -96,10 +95,7 @@ public:
         for (; begin != end; ++begin) push_back(*begin);
     }
     /// \throws std::length_error if it is full
-    void push_back(const Float3& vertex) {
-        if (size_ == kCapacity) throw std::length_error("polygonal lights have at most 8 vertices");
-        vertices_[size_++] = vertex;
-    }
+    void push_back(const Float3& vertex);
 
     std::size_t size() const { return size_; }
     const Float3* begin() const { return vertices_.data(); }
@@ -109,10 +105,7 @@ public:
     const Float3& operator[](std::size_t i) const { return vertices_[i]; }
     Float3& operator[](std::size_t i) { return vertices_[i]; }
     /// \throws std::out_of_range
-    const Float3& at(std::size_t i) const {
-        if (i >= size_) throw std::out_of_range("vertex of a polygonal light");
-        return vertices_[i];
-    }
+    const Float3& at(std::size_t i) const;
     const Float3& back() const { return vertices_[size_ - 1]; }
 
 private:

@@ -1,0 +1,21 @@
+#pragma once
+/// Runs programs to measure them from outside.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace nusselt::experiments {
+
+struct ChildResult {
+    std::string output; ///< standard output
+    std::uint64_t
+        peak_bytes{}; ///< largest resident memory; at least that of this process when it started the child
+};
+
+/// Runs a program to its end; its errors go where ours go.
+/// \param command  path of the program and its arguments
+/// \throws std::runtime_error if it cannot be run or fails
+ChildResult run_child(const std::vector<std::string>& command);
+
+} // namespace nusselt::experiments
