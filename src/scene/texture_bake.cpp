@@ -266,7 +266,12 @@ BakedTexture bake(const TexturePlan& plan, const Recipe& recipe, const std::vect
     texture.width = domain.size[0];
     texture.height = domain.size[1];
     texture.channels = recipe.request.channels;
-    texture.wrap = domain.wrap;
+    // A roughness of 0 outside of the image would be a perfect mirror.
+    const bool is_roughness = std::any_of(recipe.formula.begin(), recipe.formula.end(), [&](int number) {
+        return plan.nodes[static_cast<std::size_t>(number)].operation == TextureOperation::roughness;
+    });
+    const bool is_clamped = is_roughness && domain.wrap == TextureWrap::black;
+    texture.wrap = is_clamped ? TextureWrap::clamp : domain.wrap;
     texture.filter = domain.filter;
     const auto width = static_cast<std::size_t>(texture.width);
     const auto height = static_cast<std::size_t>(texture.height);
