@@ -220,13 +220,14 @@ Texture plain_image(const TextureNode& leaf, const TextureRequest& request, Text
         return texture;
     }
     const std::size_t count = image.texels.size() / static_cast<std::size_t>(image.channels);
-    texture.texels.reserve(count * static_cast<std::size_t>(channels));
+    texture.texels.resize(count * static_cast<std::size_t>(channels));
     for (std::size_t i = 0; i < count; ++i) {
         const Texel texel = texel_at(image, i, leaf.is_grey);
         if (is_grey)
-            texture.texels.push_back(mean(texel));
+            texture.texels[i] = mean(texel);
         else
-            texture.texels.insert(texture.texels.end(), texel.begin(), texel.end());
+            std::copy(texel.begin(), texel.end(),
+                      texture.texels.begin() + static_cast<std::ptrdiff_t>(3 * i));
     }
     return texture;
 }
