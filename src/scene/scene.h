@@ -36,7 +36,7 @@ struct Texture {
     std::string name;
     int width = 0;
     int height = 0;
-    std::vector<float> texels; ///< channels * width * height; finite and not negative
+    std::vector<float> texels = {}; ///< channels * width * height; finite and not negative
     int channels = 3;          ///< 3 for RGB, 1 for grey
     TextureWrap wrap = TextureWrap::repeat;
     TextureFilter filter = TextureFilter::bilinear;
@@ -60,18 +60,18 @@ struct Material {
     std::string name;
     BrdfModel model = BrdfModel::lambert;
     Float3 diffuse = {0.5f, 0.5f, 0.5f}; ///< diffuse albedo
-    TextureUse diffuse_texture;
+    TextureUse diffuse_texture = {};
     Float3 f0 = {0.04f, 0.04f, 0.04f}; ///< specular reflectance at normal incidence
-    TextureUse f0_texture;
+    TextureUse f0_texture = {};
     float roughness = 1.0f; ///< perceptual roughness in [0, 1]; the GGX alpha is its square
-    TextureUse roughness_texture;
+    TextureUse roughness_texture = {};
     float alpha = 1.0f; ///< probability that the surface is there
-    TextureUse alpha_texture;
+    TextureUse alpha_texture = {};
     float bump = 1.0f; ///< height of texels of value 1 of the bump texture [m]
-    TextureUse bump_texture;
+    TextureUse bump_texture = {};
     /// Normals in the tangent frame (dp/du orthogonalised, normal x that, normal), a component n as (n + 1) / 2. Takes
     /// precedence over the bump texture.
-    TextureUse normal_texture;
+    TextureUse normal_texture = {};
 };
 
 /// One light as the user sees it: an emissive shape, which may consist of many polygons, or a tube. Light rigs and

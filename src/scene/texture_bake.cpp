@@ -220,13 +220,14 @@ Texture plain_image(const TextureNode& leaf, const TextureRequest& request, Text
         return texture;
     }
     const std::size_t count = image.texels.size() / static_cast<std::size_t>(image.channels);
-    texture.texels.reserve(count * static_cast<std::size_t>(channels));
+    texture.texels.resize(count * static_cast<std::size_t>(channels));
     for (std::size_t i = 0; i < count; ++i) {
         const Texel texel = texel_at(image, i, leaf.is_grey);
         if (is_grey)
-            texture.texels.push_back(mean(texel));
+            texture.texels[i] = mean(texel);
         else
-            texture.texels.insert(texture.texels.end(), texel.begin(), texel.end());
+            std::copy(texel.begin(), texel.end(),
+                      texture.texels.begin() + static_cast<std::ptrdiff_t>(3 * i));
     }
     return texture;
 }
@@ -266,7 +267,12 @@ BakedTexture bake(const TexturePlan& plan, const Recipe& recipe, const std::vect
     texture.width = domain.size[0];
     texture.height = domain.size[1];
     texture.channels = recipe.request.channels;
-    texture.wrap = domain.wrap;
+    // A roughness of 0 outside of the image would be a perfect mirror.
+    const bool is_roughness = std::any_of(recipe.formula.begin(), recipe.formula.end(), [&](int number) {
+        return plan.nodes[static_cast<std::size_t>(number)].operation == TextureOperation::roughness;
+    });
+    const bool is_clamped = is_roughness && domain.wrap == TextureWrap::black;
+    texture.wrap = is_clamped ? TextureWrap::clamp : domain.wrap;
     texture.filter = domain.filter;
     const auto width = static_cast<std::size_t>(texture.width);
     const auto height = static_cast<std::size_t>(texture.height);

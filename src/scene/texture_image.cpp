@@ -41,7 +41,8 @@ void fill_flipped(const Source* source, Texture& texture, const Decode& decode) 
     texture.texels.resize(size);
     for (std::size_t begin = 0; begin < size; begin += row) {
         float* target = texture.texels.data() + (size - row - begin);
-        for (std::size_t i = 0; i < row; ++i) target[i] = decode(source[begin + i], i % channels);
+        for (std::size_t i = 0; i < row; i += channels)
+            for (std::size_t c = 0; c < channels; ++c) target[i + c] = decode(source[begin + i + c], c);
     }
 }
 

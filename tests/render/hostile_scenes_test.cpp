@@ -138,7 +138,18 @@ TEST(HostileScenes, ShadingNormalsOfAllKinds) {
 TEST(HostileScenes, TextureCoordinatesOfAllKinds) {
     scene::Scene scene = make_box_scene(kSize);
     scene.textures.push_back({"checker", 2, 1, {1, 1, 1, 0, 0, 0}});
-    for (scene::Material& material : scene.materials) material.diffuse_texture.texture = 0;
+    for (const auto wrap : {scene::TextureWrap::clamp, scene::TextureWrap::black}) {
+        scene.textures.push_back(scene.textures[0]);
+        scene.textures.back().wrap = wrap;
+    }
+    scene::Material& matte = scene.materials.at(0);
+    scene::Material& glossy = scene.materials.at(1);
+    matte.diffuse_texture.texture = 0;
+    matte.normal_texture.texture = 1;
+    glossy.diffuse_texture.texture = 1;
+    glossy.f0_texture.texture = 2;
+    glossy.roughness_texture = {0, {1e30f, 1e-30f}, {0, 0}};
+    glossy.bump_texture = {2, {-3, 1e10f}, {0.5f, 0}};
     const float infinity = std::numeric_limits<float>::infinity();
     const float kinds[] = {0, -1e-9f, 1e9f, -infinity, infinity, std::nanf(""), 0.5f};
     for (std::size_t i = 0; i < scene.uvs.size(); ++i)

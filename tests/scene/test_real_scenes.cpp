@@ -31,7 +31,8 @@ protected:
         for (const Material& material : scene.materials)
             bad += material.diffuse_texture.texture >= static_cast<int>(scene.textures.size());
         for (const Texture& texture : scene.textures)
-            bad += texture.texels.size() != 3 * static_cast<std::size_t>(texture.width * texture.height);
+            bad += texture.texels.size() !=
+                   static_cast<std::size_t>(texture.channels * texture.width * texture.height);
         EXPECT_EQ(bad, 0u);
     }
     std::filesystem::path folder_;
