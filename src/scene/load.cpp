@@ -1,7 +1,7 @@
 #include "scene/load.h"
 
+#include "scene/bounds.h"
 #include "scene/parser.h"
-#include "scene/vector_math.h"
 
 #include <algorithm>
 #include <limits>
@@ -11,17 +11,6 @@
 namespace nusselt::scene {
 
 namespace {
-
-struct Bounds {
-    Double3 low = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max(),
-                   std::numeric_limits<double>::max()};
-    Double3 high = -1.0 * low;
-
-    void add(const Double3& p) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-};
 
 /// Where the contents of a mesh begin in the arrays of the scene.
 struct Offsets {
@@ -127,19 +116,6 @@ void collect_mesh_warnings(const std::vector<ShapeDirective>& shapes, const std:
 }
 
 } // namespace
-
-double scene_radius(const Scene& scene) {
-    Bounds bounds;
-    for (const Float3& p : scene.positions) bounds.add(to_double(p));
-    for (const LineLight& line : scene.line_lights) {
-        const Double3 margin = {line.radius, line.radius, line.radius};
-        for (const Float3& end : {line.begin, line.end}) {
-            bounds.add(to_double(end) - margin);
-            bounds.add(to_double(end) + margin);
-        }
-    }
-    return bounds.low.x <= bounds.high.x ? 0.5 * length(bounds.high - bounds.low) : 0;
-}
 
 Scene load_scene(const std::filesystem::path& path) {
     SceneDescription description = parse_scene(path);

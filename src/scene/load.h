@@ -16,7 +16,4 @@ namespace nusselt::scene {
 /// "file:line: message") if a file cannot be read or contradicts the format.
 Scene load_scene(const std::filesystem::path& path);
 
-/// Half the diagonal of the bounding box of surfaces and lights [m], 0 for empty scenes.
-double scene_radius(const Scene& scene);
-
 } // namespace nusselt::scene
