@@ -5,6 +5,8 @@
 #include "scene_fixture.h"
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 namespace nusselt::scene {
 namespace {
@@ -147,6 +149,19 @@ TEST(ShippedRigs, LightTheRoom) {
         EXPECT_EQ(emitting_normal(light).y, -1);
         for (const Float3& p : light.vertices) EXPECT_TRUE(p.y < 2.5f && std::fabs(p.x) < 2.4f && p.z > -2);
     }
+}
+
+TEST_F(Parts, OfTheManualAreGoodRigs) {
+    std::ifstream manual(std::filesystem::path(NUSSELT_SOURCE_DIR) / "docs/lights.md");
+    const std::string text{std::istreambuf_iterator<char>(manual), {}};
+    const std::string fence = "```json\n";
+    const std::size_t begin = text.find(fence) + fence.size();
+    write("rig.json", text.substr(begin, text.find("```", begin) - begin));
+    Scene scene = shipped("room.pbrt");
+    apply_rig(read_rig(folder_ / "rig.json"), scene);
+    EXPECT_TRUE(scene.line_lights.empty());
+    EXPECT_EQ(scene.polygon_lights.size(), 2u + 4u);
+    EXPECT_EQ(scene.emitters.back().name, "spot 3");
 }
 
 TEST(ShippedRigs, AreGoodFiles) {
