@@ -39,7 +39,7 @@ Double3 blackbody_colour(double kelvin) {
                          dot({-0.9692660, 1.8760108, 0.0415560}, xyz),
                          dot({0.0556434, -0.2040259, 1.0572252}, xyz)};
     const Double3 visible = {std::max(rgb.x, 0.0), std::max(rgb.y, 0.0), std::max(rgb.z, 0.0)};
-    return (1 / luminance(visible)) * visible;
+    return (1 / srgb_luminance(visible)) * visible;
 }
 
 } // namespace nusselt::scene

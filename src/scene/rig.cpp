@@ -275,7 +275,8 @@ void RigApplication::change_emission(const RigLight& entry, EditableLight& light
              "light \"" + light.name + "\" is black, which this cannot change; give its radiance");
     if (changes.kelvin) {
         const Double3 colour = blackbody_colour(*changes.kelvin);
-        change_radiance(light, [&](const Float3& c) { return to_float(luminance(to_double(c)) * colour); });
+        change_radiance(light,
+                        [&](const Float3& c) { return to_float(srgb_luminance(to_double(c)) * colour); });
     }
     if (changes.scale_radiance)
         change_radiance(light, [&](const Float3& c) { return scaled(*changes.scale_radiance, c); });

@@ -2,6 +2,8 @@
 // bathroom/ and sponza/.
 
 #include "scene/load.h"
+#include "scene/rig.h"
+#include "scene/rig_json.h"
 #include "scene/vector_math.h"
 
 #include <algorithm>
@@ -35,8 +37,25 @@ protected:
                    static_cast<std::size_t>(texture.channels * texture.width * texture.height);
         EXPECT_EQ(bad, 0u);
     }
+    /// A scene, such as "sponza", with a rig that comes with the project, such as "tube".
+    Scene lit_by(const std::string& name, const std::string& rig) const {
+        const std::filesystem::path rigs = std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes/rigs";
+        Scene scene = load_scene(folder_ / name / (name + ".pbrt"));
+        apply_rig(read_rig(rigs / (name + "-" + rig + ".json")), scene);
+        expect_consistent(scene);
+        return scene;
+    }
     std::filesystem::path folder_;
 };
+
+TEST_F(RealScenes, Rigs) {
+    EXPECT_EQ(lit_by("bathroom", "panel").polygon_lights.size(), 2u);
+    EXPECT_EQ(lit_by("bathroom", "tube").line_lights.size(), 1u);
+    EXPECT_EQ(lit_by("bathroom", "hundred").polygon_lights.size(), 100u);
+    EXPECT_EQ(lit_by("sponza", "panel").polygon_lights.size(), 1u);
+    EXPECT_EQ(lit_by("sponza", "tube").line_lights.size(), 1u);
+    EXPECT_EQ(lit_by("sponza", "hundred").line_lights.size(), 100u);
+}
 
 TEST_F(RealScenes, Bathroom) {
     const Scene scene = load_scene(folder_ / "bathroom/bathroom.pbrt");

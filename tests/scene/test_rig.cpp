@@ -205,6 +205,23 @@ TEST_F(RigTest, RemovedLightsDoNotCountForTheSizeOfTheScene) {
     EXPECT_DOUBLE_EQ(scene.radius, 0.5 * std::sqrt(14.0 * 14 + 12 * 12 + 12 * 12));
 }
 
+TEST_F(RigTest, InstancesCountForTheSizeOfTheScene) {
+    Scene scene = load(scene_with_light(""));
+    const auto first = static_cast<std::uint32_t>(scene.positions.size());
+    // A triangle far away in its own coordinates, but not in the world.
+    for (const float x : {100.0f, 101.0f, 100.0f}) scene.positions.push_back({x, x - 100, x});
+    scene.normals.resize(first + 3);
+    scene.uvs.resize(first + 3);
+    scene.objects = {{"leaf", static_cast<std::uint32_t>(scene.triangles.size()), 1}};
+    scene.triangles.push_back({{first, first + 1, first + 2}});
+    scene.triangle_material.push_back(0);
+    scene.triangle_light.push_back(-1);
+    scene.instances = {{0, {2, 0, 0, -200, 0, 2, 0, 0, 0, 0, 2, -196}}};
+    apply(R"({"light": 0, "move": [0, 0.5, 0]})", scene);
+    // From (-2, 0, -2) to (2, 2, 6).
+    EXPECT_DOUBLE_EQ(scene.radius, 0.5 * std::sqrt(16.0 + 4 + 64));
+}
+
 /// Two triangles that share an edge and belong to different lights, then a surface that shares one of its vertices.
 Scene scene_with_shared_vertices() {
     Scene scene;
@@ -287,9 +304,9 @@ TEST_F(RigTest, KelvinKeepsTheLuminance) {
     const auto luminances = [&] {
         std::vector<double> result;
         for (const PolygonLight& light : scene.polygon_lights)
-            result.push_back(luminance(to_double(light.radiance)));
+            result.push_back(srgb_luminance(to_double(light.radiance)));
         for (const LineLight& light : scene.line_lights)
-            result.push_back(luminance(to_double(light.radiance)));
+            result.push_back(srgb_luminance(to_double(light.radiance)));
         return result;
     };
     const std::vector<double> before = luminances();
@@ -305,7 +322,7 @@ TEST_F(RigTest, ColoursOfBlackBodiesLieOnThePlanckianLocus) {
                                        std::array{4000.0, 0.3805, 0.3768}, std::array{6500.0, 0.3135, 0.3237},
                                        std::array{10000.0, 0.2807, 0.2884}}) {
         const Double3 rgb = blackbody_colour(kelvin);
-        EXPECT_NEAR(luminance(rgb), 1, 1e-12);
+        EXPECT_NEAR(srgb_luminance(rgb), 1, 1e-12);
         const Double3 xyz = {dot({0.4124564, 0.3575761, 0.1804375}, rgb),
                              dot({0.2126729, 0.7151522, 0.0721750}, rgb),
                              dot({0.0193339, 0.1191920, 0.9503041}, rgb)};
@@ -315,7 +332,7 @@ TEST_F(RigTest, ColoursOfBlackBodiesLieOnThePlanckianLocus) {
     }
     const Double3 ember = blackbody_colour(1000);
     EXPECT_EQ(ember.z, 0);
-    EXPECT_NEAR(luminance(ember), 1, 1e-12);
+    EXPECT_NEAR(srgb_luminance(ember), 1, 1e-12);
 }
 
 TEST_F(RigTest, AHundredThousandLightsAreAdded) {

@@ -1,8 +1,12 @@
 // The scenes that come with the project load silently and are built as their comments say.
 
+#include "scene/rig.h"
+#include "scene/rig_json.h"
 #include "scene_fixture.h"
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 namespace nusselt::scene {
 namespace {
@@ -123,6 +127,50 @@ TEST(ShippedScenes, Room) {
         EXPECT_GE(p.z, -2);
         EXPECT_LE(p.z, 3.6f);
     }
+}
+
+TEST(ShippedRigs, LightTheRoom) {
+    const auto lit_by = [](const std::string& rig) {
+        Scene scene = shipped("room.pbrt");
+        apply_rig(read_rig(kFolder / "rigs" / rig), scene);
+        return scene;
+    };
+    const Scene panel = lit_by("room-panel.json");
+    EXPECT_TRUE(panel.line_lights.empty());
+    ASSERT_EQ(panel.polygon_lights.size(), 1u);
+    EXPECT_EQ(emitting_normal(panel.polygon_lights[0]).y, -1);
+    const Scene tube = lit_by("room-tube.json");
+    EXPECT_EQ(tube.line_lights.size(), 1u);
+    EXPECT_TRUE(tube.polygon_lights.empty());
+    const Scene hundred = lit_by("room-hundred.json");
+    EXPECT_TRUE(hundred.line_lights.empty());
+    ASSERT_EQ(hundred.polygon_lights.size(), 100u);
+    for (const PolygonLight& light : hundred.polygon_lights) {
+        EXPECT_EQ(emitting_normal(light).y, -1);
+        for (const Float3& p : light.vertices) EXPECT_TRUE(p.y < 2.5f && std::fabs(p.x) < 2.4f && p.z > -2);
+    }
+}
+
+TEST_F(Parts, OfTheManualAreGoodRigs) {
+    std::ifstream manual(std::filesystem::path(NUSSELT_SOURCE_DIR) / "docs/lights.md");
+    const std::string text{std::istreambuf_iterator<char>(manual), {}};
+    const std::string fence = "```json\n";
+    const std::size_t begin = text.find(fence) + fence.size();
+    write("rig.json", text.substr(begin, text.find("```", begin) - begin));
+    Scene scene = shipped("room.pbrt");
+    apply_rig(read_rig(folder_ / "rig.json"), scene);
+    EXPECT_TRUE(scene.line_lights.empty());
+    EXPECT_EQ(scene.polygon_lights.size(), 2u + 4u);
+    EXPECT_EQ(scene.emitters.back().name, "spot 3");
+}
+
+TEST(ShippedRigs, AreGoodFiles) {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(kFolder / "rigs")) {
+        EXPECT_FALSE(read_rig(entry.path()).lights.empty()) << entry.path();
+        ++count;
+    }
+    EXPECT_EQ(count, 9u);
 }
 
 } // namespace
