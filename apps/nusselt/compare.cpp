@@ -209,12 +209,15 @@ void setup_compare(CLI::App& app, int& exit_code) {
         ->check(finite_number())
         ->check(CLI::PositiveNumber)
         ->check(CLI::Range(0.0, image::kFlipMaxPixelsPerDegree));
-    command->add_option(
-        "--max", arguments->at_most,
-        "METRIC=VALUE, any number of times: exit with 3 if it is above (or undefined) for an\n"
-        "image. Default: none");
-    command->add_option("--min", arguments->at_least,
-                        "METRIC=VALUE: exit with 3 if it is below (or undefined). Default: none");
+    command
+        ->add_option("--max", arguments->at_most,
+                     "METRIC=VALUE, any number of times: exit with 3 if it is above (or undefined) for an\n"
+                     "image. Default: none")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--min", arguments->at_least,
+                     "METRIC=VALUE: exit with 3 if it is below (or undefined). Default: none")
+        ->allow_extra_args(false);
     add_picture_options(*command, options);
     command->add_option("--json", options.json, kJsonDescription);
     command->callback([arguments, &exit_code] { exit_code = run_compare(checked_options(*arguments)); });

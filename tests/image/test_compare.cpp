@@ -179,7 +179,7 @@ TEST_F(CompareCommand, BrokenLimitsExitWithThree) {
         return metric + "=" + std::to_string(value);
     };
     const Outcome kept = run_command_line(
-        {a_, b_, "--max", limit("mse", 1.001 * mse), "--min", "psnr=0.5", "--max", "invalid=1"});
+        {"--max", limit("mse", 1.001 * mse), a_, "--min", "psnr=0.5", b_, "--max", "invalid=1"});
     EXPECT_EQ(kept.exit_code, 0) << kept.errors;
     EXPECT_EQ(kept.errors, "");
 
