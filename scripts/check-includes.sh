@@ -25,7 +25,7 @@ BEGIN {
     allow("include/all", below " include/estimate")
 
     allow("src/image", "library")
-    allow("src/scene", "library")
+    allow("src/scene", "library src/image")
     allow("src/visibility", "library src/scene")
     allow("src/tables", "library")
     allow("src/fit", "library src/image")

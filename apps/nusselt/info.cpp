@@ -50,10 +50,22 @@ void print_materials(const scene::Scene& scene) {
         const bool is_lambert = material.model == scene::BrdfModel::lambert;
         fmt::print("  {}: {}, diffuse {}", material.name, is_lambert ? "lambert" : "frostbite",
                    text(material.diffuse));
-        if (material.diffuse_texture.texture >= 0)
-            fmt::print(" times {}",
-                       scene.textures[static_cast<std::size_t>(material.diffuse_texture.texture)].name);
-        if (!is_lambert) fmt::print(", f0 {}, roughness {:.4g}", text(material.f0), material.roughness);
+        const auto print_texture = [&](const char* format, const scene::TextureUse& use) {
+            if (use.texture >= 0)
+                fmt::print(fmt::runtime(format), scene.textures[static_cast<std::size_t>(use.texture)].name);
+        };
+        print_texture(" times {}", material.diffuse_texture);
+        if (!is_lambert) {
+            fmt::print(", f0 {}", text(material.f0));
+            print_texture(" times {}", material.f0_texture);
+            fmt::print(", roughness {:.4g}", material.roughness);
+            print_texture(" times {}", material.roughness_texture);
+        }
+        if (material.alpha != 1 || material.alpha_texture.texture >= 0)
+            fmt::print(", alpha {:.4g}", material.alpha);
+        print_texture(" times {}", material.alpha_texture);
+        print_texture(", bumps {}", material.bump_texture);
+        print_texture(", normals {}", material.normal_texture);
         fmt::print("\n");
     }
     fmt::print("\n{} textures\n", scene.textures.size());

@@ -22,6 +22,28 @@ struct TextureView {
     const float* texels; ///< as Texture::texels, at most 2^31 floats
     std::int32_t width;
     std::int32_t height;
+    std::int32_t channels; ///< 1 or 3
+    scene::TextureWrap wrap;
+    scene::TextureFilter filter;
+};
+
+/// The textures of a material, as in scene::Material. Words of four bytes only, so that kernels gather any of them.
+struct MaterialTextures {
+    scene::TextureUse diffuse;
+    scene::TextureUse f0;
+    scene::TextureUse roughness;
+    scene::TextureUse normal;
+    scene::TextureUse bump;
+    float bump_height;
+};
+
+/// Which textures a material has, as bits.
+enum TextureKind : std::uint32_t {
+    kDiffuseTexture = 1,
+    kF0Texture = 2,
+    kRoughnessTexture = 4,
+    kNormalTexture = 8,
+    kBumpTexture = 16,
 };
 
 /// A polygon in the form of ConvexPolygon<float, 8>, or <float, 4> in the first slots of the arrays.
@@ -54,8 +76,10 @@ struct LtcTableRecord {
 /// An instance as kernels need it, floats only.
 struct InstanceRecord {
     float world_from_object[12]; ///< as Instance::world_from_object
-    float normal_from_object[9]; ///< rows of three; inverse transpose of the linear part, times any number
-    float rounding;              ///< how many times rounding errors grow on the way to the object and back
+    float normal_from_object
+        [9];          ///< rows of three; inverse transpose of the linear part, times a number above 0
+    float handedness; ///< -1 for mirror images, else 1
+    float rounding;   ///< how many times rounding errors grow on the way to the object and back
 };
 
 /// Cells of tabulated pixel filters.
@@ -77,7 +101,8 @@ struct KernelScene {
     const std::uint32_t* triangle_material;
     const std::int32_t* triangle_light;
     const MaterialRow* materials;
-    const std::int32_t* material_texture; ///< index into textures, -1 for none
+    const std::uint32_t* material_texture_kinds; ///< TextureKind
+    const MaterialTextures* material_textures;
     const TextureView* textures;
     const PolygonLightRecord* polygon_lights;
     const LineLightRecord* line_lights;

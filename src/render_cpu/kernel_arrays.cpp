@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace nusselt::render_cpu {
 
@@ -34,6 +35,18 @@ MaterialRow make_row(const scene::Material& material) {
             {material.f0.x, material.f0.y, material.f0.z},
             material.roughness,
             material.model == scene::BrdfModel::frostbite ? 1.0f : 0.0f};
+}
+
+std::uint32_t texture_kinds(const MaterialTextures& textures) {
+    const std::pair<const scene::TextureUse&, TextureKind> uses[] = {{textures.diffuse, kDiffuseTexture},
+                                                                     {textures.f0, kF0Texture},
+                                                                     {textures.roughness, kRoughnessTexture},
+                                                                     {textures.normal, kNormalTexture},
+                                                                     {textures.bump, kBumpTexture}};
+    std::uint32_t kinds = 0;
+    for (const auto& [use, kind] : uses)
+        if (use.texture >= 0) kinds |= kind;
+    return kinds;
 }
 
 template <int N>
@@ -96,11 +109,13 @@ InstanceRecord make_record(const scene::Scene& scene, const scene::Instance& ins
     if (determinant == 0 || !std::isfinite(determinant))
         throw std::runtime_error("object " + scene.objects[instance.object].name +
                                  ": the transform of an instance cannot be inverted");
+    const double handedness = determinant < 0 ? -1 : 1;
+    record.handedness = static_cast<float>(handedness);
     for (std::size_t i = 0; i < 3; ++i) {
         double growth = 0;
         for (std::size_t j = 0; j < 3; ++j) {
             // Cofactors over the determinant are the transposed inverse.
-            record.normal_from_object[3 * i + j] = static_cast<float>(cofactor[i][j] / largest);
+            record.normal_from_object[3 * i + j] = static_cast<float>(cofactor[i][j] / largest * handedness);
             for (std::size_t k = 0; k < 3; ++k)
                 growth += std::fabs(entry(i, k) * cofactor[j][k] / determinant);
         }
@@ -121,16 +136,20 @@ KernelArrays::KernelArrays(const scene::Scene& scene)
       filter_x_(make_filter_table(scene.film.filter, scene.film.filter.radius_x)),
       filter_y_(make_filter_table(scene.film.filter, scene.film.filter.radius_y)) {
     check_float_count(3 * scene.positions.size(), "vertices");
-    check_float_count(8 * scene.materials.size(), "materials");
+    check_float_count(sizeof(MaterialTextures) / sizeof(float) * scene.materials.size(), "materials");
     for (const scene::Material& material : scene.materials) {
         materials_.push_back(make_row(material));
         lambert_materials_.push_back(materials_.back());
         lambert_materials_.back().is_frostbite = 0;
-        material_texture_.push_back(material.diffuse_texture.texture);
+        material_textures_.push_back({material.diffuse_texture, material.f0_texture,
+                                      material.roughness_texture, material.normal_texture,
+                                      material.bump_texture, material.bump});
+        material_texture_kinds_.push_back(texture_kinds(material_textures_.back()));
     }
     for (const scene::Texture& texture : scene.textures) {
         check_float_count(texture.texels.size(), "texture " + texture.name);
-        textures_.push_back({texture.texels.data(), texture.width, texture.height});
+        textures_.push_back({texture.texels.data(), texture.width, texture.height, texture.channels,
+                             texture.wrap, texture.filter});
     }
     for (const scene::PolygonLight& light : scene.polygon_lights)
         polygon_lights_.push_back(make_record(scene, light));
@@ -149,7 +168,8 @@ KernelScene KernelArrays::view(BrdfChoice brdf) const {
     view.triangle_material = scene_.triangle_material.data();
     view.triangle_light = scene_.triangle_light.data();
     view.materials = (brdf == BrdfChoice::lambert ? lambert_materials_ : materials_).data();
-    view.material_texture = material_texture_.data();
+    view.material_texture_kinds = material_texture_kinds_.data();
+    view.material_textures = material_textures_.data();
     view.textures = textures_.data();
     view.polygon_lights = polygon_lights_.data();
     view.line_lights = line_lights_.data();

@@ -23,7 +23,8 @@ private:
     const scene::Scene& scene_;
     std::vector<MaterialRow> materials_;
     std::vector<MaterialRow> lambert_materials_;
-    std::vector<std::int32_t> material_texture_;
+    std::vector<std::uint32_t> material_texture_kinds_;
+    std::vector<MaterialTextures> material_textures_;
     std::vector<TextureView> textures_;
     std::vector<PolygonLightRecord> polygon_lights_;
     std::vector<LineLightRecord> line_lights_;

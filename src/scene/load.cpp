@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <utility>
 
 namespace nusselt::scene {
@@ -30,38 +31,24 @@ struct Offsets {
     std::size_t lights = 0;
 };
 
-/// Renumbers the images that materials use and returns the requests for them.
-std::vector<ImageRequest> select_images(const std::vector<ImageRequest>& images,
-                                        std::vector<Material>& materials) {
-    std::vector<ImageRequest> used;
-    std::vector<int> new_index(images.size(), -1);
-    for (Material& material : materials) {
-        const int texture = material.diffuse_texture.texture;
-        if (texture < 0) continue;
-        int& index = new_index[static_cast<std::size_t>(texture)];
-        if (index < 0) {
-            index = static_cast<int>(used.size());
-            used.push_back(images[static_cast<std::size_t>(texture)]);
-        }
-        material.diffuse_texture.texture = index;
-    }
-    return used;
+std::vector<Mesh> build_meshes(std::vector<ShapeDirective>& shapes) {
+    std::vector<Mesh> meshes(shapes.size());
+    tbb::parallel_for(std::size_t{0}, shapes.size(),
+                      [&](std::size_t i) { meshes[i] = build_mesh(shapes[i]); });
+    return meshes;
 }
 
-/// Decodes images and builds meshes, in parallel.
-std::vector<Mesh> read_files(const std::vector<ImageRequest>& images, std::vector<ShapeDirective>& shapes,
-                             std::vector<Texture>& textures) {
-    std::vector<Mesh> meshes(shapes.size());
-    textures.resize(images.size());
-    // Images come first: each of them takes longer than most meshes.
-    tbb::parallel_for(std::size_t{0}, images.size() + shapes.size(), [&](std::size_t i) {
-        if (i < images.size()) {
-            textures[i] = decode_image(images[i]);
-        } else {
-            meshes[i - images.size()] = build_mesh(shapes[i - images.size()]);
+/// Tells materials the coordinates at which their textures are looked up.
+void set_mappings(const std::vector<BakedTexture>& textures, std::vector<Material>& materials) {
+    for (Material& material : materials) {
+        for (TextureUse* use : {&material.diffuse_texture, &material.f0_texture, &material.roughness_texture,
+                                &material.alpha_texture, &material.bump_texture, &material.normal_texture}) {
+            if (use->texture < 0) continue;
+            const TextureMapping& mapping = textures[static_cast<std::size_t>(use->texture)].mapping;
+            use->scale = {mapping.scale[0], mapping.scale[1]};
+            use->offset = {mapping.offset[0], mapping.offset[1]};
         }
-    });
-    return meshes;
+    }
 }
 
 void copy_mesh(const Mesh& mesh, int material, const Offsets& offsets, Scene& scene) {
@@ -147,8 +134,14 @@ Scene load_scene(const std::filesystem::path& path) {
     scene.materials = std::move(description.materials);
     scene.film = description.film;
     scene.camera = make_camera(description.camera, description.film);
-    const std::vector<ImageRequest> images = select_images(description.images, scene.materials);
-    std::vector<Mesh> meshes = read_files(images, description.shapes, scene.textures);
+    std::vector<Mesh> meshes;
+    std::vector<BakedTexture> textures;
+    Warnings texture_warnings;
+    tbb::parallel_invoke([&] { textures = bake_textures(description.textures, texture_warnings); },
+                         [&] { meshes = build_meshes(description.shapes); });
+    description.warnings.append(texture_warnings);
+    set_mappings(textures, scene.materials);
+    for (BakedTexture& texture : textures) scene.textures.push_back(std::move(texture.texture));
     join_meshes(description.shapes, meshes, scene);
     collect_mesh_warnings(description.shapes, meshes, description.warnings);
     if (scene.triangles.empty() && scene.line_lights.empty())

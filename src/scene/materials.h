@@ -4,6 +4,8 @@
 #include "scene/parameters.h"
 #include "scene/textures.h"
 
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -14,22 +16,15 @@ struct MaterialDirective {
     std::string name; ///< of the material; its type if it has none
     std::string type; ///< "matte", "coateddiffuse", ...
     ParameterList parameters;
+    std::filesystem::path normal_map; ///< the file that the parameter "normalmap" names
 };
 
-/// Nothing if surfaces of this material are invisible. The diffuse_texture of the result is an index into
-/// textures.requests(). Throws SceneError on parameters of impossible values or missing textures.
-std::optional<Material> reduce_material(MaterialDirective& directive, const TextureTable& textures,
-                                        Warnings& warnings);
+/// The named material that others are mixed of; null if there is none of this name.
+using FindMaterial = std::function<MaterialDirective*(const std::string& name)>;
 
-/// GGX alpha from pbrt v3's roughness parameter.
-double alpha_from_roughness_v3(double roughness);
-/// GGX alpha from pbrt v4's roughness parameter.
-double alpha_from_roughness_v4(double roughness);
-/// Our perceptual roughness; alpha is clamped to [1e-3, 1] first.
-float roughness_from_alpha(double alpha);
-/// Fresnel reflectance of a conductor in air at normal incidence.
-double conductor_f0(double eta, double k);
-/// Fresnel reflectance of a dielectric in air at normal incidence.
-double dielectric_f0(double eta);
+/// Nothing if surfaces of this material are invisible. Textures of the result are indices of requests to `textures`.
+/// Throws SceneError on parameters of impossible values or missing textures.
+std::optional<Material> reduce_material(MaterialDirective& directive, TextureTable& textures,
+                                        const FindMaterial& find_material, Warnings& warnings);
 
 } // namespace nusselt::scene

@@ -200,6 +200,11 @@ std::string ParameterList::string(std::string_view name, std::string_view fallba
     return parameter != nullptr ? parameter->strings[0] : std::string(fallback);
 }
 
+std::vector<std::string> ParameterList::strings(std::string_view name) {
+    const Parameter* parameter = find(name, ParameterKind::string);
+    return parameter != nullptr ? parameter->strings : std::vector<std::string>{};
+}
+
 std::optional<std::string> ParameterList::texture(std::string_view name) {
     const Parameter* parameter = find_single(name, ParameterKind::texture);
     return parameter != nullptr ? std::optional(parameter->strings[0]) : std::nullopt;

@@ -48,6 +48,8 @@ public:
     int integer(std::string_view name, int fallback);
     bool boolean(std::string_view name, bool fallback);
     std::string string(std::string_view name, std::string_view fallback);
+    /// All values of a parameter of type string; none if it is missing.
+    std::vector<std::string> strings(std::string_view name);
     std::optional<std::string> texture(std::string_view name);
     /// Of type rgb or color. A spectrum is reduced to a grey of its mean value with a warning, or to nothing
     /// (also with a warning) if it is given by name. `real_name` of a black body likewise.

@@ -1,5 +1,6 @@
 #include "scene/parser.h"
 
+#include "scene/alpha.h"
 #include "scene/graphics_state.h"
 #include "scene/tokenizer.h"
 
@@ -19,7 +20,7 @@ constexpr int kMaxIncludeDepth = 32;
 class Parser {
 public:
     explicit Parser(const std::filesystem::path& main_path) : main_path_(main_path) {
-        materials_.push_back({{"default", "matte", ParameterList()}, {}});
+        materials_.push_back({{"default", "matte", ParameterList(), {}}, {}});
         state_.current().material = &materials_.back();
     }
 
@@ -81,6 +82,7 @@ private:
     ParameterList read_parameters() { return {*tokens_, location_}; }
     std::filesystem::path resolve(const std::string& name) const;
     void concatenate(const Transform& t) { state_.current().ctm = state_.current().ctm * t; }
+    MaterialEntry& add_material(const std::string& name, const std::string& type, ParameterList parameters);
     int used_material(MaterialEntry& entry);
     int black_material();
 
@@ -92,6 +94,7 @@ private:
     std::unordered_map<std::string, Transform> coordinate_systems_;
     std::optional<int> black_material_;
     TextureTable textures_;
+    AlphaVariants alpha_variants_;
     std::optional<CameraDirective> camera_;
     int include_depth_ = 0;
     bool inside_object_ = false;
@@ -153,7 +156,7 @@ SceneDescription Parser::run() {
     if (!camera_) scene_.warnings.add(begin, "there is no Camera, it looks from the origin along +z");
     if (!camera_) camera_.emplace().location = begin;
     scene_.camera = *camera_;
-    scene_.images = textures_.requests();
+    scene_.textures = textures_.plan();
     return std::move(scene_);
 }
 
@@ -396,10 +399,17 @@ void Parser::area_light_source() {
     state_.current().emission = emission;
 }
 
+MaterialEntry& Parser::add_material(const std::string& name, const std::string& type,
+                                    ParameterList parameters) {
+    MaterialDirective directive{name, type, std::move(parameters), {}};
+    const std::string normal_map = directive.parameters.string("normalmap", "");
+    if (!normal_map.empty()) directive.normal_map = resolve(normal_map);
+    return materials_.emplace_back(MaterialEntry{std::move(directive), {}});
+}
+
 void Parser::material() {
     const std::string type = read_string();
-    materials_.push_back({{type, type, read_parameters()}, {}});
-    state_.current().material = &materials_.back();
+    state_.current().material = &add_material(type, type, read_parameters());
 }
 
 void Parser::make_named_material() {
@@ -409,8 +419,7 @@ void Parser::make_named_material() {
     if (named_materials_.contains(name))
         scene_.warnings.add(location_,
                             "material \"" + name + "\" is defined again; the new one applies from here on");
-    materials_.push_back({{name, type, std::move(parameters)}, {}});
-    named_materials_[name] = &materials_.back();
+    named_materials_[name] = &add_material(name, type, std::move(parameters));
 }
 
 void Parser::named_material() {
@@ -422,21 +431,26 @@ void Parser::named_material() {
 }
 
 void Parser::texture() {
-    const std::string name = read_string();
-    const std::string value_type = read_string();
-    const std::string texture_class = read_string();
-    ParameterList parameters = read_parameters();
-    if (value_type != "float" && value_type != "spectrum" && value_type != "color")
-        throw SceneError(location_, "texture \"" + name +
-                                        "\": expected type \"float\" or \"spectrum\", found \"" + value_type +
-                                        '"');
-    textures_.define(name, texture_class, parameters, resolve(parameters.string("filename", "")),
-                     scene_.warnings);
+    TextureDirective directive;
+    directive.name = read_string();
+    const std::string type = read_string();
+    directive.texture_class = read_string();
+    directive.parameters = read_parameters();
+    if (type != "float" && type != "spectrum" && type != "color")
+        throw SceneError(location_, "texture \"" + directive.name +
+                                        "\": expected type \"float\" or \"spectrum\", found \"" + type + '"');
+    directive.type = type == "float" ? TextureType::number : TextureType::colour;
+    directive.image_path = resolve(directive.parameters.string("filename", ""));
+    textures_.define(directive, scene_.warnings);
 }
 
 int Parser::used_material(MaterialEntry& entry) {
     if (!entry.index) {
-        const auto reduced = reduce_material(entry.directive, textures_, scene_.warnings);
+        const auto find_material = [&](const std::string& name) {
+            const auto found = named_materials_.find(name);
+            return found != named_materials_.end() ? &found->second->directive : nullptr;
+        };
+        const auto reduced = reduce_material(entry.directive, textures_, find_material, scene_.warnings);
         entry.index = reduced ? static_cast<int>(scene_.materials.size()) : kInvisible;
         if (reduced) scene_.materials.push_back(*reduced);
     }
@@ -474,6 +488,8 @@ void Parser::shape() {
         shape.material = used_material(*state.material);
         if (shape.material == kInvisible && is_black(shape.emission.radiance)) return;
         if (shape.material == kInvisible) shape.material = black_material();
+        shape.material = alpha_variants_.material(shape.material, shape.parameters, textures_,
+                                                  scene_.materials, scene_.warnings);
     }
     scene_.shapes.push_back(std::move(shape));
 }

@@ -17,8 +17,8 @@ namespace nusselt::scene {
 struct SceneDescription {
     std::deque<SourceFile> sources; ///< all locations point into these
     std::vector<ShapeDirective> shapes;
-    std::vector<Material> materials; ///< used ones; diffuse_texture is an index into images
-    std::vector<ImageRequest> images;
+    std::vector<Material> materials; ///< used ones; their textures are indices of requests of `textures`
+    TexturePlan textures;
     CameraDirective camera;
     Film film;
     Warnings warnings;

@@ -296,9 +296,6 @@ Mesh build_mesh(ShapeDirective& shape) {
     if (!is_black(shape.emission.radiance)) add_polygon_lights(shape, mesh);
 
     ParameterList& parameters = shape.parameters;
-    if (parameters.texture("alpha") || parameters.texture("shadowalpha") || parameters.real("alpha", 1) != 1)
-        mesh.warnings.add(parameters.location_of("alpha"), "shape alpha",
-                          "shape \"" + shape.type + "\": alpha is ignored, the surface is opaque");
     parameters.warn_unused("shape \"" + shape.type + '"', mesh.warnings);
     return mesh;
 }

@@ -1,213 +1,218 @@
 #include "scene/textures.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <stb/stb_image.h>
-#include <string>
+#include <iterator>
 
 namespace nusselt::scene {
 
 namespace {
 
-std::array<float, 256> make_decoding_table(TexelEncoding encoding) {
-    std::array<float, 256> table{};
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        const double x = static_cast<double>(i) / 255;
-        const double linear = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-        table[i] = static_cast<float>(encoding == TexelEncoding::srgb ? linear : x);
+std::string text_of(const TextureDirective& directive) { return "texture \"" + directive.name + '"'; }
+std::string class_of(const TextureDirective& directive) {
+    return "Texture \"" + directive.texture_class + '"';
+}
+
+TextureMapping read_mapping(TextureDirective& directive, Warnings& warnings) {
+    ParameterList& parameters = directive.parameters;
+    if (const std::string kind = parameters.string("mapping", "uv"); kind != "uv") {
+        warnings.add(parameters.location_of("mapping"), "texture mapping " + kind,
+                     text_of(directive) + ": mapping \"" + kind +
+                         "\" is not supported, the texture coordinates of the mesh are used");
+        parameters.ignore({"v1", "v2"});
     }
-    return table;
+    TextureMapping mapping;
+    mapping.scale = {static_cast<float>(parameters.real("uscale", 1)),
+                     static_cast<float>(parameters.real("vscale", 1))};
+    mapping.offset = {static_cast<float>(parameters.real("udelta", 0)),
+                      static_cast<float>(parameters.real("vdelta", 0))};
+    return mapping;
 }
 
-const std::array<float, 256>& decoding_table(TexelEncoding encoding) {
-    static const auto kSrgb = make_decoding_table(TexelEncoding::srgb);
-    static const auto kLinear = make_decoding_table(TexelEncoding::linear);
-    return encoding == TexelEncoding::srgb ? kSrgb : kLinear;
+ImageRequest::Encoding read_encoding(TextureDirective& directive) {
+    ParameterList& parameters = directive.parameters;
+    const bool has_gamma = parameters.boolean("gamma", true);
+    const std::string encoding = parameters.string("encoding", has_gamma ? "sRGB" : "linear");
+    if (encoding == "linear") return ImageRequest::kLinear;
+    if (encoding == "sRGB") return ImageRequest::kSrgb;
+    const Location location = parameters.location_of("encoding");
+    constexpr std::string_view kGamma = "gamma ";
+    const double gamma =
+        encoding.starts_with(kGamma) ? parse_number(encoding.substr(kGamma.size()), location) : 0;
+    if (!(gamma >= 0.1 && gamma <= 10))
+        throw SceneError(location, text_of(directive) +
+                                       ": encoding must be \"sRGB\", \"linear\" or \"gamma G\" with "
+                                       "G from 0.1 to 10, found \"" +
+                                       encoding + '"');
+    return gamma;
 }
 
-Float3 product(const Float3& a, const Float3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-Float3 mix(const Float3& a, const Float3& b, float t) {
-    return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
+TextureWrap read_wrap(TextureDirective& directive, Warnings& warnings) {
+    const std::string wrap = directive.parameters.string("wrap", "repeat");
+    if (wrap == "clamp") return TextureWrap::clamp;
+    if (wrap == "black") return TextureWrap::black;
+    if (wrap != "repeat")
+        warnings.add(directive.parameters.location_of("wrap"),
+                     text_of(directive) + ": wrap \"" + wrap + "\" is not supported, \"repeat\" is used");
+    return TextureWrap::repeat;
 }
 
-struct FreeImage {
-    void operator()(void* pixels) const { stbi_image_free(pixels); }
+/// A procedure of pbrt that is replaced by its mean.
+struct Procedure {
+    std::string_view texture_class;
+    Float3 mean;
+};
+constexpr Procedure kProcedures[] = {
+    {"fbm", {0.5f, 0.5f, 0.5f}},  {"wrinkled", {0.5f, 0.5f, 0.5f}}, {"windy", {0.5f, 0.5f, 0.5f}},
+    {"uv", {0.5f, 0.5f, 0}},          {"marble", {0.80f, 0.79f, 0.83f}},
 };
 
-/// Decodes the rows of an RGB image, the last row first.
-template <class Source, class Decode>
-void fill_flipped(const Source* source, Texture& texture, const Decode& decode) {
-    const std::size_t row = 3 * static_cast<std::size_t>(texture.width);
-    const std::size_t height = static_cast<std::size_t>(texture.height);
-    texture.texels.resize(row * height);
-    for (std::size_t y = 0; y < height; ++y)
-        std::transform(source + y * row, source + (y + 1) * row,
-                       texture.texels.data() + (height - 1 - y) * row, decode);
-}
+/// The share of the surface that "dots" cover: half of the cells have a disk of radius 0.35.
+constexpr double kDotCoverage = 0.19;
 
 } // namespace
 
-Texture decode_image(const ImageRequest& request) {
-    const auto fail = [&](std::string_view reason) {
-        throw SceneError(request.location,
-                         "texture file '" + request.path.string() + "': " + std::string(reason));
-    };
-    FileBytes file;
-    try {
-        file = FileBytes(request.path);
-    } catch (const std::runtime_error& error) {
-        fail(error.what());
-    }
-    const auto* bytes = reinterpret_cast<const stbi_uc*>(file.view().data());
-    if (file.view().size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        fail("larger than 2 GiB");
-    const int size = static_cast<int>(file.view().size());
-
-    Texture texture;
-    texture.name = request.path.filename().string();
-    int channels = 0;
-    if (stbi_is_hdr_from_memory(bytes, size) != 0) {
-        const std::unique_ptr<float, FreeImage> pixels(
-            stbi_loadf_from_memory(bytes, size, &texture.width, &texture.height, &channels, 3));
-        if (!pixels) fail(stbi_failure_reason());
-        fill_flipped(pixels.get(), texture, [](float value) { return value; });
-    } else {
-        const std::unique_ptr<stbi_uc, FreeImage> pixels(
-            stbi_load_from_memory(bytes, size, &texture.width, &texture.height, &channels, 3));
-        if (!pixels) fail(stbi_failure_reason());
-        const auto& table = decoding_table(request.encoding);
-        fill_flipped(pixels.get(), texture, [&](stbi_uc value) { return table[value]; });
-    }
-    if (request.inverted)
-        for (float& value : texture.texels) value = std::max(0.0f, 1 - request.inverted_scale * value);
-    return texture;
+int TextureTable::image_index(ImageRequest request) {
+    request.path = request.path.lexically_normal();
+    const auto [entry, is_new] =
+        image_numbers_.try_emplace({request.path, request.encoding}, static_cast<int>(images_.size()));
+    if (is_new) images_.push_back(std::move(request));
+    return entry->second;
 }
 
-const TextureValue& TextureTable::value(const std::string& name, const Location& location) const {
-    const auto found = values_.find(name);
-    if (found == values_.end()) throw SceneError(location, "texture \"" + name + "\" is not defined");
-    return found->second;
+TextureValue TextureTable::linear_image(const std::filesystem::path& path, const Location& location) {
+    TextureNode node;
+    node.operation = TextureOperation::image;
+    node.image = image_index({path, ImageRequest::kLinear, location});
+    return formulas_.add(node);
 }
 
-int TextureTable::request_index(const ImageRequest& request) {
-    const auto same = [&](const ImageRequest& other) {
-        return other.path == request.path && other.encoding == request.encoding &&
-               other.inverted == request.inverted && other.inverted_scale == request.inverted_scale;
-    };
-    const auto found = std::find_if(requests_.begin(), requests_.end(), same);
-    if (found == requests_.end()) {
-        requests_.push_back(request);
-        return static_cast<int>(requests_.size()) - 1;
+const TextureValue& TextureTable::value(const std::string& name, TextureType type,
+                                        const Location& location) const {
+    const TextureType other = type == TextureType::number ? TextureType::colour : TextureType::number;
+    for (const TextureType candidate : {type, other}) {
+        const auto found = values_.find({candidate, name});
+        if (found != values_.end()) return found->second;
     }
-    return static_cast<int>(found - requests_.begin());
+    throw SceneError(location, "texture \"" + name + "\" is not defined");
 }
 
-TextureValue TextureTable::reduce_image(const std::string& name, ParameterList& parameters,
-                                        const std::filesystem::path& path, Warnings& warnings) {
-    const Location location = parameters.location();
-    ImageRequest request;
-    request.path = path.lexically_normal();
-    request.location = parameters.location_of("filename");
-    if (parameters.string("filename", "").empty())
-        throw SceneError(location, "texture \"" + name + "\": parameter \"string filename\" is missing");
-    const std::string encoding = parameters.string("encoding", "sRGB");
-    if (encoding == "linear" || !parameters.boolean("gamma", true)) {
-        request.encoding = TexelEncoding::linear;
-    } else if (encoding != "sRGB") {
-        warnings.add(parameters.location_of("encoding"),
-                     "texture encoding \"" + encoding + "\" is treated like \"sRGB\"");
-    }
-    const auto scale = static_cast<float>(parameters.real("scale", 1));
-    request.inverted = parameters.boolean("invert", false);
-    if (request.inverted) request.inverted_scale = scale;
-
-    if (parameters.string("mapping", "uv") != "uv" || parameters.real("uscale", 1) != 1 ||
-        parameters.real("vscale", 1) != 1 || parameters.real("udelta", 0) != 0 ||
-        parameters.real("vdelta", 0) != 0)
-        warnings.add(location, "texture mapping",
-                     "texture \"" + name +
-                         "\": the texture coordinates of the mesh are used unchanged, "
-                         "mapping and scale of texture coordinates are ignored");
-    if (parameters.string("wrap", "repeat") != "repeat")
-        warnings.add(parameters.location_of("wrap"), "texture wrap",
-                     "texture \"" + name + "\": only wrap \"repeat\" is supported and used");
-    parameters.ignore({"trilinear", "maxanisotropy", "filter"});
-
-    TextureValue value;
-    if (!request.inverted) value.factor = {scale, scale, scale};
-    value.image = request_index(request);
-    return value;
+int TextureTable::request(const TextureValue& value, int channels, const Location& location) {
+    if (value.node < 0) return -1;
+    const auto [entry, is_new] =
+        request_numbers_.try_emplace({value.node, channels}, static_cast<int>(requests_.size()));
+    if (is_new) requests_.push_back({value.node, channels, location});
+    return entry->second;
 }
 
-TextureValue TextureTable::input(std::string_view name, float fallback, ParameterList& parameters,
+TextureValue TextureTable::input(TextureDirective& directive, std::string_view name, float fallback,
                                  Warnings& warnings) const {
-    if (const auto texture = parameters.texture(name)) return value(*texture, parameters.location_of(name));
-    TextureValue result;
-    const auto real = parameters.optional_real(name);
-    const auto grey = static_cast<float>(real.value_or(fallback));
-    result.factor = parameters.colour(name, {grey, grey, grey}, warnings);
-    return result;
+    ParameterList& parameters = directive.parameters;
+    if (const auto texture = parameters.texture(name))
+        return value(*texture, directive.type, parameters.location_of(name));
+    const TextureValue number = grey_value(parameters.optional_real(name).value_or(fallback));
+    return {parameters.colour(name, number.factor, warnings), -1};
 }
 
-TextureValue TextureTable::reduce_scale(ParameterList& parameters, Warnings& warnings) const {
+TextureValue TextureTable::reduce_image(TextureDirective& directive, Warnings& warnings) {
+    ParameterList& parameters = directive.parameters;
+    if (parameters.string("filename", "").empty())
+        throw SceneError(parameters.location(),
+                         text_of(directive) + ": parameter \"string filename\" is missing");
+    TextureNode node;
+    node.operation = TextureOperation::image;
+    node.image =
+        image_index({directive.image_path, read_encoding(directive), parameters.location_of("filename")});
+    node.wrap = read_wrap(directive, warnings);
+    if (parameters.string("filter", "bilinear") == "point") node.filter = TextureFilter::nearest;
+    node.is_grey = directive.type == TextureType::number;
+    node.mapping = read_mapping(directive, warnings);
+    // Pixels have no footprint here.
+    parameters.ignore({"trilinear", "maxanisotropy"});
+
+    const double scale = parameters.real("scale", 1);
+    const TextureValue scaled = formulas_.product(grey_value(scale), formulas_.add(node));
+    return parameters.boolean("invert", false) ? formulas_.inverted(scaled) : scaled;
+}
+
+TextureValue TextureTable::reduce_scale(TextureDirective& directive, Warnings& warnings) {
     TextureValue result;
     // v3 multiplies tex1 and tex2, v4 tex and scale.
-    for (const std::string_view name : {"tex1", "tex2", "tex", "scale"}) {
-        const TextureValue factor = input(name, 1, parameters, warnings);
-        result.factor = product(result.factor, factor.factor);
-        if (factor.image >= 0 && result.image >= 0)
-            warnings.add(parameters.location(),
-                         "Texture \"scale\": only one factor can be an image, the first one is used");
-        if (result.image < 0) result.image = factor.image;
-    }
+    for (const std::string_view name : {"tex1", "tex2", "tex", "scale"})
+        result = formulas_.product(result, input(directive, name, 1, warnings));
     return result;
 }
 
-TextureValue TextureTable::reduce_mix(ParameterList& parameters, Warnings& warnings) const {
-    const TextureValue a = input("tex1", 0, parameters, warnings);
-    const TextureValue b = input("tex2", 1, parameters, warnings);
-    const TextureValue amount = input("amount", 0.5f, parameters, warnings);
-    if (a.image < 0 && b.image < 0 && amount.image < 0) return {mix(a.factor, b.factor, amount.factor.x), -1};
-    warnings.add(parameters.location(), "Texture \"mix\": not supported with images, replaced by tex1");
-    return a;
+TextureValue TextureTable::reduce_mix(TextureDirective& directive, const TextureValue& amount,
+                                      Warnings& warnings) {
+    const TextureValue a = input(directive, "tex1", 0, warnings);
+    const TextureValue b = input(directive, "tex2", 1, warnings);
+    return formulas_.mix(a, b, amount);
 }
 
-TextureValue TextureTable::reduce_checkerboard(ParameterList& parameters, Warnings& warnings) const {
-    const TextureValue a = input("tex1", 1, parameters, warnings);
-    const TextureValue b = input("tex2", 0, parameters, warnings);
-    parameters.ignore({"dimension", "uscale", "vscale", "udelta", "vdelta", "mapping", "aamode"});
-    if (a.image < 0 && b.image < 0) {
-        warnings.add(parameters.location(),
-                     "Texture \"checkerboard\": not supported, replaced by its mean colour");
-        return {mix(a.factor, b.factor, 0.5f), -1};
-    }
-    warnings.add(parameters.location(), "Texture \"checkerboard\": not supported, replaced by tex1");
-    return a;
+TextureValue TextureTable::reduce_checkerboard(TextureDirective& directive, Warnings& warnings) {
+    const TextureValue a = input(directive, "tex1", 1, warnings);
+    const TextureValue b = input(directive, "tex2", 0, warnings);
+    directive.parameters.ignore({"aamode"});
+    const TextureMapping mapping = read_mapping(directive, warnings);
+    if (directive.parameters.integer("dimension", 2) == 2) return formulas_.checkerboard(a, b, mapping);
+    warnings.add(directive.parameters.location(),
+                 class_of(directive) + ": in three dimensions replaced by its mean");
+    return formulas_.mix(a, b, grey_value(0.5));
 }
 
-void TextureTable::define(const std::string& name, std::string_view texture_class, ParameterList& parameters,
-                          const std::filesystem::path& image_path, Warnings& warnings) {
-    const std::string owner = "Texture \"" + std::string(texture_class) + '"';
-    TextureValue& value = values_[name];
-    if (texture_class == "imagemap") {
-        value = reduce_image(name, parameters, image_path, warnings);
-    } else if (texture_class == "constant") {
-        value = input("value", 1, parameters, warnings);
-    } else if (texture_class == "scale") {
-        value = reduce_scale(parameters, warnings);
-    } else if (texture_class == "mix") {
-        value = reduce_mix(parameters, warnings);
-    } else if (texture_class == "checkerboard") {
-        value = reduce_checkerboard(parameters, warnings);
-    } else {
-        warnings.add(parameters.location(), owner + ": not supported, replaced by the grey 0.5");
-        value = {{0.5f, 0.5f, 0.5f}, -1};
-        return;
+TextureValue TextureTable::reduce_procedure(TextureDirective& directive, Warnings& warnings) {
+    const auto* const found =
+        std::find_if(std::begin(kProcedures), std::end(kProcedures), [&](const Procedure& procedure) {
+            return procedure.texture_class == directive.texture_class;
+        });
+    const bool is_known = found != std::end(kProcedures);
+    warnings.add(directive.parameters.location(), class_of(directive) + ": not supported, replaced by " +
+                                                      (is_known ? "its mean" : "the grey 0.5"));
+    return is_known ? TextureValue{found->mean, -1} : grey_value(0.5);
+}
+
+TextureValue TextureTable::reduce(TextureDirective& directive, Warnings& warnings) {
+    const std::string& kind = directive.texture_class;
+    const auto warn_mean = [&] {
+        warnings.add(directive.parameters.location(),
+                     class_of(directive) + ": not supported, replaced by its mean");
+    };
+    if (kind == "imagemap") return reduce_image(directive, warnings);
+    if (kind == "constant") return input(directive, "value", 1, warnings);
+    if (kind == "scale") return reduce_scale(directive, warnings);
+    if (kind == "mix") return reduce_mix(directive, input(directive, "amount", 0.5f, warnings), warnings);
+    if (kind == "checkerboard") return reduce_checkerboard(directive, warnings);
+    if (kind == "directionmix") {
+        warn_mean();
+        directive.parameters.ignore({"dir"});
+        return reduce_mix(directive, grey_value(0.5), warnings);
     }
-    parameters.warn_unused(owner, warnings);
+    if (kind == "dots") {
+        warn_mean();
+        read_mapping(directive, warnings);
+        const TextureValue outside = input(directive, "outside", 0, warnings);
+        return formulas_.mix(outside, input(directive, "inside", 1, warnings), grey_value(kDotCoverage));
+    }
+    if (kind == "bilerp") {
+        warn_mean();
+        read_mapping(directive, warnings);
+        const TextureValue v00 = input(directive, "v00", 0, warnings);
+        const TextureValue v01 = input(directive, "v01", 1, warnings);
+        const TextureValue v10 = input(directive, "v10", 0, warnings);
+        const TextureValue v11 = input(directive, "v11", 1, warnings);
+        const TextureValue half = grey_value(0.5);
+        return formulas_.mix(formulas_.mix(v00, v01, half), formulas_.mix(v10, v11, half), half);
+    }
+    const TextureValue replacement = reduce_procedure(directive, warnings);
+    // Nothing else is told about parameters of what is replaced.
+    directive.parameters = {};
+    return replacement;
+}
+
+void TextureTable::define(TextureDirective& directive, Warnings& warnings) {
+    const TextureValue value = reduce(directive, warnings);
+    values_[{directive.type, directive.name}] = value;
+    directive.parameters.warn_unused(class_of(directive), warnings);
 }
 
 } // namespace nusselt::scene

@@ -1,61 +1,67 @@
 #pragma once
-/// Texture directives and image files.
+/// Texture directives.
 
 #include "scene/parameters.h"
+#include "scene/texture_bake.h"
 
+#include <compare>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace nusselt::scene {
 
-enum class TexelEncoding { srgb, linear };
+/// pbrt keeps textures of numbers and of colours apart, under names of their own.
+enum class TextureType { number, colour };
 
-/// Which file to decode and how: texel <- max(0, 1 - scale * texel) if inverted, else the texel as it is.
-struct ImageRequest {
-    std::filesystem::path path;
-    TexelEncoding encoding = TexelEncoding::srgb;
-    bool inverted = false;
-    float inverted_scale = 1;
-    Location location; ///< of the directive that asked first
+struct TextureDirective {
+    std::string name;
+    TextureType type = TextureType::colour;
+    std::string texture_class; ///< "imagemap", "scale", ...
+    ParameterList parameters;
+    std::filesystem::path image_path; ///< of the file that the parameter "filename" names
 };
 
-/// Decodes TGA, JPEG, PNG and BMP (8 bits; sRGB to linear by table) and Radiance HDR (linear).
-/// Throws SceneError with the reason.
-Texture decode_image(const ImageRequest& request);
-
-/// What a texture reduces to: a colour, multiplied by an image if `image` is not -1.
-struct TextureValue {
-    Float3 factor = {1, 1, 1};
-    int image = -1; ///< index of an ImageRequest
-};
-
-/// The named textures of a scene.
+/// The named textures of a scene, and what materials ask of them.
 class TextureTable {
 public:
-    /// Reduces a Texture directive; docs/materials.md has the rules.
-    /// \param image_path  of the file that the parameter "filename" names; unused if there is none
-    void define(const std::string& name, std::string_view texture_class, ParameterList& parameters,
-                const std::filesystem::path& image_path, Warnings& warnings);
+    /// Reduces a directive to a formula; docs/materials.md has the rules. Throws SceneError on impossible values.
+    void define(TextureDirective& directive, Warnings& warnings);
 
-    /// Throws SceneError at `location` if there is no texture of this name.
-    const TextureValue& value(const std::string& name, const Location& location) const;
-    const std::vector<ImageRequest>& requests() const { return requests_; }
+    /// The texture of this name, preferably of this type. Throws SceneError at `location` if there is none.
+    const TextureValue& value(const std::string& name, TextureType type, const Location& location) const;
+    /// An image of numbers without any encoding, as normal maps are.
+    TextureValue linear_image(const std::filesystem::path& path, const Location& location);
+
+    TextureFormulas& formulas() { return formulas_; }
+
+    /// Asks for the node of a value as a texture.
+    /// \param channels  3 or 1
+    /// \returns the index of the request; -1 for values without node
+    int request(const TextureValue& value, int channels, const Location& location);
+    /// All requests so far.
+    TexturePlan plan() const { return {images_, formulas_.nodes(), requests_}; }
 
 private:
-    TextureValue reduce_image(const std::string& name, ParameterList& parameters,
-                              const std::filesystem::path& path, Warnings& warnings);
-    TextureValue reduce_scale(ParameterList& parameters, Warnings& warnings) const;
-    TextureValue reduce_mix(ParameterList& parameters, Warnings& warnings) const;
-    TextureValue reduce_checkerboard(ParameterList& parameters, Warnings& warnings) const;
-    TextureValue input(std::string_view name, float fallback, ParameterList& parameters,
+    TextureValue reduce(TextureDirective& directive, Warnings& warnings);
+    TextureValue reduce_image(TextureDirective& directive, Warnings& warnings);
+    TextureValue reduce_scale(TextureDirective& directive, Warnings& warnings);
+    TextureValue reduce_mix(TextureDirective& directive, const TextureValue& amount, Warnings& warnings);
+    TextureValue reduce_checkerboard(TextureDirective& directive, Warnings& warnings);
+    TextureValue reduce_procedure(TextureDirective& directive, Warnings& warnings);
+    TextureValue input(TextureDirective& directive, std::string_view name, float fallback,
                        Warnings& warnings) const;
-    int request_index(const ImageRequest& request);
+    int image_index(ImageRequest request);
 
-    std::map<std::string, TextureValue, std::less<>> values_;
-    std::vector<ImageRequest> requests_;
+    std::map<std::pair<TextureType, std::string>, TextureValue> values_;
+    std::vector<ImageRequest> images_;
+    std::map<std::pair<std::filesystem::path, ImageRequest::Encoding>, int> image_numbers_;
+    std::vector<TextureRequest> requests_;
+    std::map<std::pair<int, int>, int> request_numbers_; ///< of a node and a number of channels
+    TextureFormulas formulas_;
 };
 
 } // namespace nusselt::scene

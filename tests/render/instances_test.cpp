@@ -29,8 +29,9 @@ Matrix transform(double angle, const Float3& scale, float shear, const Float3& t
             scale.z,     translation.z};
 }
 
-/// A smooth closed body with a radius of about 1 that looks different from all sides.
-void add_body(scene::Scene& scene, std::uint32_t material, const Float3& center) {
+/// A closed body with a radius of about 1 that looks different from all sides.
+/// \param normal_length 0 for a body with facets
+void add_body(scene::Scene& scene, std::uint32_t material, const Float3& center, float normal_length) {
     constexpr int kRings = 12;
     const auto first = static_cast<std::uint32_t>(scene.positions.size());
     for (int i = 0; i <= kRings; ++i)
@@ -41,7 +42,7 @@ void add_body(scene::Scene& scene, std::uint32_t material, const Float3& center)
             const Float3 p{static_cast<float>(r * std::cos(phi)), static_cast<float>(0.7 * r * std::sin(phi)),
                            static_cast<float>(std::cos(theta))};
             scene.positions.push_back({p.x + center.x, p.y + center.y, p.z + center.z});
-            scene.normals.push_back({p.x, 2 * p.y, p.z});
+            scene.normals.push_back({normal_length * p.x, normal_length * 2 * p.y, normal_length * p.z});
             scene.uvs.push_back({static_cast<float>(phi), static_cast<float>(theta)});
         }
     const auto index = [&](int i, int j) {
@@ -58,12 +59,19 @@ void add_body(scene::Scene& scene, std::uint32_t material, const Float3& center)
             }
 }
 
-/// The box with copies of two objects. \param center of the objects in their own coordinates
+/// The box with copies of two bumpy objects, a smooth one and one with facets. \param center of the objects in their own coordinates
 scene::Scene make_instanced_scene(const std::vector<scene::Instance>& instances, const Float3& center) {
     scene::Scene scene = make_box_scene(kSize);
+    scene::Texture bumps;
+    bumps.width = bumps.height = 4;
+    bumps.channels = 1;
+    for (int i = 0; i < 16; ++i) bumps.texels.push_back(static_cast<float>(i * 7 % 5));
+    scene.textures = {bumps};
     for (std::uint32_t material = 0; material < 2; ++material) {
+        scene.materials[material].bump = 0.01f;
+        scene.materials[material].bump_texture.texture = 0;
         const auto first = static_cast<std::uint32_t>(scene.triangles.size());
-        add_body(scene, material, center);
+        add_body(scene, material, center, material == 0 ? 1.0f : 0.0f);
         const auto count = static_cast<std::uint32_t>(scene.triangles.size()) - first;
         scene.objects.push_back({"body", first, count});
     }
@@ -79,16 +87,22 @@ Float3 linear(const Matrix& m, const Float3& v) {
             m[8] * v.x + m[9] * v.y + m[10] * v.z};
 }
 
-/// The matrix of cofactors times n.
-Float3 transformed_normal(const Matrix& m, const Float3& n) {
-    const auto cofactor = [&](int i, int j) {
-        const auto entry = [&](int row, int column) {
-            return m[static_cast<std::size_t>(4 * (row % 3) + column % 3)];
-        };
-        return entry(i + 1, j + 1) * entry(i + 2, j + 2) - entry(i + 1, j + 2) * entry(i + 2, j + 1);
+float cofactor(const Matrix& m, int i, int j) {
+    const auto entry = [&](int row, int column) {
+        return m[static_cast<std::size_t>(4 * (row % 3) + column % 3)];
     };
+    return entry(i + 1, j + 1) * entry(i + 2, j + 2) - entry(i + 1, j + 2) * entry(i + 2, j + 1);
+}
+
+float handedness(const Matrix& m) {
+    const float determinant = m[0] * cofactor(m, 0, 0) + m[1] * cofactor(m, 0, 1) + m[2] * cofactor(m, 0, 2);
+    return std::copysign(1.0f, determinant);
+}
+
+/// The inverse transpose times n, but for its length.
+Float3 transformed_normal(const Matrix& m, const Float3& n) {
     const auto row = [&](int i) {
-        return cofactor(i, 0) * n.x + cofactor(i, 1) * n.y + cofactor(i, 2) * n.z;
+        return handedness(m) * (cofactor(m, i, 0) * n.x + cofactor(m, i, 1) * n.y + cofactor(m, i, 2) * n.z);
     };
     return {row(0), row(1), row(2)};
 }
@@ -109,7 +123,9 @@ scene::Scene flattened(const scene::Scene& scene, NormalTransform transform_norm
             const std::uint32_t source = object.first_triangle + i;
             scene::Triangle copy;
             for (int k = 0; k < 3; ++k) {
-                const std::uint32_t vertex = scene.triangles[source].vertex[k];
+                // Mirror images keep their front side.
+                const int corner = handedness(m) < 0 ? (3 - k) % 3 : k;
+                const std::uint32_t vertex = scene.triangles[source].vertex[corner];
                 copy.vertex[k] = static_cast<std::uint32_t>(flat.positions.size());
                 const Float3 p = linear(m, scene.positions[vertex]);
                 flat.positions.push_back({p.x + m[3], p.y + m[7], p.z + m[11]});

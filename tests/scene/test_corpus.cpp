@@ -128,6 +128,45 @@ std::string name_of(FilterKind kind) {
     return "";
 }
 
+std::string name_of(TextureWrap wrap) {
+    switch (wrap) {
+    case TextureWrap::repeat:
+        return "repeat";
+    case TextureWrap::clamp:
+        return "clamp";
+    case TextureWrap::black:
+        return "black";
+    }
+    return "";
+}
+
+/// Textures are numbered; a texture of a material is its number, scale and offset.
+void add_textures(const Scene& scene, std::map<std::string, Numbers>& facts) {
+    for (const Material& material : scene.materials) {
+        const auto add_use = [&](const std::string& kind, const TextureUse& use) {
+            if (use.texture >= 0)
+                facts[kind + " texture " + material.name] = {static_cast<double>(use.texture), use.scale.x,
+                                                             use.scale.y, use.offset.x, use.offset.y};
+        };
+        add_use("diffuse", material.diffuse_texture);
+        add_use("f0", material.f0_texture);
+        add_use("roughness", material.roughness_texture);
+        add_use("alpha", material.alpha_texture);
+        add_use("bump", material.bump_texture);
+        add_use("normal", material.normal_texture);
+        facts["alpha " + material.name] = {material.alpha};
+        facts["bump " + material.name] = {material.bump};
+    }
+    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+        const Texture& texture = scene.textures[i];
+        const std::string filter = texture.filter == TextureFilter::nearest ? "nearest" : "bilinear";
+        const Numbers size = {static_cast<double>(texture.width), static_cast<double>(texture.height)};
+        facts["texture " + texture.name] = size;
+        facts["texture " + std::to_string(i) + ' ' + name_of(texture.wrap) + ' ' + filter] = size;
+        facts["texels " + std::to_string(i)] = Numbers(texture.texels.begin(), texture.texels.end());
+    }
+}
+
 /// Everything that an expectation may name.
 std::map<std::string, Numbers> facts(const Scene& scene) {
     const auto count = [](const auto& array) { return Numbers{static_cast<double>(array.size())}; };
@@ -148,9 +187,7 @@ std::map<std::string, Numbers> facts(const Scene& scene) {
         append(result["f0 " + material.name], material.f0);
         result["roughness " + material.name] = {material.roughness};
     }
-    for (const Texture& texture : scene.textures)
-        result["texture " + texture.name] = {static_cast<double>(texture.width),
-                                             static_cast<double>(texture.height)};
+    add_textures(scene, result);
     append(result["camera origin"], scene.camera.origin);
     append(result["camera corner"], scene.camera.corner);
     append(result["camera right"], scene.camera.right);

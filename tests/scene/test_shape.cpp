@@ -266,10 +266,5 @@ TEST_F(Shapes, CylinderErrors) {
               "scene.pbrt:4: shape \"cylinder\" is not supported and left out");
 }
 
-TEST_F(Shapes, AlphaIsIgnoredWithAWarning) {
-    EXPECT_EQ(warning(shapes(std::string(kTriangle) + "\"float alpha\" 0.5")),
-              "scene.pbrt:4: shape \"trianglemesh\": alpha is ignored, the surface is opaque");
-}
-
 } // namespace
 } // namespace nusselt::scene

@@ -132,30 +132,29 @@ TEST_F(Textures, ConstantsAndProducts) {
 
 TEST_F(Textures, WhatIsReplaced) {
     const auto expect_warning = [&](const std::string& parameters, const std::string& message) {
-        const std::string image = "Texture \"i\" \"spectrum\" \"imagemap\" \"string filename\" \"a.tga\"\n";
-        EXPECT_EQ(warning(textured(parameters, image)), message);
+        EXPECT_EQ(warning(textured(parameters)), message);
     };
-    expect_near(constant("\"checkerboard\" \"rgb tex1\" [1 1 1] \"rgb tex2\" [0 0.5 1]"), {0.5f, 0.75f, 1},
-                0);
-    expect_near(constant("\"marble\" \"float scale\" 3"), {0.5f, 0.5f, 0.5f}, 0);
-    expect_warning("\"checkerboard\" \"float uscale\" 8",
-                   "scene.pbrt:3: Texture \"checkerboard\": not supported, replaced by its mean colour");
-    expect_warning("\"checkerboard\" \"texture tex1\" \"i\"",
-                   "scene.pbrt:3: Texture \"checkerboard\": not supported, replaced by tex1");
-    expect_warning("\"mix\" \"texture tex1\" \"i\"",
-                   "scene.pbrt:3: Texture \"mix\": not supported with images, replaced by tex1");
-    expect_warning("\"scale\" \"texture tex1\" \"i\" \"texture tex2\" \"i\"",
-                   "scene.pbrt:3: Texture \"scale\": only one factor can be an image, the first one is used");
+    expect_near(constant("\"marble\" \"float scale\" 3"), {0.80f, 0.79f, 0.83f}, 0);
+    expect_near(constant("\"dots\" \"rgb inside\" [1 1 1] \"rgb outside\" [0 0.5 1]"), {0.19f, 0.595f, 1},
+                1e-6f);
+    expect_near(
+        constant(
+            "\"bilerp\" \"rgb v00\" [1 0 0] \"rgb v11\" [0 1 0] \"rgb v01\" [0 0 0] \"rgb v10\" [0 0 1]"),
+        {0.25f, 0.25f, 0.25f}, 1e-6f);
+    expect_near(constant("\"directionmix\" \"rgb tex1\" [1 1 1] \"rgb tex2\" [0 0.5 1]"), {0.5f, 0.75f, 1},
+                1e-6f);
+    expect_near(constant("\"checkerboard\" \"integer dimension\" 3 \"rgb tex2\" [0 0.5 1]"), {0.5f, 0.75f, 1},
+                1e-6f);
     expect_warning("\"fbm\" \"integer octaves\" 3",
-                   "scene.pbrt:3: Texture \"fbm\": not supported, replaced by the grey 0.5");
+                   "scene.pbrt:2: Texture \"fbm\": not supported, replaced by its mean");
+    expect_warning("\"dots\"", "scene.pbrt:2: Texture \"dots\": not supported, replaced by its mean");
     expect_warning(
-        "\"imagemap\" \"string filename\" \"a.tga\" \"float uscale\" 2",
-        "scene.pbrt:3: texture \"t\": the texture coordinates of the mesh are used unchanged, mapping and "
-        "scale of texture coordinates are ignored");
-    expect_warning("\"imagemap\" \"string filename\" \"a.tga\" \"string wrap\" \"clamp\"",
-                   "scene.pbrt:3: texture \"t\": only wrap \"repeat\" is supported and used");
-    expect_warning("\"imagemap\" \"string filename\" \"a.tga\" \"string encoding\" \"gamma 2.2\"",
-                   "scene.pbrt:3: texture encoding \"gamma 2.2\" is treated like \"sRGB\"");
+        "\"imagemap\" \"string filename\" \"a.tga\" \"string mapping\" \"spherical\"",
+        "scene.pbrt:2: texture \"t\": mapping \"spherical\" is not supported, the texture coordinates of "
+        "the mesh are used");
+    expect_warning(
+        "\"imagemap\" \"string filename\" \"a.tga\" \"string wrap\" \"octahedralsphere\"",
+        "scene.pbrt:2: texture \"t\": wrap \"octahedralsphere\" is not supported, \"repeat\" is used");
 }
 
 TEST_F(Textures, Errors) {
@@ -166,7 +165,9 @@ TEST_F(Textures, Errors) {
     EXPECT_EQ(error(material("Texture \"t\" \"spectrum\" \"imagemap\"\n\"string filename\" \"none.png\"")),
               "scene.pbrt:2: texture file 'none.png': no such file");
     EXPECT_EQ(error(material("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"broken.png\"")),
-              "scene.pbrt:1: texture file 'broken.png': unknown image type");
+              "scene.pbrt:1: texture file 'broken.png': it is damaged, too large or none of PNG, JPEG, TGA, "
+              "BMP, HDR, "
+              "EXR and PFM (unknown image type)");
     EXPECT_EQ(error("\nTexture \"t\" \"spectrum\" \"imagemap\""),
               "scene.pbrt:2: texture \"t\": parameter \"string filename\" is missing");
     EXPECT_EQ(error("Texture \"t\" \"vector\" \"constant\""),

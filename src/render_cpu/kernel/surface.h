@@ -72,6 +72,14 @@ struct Interpolation {
         const Real c = gather_column(rows, 2, index, vertex[2], active);
         return a + u * (b - a) + v * (c - a);
     }
+
+    /// Of the second and the third vertex to the first.
+    Vec2<Real> differences(const scene::Float2* attribute, int index) const noexcept {
+        const float* rows = &attribute->x;
+        const Real a = gather_column(rows, 2, index, vertex[0], active);
+        return {gather_column(rows, 2, index, vertex[1], active) - a,
+                gather_column(rows, 2, index, vertex[2], active) - a};
+    }
 };
 
 inline Interpolation make_interpolation(const render_cpu::KernelScene& scene,
@@ -96,13 +104,62 @@ inline Vector interpolated_normal(const render_cpu::KernelScene& scene, const In
     return normalize(n);
 }
 
-/// \param interpolated see interpolated_normal()
-/// \param wo           unit, world space
-inline Vector shading_normal(const Vector& interpolated, const Vector& geometric_normal,
-                             const Vector& wo) noexcept {
-    const auto usable = dot(interpolated, interpolated) > Real(0.5f);
-    Vector n = select(usable, interpolated, geometric_normal);
-    n = copysign(Real(1), dot(n, geometric_normal)) * n;
+/// The textures of all lanes, bits of TextureKind.
+inline std::uint32_t texture_kinds(const render_cpu::KernelScene& scene, const Indices& material) noexcept {
+    std::uint32_t kinds = 0;
+    for (int i = 0; i < kLanes; ++i) kinds |= scene.material_texture_kinds[material.lane[i]];
+    return kinds;
+}
+
+/// A normal perturbed by the normal map or the bump map of each lane; docs/materials.md has the formulas.
+/// \param n  unit, on the front side
+/// \param e1,e2  edges of the triangle from its first vertex
+inline Vector perturbed_normal(const render_cpu::KernelScene& scene, const Interpolation& interpolation,
+                               const Indices& material, const Vec2<Real>& uv, const Vector& e1,
+                               const Vector& e2, const Vector& n) noexcept {
+    using render_cpu::MaterialTextures;
+    const LaneMask active = interpolation.active;
+    const Vec2<Real> du = interpolation.differences(scene.uvs, 0);
+    const Vec2<Real> dv = interpolation.differences(scene.uvs, 1);
+    // Derivatives of the position by u and v, both times the determinant.
+    const Real determinant = du.x * dv.y - dv.x * du.y;
+    const Vector along_u = dv.y * e1 - dv.x * e2;
+    const Vector along_v = du.x * e2 - du.y * e1;
+
+    const Real facing = dot(n, cross(e1, e2));
+    // Without texture coordinates there are no directions. NaN fails the second comparison.
+    const auto if_usable = [&](const Vector& perturbed) {
+        const auto usable = (determinant != Real(0)) & (dot(perturbed, perturbed) > Real(0.5f));
+        return select(usable, perturbed, n);
+    };
+
+    const TextureLanes bump = texture_lanes(scene, material, &MaterialTextures::bump, uv, active);
+    constexpr int kStride = sizeof(MaterialTextures) / sizeof(float);
+    const float* heights = &scene.material_textures->bump_height;
+    const Real height = gather_column(heights, kStride, 0, material, active) / facing;
+    const auto bumped = [&](const render_cpu::TextureView& texture, const Vec2<Real>& at, LaneMask mask) {
+        const Vec2<Real> derivatives = height_derivatives(texture, at, mask);
+        const Vector gradient = (bump.scale.x * derivatives.x) * cross(along_v, n) +
+                                (bump.scale.y * derivatives.y) * cross(n, along_u);
+        return if_usable(normalize(n - height * gradient));
+    };
+
+    const TextureLanes map = texture_lanes(scene, material, &MaterialTextures::normal, uv, active);
+    const Vector tangent = copysign(Real(1), determinant) * normalize(along_u - dot(n, along_u) * n);
+    const Vector bitangent = cross(n, tangent);
+    const auto mapped = [&](const render_cpu::TextureView& texture, const Vec2<Real>& at, LaneMask mask) {
+        const Vector local = Real(2) * look_up_texture(texture, at, mask) - Vector{Real(1), Real(1), Real(1)};
+        const Vector world = local.x * tangent + local.y * bitangent + local.z * n;
+        return if_usable(copysign(Real(1), local.z) * normalize(world));
+    };
+    return look_up_textures(scene.textures, map, active,
+                            look_up_textures(scene.textures, bump, active, n, bumped), mapped);
+}
+
+/// \param n  on either side
+/// \param wo unit, world space
+/// \returns the normal on the side of the eye, bent to it where it faces away
+inline Vector visible_normal(const Vector& n, const Vector& wo) noexcept {
     const Real missing = max(Real(kSmallestEyeCosine) - dot(n, wo), Real(0));
     return normalize(n + missing * wo);
 }
@@ -115,25 +172,32 @@ struct MaterialLanes {
     LaneMask is_frostbite;
 };
 
-inline MaterialLanes look_up_materials(const render_cpu::KernelScene& scene,
-                                       const Interpolation& interpolation, const Indices& material) noexcept {
-    const LaneMask active = interpolation.active;
-    Indices texture;
-    bool any_texture = false;
-    for (int i = 0; i < kLanes; ++i) {
-        texture.lane[i] = scene.material_texture[material.lane[i]];
-        any_texture |= texture.lane[i] >= 0;
-    }
+inline MaterialLanes look_up_materials(const render_cpu::KernelScene& scene, const Indices& material,
+                                       std::uint32_t kinds, const Vec2<Real>& uv, LaneMask active) noexcept {
+    using render_cpu::MaterialTextures;
     constexpr int kStride = sizeof(render_cpu::MaterialRow) / sizeof(float);
     const float* rows = scene.materials->diffuse;
-    Vector albedo = gather_vector(rows, kStride, 0, material, active);
-    if (any_texture) {
-        const Vec2<Real> uv{interpolation.column(scene.uvs, 0), interpolation.column(scene.uvs, 1)};
-        albedo = albedo * look_up_textures(scene.textures, texture, uv, active);
+    MaterialLanes result{gather_vector(rows, kStride, 0, material, active),
+                         gather_vector(rows, kStride, 3, material, active),
+                         gather_column(rows, kStride, 6, material, active),
+                         gather_column(rows, kStride, 7, material, active) > Real(0.5f)};
+    const auto times_texture = [&](scene::TextureUse MaterialTextures::*purpose, const Vector& factor) {
+        const TextureLanes lanes = texture_lanes(scene, material, purpose, uv, active);
+        // A factor above 1 is good for dark images, but reflectances must not exceed 1.
+        const auto product = [&](const render_cpu::TextureView& texture, const Vec2<Real>& at,
+                                 LaneMask mask) {
+            return min(factor * look_up_texture(texture, at, mask), Vector{Real(1), Real(1), Real(1)});
+        };
+        return look_up_textures(scene.textures, lanes, active, factor, product);
+    };
+    if ((kinds & render_cpu::kDiffuseTexture) != 0)
+        result.diffuse = times_texture(&MaterialTextures::diffuse, result.diffuse);
+    if ((kinds & render_cpu::kF0Texture) != 0) result.f0 = times_texture(&MaterialTextures::f0, result.f0);
+    if ((kinds & render_cpu::kRoughnessTexture) != 0) {
+        const Real& grey = result.roughness;
+        result.roughness = times_texture(&MaterialTextures::roughness, {grey, grey, grey}).x;
     }
-    const Real is_frostbite = gather_column(rows, kStride, 7, material, active);
-    return {albedo, gather_vector(rows, kStride, 3, material, active),
-            gather_column(rows, kStride, 6, material, active), is_frostbite > Real(0.5f)};
+    return result;
 }
 
 /// \param wo in shading space
@@ -178,11 +242,9 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
         e2 = transform.vector(e2);
     }
 
-    const Vector normal = normalize(cross(e1, e2));
+    Vector normal = normalize(cross(e1, e2));
+    if (any(instances.mask)) normal = WorldFromObject(scene, instances).front(normal);
     const Vector geometric_normal = copysign(Real(1), dot(normal, wo)) * normal;
-    const Vector n =
-        shading_normal(interpolated_normal(scene, interpolation, instances), geometric_normal, wo);
-    const auto frame = shading_frame(n, wo);
 
     Indices material;
     Indices light;
@@ -191,6 +253,18 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
         material.lane[i] = static_cast<std::int32_t>(scene.triangle_material[triangle]);
         light.lane[i] = scene.triangle_light[triangle];
     }
+    const std::uint32_t kinds = texture_kinds(scene, material);
+    Vec2<Real> uv{Real(0), Real(0)};
+    if (kinds != 0) uv = {interpolation.column(scene.uvs, 0), interpolation.column(scene.uvs, 1)};
+
+    const Vector interpolated = interpolated_normal(scene, interpolation, instances);
+    Vector n = select(dot(interpolated, interpolated) > Real(0.5f), interpolated, normal);
+    const Real eye_side = copysign(Real(1), dot(n, geometric_normal));
+    if ((kinds & (render_cpu::kNormalTexture | render_cpu::kBumpTexture)) != 0)
+        n = perturbed_normal(scene, interpolation, material, uv, e1, e2, n);
+    const auto frame = shading_frame(visible_normal(eye_side * n, wo), wo);
+    const MaterialLanes lanes = look_up_materials(scene, material, kinds, uv, active);
+
     const auto has_normal = dot(normal, normal) > Real(0.5f);
     return {active & has_normal & is_finite(coordinate),
             position,
@@ -198,7 +272,7 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
             frame,
             Real(kOffsetPerRadius) * Real(scene.radius) + Real(kOffsetPerCoordinate) * coordinate,
             light,
-            make_glossy(scene.ltc, look_up_materials(scene, interpolation, material), frame.to_local(wo))};
+            make_glossy(scene.ltc, lanes, frame.to_local(wo))};
 }
 
 } // namespace kernel

@@ -1,0 +1,105 @@
+// The materials of pbrt v4.
+
+#include "scene/material_reader.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace nusselt::scene {
+
+namespace {
+
+using Surface = std::optional<SurfaceFormula>;
+
+Surface diffuse(MaterialReader& m) {
+    SurfaceFormula surface;
+    surface.diffuse = m.unit_colour("reflectance", 0.5);
+    m.warn_ignored({"sigma"});
+    return surface;
+}
+
+Surface coated_diffuse(MaterialReader& m) {
+    SurfaceFormula surface;
+    surface.model = BrdfModel::frostbite;
+    surface.f0 = grey_value(dielectric_f0(m.positive("eta", 1.5)));
+    surface.diffuse = m.unit_colour("reflectance", 0.5);
+    surface.roughness = m.roughness(0, RoughnessRule::v4);
+    m.parameters().ignore({"thickness", "maxdepth", "nsamples", "g"});
+    return surface;
+}
+
+Surface conductor(MaterialReader& m) {
+    SurfaceFormula surface;
+    surface.model = BrdfModel::frostbite;
+    surface.f0 = m.has_colour("reflectance") ? m.unit_colour("reflectance", 1) : m.conductor("", 1);
+    surface.roughness = m.roughness(0, RoughnessRule::v4);
+    return surface;
+}
+
+/// The rougher one of two constants.
+TextureValue rougher(MaterialReader& m, const TextureValue& base, const TextureValue& coat) {
+    if (coat.node < 0 && base.node < 0) return coat.factor.x > base.factor.x ? coat : base;
+    if (coat.node >= 0) m.warn("images of the roughness of its coating are ignored");
+    return base;
+}
+
+Surface coated_conductor(MaterialReader& m) {
+    m.warn("its coating is joined with the metal to one lobe");
+    const double coat_eta = m.positive("interface.eta", 1.5);
+    SurfaceFormula surface;
+    surface.model = BrdfModel::frostbite;
+    if (m.has_colour("reflectance")) {
+        // What the coating lets through; exact for a black and for a white metal.
+        const TextureValue coat = grey_value(dielectric_f0(coat_eta));
+        surface.f0 = m.formulas().mix(coat, grey_value(1), m.unit_colour("reflectance", 1));
+    } else {
+        surface.f0 = m.conductor("conductor.", coat_eta);
+    }
+    const TextureValue base = m.roughness(0, RoughnessRule::v4, "conductor.");
+    surface.roughness = rougher(m, base, m.roughness(0, RoughnessRule::v4, "interface."));
+    m.parameters().ignore({"interface.thickness", "thickness", "maxdepth", "nsamples", "g"});
+    return surface;
+}
+
+Surface dielectric(MaterialReader& m) {
+    m.warn("transmission is ignored, the surface is opaque and reflects only");
+    SurfaceFormula surface;
+    surface.model = BrdfModel::frostbite;
+    surface.f0 = grey_value(dielectric_f0(m.positive("eta", 1.5)));
+    surface.roughness = m.roughness(0, RoughnessRule::v4);
+    return surface;
+}
+
+Surface diffuse_transmission(MaterialReader& m) {
+    m.warn("transmission is ignored, only its reflection is left");
+    SurfaceFormula surface;
+    surface.diffuse = m.formulas().product(m.unit_colour("reflectance", 0.25), m.unit_number("scale", 1));
+    m.parameters().ignore({"transmittance"});
+    return surface;
+}
+
+Surface invisible(MaterialReader&) { return std::nullopt; }
+
+constexpr std::pair<std::string_view, MaterialReduction> kReductions[] = {
+    {"diffuse", diffuse},
+    {"coateddiffuse", coated_diffuse},
+    {"conductor", conductor},
+    {"coatedconductor", coated_conductor},
+    {"dielectric", dielectric},
+    {"thindielectric", dielectric},
+    {"diffusetransmission", diffuse_transmission},
+    {"interface", invisible},
+    {"none", invisible},
+    {"", invisible},
+};
+
+} // namespace
+
+MaterialReduction find_reduction_v4(std::string_view type) {
+    const auto* const found = std::find_if(std::begin(kReductions), std::end(kReductions),
+                                           [&](const auto& entry) { return entry.first == type; });
+    return found == std::end(kReductions) ? nullptr : found->second;
+}
+
+} // namespace nusselt::scene
