@@ -109,11 +109,13 @@ InstanceRecord make_record(const scene::Scene& scene, const scene::Instance& ins
     if (determinant == 0 || !std::isfinite(determinant))
         throw std::runtime_error("object " + scene.objects[instance.object].name +
                                  ": the transform of an instance cannot be inverted");
+    const double handedness = determinant < 0 ? -1 : 1;
+    record.handedness = static_cast<float>(handedness);
     for (std::size_t i = 0; i < 3; ++i) {
         double growth = 0;
         for (std::size_t j = 0; j < 3; ++j) {
             // Cofactors over the determinant are the transposed inverse.
-            record.normal_from_object[3 * i + j] = static_cast<float>(cofactor[i][j] / largest);
+            record.normal_from_object[3 * i + j] = static_cast<float>(cofactor[i][j] / largest * handedness);
             for (std::size_t k = 0; k < 3; ++k)
                 growth += std::fabs(entry(i, k) * cofactor[j][k] / determinant);
         }

@@ -4,9 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace nusselt::render_test {
 namespace {
 
@@ -18,19 +15,6 @@ image::Image render(const scene::Scene& scene, int threads, render_cpu::Isa isa,
     settings.technique = technique;
     settings.samples = 4;
     return render_cpu::Renderer(scene, threads).render(settings, isa).image;
-}
-
-/// Share of pixels with a channel that differs by more than a relative tolerance.
-double differing_share(const image::Image& a, const image::Image& b, double tolerance) {
-    std::size_t count = 0;
-    for (std::size_t pixel = 0; pixel < a.pixels.size(); pixel += 3) {
-        bool differs = false;
-        for (std::size_t i = pixel; i < pixel + 3; ++i)
-            differs |= !(std::fabs(a.pixels[i] - b.pixels[i]) <=
-                         tolerance * std::max(std::fabs(a.pixels[i]), std::fabs(b.pixels[i])));
-        count += differs ? 1 : 0;
-    }
-    return static_cast<double>(count) / static_cast<double>(a.pixels.size() / 3);
 }
 
 TEST(Invariance, ThreadCountChangesNoBit) {

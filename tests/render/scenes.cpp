@@ -207,6 +207,18 @@ std::vector<std::vector<double>> render_region_means(const render_cpu::Renderer&
     return rows;
 }
 
+double differing_share(const image::Image& a, const image::Image& b, double tolerance) {
+    std::size_t count = 0;
+    for (std::size_t pixel = 0; pixel < a.pixels.size(); pixel += 3) {
+        bool differs = false;
+        for (std::size_t i = pixel; i < pixel + 3; ++i)
+            differs |= !(std::fabs(a.pixels[i] - b.pixels[i]) <=
+                         tolerance * std::max(std::fabs(a.pixels[i]), std::fabs(b.pixels[i])));
+        count += differs ? 1 : 0;
+    }
+    return static_cast<double>(count) / static_cast<double>(a.pixels.size() / 3);
+}
+
 double t_statistic(const std::vector<double>& values, double mean) {
     const Moments m = moments(values);
     return t_of(m.mean - mean, m.squared_error, mean);

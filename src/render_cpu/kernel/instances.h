@@ -35,6 +35,11 @@ public:
     }
     Vector vector(const Vector& v) const noexcept { return select(instances_.mask, linear(v), v); }
 
+    /// From the cross product of edges in the world to the side that it had in the object.
+    Vector front(const Vector& n) const noexcept {
+        return select(instances_.mask, word(first_.handedness) * n, n);
+    }
+
     /// Not of unit length.
     Vector normal(const Vector& n) const noexcept {
         const float* m = first_.normal_from_object;

@@ -242,7 +242,8 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
         e2 = transform.vector(e2);
     }
 
-    const Vector normal = normalize(cross(e1, e2));
+    Vector normal = normalize(cross(e1, e2));
+    if (any(instances.mask)) normal = WorldFromObject(scene, instances).front(normal);
     const Vector geometric_normal = copysign(Real(1), dot(normal, wo)) * normal;
 
     Indices material;
@@ -263,6 +264,7 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
         n = perturbed_normal(scene, interpolation, material, uv, e1, e2, n);
     const auto frame = shading_frame(visible_normal(eye_side * n, wo), wo);
     const MaterialLanes lanes = look_up_materials(scene, material, kinds, uv, active);
+
     const auto has_normal = dot(normal, normal) > Real(0.5f);
     return {active & has_normal & is_finite(coordinate),
             position,
