@@ -33,6 +33,15 @@ struct RenderOptions {
     bool quiet = false;
     std::optional<std::string> json; ///< "-" is the standard output
     std::optional<std::string> isa;
+    std::vector<std::string> layers; ///< names, or "all"
+    std::optional<std::string> part; ///< "NUMBER/COUNT"
+    std::optional<std::filesystem::path> checkpoint;
+    double checkpoint_interval = 60; ///< [s]
+};
+
+struct MergeOptions {
+    std::filesystem::path output;
+    std::vector<std::filesystem::path> inputs;
 };
 
 /// Of benchmarks of whole frames.
@@ -121,6 +130,7 @@ struct ReproduceOptions {
 };
 
 void setup_render(CLI::App& app, int& exit_code);
+void setup_merge(CLI::App& app, int& exit_code);
 void setup_info(CLI::App& app, int& exit_code);
 void setup_techniques(CLI::App& app, int& exit_code);
 void setup_compare(CLI::App& app, int& exit_code);
@@ -142,6 +152,9 @@ void setup_bench_tubes(CLI::App& bench, int& exit_code);
 /// Renders and writes the images.
 /// \returns 0, or 130 if it was interrupted
 int run_render(const RenderOptions& options);
+
+/// Puts images of parts or seeds together.
+int run_merge(const MergeOptions& options);
 
 /// Prints the table of techniques.
 int run_techniques();

@@ -1,11 +1,13 @@
 #pragma once
 /// Options that several commands share.
 
+#include "render_cpu/settings.h"
 #include "scene/scene.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -48,5 +50,19 @@ void add_resolution_option(CLI::App& command, std::optional<std::string>& resolu
 
 /// Resizes the film as --resolution asks, if it is given.
 void apply_resolution(const std::optional<std::string>& resolution, scene::Scene& scene);
+
+inline constexpr const char* kAllLayers = "all";
+
+/// Adds --layers. \param layers names of render_cpu::kLayerKinds, or kAllLayers
+void add_layers_option(CLI::App& command, std::vector<std::string>& layers);
+
+/// Adds --part.
+void add_part_option(CLI::App& command, std::optional<std::string>& part);
+
+/// From "2/3". \returns nothing if that is no part
+std::optional<render_cpu::Part> parse_part(const std::string& text);
+
+/// Whether the extension is .exr, in upper or lower case.
+bool is_exr(const std::filesystem::path& path);
 
 } // namespace nusselt::app

@@ -89,6 +89,8 @@ KernelArrays::KernelArrays(const scene::Scene& scene) : scene_(scene) {
     for (const scene::PolygonLight& light : scene.polygon_lights)
         polygon_lights_.push_back(make_record(scene, light));
     for (const scene::LineLight& light : scene.line_lights) line_lights_.push_back(make_record(light));
+    for (const scene::PolygonLight& light : scene.polygon_lights) light_emitter_.push_back(light.emitter);
+    for (const scene::LineLight& light : scene.line_lights) light_emitter_.push_back(light.emitter);
 }
 
 KernelScene KernelArrays::view(BrdfChoice brdf) const {
@@ -104,6 +106,8 @@ KernelScene KernelArrays::view(BrdfChoice brdf) const {
     view.textures = textures_.data();
     view.polygon_lights = polygon_lights_.data();
     view.line_lights = line_lights_.data();
+    view.light_emitter = light_emitter_.data();
+    view.emitter_count = static_cast<std::uint32_t>(scene_.emitters.size());
     view.polygon_light_count = static_cast<std::int32_t>(polygon_lights_.size());
     view.line_light_count = static_cast<std::int32_t>(line_lights_.size());
     view.camera = scene_.camera;

@@ -26,6 +26,7 @@ private:
     std::vector<TextureView> textures_;
     std::vector<PolygonLightRecord> polygon_lights_;
     std::vector<LineLightRecord> line_lights_;
+    std::vector<std::uint32_t> light_emitter_; ///< of polygonal lights, then of line lights
 };
 
 } // namespace nusselt::render_cpu

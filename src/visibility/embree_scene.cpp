@@ -74,6 +74,7 @@ void intersect(const void* scene, std::uint32_t active, const RayPacket<N>& rays
         hits.tube[i] = geometry == kTubeGeometry ? primitive / kTrianglesPerTube : -1;
         hits.u[i] = hit.u[i];
         hits.v[i] = hit.v[i];
+        hits.t[i] = query.packet.ray.tfar[i];
     }
 }
 
