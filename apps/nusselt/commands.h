@@ -34,6 +34,15 @@ struct RenderOptions {
     bool quiet = false;
     std::optional<std::string> json; ///< "-" is the standard output
     std::optional<std::string> isa;
+    std::vector<std::string> layers; ///< names, or "all"
+    std::optional<std::string> part; ///< "NUMBER/COUNT"
+    std::optional<std::filesystem::path> checkpoint;
+    double checkpoint_interval = 60; ///< [s]
+};
+
+struct MergeOptions {
+    std::filesystem::path output;
+    std::vector<std::filesystem::path> inputs;
 };
 
 struct LightsOptions {
@@ -141,6 +150,7 @@ struct ReproduceOptions {
 };
 
 void setup_render(CLI::App& app, int& exit_code);
+void setup_merge(CLI::App& app, int& exit_code);
 void setup_info(CLI::App& app, int& exit_code);
 void setup_lights(CLI::App& app, int& exit_code);
 void setup_techniques(CLI::App& app, int& exit_code);
@@ -165,6 +175,9 @@ void setup_bench_scale(CLI::App& bench, int& exit_code);
 /// Renders and writes the images.
 /// \returns 0, or 130 if it was interrupted
 int run_render(const RenderOptions& options);
+
+/// Puts images of parts or seeds together.
+int run_merge(const MergeOptions& options);
 
 /// Prints the lights of a scene as a rig.
 int run_lights(const LightsOptions& options);

@@ -15,6 +15,8 @@ constexpr std::chrono::milliseconds kRedrawInterval{100};
 /// Shorter work is over before anyone would have read how long it takes.
 constexpr double kFirstReport = 0.5;
 
+int whole_tenths(double fraction) { return static_cast<int>(fraction * 10 + 1e-9); }
+
 std::string duration_text(double seconds) {
     const auto whole = static_cast<long long>(seconds + 0.5);
     if (whole < 60) return fmt::format("{} s", whole);
@@ -24,20 +26,24 @@ std::string duration_text(double seconds) {
 
 } // namespace
 
-Progress::Progress() : is_terminal_(isatty(fileno(stderr)) != 0) {}
+Progress::Progress(double begin)
+    : begin_fraction_(begin),
+      is_terminal_(isatty(fileno(stderr)) != 0),
+      printed_tenths_(whole_tenths(begin)) {}
 
 void Progress::update(double fraction) {
     const auto now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - begin_).count();
-    if (elapsed < kFirstReport || fraction <= 0) return;
-    const double seconds_left = elapsed * (1 - fraction) / fraction;
+    const double done = fraction - begin_fraction_;
+    if (elapsed < kFirstReport || done <= 0) return;
+    const double seconds_left = elapsed * (1 - fraction) / done;
     if (is_terminal_) {
         if (now - last_drawn_ < kRedrawInterval) return;
         last_drawn_ = now;
         draw_bar(fraction, seconds_left);
         return;
     }
-    const int tenths = static_cast<int>(fraction * 10 + 1e-9);
+    const int tenths = whole_tenths(fraction);
     if (tenths <= printed_tenths_) return;
     printed_tenths_ = tenths;
     fmt::print(stderr, "{} % done, {} left\n", 10 * tenths, duration_text(seconds_left));

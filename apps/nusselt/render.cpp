@@ -1,23 +1,27 @@
+#include "checkpointer.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "progress.h"
+#include "render_report.h"
+#include "render_settings.h"
 #include "render_setup.h"
 #include "validators.h"
 
-#include "image/atomic_file.h"
 #include "image/io.h"
-#include "render_cpu/film.h"
+#include "image/layers.h"
+#include "render_cpu/checkpoint.h"
+#include "render_cpu/frame.h"
 #include "render_cpu/renderer.h"
-#include "scene/scene_size.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
-#include <stdexcept>
+#include <optional>
+#include <utility>
 
 namespace nusselt::app {
 
@@ -29,66 +33,14 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// As asked for. By default a technique for each component of the BRDF, if there are two and techniques for them.
-render_cpu::Strategies strategies_of(const RenderOptions& options, render_cpu::Technique technique,
-                                     render_cpu::BrdfChoice brdf) {
-    if (options.strategies) return from_name(render_cpu::kStrategies, *options.strategies);
-    const auto both = render_cpu::Strategies::diffuse_ltc;
-    const bool useful = brdf == render_cpu::BrdfChoice::material;
-    return useful && allows(technique, both) ? both : render_cpu::Strategies::diffuse;
-}
-
-render_cpu::RenderSettings make_settings(const RenderOptions& options) {
-    render_cpu::RenderSettings settings;
-    settings.technique = from_name(render_cpu::kTechniques, options.technique);
-    settings.brdf = from_name(render_cpu::kBrdfChoices, options.brdf);
-    settings.strategies = strategies_of(options, settings.technique, settings.brdf);
-    if (options.mis)
-        settings.mis = from_name(render_cpu::kMisHeuristics, *options.mis);
-    else if (!allows(settings.strategies, settings.mis))
-        settings.mis = render_cpu::Mis::balance;
-    if (options.visibility_estimate) settings.visibility_estimate = *options.visibility_estimate;
-    settings.sample_order = from_name(render_cpu::kSampleOrders, options.sampler);
-    settings.pixel_position = from_name(render_cpu::kPixelPositions, options.pixel_position);
-    settings.samples = options.samples;
-    settings.camera_rays = options.camera_rays;
-    settings.seed = options.seed;
-    render_cpu::validate(settings);
-    return settings;
-}
-
-/// Throws CLI::ValidationError if choices that are possible by themselves do not fit together.
-void check_combination(const RenderOptions& options) {
-    const auto technique = from_name(render_cpu::kTechniques, options.technique);
-    const auto brdf = from_name(render_cpu::kBrdfChoices, options.brdf);
-    const auto strategies = strategies_of(options, technique, brdf);
-    if (!allows(technique, strategies)) {
-        std::vector<std::string_view> others;
-        for (const auto other : render_cpu::kTechniques)
-            if (allows(other, strategies)) others.push_back(name_of(other));
-        throw CLI::ValidationError("--strategies",
-                                   fmt::format("{} needs --technique {}, not {}", name_of(strategies),
-                                               fmt::join(others, " or "), options.technique));
-    }
-    if (strategies == render_cpu::Strategies::diffuse && (options.mis || options.visibility_estimate))
-        throw CLI::ValidationError(options.mis ? "--mis" : "--visibility-estimate",
-                                   "there is nothing to combine with --strategies diffuse");
-    if (options.mis && !allows(strategies, from_name(render_cpu::kMisHeuristics, *options.mis))) {
-        std::vector<std::string_view> others;
-        for (const auto other : render_cpu::kMisHeuristics)
-            if (allows(strategies, other)) others.push_back(name_of(other));
-        throw CLI::ValidationError(
-            "--mis", fmt::format("{} weighs techniques by what they contribute without shadows, "
-                                 "which is not known for {}; take {}",
-                                 *options.mis, name_of(strategies), fmt::join(others, " or ")));
-    }
-}
-
 std::vector<std::filesystem::path> output_paths(const RenderOptions& options, const scene::Film& film) {
     if (!options.outputs.empty()) return options.outputs;
     const bool is_named = !film.filename.empty();
     const std::filesystem::path name = is_named ? std::filesystem::path(film.filename) : options.scene;
-    return {name.filename().replace_extension(".exr")};
+    std::string stem = name.filename().stem().string();
+    if (const auto part = options.part ? parse_part(*options.part) : std::nullopt)
+        stem += fmt::format("-{}of{}", part->number, part->count);
+    return {stem + ".exr"};
 }
 
 /// Throws std::runtime_error if something could not be written after the work is done.
@@ -97,67 +49,46 @@ void check_outputs(const RenderOptions& options) {
     for (const std::filesystem::path& path : output_paths(options, scene::Film()))
         image::check_writable_image(path);
     if (options.json && options.json != "-") image::check_writable(*options.json);
+    if (options.checkpoint) image::check_writable(*options.checkpoint);
 }
 
-struct Times {
-    double load = 0;
-    double write = 0;
-    double total = 0;
-};
-
-nlohmann::ordered_json report_json(const RenderOptions& options, const render_cpu::RenderSettings& settings,
-                                   render_cpu::Isa isa, const scene::Scene& scene,
-                                   const render_cpu::RenderStatistics& statistics, const Times& times) {
-    const auto rate = [](std::uint64_t rays, double seconds) {
-        return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
-    };
-    const bool is_combined = settings.strategies != render_cpu::Strategies::diffuse;
-    return {
-        {"scene", options.scene.string()},
-        {"triangles", scene.triangles.size()},
-        {"scene_bytes", scene::array_bytes(scene)},
-        {"width", scene.film.width},
-        {"height", scene.film.height},
-        {"technique", render_cpu::name_of(settings.technique)},
-        {"strategies", render_cpu::name_of(settings.strategies)},
-        {"mis", is_combined ? nlohmann::ordered_json(render_cpu::name_of(settings.mis)) : nullptr},
-        {"visibility_estimate", is_combined ? nlohmann::ordered_json(settings.visibility_estimate) : nullptr},
-        {"samples", settings.samples},
-        {"camera_rays", render_cpu::camera_ray_count(settings)},
-        {"pixel_position", render_cpu::name_of(settings.pixel_position)},
-        {"sampler", render_cpu::name_of(settings.sample_order)},
-        {"brdf", render_cpu::name_of(settings.brdf)},
-        {"seed", settings.seed},
-        {"isa", render_cpu::name_of(isa)},
-        {"threads", statistics.threads},
-        {"seconds",
-         {{"load", times.load},
-          {"bvh", statistics.build_seconds},
-          {"render", statistics.render_seconds},
-          {"write", times.write},
-          {"total", times.total}}},
-        {"thread_seconds",
-         {{"primary_rays", statistics.primary_seconds},
-          {"shading", statistics.shading_seconds},
-          {"shadow_rays", statistics.shadow_seconds}}},
-        {"rays", {{"primary", statistics.primary_rays}, {"shadow", statistics.shadow_rays}}},
-        {"rejected_samples", statistics.rejected_samples},
-        {"rays_per_thread_second",
-         {{"primary", rate(statistics.primary_rays, statistics.primary_seconds)},
-          {"shadow", rate(statistics.shadow_rays, statistics.shadow_seconds)}}},
-        {"rays_per_second",
-         rate(statistics.primary_rays + statistics.shadow_rays, statistics.render_seconds)},
-    };
+void print_warnings(const RenderOptions& options, const render_cpu::RenderSettings& settings,
+                    const scene::Scene& scene) {
+    for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    if (samples_visible_normals(settings.strategies) && !scene.line_lights.empty())
+        fmt::print(
+            stderr,
+            "warning: {} tubes and lines are sampled by {} alone: visible normals are for polygons, no "
+            "sample ever hits a line\n",
+            scene.line_lights.size(), name_of(settings.technique));
+    const auto wants_variance =
+        std::count(settings.layers.begin(), settings.layers.end(), render_cpu::LayerKind::variance) > 0;
+    if (wants_variance && !has_variance(settings))
+        fmt::print(stderr,
+                   "warning: there is no layer of the variance: it needs two or more camera rays per "
+                   "pixel; raise --spp{}\n",
+                   options.camera_rays ? " and --camera-rays" : "");
 }
 
-void write_report(const std::string& target, const nlohmann::ordered_json& report) {
-    // Paths may hold bytes that are not UTF-8.
-    const std::string text = report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-    if (target == "-") {
-        fmt::print("{}\n", text);
-    } else {
-        image::write_atomically(target, [&](std::ostream& stream) { stream << text << "\n"; });
-    }
+/// Writes the frame to all files. EXR files get all that is known, others the image.
+void write_outputs(const RenderOptions& options, const render_cpu::RenderSettings& settings,
+                   const scene::Film& film, render_cpu::Frame&& frame, const image::Metadata& metadata) {
+    const std::vector<std::filesystem::path> paths = output_paths(options, film);
+    for (const std::filesystem::path& path : paths)
+        if (!is_exr(path)) image::write_image(path, frame.image, metadata, options.exposure);
+    const image::LayeredImage layered = to_layered_image(std::move(frame), film, settings, metadata);
+    for (const std::filesystem::path& path : paths)
+        if (is_exr(path)) image::write_layers(path, layered);
+    if (!options.quiet && options.json != "-")
+        for (const std::filesystem::path& path : paths) fmt::print("{}\n", path.string());
+}
+
+/// Tells that the image is incomplete.
+void print_stop(const RenderOptions& options, double finished) {
+    fmt::print(stderr, "stopped after {:.1f} % of the pixels", 100 * finished);
+    if (options.checkpoint)
+        fmt::print(stderr, "; the same command goes on from '{}'", options.checkpoint->string());
+    fmt::print(stderr, "\n");
 }
 
 } // namespace
@@ -202,7 +133,7 @@ void setup_render(CLI::App& app, int& exit_code) {
             "--visibility-estimate", options->visibility_estimate,
             "Share of lights that is visible, roughly, for --mis clamped_optimal and optimal; only noise\n"
             "depends on it. Default: 0.5")
-        ->check(CLI::Range(0.0f, 1.0f));
+        ->check(number(0, 1));
     command
         ->add_option("--sampler", options->sampler,
                      "Random numbers: independent, Owen-scrambled Sobol' points, or uniform jittered (best\n"
@@ -231,15 +162,23 @@ void setup_render(CLI::App& app, int& exit_code) {
     command->add_option("--exposure", options->exposure, "Brightens PNG images by this many stops, -64 to 64")
         ->check(exposure())
         ->capture_default_str();
+    add_layers_option(*command, options->layers);
+    add_part_option(*command, options->part);
+    command->add_option(
+        "--checkpoint", options->checkpoint,
+        "Store finished tiles in this file while rendering. The same command goes on from it, whatever\n"
+        "ended the program; once the image is written, the file is removed. Default: none");
+    command
+        ->add_option("--checkpoint-interval", options->checkpoint_interval,
+                     "Seconds between two checkpoints, 0.01 to 1e6")
+        ->check(number(0.01, 1e6))
+        ->capture_default_str();
     command->add_flag("-q,--quiet", options->quiet, "Print errors only, no warnings and no progress");
     command->add_option(
         "--json", options->json,
         "Write settings, times and numbers of rays as JSON to a file, or with - to the standard output.\n"
         "Default: none");
     command->callback([options, &exit_code] {
-        if (options->camera_rays && options->samples % *options->camera_rays != 0)
-            throw CLI::ValidationError("--camera-rays", fmt::format("{} does not divide --spp, which is {}",
-                                                                    *options->camera_rays, options->samples));
         check_combination(*options);
         exit_code = run_render(*options);
     });
@@ -256,14 +195,16 @@ int run_render(const RenderOptions& options) {
     apply_resolution(options.resolution, scene);
     Times times;
     times.load = seconds_since(begin);
-    if (!options.quiet) {
-        for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
-        if (samples_visible_normals(settings.strategies) && !scene.line_lights.empty())
-            fmt::print(stderr,
-                       "warning: {} tubes and lines are sampled by {} alone: visible normals are for "
-                       "polygons, no sample "
-                       "ever hits a line\n",
-                       scene.line_lights.size(), name_of(settings.technique));
+    if (!options.quiet) print_warnings(options, settings, scene);
+
+    render_cpu::Frame frame = make_frame(scene, settings);
+    image::Metadata metadata = make_metadata(scene, settings, isa);
+    std::optional<Checkpointer> checkpointer;
+    if (options.checkpoint) {
+        const image::Metadata run = describe_run(metadata, frame);
+        load_checkpoint(*options.checkpoint, run, frame);
+        checkpointer.emplace(*options.checkpoint, run, frame,
+                             std::chrono::duration<double>(options.checkpoint_interval));
     }
 
     const int threads = options.threads.value_or(render_cpu::default_thread_count());
@@ -273,27 +214,29 @@ int run_render(const RenderOptions& options) {
         return kInterruptedExitCode;
     }
 
-    Progress progress;
+    Progress progress(finished_fraction(frame));
     render_cpu::RenderMonitor monitor;
     monitor.cancel = &interrupted;
     if (!options.quiet) monitor.progress = [&](double fraction) { progress.update(fraction); };
-    const render_cpu::RenderResult result = renderer.render(settings, isa, monitor);
+    if (checkpointer) monitor.tile_finished = [&](std::size_t tile) { checkpointer->add(tile); };
+    const render_cpu::RenderStatistics statistics =
+        renderer.render_into(frame, settings, isa, renderer.visibility().tracer(), monitor);
     progress.finish();
 
     const auto write_begin = Clock::now();
-    image::Metadata metadata = render_cpu::make_metadata(settings, isa, result);
+    if (checkpointer) checkpointer->save_all();
+    const double finished = finished_fraction(frame);
     metadata["scene"] = options.scene.filename().string();
-    for (const std::filesystem::path& path : output_paths(options, scene.film)) {
-        image::write_image(path, result.image, metadata, options.exposure);
-        if (!options.quiet && options.json != "-") fmt::print("{}\n", path.string());
-    }
+    metadata["render_seconds"] = std::to_string(statistics.render_seconds);
+    metadata["finished_fraction"] = std::to_string(finished);
+    write_outputs(options, settings, scene.film, std::move(frame), metadata);
+    if (options.checkpoint && finished == 1) std::filesystem::remove(*options.checkpoint);
     times.write = seconds_since(write_begin);
     times.total = seconds_since(begin);
     if (options.json)
-        write_report(*options.json, report_json(options, settings, isa, scene, result.statistics, times));
-    if (result.finished_fraction == 1) return 0;
-    if (!options.quiet)
-        fmt::print(stderr, "stopped after {:.1f} % of the pixels\n", 100 * result.finished_fraction);
+        write_report(*options.json, report_json(options, settings, isa, scene, statistics, times));
+    if (finished == 1) return 0;
+    if (!options.quiet) print_stop(options, finished);
     return kInterruptedExitCode;
 }
 

@@ -27,6 +27,13 @@ std::optional<Resolution> parse_resolution(const std::string& text) {
     return resolution;
 }
 
+std::string check_part(const std::string& text) {
+    if (parse_part(text)) return "";
+    return "'" + text +
+           "' is not of the form NUMBER/COUNT, such as 1/4, with a number from 1 to the count, at most " +
+           std::to_string(render_cpu::kMaxParts);
+}
+
 std::string check_resolution(const std::string& text) {
     const std::optional<Resolution> size = parse_resolution(text);
     if (!size) return "'" + text + "' is not of the form WIDTHxHEIGHT, such as 640x480";
@@ -81,6 +88,48 @@ scene::Scene load_scene(const std::filesystem::path& path, const std::vector<std
     scene::Scene scene = scene::load_scene(path);
     for (const scene::Rig& rig : loaded) scene::apply_rig(rig, scene);
     return scene;
+}
+
+void add_layers_option(CLI::App& command, std::vector<std::string>& layers) {
+    std::vector<std::string> names = names_of(render_cpu::kLayerKinds);
+    names.emplace_back(kAllLayers);
+    command
+        .add_option(
+            "--layers", layers,
+            "Layers that EXR files have beside the image, separated by commas: albedo, normal, depth,\n"
+            "emission, diffuse, specular, lights (the light of each lamp alone), variance (of the\n"
+            "mean of each pixel; with two or more camera rays), or all. Default: none")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember(names));
+}
+
+void add_part_option(CLI::App& command, std::optional<std::string>& part) {
+    command
+        .add_option(
+            "--part", part,
+            "Render the tiles of this part only, such as 1/4, into an EXR file; `nusselt merge` joins\n"
+            "all parts to the whole image. Default: 1/1")
+        ->check(check_part, "NUMBER/COUNT");
+}
+
+std::optional<render_cpu::Part> parse_part(const std::string& text) {
+    render_cpu::Part part;
+    const char* const end = text.data() + text.size();
+    const auto number = std::from_chars(text.data(), end, part.number);
+    if (number.ec != std::errc() || number.ptr == end || *number.ptr != '/') return {};
+    const auto count = std::from_chars(number.ptr + 1, end, part.count);
+    if (count.ec != std::errc() || count.ptr != end) return {};
+    const bool is_possible = part.count >= 1 && part.count <= render_cpu::kMaxParts && part.number >= 1 &&
+                             part.number <= part.count;
+    return is_possible ? std::optional(part) : std::nullopt;
+}
+
+bool is_exr(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return extension == ".exr";
 }
 
 } // namespace nusselt::app

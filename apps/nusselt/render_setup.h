@@ -1,6 +1,7 @@
 #pragma once
 /// Options that several commands share.
 
+#include "render_cpu/settings.h"
 #include "scene/scene.h"
 
 #include <CLI/CLI.hpp>
@@ -55,5 +56,19 @@ void add_rigs_option(CLI::App& command, std::vector<std::filesystem::path>& rigs
 
 /// Loads a scene and applies the rigs of --lights in their order.
 scene::Scene load_scene(const std::filesystem::path& path, const std::vector<std::filesystem::path>& rigs);
+
+inline constexpr const char* kAllLayers = "all";
+
+/// Adds --layers. \param layers names of render_cpu::kLayerKinds, or kAllLayers
+void add_layers_option(CLI::App& command, std::vector<std::string>& layers);
+
+/// Adds --part.
+void add_part_option(CLI::App& command, std::optional<std::string>& part);
+
+/// From "2/3". \returns nothing if that is no part
+std::optional<render_cpu::Part> parse_part(const std::string& text);
+
+/// Whether the extension is .exr, in upper or lower case.
+bool is_exr(const std::filesystem::path& path);
 
 } // namespace nusselt::app

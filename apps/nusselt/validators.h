@@ -21,6 +21,18 @@ inline CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
     return CLI::Validator(check, fmt::format("in [{}, {}]", low, high), "whole number");
 }
 
+/// Numbers from low to high. CLI11 alone lets NaN pass.
+inline CLI::Validator number(double low, double high) {
+    const auto check = [low, high](const std::string& text) -> std::string {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc() && end == text.data() + text.size() && value >= low && value <= high)
+            return {};
+        return fmt::format("'{}' is not a number from {} to {}", text, low, high);
+    };
+    return CLI::Validator(check, fmt::format("in [{}, {}]", low, high), "number");
+}
+
 /// Seconds of a time budget, more than none and finite.
 inline CLI::Validator seconds() {
     const auto check = [](const std::string& text) -> std::string {

@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 #include "visibility/ray_packets.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace nusselt::render_cpu {
@@ -107,14 +108,28 @@ struct KernelScene {
     const PolygonLightRecord* polygon_lights;
     const LineLightRecord* line_lights;
     const InstanceRecord* instances;
+    const std::uint32_t* light_emitter; ///< of polygonal lights, then of line lights
+    std::uint32_t emitter_count;
     std::int32_t polygon_light_count;
     std::int32_t line_light_count;
     LtcTableRecord ltc;
     scene::Camera camera;
     FilterAxis filter_x, filter_y;
-    scene::PixelBounds image; ///< the pixels of the film that the image has
     std::int32_t film_width, film_height;
     float radius; ///< of the scene [m]
+};
+
+/// Where jobs store layers beside the image, each in the form of RenderJob::pixels. Null for those that are not wanted.
+struct LayerTargets {
+    float* albedo;
+    float* normal;
+    float* depth;    ///< one float per pixel
+    float* coverage; ///< one float per pixel
+    float* emission;
+    float* diffuse;
+    float* specular;
+    float* variance;
+    float* const* lights; ///< one layer for each emitter
 };
 
 struct RenderJob {
@@ -129,8 +144,16 @@ struct RenderJob {
     std::uint32_t seed;
     std::uint32_t camera_rays;   ///< per pixel
     std::uint32_t light_samples; ///< per camera ray, light and technique
-    float* pixels;               ///< 3 floats for each pixel of scene.image, as image::Image
+    std::int32_t x_begin;        ///< the first pixel of the image, on the film
+    std::int32_t y_begin;
+    std::int32_t width; ///< of the image
+    float* pixels;      ///< three floats for each, as image::Image
+    bool has_layers;    ///< whether any layer is wanted
+    LayerTargets layers;
 };
+
+/// Floats per emitter that a kernel needs to sum up layers of lights: two vectors for up to 16 lanes.
+inline constexpr std::size_t kLightSumFloats = 2 * 3 * 16;
 
 /// Pixels x_begin <= x < x_end, y_begin <= y < y_end of the film.
 struct Tile {
@@ -148,10 +171,14 @@ struct TileStatistics {
 };
 
 /// Renders a tile and adds its work to the statistics. Any number of threads may render different tiles.
-using RenderTile = void (*)(const RenderJob& job, const Tile& tile, TileStatistics& statistics);
+/// \param light_sums kLightSumFloats floats for each emitter, aligned to 64 bytes, as working memory; not used
+///                   without layers of lights
+using RenderTile = void (*)(const RenderJob& job, const Tile& tile, float* light_sums,
+                            TileStatistics& statistics);
 
-void render_tile_sse42(const RenderJob& job, const Tile& tile, TileStatistics& statistics);
-void render_tile_avx2(const RenderJob& job, const Tile& tile, TileStatistics& statistics);
-void render_tile_avx512(const RenderJob& job, const Tile& tile, TileStatistics& statistics);
+void render_tile_sse42(const RenderJob& job, const Tile& tile, float* light_sums, TileStatistics& statistics);
+void render_tile_avx2(const RenderJob& job, const Tile& tile, float* light_sums, TileStatistics& statistics);
+void render_tile_avx512(const RenderJob& job, const Tile& tile, float* light_sums,
+                        TileStatistics& statistics);
 
 } // namespace nusselt::render_cpu

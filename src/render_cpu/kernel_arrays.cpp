@@ -157,6 +157,8 @@ KernelArrays::KernelArrays(const scene::Scene& scene)
     check_float_count(sizeof(InstanceRecord) / sizeof(float) * scene.instances.size(), "instances");
     for (const scene::Instance& instance : scene.instances)
         instances_.push_back(make_record(scene, instance));
+    for (const scene::PolygonLight& light : scene.polygon_lights) light_emitter_.push_back(light.emitter);
+    for (const scene::LineLight& light : scene.line_lights) light_emitter_.push_back(light.emitter);
 }
 
 KernelScene KernelArrays::view(BrdfChoice brdf) const {
@@ -173,13 +175,14 @@ KernelScene KernelArrays::view(BrdfChoice brdf) const {
     view.textures = textures_.data();
     view.polygon_lights = polygon_lights_.data();
     view.line_lights = line_lights_.data();
+    view.light_emitter = light_emitter_.data();
+    view.emitter_count = static_cast<std::uint32_t>(scene_.emitters.size());
     view.polygon_light_count = static_cast<std::int32_t>(polygon_lights_.size());
     view.line_light_count = static_cast<std::int32_t>(line_lights_.size());
     view.instances = instances_.data();
     view.camera = scene_.camera;
     view.filter_x = view_of(filter_x_, scene_.film.filter.radius_x);
     view.filter_y = view_of(filter_y_, scene_.film.filter.radius_y);
-    view.image = rendered_pixels(scene_.film);
     view.film_width = scene_.film.width;
     view.film_height = scene_.film.height;
     view.radius = static_cast<float>(scene_.radius);

@@ -31,6 +31,7 @@ private:
     std::vector<InstanceRecord> instances_;
     PixelFilterTable filter_x_;
     PixelFilterTable filter_y_;
+    std::vector<std::uint32_t> light_emitter_; ///< of polygonal lights, then of line lights
 };
 
 } // namespace nusselt::render_cpu

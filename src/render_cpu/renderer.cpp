@@ -2,9 +2,11 @@
 
 #include "render_cpu/film.h"
 #include "render_cpu/flush_denormals.h"
+#include "scene/fingerprint.h"
 
 #include "tables/ltc_table.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <x86intrin.h>
 
@@ -12,13 +14,12 @@
 #include <chrono>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nusselt::render_cpu {
 
 namespace {
-
-constexpr int kTileSize = 16;
 
 using Clock = std::chrono::steady_clock;
 
@@ -39,23 +40,17 @@ private:
     std::uint64_t begin_ticks_ = __rdtsc();
 };
 
-/// The tiles of the film that have some of these pixels, cut to them.
-std::vector<Tile> make_tiles(const scene::PixelBounds& pixels) {
-    std::vector<Tile> tiles;
-    for (int y = pixels.y_begin; y < pixels.y_end; y += kTileSize - y % kTileSize)
-        for (int x = pixels.x_begin; x < pixels.x_end; x += kTileSize - x % kTileSize)
-            tiles.push_back({x, y, std::min(x + kTileSize - x % kTileSize, pixels.x_end),
-                             std::min(y + kTileSize - y % kTileSize, pixels.y_end)});
-    return tiles;
-}
-
 /// What finished tiles add up to; shared by all threads.
 class Tally {
 public:
-    Tally(std::uint64_t pixel_count, const RenderMonitor& monitor)
-        : pixel_count_(pixel_count), monitor_(monitor) {}
+    Tally(Frame& frame, const RenderMonitor& monitor) : frame_(frame), monitor_(monitor) {
+        for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
+            all_pixels_ += pixel_count(frame.tiles[i]);
+            if (frame.is_finished[i] != 0) finished_pixels_ += pixel_count(frame.tiles[i]);
+        }
+    }
 
-    void add(const Tile& tile, const TileStatistics& work) {
+    void add(std::size_t tile, const TileStatistics& work) {
         const std::lock_guard lock(mutex_);
         work_.primary_ticks += work.primary_ticks;
         work_.shading_ticks += work.shading_ticks;
@@ -63,22 +58,35 @@ public:
         work_.primary_rays += work.primary_rays;
         work_.shadow_rays += work.shadow_rays;
         work_.rejected_samples += work.rejected_samples;
-        finished_pixels_ += static_cast<std::uint64_t>(tile.x_end - tile.x_begin) *
-                            static_cast<std::uint64_t>(tile.y_end - tile.y_begin);
-        if (monitor_.progress) monitor_.progress(finished_fraction());
+        frame_.is_finished[tile] = 1;
+        finished_pixels_ += pixel_count(frame_.tiles[tile]);
+        if (monitor_.tile_finished) monitor_.tile_finished(tile);
+        if (monitor_.progress)
+            monitor_.progress(static_cast<double>(finished_pixels_) / static_cast<double>(all_pixels_));
     }
 
     const TileStatistics& work() const { return work_; }
-    double finished_fraction() const {
-        return static_cast<double>(finished_pixels_) / static_cast<double>(pixel_count_);
-    }
 
 private:
-    std::uint64_t pixel_count_;
+    Frame& frame_;
     const RenderMonitor& monitor_;
     std::mutex mutex_;
     TileStatistics work_{};
+    std::uint64_t all_pixels_ = 0;
     std::uint64_t finished_pixels_ = 0;
+};
+
+/// Working memory of one thread for layers of lights, as kernels want it.
+class LightSums {
+public:
+    explicit LightSums(std::size_t emitter_count) : sums_(emitter_count) {}
+    float* data() { return sums_.empty() ? nullptr : sums_.front().values; }
+
+private:
+    struct alignas(64) Sum {
+        float values[kLightSumFloats];
+    };
+    std::vector<Sum> sums_;
 };
 
 } // namespace
@@ -109,10 +117,19 @@ RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const Ren
 RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const visibility::RayTracer& tracer,
                               const RenderMonitor& monitor) const {
     validate(settings);
+    Frame frame = make_frame(scene_, settings);
     RenderResult result;
-    const scene::PixelBounds pixels = rendered_pixels(scene_.film);
-    result.image = image::make_image(pixels.x_end - pixels.x_begin, pixels.y_end - pixels.y_begin);
+    result.statistics = render_into(frame, settings, isa, tracer, monitor);
+    result.finished_fraction = finished_fraction(frame);
+    result.image = std::move(frame.image);
+    result.layers = std::move(frame.layers);
+    return result;
+}
 
+RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& settings, Isa isa,
+                                       const visibility::RayTracer& tracer,
+                                       const RenderMonitor& monitor) const {
+    const FrameTargets targets(frame);
     RenderJob job{};
     job.scene = arrays_.view(settings.brdf);
     if (uses_lobes(settings)) {
@@ -129,39 +146,46 @@ RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const vis
     job.seed = settings.seed;
     job.camera_rays = static_cast<std::uint32_t>(camera_ray_count(settings));
     job.light_samples = static_cast<std::uint32_t>(settings.samples) / job.camera_rays;
-    job.pixels = result.image.pixels.data();
+    job.x_begin = frame.bounds.x_begin;
+    job.y_begin = frame.bounds.y_begin;
+    job.width = frame.image.width;
+    job.pixels = frame.image.pixels.data();
+    job.has_layers = !frame.layers.empty();
+    job.layers = targets.layers();
 
     const RenderTile render_tile = kernel_for(isa);
-    const std::vector<Tile> tiles = make_tiles(pixels);
-    Tally tally(result.image.pixels.size() / 3, monitor);
+    const std::size_t summed_emitters = job.layers.lights == nullptr ? 0 : scene_.emitters.size();
+    tbb::enumerable_thread_specific<LightSums> light_sums(summed_emitters);
+    Tally tally(frame, monitor);
     const TickClock clock;
     arena_.execute([&] {
-        tbb::parallel_for(std::size_t(0), tiles.size(), [&](std::size_t i) {
-            if (monitor.cancel != nullptr && *monitor.cancel) return;
+        tbb::parallel_for(std::size_t(0), frame.tiles.size(), [&](std::size_t i) {
+            if (frame.is_finished[i] != 0 || (monitor.cancel != nullptr && *monitor.cancel)) return;
             const FlushDenormals flush_denormals;
             TileStatistics work{};
-            render_tile(job, tiles[i], work);
-            tally.add(tiles[i], work);
+            render_tile(job, frame.tiles[i], light_sums.local().data(), work);
+            tally.add(i, work);
         });
     });
 
     const TileStatistics& work = tally.work();
     const double scale = clock.seconds_per_tick();
-    result.statistics.build_seconds = build_seconds_;
-    result.statistics.render_seconds = clock.seconds();
-    result.statistics.primary_seconds = scale * static_cast<double>(work.primary_ticks);
-    result.statistics.shading_seconds = scale * static_cast<double>(work.shading_ticks);
-    result.statistics.shadow_seconds = scale * static_cast<double>(work.shadow_ticks);
-    result.statistics.primary_rays = work.primary_rays;
-    result.statistics.shadow_rays = work.shadow_rays;
-    result.statistics.rejected_samples = work.rejected_samples;
-    result.statistics.threads = thread_count_;
-    result.finished_fraction = tally.finished_fraction();
-    return result;
+    RenderStatistics statistics;
+    statistics.build_seconds = build_seconds_;
+    statistics.render_seconds = clock.seconds();
+    statistics.primary_seconds = scale * static_cast<double>(work.primary_ticks);
+    statistics.shading_seconds = scale * static_cast<double>(work.shading_ticks);
+    statistics.shadow_seconds = scale * static_cast<double>(work.shadow_ticks);
+    statistics.primary_rays = work.primary_rays;
+    statistics.shadow_rays = work.shadow_rays;
+    statistics.rejected_samples = work.rejected_samples;
+    statistics.threads = thread_count_;
+    return statistics;
 }
 
-image::Metadata make_metadata(const RenderSettings& settings, Isa isa, const RenderResult& result) {
+image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& settings, Isa isa) {
     image::Metadata metadata = {{"version", NUSSELT_VERSION},
+                                {"scene_fingerprint", scene::fingerprint(scene)},
                                 {"technique", std::string(name_of(settings.technique))},
                                 {"strategies", std::string(name_of(settings.strategies))},
                                 {"samples", std::to_string(settings.samples)},
@@ -170,9 +194,9 @@ image::Metadata make_metadata(const RenderSettings& settings, Isa isa, const Ren
                                 {"sampler", std::string(name_of(settings.sample_order))},
                                 {"brdf", std::string(name_of(settings.brdf))},
                                 {"seed", std::to_string(settings.seed)},
-                                {"isa", std::string(name_of(isa))},
-                                {"render_seconds", std::to_string(result.statistics.render_seconds)},
-                                {"finished_fraction", std::to_string(result.finished_fraction)}};
+                                {"isa", std::string(name_of(isa))}};
+    if (settings.part.count > 1)
+        metadata["part"] = std::to_string(settings.part.number) + "/" + std::to_string(settings.part.count);
     if (settings.strategies != Strategies::diffuse) {
         metadata["mis"] = std::string(name_of(settings.mis));
         metadata["visibility_estimate"] = std::to_string(settings.visibility_estimate);

@@ -2,6 +2,7 @@
 /// Renders direct light of a scene with all cores.
 
 #include "image/image.h"
+#include "render_cpu/frame.h"
 #include "render_cpu/isa.h"
 #include "render_cpu/kernel_arrays.h"
 #include "render_cpu/settings.h"
@@ -20,6 +21,8 @@ namespace nusselt::render_cpu {
 struct RenderMonitor {
     /// Called with the share of finished pixels, in (0, 1], from any thread, never by two at once.
     std::function<void(double fraction)> progress;
+    /// Called with the number in Frame::tiles of each tile once its pixels are final. As above; its caller waits.
+    std::function<void(std::size_t tile)> tile_finished;
     /// Once this is true, no further tile is begun.
     const std::atomic<bool>* cancel = nullptr;
 };
@@ -40,9 +43,10 @@ struct RenderStatistics {
 };
 
 struct RenderResult {
-    image::Image image; ///< pixels that were not rendered are black
+    image::Image image;               ///< pixels that were not rendered are black
+    std::vector<image::Layer> layers; ///< see make_frame()
     RenderStatistics statistics;
-    double finished_fraction = 0; ///< of the pixels; below 1 if it was cancelled
+    double finished_fraction = 0; ///< of the pixels of the part; below 1 if it was cancelled
 };
 
 /// A scene that is ready for rendering. Several renderings may run at once.
@@ -55,11 +59,18 @@ public:
     Renderer(const scene::Scene& scene, int thread_count);
 
     /// \throws std::invalid_argument see validate()
+    /// \throws std::runtime_error see make_frame()
     RenderResult render(const RenderSettings& settings, Isa isa, const RenderMonitor& monitor = {}) const;
 
     /// As above with another way to trace rays, which must behave like that of the scene.
     RenderResult render(const RenderSettings& settings, Isa isa, const visibility::RayTracer& tracer,
                         const RenderMonitor& monitor = {}) const;
+
+    /// Renders the tiles of a frame that are not finished.
+    /// \param frame    from make_frame() with this scene and these settings
+    /// \param settings valid
+    RenderStatistics render_into(Frame& frame, const RenderSettings& settings, Isa isa,
+                                 const visibility::RayTracer& tracer, const RenderMonitor& monitor) const;
 
     const visibility::EmbreeScene& visibility() const { return embree_; }
 
@@ -76,7 +87,7 @@ private:
 /// Number of threads that the machine runs at once.
 int default_thread_count();
 
-/// Settings and program version for the metadata of image files.
-image::Metadata make_metadata(const RenderSettings& settings, Isa isa, const RenderResult& result);
+/// Settings, program version and a fingerprint of the scene, for the metadata of image files.
+image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& settings, Isa isa);
 
 } // namespace nusselt::render_cpu

@@ -37,6 +37,8 @@ int camera_ray_count(const RenderSettings& settings) {
     return settings.pixel_position == PixelPosition::center ? 1 : settings.samples;
 }
 
+bool has_variance(const RenderSettings& settings) { return camera_ray_count(settings) >= 2; }
+
 void validate(const RenderSettings& settings) {
     if (settings.samples < 1 || settings.samples > kMaxSamples)
         throw std::invalid_argument("samples per light and pixel must lie between 1 and " +
@@ -56,6 +58,11 @@ void validate(const RenderSettings& settings) {
         throw std::invalid_argument("camera rays per pixel must divide the " +
                                     std::to_string(settings.samples) + " samples per light, found " +
                                     std::to_string(camera_rays));
+    const Part& part = settings.part;
+    if (part.count < 1 || part.count > kMaxParts || part.number < 1 || part.number > part.count)
+        throw std::invalid_argument("parts are numbered from 1 to their count, which is at most " +
+                                    std::to_string(kMaxParts) + ", found " + std::to_string(part.number) +
+                                    " of " + std::to_string(part.count));
 }
 
 std::string_view name_of(Technique technique) {
@@ -138,6 +145,28 @@ std::string_view name_of(BrdfChoice brdf) {
         return "material";
     case BrdfChoice::lambert:
         return "lambert";
+    }
+    return {};
+}
+
+std::string_view name_of(LayerKind kind) {
+    switch (kind) {
+    case LayerKind::albedo:
+        return "albedo";
+    case LayerKind::normal:
+        return "normal";
+    case LayerKind::depth:
+        return "depth";
+    case LayerKind::emission:
+        return "emission";
+    case LayerKind::diffuse:
+        return "diffuse";
+    case LayerKind::specular:
+        return "specular";
+    case LayerKind::lights:
+        return "lights";
+    case LayerKind::variance:
+        return "variance";
     }
     return {};
 }

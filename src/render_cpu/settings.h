@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace nusselt::render_cpu {
 
@@ -51,7 +52,17 @@ enum class BrdfChoice : std::uint32_t {
     lambert,  ///< diffuse albedo / pi
 };
 
+/// What images can show beside the radiance of their pixels; see make_frame().
+enum class LayerKind : std::uint32_t { albedo, normal, depth, emission, diffuse, specular, lights, variance };
+
+/// One of several shares of the tiles of an image, for work on several machines.
+struct Part {
+    int number = 1; ///< 1 to count
+    int count = 1;  ///< 1 to kMaxParts
+};
+
 inline constexpr int kMaxSamples = 1 << 20;
+inline constexpr int kMaxParts = 1 << 20;
 
 struct RenderSettings {
     Technique technique = Technique::projected_solid_angle;
@@ -64,6 +75,8 @@ struct RenderSettings {
     SampleOrder sample_order = SampleOrder::sobol;
     BrdfChoice brdf = BrdfChoice::material;
     std::uint32_t seed = 0;
+    std::vector<LayerKind> layers; ///< beside the image; in any order
+    Part part;
 };
 
 /// Whether there are samples of these strategies with the technique for the diffuse component.
@@ -80,6 +93,9 @@ bool uses_lobes(const RenderSettings& settings);
 
 /// Camera rays per pixel: as given, else one for each sample if their positions differ, else one.
 int camera_ray_count(const RenderSettings& settings);
+
+/// Whether the noise of pixels is known: it is estimated from the differences between camera rays.
+bool has_variance(const RenderSettings& settings);
 
 /// \throws std::invalid_argument naming the first setting out of range, its value and the range
 void validate(const RenderSettings& settings);
@@ -100,11 +116,15 @@ inline constexpr std::array kSampleOrders = {SampleOrder::independent, SampleOrd
                                              SampleOrder::jittered};
 inline constexpr std::array kPixelPositions = {PixelPosition::jittered, PixelPosition::center};
 inline constexpr std::array kBrdfChoices = {BrdfChoice::material, BrdfChoice::lambert};
+inline constexpr std::array kLayerKinds = {LayerKind::albedo,   LayerKind::normal,  LayerKind::depth,
+                                           LayerKind::emission, LayerKind::diffuse, LayerKind::specular,
+                                           LayerKind::lights,   LayerKind::variance};
 std::string_view name_of(Technique technique);
 std::string_view name_of(Strategies strategies);
 std::string_view name_of(Mis mis);
 std::string_view name_of(SampleOrder order);
 std::string_view name_of(PixelPosition position);
 std::string_view name_of(BrdfChoice brdf);
+std::string_view name_of(LayerKind kind);
 
 } // namespace nusselt::render_cpu

@@ -152,6 +152,7 @@ void intersect_plain(const void* context, std::uint32_t active, const RayPacket<
         hits.tube[i] = geometry == kTubeGeometry ? primitive / kTrianglesPerTube : -1;
         hits.u[i] = hit.u[i];
         hits.v[i] = hit.v[i];
+        hits.t[i] = query.packet.ray.tfar[i];
     }
 }
 

@@ -24,6 +24,7 @@ struct HitPacket {
     /// Barycentric coordinates: the hit is v0 + u (v1 - v0) + v (v2 - v0). Meaningless without a triangle.
     alignas(4 * N) float u[N];
     float v[N];
+    float t[N]; ///< of the hit along the ray; meaningless without one
 };
 
 /// Functions that trace packets of N rays. Bit i of `active` is lane i. Lanes that are not active, or whose

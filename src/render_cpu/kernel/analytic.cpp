@@ -11,9 +11,9 @@ template <class Shape>
 void add_light(ReflectedLight& reflected, const LocalLight<Shape>& light) noexcept {
     if (!any(light.lit)) return;
     const auto& surface = reflected.surface().glossy;
-    const Vector radiance = diffuse_integral(light.shape) * surface.diffuse_albedo +
-                            lobe_integral<BothHorizons>(light.shape, surface.lobe) * surface.specular_albedo;
-    reflected.add_known(light, radiance);
+    const Vector diffuse = diffuse_integral(light.shape) * surface.diffuse_albedo;
+    const Vector specular = lobe_integral<BothHorizons>(light.shape, surface.lobe) * surface.specular_albedo;
+    reflected.add_known(light, {diffuse + specular, diffuse});
 }
 
 template <int N>
@@ -31,9 +31,10 @@ void add_tube(ReflectedLight& reflected, std::int32_t index) noexcept {
     const auto& surface = reflected.surface().glossy;
     const LineSegment<Real>& axis = light.shape.axis;
     const Real& radius = light.shape.radius;
-    reflected.add_known(light, tube_integral(diffuse_integral(axis), radius) * surface.diffuse_albedo +
-                                   tube_integral(lobe_integral<BothHorizons>(axis, surface.lobe), radius) *
-                                       surface.specular_albedo);
+    const Vector diffuse = tube_integral(diffuse_integral(axis), radius) * surface.diffuse_albedo;
+    const Vector specular =
+        tube_integral(lobe_integral<BothHorizons>(axis, surface.lobe), radius) * surface.specular_albedo;
+    reflected.add_known(light, {diffuse + specular, diffuse});
 }
 
 } // namespace

@@ -45,13 +45,13 @@ void add_light(ReflectedLight& reflected, const LocalLight<Shape>& light) noexce
     const render_cpu::RenderJob& job = reflected.job();
     const DirectLight<Real, Shape, SurfaceBrdf, Pair> estimator(light.shape, surface);
     if (job.mis == Mis::one_sample) {
-        reflected.add(light, [&](std::uint32_t number, CompensatedSum& sum) {
+        reflected.add(light, [&](std::uint32_t number, SampleSum& sum) {
             reflected.add_sample(light.lit, estimator.sample_one(reflected.random(light, number, 0)), sum);
         });
         return;
     }
     const ChosenHeuristic heuristic{job.mis, Real(job.visibility_estimate)};
-    reflected.add(light, [&](std::uint32_t number, CompensatedSum& sum) {
+    reflected.add(light, [&](std::uint32_t number, SampleSum& sum) {
         reflected.add_sample(light.lit,
                              estimator.sample_diffuse(heuristic, reflected.random(light, number, 0)), sum);
         reflected.add_sample(glossy, estimator.sample_specular(heuristic, reflected.random(light, number, 1)),

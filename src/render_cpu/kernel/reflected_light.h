@@ -3,6 +3,7 @@
 
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/lanes.h"
+#include "render_cpu/kernel/layers.h"
 #include "render_cpu/kernel/random.h"
 #include "render_cpu/kernel/surface.h"
 
@@ -36,16 +37,25 @@ using LocalTube = LocalLight<Cylinder<Real>>;
 template <int N>
 using LocalPolygon = LocalLight<ConvexPolygon<Real, N>>;
 
+/// Samples of one light.
+struct SampleSum {
+    CompensatedSum all;
+    CompensatedSum diffuse; ///< the part of the diffuse component, if there are layers
+};
+
 /// The light that one packet of shading points reflects to the eye.
 class ReflectedLight {
 public:
     /// \param camera_ray number of the camera rays of this packet, below job.camera_rays
+    /// \param layers     to add the light to, or null
     ReflectedLight(const render_cpu::RenderJob& job, const PixelBlock& block, const Surface& surface,
-                   std::uint32_t camera_ray, render_cpu::TileStatistics& statistics) noexcept
+                   std::uint32_t camera_ray, LayerSums* layers,
+                   render_cpu::TileStatistics& statistics) noexcept
         : job_(job),
           block_(block),
           surface_(surface),
           first_sample_(camera_ray * job.light_samples),
+          layers_(layers),
           statistics_(statistics) {}
 
     const render_cpu::RenderJob& job() const noexcept { return job_; }
@@ -98,19 +108,19 @@ public:
     /// \param sample function of a sample number that adds samples of the light with add_sample()
     template <class Shape, class Sample>
     void add(const LocalLight<Shape>& light, const Sample& sample) noexcept {
-        CompensatedSum sum;
+        SampleSum sum;
         for (std::uint32_t i = 0; i < job_.light_samples; ++i) sample(first_sample_ + i, sum);
         const float scale = 1.0f / static_cast<float>(job_.light_samples);
-        add_for(light.lit, scale * light.emission, sum.sum);
+        add_for(light, light.lit, scale * light.emission, {sum.all.sum, sum.diffuse.sum});
     }
 
     /// Adds reflected radiance that is known without samples.
     /// \param reflected for an emission of 1
     template <class Shape>
-    void add_known(const LocalLight<Shape>& light, const Vector& reflected) noexcept {
-        const LaneMask sound = is_finite(reflected);
+    void add_known(const LocalLight<Shape>& light, const Reflected& reflected) noexcept {
+        const LaneMask sound = is_finite(reflected.all);
         statistics_.rejected_samples += count_lanes(light.lit & !sound);
-        add_for(light.lit & sound, light.emission, reflected);
+        add_for(light, light.lit & sound, light.emission, reflected);
     }
 
     /// Random numbers for one sample of a light.
@@ -123,7 +133,7 @@ public:
 
     /// Traces shadow rays for a sample and adds what it contributes.
     /// \param drawn lanes that have a sample
-    void add_sample(LaneMask drawn, const DirectLightSample<Real>& sample, CompensatedSum& sum) noexcept {
+    void add_sample(LaneMask drawn, const DirectLightSample<Real>& sample, SampleSum& sum) noexcept {
         const auto is_zero = [](const Vector& v) {
             return (v.x == Real(0)) & (v.y == Real(0)) & (v.z == Real(0));
         };
@@ -133,15 +143,25 @@ public:
         statistics_.rejected_samples += count_lanes(drawn & !sound);
         const Vector zero{Real(0), Real(0), Real(0)};
         const Vector lit = select(visible(drawn & sound, sample), sample.shadowed, zero);
-        sum.add(lit + select(drawn & sound, sample.constant, zero));
+        const Vector constant = select(drawn & sound, sample.constant, zero);
+        sum.all.add(lit + constant);
+        if (layers_ == nullptr) return;
+        const DiffuseShares shares = diffuse_shares(surface_.glossy, sample.wi);
+        sum.diffuse.add(shares.of_sample * lit + shares.of_constant * constant);
     }
 
     const Vector& radiance() const noexcept { return radiance_; }
 
 private:
-    void add_for(LaneMask lit, const Vec3<float>& emission, const Vector& reflected) noexcept {
+    template <class Shape>
+    void add_for(const LocalLight<Shape>& light, LaneMask lit, const Vec3<float>& emission,
+                 const Reflected& reflected) noexcept {
         const Vector zero{Real(0), Real(0), Real(0)};
-        radiance_ = radiance_ + select(lit, broadcast<Real>(emission) * reflected, zero);
+        const Vector radiance = select(lit, broadcast<Real>(emission) * reflected.all, zero);
+        radiance_ = radiance_ + radiance;
+        if (layers_ == nullptr) return;
+        const Vector diffuse = select(lit, broadcast<Real>(emission) * reflected.diffuse, zero);
+        layers_->add_light(light.number, {radiance, diffuse});
     }
 
     /// Those lanes whose sample contributes and sees the light.
@@ -185,6 +205,7 @@ private:
     const PixelBlock& block_;
     const Surface& surface_;
     std::uint32_t first_sample_;
+    LayerSums* layers_;
     render_cpu::TileStatistics& statistics_;
     Vector radiance_{Real(0), Real(0), Real(0)};
 };
@@ -203,7 +224,7 @@ inline DirectLightSample<Real> reflect(const Surface& surface, const LightSample
 template <class Shape, class Technique>
 void add_samples(ReflectedLight& reflected, const LocalLight<Shape>& light,
                  const Technique& technique) noexcept {
-    reflected.add(light, [&](std::uint32_t number, CompensatedSum& sum) {
+    reflected.add(light, [&](std::uint32_t number, SampleSum& sum) {
         const Vec2<Real> u = reflected.random(light, number, 0);
         reflected.add_sample(light.lit, reflect(reflected.surface(), draw(technique, u)), sum);
     });

@@ -3,7 +3,9 @@
 
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/lanes.h"
+#include "render_cpu/kernel/layers.h"
 #include "render_cpu/kernel/light_functions.h"
+#include "render_cpu/kernel/pixel_output.h"
 #include "render_cpu/kernel/surface.h"
 
 NUSSELT_NAMESPACE_BEGIN
@@ -15,9 +17,17 @@ inline constexpr int kBlockHeight = kLanes / kBlockWidth;
 
 class TileRenderer {
 public:
-    TileRenderer(const render_cpu::RenderJob& job, const render_cpu::Tile& tile,
+    /// \param light_sums see RenderTile
+    TileRenderer(const render_cpu::RenderJob& job, const render_cpu::Tile& tile, float* light_sums,
                  render_cpu::TileStatistics& statistics) noexcept
-        : job_(job), tile_(tile), statistics_(statistics), functions_(light_functions(job)) {}
+        : job_(job),
+          tile_(tile),
+          statistics_(statistics),
+          functions_(light_functions(job)),
+          layer_sums_(job, light_sums),
+          layers_(job.has_layers ? &layer_sums_ : nullptr) {}
+    TileRenderer(const TileRenderer&) = delete;
+    TileRenderer& operator=(const TileRenderer&) = delete;
 
     void render() noexcept {
         const std::int32_t x_begin = tile_.x_begin - tile_.x_begin % kBlockWidth;
@@ -32,8 +42,14 @@ private:
         const std::uint64_t traced_before = statistics_.primary_ticks + statistics_.shadow_ticks;
         const PixelBlock block = make_block(x_begin, y_begin);
         CompensatedSum sum;
-        for (std::uint32_t i = 0; i < job_.camera_rays; ++i) sum.add(weighted_radiance(block, i));
-        write(block, Real(1.0f / static_cast<float>(job_.camera_rays)) * sum.sum);
+        if (layers_ != nullptr) layers_->clear();
+        for (std::uint32_t i = 0; i < job_.camera_rays; ++i) {
+            const Vector arriving = weighted_radiance(block, i);
+            sum.add(arriving);
+            if (layers_ != nullptr) layers_->add_radiance(arriving);
+        }
+        store_rgb(job_, block, Real(1.0f / static_cast<float>(job_.camera_rays)) * sum.sum, job_.pixels);
+        if (layers_ != nullptr) layers_->write(block);
         const std::uint64_t traced = statistics_.primary_ticks + statistics_.shadow_ticks - traced_before;
         statistics_.shading_ticks += __builtin_ia32_rdtsc() - begin - traced;
     }
@@ -72,6 +88,7 @@ private:
         const CameraSamples samples = camera_samples(job_, block, camera_ray);
         const Vector origin = linear(samples.raster, camera.origin, camera.origin_right, camera.origin_down);
         const Vector direction = linear(samples.raster, camera.corner, camera.right, camera.down);
+        if (layers_ != nullptr) layers_->begin_ray(samples.weight);
         return samples.weight * radiance(block, camera_ray, origin, direction);
     }
 
@@ -79,14 +96,22 @@ private:
                     const Vector& direction) noexcept {
         const visibility::HitPacket<kLanes> hits = trace(block.traced.bits(), origin, direction);
         std::uint32_t on_triangle = 0;
-        for (int i = 0; i < kLanes; ++i)
+        std::uint32_t on_tube = 0;
+        for (int i = 0; i < kLanes; ++i) {
             on_triangle |= static_cast<std::uint32_t>(hits.triangle[i] >= 0) << i;
+            on_tube |= static_cast<std::uint32_t>(hits.tube[i] >= 0) << i;
+        }
         const Vector emitted = emission(hits, direction);
+        if (layers_ != nullptr) {
+            layers_->add_hits(hits, LaneMask::from_bits(on_triangle | on_tube), direction);
+            layers_->add_emission(hits, emitted);
+        }
         if (on_triangle == 0) return emitted;
 
         const Surface surface =
             make_surface(job_.scene, hits, LaneMask::from_bits(on_triangle), -normalize(direction));
-        ReflectedLight reflected(job_, block, surface, camera_ray, statistics_);
+        if (layers_ != nullptr) layers_->add_surface(surface);
+        ReflectedLight reflected(job_, block, surface, camera_ray, layers_, statistics_);
         for (std::int32_t i = 0; i < job_.scene.polygon_light_count; ++i) {
             const bool is_small = job_.scene.polygon_lights[i].slots == 4;
             (is_small ? functions_.add_polygon4 : functions_.add_polygon8)(reflected, i);
@@ -144,26 +169,12 @@ private:
         return load(result);
     }
 
-    void write(const PixelBlock& block, const Vector& rgb) noexcept {
-        const Lanes lanes = store(rgb);
-        const std::uint32_t inside = block.inside.bits();
-        const scene::PixelBounds& image = job_.scene.image;
-        const std::int64_t width = image.x_end - image.x_begin;
-        const std::int64_t first = (static_cast<std::int32_t>(block.y[0]) - image.y_begin) * width +
-                                   static_cast<std::int32_t>(block.x[0]) - image.x_begin;
-        for (int i = 0; i < kLanes; ++i) {
-            if ((inside >> i & 1u) == 0) continue;
-            float* pixel = job_.pixels + 3 * (first + i / kBlockWidth * width + i % kBlockWidth);
-            pixel[0] = lanes.x[i];
-            pixel[1] = lanes.y[i];
-            pixel[2] = lanes.z[i];
-        }
-    }
-
     const render_cpu::RenderJob& job_;
     render_cpu::Tile tile_;
     render_cpu::TileStatistics& statistics_;
     LightFunctions functions_;
+    LayerSums layer_sums_;
+    LayerSums* layers_; ///< null if the job has none
 };
 
 } // namespace kernel

@@ -1,0 +1,60 @@
+#include "checkpointer.h"
+
+#include "render_cpu/checkpoint.h"
+
+#include <fmt/core.h>
+
+#include <exception>
+#include <utility>
+
+namespace nusselt::app {
+
+Checkpointer::Checkpointer(std::filesystem::path path, image::Metadata run, const render_cpu::Frame& frame,
+                           std::chrono::duration<double> interval)
+    : path_(std::move(path)), run_(std::move(run)), frame_(frame) {
+    for (std::size_t i = 0; i < frame.tiles.size(); ++i)
+        if (frame.is_finished[i] != 0) finished_.push_back(i);
+    thread_ = std::thread([this, interval] { save_at_intervals(interval); });
+}
+
+Checkpointer::~Checkpointer() { stop(); }
+
+void Checkpointer::add(std::size_t tile) {
+    const std::lock_guard lock(mutex_);
+    finished_.push_back(tile);
+}
+
+void Checkpointer::save_all() {
+    stop();
+    render_cpu::save_checkpoint(path_, run_, frame_, finished_);
+}
+
+void Checkpointer::save_at_intervals(std::chrono::duration<double> interval) {
+    std::size_t saved = finished_.size();
+    bool failed = false;
+    std::unique_lock lock(mutex_);
+    while (!stopped_.wait_for(lock, interval, [this] { return stop_; })) {
+        if (finished_.size() == saved) continue;
+        const std::vector<std::size_t> tiles = finished_;
+        lock.unlock();
+        try {
+            render_cpu::save_checkpoint(path_, run_, frame_, tiles);
+            saved = tiles.size();
+        } catch (const std::exception& error) {
+            // The disk may have space again at the next time; the rendering itself is well.
+            if (!std::exchange(failed, true)) fmt::print(stderr, "\nwarning: {}\n", error.what());
+        }
+        lock.lock();
+    }
+}
+
+void Checkpointer::stop() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+    }
+    stopped_.notify_all();
+    if (thread_.joinable()) thread_.join();
+}
+
+} // namespace nusselt::app

@@ -1,0 +1,48 @@
+#pragma once
+/// Checkpoints while a rendering runs.
+
+#include "image/image.h"
+#include "render_cpu/frame.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace nusselt::app {
+
+/// Stores finished tiles every now and then, in a thread of its own.
+class Checkpointer {
+public:
+    /// \param run   see render_cpu::save_checkpoint()
+    /// \param frame must outlive the object; finished tiles count as stored
+    Checkpointer(std::filesystem::path path, image::Metadata run, const render_cpu::Frame& frame,
+                 std::chrono::duration<double> interval);
+    /// Stores nothing.
+    ~Checkpointer();
+    Checkpointer(const Checkpointer&) = delete;
+    Checkpointer& operator=(const Checkpointer&) = delete;
+
+    /// To be called for each tile that is finished from now on, by any thread.
+    void add(std::size_t tile);
+
+    /// Ends the thread and stores all that is finished. \throws std::runtime_error if that fails
+    void save_all();
+
+private:
+    void save_at_intervals(std::chrono::duration<double> interval);
+    void stop();
+
+    std::filesystem::path path_;
+    image::Metadata run_;
+    const render_cpu::Frame& frame_;
+    std::mutex mutex_; ///< of the following
+    std::condition_variable stopped_;
+    bool stop_ = false;
+    std::vector<std::size_t> finished_;
+    std::thread thread_;
+};
+
+} // namespace nusselt::app

@@ -1,0 +1,69 @@
+#include "render_report.h"
+
+#include "image/atomic_file.h"
+#include "scene/scene_size.h"
+
+#include <fmt/core.h>
+
+#include <cstdint>
+#include <ostream>
+
+namespace nusselt::app {
+
+nlohmann::ordered_json report_json(const RenderOptions& options, const render_cpu::RenderSettings& settings,
+                                   render_cpu::Isa isa, const scene::Scene& scene,
+                                   const render_cpu::RenderStatistics& statistics, const Times& times) {
+    const auto rate = [](std::uint64_t rays, double seconds) {
+        return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
+    };
+    const bool is_combined = settings.strategies != render_cpu::Strategies::diffuse;
+    return {
+        {"scene", options.scene.string()},
+        {"triangles", scene.triangles.size()},
+        {"scene_bytes", scene::array_bytes(scene)},
+        {"width", scene.film.width},
+        {"height", scene.film.height},
+        {"technique", render_cpu::name_of(settings.technique)},
+        {"strategies", render_cpu::name_of(settings.strategies)},
+        {"mis", is_combined ? nlohmann::ordered_json(render_cpu::name_of(settings.mis)) : nullptr},
+        {"visibility_estimate", is_combined ? nlohmann::ordered_json(settings.visibility_estimate) : nullptr},
+        {"samples", settings.samples},
+        {"camera_rays", render_cpu::camera_ray_count(settings)},
+        {"pixel_position", render_cpu::name_of(settings.pixel_position)},
+        {"sampler", render_cpu::name_of(settings.sample_order)},
+        {"brdf", render_cpu::name_of(settings.brdf)},
+        {"seed", settings.seed},
+        {"part", fmt::format("{}/{}", settings.part.number, settings.part.count)},
+        {"isa", render_cpu::name_of(isa)},
+        {"threads", statistics.threads},
+        {"seconds",
+         {{"load", times.load},
+          {"bvh", statistics.build_seconds},
+          {"render", statistics.render_seconds},
+          {"write", times.write},
+          {"total", times.total}}},
+        {"thread_seconds",
+         {{"primary_rays", statistics.primary_seconds},
+          {"shading", statistics.shading_seconds},
+          {"shadow_rays", statistics.shadow_seconds}}},
+        {"rays", {{"primary", statistics.primary_rays}, {"shadow", statistics.shadow_rays}}},
+        {"rejected_samples", statistics.rejected_samples},
+        {"rays_per_thread_second",
+         {{"primary", rate(statistics.primary_rays, statistics.primary_seconds)},
+          {"shadow", rate(statistics.shadow_rays, statistics.shadow_seconds)}}},
+        {"rays_per_second",
+         rate(statistics.primary_rays + statistics.shadow_rays, statistics.render_seconds)},
+    };
+}
+
+void write_report(const std::string& target, const nlohmann::ordered_json& report) {
+    // Paths may hold bytes that are not UTF-8.
+    const std::string text = report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    if (target == "-") {
+        fmt::print("{}\n", text);
+    } else {
+        image::write_atomically(target, [&](std::ostream& stream) { stream << text << "\n"; });
+    }
+}
+
+} // namespace nusselt::app

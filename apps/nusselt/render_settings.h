@@ -1,0 +1,16 @@
+#pragma once
+/// From the options of `nusselt render` to settings of the renderer.
+
+#include "commands.h"
+
+#include "render_cpu/settings.h"
+
+namespace nusselt::app {
+
+/// \throws std::invalid_argument for values that the command line does not let through
+render_cpu::RenderSettings make_settings(const RenderOptions& options);
+
+/// \throws CLI::ValidationError if choices that are possible by themselves do not fit together
+void check_combination(const RenderOptions& options);
+
+} // namespace nusselt::app

@@ -1,0 +1,197 @@
+#include "render_cpu/checkpoint.h"
+
+#include "scene/content_hash.h"
+
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace nusselt::render_cpu {
+
+namespace {
+
+// A file consists of the magic bytes, the description of the run (number of entries; key and value of each as length
+// and bytes), a hash of all that, the number of tiles, for each tile its number and the floats of the image and of each
+// layer, row by row, and a hash of all from the beginning. Integers have 64 bits; the byte order is that of the machine.
+constexpr std::array<char, 16> kMagic = {'n', 'u', 's', 's', 'e', 'l', 't', ' ',
+                                         't', 'i', 'l', 'e', 's', ' ', '1', '\n'};
+
+/// Calls a function with the address and number of the floats of each row of a tile, in the order of files.
+template <class Floats, class Function>
+void for_each_row(Floats* pixels, std::size_t channels, const Frame& frame, const Tile& tile,
+                  const Function& function) {
+    const auto width = static_cast<std::size_t>(frame.image.width);
+    for (int y = tile.y_begin; y < tile.y_end; ++y) {
+        const std::size_t first = static_cast<std::size_t>(y - frame.bounds.y_begin) * width +
+                                  static_cast<std::size_t>(tile.x_begin - frame.bounds.x_begin);
+        function(pixels + channels * first, channels * static_cast<std::size_t>(tile.x_end - tile.x_begin));
+    }
+}
+
+/// The same for the image and all layers. \param frame const or not
+template <class AnyFrame, class Function>
+void for_each_row(AnyFrame& frame, const Tile& tile, const Function& function) {
+    for_each_row(frame.image.pixels.data(), 3, frame, tile, function);
+    for (auto& layer : frame.layers)
+        for_each_row(layer.data.data(), layer.channels.size(), frame, tile, function);
+}
+
+class Writer {
+public:
+    explicit Writer(std::ostream& stream) : stream_(stream) {}
+
+    void bytes(const void* data, std::size_t size) {
+        hash_.add_bytes(data, size);
+        stream_.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
+    }
+    void number(std::uint64_t value) { bytes(&value, sizeof value); }
+    void text(const std::string& text) {
+        number(text.size());
+        bytes(text.data(), text.size());
+    }
+    void hash() { number(hash_.value()); }
+
+private:
+    std::ostream& stream_;
+    scene::ContentHash hash_;
+};
+
+/// Never reads beyond the end, and takes no memory that the file does not have bytes for.
+class Reader {
+public:
+    Reader(std::istream& stream, std::uint64_t size) : stream_(stream), left_(size) {}
+
+    void bytes(void* data, std::size_t size) {
+        if (size > left_ || !stream_.read(static_cast<char*>(data), static_cast<std::streamsize>(size)))
+            throw std::runtime_error("it is damaged or cut off");
+        left_ -= size;
+        hash_.add_bytes(data, size);
+    }
+    std::uint64_t number() {
+        std::uint64_t value = 0;
+        bytes(&value, sizeof value);
+        return value;
+    }
+    std::string text() {
+        const std::uint64_t size = number();
+        if (size > left_) throw std::runtime_error("it is damaged or cut off");
+        std::string result(size, '\0');
+        bytes(result.data(), size);
+        return result;
+    }
+    void check_hash() {
+        const std::uint64_t expected = hash_.value();
+        if (number() != expected) throw std::runtime_error("it is damaged or cut off");
+    }
+    void check_end() const {
+        if (left_ != 0) throw std::runtime_error("it is damaged: there is something behind its end");
+    }
+
+private:
+    std::istream& stream_;
+    std::uint64_t left_; ///< bytes of the file
+    scene::ContentHash hash_;
+};
+
+/// The first difference, in words.
+void check_same_run(const image::Metadata& stored, const image::Metadata& run) {
+    for (const auto& [key, value] : run) {
+        const auto found = stored.find(key);
+        const std::string there = found == stored.end() ? "not there" : "'" + found->second + "'";
+        if (there != "'" + value + "'")
+            throw std::runtime_error("it is of another run: " + key + " is " + there + " in the file, but '" +
+                                     value + "' now");
+    }
+    for (const auto& [key, value] : stored)
+        if (run.count(key) == 0)
+            throw std::runtime_error("it is of another run: " + key + " is '" + value +
+                                     "' in the file, but not set now");
+}
+
+void read_tiles(Reader& reader, Frame& frame) {
+    const std::uint64_t count = reader.number();
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const std::uint64_t number = reader.number();
+        if (number >= frame.tiles.size() || frame.is_finished[number] != 0)
+            throw std::runtime_error("it is damaged or cut off");
+        for_each_row(frame, frame.tiles[number],
+                     [&](float* row, std::size_t size) { reader.bytes(row, size * sizeof(float)); });
+        frame.is_finished[number] = 1;
+    }
+}
+
+void read_file(std::ifstream& stream, std::uint64_t size, const image::Metadata& run, Frame& frame) {
+    Reader reader(stream, size);
+    std::array<char, kMagic.size()> magic{};
+    reader.bytes(magic.data(), magic.size());
+    if (magic != kMagic) throw std::runtime_error("it is no checkpoint");
+    image::Metadata stored;
+    const std::uint64_t entries = reader.number();
+    for (std::uint64_t i = 0; i < entries; ++i) {
+        std::string key = reader.text();
+        stored[std::move(key)] = reader.text();
+    }
+    reader.check_hash();
+    check_same_run(stored, run);
+    read_tiles(reader, frame);
+    reader.check_hash();
+    reader.check_end();
+}
+
+} // namespace
+
+image::Metadata describe_run(image::Metadata settings, const Frame& frame) {
+    settings["size"] = std::to_string(frame.image.width) + " x " + std::to_string(frame.image.height);
+    std::string& layers = settings["layers"];
+    for (const image::Layer& layer : frame.layers) layers += (layers.empty() ? "" : ", ") + layer.name;
+    return settings;
+}
+
+void save_checkpoint(const std::filesystem::path& path, const image::Metadata& run, const Frame& frame,
+                     const std::vector<std::size_t>& tiles) {
+    // One run has one checkpoint, so its name is good enough. Unlike a random one it does not fill the disk with what
+    // killed programs leave behind.
+    const std::filesystem::path unfinished = path.string() + ".new";
+    std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
+    Writer writer(stream);
+    writer.bytes(kMagic.data(), kMagic.size());
+    writer.number(run.size());
+    for (const auto& [key, value] : run) {
+        writer.text(key);
+        writer.text(value);
+    }
+    writer.hash();
+    writer.number(tiles.size());
+    for (const std::size_t number : tiles) {
+        writer.number(number);
+        for_each_row(frame, frame.tiles[number],
+                     [&](const float* row, std::size_t size) { writer.bytes(row, size * sizeof(float)); });
+    }
+    writer.hash();
+    stream.close();
+    std::error_code error;
+    if (stream) std::filesystem::rename(unfinished, path, error);
+    if (!stream || error)
+        throw std::runtime_error("cannot write the checkpoint '" + path.string() +
+                                 "'; check its folder and the free space of the disk");
+}
+
+void load_checkpoint(const std::filesystem::path& path, const image::Metadata& run, Frame& frame) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (status.type() == std::filesystem::file_type::not_found) return;
+    try {
+        if (!std::filesystem::is_regular_file(status)) throw std::runtime_error("it is no file");
+        std::ifstream stream(path, std::ios::binary);
+        if (!stream) throw std::runtime_error("it cannot be opened; check its permissions");
+        read_file(stream, std::filesystem::file_size(path), run, frame);
+    } catch (const std::exception& problem) {
+        throw std::runtime_error("cannot go on with the checkpoint '" + path.string() +
+                                 "': " + problem.what() +
+                                 "; delete the file to begin anew, or give --checkpoint another name");
+    }
+}
+
+} // namespace nusselt::render_cpu

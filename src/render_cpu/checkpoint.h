@@ -1,0 +1,32 @@
+#pragma once
+/// Renderings that go on after the program was stopped.
+
+#include "image/image.h"
+#include "render_cpu/frame.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+namespace nusselt::render_cpu {
+
+/// All that the bits of an image depend on, by name.
+/// \param settings from make_metadata()
+image::Metadata describe_run(image::Metadata settings, const Frame& frame);
+
+/// Stores finished tiles. The file replaces an older one at once when it is complete: whenever the program is killed,
+/// one of both is there. Beside it, `PATH.new` may remain.
+/// \param run   from describe_run()
+/// \param tiles numbers of those tiles of the frame; no thread may change their pixels
+/// \throws std::runtime_error naming the path, if it cannot be written
+void save_checkpoint(const std::filesystem::path& path, const image::Metadata& run, const Frame& frame,
+                     const std::vector<std::size_t>& tiles);
+
+/// Restores the tiles that a checkpoint holds and marks them as finished. Without such a file nothing happens.
+/// \param run   from describe_run()
+/// \param frame new from make_frame(); of no use after an exception
+/// \throws std::runtime_error naming the path, if the file cannot be read, is damaged or belongs to another run; the
+///                            message then says what differs
+void load_checkpoint(const std::filesystem::path& path, const image::Metadata& run, Frame& frame);
+
+} // namespace nusselt::render_cpu

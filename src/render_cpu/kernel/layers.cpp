@@ -1,0 +1,128 @@
+#include "render_cpu/kernel/layers.h"
+
+#include <limits>
+
+NUSSELT_NAMESPACE_BEGIN
+namespace kernel {
+namespace {
+
+/// part / whole, or 0 where that is not finite.
+Real share(const Real& part, const Real& whole) noexcept {
+    const auto usable = (whole > Real(0)) & (whole <= Real(std::numeric_limits<float>::max()));
+    return select(usable, part / select(usable, whole, Real(1)), Real(0));
+}
+
+Vector shares(const Vector& part, const Vector& rest) noexcept {
+    return {share(part.x, part.x + rest.x), share(part.y, part.y + rest.y), share(part.z, part.z + rest.z)};
+}
+
+Vector load_vector(const float* values) noexcept {
+    return {Real::load(values), Real::load(values + kLanes), Real::load(values + 2 * kLanes)};
+}
+
+void store_vector(const Vector& v, float* values) noexcept {
+    v.x.store(values);
+    v.y.store(values + kLanes);
+    v.z.store(values + 2 * kLanes);
+}
+
+/// Emitter that a camera ray hits, -1 for none.
+std::int64_t emitter_of(const render_cpu::KernelScene& scene, const visibility::HitPacket<kLanes>& hits,
+                        int lane) noexcept {
+    if (hits.tube[lane] >= 0) return scene.light_emitter[scene.polygon_light_count + hits.tube[lane]];
+    if (hits.triangle[lane] < 0) return -1;
+    const std::int32_t light = scene.triangle_light[hits.triangle[lane]];
+    return light < 0 ? -1 : static_cast<std::int64_t>(scene.light_emitter[light]);
+}
+
+} // namespace
+
+DiffuseShares diffuse_shares(const GlossySurface<Real, SurfaceBrdf>& surface, const Vector& wi) noexcept {
+    const BrdfComponents<Real> brdf = surface.brdf.eval_components(wi);
+    return {shares(brdf.diffuse, brdf.specular), shares(surface.diffuse_albedo, surface.specular_albedo)};
+}
+
+void LayerSums::clear() noexcept {
+    albedo_ = normal_ = emission_ = diffuse_ = specular_ = depth_and_coverage_ = square_deviations_ = {};
+    rays_ = 0;
+    mean_ = {};
+    if (job_.layers.lights == nullptr) return;
+    const std::size_t count = render_cpu::kLightSumFloats * job_.scene.emitter_count;
+    for (std::size_t i = 0; i < count; ++i) light_sums_[i] = 0;
+}
+
+void LayerSums::add_hits(const visibility::HitPacket<kLanes>& hits, LaneMask any_hit,
+                         const Vector& direction) noexcept {
+    const Real distance = Real::load(hits.t) * sqrt(dot(direction, direction));
+    depth_and_coverage_.add({select(any_hit, distance, Real(0)), select(any_hit, Real(1), Real(0)), Real(0)});
+}
+
+void LayerSums::add_surface(const Surface& surface) noexcept {
+    const Vector zero{Real(0), Real(0), Real(0)};
+    albedo_.add(weight_ * select(surface.valid, surface.glossy.brdf.lambert.albedo, zero));
+    normal_.add(weight_ * select(surface.valid, surface.frame.n, zero));
+}
+
+void LayerSums::add_emission(const visibility::HitPacket<kLanes>& hits, const Vector& emitted) noexcept {
+    const Vector weighted = weight_ * emitted;
+    emission_.add(weighted);
+    if (job_.layers.lights == nullptr) return;
+    const Lanes lanes = store(weighted);
+    for (int i = 0; i < kLanes; ++i) {
+        const std::int64_t emitter = emitter_of(job_.scene, hits, i);
+        if (emitter < 0) continue;
+        const float rgb[3] = {lanes.x[i], lanes.y[i], lanes.z[i]};
+        float* sum = sums_of(static_cast<std::uint32_t>(emitter)) + i;
+        for (int k = 0; k < 3; ++k, sum += kLanes) {
+            float& excess = sum[3 * kLanes];
+            const float corrected = rgb[k] - excess;
+            const float next = *sum + corrected;
+            excess = (next - *sum) - corrected;
+            *sum = next;
+        }
+    }
+}
+
+void LayerSums::add_light(std::uint32_t number, const Reflected& reflected) noexcept {
+    diffuse_.add(weight_ * reflected.diffuse);
+    specular_.add(weight_ * (reflected.all - reflected.diffuse));
+    if (job_.layers.lights == nullptr) return;
+    float* values = sums_of(job_.scene.light_emitter[number]);
+    CompensatedSum sum{load_vector(values), load_vector(values + 3 * kLanes)};
+    sum.add(weight_ * reflected.all);
+    store_vector(sum.sum, values);
+    store_vector(sum.excess, values + 3 * kLanes);
+}
+
+void LayerSums::add_radiance(const Vector& radiance) noexcept {
+    rays_ += 1;
+    const Vector deviation = radiance - mean_;
+    mean_ = mean_ + Real(1 / rays_) * deviation;
+    square_deviations_.add(deviation * (radiance - mean_));
+}
+
+void LayerSums::write(const PixelBlock& block) const noexcept {
+    const render_cpu::LayerTargets& layers = job_.layers;
+    const Real scale = Real(1 / rays_);
+    const auto write_mean = [&](const Vector& sum, float* image) {
+        if (image != nullptr) store_rgb(job_, block, scale * sum, image);
+    };
+    write_mean(albedo_.sum, layers.albedo);
+    write_mean(normal_.sum, layers.normal);
+    write_mean(emission_.sum, layers.emission);
+    write_mean(diffuse_.sum, layers.diffuse);
+    write_mean(specular_.sum, layers.specular);
+    if (layers.depth != nullptr) {
+        const Real hits = depth_and_coverage_.sum.y;
+        store_grey(job_, block, depth_and_coverage_.sum.x / max(hits, Real(1)), layers.depth);
+        store_grey(job_, block, scale * hits, layers.coverage);
+    }
+    if (layers.variance != nullptr)
+        store_rgb(job_, block, Real(1 / (rays_ * (rays_ - 1))) * square_deviations_.sum, layers.variance);
+    if (layers.lights == nullptr) return;
+    for (std::uint32_t i = 0; i < job_.scene.emitter_count; ++i)
+        write_mean(load_vector(sums_of(i)), layers.lights[i]);
+}
+
+} // namespace kernel
+NUSSELT_NAMESPACE_END

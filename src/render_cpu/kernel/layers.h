@@ -1,0 +1,82 @@
+#pragma once
+/// Layers beside the image: what the pixels of a packet add up to over their camera rays.
+
+#include "render_cpu/kernel.h"
+#include "render_cpu/kernel/lanes.h"
+#include "render_cpu/kernel/pixel_output.h"
+#include "render_cpu/kernel/surface.h"
+
+NUSSELT_NAMESPACE_BEGIN
+namespace kernel {
+
+/// Reflected radiance.
+struct Reflected {
+    Vector all;
+    Vector diffuse; ///< the part of the diffuse component; not meaningful without layers
+};
+
+/// Which shares of a sample of direct light belong to the diffuse component of the BRDF, per colour channel.
+struct DiffuseShares {
+    Vector of_sample;   ///< of DirectLightSample::shadowed
+    Vector of_constant; ///< of DirectLightSample::constant
+};
+
+/// Shares that keep the estimates of both components unbiased, whichever technique the sample is from: what all
+/// techniques contribute in a direction is proportional to the BRDF there, so its components share it in the same
+/// proportion. Constants have mean zero at each point, and with a share that is a constant of the point still have.
+/// \param wi as DirectLightSample::wi
+DiffuseShares diffuse_shares(const GlossySurface<Real, SurfaceBrdf>& surface, const Vector& wi) noexcept;
+
+/// Sums over the camera rays of one packet of pixels.
+class LayerSums {
+public:
+    /// \param light_sums see RenderTile
+    LayerSums(const render_cpu::RenderJob& job, float* light_sums) noexcept
+        : job_(job), light_sums_(light_sums) {}
+
+    /// Begins the next packet.
+    void clear() noexcept;
+
+    /// Begins the next camera ray. \param weight see CameraSamples
+    void begin_ray(const Real& weight) noexcept { weight_ = weight; }
+
+    /// Adds what camera rays hit, without their weight: negative ones would give distances that nothing has.
+    /// \param any_hit lanes that hit a surface or a tube
+    /// \param direction of the rays, of any length
+    void add_hits(const visibility::HitPacket<kLanes>& hits, LaneMask any_hit,
+                  const Vector& direction) noexcept;
+
+    /// Adds the surfaces that camera rays hit.
+    void add_surface(const Surface& surface) noexcept;
+
+    /// Adds radiance of lights that camera rays hit.
+    void add_emission(const visibility::HitPacket<kLanes>& hits, const Vector& emitted) noexcept;
+
+    /// Adds light that the surfaces reflect.
+    /// \param number of the light among all lights of the scene
+    void add_light(std::uint32_t number, const Reflected& reflected) noexcept;
+
+    /// Ends a camera ray. \param radiance all that arrives along it, times its weight
+    void add_radiance(const Vector& radiance) noexcept;
+
+    /// Stores the means in the layers of the job.
+    void write(const PixelBlock& block) const noexcept;
+
+private:
+    float* sums_of(std::uint32_t emitter) const noexcept {
+        return light_sums_ + render_cpu::kLightSumFloats * emitter;
+    }
+
+    const render_cpu::RenderJob& job_;
+    float* light_sums_; ///< for each emitter a CompensatedSum
+    Real weight_ = Real(1);
+    CompensatedSum albedo_, normal_, emission_, diffuse_, specular_;
+    CompensatedSum depth_and_coverage_; ///< in x and y
+    // Of the radiance of camera rays (Welford).
+    float rays_ = 0;
+    Vector mean_{};
+    CompensatedSum square_deviations_;
+};
+
+} // namespace kernel
+NUSSELT_NAMESPACE_END

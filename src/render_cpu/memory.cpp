@@ -1,0 +1,43 @@
+#include "render_cpu/memory.h"
+
+#include <unistd.h>
+
+#include <cstdint>
+#include <fstream>
+#include <stdexcept>
+
+namespace nusselt::render_cpu {
+
+namespace {
+
+constexpr double kGigabyte = 1e9;
+
+double machine_memory() {
+    return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+}
+
+/// What a container may use, if there is such a limit.
+double allowed_memory() {
+    double memory = machine_memory();
+    std::ifstream limit_file("/sys/fs/cgroup/memory.max");
+    double limit = 0;
+    if (limit_file >> limit && limit < memory) memory = limit;
+    return memory;
+}
+
+std::string gigabytes(double bytes) {
+    const auto tenths = static_cast<std::uint64_t>(bytes / kGigabyte * 10 + 0.5);
+    return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " GB";
+}
+
+} // namespace
+
+void check_memory(std::size_t bytes, const std::string& what, const std::string& remedy) {
+    const double available = allowed_memory();
+    if (static_cast<double>(bytes) <= available) return;
+    throw std::runtime_error(what + " needs " + gigabytes(static_cast<double>(bytes)) +
+                             " of memory, more than the " + gigabytes(available) + " of this machine; " +
+                             remedy);
+}
+
+} // namespace nusselt::render_cpu

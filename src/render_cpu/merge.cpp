@@ -1,0 +1,275 @@
+#include "render_cpu/merge.h"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace nusselt::render_cpu {
+
+namespace {
+
+/// Metadata that images of one rendering need not share.
+const std::set<std::string> kFreeKeys = {"seed", "samples",        "camera_rays",      "isa",
+                                         "part", "render_seconds", "finished_fraction"};
+
+/// Beyond this doubles are no longer exact.
+constexpr double kMaxSampleCount = 0x1p53;
+
+const char* const kSamplesLayer = "samples";
+const char* const kCoverageLayer = "coverage";
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& problem) {
+    throw std::runtime_error("cannot merge '" + path.string() + "': " + problem);
+}
+
+/// How the values of a layer become those of the merged one.
+enum class Rule { mean, mean_over_hits, variance_of_mean };
+
+Rule rule_of(const image::Layer& layer) {
+    if (layer.name == "depth") return Rule::mean_over_hits;
+    if (layer.name == "variance") return Rule::variance_of_mean;
+    return Rule::mean;
+}
+
+std::vector<double> samples_of(const image::LayeredImage& image, const std::filesystem::path& path) {
+    const std::size_t pixels =
+        static_cast<std::size_t>(image.data.width) * static_cast<std::size_t>(image.data.height);
+    if (const image::Layer* layer = image::find_layer(image, kSamplesLayer)) {
+        std::vector<double> samples(layer->data.begin(), layer->data.end());
+        const auto is_bad = [](double n) { return !(n >= 0 && n <= kMaxSampleCount); };
+        if (layer->channels.size() != 1 || std::any_of(samples.begin(), samples.end(), is_bad))
+            refuse(path, "its layer 'samples' does not hold numbers of samples");
+        return samples;
+    }
+    const auto found = image.metadata.find("samples");
+    double count = 0;
+    if (found != image.metadata.end())
+        std::from_chars(found->second.data(), found->second.data() + found->second.size(), count);
+    if (!(count > 0 && count <= kMaxSampleCount))
+        refuse(path, "it does not say how many samples its pixels have; only images of `nusselt render` and "
+                     "`nusselt merge` in EXR files do");
+    return std::vector<double>(pixels, count);
+}
+
+std::set<std::string> words_of(const image::Metadata& metadata, const std::string& key) {
+    const auto found = metadata.find(key);
+    std::istringstream stream(found == metadata.end() ? "" : found->second);
+    std::set<std::string> words;
+    for (std::string word; stream >> word;) words.insert(word);
+    return words;
+}
+
+std::string joined(const std::set<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+std::string size_text(const image::Window& window) {
+    return std::to_string(window.width) + " x " + std::to_string(window.height) + " pixels from (" +
+           std::to_string(window.x) + ", " + std::to_string(window.y) + ")";
+}
+
+/// Names and channels of layers, but for the number of samples.
+std::string layers_text(const image::LayeredImage& image) {
+    std::string text;
+    for (const image::Layer& layer : image.layers) {
+        if (layer.name == kSamplesLayer) continue;
+        for (const std::string& channel : layer.channels)
+            text += (text.empty() ? "" : " ") + (layer.name.empty() ? "" : layer.name + ".") + channel;
+    }
+    return text;
+}
+
+void check_same_metadata(const image::Metadata& first, const image::Metadata& other,
+                         const std::filesystem::path& path) {
+    const auto compare = [&](const image::Metadata& a, const image::Metadata& b) {
+        for (const auto& [key, value] : a) {
+            if (kFreeKeys.count(key) != 0) continue;
+            const auto found = b.find(key);
+            if (found == b.end() || found->second != value)
+                refuse(path, "it is of another rendering than the first image: '" + key + "' differs");
+        }
+    };
+    compare(first, other);
+    compare(other, first);
+}
+
+/// The layer in double precision, so that the floats of a single image survive.
+struct LayerSum {
+    Rule rule;
+    std::vector<double> values;
+};
+
+/// Which pixels have samples of which seeds.
+struct Origin {
+    std::set<std::string> seeds;
+    std::vector<bool> has_samples;
+    std::filesystem::path path;
+};
+
+/// Mean of two values with weights >= 0, exactly one of them if the other has no weight.
+double weighted_mean(double a, double weight_a, double b, double weight_b) {
+    if (weight_b == 0) return a;
+    if (weight_a == 0) return b;
+    return (weight_a * a + weight_b * b) / (weight_a + weight_b);
+}
+
+/// Variance of that mean from the variances of its values.
+double variance_of_mean(double a, double weight_a, double b, double weight_b) {
+    if (weight_b == 0) return a;
+    if (weight_a == 0) return b;
+    const double share_a = weight_a / (weight_a + weight_b);
+    const double share_b = weight_b / (weight_a + weight_b);
+    return share_a * share_a * a + share_b * share_b * b;
+}
+
+void add_layer(LayerSum& sum, const std::vector<double>& weights, const image::Layer& layer,
+               const std::vector<double>& new_weights) {
+    const auto combine = sum.rule == Rule::variance_of_mean ? variance_of_mean : weighted_mean;
+    const std::size_t channels = layer.channels.size();
+    for (std::size_t i = 0; i < layer.data.size(); ++i) {
+        const std::size_t pixel = i / channels;
+        sum.values[i] = combine(sum.values[i], weights[pixel], layer.data[i], new_weights[pixel]);
+    }
+}
+
+/// Weights of a mean over camera rays that hit something.
+std::vector<double> times_coverage(const std::vector<double>& samples, const std::vector<double>& coverage) {
+    std::vector<double> result(samples.size());
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = samples[i] * std::max(coverage[i], 0.0);
+    return result;
+}
+
+} // namespace
+
+struct Merger::State {
+    image::LayeredImage image; ///< the first one, without data
+    std::vector<LayerSum> layers;
+    std::vector<double> samples;
+    std::vector<Origin> origins;
+    std::set<std::string> seeds, isas, parts;
+    double render_seconds = 0;
+
+    void begin(const image::LayeredImage& first);
+    void check(const image::LayeredImage& other, const std::filesystem::path& path) const;
+    void check_origin(const Origin& origin) const;
+    std::vector<double> coverage() const;
+};
+
+void Merger::State::begin(const image::LayeredImage& first) {
+    image.data = first.data;
+    image.display = first.display;
+    image.metadata = first.metadata;
+    image.foreign_metadata = first.foreign_metadata;
+    for (const image::Layer& layer : first.layers) {
+        if (layer.name == kSamplesLayer) continue;
+        image.layers.push_back({layer.name, layer.channels, {}});
+        layers.push_back({rule_of(layer), std::vector<double>(layer.data.size())});
+    }
+    samples.resize(static_cast<std::size_t>(first.data.width) * static_cast<std::size_t>(first.data.height));
+}
+
+void Merger::State::check(const image::LayeredImage& other, const std::filesystem::path& path) const {
+    if (!(other.data == image.data) || !(other.display == image.display))
+        refuse(path, "it shows " + size_text(other.data) + " of the film, the first image " +
+                         size_text(image.data));
+    if (layers_text(other) != layers_text(image))
+        refuse(path,
+               "its channels are " + layers_text(other) + ", those of the first image " + layers_text(image));
+    check_same_metadata(image.metadata, other.metadata, path);
+}
+
+void Merger::State::check_origin(const Origin& origin) const {
+    for (const Origin& other : origins) {
+        const bool shares_seed =
+            std::any_of(origin.seeds.begin(), origin.seeds.end(),
+                        [&](const std::string& seed) { return other.seeds.count(seed) != 0; });
+        if (!shares_seed) continue;
+        for (std::size_t i = 0; i < origin.has_samples.size(); ++i)
+            if (origin.has_samples[i] && other.has_samples[i])
+                refuse(origin.path, "it has samples of the same seed at the same pixels as '" +
+                                        other.path.string() +
+                                        "', which would count twice; render with another --seed or --part");
+    }
+}
+
+/// Of what was added so far; empty without that layer.
+std::vector<double> Merger::State::coverage() const {
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        if (image.layers[i].name == kCoverageLayer) return layers[i].values;
+    return {};
+}
+
+Merger::Merger() = default;
+Merger::~Merger() = default;
+
+void Merger::add(const image::LayeredImage& image, const std::filesystem::path& path) {
+    const std::vector<double> new_samples = samples_of(image, path);
+    if (!state_) {
+        state_ = std::make_unique<State>();
+        state_->begin(image);
+    }
+    State& state = *state_;
+    state.check(image, path);
+    Origin origin{words_of(image.metadata, "seed"), {}, path};
+    for (const double n : new_samples) origin.has_samples.push_back(n > 0);
+    state.check_origin(origin);
+
+    const std::vector<double> coverage = state.coverage();
+    const image::Layer* const new_coverage = image::find_layer(image, kCoverageLayer);
+    std::size_t index = 0;
+    for (const image::Layer& layer : image.layers) {
+        if (layer.name == kSamplesLayer) continue;
+        LayerSum& sum = state.layers[index++];
+        if (sum.rule == Rule::mean_over_hits && new_coverage != nullptr)
+            add_layer(sum, times_coverage(state.samples, coverage), layer,
+                      times_coverage(new_samples, {new_coverage->data.begin(), new_coverage->data.end()}));
+        else
+            add_layer(sum, state.samples, layer, new_samples);
+    }
+    for (std::size_t i = 0; i < new_samples.size(); ++i) state.samples[i] += new_samples[i];
+    state.seeds.merge(words_of(image.metadata, "seed"));
+    state.isas.merge(words_of(image.metadata, "isa"));
+    state.parts.merge(words_of(image.metadata, "part"));
+    for (const std::string& text : words_of(image.metadata, "render_seconds")) {
+        double seconds = 0;
+        std::from_chars(text.data(), text.data() + text.size(), seconds);
+        state.render_seconds += seconds;
+    }
+    state.origins.push_back(std::move(origin));
+}
+
+image::LayeredImage Merger::result() const {
+    if (!state_) throw std::logic_error("there is no image to merge");
+    const State& state = *state_;
+    image::LayeredImage result = state.image;
+    for (std::size_t i = 0; i < result.layers.size(); ++i)
+        result.layers[i].data.assign(state.layers[i].values.begin(), state.layers[i].values.end());
+
+    image::Metadata& metadata = result.metadata;
+    const auto [least, most] = std::minmax_element(state.samples.begin(), state.samples.end());
+    const auto finished =
+        std::count_if(state.samples.begin(), state.samples.end(), [](double n) { return n > 0; });
+    if (*least == *most) {
+        metadata["samples"] = std::to_string(static_cast<std::uint64_t>(*most));
+        metadata.erase("part");
+    } else {
+        metadata.erase("samples");
+        metadata["part"] = joined(state.parts);
+        result.layers.push_back({kSamplesLayer, {"Y"}, {state.samples.begin(), state.samples.end()}});
+    }
+    if (state.seeds.size() > 1) metadata.erase("camera_rays");
+    metadata["seed"] = joined(state.seeds);
+    metadata["isa"] = joined(state.isas);
+    metadata["render_seconds"] = std::to_string(state.render_seconds);
+    metadata["finished_fraction"] =
+        std::to_string(static_cast<double>(finished) / static_cast<double>(state.samples.size()));
+    return result;
+}
+
+} // namespace nusselt::render_cpu

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "scene/scene.h"
+
+#include <string>
+
+namespace nusselt::scene {
+
+/// A hash of everything that images of a scene depend on: another one where a vertex, texel, light, material, the camera
+/// or the film differs. Names of files and warnings do not count.
+/// \returns 16 hexadecimal digits
+std::string fingerprint(const Scene& scene);
+
+} // namespace nusselt::scene

@@ -1,0 +1,148 @@
+// Renderings that are stopped, killed, and go on.
+
+#include "program.h"
+
+#include "image/io.h"
+#include "image/layers.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace nusselt {
+
+namespace {
+
+class RenderCheckpoint : public CommandLine {
+protected:
+    std::vector<std::string> arguments() const {
+        return {"render",       kScenes + "/room.pbrt",
+                "--resolution", "160x120",
+                "--spp",        "48",
+                "--layers",     "lights,depth",
+                "--threads",    "2",
+                "-q",           "-o",
+                path("a.exr"),  "--checkpoint",
+                path("state"),  "--checkpoint-interval",
+                "0.02"};
+    }
+
+    pid_t start() const {
+        const std::vector<std::string> texts = arguments();
+        std::vector<char*> argv = {const_cast<char*>("nusselt")};
+        for (const std::string& text : texts) argv.push_back(const_cast<char*>(text.c_str()));
+        argv.push_back(nullptr);
+        const pid_t child = ::fork();
+        if (child != 0) return child;
+        ::execv(NUSSELT_PROGRAM, argv.data());
+        std::_Exit(127);
+    }
+
+    /// \returns the exit code, or -1 if a signal ended the program
+    static int end(pid_t child, int signal) {
+        ::kill(child, signal);
+        int status = 0;
+        EXPECT_EQ(::waitpid(child, &status, 0), child);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+    /// Starts the rendering and sends it a signal once there is a checkpoint.
+    int end_when_stored(int signal) const {
+        const pid_t child = start();
+        for (int i = 0; i < 10'000 && !std::filesystem::exists(path("state")); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return end(child, signal);
+    }
+
+    std::string command() const {
+        std::string result;
+        for (const std::string& text : arguments()) result += "'" + text + "' ";
+        return result;
+    }
+
+    /// The image that a run without any interruption writes.
+    image::LayeredImage whole() const {
+        EXPECT_EQ(run("render '" + kScenes +
+                      "/room.pbrt' --resolution 160x120 --spp 48 --layers lights,depth -q -o whole.exr")
+                      .exit_code,
+                  0);
+        return image::read_layers(path("whole.exr"));
+    }
+
+    void expect_same_image(const image::LayeredImage& expected) const {
+        const image::LayeredImage image = image::read_layers(path("a.exr"));
+        ASSERT_EQ(image.layers.size(), expected.layers.size());
+        for (std::size_t i = 0; i < image.layers.size(); ++i)
+            EXPECT_EQ(image.layers[i].data, expected.layers[i].data) << image.layers[i].name;
+    }
+};
+
+TEST_F(RenderCheckpoint, KilledAtAnyTimeItGoesOnToTheSameImage) {
+    const image::LayeredImage expected = whole();
+    EXPECT_EQ(end_when_stored(SIGKILL), -1);
+    EXPECT_GT(std::filesystem::file_size(path("state")), 16u * 16 * 3 * sizeof(float));
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> delay(0.0, 0.4);
+    for (int i = 0; i < 12; ++i) {
+        const pid_t child = start();
+        std::this_thread::sleep_for(std::chrono::duration<double>(delay(random)));
+        end(child, SIGKILL);
+        // Whenever an image is there, it is the right one.
+        if (std::filesystem::exists(path("a.exr"))) expect_same_image(expected);
+    }
+    const Outcome last = run(command());
+    EXPECT_EQ(last.exit_code, 0) << last.err;
+    expect_same_image(expected);
+    EXPECT_FALSE(std::filesystem::exists(path("state")));
+}
+
+TEST_F(RenderCheckpoint, CtrlCStoresAllThatIsFinished) {
+    const image::LayeredImage expected = whole();
+    EXPECT_EQ(end_when_stored(SIGINT), 130);
+    EXPECT_TRUE(std::filesystem::exists(path("state")));
+    const double finished = std::stod(image::read_exr_metadata(path("a.exr")).at("finished_fraction"));
+    EXPECT_GT(finished, 0);
+    EXPECT_LT(finished, 1);
+    const image::LayeredImage stopped = image::read_layers(path("a.exr"));
+    const image::Layer* const samples = image::find_layer(stopped, "samples");
+    ASSERT_NE(samples, nullptr);
+    const auto rendered = std::count(samples->data.begin(), samples->data.end(), 48.0f);
+    EXPECT_NEAR(static_cast<double>(rendered), finished * 160 * 120, 1);
+
+    EXPECT_EQ(run(command()).exit_code, 0);
+    expect_same_image(expected);
+    EXPECT_FALSE(std::filesystem::exists(path("state")));
+}
+
+TEST_F(RenderCheckpoint, OfAnotherCommandIsRefused) {
+    const std::string render =
+        "render '" + kScenes + "/room.pbrt' --resolution 32x32 -q -o b.exr --checkpoint state";
+    std::ofstream(path("state")) << "no checkpoint at all";
+    const Outcome foreign = run(render);
+    EXPECT_EQ(foreign.exit_code, 1);
+    expect_message(foreign.err, "it is no checkpoint");
+
+    std::filesystem::remove(path("state"));
+    EXPECT_EQ(end_when_stored(SIGKILL), -1);
+    const Outcome other = run(render);
+    EXPECT_EQ(other.exit_code, 1);
+    expect_message(other.err, "another run");
+    EXPECT_TRUE(std::filesystem::exists(path("state")));
+}
+
+TEST_F(RenderCheckpoint, ThatCannotBeWrittenIsNoticedFirst) {
+    // Before the scene is read: otherwise the missing scene would be the error.
+    for (const char* file : {"no/such/folder/state", "."}) {
+        const Outcome early = run(std::string("render no-such-scene.pbrt --checkpoint ") + file);
+        EXPECT_EQ(early.exit_code, 1) << file;
+        expect_message(early.err, "cannot write");
+    }
+}
+
+} // namespace
+
+} // namespace nusselt

@@ -1,0 +1,149 @@
+// Layers, parts of images on several machines, and merging.
+
+#include "program.h"
+
+#include "image/io.h"
+#include "image/layers.h"
+
+#include <string>
+#include <vector>
+
+namespace nusselt {
+
+namespace {
+
+/// Expects the same floats in the same layers.
+void expect_same_layers(const image::LayeredImage& a, const image::LayeredImage& b) {
+    ASSERT_EQ(a.layers.size(), b.layers.size());
+    for (std::size_t i = 0; i < a.layers.size(); ++i) {
+        EXPECT_EQ(a.layers[i].name, b.layers[i].name);
+        EXPECT_EQ(a.layers[i].data, b.layers[i].data) << a.layers[i].name;
+    }
+}
+
+class RenderParts : public CommandLine {
+protected:
+    std::string render(const std::string& rest) const {
+        return "render '" + kScenes + "/room.pbrt' --resolution 80x60 --spp 2 -q " + rest;
+    }
+    void expect_success(const std::string& arguments) const {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << arguments << outcome.err;
+        EXPECT_EQ(outcome.err, "") << arguments;
+    }
+    image::LayeredImage layers(const std::string& name) const { return image::read_layers(path(name)); }
+};
+
+TEST_F(RenderParts, MergedAreTheWholeImageBitByBit) {
+    expect_success(render("--layers all -o whole.exr"));
+    std::string inputs;
+    for (const char* number : {"3", "1", "2"}) {
+        const std::string name = std::string("part") + number + ".exr";
+        expect_success(render("--layers all --part " + std::string(number) + "/3 -o " + name));
+        inputs += " " + name;
+    }
+    EXPECT_NE(image::find_layer(layers("part1.exr"), "samples"), nullptr);
+    expect_success("merge merged.exr" + inputs);
+    const image::LayeredImage whole = layers("whole.exr");
+    const image::LayeredImage merged = layers("merged.exr");
+    EXPECT_GE(whole.layers.size(), 10u);
+    expect_same_layers(merged, whole);
+    EXPECT_EQ(merged.metadata.at("samples"), "2");
+    EXPECT_EQ(merged.metadata.at("finished_fraction"), "1.000000");
+
+    // Two thirds of the image are an image as well.
+    expect_success("merge some.exr part1.exr part2.exr");
+    expect_success("merge again.exr some.exr part3.exr");
+    expect_same_layers(layers("again.exr"), whole);
+}
+
+TEST_F(RenderParts, SeedsAreMergedToTheirMean) {
+    expect_success(render("-o a.exr"));
+    expect_success(render("-o b.exr --seed 1"));
+    expect_success("merge mean.exr a.exr b.exr");
+    const std::vector<float> a = image::read_image(path("a.exr")).pixels;
+    const std::vector<float> b = image::read_image(path("b.exr")).pixels;
+    const image::LayeredImage mean = layers("mean.exr");
+    for (std::size_t i = 0; i < a.size(); ++i)
+        ASSERT_EQ(mean.layers[0].data[i], static_cast<float>((2 * double(a[i]) + 2 * double(b[i])) / 4));
+    EXPECT_EQ(mean.metadata.at("samples"), "4");
+    EXPECT_EQ(mean.metadata.at("seed"), "0 1");
+}
+
+TEST_F(RenderParts, MergeRefusesWhatDoesNotFit) {
+    expect_success(render("-o a.exr"));
+    expect_success(render("-o part.exr --part 1/2"));
+    expect_success(render("-o technique.exr --seed 1 --technique area --strategies diffuse"));
+    expect_success("render '" + kScenes + "/room.pbrt' --resolution 8x8 --spp 2 -q -o small.exr --seed 1");
+    expect_success(render("-o layers.exr --seed 1 --layers albedo"));
+    expect_success("render '" + kScenes +
+                   "/cornell-panel.pbrt' --resolution 80x60 --spp 2 -q -o scene.exr --seed 1");
+    for (const auto& [inputs, text] :
+         {std::pair("a.exr a.exr", "twice"), std::pair("a.exr part.exr", "twice"),
+          std::pair("a.exr technique.exr", "technique"), std::pair("a.exr small.exr", "8 x 8"),
+          std::pair("a.exr layers.exr", "albedo"), std::pair("a.exr scene.exr", "scene"),
+          std::pair("a.exr missing.exr", "missing.exr")}) {
+        const Outcome wrong = run(std::string("merge merged.exr ") + inputs);
+        EXPECT_EQ(wrong.exit_code, 1) << inputs;
+        expect_message(wrong.err, text);
+        EXPECT_FALSE(std::filesystem::exists(path("merged.exr"))) << inputs;
+    }
+    expect_message(run("merge no/such/folder/a.exr a.exr").err, "no/such/folder");
+}
+
+TEST_F(RenderParts, NameFilesOfTheirOwn) {
+    expect_success(render("--part 2/3"));
+    EXPECT_TRUE(std::filesystem::exists(path("room-2of3.exr")));
+}
+
+TEST_F(RenderParts, WrongValuesAreWrongUsage) {
+    for (const char* arguments : {"render a.pbrt --part 0/2",
+                                  "render a.pbrt --part 3/2",
+                                  "render a.pbrt --part 1",
+                                  "render a.pbrt --part 1/",
+                                  "render a.pbrt --part -1/2",
+                                  "render a.pbrt --part 1/2x",
+                                  "render a.pbrt --part 1/99999999999",
+                                  "render a.pbrt --layers velvet",
+
+                                  "render a.pbrt --layers",
+                                  "render a.pbrt --layers all -o a.png",
+                                  "render a.pbrt --part 1/2 -o a.hdr",
+                                  "render a.pbrt --exposure nan",
+                                  "render a.pbrt --exposure inf",
+                                  "render a.pbrt --exposure 65",
+                                  "render a.pbrt --visibility-estimate nan",
+                                  "render a.pbrt --visibility-estimate -0.1",
+                                  "render a.pbrt --checkpoint-interval 0",
+                                  "render a.pbrt --checkpoint-interval nan",
+                                  "render a.pbrt --checkpoint-interval 1e7",
+                                  "merge",
+                                  "merge a.exr",
+                                  "merge a.png b.exr",
+                                  "merge a.exr b.png"}) {
+        const Outcome wrong = run(arguments);
+        EXPECT_EQ(wrong.exit_code, 2) << arguments;
+        expect_message(wrong.err, "--help");
+    }
+}
+
+TEST_F(RenderParts, SaysThatOneCameraRayHasNoVariance) {
+    const Outcome outcome =
+        run("render '" + kScenes + "/room.pbrt' --resolution 16x9 --layers variance,albedo -o a.exr");
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.err.find("warning: there is no layer of the variance"), std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(image::find_layer(layers("a.exr"), "variance"), nullptr);
+    EXPECT_NE(image::find_layer(layers("a.exr"), "albedo"), nullptr);
+}
+
+TEST_F(RenderParts, ImagesLargerThanTheMemoryAreRefused) {
+    const Outcome outcome =
+        run("render '" + kScenes + "/room.pbrt' --resolution 65536x65536 --spp 2 -q --layers all -o a.exr");
+    EXPECT_EQ(outcome.exit_code, 1);
+    expect_message(outcome.err, "65536 x 65536");
+}
+
+} // namespace
+
+} // namespace nusselt

@@ -1,0 +1,142 @@
+/// Images of several parts or seeds together: means by numbers of samples, and what is refused.
+
+#include "render_cpu/merge.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace nusselt::render_test {
+namespace {
+
+using image::LayeredImage;
+using render_cpu::Merger;
+
+/// Two pixels with a value each. \param samples per pixel, as a layer
+LayeredImage make_input(const char* seed, float a, float b, float samples_a, float samples_b) {
+    LayeredImage image;
+    image.data = image.display = {0, 0, 2, 1};
+    image.metadata = {{"seed", seed},  {"technique", "area"},     {"samples", "8"},
+                      {"isa", "avx2"}, {"render_seconds", "1.5"}, {"scene_fingerprint", "12"},
+                      {"part", "1/2"}};
+    image.layers = {{"", {"R", "G", "B"}, {a, a, a, b, b, b}}, {"samples", {"Y"}, {samples_a, samples_b}}};
+    return image;
+}
+
+LayeredImage merged(const std::vector<LayeredImage>& images) {
+    Merger merger;
+    for (std::size_t i = 0; i < images.size(); ++i) merger.add(images[i], "in" + std::to_string(i) + ".exr");
+    return merger.result();
+}
+
+std::string problem_with(const std::vector<LayeredImage>& images) {
+    try {
+        merged(images);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Merge, WeighsBySamples) {
+    const LayeredImage result =
+        merged({make_input("0", 1, 5, 8, 8), make_input("1", 4, 1, 4, 8), make_input("2", 10, 3, 4, 0)});
+    EXPECT_EQ(result.layers[0].data[0], (8.0 * 1 + 4 * 4 + 4 * 10) / 16);
+    EXPECT_EQ(result.layers[0].data[3], 3);
+    // All pixels have 16 samples: the metadata say it.
+    EXPECT_EQ(result.layers.size(), 1u);
+    EXPECT_EQ(result.metadata.at("samples"), "16");
+    EXPECT_EQ(result.metadata.at("seed"), "0 1 2");
+    EXPECT_EQ(result.metadata.at("finished_fraction"), "1.000000");
+    EXPECT_EQ(std::stod(result.metadata.at("render_seconds")), 4.5);
+    EXPECT_EQ(result.metadata.count("part"), 0u);
+}
+
+TEST(Merge, KeepsBitsOfPixelsThatOneImageHas) {
+    const float tiny = 1.1754942e-38f;
+    const LayeredImage result = merged({make_input("0", 0.1f, 0, 8, 0), make_input("0", 0, tiny, 0, 8)});
+    EXPECT_EQ(result.layers[0].data[0], 0.1f);
+    EXPECT_EQ(result.layers[0].data[5], tiny);
+    EXPECT_EQ(result.metadata.at("seed"), "0");
+}
+
+TEST(Merge, ResultsCanBeMergedAgain) {
+    const LayeredImage first = merged({make_input("0", 1, 5, 8, 8), make_input("1", 4, 1, 4, 8)});
+    ASSERT_EQ(first.layers.back().name, "samples");
+    EXPECT_EQ(first.layers.back().data, (std::vector<float>{12, 16}));
+    const LayeredImage result = merged({first, make_input("2", 10, 3, 4, 0)});
+    EXPECT_FLOAT_EQ(result.layers[0].data[0], 4);
+    EXPECT_NE(problem_with({first, make_input("1", 10, 3, 4, 0)}), "");
+}
+
+TEST(Merge, CombinesVariances) {
+    const auto with_variance = [](const char* seed, float variance, float samples) {
+        LayeredImage image = make_input(seed, 1, 1, samples, samples);
+        image.layers.push_back({"variance", {"R", "G", "B"}, std::vector<float>(6, variance)});
+        return image;
+    };
+    const LayeredImage result =
+        merged({with_variance("0", 3, 4), with_variance("1", 6, 4), with_variance("2", 2, 8)});
+    // Of (x0 + x1 + 2 x2) / 4.
+    EXPECT_NEAR(result.layers[1].data[0], (3 + 6 + 4 * 2) / 16.0, 1e-6);
+}
+
+TEST(Merge, DepthIsAMeanOverHits) {
+    const auto with_depth = [](const char* seed, float depth, float coverage) {
+        LayeredImage image = make_input(seed, 1, 1, 8, 8);
+        image.layers.push_back({"coverage", {"Y"}, {coverage, 0}});
+        image.layers.push_back({"depth", {"Z"}, {depth, 0}});
+        return image;
+    };
+    const LayeredImage result = merged({with_depth("0", 2, 0.25f), with_depth("1", 6, 0.75f)});
+    EXPECT_EQ(result.layers[1].data[0], 0.5f);
+    EXPECT_EQ(result.layers[2].data[0], 5);
+    EXPECT_EQ(result.layers[2].data[1], 0);
+}
+
+TEST(Merge, RefusesTheSameSamplesTwice) {
+    const LayeredImage image = make_input("0", 1, 5, 8, 8);
+    EXPECT_NE(problem_with({image, image}).find("twice"), std::string::npos);
+    // Parts overlap in the second pixel.
+    EXPECT_NE(problem_with({make_input("0", 1, 5, 8, 8), make_input("0", 0, 5, 0, 8)}).find("in0.exr"),
+              std::string::npos);
+    EXPECT_EQ(problem_with({make_input("0", 1, 5, 8, 0), make_input("0", 0, 5, 0, 8)}), "");
+}
+
+TEST(Merge, RefusesWhatDoesNotBelongTogether) {
+    const LayeredImage first = make_input("0", 1, 5, 8, 8);
+    LayeredImage other = make_input("1", 1, 5, 8, 8);
+    other.metadata["technique"] = "solid_angle";
+    EXPECT_NE(problem_with({first, other}).find("technique"), std::string::npos);
+
+    other = make_input("1", 1, 5, 8, 8);
+    other.metadata["mis"] = "balance";
+    EXPECT_NE(problem_with({first, other}).find("mis"), std::string::npos);
+
+    other = make_input("1", 1, 5, 8, 8);
+    other.data.x = 1;
+    EXPECT_NE(problem_with({first, other}).find("2 x 1"), std::string::npos);
+
+    other = make_input("1", 1, 5, 8, 8);
+    other.layers.push_back({"albedo", {"R"}, {1, 1}});
+    EXPECT_NE(problem_with({first, other}).find("albedo.R"), std::string::npos);
+}
+
+TEST(Merge, RefusesImagesWithoutNumbersOfSamples) {
+    LayeredImage image = make_input("0", 1, 5, 8, 8);
+    image.layers.pop_back();
+    for (const char* number : {"0", "-3", "nan", "1e300", "many", ""}) {
+        image.metadata["samples"] = number;
+        EXPECT_NE(problem_with({image}).find("samples"), std::string::npos) << number;
+    }
+    image.metadata.erase("samples");
+    EXPECT_NE(problem_with({image}), "");
+    for (const float number : {-1.0f, std::nanf(""), std::numeric_limits<float>::infinity()})
+        EXPECT_NE(problem_with({make_input("0", 1, 5, number, 8)}).find("samples"), std::string::npos);
+}
+
+} // namespace
+} // namespace nusselt::render_test
