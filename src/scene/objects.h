@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace nusselt::scene {
@@ -41,7 +42,7 @@ public:
     /// the world, then the other shapes of the objects that have instances. Instances refer to the result afterwards,
     /// the first shape of which has the index shapes.size() of before. Throws SceneError if there are too many copies.
     std::vector<ObjectShapes> append_shapes(std::vector<ShapeDirective>& shapes);
-    const std::vector<InstanceDirective>& instances() const { return instances_; }
+    std::vector<InstanceDirective> take_instances() { return std::move(instances_); }
 
 private:
     struct Definition {

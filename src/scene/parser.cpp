@@ -180,7 +180,7 @@ SceneDescription Parser::run() {
         scene_.film.filter =
             read_pixel_filter(pixel_filter_->type, pixel_filter_->parameters, version_, scene_.warnings);
     scene_.objects = objects_.append_shapes(scene_.shapes);
-    scene_.instances = objects_.instances();
+    scene_.instances = objects_.take_instances();
     return std::move(scene_);
 }
 
