@@ -186,8 +186,9 @@ TEST_P(TextureLookups, MatchTheirDefinition) {
 
     // The test of the test: any other kind of lookup is told apart.
     for (const TextureWrap other : {TextureWrap::repeat, TextureWrap::clamp, TextureWrap::black})
-        if (other != wrap)
+        if (other != wrap) {
             EXPECT_GT(largest_error(scene, expected_for(make_texture(channels, other, filter))), 0.1);
+        }
     const bool is_nearest = filter == TextureFilter::nearest;
     const TextureFilter other = is_nearest ? TextureFilter::bilinear : TextureFilter::nearest;
     EXPECT_GT(largest_error(scene, expected_for(make_texture(channels, wrap, other))), 0.1);
