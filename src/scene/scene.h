@@ -36,7 +36,7 @@ struct Texture {
     int width = 0;
     int height = 0;
     std::vector<float> texels = {}; ///< channels * width * height; finite and not negative
-    int channels = 3;          ///< 3 for RGB, 1 for grey
+    int channels = 3;               ///< 3 for RGB, 1 for grey
     TextureWrap wrap = TextureWrap::repeat;
     TextureFilter filter = TextureFilter::bilinear;
 };

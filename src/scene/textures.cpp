@@ -62,8 +62,8 @@ struct Procedure {
     Float3 mean;
 };
 constexpr Procedure kProcedures[] = {
-    {"fbm", {0.5f, 0.5f, 0.5f}},  {"wrinkled", {0.5f, 0.5f, 0.5f}}, {"windy", {0.5f, 0.5f, 0.5f}},
-    {"uv", {0.5f, 0.5f, 0}},          {"marble", {0.80f, 0.79f, 0.83f}},
+    {"fbm", {0.5f, 0.5f, 0.5f}}, {"wrinkled", {0.5f, 0.5f, 0.5f}},  {"windy", {0.5f, 0.5f, 0.5f}},
+    {"uv", {0.5f, 0.5f, 0}},     {"marble", {0.80f, 0.79f, 0.83f}},
 };
 
 /// The share of the surface that "dots" cover: half of the cells have a disk of radius 0.35.
