@@ -186,8 +186,9 @@ TEST_P(TextureLookups, MatchTheirDefinition) {
 
     // The test of the test: any other kind of lookup is told apart.
     for (const TextureWrap other : {TextureWrap::repeat, TextureWrap::clamp, TextureWrap::black})
-        if (other != wrap)
+        if (other != wrap) {
             EXPECT_GT(largest_error(scene, expected_for(make_texture(channels, other, filter))), 0.1);
+        }
     const bool is_nearest = filter == TextureFilter::nearest;
     const TextureFilter other = is_nearest ? TextureFilter::bilinear : TextureFilter::nearest;
     EXPECT_GT(largest_error(scene, expected_for(make_texture(channels, wrap, other))), 0.1);
@@ -350,6 +351,44 @@ TEST(Textures, ConstantOnesEqualNumbers) {
     EXPECT_EQ(render(scene).pixels, with_numbers.pixels);
     scene.textures[1] = constant(0.2f, 3);
     EXPECT_NE(render(scene).pixels, with_numbers.pixels);
+}
+
+/// Two texels without interpolation: each pixel must be that of a material with one of the two values.
+TEST(Textures, GlossyParametersVaryPerPixel) {
+    const auto glossy_floor = [](float roughness, float f0) {
+        scene::Scene scene = make_textured_floor({0.5, 0.1, 0.03, 0, 1, 0});
+        scene.materials[0].model = scene::BrdfModel::frostbite;
+        scene.materials[0].roughness = roughness;
+        scene.materials[0].f0 = {f0, f0, f0};
+        return scene;
+    };
+    const image::Image of_value[] = {render(glossy_floor(0.25f, 0.5f)), render(glossy_floor(0.75f, 0.125f))};
+    scene::Scene scene = glossy_floor(1, 1);
+    scene.textures = {constant(0, 1), constant(0, 1)};
+    scene.textures[0].texels = {0.25f, 0.75f};
+    scene.textures[1].texels = {0.5f, 0.125f};
+    for (Texture& texture : scene.textures) {
+        texture.width = 2;
+        texture.filter = TextureFilter::nearest;
+    }
+    scene.materials[0].roughness_texture.texture = 0;
+    scene.materials[0].f0_texture.texture = 1;
+    const image::Image image = render(scene);
+    std::array<int, 2> counts = {0, 0};
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x) {
+            const auto point = floor_point(scene.camera, x, y);
+            if (!point) continue;
+            const double column = 2 * (0.5 * point->x + 0.1 * point->y + 0.03);
+            if (std::fabs(column - std::round(column)) < 1e-4) continue;
+            const auto value = static_cast<std::size_t>(std::lround(std::floor(column)) & 1);
+            const std::size_t pixel = 3 * static_cast<std::size_t>(y * kSize + x);
+            EXPECT_EQ(image.pixels[pixel], of_value[value].pixels[pixel]) << x << ", " << y;
+            EXPECT_NE(image.pixels[pixel], of_value[1 - value].pixels[pixel]) << x << ", " << y;
+            ++counts[value];
+        }
+    EXPECT_GT(counts[0], 100);
+    EXPECT_GT(counts[1], 100);
 }
 
 /// Crops and instruction sets pack pixels differently, so no pixel may depend on the materials of its neighbours.
