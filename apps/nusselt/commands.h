@@ -36,11 +36,6 @@ struct RenderOptions {
     std::optional<std::string> isa;
 };
 
-struct LightsOptions {
-    std::filesystem::path scene;
-    std::vector<std::filesystem::path> rigs;
-};
-
 /// Of benchmarks of whole frames.
 struct BenchFramesOptions {
     std::filesystem::path scene;
@@ -128,7 +123,6 @@ struct ReproduceOptions {
 
 void setup_render(CLI::App& app, int& exit_code);
 void setup_info(CLI::App& app, int& exit_code);
-void setup_lights(CLI::App& app, int& exit_code);
 void setup_techniques(CLI::App& app, int& exit_code);
 void setup_compare(CLI::App& app, int& exit_code);
 void setup_bench(CLI::App& app, int& exit_code);
@@ -149,9 +143,6 @@ void setup_bench_tubes(CLI::App& bench, int& exit_code);
 /// Renders and writes the images.
 /// \returns 0, or 130 if it was interrupted
 int run_render(const RenderOptions& options);
-
-/// Prints the lights of a scene as a rig.
-int run_lights(const LightsOptions& options);
 
 /// Prints the table of techniques.
 int run_techniques();

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "interrupt.h"
+#include "lights.h"
 #include "progress.h"
 #include "render_setup.h"
 
