@@ -45,11 +45,6 @@ struct MergeOptions {
     std::vector<std::filesystem::path> inputs;
 };
 
-struct LightsOptions {
-    std::filesystem::path scene;
-    std::vector<std::filesystem::path> rigs;
-};
-
 struct ConvertOptions {
     std::filesystem::path input;
     std::optional<std::filesystem::path> output; ///< needed unless the layers are listed
@@ -152,7 +147,6 @@ struct ReproduceOptions {
 void setup_render(CLI::App& app, int& exit_code);
 void setup_merge(CLI::App& app, int& exit_code);
 void setup_info(CLI::App& app, int& exit_code);
-void setup_lights(CLI::App& app, int& exit_code);
 void setup_techniques(CLI::App& app, int& exit_code);
 void setup_compare(CLI::App& app, int& exit_code);
 void setup_convert(CLI::App& app, int& exit_code);
@@ -178,9 +172,6 @@ int run_render(const RenderOptions& options);
 
 /// Puts images of parts or seeds together.
 int run_merge(const MergeOptions& options);
-
-/// Prints the lights of a scene as a rig.
-int run_lights(const LightsOptions& options);
 
 /// Converts an image to another format, or prints the layers of an EXR file.
 int run_convert(const ConvertOptions& options);

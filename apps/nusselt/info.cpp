@@ -1,5 +1,5 @@
 #include "info.h"
-#include "render_setup.h"
+#include "lights.h"
 
 #include "scene/scene_size.h"
 #include "scene/vector_math.h"

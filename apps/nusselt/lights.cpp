@@ -1,6 +1,8 @@
-#include "commands.h"
-#include "render_setup.h"
+#include "lights.h"
 
+#include "scene/load.h"
+#include "scene/rig.h"
+#include "scene/rig_json.h"
 #include "scene/rig_text.h"
 
 #include <fmt/core.h>
@@ -23,6 +25,23 @@ void setup_lights(CLI::App& app, int& exit_code) {
 int run_lights(const LightsOptions& options) {
     fmt::print("{}", scene::to_rig_text(load_scene(options.scene, options.rigs)));
     return 0;
+}
+
+void add_rigs_option(CLI::App& command, std::vector<std::filesystem::path>& rigs) {
+    command
+        .add_option(
+            "--lights", rigs,
+            "Light rig: a JSON file that adds, moves, changes or removes lights, see docs/lights.md. May\n"
+            "be repeated; rigs are applied in this order. Default: the lights of the scene")
+        ->allow_extra_args(false);
+}
+
+scene::Scene load_scene(const std::filesystem::path& path, const std::vector<std::filesystem::path>& rigs) {
+    std::vector<scene::Rig> loaded;
+    for (const std::filesystem::path& rig : rigs) loaded.push_back(scene::read_rig(rig));
+    scene::Scene scene = scene::load_scene(path);
+    for (const scene::Rig& rig : loaded) scene::apply_rig(rig, scene);
+    return scene;
 }
 
 } // namespace nusselt::app

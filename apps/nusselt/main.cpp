@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "lights.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

@@ -1,6 +1,7 @@
 #include "checkpointer.h"
 #include "commands.h"
 #include "interrupt.h"
+#include "lights.h"
 #include "progress.h"
 #include "render_report.h"
 #include "render_settings.h"

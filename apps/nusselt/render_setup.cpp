@@ -1,9 +1,6 @@
 #include "render_setup.h"
 
 #include "render_cpu/film.h"
-#include "scene/load.h"
-#include "scene/rig.h"
-#include "scene/rig_json.h"
 
 #include <algorithm>
 #include <charconv>
@@ -71,23 +68,6 @@ void apply_resolution(const std::optional<std::string>& resolution, scene::Scene
     const std::optional<Resolution> size = parse_resolution(*resolution);
     if (!size) throw std::invalid_argument("resolution " + check_resolution(*resolution));
     render_cpu::resize_film(scene, size->width, size->height);
-}
-
-void add_rigs_option(CLI::App& command, std::vector<std::filesystem::path>& rigs) {
-    command
-        .add_option(
-            "--lights", rigs,
-            "Light rig: a JSON file that adds, moves, changes or removes lights, see docs/lights.md. May\n"
-            "be repeated; rigs are applied in this order. Default: the lights of the scene")
-        ->allow_extra_args(false);
-}
-
-scene::Scene load_scene(const std::filesystem::path& path, const std::vector<std::filesystem::path>& rigs) {
-    std::vector<scene::Rig> loaded;
-    for (const std::filesystem::path& rig : rigs) loaded.push_back(scene::read_rig(rig));
-    scene::Scene scene = scene::load_scene(path);
-    for (const scene::Rig& rig : loaded) scene::apply_rig(rig, scene);
-    return scene;
 }
 
 void add_layers_option(CLI::App& command, std::vector<std::string>& layers) {

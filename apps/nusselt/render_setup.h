@@ -7,7 +7,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -50,12 +49,6 @@ void add_resolution_option(CLI::App& command, std::optional<std::string>& resolu
 
 /// Resizes the film as --resolution asks, if it is given.
 void apply_resolution(const std::optional<std::string>& resolution, scene::Scene& scene);
-
-/// Adds --lights.
-void add_rigs_option(CLI::App& command, std::vector<std::filesystem::path>& rigs);
-
-/// Loads a scene and applies the rigs of --lights in their order.
-scene::Scene load_scene(const std::filesystem::path& path, const std::vector<std::filesystem::path>& rigs);
 
 inline constexpr const char* kAllLayers = "all";
 
