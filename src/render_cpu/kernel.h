@@ -83,13 +83,13 @@ struct InstanceRecord {
     float rounding;   ///< how many times rounding errors grow on the way to the object and back
 };
 
-/// Cells of tabulated pixel filters.
+/// Cells of tabulated pixel filters, a power of two.
 inline constexpr int kFilterCells = 512;
 
 /// How camera rays spread over a pixel along one axis.
 struct FilterAxis {
-    float radius;         ///< of a box filter [pixels]
-    const float* offsets; ///< see PixelFilterTable, null for boxes
+    float reach;             ///< as PixelFilterTable::reach; the radius of a box [pixels]
+    const float* cumulative; ///< see PixelFilterTable, null for boxes
     const float* weights;
 };
 

@@ -125,8 +125,8 @@ InstanceRecord make_record(const scene::Scene& scene, const scene::Instance& ins
 }
 
 FilterAxis view_of(const PixelFilterTable& table, float radius) {
-    if (table.offsets.empty()) return {radius, nullptr, nullptr};
-    return {radius, table.offsets.data(), table.weights.data()};
+    if (table.cumulative.empty()) return {radius, nullptr, nullptr};
+    return {table.reach, table.cumulative.data(), table.weights.data()};
 }
 
 } // namespace

@@ -45,36 +45,38 @@ double value_at(const scene::PixelFilter& filter, double radius, double x) {
 
 PixelFilterTable make_filter_table(const scene::PixelFilter& filter, float radius) {
     if (filter.kind == scene::FilterKind::box) return {};
-    constexpr std::size_t kSteps = 64 * kFilterCells;
     const bool is_gaussian = filter.kind == scene::FilterKind::gaussian;
     const double reach = is_gaussian ? std::min<double>(radius, kGaussianReach * filter.sigma) : radius;
-    const double step = 2 * reach / kSteps;
-    // Integrals from -reach to the ends of steps.
-    std::vector<double> integral(kSteps + 1);
-    std::vector<double> magnitude(kSteps + 1);
-    for (std::size_t i = 0; i < kSteps; ++i) {
-        const double value = value_at(filter, radius, -reach + (static_cast<double>(i) + 0.5) * step);
-        integral[i + 1] = integral[i] + value;
-        magnitude[i + 1] = magnitude[i] + std::fabs(value);
+    constexpr int kStepsPerCell = 64;
+    const double step = 2 * reach / (kFilterCells * kStepsPerCell);
+    std::vector<double> integral(kFilterCells);
+    std::vector<double> magnitude(kFilterCells);
+    double total_integral = 0;
+    double total_magnitude = 0;
+    for (int cell = 0; cell < kFilterCells; ++cell) {
+        const auto i = static_cast<std::size_t>(cell);
+        for (int j = 0; j < kStepsPerCell; ++j) {
+            const double value = value_at(filter, radius, (cell * kStepsPerCell + j + 0.5) * step - reach);
+            integral[i] += value;
+            magnitude[i] += std::fabs(value);
+        }
+        total_integral += integral[i];
+        total_magnitude += magnitude[i];
     }
-    if (!(integral.back() > 0))
+    if (!(total_integral > 0))
         throw std::runtime_error("the integral of the pixel filter is not positive with a radius of " +
                                  std::to_string(radius));
 
     PixelFilterTable table;
-    table.offsets.push_back(static_cast<float>(-reach));
-    double integral_before = 0;
-    std::size_t i = 0;
-    for (int cell = 1; cell <= kFilterCells; ++cell) {
-        const double target = magnitude.back() * cell / kFilterCells;
-        while (i + 1 < kSteps && magnitude[i + 1] < target) ++i;
-        const double part = std::min((target - magnitude[i]) / (magnitude[i + 1] - magnitude[i]), 1.0);
-        const double integral_here = std::lerp(integral[i], integral[i + 1], part);
-        table.offsets.push_back(static_cast<float>(-reach + (static_cast<double>(i) + part) * step));
-        table.weights.push_back(
-            static_cast<float>((integral_here - integral_before) * kFilterCells / integral.back()));
-        integral_before = integral_here;
+    table.reach = static_cast<float>(reach);
+    double below = 0;
+    for (std::size_t i = 0; i < integral.size(); ++i) {
+        table.cumulative.push_back(static_cast<float>(below / total_magnitude));
+        below += magnitude[i];
+        const double sign = magnitude[i] > 0 ? integral[i] / magnitude[i] : 0;
+        table.weights.push_back(static_cast<float>(sign * (total_magnitude / total_integral)));
     }
+    table.cumulative.push_back(1);
     return table;
 }
 

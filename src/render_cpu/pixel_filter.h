@@ -7,11 +7,12 @@
 
 namespace nusselt::render_cpu {
 
-/// A filter along one axis in kFilterCells cells of equal probability: the inverse of the cumulative distribution of its
-/// absolute value. With the weights, expectations are those of a filter that is constant in each cell and has the same
-/// integral there. Empty for boxes, whose rays are uniform.
+/// A filter along one axis in kFilterCells cells of equal width: with the weights, expectations are those of a filter that
+/// is constant in each cell and has the same integral there. Empty for boxes, whose rays are uniform.
 struct PixelFilterTable {
-    std::vector<float> offsets; ///< ends of the cells, from minus to plus the radius [pixels]
+    float reach = 0; ///< the cells extend from -reach to reach [pixels]
+    std::vector<float>
+        cumulative; ///< distribution of the absolute value at the ends of the cells, from 0 to 1
     std::vector<float>
         weights; ///< of the radiance in a cell: negative in the lobes of a Mitchell filter; mean 1
 };

@@ -62,21 +62,23 @@ struct CameraSamples {
 /// Distances from the centre of the pixel along one axis, distributed as the pixel filter wants it. Monotone in `u`, so
 /// that stratified numbers stay that. Multiplies the weight.
 inline Real filtered_offset(const render_cpu::FilterAxis& filter, const Real& u, Real& weight) noexcept {
-    if (filter.offsets == nullptr) return Real(filter.radius) * (Real(2) * u - Real(1));
-    constexpr auto kCells = static_cast<float>(render_cpu::kFilterCells);
+    const Real reach = Real(filter.reach);
+    if (filter.cumulative == nullptr) return reach * (Real(2) * u - Real(1));
+    float lanes[kLanes];
+    u.store(lanes);
+    std::int32_t cell[kLanes] = {};
+    for (std::int32_t step = render_cpu::kFilterCells / 2; step > 0; step /= 2)
+        for (int i = 0; i < kLanes; ++i) cell[i] += filter.cumulative[cell[i] + step] <= lanes[i] ? step : 0;
     float position[kLanes];
-    float offset[kLanes];
     float cell_weight[kLanes];
-    (Real(kCells) * u).store(position);
     for (int i = 0; i < kLanes; ++i) {
-        const auto cell = static_cast<std::int32_t>(position[i]);
-        const float begin = filter.offsets[cell];
-        const float part = position[i] - static_cast<float>(cell);
-        offset[i] = begin + part * (filter.offsets[cell + 1] - begin);
-        cell_weight[i] = filter.weights[cell];
+        const float below = filter.cumulative[cell[i]];
+        const float part = (lanes[i] - below) / (filter.cumulative[cell[i] + 1] - below);
+        position[i] = static_cast<float>(cell[i]) + part;
+        cell_weight[i] = filter.weights[cell[i]];
     }
     weight = weight * Real::load(cell_weight);
-    return Real::load(offset);
+    return reach * (Real(2.0f / render_cpu::kFilterCells) * Real::load(position) - Real(1));
 }
 
 /// Not inlined: g++ leaves the hashes scalar when they are part of a large function.
