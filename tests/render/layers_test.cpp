@@ -2,6 +2,8 @@
 
 #include "scenes.h"
 
+#include "render_cpu/memory.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -297,18 +299,25 @@ TEST(LayersOfLights, HaveUniqueNames) {
     EXPECT_EQ(result.layers[2].name, "light.unnamed");
 }
 
-TEST(Frames, LargerThanTheMemoryAreRefused) {
+TEST(Frames, LargerThanAnyFileAreRefused) {
     scene::Scene scene = make_floor(8);
     scene.film.width = scene.film.height = 65536;
-    RenderSettings settings;
-    settings.samples = 2;
-    settings.layers = kAllKinds;
+    EXPECT_THROW(render_cpu::make_frame(scene, {}), std::runtime_error);
+    scene.film.crop = scene::PixelBounds{60000, 65530, 60020, 65536};
+    const render_cpu::Frame frame = render_cpu::make_frame(scene, {});
+    EXPECT_EQ(frame.image.width, 20);
+    EXPECT_EQ(frame.image.height, 6);
+}
+
+TEST(Frames, LargerThanTheMemoryAreRefused) {
+    EXPECT_NO_THROW(render_cpu::check_memory(1000, "something", "ask for less"));
     try {
-        render_cpu::make_frame(scene, settings);
+        render_cpu::check_memory(std::size_t(1) << 60, "an image", "ask for less");
         FAIL() << "a machine with that much memory?";
     } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find("65536 x 65536"), std::string::npos) << error.what();
-        EXPECT_NE(std::string(error.what()).find("GB"), std::string::npos) << error.what();
+        const std::string message = error.what();
+        EXPECT_EQ(message.rfind("an image needs 1152921504.6 GB of memory", 0), 0u) << message;
+        EXPECT_NE(message.find("; ask for less"), std::string::npos) << message;
     }
 }
 
