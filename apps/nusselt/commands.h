@@ -44,6 +44,14 @@ struct MergeOptions {
     std::vector<std::filesystem::path> inputs;
 };
 
+struct ConvertOptions {
+    std::filesystem::path input;
+    std::optional<std::filesystem::path> output; ///< needed unless the layers are listed
+    double exposure = 0;                         ///< stops
+    std::optional<std::string> layer;            ///< of an EXR file; default: the picture
+    bool list_layers = false;
+};
+
 /// Of benchmarks of whole frames.
 struct BenchFramesOptions {
     std::filesystem::path scene;
@@ -134,6 +142,7 @@ void setup_merge(CLI::App& app, int& exit_code);
 void setup_info(CLI::App& app, int& exit_code);
 void setup_techniques(CLI::App& app, int& exit_code);
 void setup_compare(CLI::App& app, int& exit_code);
+void setup_convert(CLI::App& app, int& exit_code);
 void setup_bench(CLI::App& app, int& exit_code);
 void setup_reproduce(CLI::App& app, int& exit_code);
 void setup_map(CLI::App& app, int& exit_code);
@@ -155,6 +164,9 @@ int run_render(const RenderOptions& options);
 
 /// Puts images of parts or seeds together.
 int run_merge(const MergeOptions& options);
+
+/// Converts an image to another format, or prints the layers of an EXR file.
+int run_convert(const ConvertOptions& options);
 
 /// Prints the table of techniques.
 int run_techniques();

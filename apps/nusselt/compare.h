@@ -1,18 +1,36 @@
 #pragma once
-/// `nusselt compare`: error metrics between two images.
+/// `nusselt compare`: error metrics between images and a reference.
+
+#include "image/flip.h"
 
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace nusselt::app {
 
+/// A bound of one metric, see metric_names().
+struct MetricLimit {
+    std::string metric;
+    double value = 0;
+};
+
 struct CompareOptions {
-    std::filesystem::path image;
+    std::vector<std::filesystem::path> images;
     std::filesystem::path reference;
-    std::optional<std::filesystem::path> difference; ///< where the false colour image goes
-    std::optional<double> difference_scale;          ///< default: image::difference_scale()
+    std::vector<std::string> metrics; ///< in any order
+    double exposure = 0;              ///< stops, for metrics of displayed images
+    double pixels_per_degree = image::kFlipPixelsPerDegree;
+    std::vector<MetricLimit> at_most;
+    std::vector<MetricLimit> at_least;
+    std::optional<std::filesystem::path> difference; ///< where the signed false colour image goes
+    std::optional<std::filesystem::path> absolute_difference;
+    std::optional<double> difference_scale; ///< default: image::difference_scale()
+    std::optional<std::filesystem::path> flip_map;
+    std::optional<std::filesystem::path> hdr_flip_map;
     std::optional<std::filesystem::path> json; ///< "-" is the standard output, instead of the plain text
 };
 
@@ -20,8 +38,9 @@ struct CompareOptions {
 /// the command line was parsed.
 void setup_compare(CLI::App& app, int& exit_code);
 
-/// Prints the metrics and writes the files that are asked for.
-/// \returns 0, or 1 after an error, which was printed to the standard error output in one line
+/// Prints the metrics and writes the files that are asked for. Pictures are of the first image.
+/// \returns 0; 1 after an error, which was printed to the standard error output in one line; or 3 if a limit is
+///          not kept, with one such line for each
 int run_compare(const CompareOptions& options);
 
 } // namespace nusselt::app

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -22,10 +23,13 @@ int finished(int exit_code) {
 
 int main(int argc, char** argv) {
     using namespace nusselt::app;
+    // Beyond a limit on the size of files, writing fails like on a full disk instead of ending the program.
+    std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Nusselt: renders direct light of polygonal and linear lights with little noise.\n"
                  "`nusselt COMMAND --help` tells more.");
     app.name("nusselt");
-    app.footer("Exit codes: 0 success, 1 error, 2 wrong usage, 130 stopped by Ctrl-C.");
+    app.footer(
+        "Exit codes: 0 success, 1 error, 2 wrong usage, 3 broken limit of compare, 130 stopped by Ctrl-C.");
     app.require_subcommand(1);
     app.set_help_all_flag("--help-all", "Print the help of all commands and exit");
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
@@ -37,6 +41,7 @@ int main(int argc, char** argv) {
     setup_info(app, exit_code);
     setup_techniques(app, exit_code);
     setup_compare(app, exit_code);
+    setup_convert(app, exit_code);
     setup_bench(app, exit_code);
     setup_reproduce(app, exit_code);
     setup_map(app, exit_code);

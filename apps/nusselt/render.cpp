@@ -160,7 +160,7 @@ void setup_render(CLI::App& app, int& exit_code) {
     add_machine_options(*command, options->threads, options->isa);
     add_resolution_option(*command, options->resolution);
     command->add_option("--exposure", options->exposure, "Brightens PNG images by this many stops, -64 to 64")
-        ->check(number(-64, 64))
+        ->check(exposure())
         ->capture_default_str();
     add_layers_option(*command, options->layers);
     add_part_option(*command, options->part);

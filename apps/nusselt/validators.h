@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 
 namespace nusselt::app {
@@ -41,6 +42,28 @@ inline CLI::Validator seconds() {
         return fmt::format("'{}' is not a number of seconds, above 0 and up to 1e9", text);
     };
     return CLI::Validator(check, "above 0", "seconds");
+}
+
+/// Anything but NaN and infinities, which CLI11 accepts as numbers.
+inline CLI::Validator finite_number() {
+    const auto check = [](const std::string& text) -> std::string {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc() && end == text.data() + text.size() && std::isfinite(value)) return {};
+        return fmt::format("'{}' is not a finite number", text);
+    };
+    return CLI::Validator(check, "", "finite number");
+}
+
+/// Stops of exposure.
+inline CLI::Validator exposure() {
+    const auto check = [](const std::string& text) -> std::string {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc() && end == text.data() + text.size() && std::abs(value) <= 64) return {};
+        return fmt::format("'{}' is not a number of stops from -64 to 64", text);
+    };
+    return CLI::Validator(check, "in [-64, 64]", "exposure");
 }
 
 } // namespace nusselt::app

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace nusselt::image {
 
@@ -17,18 +18,31 @@ inline constexpr std::int64_t kMaxPixelCount = std::int64_t(1) << 28;
 /// \throws std::runtime_error  unless the size is positive and at most kMaxPixelCount
 void check_size(std::int64_t width, std::int64_t height);
 
+/// Bytes from the position of the stream, which stays, to its end.
+std::int64_t remaining_bytes(std::istream& stream);
+
 /// \param name  of the file, for messages of OpenEXR
 void encode_exr(std::ofstream& stream, const std::string& name, const Image& image, const Metadata& metadata);
 Image decode_exr(std::ifstream& stream, const std::string& name);
 LayeredImage decode_exr_layers(std::ifstream& stream, const std::string& name);
+LayeredImage decode_exr_layer_list(std::ifstream& stream, const std::string& name);
 Metadata decode_exr_metadata(std::ifstream& stream, const std::string& name);
 
 void encode_hdr(std::ostream& stream, const Image& image);
 Image decode_hdr(std::istream& stream);
 
+/// 32-bit floats, little endian.
+void encode_pfm(std::ostream& stream, const Image& image);
+/// Colour or grey, in both orders of bytes; values are multiplied by the absolute value of the scale.
+Image decode_pfm(std::istream& stream);
+
 /// \param scale  factor before the transfer function
 void encode_png(std::ostream& stream, const Image& image, double scale);
 /// PNG, JPG or TGA, whichever the contents are.
 Image decode_srgb(std::istream& stream);
+
+/// \param file  contents of a PNG, JPG or TGA file
+/// \throws std::runtime_error  if the file cannot have that many pixels, or too many
+void check_srgb_file(const std::vector<char>& file, std::int64_t width, std::int64_t height);
 
 } // namespace nusselt::image

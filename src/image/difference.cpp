@@ -6,6 +6,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 namespace nusselt::image {
 
@@ -49,6 +50,16 @@ std::array<double, 3> diverging_color(double t) {
     return linear_rgb({1 + amount * (end.lightness - 1), amount * end.a, amount * end.b});
 }
 
+/// \param t  in [0, 1]
+std::array<double, 3> error_color(double t) {
+    // The hue turns from 280 degrees (violet) upwards to 85 (yellow). This chroma is about the largest for which
+    // the whole curve stays inside the gamut of sRGB.
+    constexpr double kDegree = std::numbers::pi / 180;
+    const double hue = (280 + 165 * t) * kDegree;
+    const double chroma = 0.16 * std::sin(std::numbers::pi * t);
+    return linear_rgb({0.98 * t, chroma * std::cos(hue), chroma * std::sin(hue)});
+}
+
 } // namespace
 
 double difference_scale(const Image& a, const Image& reference) {
@@ -77,6 +88,26 @@ Image signed_difference_image(const Image& a, const Image& reference, double sca
         const double difference = signed_difference(&a.pixels[i], &reference.pixels[i]);
         const std::array<double, 3> color = diverging_color(std::clamp(difference / scale, -1.0, 1.0));
         for (std::size_t c = 0; c < 3; ++c) result.pixels[i + c] = float(color[c]);
+    }
+    return result;
+}
+
+Image absolute_difference_image(const Image& a, const Image& reference, double scale) {
+    assert(scale > 0);
+    const std::vector<char> valid = valid_in_both(a, reference);
+    Image result = make_image(a.width, a.height);
+    for (std::size_t i = 0; i < result.pixels.size(); ++i) {
+        const double difference = std::abs(double(a.pixels[i]) - double(reference.pixels[i]));
+        if (valid[i / 3]) result.pixels[i] = float(difference / scale);
+    }
+    return result;
+}
+
+Image error_map_image(const Plane& map) {
+    Image result = make_image(map.width, map.height);
+    for (std::size_t i = 0; i < map.values.size(); ++i) {
+        const std::array<double, 3> color = error_color(std::clamp(map.values[i], 0.0, 1.0));
+        for (std::size_t c = 0; c < 3; ++c) result.pixels[3 * i + c] = float(color[c]);
     }
     return result;
 }

@@ -2,6 +2,7 @@
 /// Pictures of the difference between two images.
 
 #include "image/image.h"
+#include "image/planes.h"
 
 namespace nusselt::image {
 
@@ -18,5 +19,14 @@ namespace nusselt::image {
 /// strong. Pixels that are NaN or infinite in either image are black. \param scale  difference that gets the
 /// full colour, positive; beyond it the colour stays \throws std::runtime_error  if the sizes differ
 [[nodiscard]] Image signed_difference_image(const Image& a, const Image& reference, double scale);
+
+/// |a - b| / scale in each channel. Pixels that are NaN or infinite in either image are black.
+/// \param scale  difference that becomes 1, positive
+/// \throws std::runtime_error  if the sizes differ
+[[nodiscard]] Image absolute_difference_image(const Image& a, const Image& reference, double scale);
+
+/// An error map in [0, 1] in false colours, in linear RGB: from black over purple, red and orange to a light
+/// yellow. Lightness in Oklab grows linearly with the error.
+[[nodiscard]] Image error_map_image(const Plane& map);
 
 } // namespace nusselt::image

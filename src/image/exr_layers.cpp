@@ -131,15 +131,22 @@ Window window_of(const Imath::Box2i& box) {
     return {box.min.x, box.min.y, size(box.min.x, box.max.x), size(box.min.y, box.max.y)};
 }
 
+/// All but the data.
+LayeredImage layer_list(const ExrPart& part) {
+    ExrMetadata metadata = text_attributes(part.header());
+    return {window_of(part.header().dataWindow()), window_of(part.header().displayWindow()),
+            empty_layers(part), std::move(metadata.ours), std::move(metadata.foreign)};
+}
+
 } // namespace
+
+LayeredImage decode_exr_layer_list(std::ifstream& stream, const std::string& name) {
+    return layer_list(ExrPart(stream, name));
+}
 
 LayeredImage decode_exr_layers(std::ifstream& stream, const std::string& name) {
     ExrPart part(stream, name);
-    LayeredImage image{window_of(part.header().dataWindow()),
-                       window_of(part.header().displayWindow()),
-                       empty_layers(part),
-                       {},
-                       {}};
+    LayeredImage image = layer_list(part);
     std::vector<ChannelGroup> groups;
     std::int64_t channel_count = 0;
     for (Layer& layer : image.layers) {
@@ -152,9 +159,6 @@ LayeredImage decode_exr_layers(std::ifstream& stream, const std::string& name) {
         throw std::runtime_error("the image has " + std::to_string(channel_count) +
                                  " channels, together more than 2^30 values; remove some of them");
     part.read(groups);
-    ExrMetadata metadata = text_attributes(part.header());
-    image.metadata = std::move(metadata.ours);
-    image.foreign_metadata = std::move(metadata.foreign);
     return image;
 }
 

@@ -98,9 +98,7 @@ ExrPart::ExrPart(std::ifstream& stream, const std::string& name)
     const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
     const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
     check_size(width, height);
-    const auto position = stream.tellg();
-    check_file_size(header(), width * height, stream.seekg(0, std::ios::end).tellg());
-    stream.seekg(position);
+    check_file_size(header(), width * height, stream.tellg() + remaining_bytes(stream));
     if (!file_.partComplete(0)) throw std::runtime_error("rows are missing; was the file cut off?");
 }
 

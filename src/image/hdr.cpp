@@ -112,6 +112,9 @@ void encode_hdr(std::ostream& stream, const Image& image) {
 
 Image decode_hdr(std::istream& stream) {
     const auto [width, height] = read_header(stream);
+    // A run of 127 pixels takes two bytes for each of four channels.
+    if (std::int64_t(width) * height / 16 > remaining_bytes(stream))
+        throw std::runtime_error("the file is too small for its pixels; was it cut off?");
     Image image{width, height, {}};
     std::vector<Rgbe> row(static_cast<std::size_t>(width));
     for (int y = 0; y < height; ++y) {

@@ -64,15 +64,16 @@ void check_before_writing(const Image& image, const Metadata& metadata) {
     }
 }
 
-enum class OutputFormat { exr, png, hdr };
+enum class OutputFormat { exr, png, hdr, pfm };
 
 OutputFormat output_format(const std::filesystem::path& path) {
     const std::string extension = lower_case_extension(path);
     if (extension == ".exr") return OutputFormat::exr;
     if (extension == ".png") return OutputFormat::png;
     if (extension == ".hdr") return OutputFormat::hdr;
+    if (extension == ".pfm") return OutputFormat::pfm;
     throw std::runtime_error("cannot write '" + path.string() + "': unknown extension '" + extension +
-                             "'; use .exr, .png or .hdr");
+                             "'; use .exr, .png, .hdr or .pfm");
 }
 
 } // namespace
@@ -81,6 +82,13 @@ void check_size(std::int64_t width, std::int64_t height) {
     if (width > 0 && height > 0 && width <= kMaxPixelCount / height) return;
     throw std::runtime_error("a size of " + std::to_string(width) + " x " + std::to_string(height) +
                              " pixels is not supported; both must be positive, the product at most 2^28");
+}
+
+std::int64_t remaining_bytes(std::istream& stream) {
+    const auto position = stream.tellg();
+    const auto end = stream.seekg(0, std::ios::end).tellg();
+    stream.seekg(position);
+    return end - position;
 }
 
 void write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
@@ -97,6 +105,9 @@ void write_image(const std::filesystem::path& path, const Image& image, const Me
         break;
     case OutputFormat::hdr:
         write_atomically(path, [&](std::ofstream& stream) { encode_hdr(stream, image); });
+        break;
+    case OutputFormat::pfm:
+        write_atomically(path, [&](std::ofstream& stream) { encode_pfm(stream, image); });
         break;
     }
 }
@@ -121,13 +132,20 @@ Image read_image(const std::filesystem::path& path) {
         return decode_file(path, [&](std::ifstream& stream) { return decode_exr(stream, path.string()); });
     }
     if (extension == ".hdr") return decode_file(path, decode_hdr);
+    if (extension == ".pfm") return decode_file(path, decode_pfm);
     if (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".tga")
         return decode_file(path, decode_srgb);
-    fail_to_read(path, "unknown extension '" + extension + "'; use .exr, .hdr, .png, .jpg, .jpeg or .tga");
+    fail_to_read(path,
+                 "unknown extension '" + extension + "'; use .exr, .hdr, .pfm, .png, .jpg, .jpeg or .tga");
 }
 
 LayeredImage read_layers(const std::filesystem::path& path) {
     return decode_file(path, [&](std::ifstream& stream) { return decode_exr_layers(stream, path.string()); });
+}
+
+LayeredImage read_layer_list(const std::filesystem::path& path) {
+    return decode_file(path,
+                       [&](std::ifstream& stream) { return decode_exr_layer_list(stream, path.string()); });
 }
 
 Metadata read_exr_metadata(const std::filesystem::path& path) {

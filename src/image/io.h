@@ -16,6 +16,7 @@ namespace nusselt::image {
 /// - `.hdr`: Radiance RGBE, rounded to 8 bits relative to the largest channel of the pixel. Negative values
 /// and
 ///   NaN become 0, values above 2^127 become the largest that the format holds.
+/// - `.pfm`: three 32-bit floats, little endian, bit exact.
 ///
 /// The file appears under its name only when it is complete, see write_atomically().
 /// \param metadata  stored by EXR only; keys of 1 to 200 bytes
@@ -34,7 +35,7 @@ void check_writable(const std::filesystem::path& path);
 void check_writable_image(const std::filesystem::path& path);
 
 /// Reads `.exr` (channels R, G, B or Y alone, in half, float or integers; the data window of the first part),
-/// `.hdr` (Radiance), `.png`, `.jpg`, `.jpeg` and `.tga` (8 or 16 bits, taken as sRGB and made linear).
+/// `.hdr` (Radiance), `.pfm` (colour or grey, in both orders of bytes), `.png`, `.jpg`, `.jpeg` and `.tga` (8 or 16 bits, taken as sRGB and made linear).
 /// Other channels, alpha among them, are ignored. Images above 2^28 pixels are refused.
 [[nodiscard]] Image read_image(const std::filesystem::path& path);
 

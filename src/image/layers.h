@@ -54,6 +54,9 @@ void write_layers(const std::filesystem::path& path, const LayeredImage& image);
 ///                             deep, has more than 2^28 pixels or 2^30 values
 [[nodiscard]] LayeredImage read_layers(const std::filesystem::path& path);
 
+/// The same without the data of layers, of which only the header is read.
+[[nodiscard]] LayeredImage read_layer_list(const std::filesystem::path& path);
+
 /// \returns nullptr if there is none of that name
 [[nodiscard]] const Layer* find_layer(const LayeredImage& image, std::string_view name);
 

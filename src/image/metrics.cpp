@@ -1,6 +1,7 @@
 #include "image/metrics.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -38,7 +39,9 @@ Comparison compare(const Image& a, const Image& reference) {
     double sum_a = 0;
     double sum_b = 0;
     double sum_squares = 0;
+    double sum_absolute = 0;
     double sum_relative_squares = 0;
+    double sum_relative_pixels = 0;
     const float* rgb_a = a.pixels.data();
     const float* rgb_b = reference.pixels.data();
     for (int y = 0; y < a.height; ++y) {
@@ -47,24 +50,35 @@ Comparison compare(const Image& a, const Image& reference) {
             record_if_invalid(result.invalid_b, rgb_b, x, y);
             if (!is_valid_pixel(rgb_a) || !is_valid_pixel(rgb_b)) continue;
             ++result.compared_pixels;
+            double pixel_square = 0;
+            double pixel_expected = 0;
             for (int c = 0; c < 3; ++c) {
                 const double value = rgb_a[c];
                 const double expected = rgb_b[c];
                 const double square = (value - expected) * (value - expected);
                 sum_a += value;
                 sum_b += expected;
-                sum_squares += square;
+                sum_absolute += std::abs(value - expected);
                 sum_relative_squares += square / (expected * expected + kRelativeMseEpsilon);
+                pixel_square += square;
+                pixel_expected += expected * expected;
             }
+            sum_squares += pixel_square;
+            sum_relative_pixels += pixel_square / (pixel_expected + kRelativeMseEpsilon);
         }
     }
+    const auto mean = [](double sum, double count) {
+        return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
+    };
     const double value_count = 3 * double(result.compared_pixels);
-    result.mse = sum_squares / value_count;
+    result.mse = mean(sum_squares, value_count);
     result.rmse = std::sqrt(result.mse);
-    result.rel_mse = sum_relative_squares / value_count;
-    result.mean_a = sum_a / value_count;
-    result.mean_b = sum_b / value_count;
-    result.relative_rmse = result.rmse / result.mean_b;
+    result.mae = mean(sum_absolute, value_count);
+    result.rel_mse = mean(sum_relative_squares, value_count);
+    result.mrse = mean(sum_relative_pixels, double(result.compared_pixels));
+    result.mean_a = mean(sum_a, value_count);
+    result.mean_b = mean(sum_b, value_count);
+    result.relative_rmse = result.rmse == 0 ? 0 : result.rmse / result.mean_b;
     return result;
 }
 

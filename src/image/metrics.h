@@ -26,17 +26,24 @@ struct InvalidPixels {
 
 inline constexpr std::size_t kListedInvalidPixels = 10;
 
-/// Added to the squared reference in the denominator of the relative MSE, so that black pixels count, but do
-/// not dominate.
+/// Added to the squared reference in the denominators of the relative errors, so that black pixels count, but
+/// do not dominate.
 inline constexpr double kRelativeMseEpsilon = 0.01;
 
-/// All averages run over the three channels of the pixels that are valid in both images. They are NaN if
-/// there are no such pixels.
+/// All averages run over the three channels of the pixels that are valid in both images, that of mrse over
+/// these pixels. They are NaN if there are no such pixels.
 struct Comparison {
     double mse = 0;           ///< mean of (a - b)^2
     double rmse = 0;          ///< square root of mse
-    double relative_rmse = 0; ///< rmse / mean_b; infinite or NaN for a black reference
-    double rel_mse = 0;       ///< mean of (a - b)^2 / (b^2 + kRelativeMseEpsilon)
+    double relative_rmse = 0; ///< rmse / mean_b; 0 if rmse is 0, else infinite for a black reference
+    double mae = 0;           ///< mean of |a - b|
+    /// Mean of (a - b)^2 / (b^2 + kRelativeMseEpsilon), each channel on its own: errors in a channel where a
+    /// saturated colour is dark count much (F. Rousselle et al. 2011, Adaptive Sampling and Reconstruction
+    /// using Greedy Error Minimization, doi:10.1145/2024156.2024193).
+    double rel_mse = 0;
+    /// Mean over the pixels of |a - b|^2 / (|b|^2 + kRelativeMseEpsilon), colours as vectors: the hue of the
+    /// reference does not matter.
+    double mrse = 0;
     double mean_a = 0;
     double mean_b = 0;
     std::int64_t compared_pixels = 0; ///< valid in both images

@@ -17,8 +17,7 @@ namespace {
 constexpr int kChannelCount = 3;
 
 unsigned char code_from_linear(double linear) {
-    if (!(linear > 0)) return 0; // also NaN
-    return linear >= 1 ? 255 : static_cast<unsigned char>(std::lround(255 * srgb_from_linear(linear)));
+    return static_cast<unsigned char>(std::lround(255 * display_code(linear)));
 }
 
 /// \param codes  from stb, which owns the memory; null if decoding failed
@@ -63,7 +62,7 @@ Image decode_srgb(std::istream& stream) {
     int height = 0;
     int channels_in_file = 0;
     if (stbi_info_from_memory(bytes, size, &width, &height, &channels_in_file) != 0)
-        check_size(width, height);
+        check_srgb_file(file, width, height);
     if (stbi_is_16_bit_from_memory(bytes, size) != 0) {
         stbi_us* codes =
             stbi_load_16_from_memory(bytes, size, &width, &height, &channels_in_file, kChannelCount);

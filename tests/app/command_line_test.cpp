@@ -19,6 +19,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,10 @@ namespace nusselt {
 namespace {
 
 TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
-    for (const char* command : {"", "render", "merge", "info", "techniques", "compare", "bench", "bench rays",
-                                "bench strategies", "bench samplers", "bench accuracy", "bench worst-case",
-                                "bench fuzz", "bench tubes", "map", "reproduce", "fit-ltc"}) {
+    for (const char* command :
+         {"", "render", "merge", "info", "techniques", "compare", "convert", "bench", "bench rays",
+          "bench strategies", "bench samplers", "bench accuracy", "bench worst-case", "bench fuzz",
+          "bench tubes", "map", "reproduce", "fit-ltc"}) {
         const Outcome help = run(std::string(command) + " --help");
         EXPECT_EQ(help.exit_code, 0) << command;
         EXPECT_NE(help.out.find("Usage:"), std::string::npos) << command;
@@ -44,7 +46,12 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo) {
                                   "render a.pbrt --spp 0",
                                   "render a.pbrt --technique magic",
                                   "render a.pbrt --spp",
+                                  "render a.pbrt --exposure nan",
                                   "compare a.exr",
+                                  "compare a.exr b.exr --max mse",
+                                  "compare a.exr b.exr --metrics beauty",
+                                  "convert a.exr",
+                                  "convert a.exr b.png --exposure nan",
                                   "bench samplers --isa mmx",
                                   "reproduce no-such-experiment",
                                   "bench worst-case --target spheres",
@@ -144,10 +151,42 @@ TEST_F(CommandLine, TheSameCommandGivesTheSameImageAndAnotherSeedDoesNot) {
         ASSERT_EQ(run(render + rest).exit_code, 0);
     const Outcome same = run("compare a.exr b.exr --json -");
     ASSERT_EQ(same.exit_code, 0) << same.err;
-    EXPECT_EQ(nlohmann::json::parse(same.out)["mse"], 0.0);
+    EXPECT_EQ(nlohmann::json::parse(same.out)["images"][0]["mse"], 0.0);
     const Outcome other = run("compare a.exr c.exr --json -");
     ASSERT_EQ(other.exit_code, 0) << other.err;
-    EXPECT_GT(nlohmann::json::parse(other.out)["mse"], 0.0);
+    EXPECT_GT(nlohmann::json::parse(other.out)["images"][0]["mse"], 0.0);
+}
+
+/// Noise of the given width and height.
+image::Image noise(int width, int height) {
+    image::Image result = image::make_image(width, height);
+    std::mt19937 engine(1);
+    for (float& value : result.pixels) value = float(engine() % 1000) / 1000;
+    return result;
+}
+
+TEST_F(CommandLine, BrokenLimitsExitWithThree) {
+    image::write_image(path("a.exr"), noise(20, 20));
+    image::Image brighter = noise(20, 20);
+    for (float& value : brighter.pixels) value += 0.5f;
+    image::write_image(path("b.exr"), brighter);
+    EXPECT_EQ(run("compare b.exr a.exr --max mse=0.26 --min mse=0.24").exit_code, 0);
+    const Outcome broken = run("compare b.exr a.exr --max mse=0.24");
+    EXPECT_EQ(broken.exit_code, 3);
+    EXPECT_EQ(broken.err, "nusselt compare: 'b.exr': mse is 0.25, above the limit of 0.24\n");
+}
+
+TEST_F(CommandLine, ALimitOnTheSizeOfFilesIsAnErrorAndLeavesNothing) {
+    image::write_image(path("a.exr"), noise(200, 200)); // 480 kB
+    for (const char* name : {"b.exr", "b.pfm", "b.png", "b.hdr"}) {
+        const Outcome limited = run(std::string("convert a.exr ") + name, "ulimit -f 20;"); // 10 or 20 kB
+        EXPECT_EQ(limited.exit_code, 1) << name;
+        expect_message(limited.err, "free space");
+        for (const auto& entry : std::filesystem::directory_iterator(path("")))
+            EXPECT_EQ(entry.path().filename().string().find(name), std::string::npos) << entry.path();
+    }
+    EXPECT_EQ(run("convert a.exr b.exr").exit_code, 0);
+    EXPECT_EQ(image::read_image(path("b.exr")).pixels, noise(200, 200).pixels);
 }
 
 TEST_F(CommandLine, TellsWhatASceneAndTheProgramContain) {

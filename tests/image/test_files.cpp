@@ -16,7 +16,7 @@ namespace {
 
 using Files = TemporaryFolder;
 
-const std::vector<std::string> kWritable = {".exr", ".png", ".hdr"};
+const std::vector<std::string> kWritable = {".exr", ".png", ".hdr", ".pfm"};
 
 /// Lets every file of this process end at some size, like a full disk.
 class FileSizeLimit {
@@ -53,7 +53,7 @@ void expect_mentions(const std::string& error, const std::string& text) {
 TEST_F(Files, WritingLeavesNothingButTheFile) {
     for (const std::string& extension : kWritable)
         write_image(in_folder("a" + extension), random_image(8, 8, 1));
-    EXPECT_EQ(file_names(), (std::set<std::string>{"a.exr", "a.png", "a.hdr"}));
+    EXPECT_EQ(file_names(), (std::set<std::string>{"a.exr", "a.png", "a.hdr", "a.pfm"}));
 }
 
 TEST_F(Files, WritingReplacesAnExistingFile) {
@@ -183,7 +183,7 @@ TEST_F(Files, EmptyFilesAndGarbageAreRefused) {
     for (char& byte : noise) byte = char(engine());
     noise[0] = 'x';
     for (const std::string& contents : {std::string(), std::string("x"), noise, std::string(5000, '\0')}) {
-        for (const std::string extension : {".exr", ".hdr", ".png", ".jpg"}) {
+        for (const std::string extension : {".exr", ".hdr", ".png", ".jpg", ".tga", ".pfm"}) {
             const std::filesystem::path path = in_folder("a" + extension);
             write_bytes(path, contents);
             expect_mentions(error_of_reading(path), path.string());
@@ -205,8 +205,8 @@ TEST_F(Files, ExrCutOffAtAnyLengthIsRefused) {
     }
 }
 
-TEST_F(Files, HdrAndPngCutOffAtAnyLengthAreRefused) {
-    for (const std::string extension : {".hdr", ".png"}) {
+TEST_F(Files, OthersCutOffAtAnyLengthAreRefused) {
+    for (const std::string extension : {".hdr", ".png", ".pfm"}) {
         write_image(in_folder("a" + extension), random_image(9, 7, 1));
         const std::string complete = read_bytes(in_folder("a" + extension));
         // The end mark of PNG (IEND, 12 bytes) and the checksum before it carry no pixels.
@@ -262,7 +262,7 @@ TEST_F(Files, ExrWithHostileDataWindowsIsRefused) {
 /// Damaged bytes may give other pixels or an exception, but nothing worse.
 TEST_F(Files, DamagedFilesNeverCrash) {
     std::mt19937 engine(3);
-    for (const std::string extension : {".exr", ".hdr", ".png"}) {
+    for (const std::string& extension : kWritable) {
         write_image(in_folder("a" + extension), random_image(9, 7, 1), {{"spp", "1"}});
         const std::string good = read_bytes(in_folder("a" + extension));
         int refused = 0;

@@ -1,6 +1,7 @@
 #include "image/difference.h"
+#include "image/flip.h"
 #include "image/metrics.h"
-#include "image/srgb.h"
+#include "image/ssim.h"
 #include "temporary_folder.h"
 
 #include <algorithm>
@@ -30,6 +31,8 @@ TEST(Metrics, KnownPair) {
     EXPECT_DOUBLE_EQ(comparison.rmse, 1.0);
     EXPECT_DOUBLE_EQ(comparison.relative_rmse, 1.0);
     EXPECT_DOUBLE_EQ(comparison.rel_mse, (1 / 0.01 + 1 / 9.01 + 4 / 1.01) / 6);
+    EXPECT_DOUBLE_EQ(comparison.mae, 4.0 / 6);
+    EXPECT_DOUBLE_EQ(comparison.mrse, (2 / 10.01 + 4 / 2.01) / 2);
     EXPECT_DOUBLE_EQ(comparison.mean_a, 8.0 / 6);
     EXPECT_DOUBLE_EQ(comparison.mean_b, 1.0);
     EXPECT_EQ(comparison.compared_pixels, 2);
@@ -74,6 +77,36 @@ TEST(Metrics, RandomImagesAgainstMomentsInLongDouble) {
     EXPECT_NEAR(comparison.rel_mse,
                 mean([](Real x, Real y) { return std::pow(std::hypot(x - y, 0.0L), 2) / (y * y + 0.01L); }),
                 1e-11);
+    EXPECT_NEAR(comparison.mae, mean([](Real x, Real y) { return std::max(x, y) - std::min(x, y); }), 1e-12);
+    Real mrse = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); i += 3) {
+        const float* p = &a.pixels[i];
+        const float* q = &b.pixels[i];
+        const Real distance = std::hypot(Real(p[0]) - q[0], Real(p[1]) - q[1], Real(p[2]) - q[2]);
+        mrse += distance * distance / (std::pow(std::hypot(Real(q[0]), Real(q[1]), Real(q[2])), 2) + 0.01L);
+    }
+    EXPECT_NEAR(comparison.mrse, double(3 * mrse / Real(a.pixels.size())), 1e-11);
+}
+
+TEST(Metrics, OfBlackImagesAreNumbers) {
+    const Image black = make_image(3, 3);
+    const Comparison same = compare(black, black);
+    EXPECT_EQ(same.relative_rmse, 0);
+    EXPECT_EQ(same.mrse, 0);
+    EXPECT_EQ(compare(grey_image(3, 3, std::vector<float>(9, 1)), black).relative_rmse,
+              std::numeric_limits<double>::infinity());
+}
+
+TEST(Metrics, HueOfTheReferenceMattersToRelMseOnly) {
+    // The same error along red: relMSE divides it by the dark red of a green pixel, MRSE by the whole pixel.
+    const Image red = {1, 1, {1, 0, 0}};
+    const Image green = {1, 1, {0, 1, 0}};
+    const Comparison on_red = compare({1, 1, {1.5f, 0, 0}}, red);
+    const Comparison on_green = compare({1, 1, {0.5f, 1, 0}}, green);
+    EXPECT_DOUBLE_EQ(on_red.mrse, 0.25 / 1.01);
+    EXPECT_DOUBLE_EQ(on_green.mrse, on_red.mrse);
+    EXPECT_DOUBLE_EQ(on_green.rel_mse, 0.25 / 0.01 / 3);
+    EXPECT_DOUBLE_EQ(on_red.rel_mse, 0.25 / 1.01 / 3);
 }
 
 TEST(Metrics, SumsAreDouble) {
@@ -133,6 +166,9 @@ TEST(Metrics, OnlyInvalidPixels) {
     EXPECT_EQ(comparison.compared_pixels, 0);
     EXPECT_TRUE(std::isnan(comparison.mse));
     EXPECT_TRUE(std::isnan(comparison.mean_b));
+    EXPECT_TRUE(std::isnan(comparison.mrse));
+    EXPECT_TRUE(std::isnan(comparison.relative_rmse));
+    EXPECT_FALSE(std::signbit(comparison.mse)) << "printed as -nan";
 }
 
 TEST(Metrics, DifferentSizesAreBothNamed) {
@@ -140,7 +176,10 @@ TEST(Metrics, DifferentSizesAreBothNamed) {
     const Image b = random_image(3, 4, 1);
     for (const std::string& error :
          {error_of([&] { (void)compare(a, b); }), error_of([&] { (void)difference_scale(a, b); }),
-          error_of([&] { (void)signed_difference_image(a, b, 1); })}) {
+          error_of([&] { (void)signed_difference_image(a, b, 1); }),
+          error_of([&] { (void)absolute_difference_image(a, b, 1); }), error_of([&] { (void)psnr(a, b); }),
+          error_of([&] { (void)ssim(a, b); }), error_of([&] { (void)flip(a, b); }),
+          error_of([&] { (void)hdr_flip(a, b, {}); })}) {
         EXPECT_NE(error.find("4 x 3"), std::string::npos) << error;
         EXPECT_NE(error.find("3 x 4"), std::string::npos) << error;
     }
@@ -215,6 +254,34 @@ TEST(SignedDifference, ScaleSaturatesAndTheLargestChannelDecides) {
     EXPECT_NE(color({0.5f, 0.5f, 0.5f}, 1), color({0.25f, 0.25f, 0.25f}, 1));
     for (const float bad : {kNan, kInfinity, -kInfinity})
         EXPECT_EQ(color({0, bad, 0}, 1), (std::vector<float>{0, 0, 0}));
+}
+
+TEST(AbsoluteDifference, KnownPair) {
+    const Image a = {2, 1, {1, -1, 0.5f, kNan, 1, 1}};
+    const Image b = {2, 1, {0, 3, 0.5f, 0, 0, 0}};
+    EXPECT_EQ(absolute_difference_image(a, b, 2).pixels, (std::vector<float>{0.5f, 2, 0, 0, 0, 0}));
+}
+
+TEST(ErrorMap, GetsLighterFromBlackToYellowWithoutClipping) {
+    Plane map = make_plane(1001, 1);
+    for (std::size_t i = 0; i <= 1000; ++i) map.values[i] = double(i) / 1000;
+    const Image colors = error_map_image(map);
+    double last = -1;
+    for (std::size_t i = 0; i < colors.pixels.size(); i += 3) {
+        const float* rgb = &colors.pixels[i];
+        for (int c = 0; c < 3; ++c) {
+            ASSERT_GE(rgb[c], -1e-7f) << i;
+            ASSERT_LE(rgb[c], 1) << i;
+        }
+        const double luminance = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+        ASSERT_GT(luminance, last) << i;
+        last = luminance;
+    }
+    const auto at = [&](double t) { return &colors.pixels[3 * std::size_t(1000 * t)]; };
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(0)[c], 0, 1e-7);
+    EXPECT_GT(at(0.2)[2], at(0.2)[0]) << "purple";
+    EXPECT_GT(at(0.6)[0], 2 * at(0.6)[2]) << "red";
+    EXPECT_GT(last, 0.85);
 }
 
 } // namespace

@@ -1,0 +1,170 @@
+/// Files that claim more than they hold: they are refused before memory is taken for what they claim.
+
+#include "image/io.h"
+#include "image/layers.h"
+#include "temporary_folder.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
+#include <stb/stb_image_write.h>
+
+namespace nusselt::image::test {
+
+namespace {
+
+class HostileFiles : public TemporaryFolder {
+protected:
+    std::string error_of_reading(const std::string& name, const std::string& contents) const {
+        write_bytes(in_folder(name), contents);
+        return error_of([&] { (void)read_image(in_folder(name)); });
+    }
+
+    void expect_cut_off(const std::string& name, const std::string& contents) const {
+        const std::string error = error_of_reading(name, contents);
+        EXPECT_NE(error.find("cut off"), std::string::npos) << name << ": " << error;
+        EXPECT_NE(error.find(name), std::string::npos) << error;
+    }
+
+    /// The bytes of an image in one of the formats that stb writes.
+    std::string written_by_stb(const std::string& extension) const {
+        const std::string path = in_folder("stb" + extension).string();
+        std::mt19937 engine(1);
+        std::string codes(16 * 8 * 3, '\0');
+        for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = i < 100 ? char(engine()) : char(7);
+        if (extension == ".jpg") {
+            stbi_write_jpg(path.c_str(), 16, 8, 3, codes.data(), 90);
+        } else {
+            stbi_write_tga(path.c_str(), 16, 8, 3, codes.data());
+        }
+        return read_bytes(path);
+    }
+};
+
+std::string big_endian(std::uint32_t value) {
+    return {char(value >> 24), char(value >> 16), char(value >> 8), char(value)};
+}
+
+TEST_F(HostileFiles, PngWithHugeSize) {
+    write_image(in_folder("good.png"), random_image(9, 7, 1));
+    std::string png = read_bytes(in_folder("good.png"));
+    EXPECT_EQ(error_of_reading("a.png", png), "");
+    // stb does not look at the checksum of the header.
+    png.replace(16, 8, big_endian(16384) + big_endian(16384));
+    expect_cut_off("a.png", png);
+    // 1032 bytes of one are the most that deflate can do: 24 bits of 1000 x 1000 pixels need 2900 bytes.
+    png.replace(16, 8, big_endian(1000) + big_endian(1000));
+    expect_cut_off("a.png", png);
+}
+
+TEST_F(HostileFiles, LegalPngOfOneColourIsRead) {
+    Image image = make_image(3000, 2000);
+    write_image(in_folder("a.png"), image);
+    EXPECT_LT(std::filesystem::file_size(in_folder("a.png")), image.pixels.size() / 100);
+    EXPECT_EQ(read_image(in_folder("a.png")).pixels, image.pixels);
+}
+
+TEST_F(HostileFiles, JpgCutOffOrHuge) {
+    const std::string jpg = written_by_stb(".jpg");
+    EXPECT_EQ(error_of_reading("a.jpg", jpg), "");
+    for (std::size_t length = 2; length < jpg.size(); length += 7)
+        EXPECT_NE(error_of_reading("a.jpg", jpg.substr(0, length)), "") << length;
+    expect_cut_off("a.jpg", jpg.substr(0, jpg.size() - 1));
+    std::string huge = jpg;
+    const std::size_t frame = jpg.find("\xFF\xC0");
+    ASSERT_NE(frame, std::string::npos);
+    huge.replace(frame + 5, 4, "\x3F\xFF\x3F\xFF");
+    expect_cut_off("a.jpg", huge);
+}
+
+TEST_F(HostileFiles, TgaCutOffOrHuge) {
+    stbi_write_tga_with_rle = 1;
+    const std::string runs = written_by_stb(".tga");
+    stbi_write_tga_with_rle = 0;
+    const std::string plain = written_by_stb(".tga");
+    ASSERT_LT(runs.size(), plain.size());
+    for (const std::string& tga : {runs, plain}) {
+        EXPECT_EQ(error_of_reading("a.tga", tga), "");
+        for (std::size_t length = 0; length < tga.size(); ++length)
+            ASSERT_NE(error_of_reading("a.tga", tga.substr(0, length)), "") << length << " of " << tga.size();
+        std::string huge = tga;
+        huge.replace(12, 4, "\xFF\x3F\xFF\x3F");
+        expect_cut_off("a.tga", huge);
+    }
+}
+
+TEST_F(HostileFiles, HdrWithHugeSize) {
+    for (const std::string size : {"-Y 16384 +X 16384", "-Y 1 +X 268435456", "-Y 268435456 +X 1"})
+        expect_cut_off("a.hdr",
+                       "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + size + "\n" + std::string(1000, '\1'));
+}
+
+TEST_F(HostileFiles, OtherFormatsThatStbKnowsAreRefused) {
+    // A bitmap of one pixel.
+    const std::string bmp =
+        std::string("BM\x3A\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\1\0\0\0\1\0\x18\0", 30) +
+        std::string(28, '\0');
+    EXPECT_NE(error_of_reading("a.png", bmp).find("neither PNG"), std::string::npos);
+    EXPECT_NE(error_of_reading("a.png", "P6 1 1 255\nabc").find("neither PNG"), std::string::npos);
+}
+
+/// The attribute's value begins after name, type and size.
+std::string with_data_window(std::string exr, std::int32_t right, std::int32_t bottom) {
+    const std::size_t begin = exr.find(std::string("dataWindow\0box2i\0", 17)) + 17 + 4 + 8;
+    for (int i = 0; i < 4; ++i) {
+        exr[begin + std::size_t(i)] = char(right >> (8 * i));
+        exr[begin + 4 + std::size_t(i)] = char(bottom >> (8 * i));
+    }
+    return exr;
+}
+
+TEST_F(HostileFiles, CompressedExrWithHugeRows) {
+    for (const Imf::Compression compression :
+         {Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION,
+          Imf::PXR24_COMPRESSION, Imf::B44_COMPRESSION}) {
+        Imf::Header header(9, 7);
+        header.compression() = compression;
+        std::vector<half> values(63);
+        Imf::FrameBuffer frame_buffer;
+        for (const char* channel : {"R", "G", "B"}) {
+            header.channels().insert(channel, Imf::Channel(Imf::HALF));
+            frame_buffer.insert(channel, Imf::Slice::Make(Imf::HALF, values.data(), header.dataWindow()));
+        }
+        {
+            Imf::OutputFile file(in_folder("good.exr").c_str(), header);
+            file.setFrameBuffer(frame_buffer);
+            file.writePixels(7);
+        }
+        const std::string good = read_bytes(in_folder("good.exr"));
+        EXPECT_EQ(error_of_reading("a.exr", with_data_window(good, 8, 6)), "");
+        expect_cut_off("a.exr", with_data_window(good, (1 << 25) - 1, 6));
+        write_bytes(in_folder("a.exr"), with_data_window(good, (1 << 25) - 1, 6));
+        EXPECT_NE(error_of([&] { (void)read_layers(in_folder("a.exr")); }), "");
+    }
+}
+
+TEST_F(HostileFiles, ExrWithHugeTiles) {
+    Imf::Header header(9, 7);
+    header.setTileDescription(Imf::TileDescription(16, 16, Imf::ONE_LEVEL));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    std::vector<float> values(63);
+    Imf::FrameBuffer frame_buffer;
+    header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+    frame_buffer.insert("Y", Imf::Slice::Make(Imf::FLOAT, values.data(), header.dataWindow()));
+    {
+        Imf::TiledOutputFile file(in_folder("good.exr").c_str(), header);
+        file.setFrameBuffer(frame_buffer);
+        file.writeTile(0, 0);
+    }
+    std::string tiles = read_bytes(in_folder("good.exr"));
+    EXPECT_EQ(error_of_reading("a.exr", tiles), "");
+    const std::size_t size = tiles.find(std::string("tiledesc\0", 9)) + 9 + 4;
+    tiles.replace(size, 8, std::string("\0\x20\0\0\0\x20\0\0", 8)); // 8192 x 8192
+    EXPECT_NE(error_of_reading("a.exr", tiles).find("tiles of 8192 x 8192"), std::string::npos);
+}
+
+} // namespace
+
+} // namespace nusselt::image::test
