@@ -281,6 +281,28 @@ TEST(LayersOfHits, AreMeansOverCameraRays) {
     EXPECT_GT(mixed, 10);
 }
 
+TEST(LayersOfHits, OfACropAreThoseOfTheWholeImage) {
+    scene::Scene scene = make_box_scene(kSize);
+    RenderSettings settings;
+    settings.samples = 2;
+    settings.layers = kAllKinds;
+    const RenderResult whole = render(scene, settings);
+    const scene::PixelBounds crop{8, 4, 31, 27};
+    scene.film.crop = crop;
+    const RenderResult part = render(scene, settings);
+    ASSERT_EQ(part.layers.size(), whole.layers.size());
+    for (std::size_t i = 0; i < part.layers.size(); ++i) {
+        const std::size_t channels = part.layers[i].channels.size();
+        std::vector<float> expected;
+        for (int y = crop.y_begin; y < crop.y_end; ++y) {
+            const auto row = whole.layers[i].data.begin() + static_cast<std::ptrdiff_t>(channels) * kSize * y;
+            expected.insert(expected.end(), row + static_cast<std::ptrdiff_t>(channels) * crop.x_begin,
+                            row + static_cast<std::ptrdiff_t>(channels) * crop.x_end);
+        }
+        EXPECT_EQ(part.layers[i].data, expected) << part.layers[i].name;
+    }
+}
+
 TEST(LayersOfHits, VarianceNeedsTwoCameraRays) {
     RenderSettings settings;
     settings.layers = {LayerKind::variance};
