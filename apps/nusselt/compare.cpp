@@ -196,8 +196,8 @@ void setup_compare(CLI::App& app, int& exit_code) {
         ->expected(2, 10000);
     command->add_option(
         "--metrics", arguments->metrics,
-        "Metrics, separated by commas, or all. Default: all but flip and hdr_flip, which take\n"
-        "seconds for large images");
+        "Metrics, separated by commas, or all. Default: all but flip and hdr_flip, which are\n"
+        "slow for large images");
     command
         ->add_option("--exposure", options.exposure,
                      "Stops by which images are made brighter for psnr, ssim and flip. Default: 0")

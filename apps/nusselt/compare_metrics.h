@@ -35,7 +35,7 @@ struct BrokenLimit {
 /// All metrics.
 [[nodiscard]] const std::vector<std::string>& metric_names();
 
-/// Those that are printed unless others are asked for: all but FLIP, which takes seconds.
+/// Those that are printed unless others are asked for: all but FLIP, which is slow for large images.
 [[nodiscard]] const std::vector<std::string>& default_metric_names();
 
 /// Computes the metrics that the options ask for, those with limits among them, and writes their pictures.

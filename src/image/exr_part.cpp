@@ -36,10 +36,42 @@ int decoding_thread_count() {
     return count;
 }
 
-/// The stream is on its first byte before and after.
-Imf::IStream& with_magic_number(Imf::IStream& source) {
+/// A name in a header. \returns false at the end of the file or if it is too long
+bool read_name(std::istream& stream, std::string& name) {
+    constexpr std::size_t kLongestName = 255;
+    return std::getline(stream, name, '\0') && !stream.eof() && name.size() <= kLongestName;
+}
+
+/// OpenEXR allocates as many bytes for an attribute as the header claims, up to 2 GiB.
+void check_attribute_sizes(std::istream& stream) {
+    constexpr std::uint32_t kSeveralParts = 0x1000;
+    stream.seekg(4);
+    std::uint32_t version = 0;
+    stream.read(reinterpret_cast<char*>(&version), sizeof version);
+    std::string name;
+    bool in_header = true;
+    while (read_name(stream, name)) {
+        // An empty name ends a header, an empty header ends the list of several parts.
+        if (name.empty()) {
+            if (!in_header || (version & kSeveralParts) == 0) return;
+            in_header = false;
+            continue;
+        }
+        in_header = true;
+        std::int32_t size = -1;
+        if (!read_name(stream, name) || !stream.read(reinterpret_cast<char*>(&size), sizeof size)) break;
+        if (size < 0 || size > remaining_bytes(stream)) break;
+        stream.seekg(size, std::ios::cur);
+    }
+    throw std::runtime_error("the header is not complete; was the file cut off or damaged?");
+}
+
+/// \param source  reads the stream, which is on its first byte before and after
+Imf::IStream& checked(Imf::IStream& source, std::ifstream& stream) {
     if (!Imf::isOpenExrFile(source))
         throw std::runtime_error("this is not an OpenEXR file, or it is empty; check its name");
+    check_attribute_sizes(stream);
+    stream.seekg(0);
     return source;
 }
 
@@ -91,7 +123,7 @@ void check_file_size(const Imf::Header& header, std::int64_t pixel_count, std::i
 } // namespace
 
 ExrPart::ExrPart(std::ifstream& stream, const std::string& name)
-    : source_(stream, name.c_str()), file_(with_magic_number(source_), decoding_thread_count(), false) {
+    : source_(stream, name.c_str()), file_(checked(source_, stream), decoding_thread_count(), false) {
     if (header().hasType() && Imf::isDeepData(header().type()))
         throw std::runtime_error("deep images are not supported; flatten it first");
     const auto& window = header().dataWindow();

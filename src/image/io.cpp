@@ -31,6 +31,9 @@ std::ifstream open_for_reading(const std::filesystem::path& path) {
     std::error_code error;
     if (std::filesystem::is_directory(path, error))
         fail_to_read(path, "this is a folder; give the name of a file");
+    // Devices and pipes have no size to check, and some never end.
+    if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+        fail_to_read(path, "this is a device or a pipe; give the name of a file");
     std::ifstream stream(path, std::ios::binary);
     if (!stream)
         fail_to_read(path, std::string(std::strerror(errno)) + "; check the path and its permissions");

@@ -53,9 +53,9 @@ void encode_png(std::ostream& stream, const Image& image, double scale) {
 }
 
 Image decode_srgb(std::istream& stream) {
-    const std::vector<char> file(std::istreambuf_iterator<char>(stream), {});
-    if (file.size() > std::size_t(std::numeric_limits<int>::max()))
+    if (remaining_bytes(stream) > std::numeric_limits<int>::max())
         throw std::runtime_error("files above 2 GiB are not supported");
+    const std::vector<char> file(std::istreambuf_iterator<char>(stream), {});
     const auto* bytes = reinterpret_cast<const stbi_uc*>(file.data());
     const int size = int(file.size());
     int width = 0;

@@ -124,6 +124,13 @@ TEST_F(Files, DevicesAreNotReplaced) {
     EXPECT_TRUE(std::filesystem::is_symlink(in_folder("null.hdr")));
 }
 
+TEST_F(Files, DevicesAreNotRead) {
+    for (const std::string extension : {".exr", ".hdr", ".png", ".pfm"}) {
+        std::filesystem::create_symlink("/dev/zero", in_folder("zero" + extension));
+        expect_mentions(error_of_reading(in_folder("zero" + extension)), "device");
+    }
+}
+
 /// Gives up the rights of root, whom permissions do not stop, until the end of the scope.
 class WithoutRoot {
 public:

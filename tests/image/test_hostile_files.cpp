@@ -7,7 +7,10 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 #include <stb/stb_image_write.h>
 
@@ -118,6 +121,45 @@ std::string with_data_window(std::string exr, std::int32_t right, std::int32_t b
         exr[begin + 4 + std::size_t(i)] = char(bottom >> (8 * i));
     }
     return exr;
+}
+
+TEST_F(HostileFiles, ExrWithHugeAttribute) {
+    write_image(in_folder("good.exr"), random_image(9, 7, 1), {{"scene", "room"}});
+    const std::string good = read_bytes(in_folder("good.exr"));
+    const std::string name("nusselt:scene\0string\0", 21);
+    const std::size_t size = good.find(name) + name.size();
+    for (const std::string& claimed :
+         {std::string("\xFF\xFF\xFF\x7F"), std::string("\0\0\0\x80", 4), std::string("\xFF\xFF\0\0", 4)}) {
+        std::string hostile = good;
+        hostile.replace(size, 4, claimed);
+        expect_cut_off("a.exr", hostile);
+        EXPECT_NE(error_of([&] { (void)read_exr_metadata(in_folder("a.exr")); }), "");
+        EXPECT_NE(error_of([&] { (void)read_layer_list(in_folder("a.exr")); }), "");
+    }
+}
+
+TEST_F(HostileFiles, ExrOfSeveralPartsIsRead) {
+    std::vector<float> values(63, 2.5f);
+    std::vector<Imf::Header> headers;
+    for (const char* name : {"first", "second"}) {
+        Imf::Header header(9, 7);
+        header.setName(name);
+        header.setType(Imf::SCANLINEIMAGE);
+        header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+        headers.push_back(header);
+    }
+    {
+        Imf::MultiPartOutputFile file(in_folder("a.exr").c_str(), headers.data(), 2);
+        for (int i = 0; i < 2; ++i) {
+            Imf::OutputPart part(file, i);
+            Imf::FrameBuffer frame_buffer;
+            frame_buffer.insert("Y", Imf::Slice::Make(Imf::FLOAT, values.data(), headers[0].dataWindow()));
+            part.setFrameBuffer(frame_buffer);
+            part.writePixels(7);
+            values.assign(63, -1);
+        }
+    }
+    EXPECT_EQ(read_image(in_folder("a.exr")).pixels, std::vector<float>(189, 2.5f));
 }
 
 TEST_F(HostileFiles, CompressedExrWithHugeRows) {
