@@ -38,6 +38,7 @@ struct RenderOptions {
     std::optional<std::string> part; ///< "NUMBER/COUNT"
     std::optional<std::filesystem::path> checkpoint;
     double checkpoint_interval = 60; ///< [s]
+    std::optional<std::string> display_server;
 };
 
 struct MergeOptions {

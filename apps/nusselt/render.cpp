@@ -1,5 +1,6 @@
 #include "checkpointer.h"
 #include "commands.h"
+#include "frame_display.h"
 #include "interrupt.h"
 #include "lights.h"
 #include "progress.h"
@@ -20,8 +21,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace nusselt::app {
@@ -53,6 +56,18 @@ void check_outputs(const RenderOptions& options) {
     if (options.checkpoint) image::check_writable(*options.checkpoint);
 }
 
+/// Throws std::runtime_error if the checkpoint and an output would overwrite each other.
+void check_checkpoint_name(const RenderOptions& options, const scene::Film& film) {
+    if (!options.checkpoint) return;
+    std::vector<std::filesystem::path> others = output_paths(options, film);
+    if (options.json) others.emplace_back(*options.json);
+    for (const std::filesystem::path& path : others)
+        if (absolute(path).lexically_normal() == absolute(*options.checkpoint).lexically_normal())
+            throw std::runtime_error(
+                "'" + options.checkpoint->string() +
+                "' is both the checkpoint and an output; give --checkpoint another name");
+}
+
 void print_warnings(const RenderOptions& options, const render_cpu::RenderSettings& settings,
                     const scene::Scene& scene) {
     for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
@@ -82,6 +97,15 @@ void write_outputs(const RenderOptions& options, const render_cpu::RenderSetting
         if (is_exr(path)) image::write_layers(path, layered);
     if (!options.quiet && options.json != "-")
         for (const std::filesystem::path& path : paths) fmt::print("{}\n", path.string());
+}
+
+std::string check_display_address(const std::string& text) {
+    try {
+        static_cast<void>(image::parse_display_address(text));
+        return "";
+    } catch (const std::exception& error) {
+        return error.what();
+    }
 }
 
 /// Tells that the image is incomplete.
@@ -174,6 +198,12 @@ void setup_render(CLI::App& app, int& exit_code) {
                      "Seconds between two checkpoints, 0.01 to 1e6")
         ->check(number(0.01, 1e6))
         ->capture_default_str();
+    command
+        ->add_option(
+            "--display-server", options->display_server,
+            "Show tiles when they are finished in the viewer tev, or another one with its protocol, at\n"
+            "HOST or HOST:PORT. Default: none")
+        ->check(check_display_address, "HOST[:PORT]");
     command->add_flag("-q,--quiet", options->quiet, "Print errors only, no warnings and no progress");
     command->add_option(
         "--json", options->json,
@@ -193,6 +223,7 @@ int run_render(const RenderOptions& options) {
 
     const InterruptGuard guard;
     scene::Scene scene = load_scene(options.scene, options.rigs);
+    check_checkpoint_name(options, scene.film);
     apply_resolution(options.resolution, scene);
     Times times;
     times.load = seconds_since(begin);
@@ -219,7 +250,17 @@ int run_render(const RenderOptions& options) {
     render_cpu::RenderMonitor monitor;
     monitor.cancel = &interrupted;
     if (!options.quiet) monitor.progress = [&](double fraction) { progress.update(fraction); };
-    if (checkpointer) monitor.tile_finished = [&](std::size_t tile) { checkpointer->add(tile); };
+    std::optional<FrameDisplay> display;
+    if (options.display_server)
+        display.emplace(*options.display_server,
+                        output_paths(options, scene.film).front().filename().string(), frame,
+                        [&](const std::string& warning) {
+                            if (!options.quiet) fmt::print(stderr, "warning: {}\n", warning);
+                        });
+    monitor.tile_finished = [&](std::size_t tile) {
+        if (checkpointer) checkpointer->add(tile);
+        if (display) display->show(tile);
+    };
     const render_cpu::RenderStatistics statistics =
         renderer.render_into(frame, settings, isa, renderer.visibility().tracer(), monitor);
     progress.finish();

@@ -1,5 +1,6 @@
 #include "render_cpu/frame.h"
 
+#include "image/codecs.h"
 #include "render_cpu/film.h"
 #include "render_cpu/memory.h"
 
@@ -102,6 +103,7 @@ Frame make_frame(const scene::Scene& scene, const RenderSettings& settings) {
     frame.bounds = rendered_pixels(scene.film);
     const int width = frame.bounds.x_end - frame.bounds.x_begin;
     const int height = frame.bounds.y_end - frame.bounds.y_begin;
+    image::check_size(width, height);
     const std::vector<LayerFormat> formats = layer_formats(scene, settings);
     std::size_t channel_count = 3;
     for (const auto& [name, channels] : formats) channel_count += channels.size();

@@ -134,6 +134,16 @@ TEST_F(RenderCheckpoint, OfAnotherCommandIsRefused) {
     EXPECT_TRUE(std::filesystem::exists(path("state")));
 }
 
+TEST_F(RenderCheckpoint, IsNoOutput) {
+    const std::string render = "render '" + kScenes + "/room.pbrt' --resolution 16x16 -q ";
+    for (const char* names : {"-o a.exr --checkpoint ./a.exr", "--checkpoint room.exr",
+                              "-o a.exr --json state --checkpoint state"}) {
+        const Outcome clash = run(render + names);
+        EXPECT_EQ(clash.exit_code, 1) << names;
+        expect_message(clash.err, "both the checkpoint and an output");
+    }
+}
+
 TEST_F(RenderCheckpoint, ThatCannotBeWrittenIsNoticedFirst) {
     // Before the scene is read: otherwise the missing scene would be the error.
     for (const char* file : {"no/such/folder/state", "."}) {

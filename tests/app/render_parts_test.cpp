@@ -137,7 +137,7 @@ TEST_F(RenderParts, SaysThatOneCameraRayHasNoVariance) {
     EXPECT_NE(image::find_layer(layers("a.exr"), "albedo"), nullptr);
 }
 
-TEST_F(RenderParts, ImagesLargerThanTheMemoryAreRefused) {
+TEST_F(RenderParts, ImagesThatNoFileCanHoldAreRefusedFirst) {
     const Outcome outcome =
         run("render '" + kScenes + "/room.pbrt' --resolution 65536x65536 --spp 2 -q --layers all -o a.exr");
     EXPECT_EQ(outcome.exit_code, 1);

@@ -2,6 +2,8 @@
 
 #include "scenes.h"
 
+#include "render_cpu/memory.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -279,6 +281,28 @@ TEST(LayersOfHits, AreMeansOverCameraRays) {
     EXPECT_GT(mixed, 10);
 }
 
+TEST(LayersOfHits, OfACropAreThoseOfTheWholeImage) {
+    scene::Scene scene = make_box_scene(kSize);
+    RenderSettings settings;
+    settings.samples = 2;
+    settings.layers = kAllKinds;
+    const RenderResult whole = render(scene, settings);
+    const scene::PixelBounds crop{8, 4, 31, 27};
+    scene.film.crop = crop;
+    const RenderResult part = render(scene, settings);
+    ASSERT_EQ(part.layers.size(), whole.layers.size());
+    for (std::size_t i = 0; i < part.layers.size(); ++i) {
+        const std::size_t channels = part.layers[i].channels.size();
+        std::vector<float> expected;
+        for (int y = crop.y_begin; y < crop.y_end; ++y) {
+            const auto row = whole.layers[i].data.begin() + static_cast<std::ptrdiff_t>(channels) * kSize * y;
+            expected.insert(expected.end(), row + static_cast<std::ptrdiff_t>(channels) * crop.x_begin,
+                            row + static_cast<std::ptrdiff_t>(channels) * crop.x_end);
+        }
+        EXPECT_EQ(part.layers[i].data, expected) << part.layers[i].name;
+    }
+}
+
 TEST(LayersOfHits, VarianceNeedsTwoCameraRays) {
     RenderSettings settings;
     settings.layers = {LayerKind::variance};
@@ -297,18 +321,25 @@ TEST(LayersOfLights, HaveUniqueNames) {
     EXPECT_EQ(result.layers[2].name, "light.unnamed");
 }
 
-TEST(Frames, LargerThanTheMemoryAreRefused) {
+TEST(Frames, LargerThanAnyFileAreRefused) {
     scene::Scene scene = make_floor(8);
     scene.film.width = scene.film.height = 65536;
-    RenderSettings settings;
-    settings.samples = 2;
-    settings.layers = kAllKinds;
+    EXPECT_THROW(render_cpu::make_frame(scene, {}), std::runtime_error);
+    scene.film.crop = scene::PixelBounds{60000, 65530, 60020, 65536};
+    const render_cpu::Frame frame = render_cpu::make_frame(scene, {});
+    EXPECT_EQ(frame.image.width, 20);
+    EXPECT_EQ(frame.image.height, 6);
+}
+
+TEST(Frames, LargerThanTheMemoryAreRefused) {
+    EXPECT_NO_THROW(render_cpu::check_memory(1000, "something", "ask for less"));
     try {
-        render_cpu::make_frame(scene, settings);
+        render_cpu::check_memory(std::size_t(1) << 60, "an image", "ask for less");
         FAIL() << "a machine with that much memory?";
     } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find("65536 x 65536"), std::string::npos) << error.what();
-        EXPECT_NE(std::string(error.what()).find("GB"), std::string::npos) << error.what();
+        const std::string message = error.what();
+        EXPECT_EQ(message.rfind("an image needs 1152921504.6 GB of memory", 0), 0u) << message;
+        EXPECT_NE(message.find("; ask for less"), std::string::npos) << message;
     }
 }
 
