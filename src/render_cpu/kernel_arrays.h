@@ -25,6 +25,7 @@ private:
     std::vector<std::int32_t> material_texture_;
     std::vector<TextureView> textures_;
     std::vector<PolygonLightRecord> polygon_lights_;
+    std::vector<scene::Float3> polygon_corners_;
     std::vector<LineLightRecord> line_lights_;
 };
 

@@ -192,6 +192,7 @@ Scene load_scene(const std::filesystem::path& path) {
     scene.film = description.film;
     scene.camera = make_camera(description.camera, description.film);
     const std::vector<ImageRequest> images = select_images(description.images, scene.materials);
+    limit_tessellation(description.shapes);
     std::vector<Mesh> meshes = read_files(images, description.shapes, scene.textures);
     name_emitters(description.shapes, meshes, EmitterNames(path), scene.emitters);
     join_meshes(description.shapes, meshes, scene);

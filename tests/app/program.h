@@ -1,0 +1,64 @@
+#pragma once
+/// Runs the program as a user does.
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+namespace nusselt {
+
+inline const std::string kScenes = std::string(NUSSELT_SOURCE_DIR) + "/scenes";
+
+struct Outcome {
+    int exit_code;
+    std::string out;
+    std::string err;
+};
+
+class CommandLine : public testing::Test {
+protected:
+    CommandLine() {
+        std::string name = (std::filesystem::temp_directory_path() / "nusselt_app_XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr)
+            throw std::runtime_error("cannot create a folder like " + name);
+        folder_ = name;
+    }
+    ~CommandLine() override { std::filesystem::remove_all(folder_); }
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+    std::string read(const std::string& name) const {
+        std::ifstream stream(folder_ / name);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+
+    /// \param arguments as typed in a shell, after the name of the program.
+    /// \param prefix    such as an environment variable.
+    Outcome run(const std::string& arguments, const std::string& prefix = "") const {
+        const std::string command = "cd '" + folder_.string() + "' && " + prefix + " '" NUSSELT_PROGRAM "' " +
+                                    arguments + " >out.txt 2>err.txt </dev/null";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
+    }
+
+private:
+    std::filesystem::path folder_;
+};
+
+/// One line, from the program, that has this text.
+inline void expect_message(const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+    EXPECT_EQ(text.rfind("nusselt: ", 0), 0u) << text;
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+}
+
+} // namespace nusselt
