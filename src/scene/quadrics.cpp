@@ -111,8 +111,10 @@ Mesh read_sphere(ShapeDirective& shape) {
     ParameterList& parameters = shape.parameters;
     const double radius = positive_radius(shape);
     const double sweep = sweep_angle(shape);
-    const auto [low, high] = std::minmax({std::clamp(parameters.real("zmin", -radius), -radius, radius),
-                                          std::clamp(parameters.real("zmax", radius), -radius, radius)});
+    const double z_min = std::clamp(parameters.real("zmin", -radius), -radius, radius);
+    const double z_max = std::clamp(parameters.real("zmax", radius), -radius, radius);
+    const double low = std::min(z_min, z_max);
+    const double high = std::max(z_min, z_max);
     const double bottom = std::acos(low / radius);
     const double top = std::acos(high / radius);
     const auto evaluate = [&](double u, double v) {
