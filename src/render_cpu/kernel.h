@@ -47,13 +47,13 @@ enum TextureKind : std::uint32_t {
     kBumpTexture = 16,
 };
 
-/// A polygon in the form of ConvexPolygon<float, 8>, or <float, 4> in the first slots of the arrays.
+/// A polygon in the form of ConvexPolygon<float, 4> or <float, 8>. Its vertices and then its edges are in
+/// KernelScene::polygon_corners.
 struct PolygonLightRecord {
-    scene::Float3 vertex[8];
-    scene::Float3 edge[8];
     scene::Float3 normal;
     scene::Float3 radiance;
-    std::int32_t slots; ///< 4 or 8
+    std::uint32_t first_corner;
+    std::int32_t slots; ///< of vertices, and as many of edges: 4 or 8
     std::int32_t two_sided;
 };
 
@@ -106,6 +106,7 @@ struct KernelScene {
     const MaterialTextures* material_textures;
     const TextureView* textures;
     const PolygonLightRecord* polygon_lights;
+    const scene::Float3* polygon_corners;
     const LineLightRecord* line_lights;
     const InstanceRecord* instances;
     const std::uint32_t* light_emitter; ///< of polygonal lights, then of line lights

@@ -49,29 +49,33 @@ std::uint32_t texture_kinds(const MaterialTextures& textures) {
     return kinds;
 }
 
+/// How many vertices the kernel's form of a polygon has room for.
+std::int32_t slots_of(const scene::PolygonLight& light) { return light.vertices.size() <= 4 ? 4 : 8; }
+
 template <int N>
-void set_polygon(const scene::PolygonVertices& vertices, PolygonLightRecord& record) {
+void add_polygon(const scene::PolygonVertices& vertices, PolygonLightRecord& record,
+                 std::vector<scene::Float3>& all_corners) {
     Vec3<float> corners[N];
     for (std::size_t j = 0; j < vertices.size(); ++j) corners[j] = to_vec(vertices[j]);
     const auto polygon = make_polygon<N>(corners, static_cast<int>(vertices.size()));
-    for (int j = 0; j < N; ++j) {
-        record.vertex[j] = to_float3(polygon.vertex[j]);
-        record.edge[j] = to_float3(polygon.edge[j]);
-    }
+    record.first_corner = static_cast<std::uint32_t>(all_corners.size());
+    for (int j = 0; j < N; ++j) all_corners.push_back(to_float3(polygon.vertex[j]));
+    for (int j = 0; j < N; ++j) all_corners.push_back(to_float3(polygon.edge[j]));
     record.normal = to_float3(polygon.normal);
-    record.slots = N;
 }
 
-PolygonLightRecord make_record(const scene::Scene& scene, const scene::PolygonLight& light) {
+PolygonLightRecord make_record(const scene::Scene& scene, const scene::PolygonLight& light,
+                               std::vector<scene::Float3>& all_corners) {
     const std::size_t count = light.vertices.size();
     if (count < 3)
         throw std::runtime_error("light " + scene.emitters[light.emitter].name +
                                  ": polygonal lights have at least 3 vertices, not " + std::to_string(count));
     PolygonLightRecord record{};
-    if (count <= 4)
-        set_polygon<4>(light.vertices, record);
+    record.slots = slots_of(light);
+    if (record.slots == 4)
+        add_polygon<4>(light.vertices, record, all_corners);
     else
-        set_polygon<8>(light.vertices, record);
+        add_polygon<8>(light.vertices, record, all_corners);
     record.radiance = light.radiance;
     record.two_sided = light.two_sided ? 1 : 0;
     return record;
@@ -151,8 +155,14 @@ KernelArrays::KernelArrays(const scene::Scene& scene)
         textures_.push_back({texture.texels.data(), texture.width, texture.height, texture.channels,
                              texture.wrap, texture.filter});
     }
+    std::size_t corners = 0;
     for (const scene::PolygonLight& light : scene.polygon_lights)
-        polygon_lights_.push_back(make_record(scene, light));
+        corners += 2 * static_cast<std::size_t>(slots_of(light));
+    check_float_count(3 * corners, "lights");
+    polygon_corners_.reserve(corners);
+    polygon_lights_.reserve(scene.polygon_lights.size());
+    for (const scene::PolygonLight& light : scene.polygon_lights)
+        polygon_lights_.push_back(make_record(scene, light, polygon_corners_));
     for (const scene::LineLight& light : scene.line_lights) line_lights_.push_back(make_record(light));
     check_float_count(sizeof(InstanceRecord) / sizeof(float) * scene.instances.size(), "instances");
     for (const scene::Instance& instance : scene.instances)
@@ -174,6 +184,7 @@ KernelScene KernelArrays::view(BrdfChoice brdf) const {
     view.material_textures = material_textures_.data();
     view.textures = textures_.data();
     view.polygon_lights = polygon_lights_.data();
+    view.polygon_corners = polygon_corners_.data();
     view.line_lights = line_lights_.data();
     view.light_emitter = light_emitter_.data();
     view.emitter_count = static_cast<std::uint32_t>(scene_.emitters.size());

@@ -27,6 +27,7 @@ private:
     std::vector<MaterialTextures> material_textures_;
     std::vector<TextureView> textures_;
     std::vector<PolygonLightRecord> polygon_lights_;
+    std::vector<scene::Float3> polygon_corners_;
     std::vector<LineLightRecord> line_lights_;
     std::vector<InstanceRecord> instances_;
     PixelFilterTable filter_x_;

@@ -13,7 +13,7 @@ namespace {
 // Largest distance of the pieces of a curved patch from it, relative to its longest side; lights cost time per piece.
 constexpr double kSurfaceTolerance = 1e-3;
 constexpr double kLightTolerance = 1e-2;
-constexpr int kMaxPieces = 32; ///< per side
+constexpr double kMaxPieces = 1e6; ///< of all patches of a mesh
 
 /// Corners in the order of scene files: (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
 template <class T>
@@ -71,10 +71,10 @@ void add_planar_patch(const Patch& patch, Mesh& mesh) {
 }
 
 /// \returns the number of pieces per side
-int add_curved_patch(const Patch& patch, double tolerance, Mesh& mesh) {
+int add_curved_patch(const Patch& patch, double tolerance, int max_pieces, Mesh& mesh) {
     // Where two triangles replace a piece, they are off by a quarter of its twist in the middle.
     const double pieces = std::sqrt(length(patch.twist()) / (4 * tolerance * patch.longest_side()));
-    const int n = std::clamp(static_cast<int>(std::ceil(pieces)), 1, kMaxPieces);
+    const int n = std::clamp(static_cast<int>(std::ceil(pieces)), 1, max_pieces);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (int row = 0; row <= n; ++row) {
         for (int column = 0; column <= n; ++column) {
@@ -123,6 +123,9 @@ Mesh read_bilinear_mesh(ShapeDirective& shape) {
     const std::vector<std::uint32_t> indices = read_indices(shape, positions.size());
     const double tolerance = is_black(shape.emission.radiance) ? kSurfaceTolerance : kLightTolerance;
 
+    const double pieces_per_patch = 4 * kMaxPieces / static_cast<double>(indices.size());
+    const int max_pieces = std::clamp(static_cast<int>(std::sqrt(pieces_per_patch)), 1, shape.max_sides / 2);
+
     Mesh mesh;
     std::size_t curved_patches = 0;
     int most_pieces = 0;
@@ -139,7 +142,7 @@ Mesh read_bilinear_mesh(ShapeDirective& shape) {
             add_planar_patch(patch, mesh);
         } else {
             ++curved_patches;
-            most_pieces = std::max(most_pieces, add_curved_patch(patch, tolerance, mesh));
+            most_pieces = std::max(most_pieces, add_curved_patch(patch, tolerance, max_pieces, mesh));
         }
     }
     if (curved_patches > 0)

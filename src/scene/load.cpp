@@ -185,6 +185,7 @@ Scene load_scene(const std::filesystem::path& path) {
     scene.materials = std::move(description.materials);
     scene.film = description.film;
     scene.camera = make_camera(description.camera, description.film);
+    limit_tessellation(description.shapes);
     std::vector<Mesh> meshes;
     std::vector<BakedTexture> textures;
     Warnings texture_warnings;

@@ -11,7 +11,6 @@ namespace nusselt::scene {
 namespace {
 
 // Pieces around the full circle. Lights cost time per piece; those of a disk are merged to few polygons.
-constexpr int kSurfaceSides = 64;
 constexpr int kLightSides = 16;
 constexpr int kDiskLightSides = 32;
 
@@ -101,8 +100,9 @@ std::pair<double, double> direction(double u, double sweep) {
     return {std::cos(angle), std::sin(angle)};
 }
 
-int sides(const ShapeDirective& shape) {
-    return is_black(shape.emission.radiance) ? kSurfaceSides : kLightSides;
+int sides(const ShapeDirective& shape, int light_sides = kLightSides) {
+    const bool emits = !is_black(shape.emission.radiance);
+    return emits ? std::min(light_sides, shape.max_sides) : shape.max_sides;
 }
 
 } // namespace
@@ -111,10 +111,10 @@ Mesh read_sphere(ShapeDirective& shape) {
     ParameterList& parameters = shape.parameters;
     const double radius = positive_radius(shape);
     const double sweep = sweep_angle(shape);
-    const double one_end = std::clamp(parameters.real("zmin", -radius), -radius, radius);
-    const double other_end = std::clamp(parameters.real("zmax", radius), -radius, radius);
-    const double low = std::min(one_end, other_end);
-    const double high = std::max(one_end, other_end);
+    const double z_min = std::clamp(parameters.real("zmin", -radius), -radius, radius);
+    const double z_max = std::clamp(parameters.real("zmax", radius), -radius, radius);
+    const double low = std::min(z_min, z_max);
+    const double high = std::max(z_min, z_max);
     const double bottom = std::acos(low / radius);
     const double top = std::acos(high / radius);
     const auto evaluate = [&](double u, double v) {
@@ -146,8 +146,7 @@ Mesh read_disk(ShapeDirective& shape) {
         const double rho = radius + v * (inner_radius - radius);
         return SurfacePoint{{rho * cosine, rho * sine, height}, {0, 0, 1}};
     };
-    const int per_circle = is_black(shape.emission.radiance) ? kSurfaceSides : kDiskLightSides;
-    Mesh mesh = tessellate(shape, pieces(sweep, per_circle), 1, evaluate);
+    Mesh mesh = tessellate(shape, pieces(sweep, sides(shape, kDiskLightSides)), 1, evaluate);
     const double exact_area = 0.5 * sweep * (radius * radius - inner_radius * inner_radius);
     const double scale = std::sqrt(area_ratio(shape, mesh, exact_area));
     for (Float3& p : mesh.positions) p = to_float({scale * p.x, scale * p.y, height});

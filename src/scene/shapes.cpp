@@ -82,6 +82,20 @@ Mesh build_surface(ShapeDirective& shape) {
 
 bool is_supported(std::string_view type) { return reader_of(type) != nullptr; }
 
+void limit_tessellation(std::vector<ShapeDirective>& shapes) {
+    const auto is_round = [](const ShapeDirective& shape) {
+        return shape.type == "sphere" || shape.type == "disk" || shape.type == "cylinder" ||
+               shape.type == "bilinearmesh";
+    };
+    constexpr double kFineShapes = 1000; // may have all sides
+    constexpr int kFewest = 8;
+    const auto count = static_cast<double>(std::count_if(shapes.begin(), shapes.end(), is_round));
+    if (count <= kFineShapes) return;
+    for (ShapeDirective& shape : shapes)
+        shape.max_sides =
+            std::max(kFewest, static_cast<int>(shape.max_sides * std::sqrt(kFineShapes / count)));
+}
+
 bool flips_orientation(const ShapeDirective& shape) {
     return shape.reverse_orientation != (linear_determinant(shape.world_from_object) < 0);
 }

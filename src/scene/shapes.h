@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace nusselt::scene {
 
@@ -19,8 +20,9 @@ struct ShapeDirective {
     std::filesystem::path mesh_path; ///< of type "plymesh"
     Transform world_from_object;
     bool reverse_orientation = false;
-    Emission emission; ///< black for surfaces that do not emit
-    int material = -1; ///< -1 for invisible surfaces; they are needed for tubes only
+    Emission emission;  ///< black for surfaces that do not emit
+    int material = -1;  ///< -1 for invisible surfaces; they are needed for tubes only
+    int max_sides = 64; ///< pieces around the full circle of round shapes, at most
 };
 
 /// Whether build_mesh() knows shapes of this type.
@@ -28,6 +30,10 @@ bool is_supported(std::string_view type);
 
 /// Whether the shape becomes a tubular light, which needs no material.
 bool is_tube(ShapeDirective& shape);
+
+/// Makes round shapes coarser if there are many, so that they fit into the memory: a line of text must not take much more
+/// than it would as a mesh.
+void limit_tessellation(std::vector<ShapeDirective>& shapes);
 
 /// Whether pbrt's normal is the reverse of the right-hand normal of the vertices in world space.
 bool flips_orientation(const ShapeDirective& shape);

@@ -92,6 +92,17 @@ TEST_F(Tessellation, CylindersFaceAwayFromTheirAxis) {
     EXPECT_EQ(high->z, 3);
 }
 
+TEST_F(Tessellation, ManyRoundShapesAreCoarser) {
+    const auto spheres = [&](int count) {
+        std::string text;
+        for (int i = 0; i < count; ++i) text += "Shape \"sphere\"\n";
+        return shape(text).triangles.size() / static_cast<std::size_t>(count);
+    };
+    EXPECT_EQ(spheres(1000), 2u * 64 * 32 - 2 * 64);
+    EXPECT_EQ(spheres(4000), 2u * 32 * 16 - 2 * 32);
+    EXPECT_EQ(spheres(70000), 2u * 8 * 4 - 2 * 8);
+}
+
 TEST_F(Tessellation, CurvedPatchesStayWithinTheirTolerance) {
     const Scene scene = shape("Shape \"bilinearmesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0  1 1 1]");
     // The patch is z = x y, its longest side sqrt(2).

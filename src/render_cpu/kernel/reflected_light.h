@@ -64,10 +64,11 @@ public:
     template <int N>
     LocalPolygon<N> polygon(std::int32_t index) const noexcept {
         const render_cpu::PolygonLightRecord& record = job_.scene.polygon_lights[index];
+        const scene::Float3* corners = job_.scene.polygon_corners + record.first_corner;
         ConvexPolygon<float, N> world;
         for (int j = 0; j < N; ++j) {
-            world.vertex[j] = to_vec(record.vertex[j]);
-            world.edge[j] = to_vec(record.edge[j]);
+            world.vertex[j] = to_vec(corners[j]);
+            world.edge[j] = to_vec(corners[N + j]);
         }
         world.normal = to_vec(record.normal);
         const auto local = to_shading_space(world, surface_.position, surface_.frame);
