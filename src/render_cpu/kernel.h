@@ -106,7 +106,7 @@ struct KernelScene {
     const TextureView* textures;
     const PolygonLightRecord* polygon_lights;
     const LineLightRecord* line_lights;
-    const InstanceRecord* instances;
+    const InstanceRecord* instances; ///< null if there are none
     std::int32_t polygon_light_count;
     std::int32_t line_light_count;
     LtcTableRecord ltc;
