@@ -108,7 +108,7 @@ struct KernelScene {
     const PolygonLightRecord* polygon_lights;
     const scene::Float3* polygon_corners;
     const LineLightRecord* line_lights;
-    const InstanceRecord* instances;
+    const InstanceRecord* instances;    ///< null if there are none
     const std::uint32_t* light_emitter; ///< of polygonal lights, then of line lights
     std::uint32_t emitter_count;
     std::int32_t polygon_light_count;

@@ -190,7 +190,7 @@ KernelScene KernelArrays::view(BrdfChoice brdf) const {
     view.emitter_count = static_cast<std::uint32_t>(scene_.emitters.size());
     view.polygon_light_count = static_cast<std::int32_t>(polygon_lights_.size());
     view.line_light_count = static_cast<std::int32_t>(line_lights_.size());
-    view.instances = instances_.data();
+    view.instances = instances_.empty() ? nullptr : instances_.data();
     view.camera = scene_.camera;
     view.filter_x = view_of(filter_x_, scene_.film.filter.radius_x);
     view.filter_y = view_of(filter_y_, scene_.film.filter.radius_y);

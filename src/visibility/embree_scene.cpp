@@ -132,9 +132,12 @@ void commit(RTCDevice device, RTCScene scene) {
     check_for_error(device);
 }
 
+/// Where on their triangles the hits are.
 template <int N>
-void miss(int lane, HitPacket<N>& hits) {
-    hits.triangle[lane] = hits.instance[lane] = hits.tube[lane] = -1;
+void copy_places(const ClosestHitQuery<N>& query, HitPacket<N>& hits) {
+    std::memcpy(hits.u, query.packet.hit.u, sizeof hits.u);
+    std::memcpy(hits.v, query.packet.hit.v, sizeof hits.v);
+    std::memcpy(hits.t, query.packet.ray.tfar, sizeof hits.t);
 }
 
 /// For scenes without instances and without surfaces that are partly there.
@@ -143,6 +146,7 @@ void intersect_plain(const void* context, std::uint32_t active, const RayPacket<
                      HitPacket<N>& hits) {
     ClosestHitQuery<N> query(active, rays);
     query.trace(embree_scene(context));
+    copy_places(query, hits);
     const auto& hit = query.packet.hit;
     for (int i = 0; i < N; ++i) {
         const auto primitive = static_cast<std::int32_t>(hit.primID[i]);
@@ -150,9 +154,6 @@ void intersect_plain(const void* context, std::uint32_t active, const RayPacket<
         hits.triangle[i] = geometry == kFullGeometry ? primitive : -1;
         hits.instance[i] = -1;
         hits.tube[i] = geometry == kTubeGeometry ? primitive / kTrianglesPerTube : -1;
-        hits.u[i] = hit.u[i];
-        hits.v[i] = hit.v[i];
-        hits.t[i] = query.packet.ray.tfar[i];
     }
 }
 
@@ -161,20 +162,20 @@ void intersect(const void* context, std::uint32_t active, const RayPacket<N>& ra
     const auto& scene = *static_cast<const TracedScene*>(context);
     ClosestHitQuery<N> query(active, rays);
     query.trace(scene.embree);
+    copy_places(query, hits);
     const auto& hit = query.packet.hit;
     for (int i = 0; i < N; ++i) {
+        hits.triangle[i] = hits.instance[i] = hits.tube[i] = -1;
         const unsigned geometry = hit.geomID[i];
+        const unsigned primitive = hit.primID[i];
         const unsigned instance = hit.instID[0][i];
-        miss(i, hits);
-        hits.u[i] = hit.u[i];
-        hits.v[i] = hit.v[i];
         if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
         if (geometry == kTubeGeometry) {
-            hits.tube[i] = static_cast<std::int32_t>(hit.primID[i]) / kTrianglesPerTube;
+            hits.tube[i] = static_cast<std::int32_t>(primitive) / kTrianglesPerTube;
             continue;
         }
-        hits.triangle[i] =
-            static_cast<std::int32_t>(scene.part_of(instance).triangle_of(geometry, hit.primID[i]));
+        const ScenePart& part = scene.part_of(instance);
+        hits.triangle[i] = static_cast<std::int32_t>(part.triangle_of(geometry, primitive));
         if (instance != RTC_INVALID_GEOMETRY_ID)
             hits.instance[i] = static_cast<std::int32_t>(instance - kFirstInstance);
     }

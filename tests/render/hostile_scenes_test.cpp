@@ -157,6 +157,46 @@ TEST(HostileScenes, TextureCoordinatesOfAllKinds) {
     expect_sane_images(scene);
 }
 
+TEST(HostileScenes, AlphaOfAllKinds) {
+    scene::Scene scene = make_box_scene(kSize);
+    const float infinity = std::numeric_limits<float>::infinity();
+    const float kinds[] = {0, -1e-9f, 1e30f, -infinity, infinity, std::nanf(""), 0.5f};
+    for (std::size_t i = 0; i < scene.uvs.size(); ++i)
+        scene.uvs[i] = {kinds[i % std::size(kinds)], kinds[i * 3 % std::size(kinds)]};
+    for (const auto wrap :
+         {scene::TextureWrap::repeat, scene::TextureWrap::clamp, scene::TextureWrap::black}) {
+        scene::Texture texture;
+        texture.width = 2;
+        texture.height = 1;
+        texture.channels = 1;
+        texture.wrap = wrap;
+        texture.texels = {2, 0.3f};
+        scene.textures.push_back(texture);
+    }
+    for (const float alpha : {1.0f, 1e30f, -1.0f, std::nanf("")}) {
+        for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+            scene.materials[i].alpha = alpha;
+            scene.materials[i].alpha_texture.texture = static_cast<int>(i % 3);
+        }
+        expect_sane_images(scene);
+    }
+}
+
+TEST(HostileScenes, InstancesOfAllSizes) {
+    scene::Scene scene = make_box_scene(kSize);
+    const auto first = static_cast<std::uint32_t>(scene.triangles.size());
+    add_quad(scene, {Float3{-1, 0, -1}, Float3{1, 0, -1}, Float3{1, 0.5f, 1}, Float3{-1, 0, 1}}, 1);
+    for (std::size_t i = scene.normals.size() - 4; i < scene.normals.size(); ++i)
+        scene.normals[i] = {0.1f * static_cast<float>(i % 3), 1, 0};
+    scene.objects.push_back({"quad", first, 2});
+    for (const float x : {1e-15f, 1e-6f, 1.0f, -1e3f, 1e15f})
+        for (const float y : {1e-15f, 1e-3f, -1.0f, 1e15f})
+            for (const float z : {1e-9f, -1.0f, 1e9f})
+                scene.instances.push_back({0, {x, 0, 0, 0.1f, 0, y, 0.5f, -0.5f, 0, 0, z, 1}});
+    scene.instances.push_back({0, {1, 0, 0, 1e15f, 0, 1, 0, 0, 0, 0, 1, 0}});
+    expect_sane_images(scene);
+}
+
 TEST(HostileScenes, SizesThatFillNoTile) {
     for (const auto& [width, height] : {std::pair{1, 1}, {17, 3}, {3, 33}}) {
         scene::Scene scene = make_box_scene(kSize);

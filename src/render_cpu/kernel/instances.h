@@ -9,12 +9,15 @@ namespace kernel {
 
 /// The instances that a packet hits.
 struct InstanceLanes {
-    Indices number;
-    LaneMask mask; ///< lanes that hit an instance
+    Indices number; ///< meaningless if the mask is empty
+    LaneMask mask;  ///< lanes that hit an instance
 };
 
-inline InstanceLanes instance_lanes(const visibility::HitPacket<kLanes>& hits) noexcept {
+inline InstanceLanes instance_lanes(const render_cpu::KernelScene& scene,
+                                    const visibility::HitPacket<kLanes>& hits) noexcept {
     InstanceLanes result;
+    result.mask = LaneMask::from_bits(0);
+    if (scene.instances == nullptr) return result;
     std::uint32_t bits = 0;
     for (int i = 0; i < kLanes; ++i) {
         bits |= static_cast<std::uint32_t>(hits.instance[i] >= 0) << i;

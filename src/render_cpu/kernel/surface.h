@@ -233,7 +233,7 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
     Vector e2 = gather_vector(positions, 3, 0, interpolation.vertex[2], active) - v0;
     Vector position = v0 + (interpolation.u * e1 + interpolation.v * e2);
     Real coordinate = max(max(abs(position.x), abs(position.y)), abs(position.z));
-    const InstanceLanes instances = instance_lanes(hits);
+    const InstanceLanes instances = instance_lanes(scene, hits);
     if (any(instances.mask)) {
         const WorldFromObject transform(scene, instances);
         coordinate = transform.largest_coordinate(position, coordinate);
