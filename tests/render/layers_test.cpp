@@ -104,6 +104,18 @@ TEST_P(Layers, OfComponentsAndOfLightsAddUpToTheImage) {
         EXPECT_GT(*std::max_element(data_of(result, name).begin(), data_of(result, name).end()), 0) << name;
 }
 
+/// Filters may weigh camera rays, also with negative numbers.
+TEST_P(Layers, AddUpWithAnyPixelFilter) {
+    scene::Scene scene = make_box_scene(kSize);
+    scene.film.filter.kind = scene::FilterKind::mitchell;
+    scene.film.filter.radius_x = scene.film.filter.radius_y = 2;
+    RenderSettings with_layers = settings();
+    with_layers.layers = kAllKinds;
+    const RenderResult result = render(scene, with_layers);
+    expect_sum(result, {"emission", "diffuse", "specular"});
+    expect_sum(result, {"light.panel", "light.tube", "light.pipe"});
+}
+
 TEST_P(Layers, LightsAreThoseOfTheSceneWithThatLightAlone) {
     const scene::Scene scene = make_box_scene(kSize);
     RenderSettings with_layers = settings();
