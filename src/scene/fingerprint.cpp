@@ -65,10 +65,7 @@ public:
         add_all(model, diffuse, diffuse_texture, f0, roughness);
     }
 
-    void add(const Emitter& emitter) {
-        const auto& [name] = emitter;
-        add(name);
-    }
+    void add(const Emitter& emitter) { [[maybe_unused]] const auto& [name] = emitter; }
 
     void add(const PolygonLight& light) {
         const auto& [emitter, vertices, radiance, two_sided] = light;
