@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -34,10 +35,20 @@ std::vector<Tile> make_tiles(const scene::PixelBounds& bounds, const Part& part)
     return tiles;
 }
 
+/// Names of emitters may have the path of a file, which is another one on each machine: of words with slashes, only what
+/// is behind the last one counts.
+std::string without_folders(const std::string& text) {
+    std::string result;
+    std::istringstream stream(text);
+    for (std::string word; stream >> word;)
+        result += (result.empty() ? "" : " ") + word.substr(word.rfind('/') + 1);
+    return result;
+}
+
 /// Names of channels take letters, digits, hyphens and underscores everywhere.
 std::string layer_name(const std::string& emitter) {
     constexpr std::size_t kMaxLength = 150;
-    std::string name = emitter.substr(0, kMaxLength);
+    std::string name = without_folders(emitter).substr(0, kMaxLength);
     for (char& c : name) {
         const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
         if (!is_letter && !(c >= '0' && c <= '9') && c != '-') c = '_';

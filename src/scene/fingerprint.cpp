@@ -67,10 +67,7 @@ public:
                 alpha_texture, bump, bump_texture, normal_texture);
     }
 
-    void add(const Emitter& emitter) {
-        const auto& [name] = emitter;
-        add(name);
-    }
+    void add(const Emitter& emitter) { [[maybe_unused]] const auto& [name] = emitter; }
 
     void add(const PolygonVertices& vertices) {
         add(vertices.size());

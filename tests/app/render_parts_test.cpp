@@ -91,6 +91,16 @@ TEST_F(RenderParts, MergeRefusesWhatDoesNotFit) {
     expect_message(run("merge no/such/folder/a.exr a.exr").err, "no/such/folder");
 }
 
+TEST_F(RenderParts, MayComeFromScenesInOtherFolders) {
+    std::filesystem::create_directory(path("copy"));
+    std::filesystem::copy(kScenes, path("copy"), std::filesystem::copy_options::recursive);
+    expect_success(render("--layers lights --part 1/2 -o part1.exr"));
+    expect_success(
+        "render copy/room.pbrt --resolution 80x60 --spp 2 -q --layers lights --part 2/2 -o part2.exr");
+    expect_success("merge merged.exr part1.exr part2.exr");
+    EXPECT_EQ(layers("merged.exr").metadata.at("samples"), "2");
+}
+
 TEST_F(RenderParts, NameFilesOfTheirOwn) {
     expect_success(render("--part 2/3"));
     EXPECT_TRUE(std::filesystem::exists(path("room-2of3.exr")));

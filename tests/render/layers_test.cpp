@@ -69,7 +69,9 @@ protected:
 };
 
 /// Every float of the image is the sum of those of the layers.
-void expect_sum(const RenderResult& result, const std::vector<std::string>& names) {
+/// \param least_magnitude where values are smaller, rounding is still that of numbers of this size
+void expect_sum(const RenderResult& result, const std::vector<std::string>& names,
+                double least_magnitude = 0) {
     for (std::size_t i = 0; i < result.image.pixels.size(); ++i) {
         double sum = 0;
         double magnitude = 0;
@@ -77,7 +79,7 @@ void expect_sum(const RenderResult& result, const std::vector<std::string>& name
             sum += data_of(result, name)[i];
             magnitude += std::fabs(data_of(result, name)[i]);
         }
-        ASSERT_NEAR(sum, result.image.pixels[i], 1e-6 * magnitude) << i;
+        ASSERT_NEAR(sum, result.image.pixels[i], 1e-6 * std::max(magnitude, least_magnitude)) << i;
     }
 }
 
@@ -102,6 +104,20 @@ TEST_P(Layers, OfComponentsAndOfLightsAddUpToTheImage) {
     expect_sum(result, {"light.panel", "light.tube", "light.pipe"});
     for (const char* name : {"emission", "diffuse", "specular", "light.panel", "light.tube", "light.pipe"})
         EXPECT_GT(*std::max_element(data_of(result, name).begin(), data_of(result, name).end()), 0) << name;
+}
+
+/// Filters may weigh camera rays, also with negative numbers.
+TEST_P(Layers, AddUpWithAnyPixelFilter) {
+    scene::Scene scene = make_box_scene(kSize);
+    scene.film.filter.kind = scene::FilterKind::mitchell;
+    scene.film.filter.radius_x = scene.film.filter.radius_y = 2;
+    RenderSettings with_layers = settings();
+    with_layers.layers = kAllKinds;
+    const RenderResult result = render(scene, with_layers);
+    // Camera rays of both signs cancel, their rounding errors do not.
+    const double largest = *std::max_element(result.image.pixels.begin(), result.image.pixels.end());
+    expect_sum(result, {"emission", "diffuse", "specular"}, largest);
+    expect_sum(result, {"light.panel", "light.tube", "light.pipe"}, largest);
 }
 
 TEST_P(Layers, LightsAreThoseOfTheSceneWithThatLightAlone) {
@@ -311,14 +327,15 @@ TEST(LayersOfHits, VarianceNeedsTwoCameraRays) {
 
 TEST(LayersOfLights, HaveUniqueNames) {
     scene::Scene scene = make_box_scene(8);
-    scene.emitters = {{"a lamp"}, {"a.lamp"}, {""}};
+    scene.emitters = {{"a lamp"}, {"a.lamp"}, {""}, {"polygon at some/folder/room.pbrt:7"}};
     RenderSettings settings;
     settings.layers = {LayerKind::lights};
     const RenderResult result = render(scene, settings);
-    ASSERT_EQ(result.layers.size(), 3u);
+    ASSERT_EQ(result.layers.size(), 4u);
     EXPECT_EQ(result.layers[0].name, "light.a_lamp");
     EXPECT_EQ(result.layers[1].name, "light.a_lamp.1");
     EXPECT_EQ(result.layers[2].name, "light.unnamed");
+    EXPECT_EQ(result.layers[3].name, "light.polygon_at_room_pbrt_7");
 }
 
 TEST(Frames, LargerThanAnyFileAreRefused) {
