@@ -117,7 +117,7 @@ void check_exr_attributes(std::istream& stream) {
         const std::uint64_t size = read_uint32(stream);
         const std::streamoff begin = stream.tellg();
         if (!stream || size > static_cast<std::uint64_t>(file_size - begin))
-            fail("an attribute is longer than the file");
+            fail("an attribute is longer than the file; was it cut off?");
         if (size_of_contents(stream, type, size) != size)
             fail("the size of an attribute does not fit its contents");
         stream.seekg(begin + static_cast<std::streamoff>(size));

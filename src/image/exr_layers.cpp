@@ -34,7 +34,7 @@ void check_name(const std::string& name) {
 
 void check_window(const Window& window) {
     constexpr int kFarthest = std::numeric_limits<int>::max() / 4;
-    check_size(window.width, window.height);
+    if (window.width < 1 || window.height < 1) throw std::invalid_argument("a window of an image is empty");
     if (std::abs(std::int64_t(window.x)) > kFarthest || std::abs(std::int64_t(window.y)) > kFarthest)
         throw std::invalid_argument("a window of an image is too far from the origin");
 }
@@ -42,6 +42,7 @@ void check_window(const Window& window) {
 void check_before_writing(const LayeredImage& image) {
     check_window(image.data);
     check_window(image.display);
+    check_size(image.data.width, image.data.height);
     const std::size_t pixel_count = std::size_t(image.data.width) * std::size_t(image.data.height);
     std::set<std::string> names;
     for (const Layer& layer : image.layers) {
