@@ -74,20 +74,29 @@ std::string_view violation_of_objects(const Scene& scene) {
 }
 
 std::string_view violation_of_materials(const Scene& scene) {
+    const auto is_valid_use = [&](const TextureUse& use) {
+        return (use.texture == -1 || is_index(use.texture, scene.textures.size())) && is_finite(use.scale) &&
+               is_finite(use.offset);
+    };
     for (const Material& material : scene.materials) {
-        const TextureUse& use = material.diffuse_texture;
         if (!is_finite(material.diffuse) || !is_finite(material.f0)) return "a colour is not finite";
         if (!(material.roughness >= 0 && material.roughness <= 1)) return "a roughness is not in [0, 1]";
-        if (use.texture != -1 && !is_index(use.texture, scene.textures.size()))
-            return "a material has no such texture";
-        if (!is_finite(use.scale) || !is_finite(use.offset)) return "the use of a texture is not finite";
+        if (!(material.alpha >= 0 && material.alpha <= 1)) return "an alpha is not in [0, 1]";
+        if (!std::isfinite(material.bump)) return "the height of a bump map is not finite";
+        for (const TextureUse& use :
+             {material.diffuse_texture, material.f0_texture, material.roughness_texture,
+              material.alpha_texture, material.bump_texture, material.normal_texture})
+            if (!is_valid_use(use)) return "a material has no such texture, or looks it up nowhere";
     }
     for (const Texture& texture : scene.textures) {
         if (texture.width <= 0 || texture.height <= 0) return "a texture is empty";
-        if (texture.texels.size() !=
-            3 * static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height))
+        if (texture.channels != 1 && texture.channels != 3) return "a texture has neither 1 nor 3 channels";
+        if (texture.texels.size() != static_cast<std::size_t>(texture.channels) *
+                                         static_cast<std::size_t>(texture.width) *
+                                         static_cast<std::size_t>(texture.height))
             return "the number of texels does not fit the size of their texture";
-        if (!all(texture.texels, [](float x) { return std::isfinite(x); })) return "a texel is not finite";
+        if (!all(texture.texels, [](float x) { return std::isfinite(x) && x >= 0; }))
+            return "a texel is negative or not finite";
     }
     return {};
 }
