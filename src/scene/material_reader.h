@@ -15,7 +15,8 @@ struct SurfaceFormula {
     TextureValue f0 = grey_value(0);
     TextureValue roughness = grey_value(1); ///< perceptual
     TextureValue alpha = grey_value(1);
-    TextureValue bump = grey_value(0);   ///< height [m]
+    TextureValue bump = grey_value(0); ///< height [bump_unit]
+    BumpUnit bump_unit = BumpUnit::metre;
     TextureValue normal = grey_value(0); ///< without a node for none
 };
 

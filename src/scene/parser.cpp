@@ -1,9 +1,9 @@
 #include "scene/parser.h"
 
-#include "scene/alpha.h"
 #include "scene/graphics_state.h"
 #include "scene/ignored_lights.h"
 #include "scene/source_reader.h"
+#include "scene/surface_variants.h"
 
 #include <algorithm>
 #include <limits>
@@ -104,7 +104,7 @@ private:
     std::unordered_map<std::string, Transform> coordinate_systems_;
     std::optional<int> black_material_;
     TextureTable textures_;
-    AlphaVariants alpha_variants_;
+    SurfaceVariants surface_variants_;
     LeftOutShapes left_out_shapes_;
     ObjectTable objects_;
     IgnoredLights ignored_lights_;
@@ -484,8 +484,8 @@ void Parser::shape() {
         shape.material = used_material(*state.material);
         if (shape.material == kInvisible && is_black(shape.emission.radiance)) return;
         if (shape.material == kInvisible) shape.material = black_material();
-        shape.material = alpha_variants_.material(shape.material, shape.parameters, textures_,
-                                                  scene_.materials, scene_.warnings);
+        shape.material =
+            surface_variants_.material(shape.material, shape, textures_, scene_.materials, scene_.warnings);
     }
     if (objects_.is_open())
         objects_.add_shape(std::move(shape));
