@@ -219,7 +219,6 @@ ParameterList Parser::read_parameters(AttributeTarget target) {
 }
 
 // ---- Transforms and state
-// -----------------------------------------------------------------------------------
 
 void Parser::set_transform(const Transform& t) {
     if (state_.current().moves_begin) {
@@ -329,7 +328,6 @@ void Parser::import() {
 }
 
 // ---- Camera and film
-// ----------------------------------------------------------------------------------------
 
 void Parser::camera() {
     const std::string type = read_string();
@@ -358,7 +356,6 @@ void Parser::ignore_with_parameters() {
 }
 
 // ---- Lights, materials, shapes
-// ------------------------------------------------------------------------------
 
 void Parser::ignore_medium() {
     ignore_with_parameters();
