@@ -1,13 +1,13 @@
 #include "info.h"
 #include "lights.h"
 
+#include "scene/bounds.h"
 #include "scene/scene_size.h"
 #include "scene/vector_math.h"
 
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
@@ -35,14 +35,12 @@ Float3 scaled(double factor, const Float3& v) { return to_float(factor * to_doub
 
 void print_geometry(const scene::Scene& scene) {
     fmt::print("triangles    {}\nvertices     {}\n", scene.triangles.size(), scene.positions.size());
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    Float3 low = {kInfinity, kInfinity, kInfinity};
-    Float3 high = {-kInfinity, -kInfinity, -kInfinity};
-    for (const Float3& p : scene.positions) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    if (!scene.positions.empty()) fmt::print("bounding box ({}) to ({}) m\n", text(low), text(high));
+    if (!scene.objects.empty())
+        fmt::print("objects      {} with {} triangles\ninstances    {}\n", scene.objects.size(),
+                   scene.triangles.size() - scene::world_triangle_count(scene), scene.instances.size());
+    const scene::Bounds box = scene::scene_bounds(scene);
+    if (!box.is_empty())
+        fmt::print("bounding box ({}) to ({}) m\n", text(to_float(box.low)), text(to_float(box.high)));
     fmt::print("radius       {:.6g} m\n", scene.radius);
     fmt::print("arrays       {:.6g} MB\n", 1e-6 * static_cast<double>(scene::array_bytes(scene)));
 }
@@ -67,7 +65,12 @@ void print_materials(const scene::Scene& scene) {
         if (material.alpha != 1 || material.alpha_texture.texture >= 0)
             fmt::print(", alpha {:.4g}", material.alpha);
         print_texture(" times {}", material.alpha_texture);
-        print_texture(", bumps {}", material.bump_texture);
+        if (material.bump_texture.texture >= 0) {
+            const bool is_in_metres = material.bump_unit == scene::BumpUnit::metre;
+            fmt::print(", bumps {:.4g}{}", material.bump, is_in_metres ? " m" : "");
+            print_texture(" times {}", material.bump_texture);
+            if (!is_in_metres) fmt::print(" (as in pbrt v3)");
+        }
         print_texture(", normals {}", material.normal_texture);
         fmt::print("\n");
     }
@@ -126,21 +129,60 @@ void print_lights(const scene::Scene& scene) {
     }
 }
 
+/// Without the rounding errors of cameras.
+std::string direction_text(const Double3& direction) {
+    const auto rounded = [](double c) { return 1e-6 * std::round(1e6 * c) + 0.0; };
+    const Double3 unit = normalized(direction);
+    return text(to_float(Double3{rounded(unit.x), rounded(unit.y), rounded(unit.z)}));
+}
+
+/// A vector with a constant part and one per pixel, at the centre of the film.
+Double3 at_center(const scene::Film& film, const Float3& constant, const Float3& right, const Float3& down) {
+    return to_double(constant) + 0.5 * film.width * to_double(right) + 0.5 * film.height * to_double(down);
+}
+
 void print_camera(const scene::Scene& scene) {
     const scene::Camera& camera = scene.camera;
-    const double half_width = 0.5 * scene.film.width;
-    const double half_height = 0.5 * scene.film.height;
-    const Double3 center = to_double(camera.corner) + half_width * to_double(camera.right) +
-                           half_height * to_double(camera.down);
-    const auto field_of_view = [&](const Float3& half_step, double half_size) {
-        const double half_angle = std::atan(half_size * length(to_double(half_step)) / length(center));
+    const scene::Film& film = scene.film;
+    const Double3 direction = at_center(film, camera.corner, camera.right, camera.down);
+    fmt::print("\ncamera       at ({}), looks along ({}), ",
+               text(to_float(at_center(film, camera.origin, camera.origin_right, camera.origin_down))),
+               direction_text(direction));
+    const auto extent = [](const Float3& step, int pixels) { return pixels * length(to_double(step)); };
+    const auto field_of_view = [&](const Float3& step, int pixels) {
+        const double half_angle = std::atan(0.5 * extent(step, pixels) / length(direction));
         return 2 * half_angle * 180 / std::numbers::pi;
     };
-    fmt::print("\ncamera       at ({}), looks along ({}), field of view {:.4g} x {:.4g} degrees\n",
-               text(camera.origin), text(to_float(normalized(center))),
-               field_of_view(camera.right, half_width), field_of_view(camera.down, half_height));
-    fmt::print("film         {} x {}{}{}\n", scene.film.width, scene.film.height,
-               scene.film.filename.empty() ? "" : ", ", scene.film.filename);
+    if (length(to_double(camera.origin_right)) > 0)
+        fmt::print("orthographic, {:.4g} x {:.4g} m\n", extent(camera.origin_right, film.width),
+                   extent(camera.origin_down, film.height));
+    else
+        fmt::print("field of view {:.4g} x {:.4g} degrees\n", field_of_view(camera.right, film.width),
+                   field_of_view(camera.down, film.height));
+}
+
+const char* name_of(scene::FilterKind kind) {
+    switch (kind) {
+    case scene::FilterKind::box:
+        return "box";
+    case scene::FilterKind::triangle:
+        return "triangle";
+    case scene::FilterKind::gaussian:
+        return "gaussian";
+    case scene::FilterKind::mitchell:
+        break;
+    }
+    return "mitchell";
+}
+
+void print_film(const scene::Film& film) {
+    fmt::print("film         {} x {}{}{}\n", film.width, film.height, film.filename.empty() ? "" : ", ",
+               film.filename);
+    if (film.crop)
+        fmt::print("crop         {} <= x < {}, {} <= y < {}\n", film.crop->x_begin, film.crop->x_end,
+                   film.crop->y_begin, film.crop->y_end);
+    fmt::print("filter       {}, radii {:.4g} x {:.4g} pixels\n", name_of(film.filter.kind),
+               film.filter.radius_x, film.filter.radius_y);
 }
 
 } // namespace
@@ -162,6 +204,7 @@ int run_info(const InfoOptions& options) try {
     print_materials(scene);
     print_lights(scene);
     print_camera(scene);
+    print_film(scene.film);
     fmt::print("\n{} warnings\n", scene.warnings.size());
     for (const std::string& warning : scene.warnings) fmt::print("  {}\n", warning);
     fmt::print("\nloaded in {:.3f} s\n", elapsed.count());

@@ -36,6 +36,13 @@ void add_rigs_option(CLI::App& command, std::vector<std::filesystem::path>& rigs
         ->allow_extra_args(false);
 }
 
+std::string rig_names(const std::vector<std::filesystem::path>& rigs) {
+    std::string names;
+    for (const std::filesystem::path& rig : rigs)
+        names += (names.empty() ? "" : ", ") + rig.filename().string();
+    return names;
+}
+
 scene::Scene load_scene(const std::filesystem::path& path, const std::vector<std::filesystem::path>& rigs) {
     std::vector<scene::Rig> loaded;
     for (const std::filesystem::path& rig : rigs) loaded.push_back(scene::read_rig(rig));

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace nusselt::app {
@@ -25,6 +26,9 @@ int run_lights(const LightsOptions& options);
 
 /// Adds --lights.
 void add_rigs_option(CLI::App& command, std::vector<std::filesystem::path>& rigs);
+
+/// Names of the files without their folders, separated by ", ".
+std::string rig_names(const std::vector<std::filesystem::path>& rigs);
 
 /// Loads a scene and applies the rigs of --lights in their order.
 scene::Scene load_scene(const std::filesystem::path& path, const std::vector<std::filesystem::path>& rigs);

@@ -231,6 +231,7 @@ int run_render(const RenderOptions& options) {
 
     render_cpu::Frame frame = make_frame(scene, settings);
     image::Metadata metadata = make_metadata(scene, settings, isa);
+    if (!options.rigs.empty()) metadata["light_rigs"] = rig_names(options.rigs);
     std::optional<Checkpointer> checkpointer;
     if (options.checkpoint) {
         const image::Metadata run = describe_run(metadata, frame);

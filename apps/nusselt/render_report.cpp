@@ -13,12 +13,15 @@ namespace nusselt::app {
 nlohmann::ordered_json report_json(const RenderOptions& options, const render_cpu::RenderSettings& settings,
                                    render_cpu::Isa isa, const scene::Scene& scene,
                                    const render_cpu::RenderStatistics& statistics, const Times& times) {
+    nlohmann::ordered_json rigs = nlohmann::ordered_json::array();
+    for (const std::filesystem::path& rig : options.rigs) rigs.push_back(rig.string());
     const auto rate = [](std::uint64_t rays, double seconds) {
         return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
     };
     const bool is_combined = settings.strategies != render_cpu::Strategies::diffuse;
     return {
         {"scene", options.scene.string()},
+        {"light_rigs", rigs},
         {"triangles", scene.triangles.size()},
         {"scene_bytes", scene::array_bytes(scene)},
         {"width", scene.film.width},

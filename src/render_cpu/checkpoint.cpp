@@ -100,9 +100,11 @@ void check_same_run(const image::Metadata& stored, const image::Metadata& run) {
     for (const auto& [key, value] : run) {
         const auto found = stored.find(key);
         const std::string there = found == stored.end() ? "not there" : "'" + found->second + "'";
+        const std::string hint =
+            key == "scene_fingerprint" ? "; the scene, a file that it uses or a light rig was changed" : "";
         if (there != "'" + value + "'")
             throw std::runtime_error("it is of another run: " + key + " is " + there + " in the file, but '" +
-                                     value + "' now");
+                                     value + "' now" + hint);
     }
     for (const auto& [key, value] : stored)
         if (run.count(key) == 0)

@@ -36,6 +36,7 @@ struct MaterialTextures {
     scene::TextureUse normal;
     scene::TextureUse bump;
     float bump_height;
+    float is_bump_in_uv; ///< 1 for BumpUnit::texture_coordinate, 0 for metres
 };
 
 /// Which textures a material has, as bits.

@@ -145,9 +145,10 @@ KernelArrays::KernelArrays(const scene::Scene& scene)
         materials_.push_back(make_row(material));
         lambert_materials_.push_back(materials_.back());
         lambert_materials_.back().is_frostbite = 0;
+        const float is_bump_in_uv = material.bump_unit == scene::BumpUnit::texture_coordinate ? 1.0f : 0.0f;
         material_textures_.push_back({material.diffuse_texture, material.f0_texture,
                                       material.roughness_texture, material.normal_texture,
-                                      material.bump_texture, material.bump});
+                                      material.bump_texture, material.bump, is_bump_in_uv});
         material_texture_kinds_.push_back(texture_kinds(material_textures_.back()));
     }
     for (const scene::Texture& texture : scene.textures) {

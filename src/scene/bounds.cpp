@@ -49,7 +49,7 @@ Bounds transformed(const Bounds& box, const std::array<float, 12>& rows) {
     return result;
 }
 
-double scene_radius(const Scene& scene) {
+Bounds scene_bounds(const Scene& scene) {
     Bounds bounds = triangle_bounds(scene, 0, world_triangle_count(scene));
     std::vector<Bounds> objects;
     for (const Object& object : scene.objects)
@@ -65,6 +65,11 @@ double scene_radius(const Scene& scene) {
             bounds.add(to_double(end) + margin);
         }
     }
+    return bounds;
+}
+
+double scene_radius(const Scene& scene) {
+    const Bounds bounds = scene_bounds(scene);
     return bounds.is_empty() ? 0 : 0.5 * length(bounds.high - bounds.low);
 }
 

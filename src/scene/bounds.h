@@ -26,7 +26,10 @@ Bounds triangle_bounds(const Scene& scene, std::size_t first, std::size_t count)
 /// Around the image of a box under an affine transform, whose rows are as in Instance.
 Bounds transformed(const Bounds& box, const std::array<float, 12>& rows);
 
-/// Half the diagonal of the bounding box of surfaces, instances and lights [m], 0 for empty scenes.
+/// Around surfaces, instances and lights.
+Bounds scene_bounds(const Scene& scene);
+
+/// Half the diagonal of scene_bounds() [m], 0 for empty scenes.
 double scene_radius(const Scene& scene);
 
 } // namespace nusselt::scene

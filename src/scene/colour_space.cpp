@@ -63,6 +63,9 @@ Double3 to_srgb(const Double3& rgb, const ColourSpace& space, SpectrumUse use) {
     return srgb_from_xyz(use == SpectrumUse::albedo ? transform_vector(adaptation(space.white), xyz) : xyz);
 }
 
-double luminance(const Double3& srgb) { return transform_vector(xyz_from_rgb(kSrgb), srgb).y; }
+double luminance(const Double3& srgb) {
+    static const Transform kMatrix = xyz_from_rgb(kSrgb);
+    return transform_vector(kMatrix, srgb).y;
+}
 
 } // namespace nusselt::scene

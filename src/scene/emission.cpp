@@ -12,9 +12,6 @@ namespace {
 
 bool is_radiance(float value) { return value >= 0 && value <= std::numeric_limits<float>::max(); }
 
-/// Of linear sRGB.
-double luminance(const Float3& c) { return dot({0.2126, 0.7152, 0.0722}, to_double(c)); }
-
 Float3 mean_colour(const Texture& texture) {
     Double3 sum;
     const auto channels = static_cast<std::size_t>(texture.channels);
@@ -36,7 +33,7 @@ Float3 read_colour(ParameterList& parameters, const std::filesystem::path& image
     const Float3 mean = mean_colour(decode_image(request, warnings));
     warnings.add(location, "AreaLightSource: the image of the emission is replaced by its mean colour");
     // The power is that of the image, whatever its brightness.
-    const double brightness = luminance(mean);
+    const double brightness = luminance(to_double(mean));
     return has_power && brightness > 0 ? to_float((1 / brightness) * to_double(mean)) : mean;
 }
 

@@ -1,7 +1,7 @@
 #include "scene/light_edit.h"
 
-#include "scene/blackbody.h"
 #include "scene/bounds.h"
+#include "scene/colour_space.h"
 #include "scene/polygon.h"
 #include "scene/shapes.h"
 
@@ -136,9 +136,9 @@ Double3 centroid(const EditableLight& light) {
 double luminous_power(const EditableLight& light) {
     double sum = 0;
     for (const PolygonLight& polygon : light.polygons)
-        sum += (polygon.two_sided ? 2 : 1) * area(polygon) * srgb_luminance(to_double(polygon.radiance));
+        sum += (polygon.two_sided ? 2 : 1) * area(polygon) * luminance(to_double(polygon.radiance));
     for (const LineLight& tube : light.tubes)
-        sum += emitting_area(tube) * srgb_luminance(to_double(tube.radiance));
+        sum += emitting_area(tube) * luminance(to_double(tube.radiance));
     return std::numbers::pi * sum;
 }
 

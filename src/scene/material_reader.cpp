@@ -1,5 +1,6 @@
 #include "scene/material_reader.h"
 
+#include "scene/spectrum.h"
 #include "scene/vector_math.h"
 
 #include <cmath>
@@ -8,19 +9,8 @@ namespace nusselt::scene {
 
 namespace {
 
-/// Optical constants at the wavelengths of red, green and blue.
-struct OpticalConstants {
-    std::string_view spectrum;
-    Float3 value;
-};
-constexpr OpticalConstants kMetals[] = {
-    {"metal-Cu-eta", {0.200438f, 0.924033f, 1.102212f}}, {"metal-Cu-k", {3.912949f, 2.452848f, 2.142188f}},
-    {"metal-Ag-eta", {0.155265f, 0.116723f, 0.138342f}}, {"metal-Ag-k", {4.828370f, 3.122500f, 2.147040f}},
-    {"metal-Al-eta", {1.657460f, 0.880369f, 0.521229f}}, {"metal-Al-k", {9.223869f, 6.269523f, 4.837001f}},
-    {"metal-Au-eta", {0.143119f, 0.374957f, 1.442479f}}, {"metal-Au-k", {3.983160f, 2.385721f, 1.603215f}},
-};
-constexpr const Float3& kCopperEta = kMetals[0].value;
-constexpr const Float3& kCopperK = kMetals[1].value;
+/// Of a spectrum that is known by name.
+Float3 optical_constant(std::string_view name) { return to_float(named_spectrum(name).value()); }
 
 } // namespace
 
@@ -72,8 +62,9 @@ double MaterialReader::constant(std::string_view name, double fallback) {
     return fallback;
 }
 
-double MaterialReader::positive(std::string_view name, double fallback) {
-    const double result = constant(name, fallback);
+double MaterialReader::refractive_index(std::string_view name, double fallback) {
+    const auto colour = parameters().optional_colour(name, warnings_);
+    const double result = colour ? luminance(to_double(*colour)) : constant(name, fallback);
     if (!(result > 0)) fail(name, std::string(name) + " must be positive, found " + to_text(result));
     return result;
 }
@@ -108,16 +99,9 @@ TextureValue MaterialReader::roughness(double fallback, RoughnessRule remapped, 
     return grey_value(roughness_from_alpha(std::sqrt(alpha(u.factor.x) * alpha(v.factor.x))));
 }
 
-Float3 MaterialReader::metal_constant(const std::string& name, const Float3& fallback) {
-    if (const auto spectrum = parameters().spectrum_name(name))
-        for (const OpticalConstants& constants : kMetals)
-            if (constants.spectrum == *spectrum) return constants.value;
-    return constant_colour(name, fallback);
-}
-
 TextureValue MaterialReader::conductor(const std::string& prefix, double coat_eta) {
-    const Float3 eta = metal_constant(prefix + "eta", kCopperEta);
-    const Float3 k = metal_constant(prefix + "k", kCopperK);
+    const Float3 eta = constant_colour(prefix + "eta", optical_constant("metal-Cu-eta"));
+    const Float3 k = constant_colour(prefix + "k", optical_constant("metal-Cu-k"));
     const auto f0 = [coat_eta](float n, float extinction) {
         return coated_conductor_f0(static_cast<double>(n), static_cast<double>(extinction), coat_eta);
     };

@@ -15,7 +15,8 @@ struct SurfaceFormula {
     TextureValue f0 = grey_value(0);
     TextureValue roughness = grey_value(1); ///< perceptual
     TextureValue alpha = grey_value(1);
-    TextureValue bump = grey_value(0);   ///< height [m]
+    TextureValue bump = grey_value(0); ///< height [bump_unit]
+    BumpUnit bump_unit = BumpUnit::metre;
     TextureValue normal = grey_value(0); ///< without a node for none
 };
 
@@ -39,8 +40,8 @@ public:
     /// Colours and numbers for which images are not supported; with a warning, these give the fallback.
     Float3 constant_colour(std::string_view name, const Float3& fallback);
     double constant(std::string_view name, double fallback);
-    /// Like constant(), but negative values are errors.
-    double positive(std::string_view name, double fallback);
+    /// A number, or the luminance of a spectrum. Throws SceneError unless it is positive.
+    double refractive_index(std::string_view name, double fallback);
     bool has_colour(std::string_view name);
 
     /// Perceptual roughness from roughness, or uroughness and vroughness.
@@ -62,7 +63,6 @@ private:
     TextureValue value(std::string_view name, TextureType type, const Float3& fallback);
     TextureValue checked(std::string_view name, TextureValue value);
     void warn_image(std::string_view name);
-    Float3 metal_constant(const std::string& name, const Float3& fallback);
 
     MaterialDirective& directive_;
     TextureTable& textures_;

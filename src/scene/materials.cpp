@@ -38,6 +38,7 @@ SurfaceFormula blended(TextureFormulas& formulas, const SurfaceFormula& a, const
     result.roughness = formulas.mix(a.roughness, b.roughness, roughness_share(a, b, amount));
     result.alpha = formulas.mix(a.alpha, b.alpha, amount);
     result.bump = formulas.mix(a.bump, b.bump, amount);
+    result.bump_unit = a.bump.node >= 0 ? a.bump_unit : b.bump_unit;
     result.normal = a.normal.node >= 0 ? a.normal : b.normal;
     return result;
 }
@@ -73,9 +74,15 @@ private:
 
     /// Bump and normal maps.
     void read_relief(MaterialReader& m, const MaterialDirective& directive, SurfaceFormula& surface) {
-        // v3's name, then v4's.
-        for (const std::string_view name : {"bumpmap", "displacement"})
-            if (m.parameters().texture(name)) surface.bump = m.number(name, 0);
+        // Those of v3 and of v4.
+        if (m.parameters().texture("bumpmap")) {
+            surface.bump = m.number("bumpmap", 0);
+            surface.bump_unit = BumpUnit::texture_coordinate;
+        }
+        if (m.parameters().texture("displacement")) {
+            surface.bump = m.number("displacement", 0);
+            surface.bump_unit = BumpUnit::metre;
+        }
         if (m.parameters().string("normalmap", "").empty()) return;
         surface.normal =
             textures_.linear_image(directive.normal_map, m.parameters().location_of("normalmap"));
@@ -146,6 +153,7 @@ Material with_textures(const SurfaceFormula& surface, TextureTable& textures, co
     material.alpha_texture = texture(surface.alpha, 1);
     material.bump = number(surface.bump);
     material.bump_texture = texture(surface.bump, 1);
+    material.bump_unit = surface.bump_unit;
     material.normal_texture = texture(surface.normal, 3);
     return material;
 }

@@ -37,7 +37,7 @@ SurfaceFormula metallic(const TextureValue& f0, const TextureValue& roughness) {
 
 /// v2 and early v3 call it "index".
 double refractive_index(MaterialReader& m, double fallback) {
-    return m.positive("eta", m.positive("index", fallback));
+    return m.refractive_index("eta", m.refractive_index("index", fallback));
 }
 
 Surface matte(MaterialReader& m) {
@@ -109,7 +109,7 @@ Surface disney(MaterialReader& m) {
     TextureFormulas& formulas = m.formulas();
     const TextureValue base = m.unit_colour("color", 0.5);
     const TextureValue metallic = m.unit_number("metallic", 0);
-    const double plain = dielectric_f0(m.positive("eta", 1.5));
+    const double plain = dielectric_f0(m.refractive_index("eta", 1.5));
     TextureValue dielectric = grey_value(plain);
     if (const double tint = std::clamp(m.constant("speculartint", 0), 0.0, 1.0); tint > 0) {
         const Float3& c = base.factor;
@@ -152,7 +152,7 @@ TextureValue albedo_of_medium(MaterialReader& m) {
 
 Surface subsurface(MaterialReader& m) {
     m.warn("light does not travel below the surface, which is diffuse under a clear coat");
-    const double eta = m.positive("eta", 1.33);
+    const double eta = m.refractive_index("eta", 1.33);
     const TextureValue f0 = m.formulas().product(m.unit_colour("Kr", 1), grey_value(dielectric_f0(eta)));
     const TextureValue diffuse =
         m.has_colour("reflectance") ? m.unit_colour("reflectance", 0.5) : albedo_of_medium(m);
@@ -162,7 +162,7 @@ Surface subsurface(MaterialReader& m) {
 
 Surface kdsubsurface(MaterialReader& m) {
     m.warn("light does not travel below the surface, which is diffuse under a clear coat");
-    const double eta = m.positive("eta", 1.33);
+    const double eta = m.refractive_index("eta", 1.33);
     const TextureValue f0 = m.formulas().product(m.unit_colour("Kr", 1), grey_value(dielectric_f0(eta)));
     m.parameters().ignore({"Kt", "scale", "g", "mfp"});
     return layered(m.unit_colour("Kd", 0.5), f0, m.roughness(0, RoughnessRule::v3));

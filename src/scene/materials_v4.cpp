@@ -22,7 +22,7 @@ Surface diffuse(MaterialReader& m) {
 Surface coated_diffuse(MaterialReader& m) {
     SurfaceFormula surface;
     surface.model = BrdfModel::frostbite;
-    surface.f0 = grey_value(dielectric_f0(m.positive("eta", 1.5)));
+    surface.f0 = grey_value(dielectric_f0(m.refractive_index("eta", 1.5)));
     surface.diffuse = m.unit_colour("reflectance", 0.5);
     surface.roughness = m.roughness(0, RoughnessRule::v4);
     m.parameters().ignore({"thickness", "maxdepth", "nsamples", "g"});
@@ -46,7 +46,7 @@ TextureValue rougher(MaterialReader& m, const TextureValue& base, const TextureV
 
 Surface coated_conductor(MaterialReader& m) {
     m.warn("its coating is joined with the metal to one lobe");
-    const double coat_eta = m.positive("interface.eta", 1.5);
+    const double coat_eta = m.refractive_index("interface.eta", 1.5);
     SurfaceFormula surface;
     surface.model = BrdfModel::frostbite;
     if (m.has_colour("reflectance")) {
@@ -66,7 +66,7 @@ Surface dielectric(MaterialReader& m) {
     m.warn("transmission is ignored, the surface is opaque and reflects only");
     SurfaceFormula surface;
     surface.model = BrdfModel::frostbite;
-    surface.f0 = grey_value(dielectric_f0(m.positive("eta", 1.5)));
+    surface.f0 = grey_value(dielectric_f0(m.refractive_index("eta", 1.5)));
     surface.roughness = m.roughness(0, RoughnessRule::v4);
     return surface;
 }

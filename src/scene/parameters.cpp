@@ -215,12 +215,6 @@ std::optional<std::string> ParameterList::texture(std::string_view name) {
     return parameter != nullptr ? std::optional(parameter->strings[0]) : std::nullopt;
 }
 
-std::optional<std::string> ParameterList::spectrum_name(std::string_view name) {
-    const Parameter* parameter = find(name, ParameterKind::colour);
-    if (parameter == nullptr || parameter->strings.size() != 1) return std::nullopt;
-    return parameter->strings[0];
-}
-
 std::optional<Float3> ParameterList::point(std::string_view name) {
     const Parameter* parameter = find(name, ParameterKind::point3);
     if (parameter == nullptr) return std::nullopt;

@@ -77,8 +77,6 @@ public:
                   SpectrumUse use = SpectrumUse::albedo) {
         return optional_colour(name, warnings, use).value_or(fallback);
     }
-    /// Name of a spectrum like "metal-Cu-eta", if the parameter is given in this way.
-    std::optional<std::string> spectrum_name(std::string_view name);
 
     std::optional<Float3> point(std::string_view name);
     std::vector<Float3> points(std::string_view name);

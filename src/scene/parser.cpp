@@ -1,9 +1,9 @@
 #include "scene/parser.h"
 
-#include "scene/alpha.h"
 #include "scene/graphics_state.h"
 #include "scene/ignored_lights.h"
 #include "scene/source_reader.h"
+#include "scene/surface_variants.h"
 
 #include <algorithm>
 #include <limits>
@@ -104,7 +104,7 @@ private:
     std::unordered_map<std::string, Transform> coordinate_systems_;
     std::optional<int> black_material_;
     TextureTable textures_;
-    AlphaVariants alpha_variants_;
+    SurfaceVariants surface_variants_;
     LeftOutShapes left_out_shapes_;
     ObjectTable objects_;
     IgnoredLights ignored_lights_;
@@ -219,7 +219,6 @@ ParameterList Parser::read_parameters(AttributeTarget target) {
 }
 
 // ---- Transforms and state
-// -----------------------------------------------------------------------------------
 
 void Parser::set_transform(const Transform& t) {
     if (state_.current().moves_begin) {
@@ -329,7 +328,6 @@ void Parser::import() {
 }
 
 // ---- Camera and film
-// ----------------------------------------------------------------------------------------
 
 void Parser::camera() {
     const std::string type = read_string();
@@ -358,7 +356,6 @@ void Parser::ignore_with_parameters() {
 }
 
 // ---- Lights, materials, shapes
-// ------------------------------------------------------------------------------
 
 void Parser::ignore_medium() {
     ignore_with_parameters();
@@ -484,8 +481,8 @@ void Parser::shape() {
         shape.material = used_material(*state.material);
         if (shape.material == kInvisible && is_black(shape.emission.radiance)) return;
         if (shape.material == kInvisible) shape.material = black_material();
-        shape.material = alpha_variants_.material(shape.material, shape.parameters, textures_,
-                                                  scene_.materials, scene_.warnings);
+        shape.material =
+            surface_variants_.material(shape.material, shape, textures_, scene_.materials, scene_.warnings);
     }
     if (objects_.is_open())
         objects_.add_shape(std::move(shape));

@@ -1,10 +1,10 @@
 #include "scene/rig.h"
 
-#include "scene/blackbody.h"
 #include "scene/diagnostics.h"
 #include "scene/light_edit.h"
 #include "scene/polygon.h"
 #include "scene/shapes.h"
+#include "scene/spectrum.h"
 
 #include <algorithm>
 #include <limits>
@@ -66,6 +66,14 @@ void change_radiance(EditableLight& light, const Change& change) {
     for (LineLight& tube : light.tubes) tube.radiance = change(tube.radiance);
 }
 
+/// What a rig gives takes the place of a number and of the image beside it.
+template <class Value>
+void replace(const std::optional<Value>& given, Value& value, TextureUse& texture) {
+    if (!given) return;
+    value = *given;
+    texture = {};
+}
+
 Float3 scaled(double factor, const Float3& colour) { return to_float(factor * to_double(colour)); }
 
 /// Whether renderers can work with the shape: they normalise normals in float.
@@ -84,6 +92,13 @@ bool is_valid(const LineLight& tube) {
     return is_valid_coordinate(tube.begin) && is_valid_coordinate(tube.end) && tube.radius > 0 &&
            is_valid_coordinate({tube.radius, 0, 0}) &&
            length(to_double(tube.end) - to_double(tube.begin)) > 0;
+}
+
+/// The colour of a black body in linear sRGB, with the luminance 1. Below 1900 K it lies outside of the gamut.
+Double3 blackbody_colour(double kelvin) {
+    const Double3 rgb = srgb_of(blackbody(kelvin), SpectrumUse::illuminant);
+    const Double3 visible = {std::max(rgb.x, 0.0), std::max(rgb.y, 0.0), std::max(rgb.z, 0.0)};
+    return (1 / luminance(visible)) * visible;
 }
 
 class RigApplication {
@@ -125,15 +140,13 @@ void RigApplication::apply(const RigMaterial& entry) {
         const bool becomes_glossy = material.model == BrdfModel::lambert &&
                                     entry.model.value_or(material.model) == BrdfModel::frostbite;
         if (becomes_glossy) {
-            material.f0 = kDefaultF0;
-            material.roughness = kDefaultRoughness;
+            replace(std::optional(kDefaultF0), material.f0, material.f0_texture);
+            replace(std::optional(kDefaultRoughness), material.roughness, material.roughness_texture);
         }
         if (entry.model) material.model = *entry.model;
-        if (entry.f0) material.f0 = *entry.f0;
-        if (entry.roughness) material.roughness = *entry.roughness;
-        if (!entry.diffuse) continue;
-        material.diffuse = *entry.diffuse;
-        material.diffuse_texture = {};
+        replace(entry.diffuse, material.diffuse, material.diffuse_texture);
+        replace(entry.f0, material.f0, material.f0_texture);
+        replace(entry.roughness, material.roughness, material.roughness_texture);
     }
 }
 
@@ -275,8 +288,7 @@ void RigApplication::change_emission(const RigLight& entry, EditableLight& light
              "light \"" + light.name + "\" is black, which this cannot change; give its radiance");
     if (changes.kelvin) {
         const Double3 colour = blackbody_colour(*changes.kelvin);
-        change_radiance(light,
-                        [&](const Float3& c) { return to_float(srgb_luminance(to_double(c)) * colour); });
+        change_radiance(light, [&](const Float3& c) { return to_float(luminance(to_double(c)) * colour); });
     }
     if (changes.scale_radiance)
         change_radiance(light, [&](const Float3& c) { return scaled(*changes.scale_radiance, c); });

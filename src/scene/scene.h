@@ -33,7 +33,7 @@ enum class TextureFilter : std::uint32_t { bilinear, nearest };
 /// Linear texels. Row 0 is the row at texture coordinate v = 0 (the bottom of the image file), texel centres lie at
 /// (i + 0.5) / size.
 struct Texture {
-    std::string name;
+    std::string name = {};
     int width = 0;
     int height = 0;
     std::vector<float> texels = {}; ///< channels * width * height; finite and not negative
@@ -54,10 +54,18 @@ enum class BrdfModel : std::uint32_t {
     frostbite, ///< Disney diffuse (renormalised) plus GGX
 };
 
+/// What heights of bump maps are measured in.
+enum class BumpUnit : std::uint32_t {
+    metre,
+    /// As in pbrt v3, on triangles with normals: the derivatives of the position by the texture coordinates count as
+    /// unit vectors, and point backwards. Other triangles: metres.
+    texture_coordinate,
+};
+
 /// What a surface reduces to (docs/materials.md lists the reductions from the materials of pbrt). Textures are
 /// multiplied with the numbers beside them; where those are no colours, the first channel of a texture counts.
 struct Material {
-    std::string name;
+    std::string name = {};
     BrdfModel model = BrdfModel::lambert;
     Float3 diffuse = {0.5f, 0.5f, 0.5f}; ///< diffuse albedo
     TextureUse diffuse_texture = {};
@@ -67,8 +75,9 @@ struct Material {
     TextureUse roughness_texture = {};
     float alpha = 1.0f; ///< probability that the surface is there
     TextureUse alpha_texture = {};
-    float bump = 1.0f; ///< height of texels of value 1 of the bump texture [m]
+    float bump = 1.0f; ///< height of texels of value 1 of the bump texture [bump_unit]
     TextureUse bump_texture = {};
+    BumpUnit bump_unit = BumpUnit::metre;
     /// Normals in the tangent frame (dp/du orthogonalised, normal x that, normal), a component n as (n + 1) / 2. Takes
     /// precedence over the bump texture.
     TextureUse normal_texture = {};
@@ -117,7 +126,7 @@ private:
 /// counter-clockwise, or to both sides.
 struct PolygonLight {
     std::uint32_t emitter = 0; ///< index into Scene::emitters
-    PolygonVertices vertices;
+    PolygonVertices vertices = {};
     Float3 radiance = {0, 0, 0};
     bool two_sided = false;
 };
@@ -174,9 +183,9 @@ struct PixelBounds {
 struct Film {
     int width = 640;
     int height = 480;
-    std::optional<PixelBounds> crop; ///< the pixels to render, not empty; nothing for all
-    PixelFilter filter;
-    std::string filename; ///< as written in the scene file; may be empty
+    std::optional<PixelBounds> crop = {}; ///< the pixels to render, not empty; nothing for all
+    PixelFilter filter = {};
+    std::string filename = {}; ///< as written in the scene file; may be empty
 };
 
 struct Triangle {

@@ -101,7 +101,9 @@ Mesh read_tube(ShapeDirective& shape) {
         mesh.warnings.add(parameters.location(),
                           "shape \"" + shape.type + "\": ignored where it does not emit light");
     } else {
-        line.radiance = radiance_of(shape.emission, area_of(line), parameters.location());
+        Emission outwards = shape.emission;
+        outwards.two_sided = false;
+        line.radiance = radiance_of(outwards, area_of(line), parameters.location());
         mesh.line_lights = {line};
     }
     return mesh;

@@ -59,6 +59,22 @@ TEST_F(LightRigs, PrintedLightsChangeNothing) {
     EXPECT_NE(info.out.find("0 polygon lights, 1 line lights"), std::string::npos) << info.out;
 }
 
+TEST_F(LightRigs, AreNamedInFiles) {
+    const std::string room = "'" + kScenes + "/room.pbrt' ";
+    write("dim.json", R"({"version": 1, "lights": [{"light": "*", "scale_radiance": 0.5}]})");
+    write("off.json", R"({"version": 1, "lights": [{"light": 0, "enabled": false}]})");
+    ASSERT_EQ(run("render -q --resolution 48x27 --json a.json -o a.exr " + room).exit_code, 0);
+    ASSERT_EQ(run("render -q --resolution 48x27 --json b.json -o b.exr --lights dim.json --lights '" +
+                  path("off.json") + "' " + room)
+                  .exit_code,
+              0);
+    EXPECT_EQ(image::read_exr_metadata(path("a.exr")).count("light_rigs"), 0u);
+    EXPECT_EQ(image::read_exr_metadata(path("b.exr")).at("light_rigs"), "dim.json, off.json");
+    EXPECT_EQ(nlohmann::json::parse(read("a.json"))["light_rigs"], nlohmann::json::array());
+    EXPECT_EQ(nlohmann::json::parse(read("b.json"))["light_rigs"],
+              (nlohmann::json{"dim.json", path("off.json")}));
+}
+
 TEST_F(LightRigs, WrongRigsAreErrors) {
     write("rig.json", R"({"version": 1, "lights": [{"light": 0, "radiance": [1, "a", 2]}]})");
     for (const char* command : {"render --lights rig.json ", "lights --lights rig.json "}) {

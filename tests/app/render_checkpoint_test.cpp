@@ -20,15 +20,24 @@ namespace {
 class RenderCheckpoint : public CommandLine {
 protected:
     std::vector<std::string> arguments() const {
-        return {"render",       kScenes + "/room.pbrt",
-                "--resolution", "160x120",
-                "--spp",        "48",
-                "--layers",     "lights,depth",
-                "--threads",    "2",
-                "-q",           "-o",
-                path("a.exr"),  "--checkpoint",
-                path("state"),  "--checkpoint-interval",
-                "0.02"};
+        std::vector<std::string> result = {"render",       kScenes + "/room.pbrt",
+                                           "--resolution", "160x120",
+                                           "--spp",        "48",
+                                           "--layers",     "lights,depth",
+                                           "--threads",    "2",
+                                           "-q",           "-o",
+                                           path("a.exr"),  "--checkpoint",
+                                           path("state"),  "--checkpoint-interval",
+                                           "0.02"};
+        if (!rig_.empty()) result.insert(result.end(), {"--lights", rig_});
+        return result;
+    }
+
+    /// A light rig for all renderings from now on.
+    void set_rig(const std::string& name, const std::string& factor) {
+        rig_ = path(name);
+        std::ofstream(rig_) << R"({"version": 1, "lights": [{"light": "*", "scale_radiance": )" + factor +
+                                   "}]}";
     }
 
     pid_t start() const {
@@ -79,6 +88,9 @@ protected:
         for (std::size_t i = 0; i < image.layers.size(); ++i)
             EXPECT_EQ(image.layers[i].data, expected.layers[i].data) << image.layers[i].name;
     }
+
+private:
+    std::string rig_;
 };
 
 TEST_F(RenderCheckpoint, KilledAtAnyTimeItGoesOnToTheSameImage) {
@@ -132,6 +144,17 @@ TEST_F(RenderCheckpoint, OfAnotherCommandIsRefused) {
     EXPECT_EQ(other.exit_code, 1);
     expect_message(other.err, "another run");
     EXPECT_TRUE(std::filesystem::exists(path("state")));
+}
+
+TEST_F(RenderCheckpoint, OfOtherLightsIsRefused) {
+    set_rig("dim.json", "0.5");
+    EXPECT_EQ(end_when_stored(SIGKILL), -1);
+    set_rig("other.json", "0.5");
+    expect_message(run(command()).err, "light_rigs is 'dim.json' in the file, but 'other.json' now");
+    set_rig("dim.json", "0.25");
+    expect_message(run(command()).err, "' now; the scene, a file that it uses or a light rig was changed");
+    set_rig("dim.json", "0.5");
+    EXPECT_EQ(run(command()).exit_code, 0);
 }
 
 TEST_F(RenderCheckpoint, IsNoOutput) {

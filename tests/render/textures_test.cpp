@@ -314,6 +314,66 @@ TEST(BumpMaps, ARampIsATiltedPlane) {
     EXPECT_GT(largest_error(scene, with_normal(scene, {-tilted.x, -tilted.y, 1})), 0.05);
 }
 
+/// Gives the floor normals and makes it an instance, which has the size that the floor had.
+void make_instance(scene::Scene& scene, double scale_x, double scale_y) {
+    for (std::size_t i = 0; i < 4; ++i) {
+        scene.positions[i].x /= static_cast<float>(scale_x);
+        scene.positions[i].y /= static_cast<float>(scale_y);
+        scene.normals[i] = {0, 0, 1};
+    }
+    // Objects stand behind the triangles of the world.
+    const auto move_back = [](auto& array) { std::rotate(array.begin(), array.begin() + 2, array.end()); };
+    move_back(scene.triangles);
+    move_back(scene.triangle_material);
+    move_back(scene.triangle_light);
+    scene.objects = {{"floor", static_cast<std::uint32_t>(scene.triangles.size()) - 2, 2}};
+    scene.instances = {
+        {0, {static_cast<float>(scale_x), 0, 0, 0, 0, static_cast<float>(scale_y), 0, 0, 0, 0, 1, 0}}};
+}
+
+/// What pbrt v3 makes of heights with the given derivatives: unit tangents in the object, moved along the normal.
+Point normal_of_pbrt3(const UvMap& map, double scale_x, double scale_y, double by_u, double by_v) {
+    const Point n = {0, 0, 1};
+    const double determinant = map.u_x * map.v_y - map.u_y * map.v_x;
+    const Point dpdu = {map.v_y / determinant / scale_x, -map.v_x / determinant / scale_y, 0};
+    const Point ss_before = (1 / std::sqrt(dot(dpdu, dpdu))) * dpdu;
+    const Point ts = cross(ss_before, n);
+    const Point ss = cross(ts, n);
+    const Point moved_u = Point{scale_x * ss.x, scale_y * ss.y, 0} + by_u * n;
+    const Point moved_v = Point{scale_x * ts.x, scale_y * ts.y, 0} + by_v * n;
+    const Point normal = cross(moved_u, moved_v);
+    return normal.z < 0 ? -1.0 * normal : normal;
+}
+
+TEST(BumpMaps, MayCountInTextureCoordinates) {
+    const UvMap map{0.06, 0.02, 0.5, -0.01, 0.05, 0.5};
+    scene::Scene scene = make_textured_floor(map);
+    scene.textures = {ramp(0.75, 0.5)};
+    scene.materials[0].bump = 0.2f;
+    scene.materials[0].bump_unit = scene::BumpUnit::texture_coordinate;
+    scene.materials[0].bump_texture = {0, {-0.8f, -1.1f}, {0.9f, 1.05f}};
+    const double by_u = -0.2 * 0.75 * 0.8;
+    const double by_v = -0.2 * 0.5 * 1.1;
+    // A mesh without normals keeps metres.
+    const Point in_metres = {-(by_u * map.u_x + by_v * map.v_x), -(by_u * map.u_y + by_v * map.v_y), 1};
+    EXPECT_LT(largest_error(scene, with_normal(scene, in_metres)), kTolerance);
+
+    const Point tilted = normal_of_pbrt3(map, 1, 1, by_u, by_v);
+    scene::Scene with_normals = scene;
+    for (std::size_t i = 0; i < 4; ++i) with_normals.normals[i] = {0, 0, 2};
+    EXPECT_LT(largest_error(with_normals, with_normal(scene, tilted)), kTolerance);
+    EXPECT_GT(largest_error(with_normals, with_normal(scene, in_metres)), 0.05);
+    EXPECT_GT(largest_error(with_normals, with_normal(scene, {-tilted.x, -tilted.y, tilted.z})), 0.05);
+
+    for (const auto& [scale_x, scale_y] : {std::array{1.0, 1.0}, {2.0, 2.0}, {-2.0, 2.0}, {3.0, 0.5}}) {
+        scene::Scene with_instance = scene;
+        make_instance(with_instance, scale_x, scale_y);
+        const Point expected = normal_of_pbrt3(map, scale_x, scale_y, by_u, by_v);
+        EXPECT_LT(largest_error(with_instance, with_normal(scene, expected)), kTolerance)
+            << scale_x << ", " << scale_y;
+    }
+}
+
 TEST(BumpMaps, WithoutTextureCoordinatesSurfacesStayFlat) {
     scene::Scene scene = make_textured_floor({0, 0, 0.5, 0, 0, 0.5});
     const image::Image flat = render(scene);

@@ -156,6 +156,8 @@ void add_textures(const Scene& scene, std::map<std::string, Numbers>& facts) {
         add_use("normal", material.normal_texture);
         facts["alpha " + material.name] = {material.alpha};
         facts["bump " + material.name] = {material.bump};
+        facts["bump in texture coordinates " + material.name] = {
+            material.bump_unit == BumpUnit::texture_coordinate ? 1.0 : 0.0};
     }
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {
         const Texture& texture = scene.textures[i];

@@ -1,6 +1,6 @@
 // Light rigs: what tests/scene/rigs cannot say in numbers.
 
-#include "scene/blackbody.h"
+#include "scene/colour_space.h"
 #include "scene/rig.h"
 #include "scene/rig_json.h"
 #include "scene/rig_text.h"
@@ -288,15 +288,39 @@ TEST_F(RigTest, ObjectsKeepTheirTriangles) {
     EXPECT_EQ(scene.triangle_light, (std::vector<std::int32_t>{0, 1, 1, -1}));
 }
 
-TEST_F(RigTest, DiffuseReplacesTheImage) {
+TEST_F(RigTest, MaterialsLoseTheImagesThatAreReplaced) {
     Scene scene = scene_with_shared_vertices();
-    scene.materials[0].name = "wall";
-    scene.materials[0].diffuse_texture.texture = 0;
+    Material& wall = scene.materials[0];
+    wall = {.name = "wall",
+            .model = BrdfModel::frostbite,
+            .diffuse_texture = {0, {2, 2}, {0, 0}},
+            .f0_texture = {1, {2, 2}, {0, 0}},
+            .roughness_texture = {2, {2, 2}, {0, 0}},
+            .normal_texture = {3, {2, 2}, {0, 0}}};
+    const auto images = [&] {
+        return std::array{wall.diffuse_texture.texture, wall.f0_texture.texture,
+                          wall.roughness_texture.texture, wall.normal_texture.texture};
+    };
     apply_text(R"({"version": 1, "materials": [{"material": "wall", "roughness": 0.5}]})", scene);
-    EXPECT_EQ(scene.materials[0].diffuse_texture.texture, 0);
+    EXPECT_EQ(images(), (std::array{0, 1, -1, 3}));
+    EXPECT_EQ(wall.roughness, 0.5f);
     apply_text(R"({"version": 1, "materials": [{"material": "wall", "diffuse": 0.25}]})", scene);
-    EXPECT_EQ(scene.materials[0].diffuse_texture.texture, -1);
-    EXPECT_EQ(scene.materials[0].diffuse.y, 0.25f);
+    EXPECT_EQ(images(), (std::array{-1, 1, -1, 3}));
+    EXPECT_EQ(wall.diffuse.y, 0.25f);
+    apply_text(R"({"version": 1, "materials": [{"material": "wall", "f0": [0.1, 0.2, 0.3]}]})", scene);
+    EXPECT_EQ(images(), (std::array{-1, -1, -1, 3}));
+    EXPECT_EQ(wall.f0.z, 0.3f);
+}
+
+TEST_F(RigTest, MaterialsThatBecomeGlossyTakeDefaults) {
+    Scene scene = scene_with_shared_vertices();
+    Material& wall = scene.materials[0];
+    wall = {.name = "wall", .f0_texture = {1, {2, 2}, {0, 0}}, .roughness_texture = {2, {2, 2}, {0, 0}}};
+    apply_text(R"({"version": 1, "materials": [{"material": "wall", "f0": 0.2}]})", scene);
+    EXPECT_EQ(wall.f0_texture.texture, -1);
+    EXPECT_EQ(wall.roughness_texture.texture, -1);
+    EXPECT_EQ(wall.f0.x, 0.2f);
+    EXPECT_EQ(wall.roughness, 0.5f);
 }
 
 TEST_F(RigTest, KelvinKeepsTheLuminance) {
@@ -304,9 +328,9 @@ TEST_F(RigTest, KelvinKeepsTheLuminance) {
     const auto luminances = [&] {
         std::vector<double> result;
         for (const PolygonLight& light : scene.polygon_lights)
-            result.push_back(srgb_luminance(to_double(light.radiance)));
+            result.push_back(luminance(to_double(light.radiance)));
         for (const LineLight& light : scene.line_lights)
-            result.push_back(srgb_luminance(to_double(light.radiance)));
+            result.push_back(luminance(to_double(light.radiance)));
         return result;
     };
     const std::vector<double> before = luminances();
@@ -317,22 +341,49 @@ TEST_F(RigTest, KelvinKeepsTheLuminance) {
 }
 
 TEST_F(RigTest, ColoursOfBlackBodiesLieOnThePlanckianLocus) {
+    const auto colour_of = [this](double kelvin) {
+        Scene scene;
+        apply(R"({"add": "lamp", "polygon": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "radiance": 1, "kelvin": )" +
+                  std::to_string(kelvin) + "}",
+              scene);
+        return to_double(scene.polygon_lights.at(0).radiance);
+    };
     // Chromaticities by the tables of CIE 1931; the fit of the colour matching functions is off by a few thousandths.
     for (const auto& [kelvin, x, y] : {std::array{2000.0, 0.5267, 0.4133}, std::array{2856.0, 0.4476, 0.4074},
                                        std::array{4000.0, 0.3805, 0.3768}, std::array{6500.0, 0.3135, 0.3237},
                                        std::array{10000.0, 0.2807, 0.2884}}) {
-        const Double3 rgb = blackbody_colour(kelvin);
-        EXPECT_NEAR(srgb_luminance(rgb), 1, 1e-12);
+        const Double3 rgb = colour_of(kelvin);
+        EXPECT_NEAR(luminance(rgb), 1, 1e-6);
         const Double3 xyz = {dot({0.4124564, 0.3575761, 0.1804375}, rgb),
                              dot({0.2126729, 0.7151522, 0.0721750}, rgb),
                              dot({0.0193339, 0.1191920, 0.9503041}, rgb)};
         const double sum = xyz.x + xyz.y + xyz.z;
-        EXPECT_NEAR(xyz.x / sum, x, 0.004) << kelvin;
-        EXPECT_NEAR(xyz.y / sum, y, 0.004) << kelvin;
+        EXPECT_NEAR(xyz.x / sum, x, 0.003) << kelvin;
+        EXPECT_NEAR(xyz.y / sum, y, 0.003) << kelvin;
     }
-    const Double3 ember = blackbody_colour(1000);
+    const Double3 ember = colour_of(1000);
     EXPECT_EQ(ember.z, 0);
-    EXPECT_NEAR(srgb_luminance(ember), 1, 1e-12);
+    EXPECT_NEAR(luminance(ember), 1, 1e-6);
+}
+
+TEST_F(RigTest, PowerIsThatOfSceneFiles) {
+    const auto scene_with = [this](const std::string& emission) {
+        write("scene.pbrt", "Camera \"perspective\" WorldBegin AreaLightSource \"diffuse\" " + emission +
+                                R"( Shape "line" "point3 p0" [0 0 0] "point3 p1" [2 0 0] "float radius" 0.25
+                                    "bool finite" true
+                                    Shape "line" "point3 p0" [0 0 9] "point3 p1" [2 0 9] "float radius" 0.25
+                                    "bool finite" false
+                                    Shape "polygon" "point3 P" [0 1 0  2 1 0  2 1 3])");
+        return load_scene(folder_ / "scene.pbrt");
+    };
+    for (const char* sides : {"", " \"bool twosided\" true"}) {
+        const Scene imported = scene_with("\"float power\" 7" + std::string(sides));
+        Scene rigged = scene_with("\"rgb L\" [2 2 2]" + std::string(sides));
+        apply(R"({"light": "*", "power": 7})", rigged);
+        expect_near(rigged.polygon_lights.at(0).radiance, imported.polygon_lights.at(0).radiance, 1e-6f);
+        for (std::size_t i = 0; i < 2; ++i)
+            expect_near(rigged.line_lights.at(i).radiance, imported.line_lights.at(i).radiance, 1e-6f);
+    }
 }
 
 TEST_F(RigTest, AHundredThousandLightsAreAdded) {

@@ -111,22 +111,60 @@ inline std::uint32_t texture_kinds(const render_cpu::KernelScene& scene, const I
     return kinds;
 }
 
+/// Directions along a surface, in the world.
+struct Tangents {
+    Vector u, v;
+    Real volume; ///< normal . u x v
+};
+
+/// The derivatives of the position by the texture coordinates, times the determinant.
+/// \param du,dv  of the edges
+inline Tangents position_derivatives(const Vec2<Real>& du, const Vec2<Real>& dv, const Vector& e1,
+                                     const Vector& e2, const Vector& n) noexcept {
+    return {dv.y * e1 - dv.x * e2, du.x * e2 - du.y * e1, dot(n, cross(e1, e2))};
+}
+
+/// What pbrt v3 has in their place on meshes with normals: orthonormal in the object, and both reversed.
+/// \param metric  the derivatives, which other lanes keep
+inline Tangents bump_tangents(const render_cpu::KernelScene& scene, const Interpolation& interpolation,
+                              const InstanceLanes& instances, const Indices& material, const Vec2<Real>& du,
+                              const Vec2<Real>& dv, const Vector& n, const Tangents& metric) noexcept {
+    constexpr int kStride = sizeof(render_cpu::MaterialTextures) / sizeof(float);
+    const float* flags = &scene.material_textures->is_bump_in_uv;
+    const LaneMask active = interpolation.active;
+    const auto is_in_uv = gather_column(flags, kStride, 0, material, active) > Real(0.5f);
+    if (!any(is_in_uv & active)) return metric;
+    const Vector normal = normalize(interpolation.vectors(scene.normals));
+    const float* positions = &scene.positions->x;
+    const Vector v0 = gather_vector(positions, 3, 0, interpolation.vertex[0], active);
+    const Vector e1 = gather_vector(positions, 3, 0, interpolation.vertex[1], active) - v0;
+    const Vector e2 = gather_vector(positions, 3, 0, interpolation.vertex[2], active) - v0;
+    const Real determinant = du.x * dv.y - dv.x * du.y;
+    const Vector along_u = copysign(Real(1), determinant) * position_derivatives(du, dv, e1, e2, normal).u;
+    Vector v = normalize(cross(along_u, normal));
+    Vector u = cross(v, normal);
+    if (any(instances.mask)) {
+        const WorldFromObject transform(scene, instances);
+        u = transform.vector(u);
+        v = transform.vector(v);
+    }
+    const auto is_changed = is_in_uv & (dot(normal, normal) > Real(0.5f));
+    return {select(is_changed, u, metric.u), select(is_changed, v, metric.v),
+            select(is_changed, dot(n, cross(u, v)), metric.volume)};
+}
+
 /// A normal perturbed by the normal map or the bump map of each lane; docs/materials.md has the formulas.
 /// \param n  unit, on the front side
-/// \param e1,e2  edges of the triangle from its first vertex
+/// \param e1,e2  edges of the triangle from its first vertex, in the world
 inline Vector perturbed_normal(const render_cpu::KernelScene& scene, const Interpolation& interpolation,
-                               const Indices& material, const Vec2<Real>& uv, const Vector& e1,
-                               const Vector& e2, const Vector& n) noexcept {
+                               const InstanceLanes& instances, const Indices& material, const Vec2<Real>& uv,
+                               const Vector& e1, const Vector& e2, const Vector& n) noexcept {
     using render_cpu::MaterialTextures;
     const LaneMask active = interpolation.active;
     const Vec2<Real> du = interpolation.differences(scene.uvs, 0);
     const Vec2<Real> dv = interpolation.differences(scene.uvs, 1);
-    // Derivatives of the position by u and v, both times the determinant.
     const Real determinant = du.x * dv.y - dv.x * du.y;
-    const Vector along_u = dv.y * e1 - dv.x * e2;
-    const Vector along_v = du.x * e2 - du.y * e1;
-
-    const Real facing = dot(n, cross(e1, e2));
+    const Tangents metric = position_derivatives(du, dv, e1, e2, n);
     // Without texture coordinates there are no directions. NaN fails the second comparison.
     const auto if_usable = [&](const Vector& perturbed) {
         const auto usable = (determinant != Real(0)) & (dot(perturbed, perturbed) > Real(0.5f));
@@ -136,16 +174,17 @@ inline Vector perturbed_normal(const render_cpu::KernelScene& scene, const Inter
     const TextureLanes bump = texture_lanes(scene, material, &MaterialTextures::bump, uv, active);
     constexpr int kStride = sizeof(MaterialTextures) / sizeof(float);
     const float* heights = &scene.material_textures->bump_height;
-    const Real height = gather_column(heights, kStride, 0, material, active) / facing;
+    const Tangents along = bump_tangents(scene, interpolation, instances, material, du, dv, n, metric);
+    const Real height = gather_column(heights, kStride, 0, material, active) / along.volume;
     const auto bumped = [&](const render_cpu::TextureView& texture, const Vec2<Real>& at, LaneMask mask) {
         const Vec2<Real> derivatives = height_derivatives(texture, at, mask);
-        const Vector gradient = (bump.scale.x * derivatives.x) * cross(along_v, n) +
-                                (bump.scale.y * derivatives.y) * cross(n, along_u);
+        const Vector gradient = (bump.scale.x * derivatives.x) * cross(along.v, n) +
+                                (bump.scale.y * derivatives.y) * cross(n, along.u);
         return if_usable(normalize(n - height * gradient));
     };
 
     const TextureLanes map = texture_lanes(scene, material, &MaterialTextures::normal, uv, active);
-    const Vector tangent = copysign(Real(1), determinant) * normalize(along_u - dot(n, along_u) * n);
+    const Vector tangent = copysign(Real(1), determinant) * normalize(metric.u - dot(n, metric.u) * n);
     const Vector bitangent = cross(n, tangent);
     const auto mapped = [&](const render_cpu::TextureView& texture, const Vec2<Real>& at, LaneMask mask) {
         const Vector local = Real(2) * look_up_texture(texture, at, mask) - Vector{Real(1), Real(1), Real(1)};
@@ -261,7 +300,7 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
     Vector n = select(dot(interpolated, interpolated) > Real(0.5f), interpolated, normal);
     const Real eye_side = copysign(Real(1), dot(n, geometric_normal));
     if ((kinds & (render_cpu::kNormalTexture | render_cpu::kBumpTexture)) != 0)
-        n = perturbed_normal(scene, interpolation, material, uv, e1, e2, n);
+        n = perturbed_normal(scene, interpolation, instances, material, uv, e1, e2, n);
     const auto frame = shading_frame(visible_normal(eye_side * n, wo), wo);
     const MaterialLanes lanes = look_up_materials(scene, material, kinds, uv, active);
 
