@@ -14,7 +14,8 @@ Checkpointer::Checkpointer(std::filesystem::path path, image::Metadata run, cons
     : path_(std::move(path)), run_(std::move(run)), frame_(frame) {
     for (std::size_t i = 0; i < frame.tiles.size(); ++i)
         if (frame.is_finished[i] != 0) finished_.push_back(i);
-    thread_ = std::thread([this, interval] { save_at_intervals(interval); });
+    // Counted here: the thread may start when there are more.
+    thread_ = std::thread([this, interval, saved = finished_.size()] { save_at_intervals(interval, saved); });
 }
 
 Checkpointer::~Checkpointer() { stop(); }
@@ -29,8 +30,7 @@ void Checkpointer::save_all() {
     render_cpu::save_checkpoint(path_, run_, frame_, finished_);
 }
 
-void Checkpointer::save_at_intervals(std::chrono::duration<double> interval) {
-    std::size_t saved = finished_.size();
+void Checkpointer::save_at_intervals(std::chrono::duration<double> interval, std::size_t saved) {
     bool failed = false;
     std::unique_lock lock(mutex_);
     while (!stopped_.wait_for(lock, interval, [this] { return stop_; })) {

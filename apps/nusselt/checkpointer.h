@@ -32,7 +32,8 @@ public:
     void save_all();
 
 private:
-    void save_at_intervals(std::chrono::duration<double> interval);
+    /// \param saved number of tiles that the file has
+    void save_at_intervals(std::chrono::duration<double> interval, std::size_t saved);
     void stop();
 
     std::filesystem::path path_;

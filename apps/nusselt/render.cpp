@@ -270,8 +270,8 @@ int run_render(const RenderOptions& options) {
     if (checkpointer) checkpointer->save_all();
     const double finished = finished_fraction(frame);
     metadata["scene"] = options.scene.filename().string();
-    metadata["render_seconds"] = std::to_string(statistics.render_seconds);
-    metadata["finished_fraction"] = std::to_string(finished);
+    metadata["render_seconds"] = image::metadata_text(statistics.render_seconds);
+    metadata["finished_fraction"] = image::metadata_text(finished);
     write_outputs(options, settings, scene.film, std::move(frame), metadata);
     if (options.checkpoint && finished == 1) std::filesystem::remove(*options.checkpoint);
     times.write = seconds_since(write_begin);

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <stdexcept>
 #include <string>
 #include <unistd.h>
@@ -20,6 +21,16 @@ std::filesystem::path temporary_path(const std::filesystem::path& path) {
     static std::atomic<unsigned> counter = 0;
     const std::string unique = std::to_string(::getpid()) + "-" + std::to_string(counter++);
     return path.parent_path() / ("." + path.filename().string() + "." + unique + ".tmp");
+}
+
+/// Waits until the disk has all bytes of a file, or all names of a folder.
+/// \returns 0 or the number of an error
+int store(const std::filesystem::path& path) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return errno;
+    const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+    ::close(descriptor);
+    return error == EINVAL || error == EROFS ? 0 : error; // file systems without a disk
 }
 
 /// Removes the file at the end of the scope; without effect once the file was renamed.
@@ -66,8 +77,14 @@ void write_atomically(const std::filesystem::path& path, const std::function<voi
     }
     stream.close();
     if (!stream) fail(path, "the data did not fit or could not be stored; check the free space of the disk");
+    // Without this, a crash of the machine could leave the new name with the bytes of neither file.
+    if (const int problem = store(temporary); problem != 0)
+        fail(path,
+             std::string("the data could not be stored (") + std::strerror(problem) + "); check the disk");
     std::filesystem::rename(temporary, path, error);
     if (error) fail(path, "the finished file could not be renamed (" + error.message() + ")");
+    store(
+        folder); // may lack the permission to be read, in which case the system decides when the name is stored
 }
 
 } // namespace nusselt::image

@@ -1,6 +1,7 @@
 #pragma once
 /// An RGB image in memory, the meeting point of renderers, files and metrics.
 
+#include <charconv>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -24,5 +25,12 @@ inline Image make_image(int width, int height) {
 
 /// Settings that travel with an image: keys and values are free text.
 using Metadata = std::map<std::string, std::string>;
+
+/// The shortest text that gives the same number when it is read as a `Float`: different numbers have different texts.
+template <class Float>
+std::string metadata_text(Float value) {
+    char buffer[32];
+    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
 
 } // namespace nusselt::image

@@ -1,5 +1,6 @@
 #include "render_cpu/checkpoint.h"
 
+#include "image/atomic_file.h"
 #include "scene/content_hash.h"
 
 #include <array>
@@ -142,21 +143,8 @@ void read_file(std::ifstream& stream, std::uint64_t size, const image::Metadata&
     reader.check_end();
 }
 
-} // namespace
-
-image::Metadata describe_run(image::Metadata settings, const Frame& frame) {
-    settings["size"] = std::to_string(frame.image.width) + " x " + std::to_string(frame.image.height);
-    std::string& layers = settings["layers"];
-    for (const image::Layer& layer : frame.layers) layers += (layers.empty() ? "" : ", ") + layer.name;
-    return settings;
-}
-
-void save_checkpoint(const std::filesystem::path& path, const image::Metadata& run, const Frame& frame,
-                     const std::vector<std::size_t>& tiles) {
-    // One run has one checkpoint, so its name is good enough. Unlike a random one it does not fill the disk with what
-    // killed programs leave behind.
-    const std::filesystem::path unfinished = path.string() + ".new";
-    std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
+void write_file(std::ostream& stream, const image::Metadata& run, const Frame& frame,
+                const std::vector<std::size_t>& tiles) {
     Writer writer(stream);
     writer.bytes(kMagic.data(), kMagic.size());
     writer.number(run.size());
@@ -172,12 +160,20 @@ void save_checkpoint(const std::filesystem::path& path, const image::Metadata& r
                      [&](const float* row, std::size_t size) { writer.bytes(row, size * sizeof(float)); });
     }
     writer.hash();
-    stream.close();
-    std::error_code error;
-    if (stream) std::filesystem::rename(unfinished, path, error);
-    if (!stream || error)
-        throw std::runtime_error("cannot write the checkpoint '" + path.string() +
-                                 "'; check its folder and the free space of the disk");
+}
+
+} // namespace
+
+image::Metadata describe_run(image::Metadata settings, const Frame& frame) {
+    settings["size"] = std::to_string(frame.image.width) + " x " + std::to_string(frame.image.height);
+    std::string& layers = settings["layers"];
+    for (const image::Layer& layer : frame.layers) layers += (layers.empty() ? "" : ", ") + layer.name;
+    return settings;
+}
+
+void save_checkpoint(const std::filesystem::path& path, const image::Metadata& run, const Frame& frame,
+                     const std::vector<std::size_t>& tiles) {
+    image::write_atomically(path, [&](std::ofstream& stream) { write_file(stream, run, frame, tiles); });
 }
 
 void load_checkpoint(const std::filesystem::path& path, const image::Metadata& run, Frame& frame) {

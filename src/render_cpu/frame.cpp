@@ -5,6 +5,7 @@
 #include "render_cpu/memory.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <string>
@@ -23,16 +24,30 @@ const Channels kRgb = {"R", "G", "B"};
 /// Name and channels of a layer.
 using LayerFormat = std::pair<std::string, Channels>;
 
-/// The tiles of the film that have some of these pixels, cut to them. Parts take tiles along diagonals: each gets its
-/// share of every region of the image.
-std::vector<Tile> make_tiles(const scene::PixelBounds& bounds, const Part& part) {
+/// The tiles of the film that have some of these pixels, cut to them.
+std::vector<Tile> make_tiles(const scene::PixelBounds& bounds) {
     const auto next = [](int position) { return position + kTileSize - position % kTileSize; };
     std::vector<Tile> tiles;
     for (int y = bounds.y_begin; y < bounds.y_end; y = next(y))
         for (int x = bounds.x_begin; x < bounds.x_end; x = next(x))
-            if ((x / kTileSize + y / kTileSize) % part.count == part.number - 1)
-                tiles.push_back({x, y, std::min(next(x), bounds.x_end), std::min(next(y), bounds.y_end)});
+            tiles.push_back({x, y, std::min(next(x), bounds.x_end), std::min(next(y), bounds.y_end)});
     return tiles;
+}
+
+/// Deals tiles out to parts along diagonals, so that each part gets its share of every region of the image.
+std::vector<Tile> tiles_of_part(const std::vector<Tile>& tiles, const Part& part) {
+    const auto diagonal = [&](std::size_t i) {
+        return tiles[i].x_begin / kTileSize + tiles[i].y_begin / kTileSize;
+    };
+    std::vector<std::size_t> order(tiles.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return diagonal(a) < diagonal(b); });
+    const auto count = static_cast<std::size_t>(part.count);
+    std::vector<Tile> result;
+    for (auto k = static_cast<std::size_t>(part.number - 1); k < order.size(); k += count)
+        result.push_back(tiles[order[k]]);
+    return result;
 }
 
 /// Names of emitters may have the path of a file, which is another one on each machine: of words with slashes, only what
@@ -127,7 +142,8 @@ Frame make_frame(const scene::Scene& scene, const RenderSettings& settings) {
     frame.image = image::make_image(width, height);
     for (const auto& [name, channels] : formats)
         frame.layers.push_back({name, channels, std::vector<float>(channels.size() * pixels)});
-    frame.tiles = make_tiles(frame.bounds, settings.part);
+    frame.tiles = make_tiles(frame.bounds);
+    if (settings.part.count > 1) frame.tiles = tiles_of_part(frame.tiles, settings.part);
     frame.is_finished.resize(frame.tiles.size());
     return frame;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -105,10 +106,12 @@ struct LayerSum {
     std::vector<double> values;
 };
 
+using Pixels = std::vector<bool>;
+
 /// Which pixels have samples of which seeds.
 struct Origin {
     std::set<std::string> seeds;
-    std::vector<bool> has_samples;
+    Pixels has_samples;
     std::filesystem::path path;
 };
 
@@ -152,12 +155,15 @@ struct Merger::State {
     std::vector<LayerSum> layers;
     std::vector<double> samples;
     std::vector<Origin> origins;
-    std::set<std::string> seeds, isas, parts;
+    std::map<std::string, Pixels> sampled; ///< by any origin, for each seed
+    std::set<std::string> isas, parts;
     double render_seconds = 0;
 
     void begin(const image::LayeredImage& first);
     void check(const image::LayeredImage& other, const std::filesystem::path& path) const;
-    void check_origin(const Origin& origin) const;
+    void add_origin(Origin origin);
+    [[noreturn]] void refuse_repetition(const Origin& origin, const std::string& seed,
+                                        std::size_t pixel) const;
     std::vector<double> coverage() const;
 };
 
@@ -184,18 +190,27 @@ void Merger::State::check(const image::LayeredImage& other, const std::filesyste
     check_same_metadata(image.metadata, other.metadata, path);
 }
 
-void Merger::State::check_origin(const Origin& origin) const {
-    for (const Origin& other : origins) {
-        const bool shares_seed =
-            std::any_of(origin.seeds.begin(), origin.seeds.end(),
-                        [&](const std::string& seed) { return other.seeds.count(seed) != 0; });
-        if (!shares_seed) continue;
-        for (std::size_t i = 0; i < origin.has_samples.size(); ++i)
-            if (origin.has_samples[i] && other.has_samples[i])
-                refuse(origin.path, "it has samples of the same seed at the same pixels as '" +
-                                        other.path.string() +
-                                        "', which would count twice; render with another --seed or --part");
+void Merger::State::add_origin(Origin origin) {
+    const std::size_t pixel_count = origin.has_samples.size();
+    for (const std::string& seed : origin.seeds) {
+        Pixels& pixels = sampled[seed];
+        pixels.resize(pixel_count);
+        for (std::size_t i = 0; i < pixel_count; ++i) {
+            if (!origin.has_samples[i]) continue;
+            if (pixels[i]) refuse_repetition(origin, seed, i);
+            pixels[i] = true;
+        }
     }
+    origins.push_back(std::move(origin));
+}
+
+void Merger::State::refuse_repetition(const Origin& origin, const std::string& seed,
+                                      std::size_t pixel) const {
+    const auto other = std::find_if(origins.begin(), origins.end(), [&](const Origin& earlier) {
+        return earlier.has_samples[pixel] && earlier.seeds.count(seed) != 0;
+    });
+    refuse(origin.path, "it has samples of the same seed at the same pixels as '" + other->path.string() +
+                            "', which would count twice; render with another --seed or --part");
 }
 
 /// Of what was added so far; empty without that layer.
@@ -218,7 +233,7 @@ void Merger::add(const image::LayeredImage& image, const std::filesystem::path& 
     state.check(image, path);
     Origin origin{words_of(image.metadata, "seed"), {}, path};
     for (const double n : new_samples) origin.has_samples.push_back(n > 0);
-    state.check_origin(origin);
+    state.add_origin(std::move(origin));
 
     const std::vector<double> coverage = state.coverage();
     const image::Layer* const new_coverage = image::find_layer(image, kCoverageLayer);
@@ -233,7 +248,6 @@ void Merger::add(const image::LayeredImage& image, const std::filesystem::path& 
             add_layer(sum, state.samples, layer, new_samples);
     }
     for (std::size_t i = 0; i < new_samples.size(); ++i) state.samples[i] += new_samples[i];
-    state.seeds.merge(words_of(image.metadata, "seed"));
     state.isas.merge(words_of(image.metadata, "isa"));
     state.parts.merge(words_of(image.metadata, "part"));
     for (const std::string& text : words_of(image.metadata, "render_seconds")) {
@@ -241,7 +255,6 @@ void Merger::add(const image::LayeredImage& image, const std::filesystem::path& 
         std::from_chars(text.data(), text.data() + text.size(), seconds);
         state.render_seconds += seconds;
     }
-    state.origins.push_back(std::move(origin));
 }
 
 image::LayeredImage Merger::result() const {
@@ -255,7 +268,7 @@ image::LayeredImage Merger::result() const {
     const auto [least, most] = std::minmax_element(state.samples.begin(), state.samples.end());
     const auto finished =
         std::count_if(state.samples.begin(), state.samples.end(), [](double n) { return n > 0; });
-    if (*least == *most) {
+    if (*least == *most && *most > 0) {
         metadata["samples"] = std::to_string(static_cast<std::uint64_t>(*most));
         metadata.erase("part");
     } else {
@@ -263,12 +276,14 @@ image::LayeredImage Merger::result() const {
         metadata["part"] = joined(state.parts);
         result.layers.push_back({kSamplesLayer, {"Y"}, {state.samples.begin(), state.samples.end()}});
     }
-    if (state.seeds.size() > 1) metadata.erase("camera_rays");
-    metadata["seed"] = joined(state.seeds);
+    std::set<std::string> seeds;
+    for (const auto& [seed, pixels] : state.sampled) seeds.insert(seed);
+    if (seeds.size() > 1) metadata.erase("camera_rays");
+    metadata["seed"] = joined(seeds);
     metadata["isa"] = joined(state.isas);
-    metadata["render_seconds"] = std::to_string(state.render_seconds);
+    metadata["render_seconds"] = image::metadata_text(state.render_seconds);
     metadata["finished_fraction"] =
-        std::to_string(static_cast<double>(finished) / static_cast<double>(state.samples.size()));
+        image::metadata_text(static_cast<double>(finished) / static_cast<double>(state.samples.size()));
     return result;
 }
 

@@ -199,7 +199,7 @@ image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& s
         metadata["part"] = std::to_string(settings.part.number) + "/" + std::to_string(settings.part.count);
     if (settings.strategies != Strategies::diffuse) {
         metadata["mis"] = std::string(name_of(settings.mis));
-        metadata["visibility_estimate"] = std::to_string(settings.visibility_estimate);
+        metadata["visibility_estimate"] = image::metadata_text(settings.visibility_estimate);
     }
     return metadata;
 }

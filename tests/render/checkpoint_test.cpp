@@ -9,11 +9,13 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <set>
 #include <string>
 
 namespace nusselt::render_test {
@@ -73,7 +75,6 @@ protected:
 TEST_F(Checkpoint, GoesOnWithTheTilesItHas) {
     const Frame whole = rendered();
     save_checkpoint(path_, run_of(whole), whole, {3, 1});
-    EXPECT_FALSE(std::filesystem::exists(path_.string() + ".new"));
     Frame frame = make_frame(scene_, settings_);
     load_checkpoint(path_, run_of(frame), frame);
     EXPECT_EQ(frame.is_finished, (std::vector<std::uint8_t>{0, 1, 0, 1}));
@@ -117,6 +118,31 @@ TEST_F(Checkpoint, OfAnotherRunIsRefusedWithTheDifference) {
     expect_difference("part");
     scene_.materials[0].diffuse.x += 0.01f;
     expect_difference("scene_fingerprint");
+}
+
+TEST_F(Checkpoint, NumbersThatDifferInTheLastBitAreOtherRuns) {
+    settings_.strategies = render_cpu::Strategies::diffuse_ltc;
+    settings_.mis = render_cpu::Mis::optimal;
+    settings_.visibility_estimate = 0.3f;
+    const Frame frame = make_frame(scene_, settings_);
+    save_checkpoint(path_, run_of(frame), frame, {});
+    EXPECT_EQ(problem_with_file(), "");
+    settings_.visibility_estimate = std::nextafter(0.3f, 1.0f);
+    EXPECT_NE(problem_with_file().find("visibility_estimate is '0.3'"), std::string::npos);
+}
+
+TEST_F(Checkpoint, LeavesNoOtherFiles) {
+    const std::filesystem::path folder = path_.string() + "_folder";
+    std::filesystem::create_directory(folder);
+    std::ofstream(folder / "state.new") << "of the user";
+    const Frame frame = make_frame(scene_, settings_);
+    save_checkpoint(folder / "state", run_of(frame), frame, {});
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        names.insert(entry.path().filename().string());
+    EXPECT_EQ(names, (std::set<std::string>{"state", "state.new"}));
+    EXPECT_EQ(std::filesystem::file_size(folder / "state.new"), 11u);
+    std::filesystem::remove_all(folder);
 }
 
 TEST_F(Checkpoint, AnyDamageIsNoticed) {

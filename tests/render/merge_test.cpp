@@ -50,7 +50,7 @@ TEST(Merge, WeighsBySamples) {
     EXPECT_EQ(result.layers.size(), 1u);
     EXPECT_EQ(result.metadata.at("samples"), "16");
     EXPECT_EQ(result.metadata.at("seed"), "0 1 2");
-    EXPECT_EQ(result.metadata.at("finished_fraction"), "1.000000");
+    EXPECT_EQ(result.metadata.at("finished_fraction"), "1");
     EXPECT_EQ(std::stod(result.metadata.at("render_seconds")), 4.5);
     EXPECT_EQ(result.metadata.count("part"), 0u);
 }
@@ -70,6 +70,31 @@ TEST(Merge, ResultsCanBeMergedAgain) {
     const LayeredImage result = merged({first, make_input("2", 10, 3, 4, 0)});
     EXPECT_FLOAT_EQ(result.layers[0].data[0], 4);
     EXPECT_NE(problem_with({first, make_input("1", 10, 3, 4, 0)}), "");
+}
+
+TEST(Merge, OfEmptyPartsStaysAPart) {
+    const LayeredImage nothing = merged({make_input("0", 0, 0, 0, 0), make_input("0", 0, 0, 0, 0)});
+    EXPECT_EQ(nothing.layers.back().name, "samples");
+    EXPECT_EQ(nothing.layers.back().data, (std::vector<float>{0, 0}));
+    EXPECT_EQ(nothing.metadata.count("samples"), 0u);
+    EXPECT_EQ(nothing.metadata.at("part"), "1/2");
+    EXPECT_EQ(nothing.metadata.at("finished_fraction"), "0");
+    // The seed is still free.
+    const LayeredImage result = merged({nothing, make_input("0", 1, 5, 8, 8)});
+    EXPECT_EQ(result.layers[0].data, (std::vector<float>{1, 1, 1, 5, 5, 5}));
+    EXPECT_EQ(result.metadata.at("samples"), "8");
+}
+
+TEST(Merge, NamesTheCulpritAmongMany) {
+    // Of one pixel each in turn; images of two seeds block both.
+    const LayeredImage both = merged({make_input("0", 1, 0, 8, 0), make_input("1", 1, 0, 8, 0)});
+    const LayeredImage third = make_input("2", 1, 1, 8, 8);
+    const LayeredImage rest = make_input("1", 0, 1, 0, 8);
+    EXPECT_EQ(problem_with({both, third, rest, make_input("0", 0, 1, 0, 8)}), "");
+    EXPECT_NE(problem_with({third, both, rest, make_input("1", 0, 1, 0, 8)}).find("in2.exr"),
+              std::string::npos);
+    EXPECT_NE(problem_with({third, both, rest, make_input("1", 1, 0, 8, 0)}).find("in1.exr"),
+              std::string::npos);
 }
 
 TEST(Merge, CombinesVariances) {
