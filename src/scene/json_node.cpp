@@ -14,7 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uintmax_t kMaxFileSize = 256 << 20;
 constexpr int kMaxDepth = 32;
 
 /// "line:column", both counted from 1.
@@ -113,11 +112,14 @@ json read_json(const std::filesystem::path& path) {
     };
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (!error && size > kMaxFileSize)
-        fail("has " + std::to_string(size) + " bytes; at most " + std::to_string(kMaxFileSize) + " are read");
+    if (!error && size > kMaxJsonBytes)
+        fail("has " + std::to_string(size) + " bytes; at most " + std::to_string(kMaxJsonBytes) +
+             " are read");
     FileBytes bytes;
     try {
-        bytes = FileBytes(path);
+        Budget inflated_bytes(kMaxJsonBytes,
+                              "decompresses to more than " + std::to_string(kMaxJsonBytes) + " bytes");
+        bytes = FileBytes(path, inflated_bytes);
     } catch (const std::runtime_error& reason) {
         fail(reason.what());
     }
