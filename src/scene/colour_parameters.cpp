@@ -90,7 +90,7 @@ private:
         const SourceFile& main = context_.main_file != nullptr ? *context_.main_file : *location.file;
         SourceFile file{find_file(name, folder, main.path.parent_path()), {}};
         try {
-            file.bytes = FileBytes(file.path);
+            file.bytes = FileBytes(file.path, context_.budget->inflated_bytes);
         } catch (const std::runtime_error& error) {
             fail(parameter_,
                  "'" + shortened(name) +

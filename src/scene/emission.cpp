@@ -1,6 +1,5 @@
 #include "scene/emission.h"
 
-#include "scene/texture_image.h"
 #include "scene/vector_math.h"
 
 #include <limits>
@@ -12,7 +11,7 @@ namespace {
 
 bool is_radiance(float value) { return value >= 0 && value <= std::numeric_limits<float>::max(); }
 
-Float3 mean_colour(const Texture& texture) {
+Float3 mean_texel(const Texture& texture) {
     Double3 sum;
     const auto channels = static_cast<std::size_t>(texture.channels);
     const std::size_t green = channels > 1 ? 1 : 0;
@@ -21,20 +20,10 @@ Float3 mean_colour(const Texture& texture) {
     return to_float((static_cast<double>(channels) / static_cast<double>(texture.texels.size())) * sum);
 }
 
-/// The parameter "L", or the mean of the image that takes its place.
-Float3 read_colour(ParameterList& parameters, const std::filesystem::path& image_path, bool has_power,
-                   Warnings& warnings) {
-    const Float3 constant = parameters.colour("L", {1, 1, 1}, warnings, SpectrumUse::illuminant);
-    if (parameters.string("filename", "").empty()) return constant;
-    const Location location = parameters.location_of("filename");
-    ImageRequest request;
-    request.path = image_path;
-    request.location = location;
-    const Float3 mean = mean_colour(decode_image(request, warnings));
-    warnings.add(location, "AreaLightSource: the image of the emission is replaced by its mean colour");
-    // The power is that of the image, whatever its brightness.
-    const double brightness = luminance(to_double(mean));
-    return has_power && brightness > 0 ? to_float((1 / brightness) * to_double(mean)) : mean;
+/// Black stays black.
+Float3 with_unit_luminance(const Float3& colour) {
+    const double brightness = luminance(to_double(colour));
+    return brightness > 0 ? to_float((1 / brightness) * to_double(colour)) : colour;
 }
 
 std::optional<double> read_power(ParameterList& parameters) {
@@ -52,8 +41,16 @@ void check_radiance(const Float3& radiance, const Location& location) {
 
 } // namespace
 
+Float3 EmissionImages::mean_colour(const ImageRequest& request, SceneBudget& budget, Warnings& warnings) {
+    const auto known = mean_colours_.find(request.path);
+    if (known != mean_colours_.end()) return known->second;
+    const Float3 mean = mean_texel(decode_image(request, budget, warnings));
+    mean_colours_.emplace(request.path, mean);
+    return mean;
+}
+
 Emission read_emission(const std::string& type, ParameterList& parameters,
-                       const std::filesystem::path& image_path, Warnings& warnings) {
+                       const std::filesystem::path& image_path, EmissionImages& images, Warnings& warnings) {
     // "area" is pbrt v2's name for it.
     if (type != "diffuse" && type != "area") {
         warnings.add(parameters.location(),
@@ -62,7 +59,17 @@ Emission read_emission(const std::string& type, ParameterList& parameters,
     }
     Emission emission;
     emission.power = read_power(parameters);
-    const Float3 colour = read_colour(parameters, image_path, emission.power.has_value(), warnings);
+    Float3 colour = parameters.colour("L", {1, 1, 1}, warnings, SpectrumUse::illuminant);
+    if (!parameters.string("filename", "").empty()) {
+        ImageRequest request;
+        request.path = image_path;
+        request.location = parameters.location_of("filename");
+        colour = images.mean_colour(request, parameters.budget(), warnings);
+        warnings.add(request.location,
+                     "AreaLightSource: the image of the emission is replaced by its mean colour");
+        // The power is that of the image, whatever its brightness.
+        if (emission.power) colour = with_unit_luminance(colour);
+    }
     // v3 also scales by a colour.
     const auto scale = static_cast<float>(parameters.real("scale", 1));
     const Float3 tint = parameters.colour("scale", {scale, scale, scale}, warnings);

@@ -1,6 +1,8 @@
 #pragma once
 /// Whole files in memory, decompressed where they are gzip files.
 
+#include "scene/limits.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -11,20 +13,18 @@
 
 namespace nusselt::scene {
 
-/// The largest file, and the largest content of a compressed file, that is read.
-constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 34;
-
 /// The bytes of a file. The memory is not zeroed before it is read.
 class FileBytes {
 public:
     FileBytes() = default;
     /// Contents that begin like a gzip file are decompressed, whatever the name. Throws std::runtime_error with the
     /// reason if `path` is no readable regular file of at most kMaxFileBytes, or compressed and broken.
-    explicit FileBytes(const std::filesystem::path& path);
+    /// \param inflated_bytes  from which decompressed contents are taken
+    FileBytes(const std::filesystem::path& path, Budget& inflated_bytes);
     std::string_view view() const { return {data_.get(), size_}; }
 
 private:
-    friend FileBytes inflated(std::string_view, std::uint64_t);
+    friend FileBytes inflated(std::string_view, Budget&);
 
     struct Free {
         void operator()(char* memory) const { std::free(memory); }
@@ -44,8 +44,12 @@ std::filesystem::path find_file(const std::string& name, const std::filesystem::
 bool is_gzip(std::string_view bytes);
 
 /// Decompresses a gzip file, which may consist of several parts; zeros behind the last part are padding. The memory in
-/// use grows with what has been decompressed. Throws std::runtime_error with the reason if the file is broken, ends
-/// early, or holds more than `max_size` bytes.
-FileBytes inflated(std::string_view gzip, std::uint64_t max_size);
+/// use grows with what has been decompressed, which is taken from `bytes`. Throws std::runtime_error with the reason if
+/// the file is broken, ends early, or holds more bytes than are left.
+FileBytes inflated(std::string_view gzip, Budget& bytes);
+
+/// How many bytes a file holds after decompression, as far as it is one gzip file of less than 4 GiB that tells the
+/// truth, else at least how many there are on the disk; 0 for what cannot be read.
+std::uint64_t claimed_size(const std::filesystem::path& path);
 
 } // namespace nusselt::scene

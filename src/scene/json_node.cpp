@@ -1,6 +1,7 @@
 #include "scene/json_node.h"
 
-#include "scene/diagnostics.h"
+#include "scene/file_bytes.h"
+#include "scene/message.h"
 
 #include <algorithm>
 #include <numeric>
@@ -13,7 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uintmax_t kMaxFileSize = 256 << 20;
 constexpr int kMaxDepth = 32;
 
 /// "line:column", both counted from 1.
@@ -47,17 +47,20 @@ public:
     bool operator()(int depth, json::parse_event_t event, const json& parsed) {
         using Event = json::parse_event_t;
         if ((event == Event::object_start || event == Event::array_start) && depth >= kMaxDepth)
-            throw std::runtime_error(file_ + ": objects and arrays are nested more than " +
-                                     std::to_string(kMaxDepth) + " deep");
+            fail("objects and arrays are nested more than " + std::to_string(kMaxDepth) + " deep");
         if (event == Event::object_start) fields_.emplace_back();
         if (event == Event::object_end) fields_.pop_back();
         if (event == Event::key && !fields_.back().insert(parsed.get<std::string>()).second)
-            throw std::runtime_error(file_ + ": the field " + parsed.dump() +
-                                     " is given twice in one object; remove one of them");
+            fail("the field " + shortened(parsed.dump()) +
+                 " is given twice in one object; remove one of them");
         return true;
     }
 
 private:
+    [[noreturn]] void fail(const std::string& message) const {
+        throw std::runtime_error(message_line(file_ + ": " + message));
+    }
+
     std::string file_;
     std::vector<std::set<std::string>> fields_; ///< seen so far in the objects around
 };
@@ -105,21 +108,25 @@ std::string range_text(std::string_view kind, double low, double high) {
 
 json read_json(const std::filesystem::path& path) {
     const auto fail = [&](const std::string& message) {
-        throw std::runtime_error(path.string() + ": " + message);
+        throw std::runtime_error(message_line(path.string() + ": " + message));
     };
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (!error && size > kMaxFileSize)
-        fail("has " + std::to_string(size) + " bytes; at most " + std::to_string(kMaxFileSize) + " are read");
+    if (!error && size > kMaxJsonBytes)
+        fail("has " + std::to_string(size) + " bytes; at most " + std::to_string(kMaxJsonBytes) +
+             " are read");
     FileBytes bytes;
     try {
-        bytes = FileBytes(path);
+        Budget inflated_bytes(kMaxJsonBytes,
+                              "decompresses to more than " + std::to_string(kMaxJsonBytes) + " bytes");
+        bytes = FileBytes(path, inflated_bytes);
     } catch (const std::runtime_error& reason) {
         fail(reason.what());
     }
     const std::string_view text = bytes.view();
     const auto syntax_error = [&](std::size_t offset, const std::string& reason) {
-        return std::runtime_error(path.string() + ":" + position_text(text, offset) + ": " + reason);
+        return std::runtime_error(
+            message_line(path.string() + ":" + position_text(text, offset) + ": " + reason));
     };
     try {
         return json::parse(text.begin(), text.end(), StructureCheck(path.string()));
@@ -132,7 +139,7 @@ json read_json(const std::filesystem::path& path) {
 }
 
 void JsonNode::fail(std::string_view message) const {
-    throw std::runtime_error(where() + ": " + std::string(message));
+    throw std::runtime_error(message_line(where() + ": " + std::string(message)));
 }
 
 void JsonNode::fail_type(std::string_view expected) const {

@@ -3,13 +3,13 @@
 #include "scene/bounds.h"
 #include "scene/colour_space.h"
 #include "scene/polygon.h"
+#include "scene/scene_size.h"
 #include "scene/shapes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 
 namespace nusselt::scene {
 
@@ -309,8 +309,7 @@ void LightEditor::add_surfaces() {
             triangle_light.push_back(emits(light) ? static_cast<std::int32_t>(light.first_polygon) : -1);
         }
     }
-    if (scene_.positions.size() > kShared)
-        throw std::runtime_error("the light rig gives the scene more than 2^32 vertices");
+    check_counts(scene_.positions.size(), scene_.triangles.size() + triangles.size());
     const std::size_t position = world_triangle_count(scene_);
     insert_at(scene_.triangles, position, triangles);
     insert_at(scene_.triangle_material, position, materials);

@@ -2,10 +2,10 @@
 
 #include "scene/bounds.h"
 #include "scene/parser.h"
+#include "scene/scene_size.h"
 #include "scene/vector_math.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -17,6 +17,26 @@
 namespace nusselt::scene {
 
 namespace {
+
+/// Each shape has triangles of its own, so that files which are named often multiply in memory.
+void check_repeated_meshes(const std::vector<ShapeDirective>& shapes) {
+    std::unordered_map<std::string, std::uint64_t> sizes;
+    std::uint64_t repeated = 0;
+    for (const ShapeDirective& shape : shapes) {
+        if (shape.mesh_path.empty()) continue;
+        const auto [entry, is_new] = sizes.try_emplace(shape.mesh_path.lexically_normal().string());
+        if (is_new) {
+            entry->second = claimed_size(shape.mesh_path);
+            continue;
+        }
+        repeated += entry->second;
+        if (repeated > kMaxRepeatedMeshBytes)
+            throw SceneError(shape.parameters.location_of("filename"),
+                             "mesh files are read again for more than " +
+                                 std::to_string(kMaxRepeatedMeshBytes) + " bytes in all, the last one is '" +
+                                 shape.mesh_path.string() + "'; use ObjectInstance for copies");
+    }
+}
 
 std::vector<Mesh> build_meshes(std::vector<ShapeDirective>& shapes) {
     std::vector<Mesh> meshes(shapes.size());
@@ -71,14 +91,15 @@ void name_emitters(const std::vector<ShapeDirective>& shapes, std::vector<Mesh>&
 /// Shifts what triangles refer to by what other meshes have before them.
 void renumber(std::vector<Mesh>& meshes) {
     std::size_t vertices = 0;
+    std::size_t triangles = 0;
     std::size_t lights = 0;
     for (Mesh& mesh : meshes) {
         const auto first_vertex = static_cast<std::uint32_t>(vertices);
         const auto first_light = static_cast<std::int32_t>(lights);
         vertices += mesh.positions.size();
         lights += mesh.polygon_lights.size();
-        if (vertices > std::numeric_limits<std::uint32_t>::max())
-            throw std::runtime_error("the scene has more than 2^32 vertices");
+        triangles += mesh.triangles.size();
+        check_counts(vertices, triangles);
         if (first_vertex > 0)
             for (Triangle& triangle : mesh.triangles)
                 for (std::uint32_t& vertex : triangle.vertex) vertex += first_vertex;
@@ -186,11 +207,13 @@ Scene load_scene(const std::filesystem::path& path) {
     scene.film = description.film;
     scene.camera = make_camera(description.camera, description.film);
     limit_tessellation(description.shapes);
+    check_repeated_meshes(description.shapes);
     std::vector<Mesh> meshes;
     std::vector<BakedTexture> textures;
     Warnings texture_warnings;
-    tbb::parallel_invoke([&] { textures = bake_textures(description.textures, texture_warnings); },
-                         [&] { meshes = build_meshes(description.shapes); });
+    tbb::parallel_invoke(
+        [&] { textures = bake_textures(description.textures, *description.budget, texture_warnings); },
+        [&] { meshes = build_meshes(description.shapes); });
     description.warnings.append(texture_warnings);
     set_mappings(textures, scene.materials);
     for (BakedTexture& texture : textures) scene.textures.push_back(std::move(texture.texture));

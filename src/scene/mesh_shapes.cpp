@@ -83,7 +83,7 @@ Mesh read_ply_mesh(ShapeDirective& shape) {
         throw SceneError(parameters.location(),
                          "shape \"plymesh\": parameter \"string filename\" is missing");
     try {
-        return read_ply(FileBytes(shape.mesh_path).view());
+        return read_ply(FileBytes(shape.mesh_path, parameters.budget().inflated_bytes).view());
     } catch (const std::runtime_error& error) {
         throw SceneError(parameters.location_of("filename"),
                          "mesh file '" + shape.mesh_path.string() + "': " + error.what());

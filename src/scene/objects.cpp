@@ -2,28 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <numeric>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 namespace nusselt::scene {
 
 namespace {
 
-// Lights are not instanced, so a short text may ask for very many of them.
-constexpr std::size_t kMaxCopies = std::size_t{1} << 17;
-constexpr std::size_t kMaxCopiedValues = std::size_t{1} << 26;
-
 bool emits(const ShapeDirective& shape) { return shape.type == "line" || !is_black(shape.emission.radiance); }
 
 /// Roughly how many numbers describe a shape.
 std::size_t value_count(const ShapeDirective& shape) {
-    std::error_code no_file;
-    const auto bytes = shape.mesh_path.empty() ? 0 : std::filesystem::file_size(shape.mesh_path, no_file);
-    return shape.parameters.value_count() + (no_file ? 0 : bytes / sizeof(float));
+    const std::uint64_t bytes = shape.mesh_path.empty() ? 0 : claimed_size(shape.mesh_path);
+    return shape.parameters.value_count() + static_cast<std::size_t>(bytes / sizeof(float));
 }
 
 std::optional<std::array<float, 12>> affine_rows(const Transform& t) {
@@ -96,11 +89,11 @@ void ObjectTable::check_copies() const {
     for (const InstanceDirective& instance : instances_) {
         copies += definitions_[instance.object].emitters.size();
         values += value_counts[instance.object];
-        if (copies > kMaxCopies || values > kMaxCopiedValues)
-            throw SceneError(instance.location, "instances have more than " + std::to_string(kMaxCopies) +
-                                                    " shapes that emit light, or more than " +
-                                                    std::to_string(kMaxCopiedValues) +
-                                                    " numbers in these; leave lights out of objects");
+        if (copies > kMaxLightCopies || values > kMaxCopiedValues)
+            throw SceneError(instance.location,
+                             "instances have more than " + std::to_string(kMaxLightCopies) +
+                                 " shapes that emit light, or more than " + std::to_string(kMaxCopiedValues) +
+                                 " numbers in these; leave lights out of objects");
     }
 }
 

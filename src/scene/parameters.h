@@ -42,6 +42,7 @@ struct ParameterContext {
     PbrtVersion version = PbrtVersion::v4;
     const ColourSpace* colour_space = &kSrgb;
     const SourceFile* main_file = nullptr; ///< files are looked for beside it too; may be null
+    SceneBudget* budget = nullptr;         ///< that files are read on; null where no parameter names any
     /// Parameters that apply where a directive does not name them, the most important one last; may be null.
     std::shared_ptr<const std::vector<Parameter>> defaults;
 };
@@ -55,6 +56,8 @@ public:
     /// Reads all parameters that follow. Throws SceneError on malformed ones.
     ParameterList(Tokenizer& tokens, const Location& directive, ParameterContext context = {});
 
+    /// What reading of files is charged to.
+    SceneBudget& budget() const { return *context_.budget; }
     /// Position of the directive.
     const Location& location() const { return location_; }
     /// Position of the parameter, or of the directive if there is no such parameter.

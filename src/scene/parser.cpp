@@ -23,7 +23,8 @@ struct FilterDirective {
 
 class Parser {
 public:
-    explicit Parser(const std::filesystem::path& main_path) : reader_(main_path, scene_.sources) {
+    explicit Parser(const std::filesystem::path& main_path)
+        : reader_(main_path, scene_.sources, *scene_.budget) {
         materials_.push_back({{"default", "matte", ParameterList(), {}}, {}});
         state_.current().material = &materials_.back();
     }
@@ -84,7 +85,7 @@ private:
 
     std::string read_string() { return reader_.read_string(); }
     ParameterContext context() const {
-        return {version_, state_.current().colour_space, &reader_.main_file(), nullptr};
+        return {version_, state_.current().colour_space, &reader_.main_file(), scene_.budget.get(), nullptr};
     }
     ParameterList read_parameters() { return {reader_.tokens(), location_, context()}; }
     /// With the defaults that Attribute directives set.
@@ -105,6 +106,7 @@ private:
     std::optional<int> black_material_;
     TextureTable textures_;
     SurfaceVariants surface_variants_;
+    EmissionImages emission_images_;
     LeftOutShapes left_out_shapes_;
     ObjectTable objects_;
     IgnoredLights ignored_lights_;
@@ -389,7 +391,7 @@ void Parser::area_light_source() {
     const std::string type = read_string();
     ParameterList parameters = read_parameters(AttributeTarget::light);
     const std::filesystem::path image = resolve(parameters.string("filename", ""));
-    state_.current().emission = read_emission(type, parameters, image, scene_.warnings);
+    state_.current().emission = read_emission(type, parameters, image, emission_images_, scene_.warnings);
 }
 
 MaterialEntry& Parser::add_material(const std::string& name, const std::string& type,

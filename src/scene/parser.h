@@ -10,6 +10,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,7 +18,8 @@ namespace nusselt::scene {
 
 /// A scene file after parsing; meshes and images are still to be read.
 struct SceneDescription {
-    std::deque<SourceFile> sources;     ///< all locations point into these
+    std::unique_ptr<SceneBudget> budget = std::make_unique<SceneBudget>(); ///< parameters refer to it
+    std::deque<SourceFile> sources;                                        ///< all locations point into these
     std::vector<ShapeDirective> shapes; ///< those of the world first, then those of objects
     std::vector<ObjectShapes> objects;  ///< in the order of their shapes
     std::vector<InstanceDirective> instances;

@@ -1,7 +1,7 @@
 #include "scene/rig.h"
 
-#include "scene/diagnostics.h"
 #include "scene/light_edit.h"
+#include "scene/message.h"
 #include "scene/polygon.h"
 #include "scene/shapes.h"
 #include "scene/spectrum.h"
@@ -22,9 +22,16 @@ constexpr const char* kBlackMaterial = "black surface of a light";
 constexpr Float3 kDefaultF0 = {0.04f, 0.04f, 0.04f};
 constexpr float kDefaultRoughness = 0.5f;
 
-[[noreturn]] void fail(const std::string& where, const std::string& field, const std::string& message) {
-    throw std::runtime_error(where + "." + field + ": " + message);
+[[noreturn]] void fail(const std::string& where, const std::string& message) {
+    throw std::runtime_error(message_line(where + ": " + message));
 }
+
+[[noreturn]] void fail(const std::string& where, const std::string& field, const std::string& message) {
+    fail(where + "." + field, message);
+}
+
+/// A name in quotes.
+std::string in_quotes(const std::string& name) { return '"' + shortened(name) + '"'; }
 
 /// \param kind   "light" or "material"
 /// \param names  of those that there are
@@ -34,13 +41,13 @@ std::string nothing_selected(const std::string& kind, const Selector& selector,
     if (const auto* const index = std::get_if<std::size_t>(&selector))
         text = "there is no " + kind + " " + std::to_string(*index) + " (they are counted from 0)";
     else
-        text = "no " + kind + " is called \"" + std::get<std::string>(selector) + '"';
+        text = "no " + kind + " is called " + in_quotes(std::get<std::string>(selector));
     if (names.empty()) return text + "; the scene has no " + kind + "s";
     constexpr std::size_t kShown = 10;
     text += "; there ";
     text += names.size() == 1 ? "is" : "are";
     for (std::size_t i = 0; i < names.size() && i < kShown; ++i)
-        text += (i > 0 ? ", \"" : " \"") + names[i] + '"';
+        text += (i > 0 ? ", " : " ") + in_quotes(names[i]);
     if (names.size() > kShown) text += " and " + std::to_string(names.size() - kShown) + " more";
     return text;
 }
@@ -195,7 +202,7 @@ void RigApplication::add(const RigLight& entry, const LightAddition& addition) {
     for (std::size_t i = 0; i < addition.offsets.size(); ++i) {
         const std::string name = is_single ? addition.name : addition.name + " " + std::to_string(i);
         if (names_.count(name) > 0)
-            fail(entry.where, "add", "there is a light \"" + name + "\" already; take another name");
+            fail(entry.where, "add", "there is a light " + in_quotes(name) + " already; take another name");
         names_.insert(name);
         EditableLight& light = editor_.lights().emplace_back();
         light.name = name;
@@ -236,12 +243,13 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
     const auto valid = [](const auto& part) { return is_valid(part); };
     if (!std::all_of(light.polygons.begin(), light.polygons.end(), valid) ||
         !std::all_of(light.tubes.begin(), light.tubes.end(), valid))
-        throw std::runtime_error(entry.where + ": light \"" + light.name +
-                                 "\" would be beyond 1e15 m or too small to have an area");
+        fail(entry.where,
+             "light " + in_quotes(light.name) + " would be beyond 1e15 m or too small to have an area");
     change_emission(entry, light);
     if (changes.two_sided) {
         if (!light.tubes.empty())
-            fail(entry.where, "two_sided", "light \"" + light.name + "\" is a tube, which has one side only");
+            fail(entry.where, "two_sided",
+                 "light " + in_quotes(light.name) + " is a tube, which has one side only");
         for (PolygonLight& polygon : light.polygons) polygon.two_sided = *changes.two_sided;
     }
     if (changes.enabled) light.is_enabled = *changes.enabled;
@@ -254,7 +262,7 @@ void RigApplication::rename(const RigLight& entry, EditableLight& light) {
     const std::optional<std::string>& name = entry.changes.name;
     if (!name || *name == light.name) return;
     if (names_.count(*name) > 0)
-        fail(entry.where, "name", "there is a light \"" + *name + "\" already; take another name");
+        fail(entry.where, "name", "there is a light " + in_quotes(*name) + " already; take another name");
     names_.erase(names_.find(light.name));
     names_.insert(*name);
     light.name = *name;
@@ -267,7 +275,8 @@ void RigApplication::move(const RigLight& entry, EditableLight& light, const Dou
     if (changes.scale) {
         const Double3& scale = *changes.scale;
         if (!light.tubes.empty() && (scale.x != scale.y || scale.x != scale.z))
-            fail(entry.where, "scale", "light \"" + light.name + "\" is a tube; scale it by one number");
+            fail(entry.where, "scale",
+                 "light " + in_quotes(light.name) + " is a tube; scale it by one number");
         transform = about(center, scaling(scale));
     }
     if (changes.rotation)
@@ -285,7 +294,7 @@ void RigApplication::change_emission(const RigLight& entry, EditableLight& light
     if (changes.radiance) change_radiance(light, [&](const Float3&) { return *changes.radiance; });
     if ((changes.kelvin || changes.power) && is_black(light))
         fail(entry.where, changes.kelvin ? "kelvin" : "power",
-             "light \"" + light.name + "\" is black, which this cannot change; give its radiance");
+             "light " + in_quotes(light.name) + " is black, which this cannot change; give its radiance");
     if (changes.kelvin) {
         const Double3 colour = blackbody_colour(*changes.kelvin);
         change_radiance(light, [&](const Float3& c) { return to_float(luminance(to_double(c)) * colour); });
@@ -298,8 +307,8 @@ void RigApplication::change_emission(const RigLight& entry, EditableLight& light
     }
     const auto check = [&](const Float3& c) {
         if (!(std::max({c.x, c.y, c.z}) <= kMaxRadiance))
-            throw std::runtime_error(entry.where + ": light \"" + light.name + "\" gets a radiance above " +
-                                     to_text(kMaxRadiance));
+            fail(entry.where,
+                 "light " + in_quotes(light.name) + " gets a radiance above " + to_text(kMaxRadiance));
         return c;
     };
     change_radiance(light, check);

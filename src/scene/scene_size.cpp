@@ -1,5 +1,9 @@
 #include "scene/scene_size.h"
 
+#include "scene/limits.h"
+
+#include <stdexcept>
+
 namespace nusselt::scene {
 
 namespace {
@@ -18,6 +22,15 @@ std::size_t array_bytes(const Scene& scene) {
                  scene.emitters, scene.polygon_lights, scene.line_lights);
     for (const Texture& texture : scene.textures) bytes += bytes_of(texture.texels);
     return bytes;
+}
+
+void check_counts(std::size_t vertices, std::size_t triangles) {
+    const auto fail = [](std::size_t limit, const std::string& what) {
+        throw std::runtime_error("the scene has more than " + std::to_string(limit) + " " + what +
+                                 "; use ObjectInstance for copies or fewer details");
+    };
+    if (vertices > kMaxVertices) fail(kMaxVertices, "vertices");
+    if (triangles > kMaxTriangles) fail(kMaxTriangles, "triangles");
 }
 
 } // namespace nusselt::scene

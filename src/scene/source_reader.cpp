@@ -8,17 +8,14 @@ namespace {
 
 constexpr std::size_t kMaxIncludeDepth = 32;
 
-// Files that include others twice multiply quickly.
-constexpr int kMaxRepeatedIncludes = 10000;
-constexpr std::size_t kMaxRepeatedBytes = std::size_t{1} << 28;
-
 } // namespace
 
-SourceReader::SourceReader(const std::filesystem::path& main_path, std::deque<SourceFile>& sources)
-    : sources_(sources) {
+SourceReader::SourceReader(const std::filesystem::path& main_path, std::deque<SourceFile>& sources,
+                           SceneBudget& budget)
+    : sources_(sources), budget_(budget) {
     SourceFile& main = sources_.emplace_back(SourceFile{main_path, {}});
     try {
-        main.bytes = FileBytes(main_path);
+        main.bytes = FileBytes(main_path, budget_.inflated_bytes);
     } catch (const std::runtime_error& error) {
         throw std::runtime_error("scene file '" + main_path.string() + "': " + error.what());
     }
@@ -39,7 +36,7 @@ void SourceReader::open(const std::string& name, const Location& includer) {
     const SourceFile*& source = by_path_[path.lexically_normal().string()];
     if (source == nullptr) {
         try {
-            source = &sources_.emplace_back(SourceFile{path, FileBytes(path)});
+            source = &sources_.emplace_back(SourceFile{path, FileBytes(path, budget_.inflated_bytes)});
         } catch (const std::runtime_error& error) {
             throw SceneError(includer, "scene file '" + path.string() + "': " + error.what());
         }

@@ -15,7 +15,9 @@ namespace nusselt::scene {
 class SourceReader {
 public:
     /// \param sources  receives the files, and outlives all tokens and locations
-    SourceReader(const std::filesystem::path& main_path, std::deque<SourceFile>& sources);
+    /// \param budget   that files are read on
+    SourceReader(const std::filesystem::path& main_path, std::deque<SourceFile>& sources,
+                 SceneBudget& budget);
 
     /// Goes on in a file that the current one includes; close() returns. Throws SceneError if it cannot be read, or if
     /// includes are nested or repeated too often.
@@ -37,6 +39,7 @@ public:
 
 private:
     std::deque<SourceFile>& sources_;
+    SceneBudget& budget_;
     std::unordered_map<std::string, const SourceFile*> by_path_;
     std::vector<Tokenizer> open_files_;
     int repeated_includes_ = 0;

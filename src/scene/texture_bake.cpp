@@ -26,21 +26,21 @@ Texel per_channel(const Function& function) {
 
 float mean(const Texel& texel) { return (texel[0] + texel[1] + texel[2]) / 3; }
 
-Texel texel_at(const Texture& image, std::size_t index, bool is_grey) {
+Texel texel_at(const Texture& image, std::size_t index, const TextureNode& leaf) {
     const auto channels = static_cast<std::size_t>(image.channels);
     const float* entry = image.texels.data() + channels * index;
     if (channels == 1) return {entry[0], entry[0], entry[0]};
     const Texel colour = {entry[0], entry[1], entry[2]};
-    if (!is_grey) return colour;
+    if (!leaf.is_grey) return colour;
     const float grey = channels == 4 ? entry[3] : mean(colour);
     return {grey, grey, grey};
 }
 
-Texel mean_texel(const Texture& image, bool is_grey) {
+Texel mean_texel(const Texture& image, const TextureNode& leaf) {
     std::array<double, 3> sum = {0, 0, 0};
     const std::size_t count = image.texels.size() / static_cast<std::size_t>(image.channels);
     for (std::size_t i = 0; i < count; ++i) {
-        const Texel texel = texel_at(image, i, is_grey);
+        const Texel texel = texel_at(image, i, leaf);
         for (std::size_t c = 0; c < 3; ++c) sum[c] += static_cast<double>(texel[c]);
     }
     return per_channel(
@@ -66,7 +66,7 @@ Texel look_up(const Texture& image, const TextureNode& leaf, double x, double y)
         const int j = wrapped(row, image.height, leaf.wrap);
         if (i < 0 || j < 0) return {0, 0, 0};
         const auto index = static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width);
-        return texel_at(image, index + static_cast<std::size_t>(i), leaf.is_grey);
+        return texel_at(image, index + static_cast<std::size_t>(i), leaf);
     };
     if (leaf.filter == TextureFilter::nearest)
         return texel(std::floor(x * image.width), std::floor(y * image.height));
@@ -113,7 +113,7 @@ public:
                 std::find(domain.misfits.begin(), domain.misfits.end(), node) != domain.misfits.end();
             is_misfit_.push_back(is_misfit);
             const bool needs_mean = is_misfit && leaf.operation == TextureOperation::image;
-            means_.push_back(needs_mean ? mean_texel(image_of(leaf), leaf.is_grey) : Texel{});
+            means_.push_back(needs_mean ? mean_texel(image_of(leaf), leaf) : Texel{});
         }
     }
 
@@ -200,9 +200,19 @@ Recipe make_recipe(const TexturePlan& plan, const TextureRequest& request) {
     return recipe;
 }
 
+void charge(const Texture& texture, const Location& location, SceneBudget& budget) {
+    try {
+        budget.texels.take(static_cast<std::uint64_t>(texture.width) *
+                           static_cast<std::uint64_t>(texture.height));
+    } catch (const std::runtime_error& error) {
+        throw SceneError(location, error.what());
+    }
+}
+
 /// An image as it is; its texels are moved if nobody else needs them.
+/// \param use_count  of the image
 Texture plain_image(const TextureNode& leaf, const TextureRequest& request, Texture& image,
-                    bool is_last_use) {
+                    std::size_t use_count, SceneBudget& budget) {
     const bool is_grey = request.channels == 1 || image.channels == 1;
     const int channels = is_grey ? 1 : 3;
     Texture texture;
@@ -212,17 +222,19 @@ Texture plain_image(const TextureNode& leaf, const TextureRequest& request, Text
     texture.channels = channels;
     texture.wrap = leaf.wrap;
     texture.filter = leaf.filter;
+    if (image.channels == channels && use_count == 1) {
+        texture.texels = std::move(image.texels);
+        return texture;
+    }
+    charge(texture, request.location, budget);
     if (image.channels == channels) {
-        if (is_last_use)
-            texture.texels = std::move(image.texels);
-        else
-            texture.texels = image.texels;
+        texture.texels = image.texels;
         return texture;
     }
     const std::size_t count = image.texels.size() / static_cast<std::size_t>(image.channels);
     texture.texels.resize(count * static_cast<std::size_t>(channels));
     for (std::size_t i = 0; i < count; ++i) {
-        const Texel texel = texel_at(image, i, leaf.is_grey);
+        const Texel texel = texel_at(image, i, leaf);
         if (is_grey)
             texture.texels[i] = mean(texel);
         else
@@ -245,7 +257,7 @@ void warn_of_losses(const Recipe& recipe, const TextureDomain& domain, Warnings&
 }
 
 BakedTexture bake(const TexturePlan& plan, const Recipe& recipe, const std::vector<Texture>& images,
-                  Warnings& warnings) {
+                  SceneBudget& budget, Warnings& warnings) {
     std::vector<int> leaves;
     std::vector<std::array<int, 2>> sizes;
     for (const int number : recipe.formula) {
@@ -274,6 +286,7 @@ BakedTexture bake(const TexturePlan& plan, const Recipe& recipe, const std::vect
     const bool is_clamped = is_roughness && domain.wrap == TextureWrap::black;
     texture.wrap = is_clamped ? TextureWrap::clamp : domain.wrap;
     texture.filter = domain.filter;
+    charge(texture, recipe.request.location, budget);
     const auto width = static_cast<std::size_t>(texture.width);
     const auto height = static_cast<std::size_t>(texture.height);
     const auto channels = static_cast<std::size_t>(texture.channels);
@@ -295,7 +308,7 @@ BakedTexture bake(const TexturePlan& plan, const Recipe& recipe, const std::vect
 
 } // namespace
 
-std::vector<BakedTexture> bake_textures(const TexturePlan& plan, Warnings& warnings) {
+std::vector<BakedTexture> bake_textures(const TexturePlan& plan, SceneBudget& budget, Warnings& warnings) {
     std::vector<Recipe> recipes;
     std::vector<std::size_t> use_count(plan.images.size());
     for (const TextureRequest& request : plan.requests) {
@@ -305,7 +318,7 @@ std::vector<BakedTexture> bake_textures(const TexturePlan& plan, Warnings& warni
     std::vector<Warnings> image_warnings(plan.images.size());
     std::vector<Texture> images(plan.images.size());
     tbb::parallel_for(std::size_t{0}, images.size(), [&](std::size_t i) {
-        if (use_count[i] > 0) images[i] = decode_image(plan.images[i], image_warnings[i]);
+        if (use_count[i] > 0) images[i] = decode_image(plan.images[i], budget, image_warnings[i]);
     });
     std::vector<Warnings> bake_warnings(recipes.size());
     std::vector<BakedTexture> textures(recipes.size());
@@ -314,10 +327,10 @@ std::vector<BakedTexture> bake_textures(const TexturePlan& plan, Warnings& warni
         const TextureNode& root = plan.nodes[static_cast<std::size_t>(recipe.request.node)];
         if (root.operation == TextureOperation::image) {
             const auto image = static_cast<std::size_t>(root.image);
-            textures[i] = {plain_image(root, recipe.request, images[image], use_count[image] == 1),
+            textures[i] = {plain_image(root, recipe.request, images[image], use_count[image], budget),
                            root.mapping};
         } else {
-            textures[i] = bake(plan, recipe, images, bake_warnings[i]);
+            textures[i] = bake(plan, recipe, images, budget, bake_warnings[i]);
         }
     });
     for (const Warnings& some : image_warnings) warnings.append(some);

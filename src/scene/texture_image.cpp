@@ -18,12 +18,10 @@ namespace {
 /// Files with more texels than this per byte are damaged or hostile; small images may be anything.
 constexpr std::int64_t kTexelsPerByte = 2048;
 constexpr std::int64_t kAlwaysAllowedTexels = std::int64_t{1} << 20;
-/// 3 GiB of floats.
-constexpr std::int64_t kMaxTexels = std::int64_t{1} << 28;
 
 void check_size(const Texture& texture, std::int64_t file_size) {
     const std::int64_t count = std::int64_t{texture.width} * texture.height;
-    const std::int64_t limit = std::min(kMaxTexels, kAlwaysAllowedTexels + kTexelsPerByte * file_size);
+    const std::int64_t limit = std::min(kMaxImageTexels, kAlwaysAllowedTexels + kTexelsPerByte * file_size);
     if (count > limit)
         throw std::runtime_error("a file of " + std::to_string(file_size) + " bytes claims " +
                                  std::to_string(texture.width) + " x " + std::to_string(texture.height) +
@@ -97,8 +95,12 @@ void remove_invalid(const ImageRequest& request, Texture& texture, Warnings& war
                                            " numbers that are negative or not finite are replaced by 0");
 }
 
+void charge(const Texture& texture, Budget& texels) {
+    texels.take(static_cast<std::uint64_t>(texture.width) * static_cast<std::uint64_t>(texture.height));
+}
+
 /// The formats of stb.
-void decode_bytes(std::string_view file, ImageRequest::Encoding encoding, Texture& texture) {
+void decode_bytes(std::string_view file, ImageRequest::Encoding encoding, Budget& texels, Texture& texture) {
     const auto* bytes = reinterpret_cast<const stbi_uc*>(file.data());
     if (file.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         throw std::runtime_error("larger than 2 GiB");
@@ -111,6 +113,7 @@ void decode_bytes(std::string_view file, ImageRequest::Encoding encoding, Textur
             std::string("it is damaged, too large or none of PNG, JPEG, TGA, BMP, HDR, EXR and PFM (") +
             stbi_failure_reason() + ')');
     check_size(texture, size);
+    charge(texture, texels);
     if (stbi_is_hdr_from_memory(bytes, size) != 0) {
         const auto pixels = owned(stbi_loadf_from_memory(bytes, size, width, height, &in_file, 3));
         fill_flipped(pixels.get(), texture, [](float value, std::size_t) { return value; });
@@ -136,7 +139,7 @@ bool is_read_by_extension(const std::filesystem::path& path) {
 
 } // namespace
 
-Texture decode_image(const ImageRequest& request, Warnings& warnings) {
+Texture decode_image(const ImageRequest& request, SceneBudget& budget, Warnings& warnings) {
     Texture texture;
     texture.name = request.path.filename().string();
     try {
@@ -144,9 +147,11 @@ Texture decode_image(const ImageRequest& request, Warnings& warnings) {
             const image::Image pixels = image::read_image(request.path);
             texture.width = pixels.width;
             texture.height = pixels.height;
+            charge(texture, budget.texels);
             fill_flipped(pixels.pixels.data(), texture, [](float value, std::size_t) { return value; });
         } else {
-            decode_bytes(FileBytes(request.path).view(), request.encoding, texture);
+            decode_bytes(FileBytes(request.path, budget.inflated_bytes).view(), request.encoding,
+                         budget.texels, texture);
         }
     } catch (const std::runtime_error& error) {
         throw SceneError(request.location, "texture file '" + request.path.string() + "': " + error.what());

@@ -1,5 +1,7 @@
 #include "visibility/tube_mesh.h"
 
+#include "scene/scene_size.h"
+
 #include <nusselt/core/frame.h>
 #include <nusselt/core/trig.h>
 
@@ -50,6 +52,7 @@ void append_tube(const scene::LineLight& light, TubeMesh& mesh) {
 } // namespace
 
 TubeMesh make_tube_mesh(const std::vector<scene::LineLight>& lights) {
+    scene::check_counts(lights.size() * 2 * kTubeSides, lights.size() * kTrianglesPerTube);
     TubeMesh mesh;
     mesh.positions.reserve(lights.size() * 2 * kTubeSides);
     mesh.triangles.reserve(lights.size() * kTrianglesPerTube);
