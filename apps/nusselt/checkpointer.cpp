@@ -25,9 +25,14 @@ void Checkpointer::add(std::size_t tile) {
     finished_.push_back(tile);
 }
 
-void Checkpointer::save_all() {
+std::optional<std::string> Checkpointer::save_all() {
     stop();
-    render_cpu::save_checkpoint(path_, run_, frame_, finished_);
+    try {
+        render_cpu::save_checkpoint(path_, run_, frame_, finished_);
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return std::nullopt;
 }
 
 void Checkpointer::save_at_intervals(std::chrono::duration<double> interval, std::size_t saved) {

@@ -8,6 +8,8 @@
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -28,8 +30,9 @@ public:
     /// To be called for each tile that is finished from now on, by any thread.
     void add(std::size_t tile);
 
-    /// Ends the thread and stores all that is finished. \throws std::runtime_error if that fails
-    void save_all();
+    /// Ends the thread and stores all that is finished.
+    /// \returns what went wrong, or nothing
+    [[nodiscard]] std::optional<std::string> save_all();
 
 private:
     /// \param saved number of tiles that the file has

@@ -55,6 +55,7 @@ void convert_exr_to_exr(const ConvertOptions& options) {
         named ? named_layer(file, *options.layer, options.input) : image::read_image(options.input);
     make_brighter(picture, options.exposure);
     file.layers = {image::color_layer(picture)};
+    file.metadata[image::kConvertedKey] = "yes";
     image::write_layers(*options.output, file);
 }
 

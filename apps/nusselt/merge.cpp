@@ -6,8 +6,10 @@
 #include "render_cpu/merge.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
 
 #include <memory>
+#include <string>
 
 namespace nusselt::app {
 
@@ -32,7 +34,11 @@ int run_merge(const MergeOptions& options) {
     image::check_writable_image(options.output);
     render_cpu::Merger merger;
     for (const std::filesystem::path& path : options.inputs) merger.add(image::read_layers(path), path);
-    image::write_layers(options.output, merger.result());
+    const image::LayeredImage result = merger.result();
+    image::write_layers(options.output, result);
+    if (const std::string& finished = result.metadata.at("finished_fraction"); finished != "1")
+        fmt::print(stderr, "warning: only a share of {} of the pixels has samples; parts are missing\n",
+                   finished);
     return 0;
 }
 

@@ -56,21 +56,30 @@ void check_outputs(const RenderOptions& options) {
     if (options.checkpoint) image::check_writable(*options.checkpoint);
 }
 
-/// Throws std::runtime_error if the checkpoint and an output would overwrite each other.
-void check_checkpoint_name(const RenderOptions& options, const scene::Film& film) {
-    if (!options.checkpoint) return;
-    std::vector<std::filesystem::path> others = output_paths(options, film);
-    if (options.json) others.emplace_back(*options.json);
-    for (const std::filesystem::path& path : others)
-        if (absolute(path).lexically_normal() == absolute(*options.checkpoint).lexically_normal())
-            throw std::runtime_error(
-                "'" + options.checkpoint->string() +
-                "' is both the checkpoint and an output; give --checkpoint another name");
+/// Throws std::runtime_error if files would overwrite each other, or what is read.
+void check_names(const RenderOptions& options, const scene::Film& film) {
+    std::vector<std::filesystem::path> files = output_paths(options, film);
+    if (options.json && options.json != "-") files.emplace_back(*options.json);
+    if (options.checkpoint) files.push_back(*options.checkpoint);
+    files.push_back(options.scene);
+    files.insert(files.end(), options.rigs.begin(), options.rigs.end());
+    const std::size_t written = files.size() - 1 - options.rigs.size();
+    const auto full = [](const std::filesystem::path& path) {
+        return std::filesystem::weakly_canonical(absolute(path));
+    };
+    for (std::size_t i = 0; i < written; ++i)
+        for (std::size_t j = i + 1; j < files.size(); ++j)
+            if (full(files[i]) == full(files[j]))
+                throw std::runtime_error("'" + files[i].string() + "' would be written and is also " +
+                                         (j < written ? "another output" : "read") +
+                                         "; give one another name");
 }
 
 void print_warnings(const RenderOptions& options, const render_cpu::RenderSettings& settings,
                     const scene::Scene& scene) {
     for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    if (scene.emitters.empty())
+        fmt::print(stderr, "warning: there are no area lights, the image is black; --lights adds some\n");
     if (samples_visible_normals(settings.strategies) && !scene.line_lights.empty())
         fmt::print(
             stderr,
@@ -223,7 +232,7 @@ int run_render(const RenderOptions& options) {
 
     const InterruptGuard guard;
     scene::Scene scene = load_scene(options.scene, options.rigs);
-    check_checkpoint_name(options, scene.film);
+    check_names(options, scene.film);
     apply_resolution(options.resolution, scene);
     Times times;
     times.load = seconds_since(begin);
@@ -267,13 +276,18 @@ int run_render(const RenderOptions& options) {
     progress.finish();
 
     const auto write_begin = Clock::now();
-    if (checkpointer) checkpointer->save_all();
+    // Also where the image is finished: it may fail to be written.
+    const std::optional<std::string> unsaved = checkpointer ? checkpointer->save_all() : std::nullopt;
     const double finished = finished_fraction(frame);
     metadata["scene"] = options.scene.filename().string();
     metadata["render_seconds"] = image::metadata_text(statistics.render_seconds);
     metadata["finished_fraction"] = image::metadata_text(finished);
     write_outputs(options, settings, scene.film, std::move(frame), metadata);
-    if (options.checkpoint && finished == 1) std::filesystem::remove(*options.checkpoint);
+    if (unsaved && finished < 1) throw std::runtime_error(*unsaved);
+    if (options.checkpoint && finished == 1) {
+        std::error_code ignored;
+        std::filesystem::remove(*options.checkpoint, ignored);
+    }
     times.write = seconds_since(write_begin);
     times.total = seconds_since(begin);
     if (options.json)

@@ -26,6 +26,9 @@ inline Image make_image(int width, int height) {
 /// Settings that travel with an image: keys and values are free text.
 using Metadata = std::map<std::string, std::string>;
 
+/// Metadata of images whose pixels are not those of the rendering that the other metadata describe.
+inline constexpr const char* kConvertedKey = "converted";
+
 /// The shortest text that gives the same number when it is read as a `Float`: different numbers have different texts.
 template <class Float>
 std::string metadata_text(Float value) {

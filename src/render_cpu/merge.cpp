@@ -37,6 +37,10 @@ Rule rule_of(const image::Layer& layer) {
 }
 
 std::vector<double> samples_of(const image::LayeredImage& image, const std::filesystem::path& path) {
+    if (image.metadata.count(image::kConvertedKey) != 0)
+        refuse(
+            path,
+            "it comes from `nusselt convert`, which may have changed it; merge what `nusselt render` wrote");
     const std::size_t pixels =
         static_cast<std::size_t>(image.data.width) * static_cast<std::size_t>(image.data.height);
     if (const image::Layer* layer = image::find_layer(image, kSamplesLayer)) {

@@ -122,11 +122,12 @@ Double3 transform_vector(const Transform& t, const Double3& v) {
 Double3 transform_normal(const Transform& t, const Double3& n) {
     // The cofactor matrix is the inverse transpose times the determinant; it exists for singular matrices
     // too.
-    const Double3 c0 = column(t, 0);
-    const Double3 c1 = column(t, 1);
-    const Double3 c2 = column(t, 2);
-    const Double3 result = n.x * cross(c1, c2) + n.y * cross(c2, c0) + n.z * cross(c0, c1);
-    return normalized(linear_determinant(t) < 0 ? -1.0 * result : result);
+    const Double3 a = cross(column(t, 1), column(t, 2));
+    const Double3 b = cross(column(t, 2), column(t, 0));
+    const Double3 c = cross(column(t, 0), column(t, 1));
+    const double largest = std::max({length(a), length(b), length(c)});
+    if (!(largest > 0)) return {};
+    return (std::copysign(1.0, linear_determinant(t)) / largest) * (n.x * a + n.y * b + n.z * c);
 }
 
 bool is_identity(const Transform& t) { return t.m == Transform{}.m; }

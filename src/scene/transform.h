@@ -35,8 +35,9 @@ double linear_determinant(const Transform& t);
 /// Divides by the homogeneous coordinate.
 Double3 transform_point(const Transform& t, const Double3& p);
 Double3 transform_vector(const Transform& t, const Double3& v);
-/// Unit normal, orthogonal to transformed tangents (the inverse transpose of the linear part); zero stays
-/// zero.
+/// Orthogonal to transformed tangents: the inverse transpose of the linear part, times a positive factor that depends on
+/// the transform alone, so that interpolation between normals of different length stays what it is. A rotation keeps the
+/// length. Zero for singular transforms without a plane.
 Double3 transform_normal(const Transform& t, const Double3& n);
 bool is_identity(const Transform& t);
 

@@ -163,7 +163,7 @@ TEST_F(RenderCheckpoint, IsNoOutput) {
                               "-o a.exr --json state --checkpoint state"}) {
         const Outcome clash = run(render + names);
         EXPECT_EQ(clash.exit_code, 1) << names;
-        expect_message(clash.err, "both the checkpoint and an output");
+        expect_message(clash.err, "would be written and is also another output");
     }
 }
 

@@ -52,7 +52,9 @@ TEST_F(RenderParts, MergedAreTheWholeImageBitByBit) {
     EXPECT_EQ(merged.metadata.at("finished_fraction"), "1");
 
     // Two thirds of the image are an image as well.
-    expect_success("merge some.exr part1.exr part2.exr");
+    const Outcome some = run("merge some.exr part1.exr part2.exr");
+    EXPECT_EQ(some.exit_code, 0);
+    EXPECT_EQ(some.err.rfind("warning: only a share of 0.", 0), 0u) << some.err;
     expect_success("merge again.exr some.exr part3.exr");
     expect_same_layers(layers("again.exr"), whole);
 }
@@ -89,6 +91,29 @@ TEST_F(RenderParts, MergeRefusesWhatDoesNotFit) {
         EXPECT_FALSE(std::filesystem::exists(path("merged.exr"))) << inputs;
     }
     expect_message(run("merge no/such/folder/a.exr a.exr").err, "no/such/folder");
+}
+
+TEST_F(RenderParts, ConvertedImagesAreNotMerged) {
+    expect_success(render("-o one.exr --seed 1"));
+    expect_success(render("-o two.exr --seed 2"));
+    expect_success("convert one.exr bright.exr --exposure 3");
+    const Outcome outcome = run("merge merged.exr bright.exr two.exr");
+    EXPECT_EQ(outcome.exit_code, 1);
+    expect_message(outcome.err, "bright.exr");
+    expect_message(outcome.err, "it comes from `nusselt convert`");
+}
+
+TEST_F(RenderParts, OutputsDoNotOverwriteEachOtherOrWhatIsRead) {
+    for (const char* names :
+         {"-o a.exr --json a.exr", "-o a.exr -o ./a.exr", "-o a.exr --checkpoint a.exr"}) {
+        const Outcome outcome = run(render(names));
+        EXPECT_EQ(outcome.exit_code, 1) << names;
+        expect_message(outcome.err, "another output");
+    }
+    const Outcome outcome =
+        run("render '" + kScenes + "/room.pbrt' -o a.exr --json '" + kScenes + "/room.pbrt'");
+    EXPECT_EQ(outcome.exit_code, 1);
+    expect_message(outcome.err, "read");
 }
 
 TEST_F(RenderParts, MayComeFromScenesInOtherFolders) {

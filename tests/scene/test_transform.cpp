@@ -82,7 +82,10 @@ TEST(TransformMath, NormalsStayOrthogonal) {
     const Double3 normal = {1, 0, 1};
     const Double3 world_normal = transform_normal(t, normal);
     EXPECT_NEAR(dot(world_normal, transform_vector(t, tangent)), 0, 1e-13);
-    EXPECT_NEAR(length(world_normal), 1, 1e-13);
+    // All normals are scaled alike.
+    const Double3 longer = transform_normal(t, 2.5 * normal);
+    EXPECT_NEAR(length(longer - 2.5 * world_normal), 0, 1e-13);
+    EXPECT_NEAR(length(transform_normal(rotation(70, {1, 2, 3}), normal)), length(normal), 1e-13);
     // The inverse transpose keeps the side even under reflection: n . v > 0 stays so.
     EXPECT_GT(dot(world_normal, transform_vector(t, {1, 5, 1})), 0);
 }
