@@ -34,6 +34,8 @@ inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 34;
 inline constexpr std::uint64_t kMaxJsonBytes = 256 << 20;              ///< also after decompression
 inline constexpr std::int64_t kMaxImageTexels = std::int64_t{1} << 28; ///< 3 GiB of floats
 
+inline constexpr int kMaxFilmSize = 65536; ///< pixels along an axis
+
 // All files of a scene together.
 inline constexpr std::uint64_t kMaxInflatedBytes = std::uint64_t{1} << 32;
 inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 31;
