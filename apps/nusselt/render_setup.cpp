@@ -1,6 +1,7 @@
 #include "render_setup.h"
 
 #include "render_cpu/film.h"
+#include "scene/limits.h"
 
 #include <algorithm>
 #include <charconv>
@@ -34,10 +35,9 @@ std::string check_part(const std::string& text) {
 std::string check_resolution(const std::string& text) {
     const std::optional<Resolution> size = parse_resolution(text);
     if (!size) return "'" + text + "' is not of the form WIDTHxHEIGHT, such as 640x480";
-    if (std::min(size->width, size->height) < 1 ||
-        std::max(size->width, size->height) > render_cpu::kMaxFilmSize)
+    if (std::min(size->width, size->height) < 1 || std::max(size->width, size->height) > scene::kMaxFilmSize)
         return "'" + text + "' has a side that does not lie between 1 and " +
-               std::to_string(render_cpu::kMaxFilmSize);
+               std::to_string(scene::kMaxFilmSize);
     return "";
 }
 

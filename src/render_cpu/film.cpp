@@ -1,5 +1,7 @@
 #include "render_cpu/film.h"
 
+#include "scene/limits.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -44,9 +46,10 @@ scene::PixelBounds rendered_pixels(const scene::Film& film) {
 
 void resize_film(scene::Scene& scene, int width, int height) {
     for (const int size : {width, height})
-        if (size < 1 || size > kMaxFilmSize)
-            throw std::invalid_argument("image sizes lie between 1 and " + std::to_string(kMaxFilmSize) +
-                                        ", found " + std::to_string(size));
+        if (size < 1 || size > scene::kMaxFilmSize)
+            throw std::invalid_argument("image sizes lie between 1 and " +
+                                        std::to_string(scene::kMaxFilmSize) + ", found " +
+                                        std::to_string(size));
     const Size from = {scene.film.width, scene.film.height};
     const Size to = {width, height};
     scene::Camera& camera = scene.camera;

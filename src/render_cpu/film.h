@@ -5,15 +5,13 @@
 
 namespace nusselt::render_cpu {
 
-inline constexpr int kMaxFilmSize = 65536; ///< pixels along an axis
-
 /// The pixels of the film that an image of it has: the crop, or all.
 scene::PixelBounds rendered_pixels(const scene::Film& film);
 
 /// Gives the film another size in pixels as pbrt would: the centre of the view, the aspect ratio of pixels and what is
 /// seen along the shorter axis stay. A crop keeps its share of the film: its ends are scaled and rounded to the nearest
 /// pixel, so that neighbouring crops stay neighbours, but it keeps at least one pixel along each axis.
-/// \throws std::invalid_argument unless both lie between 1 and kMaxFilmSize
+/// \throws std::invalid_argument unless both lie between 1 and scene::kMaxFilmSize
 void resize_film(scene::Scene& scene, int width, int height);
 
 } // namespace nusselt::render_cpu

@@ -9,13 +9,11 @@ namespace nusselt::scene {
 
 namespace {
 
-constexpr int kMaxResolution = 65536;
-
 void check_resolution(std::string_view name, int value, const ParameterList& parameters) {
-    if (value < 1 || value > kMaxResolution)
+    if (value < 1 || value > kMaxFilmSize)
         throw SceneError(parameters.location_of(name),
                          "film: " + std::string(name) + " must lie between 1 and " +
-                             std::to_string(kMaxResolution) + ", found " + std::to_string(value));
+                             std::to_string(kMaxFilmSize) + ", found " + std::to_string(value));
 }
 
 /// The pixels whose index times 1 / resolution lies in an interval of the unit interval, in any order of its ends.

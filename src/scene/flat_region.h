@@ -18,7 +18,6 @@ public:
     /// Both arguments must outlive this object.
     ConnectedMesh(const std::vector<Float3>& positions, const std::vector<Triangle>& triangles);
 
-    std::size_t triangle_count() const { return triangles_.size(); }
     /// See MeshAdjacency::mates.
     EdgeId mate(EdgeId edge) const { return adjacency_.mates[edge]; }
     PointId begin_of(EdgeId edge) const {

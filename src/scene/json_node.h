@@ -35,7 +35,6 @@ public:
 
     bool is_number() const { return value_->is_number(); }
     bool is_text() const { return value_->is_string(); }
-    bool is_array() const { return value_->is_array(); }
 
     /// Throws unless this is an object all of whose fields are among these.
     void check_fields(std::initializer_list<std::string_view> known) const;

@@ -2,6 +2,7 @@
 
 #include "scene/bounds.h"
 #include "scene/colour_space.h"
+#include "scene/light_area.h"
 #include "scene/polygon.h"
 #include "scene/scene_size.h"
 #include "scene/shapes.h"
@@ -22,19 +23,6 @@ std::vector<Double3> corners(const PolygonLight& light) {
     std::vector<Double3> result;
     for (const Float3& p : light.vertices) result.push_back(to_double(p));
     return result;
-}
-
-double area(const PolygonLight& light) { return 0.5 * length(area_vector(corners(light))); }
-
-double mantle_area(const LineLight& light) {
-    return 2 * std::numbers::pi * static_cast<double>(light.radius) *
-           length(to_double(light.end) - to_double(light.begin));
-}
-
-double emitting_area(const LineLight& light) {
-    const double radius = light.radius;
-    return mantle_area(light) +
-           (light.model == TubeModel::solid ? 2 * std::numbers::pi * radius * radius : 0);
 }
 
 bool equal(const Float3& a, const Float3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
@@ -72,6 +60,11 @@ void set_shape(EditableLight& light, const Float3& radiance, const TubeShape& sh
     light.polygons.clear();
     light.tubes = {tube};
     light.has_new_surface = false;
+}
+
+/// Alpha 0 makes lights without a surface.
+bool is_invisible(const EditableLight& light) {
+    return !light.polygons.empty() && light.triangles.empty() && !light.has_new_surface;
 }
 
 bool emits(const EditableLight& light) { return light.is_enabled && !light.is_removed && !is_black(light); }
@@ -137,23 +130,23 @@ double luminous_power(const EditableLight& light) {
     double sum = 0;
     for (const PolygonLight& polygon : light.polygons)
         sum += (polygon.two_sided ? 2 : 1) * area(polygon) * luminance(to_double(polygon.radiance));
-    for (const LineLight& tube : light.tubes)
-        sum += emitting_area(tube) * luminance(to_double(tube.radiance));
+    for (const LineLight& tube : light.tubes) sum += area(tube) * luminance(to_double(tube.radiance));
     return std::numbers::pi * sum;
 }
 
 void LightEditor::replace_shape(EditableLight& light, const LightShape& shape, std::uint32_t material) {
     if (std::visit([&](const auto& s) { return has_shape(light, s); }, shape)) return;
-    const bool has_surface = !light.polygons.empty();
-    if (!has_surface) light.material = material;
+    const bool stays_invisible = is_invisible(light);
+    if (light.polygons.empty()) light.material = material;
     Float3 radiance = {1, 1, 1};
-    if (has_surface)
+    if (!light.polygons.empty())
         radiance = light.polygons[0].radiance;
     else if (!light.tubes.empty())
         radiance = light.tubes[0].radiance;
     unused_triangles_.insert(unused_triangles_.end(), light.triangles.begin(), light.triangles.end());
     light.triangles.clear();
     std::visit([&](const auto& s) { set_shape(light, radiance, s); }, shape);
+    if (stays_invisible) light.has_new_surface = false;
 }
 
 void LightEditor::transform(EditableLight& light, const Transform& transform) {

@@ -40,14 +40,14 @@ public:
     explicit LightEditor(Scene& scene) : scene_(scene), lights_(editable_lights(scene)) {}
 
     std::vector<EditableLight>& lights() { return lights_; }
-    /// Gives a light another shape, with the radiance and the sides of what it was;
-    /// one without a shape becomes white and one-sided.
-    /// \param material  of its surface if it had none
+    /// Gives a light another shape, with the radiance and the sides of what it was; one without a shape becomes white and
+    /// one-sided. Polygons that take the place of polygons without a surface, as alpha 0 makes them, have none either.
+    /// \param material  of its surface if it had no polygons
     void replace_shape(EditableLight& light, const LightShape& shape, std::uint32_t material);
     /// Moves a light and its surface. The transform is affine; radii grow with the cube root of its determinant.
     void transform(EditableLight& light, const Transform& transform);
-    /// Puts the lights back. Of those that are black or not enabled the surface stays, of tubes nothing. Vertices that nothing uses
-    /// any more are removed.
+    /// Puts the lights back. Of those that are black or not enabled the surface stays, of tubes nothing. Vertices of
+    /// surfaces that are replaced or removed go with them unless others use them.
     void finish();
 
 private:

@@ -34,13 +34,15 @@ inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 34;
 inline constexpr std::uint64_t kMaxJsonBytes = 256 << 20;              ///< also after decompression
 inline constexpr std::int64_t kMaxImageTexels = std::int64_t{1} << 28; ///< 3 GiB of floats
 
+inline constexpr int kMaxFilmSize = 65536; ///< pixels along an axis
+
 // All files of a scene together.
 inline constexpr std::uint64_t kMaxInflatedBytes = std::uint64_t{1} << 32;
 inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 31;
 
 // Files that are read again. Those that include others twice multiply quickly.
-inline constexpr int kMaxRepeatedIncludes = 10000;
-inline constexpr std::size_t kMaxRepeatedBytes = std::size_t{1} << 28; ///< of included texts
+inline constexpr int kMaxRepeatedIncludes = 1000;
+inline constexpr std::size_t kMaxRepeatedBytes = std::size_t{1} << 25; ///< of included texts
 inline constexpr std::uint64_t kMaxRepeatedMeshBytes = std::uint64_t{1} << 32;
 
 // Copies of lights. They are not instanced, so a short text may ask for very many of them.

@@ -1,9 +1,10 @@
 // The materials of pbrt v3.
 
 #include "scene/material_reader.h"
+#include "scene/name_table.h"
+#include "scene/vector_math.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace nusselt::scene {
@@ -106,6 +107,8 @@ Surface translucent(MaterialReader& m) {
 }
 
 Surface disney(MaterialReader& m) {
+    constexpr Double3 kLuminance = {0.212671, 0.715160, 0.072169}; // of pbrt v3, which rounds them so
+
     TextureFormulas& formulas = m.formulas();
     const TextureValue base = m.unit_colour("color", 0.5);
     const TextureValue metallic = m.unit_number("metallic", 0);
@@ -113,8 +116,7 @@ Surface disney(MaterialReader& m) {
     TextureValue dielectric = grey_value(plain);
     if (const double tint = std::clamp(m.constant("speculartint", 0), 0.0, 1.0); tint > 0) {
         const Float3& c = base.factor;
-        const double luminance = 0.212671 * static_cast<double>(c.x) + 0.715160 * static_cast<double>(c.y) +
-                                 0.072169 * static_cast<double>(c.z);
+        const double luminance = dot(kLuminance, to_double(c));
         const auto tinted = [&](float channel) {
             const double hue = luminance > 0 ? static_cast<double>(channel) / luminance : 1;
             return static_cast<float>(std::min(1.0, plain * (1 + tint * (hue - 1))));
@@ -184,10 +186,6 @@ constexpr std::pair<std::string_view, MaterialReduction> kReductions[] = {
 
 } // namespace
 
-MaterialReduction find_reduction_v3(std::string_view type) {
-    const auto* const found = std::find_if(std::begin(kReductions), std::end(kReductions),
-                                           [&](const auto& entry) { return entry.first == type; });
-    return found == std::end(kReductions) ? nullptr : found->second;
-}
+MaterialReduction find_reduction_v3(std::string_view type) { return find_named(kReductions, type); }
 
 } // namespace nusselt::scene

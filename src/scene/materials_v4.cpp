@@ -1,9 +1,8 @@
 // The materials of pbrt v4.
 
 #include "scene/material_reader.h"
+#include "scene/name_table.h"
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace nusselt::scene {
@@ -96,10 +95,6 @@ constexpr std::pair<std::string_view, MaterialReduction> kReductions[] = {
 
 } // namespace
 
-MaterialReduction find_reduction_v4(std::string_view type) {
-    const auto* const found = std::find_if(std::begin(kReductions), std::end(kReductions),
-                                           [&](const auto& entry) { return entry.first == type; });
-    return found == std::end(kReductions) ? nullptr : found->second;
-}
+MaterialReduction find_reduction_v4(std::string_view type) { return find_named(kReductions, type); }
 
 } // namespace nusselt::scene

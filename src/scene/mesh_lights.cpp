@@ -1,5 +1,6 @@
 #include "scene/mesh_lights.h"
 
+#include "scene/light_area.h"
 #include "scene/polygon.h"
 #include "scene/vector_math.h"
 
@@ -26,17 +27,11 @@ void orient_by_shading_normals(Mesh& mesh) {
     }
 }
 
-double area_of(const Mesh& mesh) {
-    double sum = 0;
-    for (const Triangle& triangle : mesh.triangles) sum += 0.5 * length(right_hand_normal(mesh, triangle));
-    return sum;
-}
-
 } // namespace
 
 void add_polygon_lights(ShapeDirective& shape, Mesh& mesh) {
     orient_by_shading_normals(mesh);
-    const Float3 radiance = radiance_of(shape.emission, area_of(mesh), shape.parameters.location());
+    const Float3 radiance = radiance_of(shape.emission, area(mesh), shape.parameters.location());
     PolygonPartition partition = merge_coplanar_triangles(mesh.positions, mesh.triangles);
     mesh.triangle_light = std::move(partition.polygon_of_triangle);
     mesh.polygon_lights.reserve(partition.polygons.size());

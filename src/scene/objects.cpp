@@ -1,5 +1,7 @@
 #include "scene/objects.h"
 
+#include "scene/vector_math.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -22,11 +24,10 @@ std::size_t value_count(const ShapeDirective& shape) {
 std::optional<std::array<float, 12>> affine_rows(const Transform& t) {
     const auto& last = t.m[3];
     if (last[0] != 0 || last[1] != 0 || last[2] != 0) return std::nullopt;
-    constexpr double kMax = 1e15;
     std::array<float, 12> rows{};
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const double entry = t.m[i / 4][i % 4] / last[3];
-        if (!(std::fabs(entry) <= kMax)) return std::nullopt;
+        if (!(std::fabs(entry) <= kMaxCoordinate)) return std::nullopt;
         rows[i] = static_cast<float>(entry);
     }
     return rows;

@@ -1,9 +1,9 @@
 #include "scene/parser.h"
 
 #include "scene/graphics_state.h"
-#include "scene/ignored_lights.h"
 #include "scene/source_reader.h"
 #include "scene/surface_variants.h"
+#include "scene/type_counter.h"
 
 #include <algorithm>
 #include <limits>
@@ -107,9 +107,9 @@ private:
     TextureTable textures_;
     SurfaceVariants surface_variants_;
     EmissionImages emission_images_;
-    LeftOutShapes left_out_shapes_;
+    TypeCounter left_out_shapes_;
     ObjectTable objects_;
-    IgnoredLights ignored_lights_;
+    TypeCounter ignored_lights_;
     std::optional<CameraDirective> camera_;
     std::optional<FilterDirective> pixel_filter_;
     std::optional<Location> world_begin_;
@@ -171,8 +171,9 @@ SceneDescription Parser::run() {
     coordinate_systems_["world"] = {};
     parse_file();
     state_.warn_if_open(scene_.warnings);
-    left_out_shapes_.warn(scene_.warnings);
-    ignored_lights_.warn(scene_.warnings);
+    left_out_shapes_.warn("shapes that are not supported are left out, the first one here", scene_.warnings);
+    ignored_lights_.warn("light sources that are no area lights are left out, the first one here",
+                         scene_.warnings);
     const Location begin{&scene_.sources.front(), 1};
     if (!camera_) scene_.warnings.add(begin, "there is no Camera, it looks from the origin along +z");
     if (!camera_) camera_.emplace().location = begin;

@@ -1,5 +1,6 @@
 #include "scene/ply.h"
 
+#include "scene/message.h"
 #include "scene/ply_header.h"
 #include "scene/polygon_triangulation.h"
 
@@ -7,6 +8,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -92,6 +94,12 @@ public:
             throw std::runtime_error(
                 "expected a number, found '" +
                 std::string(data_.substr(0, std::min<std::size_t>(data_.find_first_of(kSpace), 40))) + "'");
+        if (error == std::errc::result_out_of_range) {
+            // from_chars reports underflow like overflow and leaves the value unset; strtod tells them apart.
+            const std::string text(data_.substr(0, length));
+            value = std::strtod(text.c_str(), nullptr);
+            if (std::isinf(value)) throw std::runtime_error("number out of range: '" + shortened(text) + "'");
+        }
         data_.remove_prefix(length);
         return value;
     }

@@ -1,3 +1,4 @@
+#include "scene/light_area.h"
 #include "scene/shape_readers.h"
 #include "scene/vector_math.h"
 
@@ -35,16 +36,6 @@ double sweep_angle(ShapeDirective& shape) {
 
 int pieces(double angle, int per_circle) {
     return std::max(1, static_cast<int>(std::ceil(angle / (2 * std::numbers::pi) * per_circle - 1e-9)));
-}
-
-double area_of(const Mesh& mesh) {
-    double area = 0;
-    for (const Triangle& triangle : mesh.triangles) {
-        const Double3 p0 = to_double(mesh.positions[triangle.vertex[0]]);
-        area += 0.5 * length(cross(to_double(mesh.positions[triangle.vertex[1]]) - p0,
-                                   to_double(mesh.positions[triangle.vertex[2]]) - p0));
-    }
-    return area;
 }
 
 void add_triangle(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -88,10 +79,10 @@ Mesh tessellate(ShapeDirective& shape, int columns, int rows, const Surface& eva
 
 /// The ratio of the exact area to that of a tessellation. Throws SceneError if one of them is zero.
 double area_ratio(const ShapeDirective& shape, const Mesh& mesh, double exact_area) {
-    const double area = area_of(mesh);
-    if (!(exact_area > 0) || !(area > 0))
+    const double flat_area = area(mesh);
+    if (!(exact_area > 0) || !(flat_area > 0))
         throw SceneError(shape.parameters.location(), "shape \"" + shape.type + "\": its area is zero");
-    return exact_area / area;
+    return exact_area / flat_area;
 }
 
 /// (cosine, sine), exactly periodic, so that the ends of a full circle coincide.

@@ -7,6 +7,7 @@
 #include "scene/spectrum.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <unordered_set>
@@ -33,32 +34,46 @@ constexpr float kDefaultRoughness = 0.5f;
 /// A name in quotes.
 std::string in_quotes(const std::string& name) { return '"' + shortened(name) + '"'; }
 
+/// The names of materials, or of the lights that have not been removed, by index. Scenes may have very many and rigs may
+/// select very often, so that nothing is copied.
+using NameOf = std::function<const std::string*(std::size_t)>; // null where there is nothing
+
 /// \param kind   "light" or "material"
-/// \param names  of those that there are
-std::string nothing_selected(const std::string& kind, const Selector& selector,
-                             const std::vector<std::string>& names) {
+/// \param count  of the indices, from 0
+std::string nothing_selected(const std::string& kind, const Selector& selector, std::size_t count,
+                             const NameOf& name_of) {
+    constexpr std::size_t kShown = 10;
+    std::string list;
+    std::size_t named = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string* const name = name_of(i);
+        if (name != nullptr && ++named <= kShown) list += (named > 1 ? ", " : " ") + in_quotes(*name);
+    }
     std::string text;
     if (const auto* const index = std::get_if<std::size_t>(&selector))
         text = "there is no " + kind + " " + std::to_string(*index) + " (they are counted from 0)";
     else
         text = "no " + kind + " is called " + in_quotes(std::get<std::string>(selector));
-    if (names.empty()) return text + "; the scene has no " + kind + "s";
-    constexpr std::size_t kShown = 10;
-    text += "; there ";
-    text += names.size() == 1 ? "is" : "are";
-    for (std::size_t i = 0; i < names.size() && i < kShown; ++i)
-        text += (i > 0 ? ", " : " ") + in_quotes(names[i]);
-    if (names.size() > kShown) text += " and " + std::to_string(names.size() - kShown) + " more";
+    if (named == 0) return text + "; the scene has no " + kind + "s";
+    text += std::string("; there ") + (named == 1 ? "is" : "are") + list;
+    if (named > kShown) text += " and " + std::to_string(named - kShown) + " more";
     return text;
 }
 
-/// Indices into the list.
-std::vector<std::size_t> select_names(const std::vector<std::string>& names, const std::string& pattern) {
+/// Indices of what a selector means.
+std::vector<std::size_t> select(const Selector& selector, std::size_t count, const NameOf& name_of) {
+    if (const auto* const index = std::get_if<std::size_t>(&selector)) {
+        if (*index < count && name_of(*index) != nullptr) return {*index};
+        return {};
+    }
+    const std::string& pattern = std::get<std::string>(selector);
     std::vector<std::size_t> exact;
     std::vector<std::size_t> matching;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (names[i] == pattern) exact.push_back(i);
-        if (matches(names[i], pattern)) matching.push_back(i);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string* const name = name_of(i);
+        if (name == nullptr) continue;
+        if (*name == pattern) exact.push_back(i);
+        if (exact.empty() && matches(*name, pattern)) matching.push_back(i);
     }
     return exact.empty() ? matching : exact;
 }
@@ -118,7 +133,9 @@ public:
     void finish() { editor_.finish(); }
 
 private:
-    std::vector<std::size_t> select(const RigLight& entry, const Selector& selector);
+    // Both throw if there is nothing.
+    std::vector<std::size_t> select_materials(const std::string& where, const Selector& selector) const;
+    std::vector<std::size_t> select_lights(const std::string& where, const Selector& selector);
     void add(const RigLight& entry, const LightAddition& addition);
     std::uint32_t surface_material(const RigLight& entry, const LightAddition& addition);
     std::uint32_t black_material();
@@ -133,16 +150,7 @@ private:
 };
 
 void RigApplication::apply(const RigMaterial& entry) {
-    std::vector<std::string> names;
-    for (const Material& material : scene_.materials) names.push_back(material.name);
-    std::vector<std::size_t> selected;
-    if (const auto* const index = std::get_if<std::size_t>(&entry.materials)) {
-        if (*index < names.size()) selected = {*index};
-    } else {
-        selected = select_names(names, std::get<std::string>(entry.materials));
-    }
-    if (selected.empty()) fail(entry.where, "material", nothing_selected("material", entry.materials, names));
-    for (const std::size_t i : selected) {
+    for (const std::size_t i : select_materials(entry.where, entry.materials)) {
         Material& material = scene_.materials[i];
         const bool becomes_glossy = material.model == BrdfModel::lambert &&
                                     entry.model.value_or(material.model) == BrdfModel::frostbite;
@@ -162,7 +170,7 @@ void RigApplication::apply(const RigLight& entry) {
         add(entry, *addition);
         return;
     }
-    const std::vector<std::size_t> selected = select(entry, std::get<Selector>(entry.lights));
+    const std::vector<std::size_t> selected = select_lights(entry.where, std::get<Selector>(entry.lights));
     const LightChanges& changes = entry.changes;
     if (selected.size() > 1 && (changes.name || changes.shape || changes.center))
         fail(entry.where, "light",
@@ -174,22 +182,20 @@ void RigApplication::apply(const RigLight& entry) {
     for (const std::size_t i : selected) change(entry, editor_.lights()[i], {});
 }
 
-std::vector<std::size_t> RigApplication::select(const RigLight& entry, const Selector& selector) {
+std::vector<std::size_t> RigApplication::select_materials(const std::string& where,
+                                                          const Selector& selector) const {
+    const auto name_of = [&](std::size_t i) { return &scene_.materials[i].name; };
+    std::vector<std::size_t> selected = select(selector, scene_.materials.size(), name_of);
+    if (selected.empty())
+        fail(where, "material", nothing_selected("material", selector, scene_.materials.size(), name_of));
+    return selected;
+}
+
+std::vector<std::size_t> RigApplication::select_lights(const std::string& where, const Selector& selector) {
     const std::vector<EditableLight>& lights = editor_.lights();
-    if (const auto* const index = std::get_if<std::size_t>(&selector))
-        if (*index < lights.size() && !lights[*index].is_removed) return {*index};
-    std::vector<std::string> names;
-    std::vector<std::size_t> indices;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (lights[i].is_removed) continue;
-        names.push_back(lights[i].name);
-        indices.push_back(i);
-    }
-    std::vector<std::size_t> selected;
-    if (const auto* const pattern = std::get_if<std::string>(&selector))
-        selected = select_names(names, *pattern);
-    if (selected.empty()) fail(entry.where, "light", nothing_selected("light", selector, names));
-    for (std::size_t& i : selected) i = indices[i];
+    const auto name_of = [&](std::size_t i) { return lights[i].is_removed ? nullptr : &lights[i].name; };
+    std::vector<std::size_t> selected = select(selector, lights.size(), name_of);
+    if (selected.empty()) fail(where, "light", nothing_selected("light", selector, lights.size(), name_of));
     return selected;
 }
 
@@ -213,12 +219,16 @@ void RigApplication::add(const RigLight& entry, const LightAddition& addition) {
 
 std::uint32_t RigApplication::surface_material(const RigLight& entry, const LightAddition& addition) {
     if (!addition.material) return black_material();
-    std::vector<std::string> names;
-    for (const Material& material : scene_.materials) names.push_back(material.name);
-    const auto found = std::find(names.begin(), names.end(), *addition.material);
-    if (found == names.end())
-        fail(entry.where, "material", nothing_selected("material", *addition.material, names));
-    return static_cast<std::uint32_t>(found - names.begin());
+    // Not a pattern: a surface has one material.
+    const auto& materials = scene_.materials;
+    const auto found = std::find_if(materials.begin(), materials.end(), [&](const Material& material) {
+        return material.name == *addition.material;
+    });
+    if (found == materials.end())
+        fail(entry.where, "material",
+             nothing_selected("material", *addition.material, materials.size(),
+                              [&](std::size_t i) { return &materials[i].name; }));
+    return static_cast<std::uint32_t>(found - materials.begin());
 }
 
 std::uint32_t RigApplication::black_material() {

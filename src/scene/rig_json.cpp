@@ -10,7 +10,6 @@ namespace nusselt::scene {
 
 namespace {
 
-constexpr double kMaxCoordinate = 1e15; // as in scene files
 constexpr double kMaxScale = 1e9;
 constexpr double kMaxDegrees = 3600;
 constexpr std::size_t kMaxIndex = 0xffffffff;

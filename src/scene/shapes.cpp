@@ -1,6 +1,7 @@
 #include "scene/shapes.h"
 
 #include "scene/mesh_lights.h"
+#include "scene/name_table.h"
 #include "scene/shape_readers.h"
 #include "scene/vector_math.h"
 
@@ -64,14 +65,8 @@ constexpr std::pair<std::string_view, Reader> kReaders[] = {{"trianglemesh", rea
                                                             {"cylinder", read_cylinder},
                                                             {"line", read_tube}};
 
-Reader reader_of(std::string_view type) {
-    const auto* const found = std::find_if(std::begin(kReaders), std::end(kReaders),
-                                           [&](const auto& entry) { return entry.first == type; });
-    return found != std::end(kReaders) ? found->second : nullptr;
-}
-
 Mesh build_surface(ShapeDirective& shape) {
-    Mesh mesh = reader_of(shape.type)(shape);
+    Mesh mesh = find_named(kReaders, shape.type)(shape);
     move_to_world(shape, mesh);
     remove_degenerate_triangles(mesh);
     if (!is_black(shape.emission.radiance) && !mesh.triangles.empty()) add_polygon_lights(shape, mesh);
@@ -80,7 +75,7 @@ Mesh build_surface(ShapeDirective& shape) {
 
 } // namespace
 
-bool is_supported(std::string_view type) { return reader_of(type) != nullptr; }
+bool is_supported(std::string_view type) { return find_named(kReaders, type) != nullptr; }
 
 void limit_tessellation(std::vector<ShapeDirective>& shapes) {
     const auto is_round = [](const ShapeDirective& shape) {
@@ -104,26 +99,6 @@ Mesh build_mesh(ShapeDirective& shape) {
     Mesh mesh = is_tube(shape) ? read_tube(shape) : build_surface(shape);
     shape.parameters.warn_unused("shape \"" + shape.type + '"', mesh.warnings);
     return mesh;
-}
-
-void LeftOutShapes::add(const std::string& type, const Location& location) {
-    if (counts_.empty()) first_ = location;
-    ++counts_[type];
-}
-
-void LeftOutShapes::warn(Warnings& warnings) const {
-    if (counts_.empty()) return;
-    constexpr std::size_t kShownTypes = 8;
-    constexpr std::size_t kShownCharacters = 40;
-    std::size_t shown = 0;
-    std::string list;
-    for (const auto& [type, count] : counts_) {
-        if (++shown > kShownTypes) continue;
-        list += (list.empty() ? "" : ", ") + std::to_string(count) + " \"" +
-                type.substr(0, kShownCharacters) + '"';
-    }
-    if (shown > kShownTypes) list += ", ...";
-    warnings.add(first_, "shapes that are not supported are left out, the first one here: " + list);
 }
 
 } // namespace nusselt::scene

@@ -7,7 +7,6 @@
 #include "scene/transform.h"
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -44,17 +43,5 @@ bool flips_orientation(const ShapeDirective& shape);
 /// Their triangle_light refers to polygon_lights, to which coplanar neighbours have been merged. Throws
 /// SceneError. Touches nothing but `shape`, so that shapes may be built in parallel.
 Mesh build_mesh(ShapeDirective& shape);
-
-/// Counts shapes that are left out because their type is not supported.
-class LeftOutShapes {
-public:
-    void add(const std::string& type, const Location& location);
-    /// One warning for all, at the first of them.
-    void warn(Warnings& warnings) const;
-
-private:
-    std::map<std::string, std::size_t> counts_;
-    Location first_;
-};
 
 } // namespace nusselt::scene

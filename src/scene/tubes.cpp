@@ -1,3 +1,4 @@
+#include "scene/light_area.h"
 #include "scene/shape_readers.h"
 #include "scene/vector_math.h"
 
@@ -78,12 +79,6 @@ void check(const ShapeDirective& shape, const LineLight& line, double given_radi
         throw SceneError(parameters.location(), subject + "both end points are equal");
 }
 
-double area_of(const LineLight& line) {
-    const double radius = line.radius;
-    const double mantle = 2 * std::numbers::pi * radius * length(to_double(line.end) - to_double(line.begin));
-    return line.model == TubeModel::solid ? mantle + 2 * std::numbers::pi * radius * radius : mantle;
-}
-
 } // namespace
 
 bool is_tube(ShapeDirective& shape) {
@@ -103,7 +98,7 @@ Mesh read_tube(ShapeDirective& shape) {
     } else {
         Emission outwards = shape.emission;
         outwards.two_sided = false;
-        line.radiance = radiance_of(outwards, area_of(line), parameters.location());
+        line.radiance = radiance_of(outwards, area(line), parameters.location());
         mesh.line_lights = {line};
     }
     return mesh;

@@ -29,9 +29,12 @@ inline Double3 normalized(const Double3& v) {
     return l > 0 ? (1 / l) * v : v;
 }
 
-/// Whether all components are finite and small enough for ray tracing (Embree asserts above 1.8e18).
+/// What ray tracing can bear [m]. Embree asserts above 1.8e18.
+inline constexpr double kMaxCoordinate = 1e15;
+
+/// Whether all components are finite and at most kMaxCoordinate.
 inline bool is_valid_coordinate(const Float3& p) {
-    constexpr float kLimit = 1e15f;
+    constexpr auto kLimit = static_cast<float>(kMaxCoordinate);
     return std::fabs(p.x) <= kLimit && std::fabs(p.y) <= kLimit && std::fabs(p.z) <= kLimit;
 }
 

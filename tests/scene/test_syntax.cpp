@@ -97,8 +97,8 @@ TEST_F(Syntax, UnknownThingsAreWarnedOfOnceWithTheirLine) {
     EXPECT_EQ(without_folder(scene.warnings[0]), "scene.pbrt:2: directive 'Mystery' is unknown and skipped");
     EXPECT_EQ(without_folder(scene.warnings[1]),
               "scene.pbrt:7: shapes that are not supported are left out, the first one here: 2 \"cone\"");
-    EXPECT_EQ(without_folder(scene.warnings[2]),
-              "scene.pbrt:6: 1 light source is ignored (1 infinite): only area lights are rendered");
+    EXPECT_EQ(without_folder(scene.warnings[2]), "scene.pbrt:6: light sources that are no area lights are "
+                                                 "left out, the first one here: 1 \"infinite\"");
     EXPECT_EQ(without_folder(scene.warnings[3]),
               "scene.pbrt:10: shape \"trianglemesh\": parameter \"float fuzz\" is unknown and ignored");
     EXPECT_EQ(without_folder(scene.warnings[4]),
