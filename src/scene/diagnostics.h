@@ -2,6 +2,7 @@
 /// Positions in scene files, errors and warnings that name them.
 
 #include "scene/file_bytes.h"
+#include "scene/message.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -24,10 +25,6 @@ struct Location {
     int line = 0; ///< counts from 1
 };
 
-/// The shortest decimal text of a number.
-std::string to_text(double value);
-/// Text from a file as messages show it: an ellipsis in place of what exceeds `max_bytes`.
-std::string shortened(std::string_view text, std::size_t max_bytes = 60);
 /// "file:line"
 std::string to_string(const Location& location);
 
