@@ -17,8 +17,8 @@ struct EditableLight {
     std::vector<PolygonLight> polygons;
     std::vector<LineLight> tubes;
     std::vector<std::uint32_t> triangles; ///< of its surface, as long as that is in the scene
-    std::uint32_t first_polygon =
-        0;                        ///< index of its first polygon in the scene, while it has triangles there
+    /// Index of its first polygon in the scene, while it has triangles there.
+    std::uint32_t first_polygon = 0;
     bool has_new_surface = false; ///< made of its polygons in the end
     std::uint32_t material = 0;   ///< of a new surface
     bool is_enabled = true;
@@ -40,14 +40,14 @@ public:
     explicit LightEditor(Scene& scene) : scene_(scene), lights_(editable_lights(scene)) {}
 
     std::vector<EditableLight>& lights() { return lights_; }
-    /// Gives a light another shape, with the radiance and the sides of what it was;
-    /// one without a shape becomes white and one-sided.
+    /// Gives a light another shape, with the radiance and the sides of what it was; one without a shape becomes white and
+    /// one-sided.
     /// \param material  of its surface if it had none
     void replace_shape(EditableLight& light, const LightShape& shape, std::uint32_t material);
     /// Moves a light and its surface. The transform is affine; radii grow with the cube root of its determinant.
     void transform(EditableLight& light, const Transform& transform);
-    /// Puts the lights back. Of those that are black or not enabled the surface stays, of tubes nothing. Vertices that nothing uses
-    /// any more are removed.
+    /// Puts the lights back. Of those that are black or not enabled the surface stays, of tubes nothing. Vertices that
+    /// nothing uses any more are removed.
     void finish();
 
 private:
