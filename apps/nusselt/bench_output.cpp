@@ -1,10 +1,6 @@
 #include "bench_output.h"
 
-#include "image/atomic_file.h"
-
-#include <fmt/core.h>
-
-#include <fstream>
+#include "json_output.h"
 
 namespace nusselt::app {
 
@@ -20,12 +16,8 @@ void add_json_option(CLI::App& command, std::optional<std::string>& json) {
 
 void write_results(const std::optional<std::string>& file, const std::string& json,
                    const std::function<void()>& print_table) {
-    if (file == "-") {
-        fmt::print("{}", json);
-        return;
-    }
-    print_table();
-    if (file) image::write_atomically(*file, [&](std::ofstream& stream) { stream << json; });
+    if (file != "-") print_table();
+    if (file) write_json(*file, json);
 }
 
 } // namespace nusselt::app

@@ -1,5 +1,6 @@
 #include "bench_output.h"
 #include "commands.h"
+#include "validators.h"
 
 #include "experiments/scale.h"
 
@@ -8,6 +9,7 @@
 
 #include <iterator>
 #include <memory>
+#include <optional>
 
 namespace nusselt::app {
 
@@ -15,6 +17,9 @@ namespace {
 
 using experiments::ScaleRow;
 using experiments::ScaleScene;
+
+/// Files and arrays of the largest scene have tens of gigabytes.
+constexpr std::uint64_t kMaxTriangles = 1'000'000'000;
 
 double ratio(std::uint64_t a, std::uint64_t b) { return static_cast<double>(a) / static_cast<double>(b); }
 
@@ -36,8 +41,11 @@ void print_rows(const char* title, const std::vector<ScaleRow>& rows) {
                "arrays MB", "load s", "BVH s", "render s", "ns/tri.", "ns/tri.", "ns/tri.", "x load",
                "x render");
     for (const ScaleRow& row : rows) print_row(row);
-    fmt::print("from the last scene but one to the last: time grows like n^{:.2f}, memory like n^{:.2f}\n",
-               time_exponent(rows), memory_exponent(rows));
+    const auto power = [](const std::optional<double>& exponent) {
+        return exponent ? fmt::format("n^{:.2f}", *exponent) : "(too few triangles to tell)";
+    };
+    fmt::print("from the last scene but one to the last: time grows like {}, memory like {}\n",
+               power(time_exponent(rows)), power(memory_exponent(rows)));
 }
 
 } // namespace
@@ -47,14 +55,15 @@ void setup_bench_scale(CLI::App& bench, int& exit_code) {
     CLI::App* command = bench.add_subcommand(
         "scale",
         "Time and memory of generated scenes of growing size, up to the given ones in four steps.\n"
-        "The last columns are the largest memory while loading, and until the image is rendered, over the "
-        "size\n"
-        "of the scene's arrays; both without what the program takes for a scene of a few triangles.");
+        "The last columns are the largest memory while loading, and until the image is rendered, over the\n"
+        "size of the scene's arrays; both without what the program takes for a scene of a few triangles.");
     command->add_option("--triangles", options->triangles, "Triangles of the largest terrain, 0 for none")
+        ->check(whole_number(0, kMaxTriangles))
         ->capture_default_str();
     command
         ->add_option("--emissive", options->emissive,
                      "Triangles of the largest light, each of them a light, 0 for none")
+        ->check(whole_number(0, kMaxTriangles))
         ->capture_default_str();
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_scale(*options); });

@@ -1,9 +1,9 @@
 #include "compare.h"
 
 #include "compare_metrics.h"
-#include "image/atomic_file.h"
 #include "image/difference.h"
 #include "image/io.h"
+#include "json_output.h"
 #include "validators.h"
 
 #include <fmt/core.h>
@@ -12,9 +12,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <exception>
+#include <limits>
 #include <memory>
-#include <ostream>
 #include <stdexcept>
 #include <string>
 
@@ -71,14 +70,11 @@ bool compare_images(const CompareOptions& options) {
     const std::string json = json_of(compared, broken, reference, options)
                                  .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
                              "\n";
-    if (options.json == "-") {
-        fmt::print("{}", json);
-    } else {
+    if (options.json != "-") {
         print_metrics(compared);
         fmt::print("{}", scale_text);
-        if (options.json)
-            image::write_atomically(*options.json, [&](std::ostream& stream) { stream << json; });
     }
+    if (options.json) write_json(*options.json, json);
     for (const BrokenLimit& limit : broken) {
         fmt::print(stderr, "nusselt compare: '{}': {} is {:.9g}, {} the limit of {:.9g}\n", limit.image,
                    limit.metric, limit.value, limit.relation, limit.limit);
@@ -174,8 +170,7 @@ void add_picture_options(CLI::App& command, CompareOptions& options) {
         .add_option("--diff-scale", options.difference_scale,
                     "Difference that gets the full colour, above 0.\n"
                     "Default: 99th percentile of the difference over the pixels, largest channel each")
-        ->check(CLI::PositiveNumber)
-        ->check(finite_number());
+        ->check(number_above_zero(std::numeric_limits<double>::max()));
     command.add_option("--flip-map", options.flip_map,
                        "Write FLIP of each pixel, from black (0) over purple, red and orange to yellow (1).\n"
                        "Default: none");
@@ -206,9 +201,7 @@ void setup_compare(CLI::App& app, int& exit_code) {
         ->add_option("--ppd", options.pixels_per_degree,
                      "Pixels per degree of the field of vision, for flip and hdr_flip, in (0, 1000].\n"
                      "Default: 67.02, a screen of 3840 pixels seen at a distance of its width")
-        ->check(finite_number())
-        ->check(CLI::PositiveNumber)
-        ->check(CLI::Range(0.0, image::kFlipMaxPixelsPerDegree));
+        ->check(number_above_zero(image::kFlipMaxPixelsPerDegree));
     command
         ->add_option("--max", arguments->at_most,
                      "METRIC=VALUE, any number of times: exit with 3 if it is above (or undefined) for an\n"
@@ -225,12 +218,7 @@ void setup_compare(CLI::App& app, int& exit_code) {
 
 int run_compare(const CompareOptions& options) {
     constexpr int kBrokenLimit = 3;
-    try {
-        return compare_images(options) ? 0 : kBrokenLimit;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "nusselt compare: {}\n", error.what());
-        return 1;
-    }
+    return compare_images(options) ? 0 : kBrokenLimit;
 }
 
 } // namespace nusselt::app

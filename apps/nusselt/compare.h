@@ -31,7 +31,7 @@ struct CompareOptions {
     std::optional<double> difference_scale; ///< default: image::difference_scale()
     std::optional<std::filesystem::path> flip_map;
     std::optional<std::filesystem::path> hdr_flip_map;
-    std::optional<std::filesystem::path> json; ///< "-" is the standard output, instead of the plain text
+    std::optional<std::string> json; ///< "-" is the standard output, instead of the plain text
 };
 
 /// Adds the subcommand. Its callback stores the result of run_compare() in exit_code, which must live until

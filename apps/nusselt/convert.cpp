@@ -8,7 +8,6 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -16,13 +15,6 @@
 namespace nusselt::app {
 
 namespace {
-
-bool is_exr(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    return extension == ".exr";
-}
 
 /// As it is written on the command line.
 std::string display_name(const image::Layer& layer) { return layer.name.empty() ? "(picture)" : layer.name; }
@@ -73,9 +65,9 @@ void setup_convert(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<ConvertOptions>();
     CLI::App* command = app.add_subcommand(
         "convert",
-        "Convert an image to another format, which the extension of OUT names. EXR and PFM store floats; "
-        "HDR\n"
-        "stores floats of 8 bits with a common exponent; PNG stores 8 bits with the transfer function of\n"
+        "Convert an image to another format, which the extension of OUT names. EXR and PFM store floats;\n"
+        "HDR stores floats of 8 bits with a common exponent; PNG stores 8 bits with the transfer function "
+        "of\n"
         "sRGB, clamped to [0, 1]. PNG, JPG and TGA are made linear when they are read. From EXR to EXR,\n"
         "metadata and the place of a crop on the film are kept, other layers are left out.");
     command
@@ -101,14 +93,14 @@ void setup_convert(CLI::App& app, int& exit_code) {
 }
 
 int run_convert(const ConvertOptions& options) {
-    if ((options.list_layers || options.layer) && !is_exr(options.input))
+    if ((options.list_layers || options.layer) && !image::is_exr(options.input))
         throw std::runtime_error("'" + options.input.string() + "' has no layers; only EXR files have them");
     if (options.list_layers) {
         print_layers(options);
         return 0;
     }
     image::check_writable_image(*options.output);
-    if (is_exr(options.input) && is_exr(*options.output)) {
+    if (image::is_exr(options.input) && image::is_exr(*options.output)) {
         convert_exr_to_exr(options);
     } else {
         convert_to_other_format(options);

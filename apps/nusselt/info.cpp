@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 #include <memory>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -195,7 +194,7 @@ void setup_info(CLI::App& app, int& exit_code) {
     command->callback([options, &exit_code] { exit_code = run_info(*options); });
 }
 
-int run_info(const InfoOptions& options) try {
+int run_info(const InfoOptions& options) {
     const auto begin = std::chrono::steady_clock::now();
     const scene::Scene scene = load_scene(options.scene, options.rigs);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
@@ -209,9 +208,6 @@ int run_info(const InfoOptions& options) try {
     for (const std::string& warning : scene.warnings) fmt::print("  {}\n", warning);
     fmt::print("\nloaded in {:.3f} s\n", elapsed.count());
     return 0;
-} catch (const std::runtime_error& error) {
-    fmt::print(stderr, "nusselt info: {}\n", error.what());
-    return 1;
 }
 
 } // namespace nusselt::app

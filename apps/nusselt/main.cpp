@@ -1,6 +1,8 @@
 #include "commands.h"
 #include "lights.h"
 
+#include "scene/message.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
@@ -55,7 +57,7 @@ int main(int argc, char** argv) {
         app.exit(error);
         return is_help ? finished(0) : 2;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "nusselt: error: {}\n", error.what());
+        fmt::print(stderr, "nusselt: error: {}\n", nusselt::scene::message_line(error.what()));
         return 1;
     }
     return finished(exit_code);

@@ -1,5 +1,4 @@
 #include "commands.h"
-#include "render_setup.h"
 
 #include "image/io.h"
 #include "image/layers.h"
@@ -21,7 +20,7 @@ void setup_merge(CLI::App& app, int& exit_code) {
         "seeds (--seed). Pixels become means over all samples. Scene, size, layers and settings must be the\n"
         "same; samples that would count twice are an error.");
     const auto check_exr = [](const std::filesystem::path& path) {
-        return is_exr(path) ? std::string() : "'" + path.string() + "' is not the name of an EXR file";
+        return image::is_exr(path) ? std::string() : "'" + path.string() + "' is not the name of an EXR file";
     };
     command->add_option("OUT", options->output, "EXR file to write")->required()->check(check_exr, "");
     command->add_option("IN", options->inputs, "EXR files to read, one or more")

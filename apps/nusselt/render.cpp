@@ -100,10 +100,10 @@ void write_outputs(const RenderOptions& options, const render_cpu::RenderSetting
                    const scene::Film& film, render_cpu::Frame&& frame, const image::Metadata& metadata) {
     const std::vector<std::filesystem::path> paths = output_paths(options, film);
     for (const std::filesystem::path& path : paths)
-        if (!is_exr(path)) image::write_image(path, frame.image, metadata, options.exposure);
+        if (!image::is_exr(path)) image::write_image(path, frame.image, metadata, options.exposure);
     const image::LayeredImage layered = to_layered_image(std::move(frame), film, settings, metadata);
     for (const std::filesystem::path& path : paths)
-        if (is_exr(path)) image::write_layers(path, layered);
+        if (image::is_exr(path)) image::write_layers(path, layered);
     if (!options.quiet && options.json != "-")
         for (const std::filesystem::path& path : paths) fmt::print("{}\n", path.string());
 }
@@ -136,7 +136,7 @@ void setup_render(CLI::App& app, int& exit_code) {
     command
         ->add_option(
             "-o,--output", options->outputs,
-            "Image to write: .exr (all settings in its metadata), .png or .hdr. May be repeated.\n"
+            "Image to write: .exr (all settings in its metadata), .png, .hdr or .pfm. May be repeated.\n"
             "Default: the file name of the film, else of the scene, with .exr, in the current folder")
         ->allow_extra_args(false);
     command
@@ -211,7 +211,7 @@ void setup_render(CLI::App& app, int& exit_code) {
         ->add_option(
             "--display-server", options->display_server,
             "Show tiles when they are finished in the viewer tev, or another one with its protocol, at\n"
-            "HOST or HOST:PORT. Default: none")
+            "HOST, HOST:PORT or [IPV6]:PORT. Default: none")
         ->check(check_display_address, "HOST[:PORT]");
     command->add_flag("-q,--quiet", options->quiet, "Print errors only, no warnings and no progress");
     command->add_option(

@@ -1,12 +1,12 @@
 #include "render_report.h"
 
-#include "image/atomic_file.h"
+#include "json_output.h"
+
 #include "scene/scene_size.h"
 
 #include <fmt/core.h>
 
 #include <cstdint>
-#include <ostream>
 
 namespace nusselt::app {
 
@@ -61,12 +61,7 @@ nlohmann::ordered_json report_json(const RenderOptions& options, const render_cp
 
 void write_report(const std::string& target, const nlohmann::ordered_json& report) {
     // Paths may hold bytes that are not UTF-8.
-    const std::string text = report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-    if (target == "-") {
-        fmt::print("{}\n", text);
-    } else {
-        image::write_atomically(target, [&](std::ostream& stream) { stream << text << "\n"; });
-    }
+    write_json(target, report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 } // namespace nusselt::app

@@ -1,6 +1,8 @@
 #include "render_settings.h"
 #include "render_setup.h"
 
+#include "image/io.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <fmt/format.h>
@@ -36,7 +38,7 @@ std::vector<render_cpu::LayerKind> layers_of(const std::vector<std::string>& nam
 /// Throws CLI::ValidationError if something was asked for that only EXR files can store, and none is written.
 void check_exr_only(const RenderOptions& options) {
     const bool has_exr =
-        options.outputs.empty() || std::any_of(options.outputs.begin(), options.outputs.end(), is_exr);
+        options.outputs.empty() || std::any_of(options.outputs.begin(), options.outputs.end(), image::is_exr);
     if (has_exr) return;
     for (const auto& [name, is_used] :
          {std::pair("--layers", !options.layers.empty()), std::pair("--part", options.part.has_value())})

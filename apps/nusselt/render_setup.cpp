@@ -105,11 +105,4 @@ std::optional<render_cpu::Part> parse_part(const std::string& text) {
     return is_possible ? std::optional(part) : std::nullopt;
 }
 
-bool is_exr(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return extension == ".exr";
-}
-
 } // namespace nusselt::app

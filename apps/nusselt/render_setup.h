@@ -61,7 +61,4 @@ void add_part_option(CLI::App& command, std::optional<std::string>& part);
 /// From "2/3". \returns nothing if that is no part
 std::optional<render_cpu::Part> parse_part(const std::string& text);
 
-/// Whether the extension is .exr, in upper or lower case.
-bool is_exr(const std::filesystem::path& path);
-
 } // namespace nusselt::app

@@ -44,15 +44,15 @@ inline CLI::Validator seconds() {
     return CLI::Validator(check, "above 0", "seconds");
 }
 
-/// Anything but NaN and infinities, which CLI11 accepts as numbers.
-inline CLI::Validator finite_number() {
-    const auto check = [](const std::string& text) -> std::string {
+/// Numbers above 0, up to the highest. NaN and infinities are none of them.
+inline CLI::Validator number_above_zero(double high) {
+    const auto check = [high](const std::string& text) -> std::string {
         double value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc() && end == text.data() + text.size() && std::isfinite(value)) return {};
-        return fmt::format("'{}' is not a finite number", text);
+        if (error == std::errc() && end == text.data() + text.size() && value > 0 && value <= high) return {};
+        return fmt::format("'{}' is not a number above 0 and up to {:g}", text, high);
     };
-    return CLI::Validator(check, "", "finite number");
+    return CLI::Validator(check, fmt::format("in (0, {:g}]", high), "number above 0");
 }
 
 /// Stops of exposure.

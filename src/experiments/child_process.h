@@ -9,8 +9,8 @@ namespace nusselt::experiments {
 
 struct ChildResult {
     std::string output; ///< standard output
-    std::uint64_t
-        peak_bytes{}; ///< largest resident memory; at least that of this process when it started the child
+    /// Largest resident memory; at least that of this process when it started the child.
+    std::uint64_t peak_bytes{};
 };
 
 /// Runs a program to its end; its errors go where ours go.

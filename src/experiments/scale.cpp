@@ -52,11 +52,15 @@ ScaleRow measure_row(ScaleScene scene, std::uint64_t triangles, const std::files
     return row;
 }
 
-double exponent(double before, double after, const std::vector<ScaleRow>& rows) {
-    const auto count = [&](std::size_t from_end) {
-        return static_cast<double>(rows[rows.size() - from_end].triangles);
-    };
-    return std::log(after / before) / std::log(count(1) / count(2));
+/// Of a quantity from the last row but one to the last.
+template <class Quantity>
+std::optional<double> exponent(const std::vector<ScaleRow>& rows, const Quantity& quantity) {
+    if (rows.size() < 2) return {};
+    const ScaleRow& before = rows[rows.size() - 2];
+    const ScaleRow& after = rows.back();
+    if (before.triangles == after.triangles || !(quantity(before) > 0 && quantity(after) > 0)) return {};
+    return std::log(quantity(after) / quantity(before)) /
+           std::log(static_cast<double>(after.triangles) / static_cast<double>(before.triangles));
 }
 
 std::string name_of(ScaleScene scene) { return scene == ScaleScene::terrain ? "terrain" : "light"; }
@@ -77,18 +81,16 @@ std::vector<ScaleRow> measure_scale(ScaleScene scene, std::uint64_t largest,
     return rows;
 }
 
-double time_exponent(const std::vector<ScaleRow>& rows) {
-    const auto seconds = [](const ScaleRow& row) {
+std::optional<double> time_exponent(const std::vector<ScaleRow>& rows) {
+    return exponent(rows, [](const ScaleRow& row) {
         // Rendering of terrain costs time per pixel, above all.
         const bool counts = row.scene == ScaleScene::light;
         return row.load_seconds + row.hierarchy_seconds + (counts ? row.render_seconds : 0);
-    };
-    return exponent(seconds(rows[rows.size() - 2]), seconds(rows.back()), rows);
+    });
 }
 
-double memory_exponent(const std::vector<ScaleRow>& rows) {
-    return exponent(static_cast<double>(rows[rows.size() - 2].render_bytes),
-                    static_cast<double>(rows.back().render_bytes), rows);
+std::optional<double> memory_exponent(const std::vector<ScaleRow>& rows) {
+    return exponent(rows, [](const ScaleRow& row) { return static_cast<double>(row.render_bytes); });
 }
 
 std::string scale_json(const std::vector<ScaleRow>& rows) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,10 +41,11 @@ std::vector<ScaleRow> measure_scale(ScaleScene scene, std::uint64_t largest,
                                     const std::filesystem::path& program);
 
 /// The exponent with which the time for all that grows with the scene has grown from the last row but one to the last;
-/// nothing grows faster than linearly if it is one.
-double time_exponent(const std::vector<ScaleRow>& rows);
+/// nothing grows faster than linearly if it is one. Nothing if fewer than two rows, or as many triangles in both, or none
+/// of what is measured in one, do not tell.
+std::optional<double> time_exponent(const std::vector<ScaleRow>& rows);
 /// Likewise of the memory for rendering.
-double memory_exponent(const std::vector<ScaleRow>& rows);
+std::optional<double> memory_exponent(const std::vector<ScaleRow>& rows);
 
 std::string scale_json(const std::vector<ScaleRow>& rows);
 

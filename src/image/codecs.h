@@ -8,21 +8,14 @@
 #include <cstdint>
 #include <fstream>
 #include <string>
-#include <vector>
+#include <string_view>
 
 namespace nusselt::image {
-
-/// Larger images are taken for damaged or hostile files: 2^28 pixels are 3 GiB of floats.
-inline constexpr std::int64_t kMaxPixelCount = std::int64_t(1) << 28;
-
-/// \throws std::runtime_error  unless the size is positive and at most kMaxPixelCount
-void check_size(std::int64_t width, std::int64_t height);
 
 /// Bytes from the position of the stream, which stays, to its end.
 std::int64_t remaining_bytes(std::istream& stream);
 
 /// \param name  of the file, for messages of OpenEXR
-void encode_exr(std::ofstream& stream, const std::string& name, const Image& image, const Metadata& metadata);
 Image decode_exr(std::ifstream& stream, const std::string& name);
 LayeredImage decode_exr_layers(std::ifstream& stream, const std::string& name);
 LayeredImage decode_exr_layer_list(std::ifstream& stream, const std::string& name);
@@ -41,8 +34,8 @@ void encode_png(std::ostream& stream, const Image& image, double scale);
 /// PNG, JPG or TGA, whichever the contents are.
 Image decode_srgb(std::istream& stream);
 
-/// \param file  contents of a PNG, JPG or TGA file
+/// \param file  contents of a PNG, JPG, TGA or BMP file
 /// \throws std::runtime_error  if the file cannot have that many pixels, or too many
-void check_srgb_file(const std::vector<char>& file, std::int64_t width, std::int64_t height);
+void check_coded_file(std::string_view file, std::int64_t width, std::int64_t height);
 
 } // namespace nusselt::image

@@ -16,8 +16,9 @@ namespace nusselt::image {
 /// is, with its sign, the difference in that channel where it is largest, so that a shift of hue does not
 /// cancel. Blue is negative (a is too dark), white is zero, red is positive (a is too bright). The colours
 /// lie on two straight lines in Oklab with equal lightness on both sides, so that equal errors look equally
-/// strong. Pixels that are NaN or infinite in either image are black. \param scale  difference that gets the
-/// full colour, positive; beyond it the colour stays \throws std::runtime_error  if the sizes differ
+/// strong. Pixels that are NaN or infinite in either image are black.
+/// \param scale  difference that gets the full colour, positive; beyond it the colour stays
+/// \throws std::runtime_error  if the sizes differ
 [[nodiscard]] Image signed_difference_image(const Image& a, const Image& reference, double scale);
 
 /// |a - b| / scale in each channel. Pixels that are NaN or infinite in either image are black.

@@ -2,9 +2,6 @@
 #include "image/exr_part.h"
 
 #include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfTestFile.h>
 
 #include <stdexcept>
 
@@ -13,7 +10,6 @@ namespace nusselt::image {
 namespace {
 
 const std::vector<std::string> kRgb = {"R", "G", "B"};
-constexpr std::size_t kPixelStride = 3 * sizeof(float);
 
 /// Luminance alone; with RY and BY beside it, Y is one third of a colour image.
 bool is_grey(const ExrPart& part) {
@@ -27,28 +23,6 @@ bool is_rgb(const ExrPart& part) {
 }
 
 } // namespace
-
-void encode_exr(std::ofstream& stream, const std::string& name, const Image& image,
-                const Metadata& metadata) {
-    Imf::Header header(image.width, image.height);
-    // Noise in the mantissa hardly compresses. 1024 x 1024 noisy pixels on two cores, median of seven:
-    // none 26 ms, 12.6 MB; RLE 48 ms, 12.6 MB; ZIPS 126 ms, 12.6 MB; ZIP 140 ms, 12.0 MB; PIZ 200 ms, 11.1
-    // MB.
-    header.compression() = Imf::NO_COMPRESSION;
-    insert_metadata(header, metadata);
-
-    Imf::FrameBuffer frame_buffer;
-    for (std::size_t c = 0; c < kRgb.size(); ++c) {
-        header.channels().insert(kRgb[c], Imf::Channel(Imf::FLOAT));
-        frame_buffer.insert(kRgb[c],
-                            Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, header.dataWindow(),
-                                             kPixelStride, kPixelStride * std::size_t(image.width)));
-    }
-    Imf::StdOFStream sink(stream, name.c_str());
-    Imf::OutputFile file(sink, header, 0);
-    file.setFrameBuffer(frame_buffer);
-    file.writePixels(image.height);
-}
 
 Image decode_exr(std::ifstream& stream, const std::string& name) {
     ExrPart part(stream, name);

@@ -102,7 +102,9 @@ std::vector<Layer> empty_layers(const ExrPart& part) {
 
 void encode(std::ofstream& stream, const std::string& name, const LayeredImage& image) {
     Imf::Header header(exr_window(image.display), exr_window(image.data));
-    header.compression() = Imf::NO_COMPRESSION; // for the reason in encode_exr()
+    // Noise in the mantissa hardly compresses. 1024 x 1024 noisy pixels on two cores, median of seven:
+    // none 26 ms, 12.6 MB; RLE 48 ms, 12.6 MB; ZIPS 126 ms, 12.6 MB; ZIP 140 ms, 12.0 MB; PIZ 200 ms, 11.1 MB.
+    header.compression() = Imf::NO_COMPRESSION;
     insert_metadata(header, image.metadata);
     for (const auto& [key, value] : image.foreign_metadata) header.insert(key, Imf::StringAttribute(value));
 

@@ -50,19 +50,24 @@ std::int64_t largest_compression_ratio(Imf::Compression compression) {
     switch (compression) {
     case Imf::NO_COMPRESSION:
         return 1;
+    // Two bytes for a run of 128.
     case Imf::RLE_COMPRESSION:
-        return 64;             // two bytes for a run of 128
-    case Imf::B44_COMPRESSION: // 4 x 4 half floats in three bytes
+        return 64;
+    // 4 x 4 half floats in three bytes.
+    case Imf::B44_COMPRESSION:
     case Imf::B44A_COMPRESSION:
-        return 11;              //
-    case Imf::ZIPS_COMPRESSION: // a match of deflate is up to 258 bytes in two bits
+        return 11;
+    // A match of deflate is up to 258 bytes in two bits.
+    case Imf::ZIPS_COMPRESSION:
     case Imf::ZIP_COMPRESSION:
-        return 1032;             //
-    case Imf::PXR24_COMPRESSION: // the same of 24 bits for 32
+        return 1032;
+    // The same of 24 bits for 32; codes of Huffman with runs of 255 values stay below that.
+    case Imf::PXR24_COMPRESSION:
     case Imf::PIZ_COMPRESSION:
-        return 1376; // codes of Huffman with runs of 255 values stay below that
+        return 1376;
+    // DWA: a block of 8 x 8 is two bytes before deflate.
     default:
-        return std::int64_t(1) << 18; // DWA: a block of 8 x 8 is two bytes before deflate
+        return std::int64_t(1) << 18;
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,6 +17,12 @@ struct Image {
     std::vector<float>
         pixels; ///< 3 * width * height floats: r, g, b of the pixel (x, y) from 3 * (y * width + x)
 };
+
+/// Larger images are taken for damaged or hostile files: 2^28 pixels are 3 GiB of floats.
+inline constexpr std::int64_t kMaxPixelCount = std::int64_t(1) << 28;
+
+/// \throws std::runtime_error  unless the size is positive and at most kMaxPixelCount
+void check_size(std::int64_t width, std::int64_t height);
 
 /// An image of the given size, all zero. Both sizes must be positive.
 inline Image make_image(int width, int height) {

@@ -16,13 +16,6 @@ namespace nusselt::image {
 
 namespace {
 
-std::string lower_case_extension(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : char(c); });
-    return extension;
-}
-
 /// \param problem  may quote the file, hence contain anything
 [[noreturn]] void fail_to_read(const std::filesystem::path& path, const std::string& problem) {
     std::string message = "cannot read '" + path.string() + "': " + problem;
@@ -85,6 +78,15 @@ OutputFormat output_format(const std::filesystem::path& path) {
 
 } // namespace
 
+std::string lower_case_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : char(c); });
+    return extension;
+}
+
+bool is_exr(const std::filesystem::path& path) { return lower_case_extension(path) == ".exr"; }
+
 void check_size(std::int64_t width, std::int64_t height) {
     if (width > 0 && height > 0 && width <= kMaxPixelCount / height) return;
     throw std::runtime_error("a size of " + std::to_string(width) + " x " + std::to_string(height) +
@@ -102,10 +104,11 @@ void write_image(const std::filesystem::path& path, const Image& image, const Me
                  double exposure) {
     check_before_writing(image, metadata);
     switch (output_format(path)) {
-    case OutputFormat::exr:
-        write_atomically(path,
-                         [&](std::ofstream& stream) { encode_exr(stream, path.string(), image, metadata); });
+    case OutputFormat::exr: {
+        const Window window = {0, 0, image.width, image.height};
+        write_layers(path, {window, window, {color_layer(image)}, metadata, {}});
         break;
+    }
     case OutputFormat::png:
         write_atomically(path,
                          [&](std::ofstream& stream) { encode_png(stream, image, std::exp2(exposure)); });

@@ -1,6 +1,5 @@
 #include "render_cpu/frame.h"
 
-#include "image/codecs.h"
 #include "render_cpu/film.h"
 #include "render_cpu/memory.h"
 

@@ -78,8 +78,8 @@ struct LtcTableRecord {
 /// An instance as kernels need it, floats only.
 struct InstanceRecord {
     float world_from_object[12]; ///< as Instance::world_from_object
-    float normal_from_object
-        [9];          ///< rows of three; inverse transpose of the linear part, times a number above 0
+    /// Rows of three: inverse transpose of the linear part, times a number above 0.
+    float normal_from_object[9];
     float handedness; ///< -1 for mirror images, else 1
     float rounding;   ///< how many times rounding errors grow on the way to the object and back
 };

@@ -17,8 +17,8 @@ struct EditableLight {
     std::vector<PolygonLight> polygons;
     std::vector<LineLight> tubes;
     std::vector<std::uint32_t> triangles; ///< of its surface, as long as that is in the scene
-    std::uint32_t first_polygon =
-        0;                        ///< index of its first polygon in the scene, while it has triangles there
+    /// Index of its first polygon in the scene, while it has triangles there.
+    std::uint32_t first_polygon = 0;
     bool has_new_surface = false; ///< made of its polygons in the end
     std::uint32_t material = 0;   ///< of a new surface
     bool is_enabled = true;

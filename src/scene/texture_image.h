@@ -24,8 +24,8 @@ struct ImageRequest {
 /// Decodes PNG (8 and 16 bits), JPEG, TGA and BMP by `encoding`, and HDR, EXR and PFM, which are linear. The format is
 /// that of the contents, that of EXR and PFM follows from the extension. Results have 1, 3 or 4 channels; the fourth is
 /// the (linear) alpha of files that have one which is not 1 everywhere. Negative texels, and those that are not finite,
-/// become 0 with a warning. Throws SceneError with the reason; images that claim far more texels than such a file can
-/// hold, or more than the budget has left, are refused before memory is allocated for them.
+/// become 0 with a warning. The alpha of EXR files is ignored. Throws SceneError with the reason; images that claim more
+/// texels than their file holds, or more than the budget has left, are refused before memory is allocated for them.
 Texture decode_image(const ImageRequest& request, SceneBudget& budget, Warnings& warnings);
 
 } // namespace nusselt::scene

@@ -10,10 +10,9 @@ namespace {
 
 bool is_always_there(const scene::Material& material) { return presence_of(material) == Presence::full; }
 
+/// Looks at each triangle.
 ScenePart make_part(const scene::Scene& scene, std::uint32_t first_triangle, std::uint32_t triangle_count) {
     ScenePart part{&scene, first_triangle, triangle_count, true, {}, {}};
-    // Most scenes need no look at their triangles.
-    if (std::all_of(scene.materials.begin(), scene.materials.end(), is_always_there)) return part;
     const std::uint32_t end = first_triangle + triangle_count;
     const auto is_full = [&](std::uint32_t material) { return is_always_there(scene.materials[material]); };
     const auto materials = scene.triangle_material.begin();
@@ -30,10 +29,15 @@ ScenePart make_part(const scene::Scene& scene, std::uint32_t first_triangle, std
 } // namespace
 
 std::vector<ScenePart> make_parts(const scene::Scene& scene) {
+    const bool all_full = std::all_of(scene.materials.begin(), scene.materials.end(), is_always_there);
     std::vector<ScenePart> parts;
-    parts.push_back(make_part(scene, 0, static_cast<std::uint32_t>(world_triangle_count(scene))));
-    for (const scene::Object& object : scene.objects)
-        parts.push_back(make_part(scene, object.first_triangle, object.triangle_count));
+    const auto add = [&](std::uint32_t first_triangle, std::uint32_t triangle_count) {
+        // Most scenes need no look at their triangles.
+        parts.push_back(all_full ? ScenePart{&scene, first_triangle, triangle_count, true, {}, {}}
+                                 : make_part(scene, first_triangle, triangle_count));
+    };
+    add(0, static_cast<std::uint32_t>(world_triangle_count(scene)));
+    for (const scene::Object& object : scene.objects) add(object.first_triangle, object.triangle_count);
     return parts;
 }
 

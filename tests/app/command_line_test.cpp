@@ -79,6 +79,14 @@ TEST_F(CommandLine, ErrorsExitWithOneAndOneLine) {
     EXPECT_EQ(missing.exit_code, 1);
     expect_message(missing.err, "no-such-scene.pbrt");
 
+    const Outcome controls = run("convert a.exr 'no\nfolder/\x1b[31m.png'");
+    EXPECT_EQ(controls.exit_code, 1);
+    expect_message(controls.err, "no?folder/?[31m.png");
+
+    const Outcome compared = run("compare missing.exr missing.exr");
+    EXPECT_EQ(compared.exit_code, 1);
+    expect_message(compared.err, "missing.exr");
+
     const Outcome isa = run("render '" + kScenes + "/cornell-tube.pbrt'", "NUSSELT_ISA=mmx");
     EXPECT_EQ(isa.exit_code, 1);
     expect_message(isa.err, "mmx");

@@ -2,10 +2,19 @@
 
 #include "program.h"
 
+#include "experiments/scale.h"
+
 #include <nlohmann/json.hpp>
+
+#include <cmath>
 
 namespace nusselt {
 namespace {
+
+using experiments::memory_exponent;
+using experiments::ScaleRow;
+using experiments::ScaleScene;
+using experiments::time_exponent;
 
 class Scale : public CommandLine {};
 
@@ -30,6 +39,48 @@ TEST_F(Scale, BenchmarkMeasuresGrowingScenes) {
     EXPECT_GE(rows[3]["render_bytes"], rows[3]["load_bytes"]);
 }
 
+TEST_F(Scale, MemoryGrowsLinearly) {
+    const Outcome bench = run("bench scale --triangles 800000 --emissive 0 --json -");
+    ASSERT_EQ(bench.exit_code, 0) << bench.err;
+    const nlohmann::json rows = nlohmann::json::parse(bench.out);
+    ASSERT_EQ(rows.size(), 4u);
+    const auto growth = [&](const char* key) {
+        return std::log(rows[3][key].get<double>() / rows[2][key].get<double>());
+    };
+    EXPECT_LT(growth("render_bytes") / growth("triangles"), 1.1) << bench.out;
+}
+
+TEST(ScaleExponents, AreThoseOfPowers) {
+    // Only the last two rows count. For n = 1e3 and 1e5: load n^1, hierarchy n^1, rendering n^2, memory n^1.5.
+    const auto row = [](ScaleScene scene, double n) {
+        return ScaleRow{scene,    static_cast<std::uint64_t>(n),
+                        0,        1e-6 * n,
+                        2e-6 * n, 1e-9 * n * n,
+                        0,        static_cast<std::uint64_t>(std::llround(std::pow(n, 1.5)))};
+    };
+    const std::vector<ScaleRow> terrain = {row(ScaleScene::terrain, 10), row(ScaleScene::terrain, 1e3),
+                                           row(ScaleScene::terrain, 1e5)};
+    EXPECT_NEAR(time_exponent(terrain).value(), 1, 1e-9);
+    EXPECT_NEAR(memory_exponent(terrain).value(), 1.5, 1e-5);
+    const std::vector<ScaleRow> light = {row(ScaleScene::light, 1e3), row(ScaleScene::light, 1e5)};
+    // From 0.003 + 0.001 to 0.3 + 10 seconds.
+    EXPECT_NEAR(time_exponent(light).value(), std::log(10.3 / 0.004) / std::log(100), 1e-9);
+}
+
+TEST(ScaleExponents, AreNothingWhereRowsDoNotTell) {
+    const ScaleRow row = {ScaleScene::light, 8, 0, 1, 1, 1, 1, 1};
+    EXPECT_FALSE(time_exponent({}));
+    EXPECT_FALSE(time_exponent({row}));
+    EXPECT_FALSE(time_exponent({row, row}));
+    EXPECT_FALSE(memory_exponent({row, row}));
+    ScaleRow larger = row;
+    larger.triangles = 80;
+    EXPECT_EQ(memory_exponent({row, larger}), 0.0);
+    larger.render_bytes = 0;
+    EXPECT_FALSE(memory_exponent({row, larger}));
+    EXPECT_FALSE(memory_exponent({larger, row}));
+}
+
 TEST_F(Scale, BenchmarkPrintsTables) {
     const Outcome bench = run("bench scale --triangles 4000 --emissive 0");
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
@@ -37,7 +88,12 @@ TEST_F(Scale, BenchmarkPrintsTables) {
     EXPECT_EQ(bench.out.find("Lights"), std::string::npos) << bench.out;
     EXPECT_NE(bench.out.find("time grows like n^"), std::string::npos) << bench.out;
     EXPECT_EQ(run("bench scale --help").exit_code, 0);
-    EXPECT_EQ(run("bench scale --triangles many").exit_code, 2);
+    for (const char* count : {"many", "-1", "1e4", "1000000001"})
+        EXPECT_EQ(run(std::string("bench scale --triangles ") + count).exit_code, 2) << count;
+    EXPECT_EQ(run("bench scale --emissive -1").exit_code, 2);
+    const Outcome tiny = run("bench scale --triangles 8 --emissive 0");
+    EXPECT_EQ(tiny.exit_code, 0) << tiny.err;
+    EXPECT_NE(tiny.out.find("too few triangles"), std::string::npos) << tiny.out;
 }
 
 TEST_F(Scale, InfoSumsUpEmittersAndCountsWeakPolygons) {

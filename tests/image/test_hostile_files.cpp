@@ -1,5 +1,6 @@
 /// Files that claim more than they hold: they are refused before memory is taken for what they claim.
 
+#include "image/coded_file.h"
 #include "image/io.h"
 #include "image/layers.h"
 #include "temporary_folder.h"
@@ -13,6 +14,7 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 #include <stb/stb_image_write.h>
+#include <zlib.h>
 
 namespace nusselt::image::test {
 
@@ -67,6 +69,57 @@ TEST_F(HostileFiles, LegalPngOfOneColourIsRead) {
     write_image(in_folder("a.png"), image);
     EXPECT_LT(std::filesystem::file_size(in_folder("a.png")), image.pixels.size() / 100);
     EXPECT_EQ(read_image(in_folder("a.png")).pixels, image.pixels);
+}
+
+/// A PNG of zeros. \param bits per pixel, 1, 2, 4, 8 or 16, grey \param interlaced whether the header says so
+std::string grey_png(int width, int height, char bits, bool interlaced, std::size_t byte_count) {
+    std::vector<unsigned char> zeros(byte_count);
+    uLongf size = compressBound(uLong(byte_count));
+    std::string packed(size, '\0');
+    compress2(reinterpret_cast<unsigned char*>(packed.data()), &size, zeros.data(), uLong(byte_count), 9);
+    packed.resize(size);
+    const auto chunk = [](const std::string& type, const std::string& data) {
+        return big_endian(std::uint32_t(data.size())) + type + data + "crc.";
+    };
+    const std::string header = big_endian(std::uint32_t(width)) + big_endian(std::uint32_t(height)) + bits +
+                               std::string("\0\0\0", 3) + char(interlaced);
+    // In two pieces, as large files are.
+    return "\x89PNG\r\n\x1A\n" + chunk("IHDR", header) + chunk("IDAT", packed.substr(0, size / 2)) +
+           chunk("IDAT", packed.substr(size / 2)) + chunk("IEND", "");
+}
+
+TEST_F(HostileFiles, PngIsInflatedBeforeItsPixelsAreBelieved) {
+    // Rows of 1 + 250 bytes. Few bytes of deflate could be 2000 x 2000 pixels of one bit; these are one byte less.
+    EXPECT_EQ(error_of_reading("a.png", grey_png(2000, 2000, 1, false, 2000 * 251)), "");
+    expect_cut_off("a.png", grey_png(2000, 2000, 1, false, 2000 * 251 - 1));
+    // 32 KB, which claim 2^28 pixels but hold as many bytes only.
+    expect_cut_off("a.png", grey_png(16384, 16384, 1, false, std::size_t(1) << 24));
+    EXPECT_EQ(error_of_reading("a.png", grey_png(7, 3, 16, false, 3 * 15)), "");
+    expect_cut_off("a.png", grey_png(7, 3, 16, false, 3 * 15 - 1));
+}
+
+TEST_F(HostileFiles, PngInterlacedInSevenPasses) {
+    // 9 x 9 pixels: passes of 2x2, 1x2, 3x1, 2x3, 5x2, 4x5 and 9x4, with a byte more in each row.
+    constexpr std::size_t kSize = 2 * 3 + 2 * 2 + 1 * 4 + 3 * 3 + 2 * 6 + 5 * 5 + 4 * 10;
+    EXPECT_EQ(error_of_reading("a.png", grey_png(9, 9, 8, true, kSize)), "");
+    expect_cut_off("a.png", grey_png(9, 9, 8, true, kSize - 1));
+    // A single pixel has only the first pass.
+    EXPECT_EQ(error_of_reading("a.png", grey_png(1, 1, 8, true, 2)), "");
+    expect_cut_off("a.png", grey_png(1, 1, 8, true, 1));
+}
+
+TEST_F(HostileFiles, BmpMustHoldItsPixels) {
+    // Rows of 3 pixels with 24 bits take 12 bytes.
+    const auto bmp = [](std::size_t pixel_bytes) {
+        return std::string("BM\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\3\0\0\0\2\0\0\0\1\0\x18\0", 30) +
+               std::string(24, '\0') + std::string(pixel_bytes, '\x40');
+    };
+    const CodedHeader header = read_coded_header(bmp(24));
+    EXPECT_EQ(header.width, 3);
+    EXPECT_EQ(header.height, 2);
+    EXPECT_EQ(decode_codes(bmp(24), 3, [](double code) { return code; }),
+              std::vector<float>(18, 64 / 255.0f));
+    EXPECT_NE(error_of([&] { (void)read_coded_header(bmp(23)); }), "");
 }
 
 TEST_F(HostileFiles, JpgCutOffOrHuge) {

@@ -4,28 +4,78 @@
 #include "scenes.h"
 
 #include "image/metrics.h"
+#include "render_cpu/film.h"
 #include "scene/load.h"
+#include "scene/rig.h"
+#include "scene/rig_json.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 
 namespace nusselt::render_test {
 namespace {
 
 using render_cpu::Technique;
 
-class RealScene : public testing::TestWithParam<const char*> {
+class ScenesFolder : public testing::TestWithParam<const char*> {
 protected:
     void SetUp() override {
-        const char* const folder = std::getenv("NUSSELT_SCENES");
-        if (folder == nullptr) GTEST_SKIP() << "set NUSSELT_SCENES to the folder with bathroom/ and sponza/";
-        scene_ = scene::load_scene(std::filesystem::path(folder) / GetParam());
+        if (std::getenv("NUSSELT_SCENES") == nullptr)
+            GTEST_SKIP() << "set NUSSELT_SCENES to the folder with bathroom/ and sponza/";
+    }
+
+    static scene::Scene load(const std::string& name) {
+        return scene::load_scene(std::filesystem::path(std::getenv("NUSSELT_SCENES")) / name);
+    }
+};
+
+class RealScene : public ScenesFolder {
+protected:
+    void SetUp() override {
+        ScenesFolder::SetUp();
+        if (!IsSkipped()) scene_ = load(GetParam());
     }
 
     scene::Scene scene_;
 };
+
+class RealSceneWithRig : public ScenesFolder {};
+
+/// Small images of all techniques under a rig of the repository.
+TEST_P(RealSceneWithRig, EachTechniqueGivesValidPixels) {
+    const std::string rig = GetParam();
+    const std::string name = rig.substr(0, rig.find('-'));
+    scene::Scene scene = load(name + "/" + name + ".pbrt");
+    scene::apply_rig(
+        scene::read_rig(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes/rigs" / (rig + ".json")), scene);
+    render_cpu::resize_film(scene, 48, 32);
+    const render_cpu::Renderer renderer(scene, render_cpu::default_thread_count());
+    for (const Technique technique : render_cpu::kTechniques) {
+        render_cpu::RenderSettings settings;
+        settings.technique = technique;
+        const render_cpu::RenderResult result = renderer.render(settings, render_cpu::choose_isa());
+        EXPECT_EQ(image::compare(result.image, result.image).invalid_a.count, 0)
+            << render_cpu::name_of(technique);
+        EXPECT_TRUE(std::any_of(result.image.pixels.begin(), result.image.pixels.end(), [](float value) {
+            return value > 0;
+        })) << render_cpu::name_of(technique);
+    }
+}
+
+std::string test_name(const testing::TestParamInfo<const char*>& scene) {
+    std::string name = std::filesystem::path(scene.param).stem().string();
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Published, RealSceneWithRig,
+                         testing::Values("bathroom-hundred", "bathroom-panel", "bathroom-tube",
+                                         "sponza-hundred", "sponza-panel", "sponza-tube"),
+                         test_name);
 
 TEST_P(RealScene, EachTechniqueGivesValidPixels) {
     const render_cpu::Renderer renderer(scene_, render_cpu::default_thread_count());
@@ -61,12 +111,7 @@ TEST_P(RealScene, TechniquesHaveTheSameMean) {
 INSTANTIATE_TEST_SUITE_P(Published, RealScene,
                          testing::Values("bathroom/bathroom.pbrt", "sponza/sponza.pbrt",
                                          "sponza/sponza-small-light.pbrt"),
-                         [](const auto& scene) {
-                             std::string name = std::filesystem::path(scene.param).stem().string();
-                             for (char& c : name)
-                                 if (c == '-') c = '_';
-                             return name;
-                         });
+                         test_name);
 
 } // namespace
 } // namespace nusselt::render_test
