@@ -2,6 +2,7 @@
 #include "lights.h"
 
 #include "scene/bounds.h"
+#include "scene/light_area.h"
 #include "scene/scene_size.h"
 #include "scene/vector_math.h"
 
@@ -21,14 +22,6 @@ using scene::Double3;
 using scene::Float3;
 
 std::string text(const Float3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
-
-double polygon_area(const scene::PolygonLight& light) {
-    Double3 sum;
-    const Double3 origin = to_double(light.vertices[0]);
-    for (std::size_t i = 1; i + 1 < light.vertices.size(); ++i)
-        sum = sum + cross(to_double(light.vertices[i]) - origin, to_double(light.vertices[i + 1]) - origin);
-    return 0.5 * length(sum);
-}
 
 Float3 scaled(double factor, const Float3& v) { return to_float(factor * to_double(v)); }
 
@@ -81,7 +74,7 @@ void print_materials(const scene::Scene& scene) {
 double power(const scene::PolygonLight& light) {
     const double sides = light.two_sided ? 2 : 1;
     const Double3 radiance = to_double(light.radiance);
-    return sides * std::numbers::pi * polygon_area(light) * std::max({radiance.x, radiance.y, radiance.z});
+    return sides * std::numbers::pi * scene::area(light) * std::max({radiance.x, radiance.y, radiance.z});
 }
 
 /// All polygons of an emitter.
@@ -89,7 +82,7 @@ void print_emitter(const scene::Scene& scene, std::size_t begin, std::size_t end
     double area = 0;
     std::size_t vertices = 0;
     for (std::size_t i = begin; i < end; ++i) {
-        area += polygon_area(scene.polygon_lights[i]);
+        area += scene::area(scene.polygon_lights[i]);
         vertices += scene.polygon_lights[i].vertices.size();
     }
     const scene::PolygonLight& light = scene.polygon_lights[begin];
@@ -121,10 +114,9 @@ void print_lights(const scene::Scene& scene) {
     print_weak_lights(scene);
     for (const scene::LineLight& light : scene.line_lights) {
         const double extent = length(to_double(light.end) - to_double(light.begin));
-        const double area = 2 * std::numbers::pi * static_cast<double>(light.radius) * extent;
         fmt::print("  {}: length {:.6g} m, radius {:.6g} m, radiance {} W/(sr m^2), power {} W\n",
                    scene.emitters[light.emitter].name, extent, light.radius, text(light.radiance),
-                   text(scaled(area * std::numbers::pi, light.radiance)));
+                   text(scaled(scene::area(light) * std::numbers::pi, light.radiance)));
     }
 }
 

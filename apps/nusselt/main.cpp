@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <new>
 
 namespace {
 
@@ -56,6 +57,10 @@ int main(int argc, char** argv) {
         const bool is_help = error.get_exit_code() == 0;
         app.exit(error);
         return is_help ? finished(0) : 2;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr,
+                   "nusselt: error: not enough memory; take a smaller scene, image or number of layers\n");
+        return 1;
     } catch (const std::exception& error) {
         fmt::print(stderr, "nusselt: error: {}\n", nusselt::scene::message_line(error.what()));
         return 1;

@@ -100,6 +100,9 @@ FileBytes inflated(std::string_view gzip, Budget& bytes) {
         char* output = result.data_.get() + used;
         const bool part_ends = stream.step(rest, output, std::min(result.size_ - used, kMaxStep));
         const auto end = static_cast<std::size_t>(output - result.data_.get());
+        if (end > kFreelyInflated + kMaxInflation * gzip.size())
+            throw std::runtime_error("decompresses to more than " + std::to_string(kMaxInflation) +
+                                     " times its size; decompress it (gunzip) if that is meant");
         bytes.take(end - used);
         used = end;
         if (!part_ends) continue;

@@ -36,6 +36,11 @@ inline constexpr std::int64_t kMaxImageTexels = std::int64_t{1} << 28; ///< 3 Gi
 
 inline constexpr int kMaxFilmSize = 65536; ///< pixels along an axis
 
+/// What a gzip file may decompress to: this many times its own size and some bytes more. Scenes and meshes take up to
+/// thirty times; more are damaged, or made to fill the memory.
+inline constexpr std::uint64_t kMaxInflation = 100;
+inline constexpr std::uint64_t kFreelyInflated = 1 << 20;
+
 // All files of a scene together.
 inline constexpr std::uint64_t kMaxInflatedBytes = std::uint64_t{1} << 32;
 inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 31;

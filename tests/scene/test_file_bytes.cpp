@@ -56,6 +56,10 @@ TEST(Gzip, TheLimitIsExact) {
     EXPECT_LT(bomb.size(), 1100u);
     EXPECT_EQ(inflated_within(bomb, 1 << 20).view().size(), std::size_t{1} << 20);
     EXPECT_EQ(reason(bomb, (1 << 20) - 1), "too much");
+    // Beyond what is free, a limit for the ratio holds.
+    const std::string larger = gzipped(std::string(2 << 20, '\0'));
+    EXPECT_EQ(reason(larger, kPlenty),
+              "decompresses to more than 100 times its size; decompress it (gunzip) if that is meant");
 }
 
 class CompressedScene : public SceneTest {};
