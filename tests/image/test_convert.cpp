@@ -81,7 +81,7 @@ TEST_F(ConvertCommand, ExposureMultipliesInEveryFormat) {
 TEST_F(ConvertCommand, ExrKeepsMetadataAndPlaceOnTheFilm) {
     convert({"in.exr", "a.exr"});
     const LayeredImage file = read_layers(in_folder("a.exr"));
-    EXPECT_EQ(file.metadata, (Metadata{{"spp", "16"}}));
+    EXPECT_EQ(file.metadata, (Metadata{{"converted", "yes"}, {"spp", "16"}}));
     EXPECT_EQ(file.foreign_metadata, (Metadata{{"owner", "somebody"}}));
     EXPECT_EQ(file.data, (Window{3, 4, 12, 9}));
     EXPECT_EQ(file.display, (Window{0, 0, 64, 48}));

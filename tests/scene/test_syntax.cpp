@@ -205,9 +205,10 @@ TEST_F(Syntax, RepeatedTextIsLimited) {
     write("large.inc", std::string(1 << 20, ' '));
     std::string text;
     for (int i = 0; i < 300; ++i) text += "Include \"large.inc\"\n";
-    EXPECT_EQ(error(text),
-              "scene.pbrt:258: the same files are included again more than 10000 times or for more than "
-              "268435456 bytes of text; use ObjectInstance for copies");
+    EXPECT_EQ(
+        error(text),
+        "scene.pbrt:34: the same files are included again more than 1000 times or for more than 33554432 "
+        "bytes of text; use ObjectInstance for copies");
 }
 
 } // namespace
