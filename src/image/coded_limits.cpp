@@ -10,6 +10,8 @@
 #include <memory>
 #include <new>
 #include <stdexcept>
+#include <string_view>
+#include <vector>
 
 namespace nusselt::image {
 
@@ -42,33 +44,48 @@ std::int64_t png_bytes(std::int64_t width, std::int64_t height, std::int64_t bit
     return width == 0 ? 0 : height * (1 + (width * bits_per_pixel + 7) / 8);
 }
 
+struct PngChunk {
+    std::string_view type;
+    std::string_view data;
+};
+
+/// The chunks of a PNG file up to its end mark. stb allocates memory for what they claim, so each must fit into the file.
+std::vector<PngChunk> png_chunks(std::string_view file) {
+    constexpr std::size_t kSignature = 8, kLength = 4, kType = 4, kChecksum = 4;
+    std::vector<PngChunk> chunks;
+    std::string_view rest = file.substr(std::min(kSignature, file.size()));
+    for (;;) {
+        const auto length = static_cast<std::size_t>(big_endian(rest, 0));
+        if (rest.size() < kLength + kType || rest.size() - kLength - kType < length) fail_as_cut_off();
+        chunks.push_back({rest.substr(kLength, kType), rest.substr(kLength + kType, length)});
+        if (chunks.back().type == "IEND") return chunks;
+        rest.remove_prefix(std::min(kLength + kType + length + kChecksum, rest.size()));
+    }
+}
+
 /// \returns the number of bytes that the compressed pixels of a PNG file give, at most `enough` and what is inflated with
 /// them at once
-std::int64_t inflated_bytes(std::string_view file, std::int64_t enough) {
-    constexpr std::size_t kSignature = 8, kLength = 4, kType = 4, kChecksum = 4;
+std::int64_t inflated_bytes(const std::vector<PngChunk>& chunks, std::int64_t enough) {
     // Files for phones of Apple have a chunk of this name in front and no header of zlib.
-    const bool has_zlib_header = file.substr(kSignature + kLength, kType) != "CgBI";
+    const bool has_zlib_header = chunks.front().type != "CgBI";
     z_stream stream = {};
     if (inflateInit2(&stream, has_zlib_header ? MAX_WBITS : -MAX_WBITS) != Z_OK) throw std::bad_alloc();
     const std::unique_ptr<z_stream, int (*)(z_stream*)> owner(&stream, inflateEnd);
     std::array<unsigned char, 1 << 16> discarded;
     std::int64_t count = 0;
     int status = Z_OK;
-    for (std::size_t chunk = kSignature; chunk < file.size() && status == Z_OK && count < enough;) {
-        const std::size_t begin = std::min(chunk + kLength + kType, file.size());
-        const std::string_view data = file.substr(begin, static_cast<std::size_t>(big_endian(file, chunk)));
-        if (file.substr(chunk + kLength, kType) == "IDAT") {
-            stream.next_in = reinterpret_cast<unsigned char*>(const_cast<char*>(data.data()));
-            stream.avail_in = static_cast<unsigned>(data.size());
-            do {
-                stream.next_out = discarded.data();
-                stream.avail_out = static_cast<unsigned>(discarded.size());
-                status = inflate(&stream, Z_NO_FLUSH);
-                count += static_cast<std::int64_t>(discarded.size() - stream.avail_out);
-            } while (status == Z_OK && stream.avail_out == 0 && count < enough);
-            if (status == Z_BUF_ERROR) status = Z_OK; // the chunk is used up
-        }
-        chunk = begin + data.size() + kChecksum;
+    for (const PngChunk& chunk : chunks) {
+        if (chunk.type != "IDAT") continue;
+        stream.next_in = reinterpret_cast<unsigned char*>(const_cast<char*>(chunk.data.data()));
+        stream.avail_in = static_cast<unsigned>(chunk.data.size());
+        do {
+            stream.next_out = discarded.data();
+            stream.avail_out = static_cast<unsigned>(discarded.size());
+            status = inflate(&stream, Z_NO_FLUSH);
+            count += static_cast<std::int64_t>(discarded.size() - stream.avail_out);
+        } while (status == Z_OK && stream.avail_out == 0 && count < enough);
+        const bool is_used_up = status == Z_OK || status == Z_BUF_ERROR;
+        if (!is_used_up || count >= enough) break;
     }
     return count;
 }
@@ -92,7 +109,7 @@ void check_png(std::string_view file, std::int64_t width, std::int64_t height) {
             needed += png_bytes((width - pass.x + pass.step_x - 1) / pass.step_x,
                                 (height - pass.y + pass.step_y - 1) / pass.step_y, bits);
     }
-    if (inflated_bytes(file, needed) < needed) fail_as_cut_off();
+    if (inflated_bytes(png_chunks(file), needed) < needed) fail_as_cut_off();
 }
 
 /// Rows of uncompressed pixels, the only ones that are decoded, are multiples of four bytes.
