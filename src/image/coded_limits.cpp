@@ -120,12 +120,55 @@ void check_bmp(std::string_view file, std::int64_t width, std::int64_t height) {
     if (little_endian(file, 10, 4) + height * row > std::int64_t(file.size())) fail_as_cut_off();
 }
 
+/// Checks the Huffman tables of a segment and notes which are defined: stb writes behind a table of more than 256 values.
+void check_huffman_tables(std::string_view segment, std::array<bool, 32>& is_defined) {
+    constexpr std::size_t kLengths = 16;
+    for (std::size_t i = 0; i < segment.size();) {
+        const auto table = static_cast<std::size_t>(byte_at(segment, i));
+        std::int64_t values = 0;
+        for (std::size_t k = 1; k <= kLengths; ++k) values += byte_at(segment, i + k);
+        if (values > 256)
+            throw std::runtime_error("a Huffman table of this JPG file has more than 256 values");
+        if (table < is_defined.size()) is_defined[table] = true;
+        i += 1 + kLengths + static_cast<std::size_t>(values);
+    }
+}
+
+/// Checks that a scan uses tables that are defined: stb would read memory that was never written.
+void check_scan(std::string_view segment, const std::array<bool, 32>& is_defined) {
+    const auto components = static_cast<std::size_t>(byte_at(segment, 0));
+    const bool has_dc = byte_at(segment, 1 + 2 * components) == 0;
+    const bool has_ac = byte_at(segment, 2 + 2 * components) > 0;
+    for (std::size_t i = 0; i < components; ++i) {
+        const std::int64_t tables = byte_at(segment, 2 + 2 * i);
+        const auto dc = static_cast<std::size_t>(tables / 16);
+        const auto ac = static_cast<std::size_t>(16 + tables % 16);
+        if ((has_dc && !is_defined[dc]) || (has_ac && !is_defined[ac]))
+            throw std::runtime_error("a scan of this JPG file uses a Huffman table that it does not define");
+    }
+}
+
 /// A block of 8 x 8 pixels takes one bit at least, so a byte makes up to 512 pixels, twice that with subsampled
 /// channels. The end mark cannot occur in the data of pixels, though in a preview before them.
 void check_jpg(std::string_view file, std::int64_t pixel_count) {
     constexpr std::string_view kEnd = "\xFF\xD9";
     if (pixel_count / 1024 > std::int64_t(file.size())) fail_as_cut_off();
     if (file.find(kEnd) == std::string_view::npos) fail_as_cut_off();
+    constexpr std::int64_t kHuffmanTables = 0xC4, kScan = 0xDA;
+    std::array<bool, 32> is_defined = {};
+    // Whatever looks like a segment is taken for one, also in the data of pixels and in previews: there, bytes of 0xFF are
+    // followed by zeros or marks without a segment.
+    for (std::size_t at = file.find('\xFF'); at != std::string_view::npos; at = file.find('\xFF', at)) {
+        const std::int64_t mark = byte_at(file, ++at);
+        if (mark == 0 || mark == 0xFF || (mark >= 0xD0 && mark <= 0xD9) || mark == 1) continue;
+        const std::int64_t length = 256 * byte_at(file, at + 1) + byte_at(file, at + 2);
+        const std::size_t begin = std::min(at + 3, file.size());
+        const std::string_view segment =
+            file.substr(begin, static_cast<std::size_t>(std::max<std::int64_t>(length - 2, 0)));
+        if (mark == kHuffmanTables) check_huffman_tables(segment, is_defined);
+        if (mark == kScan) check_scan(segment, is_defined);
+        at = begin + segment.size();
+    }
 }
 
 /// Counts the pixels of a TGA file, run by run.
