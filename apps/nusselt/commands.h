@@ -147,9 +147,7 @@ struct ReproduceOptions {
 
 void setup_render(CLI::App& app, int& exit_code);
 void setup_merge(CLI::App& app, int& exit_code);
-void setup_info(CLI::App& app, int& exit_code);
 void setup_techniques(CLI::App& app, int& exit_code);
-void setup_compare(CLI::App& app, int& exit_code);
 void setup_convert(CLI::App& app, int& exit_code);
 void setup_bench(CLI::App& app, int& exit_code);
 void setup_reproduce(CLI::App& app, int& exit_code);

@@ -39,8 +39,8 @@ struct CompareOptions {
 void setup_compare(CLI::App& app, int& exit_code);
 
 /// Prints the metrics and writes the files that are asked for. Pictures are of the first image.
-/// \returns 0; 1 after an error, which was printed to the standard error output in one line; or 3 if a limit is
-///          not kept, with one such line for each
+/// \returns 0, or 3 if a limit is not kept, with a line for each on the standard error output
+/// \throws std::runtime_error  if a file cannot be read or written or sizes differ
 int run_compare(const CompareOptions& options);
 
 } // namespace nusselt::app

@@ -19,7 +19,7 @@ void setup_info(CLI::App& app, int& exit_code);
 
 /// Prints geometry, materials, textures, lights, camera, film, warnings and the time for loading to standard
 /// output.
-/// \returns 0, or 1 after an error, which was printed to the standard error output in one line
+/// \returns 0
 int run_info(const InfoOptions& options);
 
 } // namespace nusselt::app

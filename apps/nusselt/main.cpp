@@ -1,4 +1,6 @@
 #include "commands.h"
+#include "compare.h"
+#include "info.h"
 #include "lights.h"
 
 #include "scene/message.h"

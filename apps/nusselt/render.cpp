@@ -64,12 +64,12 @@ void check_names(const RenderOptions& options, const scene::Film& film) {
     files.push_back(options.scene);
     files.insert(files.end(), options.rigs.begin(), options.rigs.end());
     const std::size_t written = files.size() - 1 - options.rigs.size();
-    const auto full = [](const std::filesystem::path& path) {
-        return std::filesystem::weakly_canonical(absolute(path));
-    };
+    std::vector<std::filesystem::path> places;
+    for (const std::filesystem::path& file : files)
+        places.push_back(std::filesystem::weakly_canonical(absolute(file)));
     for (std::size_t i = 0; i < written; ++i)
         for (std::size_t j = i + 1; j < files.size(); ++j)
-            if (full(files[i]) == full(files[j]))
+            if (places[i] == places[j])
                 throw std::runtime_error("'" + files[i].string() + "' would be written and is also " +
                                          (j < written ? "another output" : "read") +
                                          "; give one another name");

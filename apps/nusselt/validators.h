@@ -6,16 +6,25 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <string>
 
 namespace nusselt::app {
+
+/// The number that a text spells, if it is one from the first character to the last.
+template <class Number>
+std::optional<Number> parsed(const std::string& text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool is_number = error == std::errc() && end == text.data() + text.size();
+    return is_number ? std::optional(value) : std::nullopt;
+}
 
 /// Decimal integers from low to high. CLI11 alone lets negative and too large numbers wrap around.
 inline CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
     const auto check = [low, high](const std::string& text) -> std::string {
-        std::uint64_t value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc() && end == text.data() + text.size() && value >= low && value <= high)
-            return {};
+        const auto value = parsed<std::uint64_t>(text);
+        if (value && *value >= low && *value <= high) return {};
         return fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
     };
     return CLI::Validator(check, fmt::format("in [{}, {}]", low, high), "whole number");
@@ -24,10 +33,8 @@ inline CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
 /// Numbers from low to high. CLI11 alone lets NaN pass.
 inline CLI::Validator number(double low, double high) {
     const auto check = [low, high](const std::string& text) -> std::string {
-        double value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc() && end == text.data() + text.size() && value >= low && value <= high)
-            return {};
+        const auto value = parsed<double>(text);
+        if (value && *value >= low && *value <= high) return {};
         return fmt::format("'{}' is not a number from {} to {}", text, low, high);
     };
     return CLI::Validator(check, fmt::format("in [{}, {}]", low, high), "number");
@@ -36,9 +43,8 @@ inline CLI::Validator number(double low, double high) {
 /// Seconds of a time budget, more than none and finite.
 inline CLI::Validator seconds() {
     const auto check = [](const std::string& text) -> std::string {
-        double value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc() && end == text.data() + text.size() && value > 0 && value <= 1e9) return {};
+        const auto value = parsed<double>(text);
+        if (value && *value > 0 && *value <= 1e9) return {};
         return fmt::format("'{}' is not a number of seconds, above 0 and up to 1e9", text);
     };
     return CLI::Validator(check, "above 0", "seconds");
@@ -47,9 +53,8 @@ inline CLI::Validator seconds() {
 /// Numbers above 0, up to the highest. NaN and infinities are none of them.
 inline CLI::Validator number_above_zero(double high) {
     const auto check = [high](const std::string& text) -> std::string {
-        double value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc() && end == text.data() + text.size() && value > 0 && value <= high) return {};
+        const auto value = parsed<double>(text);
+        if (value && *value > 0 && *value <= high) return {};
         return fmt::format("'{}' is not a number above 0 and up to {:g}", text, high);
     };
     return CLI::Validator(check, fmt::format("in (0, {:g}]", high), "number above 0");
@@ -58,9 +63,8 @@ inline CLI::Validator number_above_zero(double high) {
 /// Stops of exposure.
 inline CLI::Validator exposure() {
     const auto check = [](const std::string& text) -> std::string {
-        double value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc() && end == text.data() + text.size() && std::abs(value) <= 64) return {};
+        const auto value = parsed<double>(text);
+        if (value && std::abs(*value) <= 64) return {};
         return fmt::format("'{}' is not a number of stops from -64 to 64", text);
     };
     return CLI::Validator(check, "in [-64, 64]", "exposure");

@@ -83,8 +83,8 @@ void write_atomically(const std::filesystem::path& path, const std::function<voi
              std::string("the data could not be stored (") + std::strerror(problem) + "); check the disk");
     std::filesystem::rename(temporary, path, error);
     if (error) fail(path, "the finished file could not be renamed (" + error.message() + ")");
-    store(
-        folder); // may lack the permission to be read, in which case the system decides when the name is stored
+    // Where the folder lacks the permission to be read, the system decides when the name is stored.
+    store(folder);
 }
 
 } // namespace nusselt::image

@@ -15,9 +15,8 @@
 
 namespace nusselt::scene {
 
-/// Parses a file. Throws std::runtime_error if it cannot be read, has more than 256 MiB before or after
-/// decompression, is no JSON (with line and
-/// column), repeats a field of an object or nests more than 32 deep.
+/// Parses a file. Throws std::runtime_error if it cannot be read, has more than 256 MiB before or after decompression,
+/// is no JSON (with line and column), repeats a field of an object or nests more than 32 deep.
 nlohmann::json read_json(const std::filesystem::path& path);
 
 /// A value in a file, with the words that tell where. It refers to the document, which must outlive it.

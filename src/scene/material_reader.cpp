@@ -14,6 +14,14 @@ Float3 optical_constant(std::string_view name) { return to_float(named_spectrum(
 
 } // namespace
 
+SurfaceFormula metallic(const TextureValue& f0, const TextureValue& roughness) {
+    SurfaceFormula surface;
+    surface.model = BrdfModel::frostbite;
+    surface.f0 = f0;
+    surface.roughness = roughness;
+    return surface;
+}
+
 TextureValue MaterialReader::value(std::string_view name, TextureType type, const Float3& fallback) {
     if (const auto texture = parameters().texture(name))
         return textures_.value(*texture, type, parameters().location_of(name));

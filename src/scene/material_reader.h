@@ -20,6 +20,9 @@ struct SurfaceFormula {
     TextureValue normal = grey_value(0); ///< without a node for none
 };
 
+/// A surface that only reflects specularly.
+SurfaceFormula metallic(const TextureValue& f0, const TextureValue& roughness);
+
 class MaterialReader {
 public:
     MaterialReader(MaterialDirective& directive, TextureTable& textures, Warnings& warnings)

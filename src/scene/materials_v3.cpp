@@ -28,14 +28,6 @@ SurfaceFormula layered(const TextureValue& diffuse, const TextureValue& f0, cons
     return surface;
 }
 
-SurfaceFormula metallic(const TextureValue& f0, const TextureValue& roughness) {
-    SurfaceFormula surface;
-    surface.model = BrdfModel::frostbite;
-    surface.f0 = f0;
-    surface.roughness = roughness;
-    return surface;
-}
-
 /// v2 and early v3 call it "index".
 double refractive_index(MaterialReader& m, double fallback) {
     return m.refractive_index("eta", m.refractive_index("index", fallback));

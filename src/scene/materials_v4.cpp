@@ -29,11 +29,9 @@ Surface coated_diffuse(MaterialReader& m) {
 }
 
 Surface conductor(MaterialReader& m) {
-    SurfaceFormula surface;
-    surface.model = BrdfModel::frostbite;
-    surface.f0 = m.has_colour("reflectance") ? m.unit_colour("reflectance", 1) : m.conductor("", 1);
-    surface.roughness = m.roughness(0, RoughnessRule::v4);
-    return surface;
+    const TextureValue f0 =
+        m.has_colour("reflectance") ? m.unit_colour("reflectance", 1) : m.conductor("", 1);
+    return metallic(f0, m.roughness(0, RoughnessRule::v4));
 }
 
 /// The rougher one of two constants.
@@ -46,28 +44,24 @@ TextureValue rougher(MaterialReader& m, const TextureValue& base, const TextureV
 Surface coated_conductor(MaterialReader& m) {
     m.warn("its coating is joined with the metal to one lobe");
     const double coat_eta = m.refractive_index("interface.eta", 1.5);
-    SurfaceFormula surface;
-    surface.model = BrdfModel::frostbite;
+    TextureValue f0;
     if (m.has_colour("reflectance")) {
         // What the coating lets through; exact for a black and for a white metal.
         const TextureValue coat = grey_value(dielectric_f0(coat_eta));
-        surface.f0 = m.formulas().mix(coat, grey_value(1), m.unit_colour("reflectance", 1));
+        f0 = m.formulas().mix(coat, grey_value(1), m.unit_colour("reflectance", 1));
     } else {
-        surface.f0 = m.conductor("conductor.", coat_eta);
+        f0 = m.conductor("conductor.", coat_eta);
     }
     const TextureValue base = m.roughness(0, RoughnessRule::v4, "conductor.");
-    surface.roughness = rougher(m, base, m.roughness(0, RoughnessRule::v4, "interface."));
+    const TextureValue roughness = rougher(m, base, m.roughness(0, RoughnessRule::v4, "interface."));
     m.parameters().ignore({"interface.thickness", "thickness", "maxdepth", "nsamples", "g"});
-    return surface;
+    return metallic(f0, roughness);
 }
 
 Surface dielectric(MaterialReader& m) {
     m.warn("transmission is ignored, the surface is opaque and reflects only");
-    SurfaceFormula surface;
-    surface.model = BrdfModel::frostbite;
-    surface.f0 = grey_value(dielectric_f0(m.refractive_index("eta", 1.5)));
-    surface.roughness = m.roughness(0, RoughnessRule::v4);
-    return surface;
+    const double eta = m.refractive_index("eta", 1.5);
+    return metallic(grey_value(dielectric_f0(eta)), m.roughness(0, RoughnessRule::v4));
 }
 
 Surface diffuse_transmission(MaterialReader& m) {
