@@ -61,10 +61,52 @@ struct Part {
     int count = 1;  ///< 1 to kMaxParts
 };
 
+/// What is sampled of polygonal lights. Linear lights always get points.
+enum class Integrator : std::uint32_t {
+    points,
+    lines, ///< whole segments, with exact visibility
+};
+
+/// Directions of line samples in the plane of their light.
+enum class LineOrientation : std::uint32_t {
+    parallel,    ///< random, the same for all lines of a shading point and light
+    fixed,       ///< along the longest edge of the light
+    independent, ///< random for each line
+};
+
+/// Density of the offsets of line samples.
+enum class LineOffsets : std::uint32_t {
+    length, ///< in proportion to the length of the line on the light
+    uniform,
+};
+
+/// What is known of the visible parts of a line sample.
+enum class LineShading : std::uint32_t {
+    unbiased, ///< the integral of a fitted lobe, and one point for what the BRDF is beyond that
+    analytic, ///< the integral of the fitted lobe alone
+};
+
+/// What shading points take of lights with many occluders in between.
+enum class ManyOccluders : std::uint32_t {
+    points, ///< point samples, where these are cheaper
+    lines,  ///< line samples, as everywhere
+};
+
+struct LineSettings {
+    int count = 16; ///< per shading point and light, 1 to kMaxLines
+    LineOrientation orientation = LineOrientation::parallel;
+    LineOffsets offsets = LineOffsets::length;
+    LineShading shading = LineShading::unbiased;
+    ManyOccluders many_occluders = ManyOccluders::points;
+};
+
+inline constexpr int kMaxLines = 1 << 16;
 inline constexpr int kMaxSamples = 1 << 20;
 inline constexpr int kMaxParts = 1 << 20;
 
 struct RenderSettings {
+    Integrator integrator = Integrator::points;
+    LineSettings lines; ///< for Integrator::lines
     Technique technique = Technique::projected_solid_angle;
     Strategies strategies = Strategies::diffuse;
     Mis mis = Mis::clamped_optimal;
