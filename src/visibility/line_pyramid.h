@@ -64,7 +64,7 @@ struct TracedSpace {
     ShadowFrame<float> frame;
     float extent; ///< largest coordinate that matters
 
-    /// In the axes of the frame.
+    /// In the axes of the frame and its unit.
     template <class Real>
     NUSSELT_INLINE Vec3<Real> seen(const Vec3<Real>& p) const noexcept {
         const Vec3<Real> d = p - broadcast<Real>(frame.point);
@@ -124,7 +124,7 @@ public:
             if (size > 0) add(space, copysign(1.0f, dot(m, centre)) * m, 0, size);
         }
         add(space, {0, 0, 1}, 0, 1);
-        add(space, {0, 0, -1}, seen.frame.origin.z, 1);
+        add(space, {0, 0, -1}, seen.frame.end, 1);
     }
 
     /// Children whose boxes may touch the pyramid.
@@ -165,7 +165,8 @@ private:
         int row[3]; ///< of LineBvhNode::bounds: what is farthest inside
     };
 
-    /// \param m, constant in the axes of the frame
+    /// \param m        in the axes of the frame
+    /// \param constant in its unit
     /// \param size        of products in m
     NUSSELT_HD void add(const TracedSpace& space, const Vec3<float>& m, float constant, float size) noexcept {
         const Vec3<float> n = space.gradient(m);
