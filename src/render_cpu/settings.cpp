@@ -145,6 +145,8 @@ std::string_view name_of(SampleOrder order) {
         return "sobol";
     case SampleOrder::jittered:
         return "jittered";
+    case SampleOrder::stratified:
+        return "stratified";
     }
     return {};
 }
