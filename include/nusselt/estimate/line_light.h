@@ -31,12 +31,12 @@ struct ImageOfLine {
     Real factor; ///< of cosine_integral()
 
     /// The integral of the lobe over a part, times cosine / distance^2 of the light, per scaled metre of offset.
-    NUSSELT_HD Real integral(const Interval<Real>& part) const noexcept {
+    NUSSELT_INLINE Real integral(const Interval<Real>& part) const noexcept {
         const LineExtent<Real> e = extent(part);
         return select(e.visible, cosine_integral(e) * factor, Real(0));
     }
 
-    NUSSELT_HD LineExtent<Real> extent(const Interval<Real>& part) const noexcept {
+    NUSSELT_INLINE LineExtent<Real> extent(const Interval<Real>& part) const noexcept {
         const Real l0 = fma(part.begin, stretch, shift);
         const Real l1 = fma(part.end, stretch, shift);
         Vec3<Real> p0 = fma(l0, along, closest);
@@ -47,7 +47,7 @@ struct ImageOfLine {
     }
 
     /// What of a part is above the horizon of the lobe.
-    NUSSELT_HD Interval<Real> clipped(const Interval<Real>& part) const noexcept {
+    NUSSELT_INLINE Interval<Real> clipped(const Interval<Real>& part) const noexcept {
         const auto rises = slope > Real(0);
         const auto falls = slope < Real(0);
         const auto is_level = !(rises | falls);
@@ -59,7 +59,7 @@ struct ImageOfLine {
         return {begin, select(hidden, begin, end)};
     }
 
-    NUSSELT_HD static ImageOfLine select_between(const mask_t<Real>& mask, const ImageOfLine& a,
+    NUSSELT_INLINE static ImageOfLine select_between(const mask_t<Real>& mask, const ImageOfLine& a,
                                                  const ImageOfLine& b) noexcept {
         return {select(mask, a.along, b.along),       select(mask, a.closest, b.closest),
                 select(mask, a.distance, b.distance), select(mask, a.shift, b.shift),
@@ -89,7 +89,7 @@ struct ImageOfPlane {
         factor = (Real(1 / (2 * kPi<scalar_t<Real>>)) * determinant) * (height * inverse);
     }
 
-    NUSSELT_HD ImageOfLine<Real> line(const Real& offset) const noexcept {
+    NUSSELT_INLINE ImageOfLine<Real> line(const Real& offset) const noexcept {
         const Vec3<Real> p = fma(offset, across, origin);
         const Vec3<Real> moment = cross(p, along);
         const Real squared = dot(moment, moment);
@@ -204,7 +204,7 @@ private:
             const Real denominator = select(taken, probability, rest);
             u = below_one(numerator / select(denominator > Real(0), denominator, Real(1)));
             part = {select(taken, candidate.begin, part.begin), select(taken, candidate.end, part.end)};
-            is_lobe = (taken & candidate_is_lobe) | (!taken & is_lobe);
+            is_lobe = (taken & candidate_is_lobe) | (is_lobe & !taken);
         }
 
         Real total = Real(0); ///< of the weights
