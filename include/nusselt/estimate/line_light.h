@@ -60,7 +60,7 @@ struct ImageOfLine {
     }
 
     NUSSELT_INLINE static ImageOfLine select_between(const mask_t<Real>& mask, const ImageOfLine& a,
-                                                 const ImageOfLine& b) noexcept {
+                                                     const ImageOfLine& b) noexcept {
         return {select(mask, a.along, b.along),       select(mask, a.closest, b.closest),
                 select(mask, a.distance, b.distance), select(mask, a.shift, b.shift),
                 select(mask, a.stretch, b.stretch),   select(mask, a.height, b.height),
