@@ -170,8 +170,8 @@ void setup_render(CLI::App& app, int& exit_code) {
         ->check(number(0, 1));
     command
         ->add_option("--sampler", options->sampler,
-                     "Random numbers: independent, Owen-scrambled Sobol' points, or uniform jittered (best\n"
-                     "for linear lights)")
+                     "Random numbers: independent, Owen-scrambled Sobol' points, uniform jittered (best for\n"
+                     "linear lights), or stratified (multi-jittered: any --spp has as many strata)")
         ->transform(to_name_of(render_cpu::kSampleOrders))
         ->capture_default_str();
     command

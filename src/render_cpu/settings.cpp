@@ -125,6 +125,8 @@ std::string_view name_of(SampleOrder order) {
         return "sobol";
     case SampleOrder::jittered:
         return "jittered";
+    case SampleOrder::stratified:
+        return "stratified";
     }
     return {};
 }

@@ -41,7 +41,7 @@ enum class Mis : std::uint32_t {
 };
 
 /// How the samples of a pixel and light relate to each other; see nusselt::Sampler.
-enum class SampleOrder : std::uint32_t { independent, sobol, jittered };
+enum class SampleOrder : std::uint32_t { independent, sobol, jittered, stratified };
 
 /// Where camera rays pass through their pixel.
 enum class PixelPosition : std::uint32_t { jittered, center };
@@ -155,7 +155,7 @@ inline constexpr std::array kMisHeuristics = {Mis::balance,         Mis::power, 
                                               Mis::clamped_optimal, Mis::optimal, Mis::one_sample,
                                               Mis::separate};
 inline constexpr std::array kSampleOrders = {SampleOrder::independent, SampleOrder::sobol,
-                                             SampleOrder::jittered};
+                                             SampleOrder::jittered, SampleOrder::stratified};
 inline constexpr std::array kPixelPositions = {PixelPosition::jittered, PixelPosition::center};
 inline constexpr std::array kBrdfChoices = {BrdfChoice::material, BrdfChoice::lambert};
 inline constexpr std::array kLayerKinds = {LayerKind::albedo,   LayerKind::normal,  LayerKind::depth,
