@@ -19,8 +19,9 @@ BEGIN {
     allow("include/ltc", below)
     below = below " include/random include/bsdf include/ltc"
     allow("include/sampling", below)
-    allow("include/related", below)
-    below = below " include/sampling include/related"
+    allow("include/line_samples", below " include/sampling")
+    allow("include/related", below " include/line_samples")
+    below = below " include/sampling include/line_samples include/related"
     allow("include/estimate", below)
     allow("include/all", below " include/estimate")
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include <nusselt/core/vec.h>
+#include <nusselt/random/multi_jittered.h>
 #include <nusselt/random/pcg.h>
 #include <nusselt/random/sobol.h>
 #include <nusselt/random/unit_interval.h>
@@ -27,6 +28,9 @@ enum class Sampler {
     /// polygonal lights, y is the bit-reversed k with one random shift: a Hammersley point set, the same up
     /// to shifts everywhere.
     jittered,
+    /// Multi-jittered: for any n, one sample in each n-th of x and of y, at random in it, and one in each cell of a grid
+    /// that is as close to a square as n allows. Unlike with jittered ones, samples in different strata are independent.
+    stratified,
 };
 
 namespace detail {
@@ -42,6 +46,12 @@ NUSSELT_HD constexpr std::uint32_t random_stream(std::uint32_t seed, RandomPurpo
 /// What the samples of one pixel share.
 NUSSELT_HD constexpr UInt4 pixel_key(std::uint32_t x, std::uint32_t y, std::uint32_t stream) noexcept {
     return pcg4d({x, y, 0, stream});
+}
+
+/// What a sample of a pixel has of its own. Another key than pixel_key() has for sample 0.
+NUSSELT_HD constexpr UInt4 jitter_bits(std::uint32_t x, std::uint32_t y, std::uint32_t sample,
+                                       std::uint32_t stream) noexcept {
+    return pcg4d({x, y, sample + 1, stream});
 }
 
 /// The second coordinate of jittered points. Unsigned addition wraps around like a shift on the unit
@@ -62,6 +72,11 @@ NUSSELT_HD constexpr Vec2<Scalar> stream_random(Sampler kind, std::uint32_t stre
     if (kind == Sampler::jittered) {
         return {uniform_jittered(to_unit<Scalar>(key.x), sample, sample_count),
                 to_unit<Scalar>(shifted_bit_reversal(sample, key.y))};
+    }
+    if (kind == Sampler::stratified) {
+        const UInt4 jitter = jitter_bits(x, y, sample, stream);
+        return multi_jittered(sample, sample_count, {key.x, key.y, key.z}, to_unit<Scalar>(jitter.x),
+                              to_unit<Scalar>(jitter.y));
     }
     const UInt2 bits = owen_scrambled_sobol(sample, {key.z, key.x, key.y});
     return {to_unit<Scalar>(bits.x), to_unit<Scalar>(bits.y)};
@@ -93,15 +108,24 @@ NUSSELT_HD void stream_random_lanes(Sampler kind, std::uint32_t stream, const st
         }
         return;
     }
+    if (kind == Sampler::stratified) {
+        for (int i = 0; i < N; ++i) {
+            const UInt4 jitter = jitter_bits(x[i], y[i], sample[i], stream);
+            u_x[i] = to_unit<Scalar>(jitter.x);
+            u_y[i] = to_unit<Scalar>(jitter.y);
+        }
+        MultiJitter(sample_count).points(sample, key_x, key_y, key_z, u_x, u_y);
+        return;
+    }
     std::uint32_t index[N];
     for (int i = 0; i < N; ++i) index[i] = owen_scramble(sample[i], key_z[i]);
     for (int i = 0; i < N; ++i) u_x[i] = to_unit<Scalar>(scrambled_sobol_x(index[i], key_x[i]));
     for (int i = 0; i < N; ++i) u_y[i] = to_unit<Scalar>(scrambled_sobol_y(index[i], key_y[i]));
 }
 
-/// Camera rays want both dimensions stratified alike.
+/// Camera rays want both dimensions stratified alike, and do not know their number.
 NUSSELT_HD constexpr Sampler camera_sampler(Sampler kind) noexcept {
-    return kind == Sampler::jittered ? Sampler::sobol : kind;
+    return kind == Sampler::independent ? kind : Sampler::sobol;
 }
 
 } // namespace detail
@@ -110,8 +134,8 @@ NUSSELT_HD constexpr Sampler camera_sampler(Sampler kind) noexcept {
 /// \tparam Scalar      float (24 random bits), double or long double (32 bits).
 /// \param seed         chooses one of 2^32 images.
 /// \param x, y         the pixel.
-/// \param sample       below sample_count for Sampler::jittered; the others have no use for sample_count.
-/// \param sample_count samples per pixel and light, at least 1.
+/// \param sample       below sample_count for Sampler::jittered and stratified; the others have no use for sample_count.
+/// \param sample_count samples per pixel and light, 1 to 2^22.
 /// \param light        number of the light.
 /// \param pair         number of the pair of dimensions, for techniques that need more than one.
 template <class Scalar = float>
@@ -132,8 +156,8 @@ NUSSELT_HD void light_random_lanes(Sampler kind, std::uint32_t seed, const std::
     detail::stream_random_lanes(kind, stream, x, y, sample, sample_count, u_x, u_y);
 }
 
-/// Two numbers in [0, 1): the position of a camera ray in its pixel. Sampler::jittered uses Sobol' points
-/// here. Independent of all light_random(). Parameters as there.
+/// Two numbers in [0, 1): the position of a camera ray in its pixel. Sampler::jittered and stratified use
+/// Sobol' points here. Independent of all light_random(). Parameters as there.
 template <class Scalar = float>
 NUSSELT_HD constexpr Vec2<Scalar> camera_random(Sampler kind, std::uint32_t seed, std::uint32_t x,
                                                 std::uint32_t y, std::uint32_t sample) noexcept {

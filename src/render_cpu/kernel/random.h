@@ -33,6 +33,8 @@ inline Sampler sampler_of(render_cpu::SampleOrder order) noexcept {
         return Sampler::independent;
     case render_cpu::SampleOrder::jittered:
         return Sampler::jittered;
+    case render_cpu::SampleOrder::stratified:
+        return Sampler::stratified;
     case render_cpu::SampleOrder::sobol:
         break;
     }

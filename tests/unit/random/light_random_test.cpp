@@ -1,9 +1,11 @@
 /// The random numbers of a renderer: uniform over pixels, stratified in pixels, independent between
 /// everything that should be, and the same in lanes.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -28,7 +30,9 @@ using nusselt::Vec2;
 using nusselt::test::CellCounts;
 using nusselt::test::sidak_level;
 
-constexpr Sampler kSamplers[] = {Sampler::independent, Sampler::sobol, Sampler::jittered};
+constexpr Sampler kSamplers[] = {Sampler::independent, Sampler::sobol, Sampler::jittered,
+                                 Sampler::stratified};
+constexpr int kSamplerCount = static_cast<int>(std::size(kSamplers));
 constexpr std::uint32_t kWidth = 256;
 constexpr std::uint32_t kSamples = 16;
 
@@ -57,7 +61,7 @@ Vec2<double> stretched(Sampler kind, Pixel p, std::uint32_t sample) {
 
 TEST(LightRandom, EachSampleIsUniformOverPixels) {
     constexpr std::uint32_t kChecked[] = {0, 1, 2, 7, 15};
-    const double level = sidak_level(3 * 5);
+    const double level = sidak_level(kSamplerCount * 5);
     for (const Sampler kind : kSamplers)
         for (const std::uint32_t sample : kChecked)
             EXPECT_GT(p_value_over_pixels([&](Pixel p) { return stretched(kind, p, sample); }), level)
@@ -65,7 +69,7 @@ TEST(LightRandom, EachSampleIsUniformOverPixels) {
 }
 
 TEST(LightRandom, TestOfUniformityRejectsBias) {
-    const double level = sidak_level(3 * 5);
+    const double level = sidak_level(kSamplerCount * 5);
     for (const Sampler kind : kSamplers) {
         // The last 64th of the interval is missing.
         EXPECT_LT(p_value_over_pixels([&](Pixel p) {
@@ -85,7 +89,7 @@ TEST(LightRandom, TestOfUniformityRejectsBias) {
 TEST(CameraRandom, IsUniformOverPixels) {
     for (const Sampler kind : kSamplers)
         EXPECT_GT(p_value_over_pixels([&](Pixel p) { return camera_random<double>(kind, 5, p.x, p.y, 3); }),
-                  sidak_level(3));
+                  sidak_level(kSamplerCount));
 }
 
 /// Pairs of numbers that must be independent of each other, as functions of the pixel.
@@ -146,7 +150,7 @@ const std::vector<NamedPair>& independent_pairs() {
 }
 
 TEST(LightRandom, NumbersAreIndependentOverPixels) {
-    const double level = sidak_level(3 * static_cast<int>(independent_pairs().size()));
+    const double level = sidak_level(kSamplerCount * static_cast<int>(independent_pairs().size()));
     for (const NamedPair& pair : independent_pairs())
         for (const Sampler kind : kSamplers)
             EXPECT_GT(p_value_over_pixels([&](Pixel p) { return pair.numbers(kind, p); }), level)
@@ -240,6 +244,76 @@ TEST(LightRandom, JitteredSamplesShareTheirOffset) {
     }
 }
 
+/// How many points lie in each cell of a grid.
+std::vector<int> cells_of(const std::vector<Vec2<float>>& points, std::uint32_t columns, std::uint32_t rows) {
+    std::vector<int> counts(columns * rows);
+    for (const Vec2<float>& u : points)
+        ++counts[static_cast<std::size_t>(static_cast<double>(u.x) * columns) * rows +
+                 static_cast<std::size_t>(static_cast<double>(u.y) * rows)];
+    return counts;
+}
+
+TEST(LightRandom, StratifiedSamplesAreStratifiedForAnyNumber) {
+    const struct {
+        std::uint32_t columns, rows;
+    } grids[] = {{1, 1},   {1, 2},  {1, 3},  {2, 2},  {1, 5}, {2, 3},   {1, 7},   {2, 4},
+                 {3, 4},   {4, 4},  {1, 19}, {5, 6},  {6, 6}, {8, 8},   {7, 11},  {8, 16},
+                 {10, 10}, {1, 97}, {8, 9},  {7, 13}, {2, 7}, {24, 25}, {25, 40}, {32, 64}};
+    for (const auto& grid : grids) {
+        const std::uint32_t n = grid.columns * grid.rows;
+        for (std::uint32_t pixel = 0; pixel < 50; ++pixel) {
+            std::vector<Vec2<float>> points;
+            for (std::uint32_t k = 0; k < n; ++k)
+                points.push_back(light_random(Sampler::stratified, 2, pixel, 9, k, n, 1));
+            const std::vector<int> one_each(n, 1);
+            EXPECT_EQ(cells_of(points, n, 1), one_each);
+            EXPECT_EQ(cells_of(points, 1, n), one_each);
+            EXPECT_EQ(cells_of(points, grid.columns, grid.rows), one_each);
+        }
+    }
+}
+
+TEST(LightRandom, StratifiedSamplesAreUniformForAnyNumber) {
+    constexpr std::uint32_t kNumbers[] = {1, 2, 3, 5, 6, 12, 13, 100};
+    const double level = sidak_level(2 * static_cast<int>(std::size(kNumbers)));
+    for (const std::uint32_t n : kNumbers)
+        for (const std::uint32_t sample : {0u, n - 1})
+            EXPECT_GT(p_value_over_pixels([&](Pixel p) {
+                          return light_random<double>(Sampler::stratified, 4, p.x, p.y, sample, n, 0);
+                      }),
+                      level)
+                << n;
+}
+
+TEST(LightRandom, StratifiedSamplesHaveIndependentPositionsInTheirStrata) {
+    constexpr std::uint32_t n = 12;
+    const auto in_stratum = [](double u) { return u * n - std::floor(u * n); };
+    const auto number = [](Pixel p, std::uint32_t sample) {
+        return light_random<double>(Sampler::stratified, 4, p.x, p.y, sample, n, 0);
+    };
+    for (std::uint32_t sample = 0; sample < 4; ++sample) {
+        EXPECT_GT(
+            p_value_over_pixels([&](Pixel p) {
+                return Vec2<double>{in_stratum(number(p, sample).x), in_stratum(number(p, sample + 1).x)};
+            }),
+            sidak_level(8));
+        EXPECT_GT(p_value_over_pixels([&](Pixel p) {
+                      return Vec2<double>{in_stratum(number(p, sample).x), in_stratum(number(p, sample).y)};
+                  }),
+                  sidak_level(8));
+    }
+}
+
+// If the orders of two pairs are independent, the counts of 64 samples in 8 x 8 cells are those of a random matching of
+// strata: the variance of each is 64 * (1/8 * 7/8)^2 * 64 / 63, that is 49.8 for all.
+TEST(LightRandom, StratifiedPairsHaveIndependentOrders) {
+    const double statistic = statistic_of_padding([](Pixel p, std::uint32_t k) {
+        return Vec2<double>{light_random<double>(Sampler::stratified, 1, p.x, p.y, k, 64, 0).x,
+                            light_random<double>(Sampler::stratified, 1, p.x, p.y, k, 64, 1).x};
+    });
+    EXPECT_NEAR(statistic, 49.8, 3);
+}
+
 TEST(LightRandom, StaysBelowOne) {
     for (const Sampler kind : kSamplers) {
         for (std::uint32_t i = 0; i < 300000; ++i) {
@@ -250,7 +324,7 @@ TEST(LightRandom, StaysBelowOne) {
 }
 
 template <class Scalar, int N>
-void expect_lanes_equal_scalars() {
+void expect_lanes_equal_scalars(std::uint32_t sample_count) {
     std::uint32_t x[N], y[N], sample[N];
     for (std::uint32_t i = 0; i < N; ++i) {
         x[i] = i % 4 + 100;
@@ -259,10 +333,11 @@ void expect_lanes_equal_scalars() {
     }
     for (const Sampler kind : kSamplers) {
         Scalar light_x[N], light_y[N], camera_x[N], camera_y[N];
-        light_random_lanes(kind, 77, x, y, sample, 16, 4, 2, light_x, light_y);
+        light_random_lanes(kind, 77, x, y, sample, sample_count, 4, 2, light_x, light_y);
         camera_random_lanes(kind, 77, x, y, sample, camera_x, camera_y);
         for (int i = 0; i < N; ++i) {
-            const Vec2<Scalar> light = light_random<Scalar>(kind, 77, x[i], y[i], sample[i], 16, 4, 2);
+            const Vec2<Scalar> light =
+                light_random<Scalar>(kind, 77, x[i], y[i], sample[i], sample_count, 4, 2);
             const Vec2<Scalar> camera = camera_random<Scalar>(kind, 77, x[i], y[i], sample[i]);
             EXPECT_EQ(light_x[i], light.x);
             EXPECT_EQ(light_y[i], light.y);
@@ -273,11 +348,13 @@ void expect_lanes_equal_scalars() {
 }
 
 TEST(LightRandom, LanesEqualScalars) {
-    expect_lanes_equal_scalars<float, 4>();
-    expect_lanes_equal_scalars<float, 8>();
-    expect_lanes_equal_scalars<float, 16>();
-    expect_lanes_equal_scalars<double, 2>();
-    expect_lanes_equal_scalars<double, 8>();
+    for (const std::uint32_t sample_count : {16u, 17u, 30u, 72u, 1u << 20}) {
+        expect_lanes_equal_scalars<float, 4>(sample_count);
+        expect_lanes_equal_scalars<float, 8>(sample_count);
+        expect_lanes_equal_scalars<float, 16>(sample_count);
+        expect_lanes_equal_scalars<double, 2>(sample_count);
+        expect_lanes_equal_scalars<double, 8>(sample_count);
+    }
 }
 
 } // namespace
