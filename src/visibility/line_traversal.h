@@ -105,6 +105,7 @@ private:
         const int first = size;
         for (; bits != 0; bits &= bits - 1) {
             const int child = __builtin_ctz(bits);
+            prefetch(node.child[child]);
             int k = size++;
             for (; k > first && depth_of[k - 1 - first] < depth[child]; --k) {
                 stack[k] = stack[k - 1];
@@ -112,6 +113,20 @@ private:
             }
             stack[k] = node.child[child];
             depth_of[k - first] = depth[child];
+        }
+    }
+
+    /// Memory is what takes most of the time in large scenes.
+    NUSSELT_INLINE void prefetch(std::uint32_t reference) const noexcept {
+        const std::uint32_t index = reference & ~visibility::kBvhKindMask;
+        const std::uint32_t kind = reference & visibility::kBvhKindMask;
+        constexpr int kLine = 64;
+        if (kind == visibility::kBvhNode) {
+            const auto* begin = reinterpret_cast<const char*>(bvh_.nodes + index);
+            for (std::size_t i = 0; i < sizeof(visibility::LineBvhNode); i += kLine) __builtin_prefetch(begin + i);
+        } else if (kind == visibility::kBvhBlock) {
+            const auto* begin = reinterpret_cast<const char*>(bvh_.blocks + index);
+            for (std::size_t i = 0; i < sizeof(visibility::TriangleBlock); i += kLine) __builtin_prefetch(begin + i);
         }
     }
 
