@@ -22,7 +22,8 @@ template <class Real, class Shadow>
 NUSSELT_INLINE void cut_lines(TracedLines<Real>& lines, const Shadow& shadow,
                               visibility::LineCounters& counters) noexcept {
     ++counters.line_tests;
-    lines.parts.cut(hidden_interval(shadow, lines.offset));
+    const Interval<Real> hidden = hidden_interval(shadow, lines.offset);
+    if (any(lines.parts.overlap(hidden))) lines.parts.cut(hidden);
 }
 template <class Real>
 NUSSELT_INLINE void cut_lines(TracedLines<Real>& lines, const TriangleShadow<float>& shadow,
@@ -123,10 +124,12 @@ private:
         constexpr int kLine = 64;
         if (kind == visibility::kBvhNode) {
             const auto* begin = reinterpret_cast<const char*>(bvh_.nodes + index);
-            for (std::size_t i = 0; i < sizeof(visibility::LineBvhNode); i += kLine) __builtin_prefetch(begin + i);
+            for (std::size_t i = 0; i < sizeof(visibility::LineBvhNode); i += kLine)
+                __builtin_prefetch(begin + i);
         } else if (kind == visibility::kBvhBlock) {
             const auto* begin = reinterpret_cast<const char*>(bvh_.blocks + index);
-            for (std::size_t i = 0; i < sizeof(visibility::TriangleBlock); i += kLine) __builtin_prefetch(begin + i);
+            for (std::size_t i = 0; i < sizeof(visibility::TriangleBlock); i += kLine)
+                __builtin_prefetch(begin + i);
         }
     }
 
@@ -307,10 +310,9 @@ public:
             margin_[p] = Real(rounding) *
                          fma(abs(x), Real(size(space.frame.normal)), origin.z * size(space.frame.across));
         }
+        rounding_ = rounding * (size(space.frame.along) + size(space.frame.normal));
         along_margin_ =
-            rounding * (origin.z * size(space.frame.along) +
-                        (abs(origin.y) + max(-seen_.bounds.extent.begin, seen_.bounds.extent.end)) *
-                            size(space.frame.normal));
+            kTraversalRounding * (abs(origin.y) + max(-seen_.bounds.extent.begin, seen_.bounds.extent.end));
     }
 
     NUSSELT_INLINE std::uint32_t touched(const visibility::LineBvhNode& node, std::uint32_t bits) noexcept {
@@ -319,9 +321,6 @@ public:
                                  BvhReal(0.5f) * (row(5) - row(2))};
         const Vec3<BvhReal> centre =
             space_->seen(Vec3<BvhReal>{row(0) + half.x, row(1) + half.y, row(2) + half.z});
-        const auto extent = [&](const Vec3<float>& r) {
-            return fma(abs(BvhReal(r.x)), half.x, fma(abs(BvhReal(r.y)), half.y, abs(BvhReal(r.z)) * half.z));
-        };
         Boxes boxes;
         centre.x.store(boxes.centre[0]);
         centre.y.store(boxes.centre[1]);
@@ -329,8 +328,7 @@ public:
         half.x.store(boxes.half[0]);
         half.y.store(boxes.half[1]);
         half.z.store(boxes.half[2]);
-        extent(space_->frame.along).store(boxes.extent_along);
-        extent(space_->frame.normal).store(boxes.extent_normal);
+        store_extent(centre, half, boxes);
         std::uint32_t result = 0;
         for (; bits != 0; bits &= bits - 1) {
             const int child = __builtin_ctz(bits);
@@ -351,8 +349,8 @@ private:
     struct Boxes {
         alignas(64) float centre[3][visibility::kBvhWidth];
         float half[3][visibility::kBvhWidth];
-        float extent_along[visibility::kBvhWidth];
-        float extent_normal[visibility::kBvhWidth];
+        float begin[visibility::kBvhWidth]; ///< of their projections, along the lines [m]
+        float end[visibility::kBvhWidth];
     };
 
     bool is_lit() const noexcept {
@@ -361,26 +359,45 @@ private:
         return false;
     }
 
+    /// Finds where along the lines their projections are.
+    NUSSELT_INLINE void store_extent(const Vec3<BvhReal>& centre, const Vec3<BvhReal>& half,
+                                     Boxes& boxes) const noexcept {
+        const auto extent = [&](const Vec3<float>& r) {
+            return fma(abs(BvhReal(r.x)), half.x,
+                       fma(abs(BvhReal(r.y)), half.y, fma(abs(BvhReal(r.z)), half.z, BvhReal(rounding_))));
+        };
+        const Vec3<float>& origin = seen_.frame.origin;
+        const BvhReal along = extent(space_->frame.along);
+        const BvhReal normal = extent(space_->frame.normal);
+        const BvhReal nearest = centre.z - normal;
+        const BvhReal to_nearest = BvhReal(origin.z) / nearest;
+        const BvhReal to_farthest = BvhReal(origin.z) / (centre.z + normal);
+        const BvhReal low = centre.y - along;
+        const BvhReal high = centre.y + along;
+        const BvhReal begin = min(low * to_nearest, low * to_farthest) - BvhReal(origin.y);
+        const BvhReal end = max(high * to_nearest, high * to_farthest) - BvhReal(origin.y);
+        const auto projects = nearest > BvhReal(0);
+        constexpr float kInfinity = std::numeric_limits<float>::infinity();
+        select(projects, begin - BvhReal(along_margin_), BvhReal(-kInfinity)).store(boxes.begin);
+        select(projects, end + BvhReal(along_margin_), BvhReal(kInfinity)).store(boxes.end);
+    }
+
     /// Whether any line with light touches a box.
     NUSSELT_INLINE bool touches(const Boxes& boxes, int child) const noexcept {
         ++counters_.box_tests;
         const Vec3<float>& origin = seen_.frame.origin;
-        const Real x = boxes.centre[0][child];
-        const Real y = origin.z * boxes.centre[1][child];
+        const Real x = origin.z * boxes.centre[0][child];
         const Real z = boxes.centre[2][child];
-        const Real reach_y = origin.z * boxes.extent_along[child] + along_margin_;
-        const Real reach_z = boxes.extent_normal[child];
+        const Interval<Real> extent{Real(boxes.begin[child]), Real(boxes.end[child])};
         for (int p = 0; p < pack_count_; ++p) {
             const Vec3<Real>& slope = slope_[p];
-            const Real side = fma(Real(origin.z), x, -(packs_[p].offset + origin.x) * z);
+            const Real side = x - (packs_[p].offset + origin.x) * z;
             const Real reach = fma(slope.x, Real(boxes.half[0][child]),
                                    fma(slope.y, Real(boxes.half[1][child]),
                                        fma(slope.z, Real(boxes.half[2][child]), margin_[p])));
-            const Real begin = packs_[p].parts.bounds().begin + origin.y;
-            const Real end = packs_[p].parts.bounds().end + origin.y;
-            const auto above = fma(-begin, z, y) + fma(abs(begin), reach_z, reach_y) >= Real(0);
-            const auto below = fma(-end, z, y) - fma(abs(end), reach_z, reach_y) <= Real(0);
-            if (any(packs_[p].parts.lit() & (abs(side) <= reach) & above & below)) return true;
+            const auto crosses = abs(side) <= reach;
+            if (any(crosses & packs_[p].parts.lit()) && any(crosses & packs_[p].parts.overlap(extent)))
+                return true;
         }
         return false;
     }
@@ -394,7 +411,8 @@ private:
     // Per line: size of the components of the gradient of the plane through the line and the apex, and rounding.
     Vec3<Real> slope_[kLargestLinePackCount];
     Real margin_[kLargestLinePackCount];
-    float along_margin_ = 0;
+    float rounding_ = 0;     ///< of coordinates in the axes of the frame [its unit]
+    float along_margin_ = 0; ///< of coordinates along lines [m]
 };
 
 NUSSELT_NAMESPACE_END
