@@ -71,7 +71,7 @@ Plot error_plot(const LineConvergence& experiment, const SceneResult& scene, con
 
 std::string setting(const LineConvergenceResult& result) {
     return fmt::format("Images are {} pixels wide, camera rays go through their centres. Errors are standard "
-                       "deviations over {} seeds, "
+                       "deviations over {} seeds or more, "
                        "so that no reference is needed; times are medians over them, of {} threads. The "
                        "order is the slope of the "
                        "standard deviation over N in logarithmic axes, a least squares fit.",
