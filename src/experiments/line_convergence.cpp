@@ -1,5 +1,7 @@
 #include "experiments/line_convergence.h"
 
+#include "experiments/image_errors.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -95,13 +97,6 @@ LineConvergence convergence(const std::string& name, const std::string& figures,
             expected_less_noise()};
 }
 
-/// Mean over pixels and channels.
-double mean_of(const image::Image& image) {
-    double sum = 0;
-    for (const float value : image.pixels) sum += static_cast<double>(value);
-    return sum / static_cast<double>(image.pixels.size());
-}
-
 double mean_square_difference(const image::Image& a, const image::Image& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
@@ -141,11 +136,11 @@ SceneResult run_scene(const LineConvergence& experiment, const LineScene& line_s
         converged.push_back({std::move(statistics.mean), statistics.variance / seeds});
         result.series.push_back(std::move(measured));
     }
-    result.mean = mean_of(converged[reference].image);
+    result.mean = mean_radiance(converged[reference].image);
     for (std::size_t i = 0; i < converged.size(); ++i) {
         const double noise = converged[i].variance + converged[reference].variance;
         const double square = mean_square_difference(converged[i].image, converged[reference].image);
-        result.series[i].bias = mean_of(converged[i].image) / result.mean - 1;
+        result.series[i].bias = mean_radiance(converged[i].image) / result.mean - 1;
         result.series[i].pixel_bias =
             i == reference ? 0 : std::sqrt(std::max(square - noise, 0.0)) / result.mean;
     }

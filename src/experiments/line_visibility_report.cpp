@@ -93,14 +93,11 @@ std::string to_json(const LineVisibilityResult& result) {
         }
         scenes.push_back(std::move(entry));
     }
-    Json expectations = Json::array();
-    for (const ExpectationResult& e : result.expectations)
-        expectations.push_back({{"expectation", e.text}, {"holds", e.holds}});
     const Json document = {{"experiment", result.experiment->name},
                            {"width", result.width},
                            {"lines", result.experiment->lines},
                            {"scenes", std::move(scenes)},
-                           {"expectations", std::move(expectations)}};
+                           {"expectations", to_json(result.expectations)}};
     return document.dump(1) + "\n";
 }
 
