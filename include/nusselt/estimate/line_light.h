@@ -53,14 +53,13 @@ struct ImageOfLine {
         const auto is_level = !(rises | falls);
         const Real crossing = -height / select(is_level, Real(1), slope);
         const auto hidden = is_level & !(height > Real(0));
-        // Empty parts have finite ends too.
         const Real begin = min(select(rises, max(part.begin, crossing), part.begin), part.end);
         const Real end = max(select(falls, min(part.end, crossing), part.end), begin);
         return {begin, select(hidden, begin, end)};
     }
 
     NUSSELT_INLINE static ImageOfLine select_between(const mask_t<Real>& mask, const ImageOfLine& a,
-                                                 const ImageOfLine& b) noexcept {
+                                                     const ImageOfLine& b) noexcept {
         return {select(mask, a.along, b.along),       select(mask, a.closest, b.closest),
                 select(mask, a.distance, b.distance), select(mask, a.shift, b.shift),
                 select(mask, a.stretch, b.stretch),   select(mask, a.height, b.height),
@@ -175,8 +174,7 @@ public:
             const Real factor =
                 scale_ * select(drawn, choice.total / select(drawn, density, Real(1)), Real(0));
             const BrdfComponents<Real> brdf = surface_.brdf.eval_components(wi);
-            return {fma(factor, cosine * brdf.diffuse - cosine_density * surface_.diffuse_albedo,
-                        expected.diffuse),
+            return {fma(factor, cosine * brdf.diffuse - cosine_density * diffuse_albedo_, expected.diffuse),
                     fma(factor, cosine * brdf.specular - lobe_density * surface_.specular_albedo,
                         expected.specular)};
         }
@@ -231,9 +229,10 @@ private:
                 surface.lobe.minor() * surface.lobe.to_cosine({Real(0), Real(1), Real(0)}).y,
                 abs(dot(origin_, plane.normal))),
           is_glossy_(surface.is_glossy()) {
+        // Estimates of it are negative for eyes below the surface.
+        diffuse_albedo_ = max(surface.diffuse_albedo, Vec3<Real>{Real(0), Real(0), Real(0)});
         lobe_weight_ = select(is_glossy_, largest_of(surface.specular_albedo), Real(0));
-        const Real share =
-            fma(Real(scalar_t<Real>(kCosineShare)), lobe_weight_, largest_of(surface.diffuse_albedo));
+        const Real share = fma(Real(scalar_t<Real>(kCosineShare)), lobe_weight_, largest_of(diffuse_albedo_));
         cosine_weight_ = max(share, Real(scalar_t<Real>(kSmallestDiffuseAlbedo)));
     }
 
@@ -244,12 +243,14 @@ private:
         return {cosine_.line(scaled_offset), lobe_.line(scaled_offset)};
     }
 
+    /// Empty parts get finite ends.
     NUSSELT_HD Interval<Real> scaled(const Interval<Real>& part) const noexcept {
-        return {scale_ * part.begin, scale_ * part.end};
+        const auto lit = part.begin < part.end;
+        return {select(lit, scale_ * part.begin, Real(0)), select(lit, scale_ * part.end, Real(0))};
     }
 
     NUSSELT_HD BrdfComponents<Real> components(const Real& diffuse, const Real& specular) const noexcept {
-        return {(scale_ * diffuse) * surface_.diffuse_albedo, (scale_ * specular) * surface_.specular_albedo};
+        return {(scale_ * diffuse) * diffuse_albedo_, (scale_ * specular) * surface_.specular_albedo};
     }
 
     /// To a point of the part, with a density by the lobe.
@@ -278,6 +279,7 @@ private:
     detail::ImageOfPlane<Real> lobe_;
 
     mask_t<Real> is_glossy_;
+    Vec3<Real> diffuse_albedo_;
     Real cosine_weight_, lobe_weight_; ///< of the integrals, for the choice of a point
 };
 
