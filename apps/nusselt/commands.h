@@ -14,6 +14,16 @@ class App;
 
 namespace nusselt::app {
 
+/// Of line samples. Defaults are those of render_cpu::RenderSettings.
+struct LineOptions {
+    std::string integrator = "points";
+    std::optional<int> count;
+    std::optional<std::string> orientation;
+    std::optional<std::string> offsets;
+    std::optional<std::string> shading;
+    std::optional<std::string> many_occluders;
+};
+
 struct RenderOptions {
     std::filesystem::path scene;
     std::vector<std::filesystem::path> rigs;    ///< in the order in which they are applied
@@ -28,6 +38,7 @@ struct RenderOptions {
     std::string pixel_position = "jittered";
     std::string brdf = "material";
     std::uint32_t seed = 0;
+    LineOptions lines;
     std::optional<int> threads;
     std::optional<std::string> resolution; ///< "WIDTHxHEIGHT"
     double exposure = 0;

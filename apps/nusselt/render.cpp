@@ -3,6 +3,7 @@
 #include "frame_display.h"
 #include "interrupt.h"
 #include "lights.h"
+#include "line_options.h"
 #include "progress.h"
 #include "render_report.h"
 #include "render_settings.h"
@@ -190,6 +191,7 @@ void setup_render(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--seed", options->seed, "Chooses the random numbers, 0 to 2^32 - 1")
         ->capture_default_str();
+    add_line_options(*command, options->lines);
     add_rigs_option(*command, options->rigs);
     add_machine_options(*command, options->threads, options->isa);
     add_resolution_option(*command, options->resolution);

@@ -1,4 +1,5 @@
 #include "render_settings.h"
+#include "line_options.h"
 #include "render_setup.h"
 
 #include "image/io.h"
@@ -62,6 +63,7 @@ render_cpu::RenderSettings make_settings(const RenderOptions& options) {
     settings.samples = options.samples;
     settings.camera_rays = options.camera_rays;
     settings.seed = options.seed;
+    apply_line_options(options.lines, settings);
     settings.layers = layers_of(options.layers);
     if (options.part) settings.part = parse_part(*options.part).value();
     render_cpu::validate(settings);
@@ -95,6 +97,7 @@ void check_combination(const RenderOptions& options) {
     if (options.camera_rays && options.samples % *options.camera_rays != 0)
         throw CLI::ValidationError("--camera-rays", fmt::format("{} does not divide --spp, which is {}",
                                                                 *options.camera_rays, options.samples));
+    check_line_options(options.lines, technique);
     check_exr_only(options);
 }
 

@@ -195,6 +195,14 @@ image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& s
                                 {"brdf", std::string(name_of(settings.brdf))},
                                 {"seed", std::to_string(settings.seed)},
                                 {"isa", std::string(name_of(isa))}};
+    if (settings.integrator == Integrator::lines) {
+        metadata["integrator"] = std::string(name_of(settings.integrator));
+        metadata["lines"] = std::to_string(settings.lines.count);
+        metadata["orientation"] = std::string(name_of(settings.lines.orientation));
+        metadata["offsets"] = std::string(name_of(settings.lines.offsets));
+        metadata["line_shading"] = std::string(name_of(settings.lines.shading));
+        metadata["many_occluders"] = std::string(name_of(settings.lines.many_occluders));
+    }
     if (settings.part.count > 1)
         metadata["part"] = std::to_string(settings.part.number) + "/" + std::to_string(settings.part.count);
     if (settings.strategies != Strategies::diffuse) {

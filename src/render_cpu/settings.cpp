@@ -29,7 +29,8 @@ bool allows(Strategies strategies, Mis mis) {
 }
 
 bool uses_lobes(const RenderSettings& settings) {
-    return settings.technique == Technique::ltc_analytic || settings.strategies != Strategies::diffuse;
+    return settings.technique == Technique::ltc_analytic || settings.strategies != Strategies::diffuse ||
+           settings.integrator == Integrator::lines;
 }
 
 int camera_ray_count(const RenderSettings& settings) {
@@ -38,6 +39,24 @@ int camera_ray_count(const RenderSettings& settings) {
 }
 
 bool has_variance(const RenderSettings& settings) { return camera_ray_count(settings) >= 2; }
+
+namespace {
+
+void validate_lines(const RenderSettings& settings) {
+    if (settings.technique == Technique::ltc_analytic)
+        throw std::invalid_argument("technique ltc_analytic has no shadows and does not fit line samples");
+    const int count = settings.lines.count;
+    if (count < 1 || count > kMaxLines)
+        throw std::invalid_argument("lines per shading point and light must lie between 1 and " +
+                                    std::to_string(kMaxLines) + ", found " + std::to_string(count));
+    const int camera_rays = camera_ray_count(settings);
+    if (std::int64_t(count) * camera_rays > kMaxLinesPerPixel)
+        throw std::invalid_argument("lines times camera rays must not exceed " +
+                                    std::to_string(kMaxLinesPerPixel) + ", found " + std::to_string(count) +
+                                    " times " + std::to_string(camera_rays));
+}
+
+} // namespace
 
 void validate(const RenderSettings& settings) {
     if (settings.samples < 1 || settings.samples > kMaxSamples)
@@ -58,6 +77,7 @@ void validate(const RenderSettings& settings) {
         throw std::invalid_argument("camera rays per pixel must divide the " +
                                     std::to_string(settings.samples) + " samples per light, found " +
                                     std::to_string(camera_rays));
+    if (settings.integrator == Integrator::lines) validate_lines(settings);
     const Part& part = settings.part;
     if (part.count < 1 || part.count > kMaxParts || part.number < 1 || part.number > part.count)
         throw std::invalid_argument("parts are numbered from 1 to their count, which is at most " +
@@ -169,6 +189,58 @@ std::string_view name_of(LayerKind kind) {
         return "lights";
     case LayerKind::variance:
         return "variance";
+    }
+    return {};
+}
+
+std::string_view name_of(Integrator integrator) {
+    switch (integrator) {
+    case Integrator::points:
+        return "points";
+    case Integrator::lines:
+        return "lines";
+    }
+    return {};
+}
+
+std::string_view name_of(LineOrientation orientation) {
+    switch (orientation) {
+    case LineOrientation::parallel:
+        return "parallel";
+    case LineOrientation::fixed:
+        return "fixed";
+    case LineOrientation::independent:
+        return "independent";
+    }
+    return {};
+}
+
+std::string_view name_of(LineOffsets offsets) {
+    switch (offsets) {
+    case LineOffsets::length:
+        return "length";
+    case LineOffsets::uniform:
+        return "uniform";
+    }
+    return {};
+}
+
+std::string_view name_of(LineShading shading) {
+    switch (shading) {
+    case LineShading::unbiased:
+        return "unbiased";
+    case LineShading::analytic:
+        return "analytic";
+    }
+    return {};
+}
+
+std::string_view name_of(ManyOccluders choice) {
+    switch (choice) {
+    case ManyOccluders::points:
+        return "points";
+    case ManyOccluders::lines:
+        return "lines";
     }
     return {};
 }

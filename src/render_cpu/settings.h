@@ -101,6 +101,8 @@ struct LineSettings {
 };
 
 inline constexpr int kMaxLines = 1 << 16;
+/// Bound on the lines of a pixel and light, over all of its camera rays.
+inline constexpr std::int64_t kMaxLinesPerPixel = std::int64_t(1) << 31;
 inline constexpr int kMaxSamples = 1 << 20;
 inline constexpr int kMaxParts = 1 << 20;
 
@@ -161,6 +163,12 @@ inline constexpr std::array kBrdfChoices = {BrdfChoice::material, BrdfChoice::la
 inline constexpr std::array kLayerKinds = {LayerKind::albedo,   LayerKind::normal,  LayerKind::depth,
                                            LayerKind::emission, LayerKind::diffuse, LayerKind::specular,
                                            LayerKind::lights,   LayerKind::variance};
+inline constexpr std::array kIntegrators = {Integrator::points, Integrator::lines};
+inline constexpr std::array kLineOrientations = {LineOrientation::parallel, LineOrientation::fixed,
+                                                 LineOrientation::independent};
+inline constexpr std::array kLineOffsets = {LineOffsets::length, LineOffsets::uniform};
+inline constexpr std::array kLineShadings = {LineShading::unbiased, LineShading::analytic};
+inline constexpr std::array kManyOccludersChoices = {ManyOccluders::points, ManyOccluders::lines};
 std::string_view name_of(Technique technique);
 std::string_view name_of(Strategies strategies);
 std::string_view name_of(Mis mis);
@@ -168,5 +176,10 @@ std::string_view name_of(SampleOrder order);
 std::string_view name_of(PixelPosition position);
 std::string_view name_of(BrdfChoice brdf);
 std::string_view name_of(LayerKind kind);
+std::string_view name_of(Integrator integrator);
+std::string_view name_of(LineOrientation orientation);
+std::string_view name_of(LineOffsets offsets);
+std::string_view name_of(LineShading shading);
+std::string_view name_of(ManyOccluders choice);
 
 } // namespace nusselt::render_cpu

@@ -36,6 +36,13 @@ struct Interval {
     Real begin, end;
 };
 
+/// From infinity to minus infinity, so that unions are a minimum and a maximum.
+template <class Real>
+NUSSELT_HD inline Interval<Real> empty_interval() noexcept {
+    constexpr scalar_t<Real> kInfinity = std::numeric_limits<scalar_t<Real>>::infinity();
+    return {Real(kInfinity), Real(-kInfinity)};
+}
+
 /// What a light has of a line.
 template <class Real>
 struct Chord {

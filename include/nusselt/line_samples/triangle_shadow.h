@@ -1,10 +1,11 @@
 #pragma once
 /// The parts of the lines of a family that one triangle hides from a point.
 ///
-/// Billen and Dutre 2016, Line Sampling for Direct Illumination, Sec. 5.2. Deviation: instead of intersecting triangles
-/// and projecting what they have in common, the point t of a line is hidden if it lies in the cone of the triangle and
-/// beyond its plane: four inequalities that are linear in t. Each edge gives the same bound to both of its triangles, bit
-/// by bit, so that nothing shines through closed meshes.
+/// Billen and Dutre 2016, Line Sampling for Direct Illumination, Sec. 5.2. Deviations: triangles are projected from the
+/// point to the plane of the light, where each edge becomes a line: the coordinate where it crosses a line of the family
+/// is a linear function of the offset. Whether a line passes a corner on the left or on the right is one comparison with
+/// the offset of the corner. Both are the same, bit by bit, for all triangles that share the edge or corner, so that what
+/// the triangles of a mesh hide is connected: nothing shines through closed meshes, also not at corners.
 
 #include <nusselt/line_samples/line_family.h>
 
@@ -15,11 +16,13 @@ template <class Scalar>
 inline constexpr Scalar kShadowEnd = Scalar(1) - Scalar(1e-4);
 
 /// The lines of a family as a point sees them, for their shadows.
-/// \tparam Real one family and point per lane, or scalar.
 template <class Real>
 struct ShadowFrame {
-    Vec3<Real> across, along, normal; ///< as LinePlane, the normal pointing away from the point
+    Vec3<Real> point;                 ///< the apex of all shadows, in the space of the plane [m]
+    Vec3<Real> across, along, normal; ///< as LinePlane, in 1 / unit; the normal points away from the point
     Vec3<Real> origin; ///< of the plane relative to the point, its coordinates along these three vectors [m]
+    Real end;          ///< distance of the last occluders from the point, along the normal [unit]
+    Real unit; ///< of coordinates of occluders [m], a power of two, so that their products do not overflow
 };
 
 /// \param plane in any space.
@@ -29,79 +32,219 @@ NUSSELT_HD inline ShadowFrame<Real> make_shadow_frame(const LinePlane<Real>& pla
                                                       const Vec3<Real>& point) noexcept {
     const Vec3<Real> to_origin = plane.origin - point;
     const Real distance = dot(to_origin, plane.normal);
-    const Real side = copysign(Real(1), distance);
-    return {plane.across,
-            plane.along,
+    const Real inverse_unit =
+        reciprocal_power_of_two(max(max(abs(to_origin.x), abs(to_origin.y)), abs(to_origin.z)));
+    const Real side = copysign(inverse_unit, distance);
+    return {point,
+            inverse_unit * plane.across,
+            inverse_unit * plane.along,
             side * plane.normal,
-            {dot(to_origin, plane.across), dot(to_origin, plane.along), abs(distance)}};
+            {dot(to_origin, plane.across), dot(to_origin, plane.along), abs(distance)},
+            Real(kShadowEnd<scalar_t<Real>>) * abs(distance) * inverse_unit,
+            Real(1) / inverse_unit};
 }
 
-/// Bounds on the hidden coordinates as linear functions of the offset: between the largest lower and the least upper one.
+/// The same frame in all lanes.
+template <class Real, class Single>
+NUSSELT_HD inline ShadowFrame<Real> broadcast(const ShadowFrame<Single>& frame) noexcept {
+    return {broadcast<Real>(frame.point),
+            broadcast<Real>(frame.across),
+            broadcast<Real>(frame.along),
+            broadcast<Real>(frame.normal),
+            broadcast<Real>(frame.origin),
+            Real(frame.end),
+            Real(frame.unit)};
+}
+
+/// A rectangle of the plane of a light.
+template <class Real>
+struct LineBounds {
+    Interval<Real> offsets; ///< [m], both ends included
+    Interval<Real> extent;  ///< coordinates along the lines [m]
+};
+
+/// The projection of an edge: the coordinate along the line of an offset is at_zero + slope * offset.
+template <class Real>
+struct ShadowEdge {
+    Real at_zero; ///< [m]
+    Real slope;
+    NUSSELT_HD Real at(const Real& offset) const noexcept { return fma(slope, offset, at_zero); }
+};
+
+/// The projection of a triangle that lies between the point and the plane of the light: on lines with an offset in
+/// [first, last) it hides what is between `through`, which leads from the first to the last corner, and the other two edges.
 /// \tparam Real a triangle per lane, or scalar.
 template <class Real>
 struct TriangleShadow {
-    static constexpr int kBounds = 4;
-    Real lower[kBounds], lower_slope[kBounds];
-    Real upper[kBounds], upper_slope[kBounds];
+    Real first, middle, last; ///< offsets of the corners [m]; first > last if nothing is hidden
+    ShadowEdge<Real> through;
+    ShadowEdge<Real> before, after; ///< the middle corner
+
+    /// Lines of which something is hidden.
+    NUSSELT_HD mask_t<Real> crosses(const Real& offset) const noexcept {
+        return (first <= offset) & (offset < last);
+    }
 };
 
-/// The part of a line that is hidden.
-/// \tparam Real a line per lane, while the shadow may be scalar.
-template <class Real, class ShadowReal>
-NUSSELT_HD inline Interval<Real> hidden_interval(const TriangleShadow<ShadowReal>& shadow,
-                                                 const Real& offset) noexcept {
-    Interval<Real> hidden{fma(Real(shadow.lower_slope[0]), offset, Real(shadow.lower[0])),
-                          fma(Real(shadow.upper_slope[0]), offset, Real(shadow.upper[0]))};
-    for (int i = 1; i < TriangleShadow<ShadowReal>::kBounds; ++i) {
-        hidden.begin = max(hidden.begin, fma(Real(shadow.lower_slope[i]), offset, Real(shadow.lower[i])));
-        hidden.end = min(hidden.end, fma(Real(shadow.upper_slope[i]), offset, Real(shadow.upper[i])));
-    }
-    return hidden;
+/// A shadow in all lanes, for many lines.
+template <class Real, class Single>
+NUSSELT_HD inline TriangleShadow<Real> broadcast(const TriangleShadow<Single>& shadow) noexcept {
+    const auto edge = [](const ShadowEdge<Single>& e) {
+        return ShadowEdge<Real>{Real(e.at_zero), Real(e.slope)};
+    };
+    return {Real(shadow.first),   Real(shadow.middle), Real(shadow.last),
+            edge(shadow.through), edge(shadow.before), edge(shadow.after)};
 }
 
-/// \param a, b, c corners relative to the point, in the axes of the frame, ordered by their position in the scene (such as
-///                lexicographically) and not by winding: each edge is then the same for both of its triangles.
-/// \param largest bound on offsets and coordinates along lines of the light [m].
+/// The part of a line that is hidden.
+/// \tparam Real lanes may be lines, triangles or both.
 template <class Real>
-NUSSELT_HD inline TriangleShadow<Real>
-make_triangle_shadow(const ShadowFrame<Real>& frame, const Vec3<Real>& a, const Vec3<Real>& b,
-                     const Vec3<Real>& c, const Real& largest) noexcept {
-    using Scalar = scalar_t<Real>;
-    const Vec3<Real> ab = cross(a, b - a);
-    const Vec3<Real> bc = cross(b, c - b);
-    const Vec3<Real> ac = cross(a, c - a);
-    const Vec3<Real> n = cross(b - a, c - a);
-    const Real k = dot(n, a);
-    const Real side = copysign(Real(1), k);
-    TriangleShadow<Real> shadow;
-    // Bounds without an effect stay finite, so that no product with an offset is NaN.
-    const Real far = Real(4) * largest;
-    const auto set = [&](int i, const Vec3<Real>& m, const Real& orientation, const Real& constant) {
-        // m.(origin + offset across + t along) + constant >= 0, after the orientation.
-        const Real at_origin = dot(m, frame.origin) + constant;
-        const Real extent = max(max(abs(m.x), abs(m.y)), abs(m.z));
-        const Real slope = copysign(max(abs(m.y), Real(Scalar(1e-20)) * extent), m.y);
-        const auto usable = extent > Real(0);
-        const Real inverse = Real(-1) / select(usable, slope, Real(1));
-        const Real at_zero = at_origin * inverse;
-        const Real per_offset = m.x * inverse;
-        const auto is_lower = orientation * slope > Real(0);
-        shadow.lower[i] = select(is_lower, at_zero, -far);
-        shadow.lower_slope[i] = select(is_lower, per_offset, Real(0));
-        shadow.upper[i] = select(is_lower, far, at_zero);
-        shadow.upper_slope[i] = select(is_lower, Real(0), per_offset);
+NUSSELT_HD inline Interval<Real> hidden_interval(const TriangleShadow<Real>& shadow,
+                                                 const Real& offset) noexcept {
+    const Real a = shadow.through.at(offset);
+    const Real b = select(offset < shadow.middle, shadow.before.at(offset), shadow.after.at(offset));
+    const auto crosses = shadow.crosses(offset);
+    const Interval<Real> nothing = empty_interval<Real>();
+    return {select(crosses, min(a, b), nothing.begin), select(crosses, max(a, b), nothing.end)};
+}
+
+/// Whether anything in the rectangle may be hidden; never misses a line of it.
+template <class Real>
+NUSSELT_HD inline mask_t<Real> may_hide(const TriangleShadow<Real>& shadow,
+                                        const LineBounds<Real>& bounds) noexcept {
+    const Real begin = max(shadow.first, bounds.offsets.begin);
+    const Real end = min(shadow.last, bounds.offsets.end);
+    // fma is monotonic: what an edge has in between lies between these two, bit by bit.
+    const auto range = [](const ShadowEdge<Real>& edge, const Real& from, const Real& to) {
+        const Real a = edge.at(from);
+        const Real b = edge.at(to);
+        return Interval<Real>{min(a, b), max(a, b)};
     };
-    set(0, ab, side, Real(0));
-    set(1, bc, side, Real(0));
-    set(2, ac, -side, Real(0));
-    set(3, Real(kShadowEnd<Scalar>) * n, side, -k);
-    // Seen edge-on: nothing is hidden.
-    const auto is_thin = k == Real(0);
-    shadow.lower[0] = select(is_thin, far, shadow.lower[0]);
-    shadow.lower_slope[0] = select(is_thin, Real(0), shadow.lower_slope[0]);
-    shadow.upper[0] = select(is_thin, -far, shadow.upper[0]);
-    shadow.upper_slope[0] = select(is_thin, Real(0), shadow.upper_slope[0]);
-    return shadow;
+    const Interval<Real> through = range(shadow.through, begin, end);
+    const Interval<Real> before = range(shadow.before, begin, min(end, shadow.middle));
+    const Interval<Real> after = range(shadow.after, max(begin, shadow.middle), end);
+    const auto has_before = begin < shadow.middle;
+    const auto has_after = shadow.middle <= end;
+    const Real lowest = min(through.begin, min(select(has_before, before.begin, through.begin),
+                                               select(has_after, after.begin, through.begin)));
+    const Real highest = max(through.end, max(select(has_before, before.end, through.end),
+                                              select(has_after, after.end, through.end)));
+    return (begin <= end) & (lowest < bounds.extent.end) & (highest > bounds.extent.begin);
+}
+
+/// Whether everything in the rectangle is hidden.
+template <class Real>
+NUSSELT_HD inline mask_t<Real> hides_all(const TriangleShadow<Real>& shadow,
+                                         const LineBounds<Real>& bounds) noexcept {
+    // Shadows are convex.
+    const Interval<Real> first = hidden_interval(shadow, bounds.offsets.begin);
+    const Interval<Real> last = hidden_interval(shadow, bounds.offsets.end);
+    return (max(first.begin, last.begin) <= bounds.extent.begin) &
+           (min(first.end, last.end) >= bounds.extent.end);
+}
+
+namespace detail {
+
+/// A corner of an occluder.
+template <class Real>
+struct ShadowCorner {
+    Vec3<Real> position; ///< relative to the point, in the axes of the frame [unit]
+    Real offset, t;      ///< where the line through the point and the corner meets the plane of the light [m]
+};
+
+// Products and sums are written as fma: a compiler that contracts some of them could make different bits of one edge.
+template <class Real>
+NUSSELT_INLINE Real fused_dot(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));
+}
+template <class Real>
+NUSSELT_INLINE Vec3<Real> fused_cross(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return {fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)), fma(a.x, b.y, -(a.y * b.x))};
+}
+
+template <class Real>
+NUSSELT_INLINE ShadowCorner<Real> shadow_corner(const ShadowFrame<Real>& frame,
+                                                const Vec3<Real>& world) noexcept {
+    const Vec3<Real> d = world - frame.point;
+    // Plus 0: no corner has -0, whose reciprocal is on the other side.
+    const Vec3<Real> p{fused_dot(d, frame.across), fused_dot(d, frame.along),
+                       fused_dot(d, frame.normal) + Real(0)};
+    const Real inverse = Real(1) / p.z;
+    return {p, fma(p.x, frame.origin.z, -(p.z * frame.origin.x)) * inverse,
+            fma(p.y, frame.origin.z, -(p.z * frame.origin.y)) * inverse};
+}
+
+/// Where a plane through the point meets the plane of the light: m.(origin + offset across + t along) = constant.
+/// \param otherwise t where the plane has all of a line, or nearly so.
+template <class Real>
+NUSSELT_INLINE ShadowEdge<Real> shadow_edge(const ShadowFrame<Real>& frame, const Vec3<Real>& m,
+                                            const Real& constant, const Real& otherwise) noexcept {
+    constexpr scalar_t<Real> kSteepest = power_of_two<scalar_t<Real>>(20);
+    const auto usable = abs(m.x) < Real(kSteepest) * abs(m.y);
+    const Real inverse = Real(-1) / select(usable, m.y, Real(1));
+    const Real at_origin = fused_dot(m, frame.origin) - constant;
+    return {select(usable, at_origin * inverse, otherwise), select(usable, m.x * inverse, Real(0))};
+}
+template <class Real>
+NUSSELT_INLINE ShadowEdge<Real> shadow_edge(const ShadowFrame<Real>& frame, const ShadowCorner<Real>& a,
+                                            const ShadowCorner<Real>& b) noexcept {
+    return shadow_edge(frame, fused_cross(a.position, b.position - a.position), Real(0), a.t);
+}
+
+template <class Real>
+NUSSELT_INLINE ShadowEdge<Real> select(const mask_t<Real>& mask, const ShadowEdge<Real>& a,
+                                       const ShadowEdge<Real>& b) noexcept {
+    using nusselt::select;
+    return {select(mask, a.at_zero, b.at_zero), select(mask, a.slope, b.slope)};
+}
+
+} // namespace detail
+
+/// Shadows of triangles, and which of them have to be made by make_partial_shadow() instead.
+template <class Real>
+struct TriangleShadows {
+    TriangleShadow<Real> shadow; ///< nothing where partial
+    mask_t<Real>
+        partial; ///< the triangle crosses the plane of the light, or the parallel one through the point
+};
+
+/// \param a, b, c corners in the space of the frame, ordered by their position there (such as lexicographically) and not
+///                by winding: each edge is then the same for both of its triangles.
+/// \tparam Real a triangle per lane, or scalar: all give the same bits.
+template <class Real>
+NUSSELT_HD inline TriangleShadows<Real> make_triangle_shadow(const ShadowFrame<Real>& frame,
+                                                             const Vec3<Real>& a, const Vec3<Real>& b,
+                                                             const Vec3<Real>& c) noexcept {
+    using nusselt::select;
+    const detail::ShadowCorner<Real> corner[] = {
+        detail::shadow_corner(frame, a), detail::shadow_corner(frame, b), detail::shadow_corner(frame, c)};
+    const ShadowEdge<Real> ab = detail::shadow_edge(frame, corner[0], corner[1]);
+    const ShadowEdge<Real> bc = detail::shadow_edge(frame, corner[1], corner[2]);
+    const ShadowEdge<Real> ac = detail::shadow_edge(frame, corner[0], corner[2]);
+
+    const Real nearest = min(min(corner[0].position.z, corner[1].position.z), corner[2].position.z);
+    const Real farthest = max(max(corner[0].position.z, corner[1].position.z), corner[2].position.z);
+    const auto whole = (nearest > Real(0)) & (farthest <= frame.end);
+    const auto nothing = (farthest <= Real(0)) | (nearest > frame.end);
+
+    const Real u[] = {corner[0].offset, corner[1].offset, corner[2].offset};
+    const auto a_before_b = u[0] < u[1];
+    const auto b_before_c = u[1] < u[2];
+    const auto a_before_c = u[0] < u[2];
+    const auto a_is_middle = a_before_b ^ a_before_c;
+    const auto c_is_middle = a_before_c ^ b_before_c;
+    const Interval<Real> none = empty_interval<Real>();
+    return {{select(whole, min(min(u[0], u[1]), u[2]), none.begin),
+             select(a_is_middle, u[0], select(c_is_middle, u[2], u[1])),
+             select(whole, max(max(u[0], u[1]), u[2]), none.end),
+             detail::select(a_is_middle, bc, detail::select(c_is_middle, ab, ac)),
+             detail::select(a_is_middle, detail::select(b_before_c, ab, ac),
+                            detail::select(c_is_middle, detail::select(a_before_b, ac, bc),
+                                           detail::select(a_before_c, ab, bc))),
+             detail::select(a_is_middle, detail::select(b_before_c, ac, ab),
+                            detail::select(c_is_middle, detail::select(a_before_b, bc, ac),
+                                           detail::select(a_before_c, bc, ab)))},
+            !(whole | nothing)};
 }
 
 NUSSELT_NAMESPACE_END

@@ -5,7 +5,8 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// Gaps between shadows shorter than this share of the line are rounding.
+/// Gaps between shadows shorter than this share of the line are rounding: those of meshes whose neighbours do not share
+/// all corners.
 template <class Scalar>
 inline constexpr Scalar kShortestPart = Scalar(1e-6);
 
@@ -15,15 +16,19 @@ template <class Real>
 class VisibleParts {
 public:
     /// \param storage  for `capacity` intervals, which outlives this object.
-    /// \param capacity at least 1. Parts of a line beyond that many are merged with what hides them in between.
+    /// \param capacity at least 1. A line that falls into more parts loses some of them, see lost().
     NUSSELT_HD VisibleParts(Interval<Real>* storage, int capacity) noexcept
         : part_(storage), capacity_(capacity) {}
 
-    /// Back to whole lines.
+    /// Back to whole lines. Where begin >= end (or NaN) there is none.
     NUSSELT_HD void reset(const Interval<Real>& whole) noexcept {
-        part_[0] = whole;
+        const auto lit = whole.begin < whole.end;
+        const Interval<Real> none = empty_interval<Real>();
+        bounds_ = {select(lit, whole.begin, none.begin), select(lit, whole.end, none.end)};
+        part_[0] = bounds_;
         count_ = 1;
-        shortest_ = Real(kShortestPart<scalar_t<Real>>) * (whole.end - whole.begin);
+        lost_ = Real(0);
+        shortest_ = Real(kShortestPart<scalar_t<Real>>) * select(lit, whole.end - whole.begin, Real(0));
     }
 
     /// Slots in use, some of which may be empty in some lanes.
@@ -32,51 +37,84 @@ public:
     /// In no order. Empty where begin >= end.
     NUSSELT_HD const Interval<Real>& operator[](int slot) const noexcept { return part_[slot]; }
 
-    /// Lanes in which anything is visible.
-    NUSSELT_HD mask_t<Real> lit() const noexcept {
-        auto lit = mask_t<Real>(false);
-        for (int k = 0; k < count_; ++k) lit = lit | (part_[k].begin < part_[k].end);
-        return lit;
-    }
+    /// The least interval that has all parts of a line; empty where begin >= end.
+    NUSSELT_HD const Interval<Real>& bounds() const noexcept { return bounds_; }
 
-    /// Takes away what an occluder hides.
+    /// Lanes in which anything is visible.
+    NUSSELT_HD mask_t<Real> lit() const noexcept { return bounds_.begin < bounds_.end; }
+
+    /// How many parts were taken for hidden since there was no room for them.
+    NUSSELT_HD const Real& lost() const noexcept { return lost_; }
+
+    /// Takes away what an occluder hides. Where begin >= end (or NaN) it hides nothing.
     NUSSELT_HD void cut(const Interval<Real>& hidden) noexcept {
+        const auto hides = hidden.begin < hidden.end;
+        if (!any(hides & (hidden.begin < bounds_.end) & (hidden.end > bounds_.begin))) return;
+        const Interval<Real> none = empty_interval<Real>();
+        bounds_ = none;
         for (int k = count_ - 1; k >= 0; --k) {
-            const Interval<Real> part = part_[k];
-            const auto overlaps =
-                (hidden.begin < hidden.end) & (hidden.begin < part.end) & (hidden.end > part.begin);
-            if (!any(overlaps)) continue;
-            const auto has_left = hidden.begin - part.begin > shortest_;
-            const auto has_right = part.end - hidden.end > shortest_;
-            auto splits = overlaps & has_left & has_right;
-            if (any(splits)) splits = splits & !add({hidden.end, part.end}, splits);
-            // What found no room keeps its shadow.
-            const auto shrinks = overlaps & !splits;
-            part_[k].end = select(shrinks & has_left, hidden.begin, part.end);
-            const Real begin = select(has_right, hidden.end, part.end);
-            part_[k].begin = select(shrinks & !has_left, begin, part.begin);
+            Interval<Real> part = part_[k];
+            const auto overlaps = hides & (hidden.begin < part.end) & (hidden.end > part.begin);
+            if (any(overlaps)) {
+                const auto keeps_left = hidden.begin - part.begin > shortest_;
+                const auto keeps_right = part.end - hidden.end > shortest_;
+                const auto splits = overlaps & keeps_left & keeps_right;
+                if (any(splits)) add({hidden.end, part.end}, splits);
+                const auto shortens = overlaps & keeps_left;
+                const auto starts_later = overlaps & !keeps_left;
+                part.end = select(shortens, hidden.begin, part.end);
+                part.begin = select(starts_later, hidden.end, part.begin);
+                const auto ends = starts_later & !keeps_right;
+                part = {select(ends, none.begin, part.begin), select(ends, none.end, part.end)};
+                part_[k] = part;
+            }
+            bounds_ = {min(bounds_.begin, part.begin), max(bounds_.end, part.end)};
         }
+        while (count_ > 0 && !any(part_[count_ - 1].begin < part_[count_ - 1].end)) --count_;
     }
 
 private:
-    /// Stores another part of some lanes. \returns those for which there was no room
-    NUSSELT_HD mask_t<Real> add(const Interval<Real>& part, mask_t<Real> lanes) noexcept {
+    /// Stores another part of some lanes.
+    NUSSELT_HD void add(const Interval<Real>& part, mask_t<Real> lanes) noexcept {
         for (int k = 0; any(lanes); ++k) {
             if (k == count_) {
                 if (count_ == capacity_) break;
-                part_[count_++] = {Real(0), Real(0)};
+                part_[count_++] = empty_interval<Real>();
             }
             const auto fits = lanes & !(part_[k].begin < part_[k].end);
             part_[k] = {select(fits, part.begin, part_[k].begin), select(fits, part.end, part_[k].end)};
+            bounds_.end = max(bounds_.end, select(fits, part.end, bounds_.end));
             lanes = lanes & !fits;
         }
-        return lanes;
+        lost_ = lost_ + select(lanes, Real(1), Real(0));
     }
 
     Interval<Real>* part_;
     int capacity_;
     int count_ = 0;
     Real shortest_ = Real(0);
+    Real lost_ = Real(0);
+    Interval<Real> bounds_ = empty_interval<Real>();
 };
+
+/// The part of a line that is not below the horizon of the point.
+/// \param to_begin, to_end from the point to the ends of the line [m]
+/// \param normal         of the surface, in the same space
+/// \param whole          coordinates of these ends [m]
+template <class Real>
+NUSSELT_HD inline Interval<Real> above_horizon(const Vec3<Real>& to_begin, const Vec3<Real>& to_end,
+                                               const Vec3<Real>& normal,
+                                               const Interval<Real>& whole) noexcept {
+    const Real begin = dot(normal, to_begin);
+    const Real end = dot(normal, to_end);
+    const Real difference = begin - end;
+    const Real share = begin / select(difference == Real(0), Real(1), difference);
+    const Real crossing = min(max(fma(share, whole.end - whole.begin, whole.begin), whole.begin), whole.end);
+    const auto begins_below = begin < Real(0);
+    const auto ends_below = end < Real(0);
+    const Interval<Real> none = empty_interval<Real>();
+    return {select(begins_below, select(ends_below, none.begin, crossing), whole.begin),
+            select(ends_below, select(begins_below, none.end, crossing), whole.end)};
+}
 
 NUSSELT_NAMESPACE_END

@@ -1,0 +1,81 @@
+#include "line_options.h"
+
+#include "render_setup.h"
+
+#include <fmt/core.h>
+
+#include <optional>
+#include <utility>
+
+namespace nusselt::app {
+
+void add_line_options(CLI::App& command, LineOptions& options) {
+    const auto group = "Line samples";
+    command
+        .add_option("--integrator", options.integrator,
+                    "What is sampled of polygonal lights: points, or lines with exact visibility. Tubes and\n"
+                    "lines always get --spp points")
+        ->transform(to_name_of(render_cpu::kIntegrators))
+        ->capture_default_str()
+        ->group(group);
+    command
+        .add_option("--lines", options.count,
+                    fmt::format("Lines per shading point and light, 1 to {}. Default: {}",
+                                render_cpu::kMaxLines, render_cpu::LineSettings().count))
+        ->check(CLI::Range(1, render_cpu::kMaxLines))
+        ->group(group);
+    command
+        .add_option("--orientation", options.orientation,
+                    "Directions of lines: parallel, random but the same for all lines of a shading point and\n"
+                    "light; fixed, along the longest edge of the light; independent. Default: parallel")
+        ->transform(to_name_of(render_cpu::kLineOrientations))
+        ->group(group);
+    command
+        .add_option("--offsets", options.offsets,
+                    "Density of lines: by their length on the light, or uniform. Default: length")
+        ->transform(to_name_of(render_cpu::kLineOffsets))
+        ->group(group);
+    command
+        .add_option(
+            "--line-shading", options.shading,
+            "unbiased: the integral of a linearly transformed cosine over what is visible of a line, and one\n"
+            "point for the difference to the BRDF; analytic: without that. Default: unbiased")
+        ->transform(to_name_of(render_cpu::kLineShadings))
+        ->group(group);
+    command
+        .add_option("--many-occluders", options.many_occluders,
+                    "What shading points take where many triangles may hide a light: points, of the technique\n"
+                    "and strategies of the other options, which are faster there; or lines all the same.\n"
+                    "Default: points")
+        ->transform(to_name_of(render_cpu::kManyOccludersChoices))
+        ->group(group);
+}
+
+void apply_line_options(const LineOptions& options, render_cpu::RenderSettings& settings) {
+    settings.integrator = from_name(render_cpu::kIntegrators, options.integrator);
+    render_cpu::LineSettings& lines = settings.lines;
+    if (options.count) lines.count = *options.count;
+    if (options.orientation)
+        lines.orientation = from_name(render_cpu::kLineOrientations, *options.orientation);
+    if (options.offsets) lines.offsets = from_name(render_cpu::kLineOffsets, *options.offsets);
+    if (options.shading) lines.shading = from_name(render_cpu::kLineShadings, *options.shading);
+    if (options.many_occluders)
+        lines.many_occluders = from_name(render_cpu::kManyOccludersChoices, *options.many_occluders);
+}
+
+void check_line_options(const LineOptions& options, render_cpu::Technique technique) {
+    if (from_name(render_cpu::kIntegrators, options.integrator) == render_cpu::Integrator::lines) {
+        if (technique == render_cpu::Technique::ltc_analytic)
+            throw CLI::ValidationError(
+                "--integrator", "lines have shadows, --technique ltc_analytic has none; take another one");
+        return;
+    }
+    for (const auto& [name, is_given] : {std::pair("--lines", options.count.has_value()),
+                                         std::pair("--orientation", options.orientation.has_value()),
+                                         std::pair("--offsets", options.offsets.has_value()),
+                                         std::pair("--line-shading", options.shading.has_value()),
+                                         std::pair("--many-occluders", options.many_occluders.has_value())})
+        if (is_given) throw CLI::ValidationError(name, "is for --integrator lines, which is not given");
+}
+
+} // namespace nusselt::app

@@ -1,0 +1,22 @@
+#pragma once
+/// Options for line samples.
+
+#include "commands.h"
+
+#include "render_cpu/settings.h"
+
+#include <CLI/CLI.hpp>
+
+namespace nusselt::app {
+
+/// Adds --integrator and all that goes with it.
+void add_line_options(CLI::App& command, LineOptions& options);
+
+/// Changes those settings that the options name.
+/// \throws std::invalid_argument for values that the command line does not let through
+void apply_line_options(const LineOptions& options, render_cpu::RenderSettings& settings);
+
+/// \throws CLI::ValidationError if the options do not fit together or to the technique
+void check_line_options(const LineOptions& options, render_cpu::Technique technique);
+
+} // namespace nusselt::app

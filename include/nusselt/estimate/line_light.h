@@ -1,0 +1,279 @@
+#pragma once
+/// What a surface reflects of the visible parts of lines on a polygonal light.
+///
+/// N. Billen, P. Dutre 2016, Line Sampling for Direct Illumination, doi:10.1111/cgf.12948, Sec. 5.3, with what it lacks:
+/// glossy surfaces by linearly transformed cosines (Heitz and Hill 2017, Linear-Light Shading with Linearly Transformed
+/// Cosines), and without bias by one point per line (docs/techniques/line_samples.md).
+
+#include <type_traits>
+
+#include <nusselt/estimate/mis.h>
+#include <nusselt/estimate/surface.h>
+#include <nusselt/geometry/convex_polygon.h>
+#include <nusselt/line_samples/visible_parts.h>
+#include <nusselt/ltc/light_transform.h>
+#include <nusselt/sampling/cosine_arc.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+namespace detail {
+
+/// A line of a light in the cosine space of a lobe, where coordinates along the line are stretched.
+template <class Real>
+struct ImageOfLine {
+    Vec3<Real> along;   ///< unit
+    Vec3<Real> closest; ///< point of the line
+    Real distance;      ///< of the line
+    Real shift;         ///< coordinate along the image of the point with coordinate 0
+    Real stretch;
+    Real height; ///< of the point with coordinate 0 over the horizon of the lobe
+    Real slope;  ///< of that height by the coordinate
+    Real factor; ///< of cosine_integral()
+
+    /// The integral of the lobe over a part, times cosine / distance^2 of the light, per scaled metre of offset.
+    NUSSELT_INLINE Real integral(const Interval<Real>& part) const noexcept {
+        const LineExtent<Real> e = extent(part);
+        return select(e.visible, cosine_integral(e) * factor, Real(0));
+    }
+
+    NUSSELT_INLINE LineExtent<Real> extent(const Interval<Real>& part) const noexcept {
+        const Real l0 = fma(part.begin, stretch, shift);
+        const Real l1 = fma(part.end, stretch, shift);
+        Vec3<Real> p0 = fma(l0, along, closest);
+        Vec3<Real> p1 = fma(l1, along, closest);
+        p0.z = fma(part.begin, slope, height);
+        p1.z = fma(part.end, slope, height);
+        return make_line_extent(along, p0, p1, closest, distance, l0, l1, (part.end - part.begin) * stretch);
+    }
+
+    /// What of a part is above the horizon of the lobe.
+    NUSSELT_INLINE Interval<Real> clipped(const Interval<Real>& part) const noexcept {
+        const auto rises = slope > Real(0);
+        const auto falls = slope < Real(0);
+        const auto is_level = !(rises | falls);
+        const Real crossing = -height / select(is_level, Real(1), slope);
+        const auto hidden = is_level & !(height > Real(0));
+        const Real begin = min(select(rises, max(part.begin, crossing), part.begin), part.end);
+        const Real end = max(select(falls, min(part.end, crossing), part.end), begin);
+        return {begin, select(hidden, begin, end)};
+    }
+
+    NUSSELT_INLINE static ImageOfLine select_between(const mask_t<Real>& mask, const ImageOfLine& a,
+                                                     const ImageOfLine& b) noexcept {
+        return {select(mask, a.along, b.along),       select(mask, a.closest, b.closest),
+                select(mask, a.distance, b.distance), select(mask, a.shift, b.shift),
+                select(mask, a.stretch, b.stretch),   select(mask, a.height, b.height),
+                select(mask, a.slope, b.slope),       select(mask, a.factor, b.factor)};
+    }
+};
+
+/// The lines of a light in the cosine space of a lobe.
+template <class Real>
+struct ImageOfPlane {
+    Vec3<Real> origin, across; ///< images of those of the light
+    Vec3<Real> along;          ///< image, unit
+    Real stretch;              ///< its length before
+    Real factor;
+
+    /// \param determinant of the map to cosine space.
+    /// \param height      distance of the plane of the light, before the map.
+    NUSSELT_HD ImageOfPlane(const Vec3<Real>& image_of_origin, const Vec3<Real>& image_of_across,
+                            const Vec3<Real>& image_of_along, const Real& determinant,
+                            const Real& height) noexcept
+        : origin(image_of_origin), across(image_of_across) {
+        const Real squared = dot(image_of_along, image_of_along);
+        stretch = sqrt(squared);
+        const Real inverse = Real(1) / select(stretch > Real(0), stretch, Real(1));
+        along = inverse * image_of_along;
+        factor = (Real(1 / (2 * kPi<scalar_t<Real>>)) * determinant) * (height * inverse);
+    }
+
+    NUSSELT_INLINE ImageOfLine<Real> line(const Real& offset) const noexcept {
+        const Vec3<Real> p = fma(offset, across, origin);
+        const Vec3<Real> moment = cross(p, along);
+        const Real squared = dot(moment, moment);
+        const Real inverse = Real(1) / select(squared > Real(0), squared, Real(1));
+        return {along, cross(along, moment), sqrt(squared),   dot(p, along), stretch,
+                p.z,   stretch * along.z,    factor * inverse};
+    }
+};
+
+} // namespace detail
+
+/// One light and surface point, for many lines of the light. The light shines to both sides.
+///
+/// Results are the reflected radiance for a radiance of 1 of the light, per metre of offset: divided by the density of the
+/// offset of the line, they are an estimate by themselves [1].
+///
+/// \tparam Real float, double, long double or a pack: a line per lane.
+/// \tparam Brdf see GlossySurface.
+template <class Real, class Brdf = Frostbite<Real>>
+class LineLight {
+    using Surface = GlossySurface<Real, Brdf>;
+
+public:
+    /// \param plane   of the light, in shading space with wo in the xz half-plane [m].
+    /// \param largest bound on offsets and coordinates along lines of the light [m].
+    /// \param surface must outlive the object.
+    NUSSELT_HD LineLight(const LinePlane<Real>& plane, const Real& largest, const Surface& surface) noexcept
+        : LineLight({scale_for(plane, largest) * plane.origin, plane.across, plane.along, plane.normal},
+                    surface, scale_for(plane, largest)) {}
+
+    /// By the integrals of a Lambertian and of the fitted lobe above the horizon of the surface. Exact for Lambert,
+    /// otherwise biased by the misfit. Not negative; the sum over disjoint parts is that of the whole up to rounding.
+    /// \param offset of the line [m].
+    /// \param parts  its visible parts.
+    NUSSELT_HD BrdfComponents<Real> analytic(const Real& offset,
+                                             const VisibleParts<Real>& parts) const noexcept {
+        const Line line = line_at(offset);
+        Real diffuse = Real(0);
+        Real specular = Real(0);
+        for (int k = 0; k < parts.count(); ++k) {
+            if (!any(parts[k].begin < parts[k].end)) continue;
+            const Interval<Real> above = line.cosine.clipped(scaled(parts[k]));
+            diffuse = diffuse + line.cosine.integral(above);
+            if (any(is_glossy_)) specular = specular + line.lobe.integral(line.lobe.clipped(above));
+        }
+        return components(diffuse, specular);
+    }
+
+    /// Without bias, from the same integrals and one point of the visible parts, where the BRDF is compared to what they
+    /// stand for. No shadow ray is needed. Can be negative.
+    /// \param offset of the line [m].
+    /// \param parts  its visible parts.
+    /// \param u      random in [0, 1), stratified together with the offsets of other lines.
+    NUSSELT_HD BrdfComponents<Real> unbiased(const Real& offset, const VisibleParts<Real>& parts,
+                                             const Real& u) const noexcept {
+        if constexpr (std::is_same_v<Brdf, Lambert<Real>>) {
+            return analytic(offset, parts);
+        } else {
+            const Line line = line_at(offset);
+            Real diffuse = Real(0);
+            Real specular = Real(0);
+            Choice choice(u);
+            for (int k = 0; k < parts.count(); ++k) {
+                if (!any(parts[k].begin < parts[k].end)) continue;
+                const Interval<Real> above = line.cosine.clipped(scaled(parts[k]));
+                const Real by_cosine = line.cosine.integral(above);
+                diffuse = diffuse + by_cosine;
+                choice.offer(cosine_weight_ * by_cosine, above, mask_t<Real>(false));
+                if (!any(is_glossy_)) continue;
+                const Interval<Real> lit = line.lobe.clipped(above);
+                const Real by_lobe = line.lobe.integral(lit);
+                specular = specular + by_lobe;
+                choice.offer(lobe_weight_ * by_lobe, lit, mask_t<Real>(true));
+            }
+            const BrdfComponents<Real> expected = components(diffuse, specular);
+            if (!any(choice.total > Real(0))) return expected;
+            const Vec3<Real> wi = direction_to(line, choice);
+            const Real cosine = max(wi.z, Real(0));
+            const Real cosine_density = Real(1 / kPi<scalar_t<Real>>) * cosine;
+            const Real lobe_density = select(is_glossy_, surface_.lobe.density(wi), Real(0));
+            // The change from directions to points of the line is the same in the integrand and in the density.
+            const Real density = fma(cosine_weight_, cosine_density, lobe_weight_ * lobe_density);
+            const auto drawn = (choice.total > Real(0)) & (density > Real(0));
+            const Real factor =
+                scale_ * select(drawn, choice.total / select(drawn, density, Real(1)), Real(0));
+            const BrdfComponents<Real> brdf = surface_.brdf.eval_components(wi);
+            return {fma(factor, cosine * brdf.diffuse - cosine_density * diffuse_albedo_, expected.diffuse),
+                    fma(factor, cosine * brdf.specular - lobe_density * surface_.specular_albedo,
+                        expected.specular)};
+        }
+    }
+
+private:
+    struct Line {
+        detail::ImageOfLine<Real> cosine; ///< in shading space, for the diffuse component
+        detail::ImageOfLine<Real> lobe;
+    };
+
+    /// A part of a line and a lobe, out of many that become known one after the other, in proportion to their weights.
+    struct Choice {
+        NUSSELT_HD explicit Choice(const Real& random) noexcept : u(random) {}
+
+        NUSSELT_HD void offer(const Real& weight, const Interval<Real>& candidate,
+                              const mask_t<Real>& candidate_is_lobe) noexcept {
+            total = total + weight;
+            const Real probability = weight / select(total > Real(0), total, Real(1));
+            const auto taken = u < probability;
+            const Real rest = Real(1) - probability;
+            const Real numerator = select(taken, u, u - probability);
+            const Real denominator = select(taken, probability, rest);
+            u = below_one(numerator / select(denominator > Real(0), denominator, Real(1)));
+            part = {select(taken, candidate.begin, part.begin), select(taken, candidate.end, part.end)};
+            is_lobe = (taken & candidate_is_lobe) | (is_lobe & !taken);
+        }
+
+        Real total = Real(0); ///< of the weights
+        Real u;               ///< random in [0, 1), independent of the choice
+        Interval<Real> part{Real(0), Real(0)};
+        mask_t<Real> is_lobe = mask_t<Real>(false);
+    };
+
+    NUSSELT_HD static Real scale_for(const LinePlane<Real>& plane, const Real& largest) noexcept {
+        const Vec3<Real>& p = plane.origin;
+        return reciprocal_power_of_two(max(max(max(abs(p.x), abs(p.y)), abs(p.z)), largest));
+    }
+
+    /// \param plane scaled to coordinates of order one.
+    NUSSELT_HD LineLight(const LinePlane<Real>& plane, const Surface& surface, const Real& scale) noexcept
+        : surface_(surface),
+          scale_(scale),
+          cosine_(plane.origin, plane.across, plane.along, Real(1), abs(dot(plane.origin, plane.normal))),
+          lobe_(surface.lobe.to_cosine(plane.origin), surface.lobe.to_cosine(plane.across),
+                surface.lobe.to_cosine(plane.along),
+                surface.lobe.minor() * surface.lobe.to_cosine({Real(0), Real(1), Real(0)}).y,
+                abs(dot(plane.origin, plane.normal))),
+          is_glossy_(surface.is_glossy()) {
+        // Estimates of it are negative for eyes below the surface.
+        diffuse_albedo_ = max(surface.diffuse_albedo, Vec3<Real>{Real(0), Real(0), Real(0)});
+        lobe_weight_ = select(is_glossy_, largest_of(surface.specular_albedo), Real(0));
+        const Real share = fma(Real(scalar_t<Real>(kCosineShare)), lobe_weight_, largest_of(diffuse_albedo_));
+        cosine_weight_ = max(share, Real(scalar_t<Real>(kSmallestDiffuseAlbedo)));
+    }
+
+    NUSSELT_HD static Real largest_of(const Vec3<Real>& v) noexcept { return max(max(v.x, v.y), v.z); }
+
+    NUSSELT_HD Line line_at(const Real& offset) const noexcept {
+        const Real scaled_offset = scale_ * offset;
+        return {cosine_.line(scaled_offset), lobe_.line(scaled_offset)};
+    }
+
+    /// Empty parts get finite ends.
+    NUSSELT_HD Interval<Real> scaled(const Interval<Real>& part) const noexcept {
+        const auto lit = part.begin < part.end;
+        return {select(lit, scale_ * part.begin, Real(0)), select(lit, scale_ * part.end, Real(0))};
+    }
+
+    NUSSELT_HD BrdfComponents<Real> components(const Real& diffuse, const Real& specular) const noexcept {
+        return {(scale_ * diffuse) * diffuse_albedo_, (scale_ * specular) * surface_.specular_albedo};
+    }
+
+    /// To a point of the part, with a density by the lobe.
+    NUSSELT_HD Vec3<Real> direction_to(const Line& line, const Choice& choice) const noexcept {
+        using Image = detail::ImageOfLine<Real>;
+        const Image image = Image::select_between(choice.is_lobe, line.lobe, line.cosine);
+        const CosineArc<Real> arc(image.extent(choice.part));
+        const Real coordinate = dot(arc.extent().position(arc.point(choice.u)), image.along) - image.shift;
+        const Real at = coordinate / select(image.stretch > Real(0), image.stretch, Real(1));
+        const Real on_part = min(max(at, choice.part.begin), choice.part.end);
+        const Vec3<Real> p = fma(on_part + line.cosine.shift, line.cosine.along, line.cosine.closest);
+        return inverse_length(p) * p;
+    }
+
+    /// Of the albedo of the lobe: how often the cosine is sampled where the BRDF has no diffuse component, since lobes do
+    /// not reach everywhere.
+    static constexpr double kCosineShare = 1;
+
+    const Surface& surface_;
+
+    Real scale_; ///< to coordinates of order one, a power of two
+    detail::ImageOfPlane<Real> cosine_;
+    detail::ImageOfPlane<Real> lobe_;
+
+    mask_t<Real> is_glossy_;
+    Vec3<Real> diffuse_albedo_;
+    Real cosine_weight_, lobe_weight_; ///< of the integrals, for the choice of a point
+};
+
+NUSSELT_NAMESPACE_END
