@@ -21,7 +21,7 @@ using nusselt::SinCos;
 
 TEST(ExponentialTest, ExponentialIsPreciseInFloat) {
     long double largest = 0;
-    for (int i = 0; i <= 870'000; ++i) {
+    for (int i = 0; i < 870'000; ++i) {
         const float x = static_cast<float>(i) * 1e-4f;
         const long double exact = std::exp(-static_cast<long double>(x));
         largest = std::max(largest, std::fabs(exp_of_negative(x) - exact) / exact);
@@ -51,7 +51,7 @@ TEST(ExponentialTest, LogarithmOfCosineIsPrecise) {
             std::max(largest_double, std::fabs(negative_log_of_cosine(in_double) - exact) / exact);
     };
     for (int i = 1; i < 400'000; ++i) check(kPi / 2 * i / 400'000);
-    for (long double angle = 1e-15L; angle < 1; angle *= 1.3L) {
+    for (long double angle = 1e-14L; angle < 1; angle *= 1.3L) {
         check(angle);
         check(kPi / 2 - angle);
     }
