@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "render_setup.h"
 
+#include "experiments/line_convergence.h"
 #include "experiments/noise_table.h"
 #include "experiments/run.h"
 #include "image/atomic_file.h"
@@ -18,6 +19,7 @@ namespace nusselt::app {
 namespace {
 
 using experiments::Experiment;
+using experiments::LineConvergence;
 using experiments::NoiseTable;
 
 /// What all kinds of experiments have.
@@ -33,6 +35,8 @@ std::vector<Heading> all_headings() {
         headings.push_back({e.name, e.source, e.description});
     for (const NoiseTable& t : experiments::all_noise_tables())
         headings.push_back({t.name, t.source, t.description});
+    for (const LineConvergence& c : experiments::all_line_convergences())
+        headings.push_back({c.name, c.source, c.description});
     return headings;
 }
 
@@ -111,13 +115,17 @@ int run_reproduce(const ReproduceOptions& options) {
     settings.width = options.width;
     settings.threads = options.threads.value_or(0);
     bool all_hold = true;
-    for (const Experiment& experiment : experiments::all_experiments()) {
-        if (!is_chosen(options, experiment.name)) continue;
-        const auto result = experiments::run_experiment(experiment, settings, [&](std::string_view step) {
-            fmt::print(stderr, "{}: {}\n", experiment.name, step);
-        });
-        all_hold = report(result, options.output / experiment.name) && all_hold;
-    }
+    const auto run_all = [&](const auto& all, const auto& run) {
+        for (const auto& experiment : all) {
+            if (!is_chosen(options, experiment.name)) continue;
+            const auto result = run(experiment, settings, [&](std::string_view step) {
+                fmt::print(stderr, "{}: {}\n", experiment.name, step);
+            });
+            all_hold = report(result, options.output / experiment.name) && all_hold;
+        }
+    };
+    run_all(experiments::all_experiments(), experiments::run_experiment);
+    run_all(experiments::all_line_convergences(), experiments::run_line_convergence);
     for (const NoiseTable& table : experiments::all_noise_tables())
         if (is_chosen(options, table.name))
             all_hold = report(experiments::measure_noise(table), options.output / table.name) && all_hold;

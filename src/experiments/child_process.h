@@ -9,7 +9,7 @@ namespace nusselt::experiments {
 
 struct ChildResult {
     std::string output; ///< standard output
-    /// Largest resident memory; at least that of this process when it started the child.
+    /// Largest resident memory; at least what this process had allocated itself when it started the child.
     std::uint64_t peak_bytes{};
 };
 

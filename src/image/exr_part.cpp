@@ -28,6 +28,9 @@ constexpr int kRowsPerBand = 256;
 /// Tiles are decoded as a whole and may be larger than their image.
 constexpr std::int64_t kMaxTilePixels = std::int64_t(1) << 22;
 
+/// Rows are decoded in chunks as a whole, even where the image has fewer.
+constexpr std::int64_t kMaxChunkBytes = std::int64_t(1) << 27;
+
 /// Decompression runs on OpenEXR's global pool, which is empty unless it is asked for.
 int decoding_thread_count() {
     static const int count = [] {
@@ -71,6 +74,25 @@ std::int64_t largest_compression_ratio(Imf::Compression compression) {
     }
 }
 
+int rows_per_chunk(Imf::Compression compression) {
+    switch (compression) {
+    case Imf::NO_COMPRESSION:
+    case Imf::RLE_COMPRESSION:
+    case Imf::ZIPS_COMPRESSION:
+        return 1;
+    case Imf::ZIP_COMPRESSION:
+    case Imf::PXR24_COMPRESSION:
+        return 16;
+    case Imf::PIZ_COMPRESSION:
+    case Imf::B44_COMPRESSION:
+    case Imf::B44A_COMPRESSION:
+    case Imf::DWAA_COMPRESSION:
+        return 32;
+    default:
+        return 256;
+    }
+}
+
 std::int64_t bytes_per_pixel(const Imf::ChannelList& channels) {
     std::int64_t bytes = 0;
     for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
@@ -82,11 +104,19 @@ std::int64_t bytes_per_pixel(const Imf::ChannelList& channels) {
 
 /// Without compression this also finds rows that are stored shorter than the header claims, which OpenEXR
 /// fills with whatever the memory holds.
-void check_file_size(const Imf::Header& header, std::int64_t pixel_count, std::int64_t file_size) {
+void check_file_size(const Imf::Header& header, std::int64_t width, std::int64_t height,
+                     std::int64_t file_size) {
     const std::int64_t ratio = largest_compression_ratio(header.compression());
-    if (pixel_count / ratio > file_size / std::max<std::int64_t>(1, bytes_per_pixel(header.channels())))
+    const std::int64_t pixel_bytes = std::max<std::int64_t>(1, bytes_per_pixel(header.channels()));
+    if (width * height / ratio > file_size / pixel_bytes)
         throw std::runtime_error("the file is too small for its pixels; was it cut off?");
-    if (!header.hasTileDescription()) return;
+    if (!header.hasTileDescription()) {
+        if (width > kMaxChunkBytes / rows_per_chunk(header.compression()) / pixel_bytes)
+            throw std::runtime_error("rows of " + std::to_string(width) + " pixels with " +
+                                     std::to_string(pixel_bytes) +
+                                     " bytes are not supported with this compression; save it with ZIP");
+        return;
+    }
     const Imf::TileDescription& tile = header.tileDescription();
     if (std::int64_t(tile.xSize) > kMaxTilePixels / std::max<std::int64_t>(1, tile.ySize)) {
         throw std::runtime_error("tiles of " + std::to_string(tile.xSize) + " x " +
@@ -105,7 +135,7 @@ ExrPart::ExrPart(std::ifstream& stream, const std::string& name)
     const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
     const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
     check_size(width, height);
-    check_file_size(header(), width * height, stream.tellg() + remaining_bytes(stream));
+    check_file_size(header(), width, height, stream.tellg() + remaining_bytes(stream));
     if (!file_.partComplete(0)) throw std::runtime_error("rows are missing; was the file cut off?");
 }
 

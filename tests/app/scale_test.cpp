@@ -35,15 +35,16 @@ TEST_F(Scale, BenchmarkMeasuresGrowingScenes) {
     // 2 * 200^2 triangles of 20 bytes and 201^2 vertices of 32, and hardly anything else.
     EXPECT_EQ(rows[3]["triangles"], 80000);
     EXPECT_NEAR(rows[3]["array_bytes"].get<double>(), 80000 * 20 + 40401 * 32, 2000);
-    EXPECT_GT(rows[3]["load_bytes"], rows[3]["array_bytes"]);
-    EXPECT_GE(rows[3]["render_bytes"], rows[3]["load_bytes"]);
 }
 
-TEST_F(Scale, MemoryGrowsLinearly) {
+TEST_F(Scale, MemoryHoldsTheArraysAndGrowsLinearly) {
     const Outcome bench = run("bench scale --triangles 800000 --emissive 0 --json -");
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
     const nlohmann::json rows = nlohmann::json::parse(bench.out);
     ASSERT_EQ(rows.size(), 4u);
+    // Resident memory differs by some 100 kB from run to run: of this scene, loading takes 3 MB more than the arrays.
+    EXPECT_GT(rows[3]["load_bytes"], rows[3]["array_bytes"]);
+    EXPECT_GE(rows[3]["render_bytes"], rows[3]["load_bytes"]);
     const auto growth = [&](const char* key) {
         return std::log(rows[3][key].get<double>() / rows[2][key].get<double>());
     };

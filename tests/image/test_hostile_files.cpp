@@ -240,6 +240,29 @@ TEST_F(HostileFiles, CompressedExrWithHugeRows) {
     }
 }
 
+// 256 rows are decoded at once. What one byte stands for at most does not refuse the file: 8 x 8 pixels are two bytes
+// before deflate.
+TEST_F(HostileFiles, ExrOfFewRowsInHugeChunks) {
+    Imf::Header header(9, 7);
+    header.compression() = Imf::DWAB_COMPRESSION;
+    std::vector<float> values(63);
+    Imf::FrameBuffer frame_buffer;
+    header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+    frame_buffer.insert("Y", Imf::Slice::Make(Imf::FLOAT, values.data(), header.dataWindow()));
+    {
+        Imf::OutputFile file(in_folder("good.exr").c_str(), header);
+        file.setFrameBuffer(frame_buffer);
+        file.writePixels(7);
+    }
+    const std::string good = read_bytes(in_folder("good.exr"));
+    EXPECT_EQ(error_of_reading("a.exr", good), "");
+    // 4 bytes in 256 rows of 2^17 pixels are the limit.
+    EXPECT_EQ(error_of_reading("a.exr", with_data_window(good, (1 << 17) - 1, 6)).find("rows of"),
+              std::string::npos);
+    EXPECT_NE(error_of_reading("a.exr", with_data_window(good, 1 << 17, 6)).find("rows of 131073 pixels"),
+              std::string::npos);
+}
+
 TEST_F(HostileFiles, ExrWithHugeTiles) {
     Imf::Header header(9, 7);
     header.setTileDescription(Imf::TileDescription(16, 16, Imf::ONE_LEVEL));

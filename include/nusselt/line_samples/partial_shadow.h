@@ -32,7 +32,6 @@ NUSSELT_HD inline PartialShadow<Scalar> make_partial_shadow(const ShadowFrame<Sc
     constexpr Scalar kInfinity = std::numeric_limits<Scalar>::infinity();
     const detail::ShadowCorner<Scalar> corner[] = {
         detail::shadow_corner(frame, a), detail::shadow_corner(frame, b), detail::shadow_corner(frame, c)};
-    const Scalar end = kShadowEnd<Scalar> * frame.origin.z;
     PartialShadow<Scalar> shadow;
     for (int i = 0; i < 3; ++i) {
         shadow.corner[i] = corner[i].offset;
@@ -44,17 +43,17 @@ NUSSELT_HD inline PartialShadow<Scalar> make_partial_shadow(const ShadowFrame<Sc
         const Vec3<Scalar> d = q.position - p.position;
         shadow.edge[e] = detail::shadow_edge(frame, p, q);
         shadow.turn[e] = fma(p.position.z, d.x, -(p.position.x * d.z)) > Scalar(0);
-        shadow.beyond_below_end[e] = p.position.z > end;
+        shadow.beyond_below_end[e] = p.position.z > frame.end;
         shadow.end_of_edge[e] = kInfinity;
-        if ((p.position.z > end) != (q.position.z > end)) {
-            const Scalar x = fma((end - p.position.z) / d.z, d.x, p.position.x);
-            shadow.end_of_edge[e] = x / kShadowEnd<Scalar> - frame.origin.x;
-            shadow.beyond_below_end[e] = !(shadow.end_of_edge[e] < (p.position.z > end ? p : q).offset);
+        if ((p.position.z > frame.end) != (q.position.z > frame.end)) {
+            const Scalar x = fma((frame.end - p.position.z) / d.z, d.x, p.position.x);
+            shadow.end_of_edge[e] = frame.unit * x / kShadowEnd<Scalar> - frame.origin.x;
+            shadow.beyond_below_end[e] = !(shadow.end_of_edge[e] < (p.position.z > frame.end ? p : q).offset);
         }
     }
     const Vec3<Scalar> n =
         detail::fused_cross(corner[1].position - corner[0].position, corner[2].position - corner[0].position);
-    const Scalar constant = detail::fused_dot(n, corner[0].position) / kShadowEnd<Scalar>;
+    const Scalar constant = frame.unit * detail::fused_dot(n, corner[0].position) / kShadowEnd<Scalar>;
     shadow.end = detail::shadow_edge(frame, n, constant, Scalar(0));
     return shadow;
 }

@@ -19,8 +19,10 @@ inline constexpr Scalar kShadowEnd = Scalar(1) - Scalar(1e-4);
 template <class Real>
 struct ShadowFrame {
     Vec3<Real> point;                 ///< the apex of all shadows, in the space of the plane [m]
-    Vec3<Real> across, along, normal; ///< as LinePlane, the normal pointing away from the point
+    Vec3<Real> across, along, normal; ///< as LinePlane, in 1 / unit; the normal points away from the point
     Vec3<Real> origin; ///< of the plane relative to the point, its coordinates along these three vectors [m]
+    Real end;          ///< distance of the last occluders from the point, along the normal [unit]
+    Real unit; ///< of coordinates of occluders [m], a power of two, so that their products do not overflow
 };
 
 /// \param plane in any space.
@@ -30,19 +32,28 @@ NUSSELT_HD inline ShadowFrame<Real> make_shadow_frame(const LinePlane<Real>& pla
                                                       const Vec3<Real>& point) noexcept {
     const Vec3<Real> to_origin = plane.origin - point;
     const Real distance = dot(to_origin, plane.normal);
-    const Real side = copysign(Real(1), distance);
+    const Real inverse_unit =
+        reciprocal_power_of_two(max(max(abs(to_origin.x), abs(to_origin.y)), abs(to_origin.z)));
+    const Real side = copysign(inverse_unit, distance);
     return {point,
-            plane.across,
-            plane.along,
+            inverse_unit * plane.across,
+            inverse_unit * plane.along,
             side * plane.normal,
-            {dot(to_origin, plane.across), dot(to_origin, plane.along), abs(distance)}};
+            {dot(to_origin, plane.across), dot(to_origin, plane.along), abs(distance)},
+            Real(kShadowEnd<scalar_t<Real>>) * abs(distance) * inverse_unit,
+            Real(1) / inverse_unit};
 }
 
 /// The same frame in all lanes.
 template <class Real, class Single>
 NUSSELT_HD inline ShadowFrame<Real> broadcast(const ShadowFrame<Single>& frame) noexcept {
-    return {broadcast<Real>(frame.point), broadcast<Real>(frame.across), broadcast<Real>(frame.along),
-            broadcast<Real>(frame.normal), broadcast<Real>(frame.origin)};
+    return {broadcast<Real>(frame.point),
+            broadcast<Real>(frame.across),
+            broadcast<Real>(frame.along),
+            broadcast<Real>(frame.normal),
+            broadcast<Real>(frame.origin),
+            Real(frame.end),
+            Real(frame.unit)};
 }
 
 /// A rectangle of the plane of a light.
@@ -97,25 +108,27 @@ NUSSELT_HD inline Interval<Real> hidden_interval(const TriangleShadow<Real>& sha
     return {select(crosses, min(a, b), nothing.begin), select(crosses, max(a, b), nothing.end)};
 }
 
-/// Whether anything in the rectangle may be hidden. Never misses a line, apart from rounding at the border.
+/// Whether anything in the rectangle may be hidden; never misses a line of it.
 template <class Real>
 NUSSELT_HD inline mask_t<Real> may_hide(const TriangleShadow<Real>& shadow,
                                         const LineBounds<Real>& bounds) noexcept {
-    // The shadow within these offsets is a polygon with at most five corners.
     const Real begin = max(shadow.first, bounds.offsets.begin);
     const Real end = min(shadow.last, bounds.offsets.end);
-    const auto ends_before = end < shadow.middle;
-    const Real corner[] = {shadow.through.at(begin), shadow.through.at(end),
-                           select(begin < shadow.middle, shadow.before.at(begin), shadow.after.at(begin)),
-                           select(ends_before, shadow.before.at(end), shadow.after.at(end)),
-                           shadow.after.at(select(ends_before, end, max(shadow.middle, begin)))};
-    // Where the middle is beyond the end, the last one is not a corner.
-    Real lowest = select(ends_before, corner[3], corner[4]);
-    Real highest = lowest;
-    for (int i = 0; i < 4; ++i) {
-        lowest = min(lowest, corner[i]);
-        highest = max(highest, corner[i]);
-    }
+    // fma is monotonic: what an edge has in between lies between these two, bit by bit.
+    const auto range = [](const ShadowEdge<Real>& edge, const Real& from, const Real& to) {
+        const Real a = edge.at(from);
+        const Real b = edge.at(to);
+        return Interval<Real>{min(a, b), max(a, b)};
+    };
+    const Interval<Real> through = range(shadow.through, begin, end);
+    const Interval<Real> before = range(shadow.before, begin, min(end, shadow.middle));
+    const Interval<Real> after = range(shadow.after, max(begin, shadow.middle), end);
+    const auto has_before = begin < shadow.middle;
+    const auto has_after = shadow.middle <= end;
+    const Real lowest = min(through.begin, min(select(has_before, before.begin, through.begin),
+                                               select(has_after, after.begin, through.begin)));
+    const Real highest = max(through.end, max(select(has_before, before.end, through.end),
+                                              select(has_after, after.end, through.end)));
     return (begin <= end) & (lowest < bounds.extent.end) & (highest > bounds.extent.begin);
 }
 
@@ -135,7 +148,7 @@ namespace detail {
 /// A corner of an occluder.
 template <class Real>
 struct ShadowCorner {
-    Vec3<Real> position; ///< relative to the point, in the axes of the frame [m]
+    Vec3<Real> position; ///< relative to the point, in the axes of the frame [unit]
     Real offset, t;      ///< where the line through the point and the corner meets the plane of the light [m]
 };
 
@@ -209,11 +222,10 @@ NUSSELT_HD inline TriangleShadows<Real> make_triangle_shadow(const ShadowFrame<R
     const ShadowEdge<Real> bc = detail::shadow_edge(frame, corner[1], corner[2]);
     const ShadowEdge<Real> ac = detail::shadow_edge(frame, corner[0], corner[2]);
 
-    const Real end = Real(kShadowEnd<scalar_t<Real>>) * frame.origin.z;
     const Real nearest = min(min(corner[0].position.z, corner[1].position.z), corner[2].position.z);
     const Real farthest = max(max(corner[0].position.z, corner[1].position.z), corner[2].position.z);
-    const auto whole = (nearest > Real(0)) & (farthest <= end);
-    const auto nothing = (farthest <= Real(0)) | (nearest > end);
+    const auto whole = (nearest > Real(0)) & (farthest <= frame.end);
+    const auto nothing = (farthest <= Real(0)) | (nearest > frame.end);
 
     const Real u[] = {corner[0].offset, corner[1].offset, corner[2].offset};
     const auto a_before_b = u[0] < u[1];

@@ -1,0 +1,233 @@
+#include "experiments/line_convergence.h"
+
+#include "experiments/image_errors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace nusselt::experiments {
+
+namespace {
+
+using render_cpu::Integrator;
+using render_cpu::LineOrientation;
+using render_cpu::LineShading;
+using render_cpu::SampleOrder;
+
+constexpr int kMostPoints = 1024;
+constexpr int kMostLines = 256;
+
+std::vector<int> powers_of_two(int last) {
+    std::vector<int> counts;
+    for (int n = 4; n <= last; n *= 2) counts.push_back(n);
+    return counts;
+}
+
+/// Uniform points of the area, as in the paper.
+ConvergenceSeries points(const std::string& label, SampleOrder order) {
+    ConvergenceSeries series = {label, {}, powers_of_two(kMostPoints), 16, kMostPoints};
+    series.settings.technique = render_cpu::Technique::area;
+    series.settings.sample_order = order;
+    series.settings.pixel_position = render_cpu::PixelPosition::center;
+    return series;
+}
+
+/// The best points that this renderer has.
+ConvergenceSeries importance_sampled_points(const std::string& label) {
+    ConvergenceSeries series = points(label, SampleOrder::stratified);
+    series.settings.technique = render_cpu::Technique::projected_solid_angle;
+    series.settings.strategies = render_cpu::Strategies::diffuse_ltc;
+    return series;
+}
+
+/// In parallel, with closed forms alone, as in the paper.
+ConvergenceSeries lines(const std::string& label, SampleOrder order) {
+    ConvergenceSeries series = {label, {}, powers_of_two(kMostLines), 4, kMostLines};
+    series.settings.integrator = Integrator::lines;
+    series.settings.lines.shading = LineShading::analytic;
+    series.settings.lines.many_occluders = render_cpu::ManyOccluders::lines;
+    series.settings.sample_order = order;
+    series.settings.pixel_position = render_cpu::PixelPosition::center;
+    return series;
+}
+
+std::vector<ConvergenceSeries> all_series() {
+    ConvergenceSeries unbiased = lines("lines, unbiased, stratified", SampleOrder::stratified);
+    unbiased.settings.lines.shading = LineShading::unbiased;
+    ConvergenceSeries turned = lines("lines, each turned, stratified", SampleOrder::stratified);
+    turned.settings.lines.orientation = LineOrientation::independent;
+    return {points("points, independent", SampleOrder::independent),
+            points("points, stratified", SampleOrder::stratified),
+            points("points, Sobol'", SampleOrder::sobol),
+            importance_sampled_points("points, by importance, stratified"),
+            lines("lines, independent", SampleOrder::independent),
+            lines("lines, stratified", SampleOrder::stratified),
+            lines("lines, Sobol'", SampleOrder::sobol),
+            unbiased,
+            turned};
+}
+
+std::vector<OrderBetween> expected_orders() {
+    constexpr double kAny = -std::numeric_limits<double>::infinity();
+    return {{"points, independent", -0.55, -0.45},
+            {"lines, independent", -0.55, -0.45},
+            {"lines, each turned, stratified", -0.6, -0.45},
+            {"points, stratified", -0.9, -0.6, 1},
+            {"lines, stratified", kAny, -1.1, 1},
+            {"lines, unbiased, stratified", kAny, -0.9, 1}};
+}
+
+std::vector<LessNoise> expected_less_noise() {
+    return {{"lines, independent", "points, independent", kMostLines},
+            {"lines, stratified", "points, stratified", kMostLines}};
+}
+
+LineConvergence convergence(const std::string& name, const std::string& figures, const std::string& lights,
+                            std::vector<LineScene> scenes) {
+    return {name,
+            "Billen and Dutre 2016, Figures " + figures,
+            "Mean squared error over the number of samples and over time, under " + lights + " lights.",
+            std::move(scenes),
+            all_series(),
+            expected_orders(),
+            expected_less_noise()};
+}
+
+double mean_square_difference(const image::Image& a, const image::Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        const double difference = static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i]);
+        sum += difference * difference;
+    }
+    return sum / static_cast<double>(a.pixels.size());
+}
+
+/// The mean over all seeds with the largest number of samples.
+struct Converged {
+    image::Image image;
+    double variance; ///< of this mean
+};
+
+SceneResult run_scene(const LineConvergence& experiment, const LineScene& line_scene,
+                      const scene::Scene& scene, int threads,
+                      const std::function<void(std::string_view)>& progress) {
+    const render_cpu::Renderer renderer(scene, threads);
+    const render_cpu::Isa isa = render_cpu::choose_isa();
+    SceneResult result;
+    result.scene = line_scene.name;
+    std::vector<Converged> converged;
+    std::size_t reference = 0;
+    for (const ConvergenceSeries& series : experiment.series) {
+        progress(fmt::format("{}: {}", line_scene.name, series.label));
+        SeriesResult measured;
+        SeedStatistics statistics;
+        int seeds = 0;
+        for (const int count : series.counts) {
+            seeds = seeds_for(experiment, count);
+            statistics = render_seeds(renderer, isa, with_count(series.settings, count), seeds);
+            measured.curve.push_back({count, statistics.variance, statistics.seconds});
+        }
+        measured.order = fitted_order(measured.curve, series.fit_first, series.fit_last);
+        if (series.settings.integrator == Integrator::points) reference = converged.size();
+        converged.push_back({std::move(statistics.mean), statistics.variance / seeds});
+        result.series.push_back(std::move(measured));
+    }
+    result.mean = mean_radiance(converged[reference].image);
+    for (std::size_t i = 0; i < converged.size(); ++i) {
+        const double noise = converged[i].variance + converged[reference].variance;
+        const double square = mean_square_difference(converged[i].image, converged[reference].image);
+        result.series[i].bias = mean_radiance(converged[i].image) / result.mean - 1;
+        result.series[i].pixel_bias =
+            i == reference ? 0 : std::sqrt(std::max(square - noise, 0.0)) / result.mean;
+    }
+    return result;
+}
+
+std::size_t index_of(const LineConvergence& experiment, const std::string& label) {
+    const auto found = std::find_if(experiment.series.begin(), experiment.series.end(),
+                                    [&](const ConvergenceSeries& series) { return series.label == label; });
+    if (found == experiment.series.end())
+        throw std::logic_error("experiment " + experiment.name + " has no series " + label);
+    return static_cast<std::size_t>(found - experiment.series.begin());
+}
+
+double variance_at(const NoiseCurve& curve, int count) {
+    const auto found =
+        std::find_if(curve.begin(), curve.end(), [&](const CurvePoint& p) { return p.count == count; });
+    if (found == curve.end()) throw std::logic_error(fmt::format("no point with {} samples", count));
+    return found->variance;
+}
+
+std::string to_text(const OrderBetween& e) {
+    std::string text = fmt::format("order of '{}' ", e.series);
+    text += std::isinf(e.low) ? fmt::format("at most {:g}", e.high)
+                              : fmt::format("between {:g} and {:g}", e.low, e.high);
+    text += " in all scenes";
+    return e.exceptions > 0 ? fmt::format("{} but {}", text, e.exceptions) : text;
+}
+
+} // namespace
+
+const std::vector<LineConvergence>& all_line_convergences() {
+    static const std::vector<LineConvergence> experiments = {
+        convergence("lines-large", "7, 8 and 9", "large", scenes_with_large_lights()),
+        convergence("lines-small", "11, 12 and 13", "small", scenes_with_small_lights())};
+    return experiments;
+}
+
+int seeds_for(const LineConvergence& experiment, int count) {
+    constexpr int kSamples = 512;
+    return std::clamp(kSamples / count, experiment.seeds, std::max(experiment.seeds, experiment.most_seeds));
+}
+
+LineConvergenceResult run_line_convergence(const LineConvergence& experiment, const RunSettings& settings,
+                                           const std::function<void(std::string_view)>& progress) {
+    LineConvergenceResult result;
+    result.experiment = &experiment;
+    result.width = settings.width > 0 ? settings.width : experiment.width;
+    result.threads = settings.threads > 0 ? settings.threads : render_cpu::default_thread_count();
+    for (const LineScene& line_scene : experiment.scenes) {
+        const auto scene = load_line_scene(line_scene, settings, result.width);
+        if (scene) {
+            result.scenes.push_back(run_scene(experiment, line_scene, *scene, result.threads, progress));
+        } else {
+            progress(line_scene.name + " is skipped: set NUSSELT_SCENES to the folder that has it");
+            SceneResult skipped;
+            skipped.scene = line_scene.name;
+            skipped.is_skipped = true;
+            result.scenes.push_back(std::move(skipped));
+        }
+    }
+    result.expectations = check_expectations(experiment, result.scenes);
+    return result;
+}
+
+std::vector<ExpectationResult> check_expectations(const LineConvergence& experiment,
+                                                  const std::vector<SceneResult>& scenes) {
+    std::vector<ExpectationResult> results;
+    for (const OrderBetween& e : experiment.orders) {
+        const std::size_t series = index_of(experiment, e.series);
+        const auto violations = std::count_if(scenes.begin(), scenes.end(), [&](const SceneResult& s) {
+            return !s.is_skipped && !(s.series[series].order >= e.low && s.series[series].order <= e.high);
+        });
+        results.push_back({to_text(e), violations <= e.exceptions});
+    }
+    for (const LessNoise& e : experiment.less_noise) {
+        const std::size_t less = index_of(experiment, e.series);
+        const std::size_t more = index_of(experiment, e.than);
+        const bool holds = std::all_of(scenes.begin(), scenes.end(), [&](const SceneResult& s) {
+            return s.is_skipped ||
+                   variance_at(s.series[less].curve, e.count) < variance_at(s.series[more].curve, e.count);
+        });
+        results.push_back({fmt::format("{0} of '{1}' have less noise than {0} of '{2}' in all scenes",
+                                       e.count, e.series, e.than),
+                           holds});
+    }
+    return results;
+}
+
+} // namespace nusselt::experiments

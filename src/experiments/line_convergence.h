@@ -1,0 +1,101 @@
+#pragma once
+/// How fast the noise of point samples and of line samples falls: N. Billen and P. Dutre 2016, Line Sampling for Direct
+/// Illumination, Figures 7 to 9 and 11 to 13.
+
+#include "experiments/line_scenes.h"
+#include "experiments/noise_curve.h"
+#include "experiments/report_table.h"
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nusselt::experiments {
+
+/// One kind of sample.
+struct ConvergenceSeries {
+    std::string label;
+    render_cpu::RenderSettings settings;
+    std::vector<int> counts; ///< of points or lines, growing
+    int fit_first, fit_last; ///< the order is fitted to these counts
+};
+
+/// That the order of a series is in a range, in all scenes but a few.
+struct OrderBetween {
+    std::string series;
+    double low = -std::numeric_limits<double>::infinity();
+    double high = 0;
+    int exceptions = 0;
+};
+
+/// That a series has less noise than another with as many samples, in all scenes.
+struct LessNoise {
+    std::string series;
+    std::string than;
+    int count;
+};
+
+struct LineConvergence {
+    std::string name; ///< on the command line
+    std::string source;
+    std::string description; ///< one sentence
+    std::vector<LineScene> scenes;
+    std::vector<ConvergenceSeries> series;
+    std::vector<OrderBetween> orders;
+    std::vector<LessNoise> less_noise;
+    int seeds = 8; ///< at least; more for few samples, up to
+    int most_seeds = 64;
+    int width = 64; ///< of the images in pixels
+};
+
+const std::vector<LineConvergence>& all_line_convergences();
+
+struct SeriesResult {
+    NoiseCurve curve;
+    double order = 0;
+    /// Against the last series of point samples, both with as many samples as there are; relative to the mean radiance.
+    double bias = 0;       ///< of the mean of the image
+    double pixel_bias = 0; ///< root mean square over pixels, beyond what noise explains
+};
+
+struct SceneResult {
+    std::string scene;
+    bool is_skipped = false; ///< it is not there
+    double mean = 0;         ///< radiance
+    std::vector<SeriesResult> series;
+};
+
+struct LineConvergenceResult {
+    const LineConvergence* experiment = nullptr;
+    int width = 0;
+    int threads = 0;
+    std::vector<SceneResult> scenes;
+    std::vector<ExpectationResult> expectations;
+};
+
+/// How many seeds the noise of so many samples is measured with: few samples are cheap, and have the heaviest tails.
+int seeds_for(const LineConvergence& experiment, int count);
+
+/// \param settings as for run_experiment(); references have no meaning
+/// \throws std::runtime_error if a scene cannot be loaded
+LineConvergenceResult run_line_convergence(const LineConvergence& experiment, const RunSettings& settings,
+                                           const std::function<void(std::string_view)>& progress);
+
+/// What became of the expectations; scenes that were skipped count neither way.
+std::vector<ExpectationResult> check_expectations(const LineConvergence& experiment,
+                                                  const std::vector<SceneResult>& scenes);
+
+/// Tables of orders and errors.
+std::string to_text(const LineConvergenceResult& result);
+
+/// All numbers.
+std::string to_json(const LineConvergenceResult& result);
+
+/// Writes index.html with plots of the error over the number of samples and over time, and numbers.json into a folder,
+/// which is created.
+void write_report(const LineConvergenceResult& result, const std::filesystem::path& folder);
+
+} // namespace nusselt::experiments

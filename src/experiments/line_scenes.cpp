@@ -1,0 +1,50 @@
+#include "experiments/line_scenes.h"
+
+#include "render_cpu/film.h"
+#include "scene/load.h"
+#include "scene/rig_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace nusselt::experiments {
+
+namespace {
+
+constexpr const char* kSmallLight = "small-light.json";
+
+std::vector<LineScene> scenes_with(const std::string& rig, const std::string& sponza) {
+    return {{"grid-planes", "grid-planes.pbrt", rig},
+            {"logo", "logo.pbrt", rig},
+            {"soup", "soup.pbrt", rig},
+            {"sponza", sponza, "", SceneOrigin::published}};
+}
+
+} // namespace
+
+std::vector<LineScene> scenes_with_large_lights() { return scenes_with("", "sponza/sponza.pbrt"); }
+
+std::vector<LineScene> scenes_with_small_lights() {
+    return scenes_with(kSmallLight, "sponza/sponza-small-light.pbrt");
+}
+
+std::optional<scene::Scene> load_line_scene(const LineScene& line_scene, const RunSettings& settings,
+                                            int width) {
+    std::filesystem::path folder = settings.scenes;
+    if (line_scene.origin == SceneOrigin::published) {
+        const char* const published = std::getenv("NUSSELT_SCENES");
+        if (published == nullptr) return std::nullopt;
+        folder = published;
+    }
+    scene::Scene scene = scene::load_scene(folder / line_scene.file);
+    if (!line_scene.rig.empty())
+        scene::apply_rig(scene::read_rig(settings.scenes / "rigs" / line_scene.rig), scene);
+    if (width > 0) {
+        const double height = static_cast<double>(scene.film.height) * width / scene.film.width;
+        render_cpu::resize_film(scene, width, std::max(1, static_cast<int>(std::lround(height))));
+    }
+    return scene;
+}
+
+} // namespace nusselt::experiments
