@@ -135,10 +135,11 @@ void check_huffman_tables(std::string_view segment, std::array<bool, 32>& is_def
 }
 
 /// Checks that a scan uses tables that are defined: stb would read memory that was never written.
-void check_scan(std::string_view segment, const std::array<bool, 32>& is_defined) {
+/// \param is_progressive only these files have scans of a part of the coefficients; others may claim to
+void check_scan(std::string_view segment, bool is_progressive, const std::array<bool, 32>& is_defined) {
     const auto components = static_cast<std::size_t>(byte_at(segment, 0));
-    const bool has_dc = byte_at(segment, 1 + 2 * components) == 0;
-    const bool has_ac = byte_at(segment, 2 + 2 * components) > 0;
+    const bool has_dc = !is_progressive || byte_at(segment, 1 + 2 * components) == 0;
+    const bool has_ac = !is_progressive || byte_at(segment, 2 + 2 * components) > 0;
     for (std::size_t i = 0; i < components; ++i) {
         const std::int64_t tables = byte_at(segment, 2 + 2 * i);
         const auto dc = static_cast<std::size_t>(tables / 16);
@@ -154,8 +155,9 @@ void check_jpg(std::string_view file, std::int64_t pixel_count) {
     constexpr std::string_view kEnd = "\xFF\xD9";
     if (pixel_count / 1024 > std::int64_t(file.size())) fail_as_cut_off();
     if (file.find(kEnd) == std::string_view::npos) fail_as_cut_off();
-    constexpr std::int64_t kHuffmanTables = 0xC4, kScan = 0xDA;
+    constexpr std::int64_t kBaseline = 0xC0, kExtended = 0xC1, kHuffmanTables = 0xC4, kScan = 0xDA;
     std::array<bool, 32> is_defined = {};
+    bool is_progressive = true;
     // Whatever looks like a segment is taken for one, also in the data of pixels and in previews: there, bytes of 0xFF are
     // followed by zeros or marks without a segment.
     for (std::size_t at = file.find('\xFF'); at != std::string_view::npos; at = file.find('\xFF', at)) {
@@ -166,7 +168,8 @@ void check_jpg(std::string_view file, std::int64_t pixel_count) {
         const std::string_view segment =
             file.substr(begin, static_cast<std::size_t>(std::max<std::int64_t>(length - 2, 0)));
         if (mark == kHuffmanTables) check_huffman_tables(segment, is_defined);
-        if (mark == kScan) check_scan(segment, is_defined);
+        if (mark == kBaseline || mark == kExtended) is_progressive = false;
+        if (mark == kScan) check_scan(segment, is_progressive, is_defined);
         at = begin + segment.size();
     }
 }
