@@ -1,5 +1,7 @@
 #include "experiments/line_convergence.h"
 
+#include "experiments/image_errors.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -95,13 +97,6 @@ LineConvergence convergence(const std::string& name, const std::string& figures,
             expected_less_noise()};
 }
 
-/// Mean over pixels and channels.
-double mean_of(const image::Image& image) {
-    double sum = 0;
-    for (const float value : image.pixels) sum += static_cast<double>(value);
-    return sum / static_cast<double>(image.pixels.size());
-}
-
 double mean_square_difference(const image::Image& a, const image::Image& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
@@ -111,6 +106,12 @@ double mean_square_difference(const image::Image& a, const image::Image& b) {
     return sum / static_cast<double>(a.pixels.size());
 }
 
+/// The mean over all seeds with the largest number of samples.
+struct Converged {
+    image::Image image;
+    double variance; ///< of this mean
+};
+
 SceneResult run_scene(const LineConvergence& experiment, const LineScene& line_scene,
                       const scene::Scene& scene, int threads,
                       const std::function<void(std::string_view)>& progress) {
@@ -118,26 +119,28 @@ SceneResult run_scene(const LineConvergence& experiment, const LineScene& line_s
     const render_cpu::Isa isa = render_cpu::choose_isa();
     SceneResult result;
     result.scene = line_scene.name;
-    std::vector<SeedStatistics> converged;
+    std::vector<Converged> converged;
     std::size_t reference = 0;
     for (const ConvergenceSeries& series : experiment.series) {
         progress(fmt::format("{}: {}", line_scene.name, series.label));
         SeriesResult measured;
         SeedStatistics statistics;
+        int seeds = 0;
         for (const int count : series.counts) {
-            statistics = render_seeds(renderer, isa, with_count(series.settings, count), experiment.seeds);
+            seeds = seeds_for(experiment, count);
+            statistics = render_seeds(renderer, isa, with_count(series.settings, count), seeds);
             measured.curve.push_back({count, statistics.variance, statistics.seconds});
         }
         measured.order = fitted_order(measured.curve, series.fit_first, series.fit_last);
         if (series.settings.integrator == Integrator::points) reference = converged.size();
-        converged.push_back(std::move(statistics));
+        converged.push_back({std::move(statistics.mean), statistics.variance / seeds});
         result.series.push_back(std::move(measured));
     }
-    result.mean = mean_of(converged[reference].mean);
+    result.mean = mean_radiance(converged[reference].image);
     for (std::size_t i = 0; i < converged.size(); ++i) {
-        const double noise = (converged[i].variance + converged[reference].variance) / experiment.seeds;
-        const double square = mean_square_difference(converged[i].mean, converged[reference].mean);
-        result.series[i].bias = mean_of(converged[i].mean) / result.mean - 1;
+        const double noise = converged[i].variance + converged[reference].variance;
+        const double square = mean_square_difference(converged[i].image, converged[reference].image);
+        result.series[i].bias = mean_radiance(converged[i].image) / result.mean - 1;
         result.series[i].pixel_bias =
             i == reference ? 0 : std::sqrt(std::max(square - noise, 0.0)) / result.mean;
     }
@@ -176,6 +179,11 @@ const std::vector<LineConvergence>& all_line_convergences() {
     return experiments;
 }
 
+int seeds_for(const LineConvergence& experiment, int count) {
+    constexpr int kSamples = 512;
+    return std::clamp(kSamples / count, experiment.seeds, std::max(experiment.seeds, experiment.most_seeds));
+}
+
 LineConvergenceResult run_line_convergence(const LineConvergence& experiment, const RunSettings& settings,
                                            const std::function<void(std::string_view)>& progress) {
     LineConvergenceResult result;
@@ -188,7 +196,10 @@ LineConvergenceResult run_line_convergence(const LineConvergence& experiment, co
             result.scenes.push_back(run_scene(experiment, line_scene, *scene, result.threads, progress));
         } else {
             progress(line_scene.name + " is skipped: set NUSSELT_SCENES to the folder that has it");
-            result.scenes.push_back({line_scene.name, true});
+            SceneResult skipped;
+            skipped.scene = line_scene.name;
+            skipped.is_skipped = true;
+            result.scenes.push_back(std::move(skipped));
         }
     }
     result.expectations = check_expectations(experiment, result.scenes);

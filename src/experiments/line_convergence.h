@@ -46,7 +46,8 @@ struct LineConvergence {
     std::vector<ConvergenceSeries> series;
     std::vector<OrderBetween> orders;
     std::vector<LessNoise> less_noise;
-    int seeds = 8;
+    int seeds = 8; ///< at least; more for few samples, up to
+    int most_seeds = 64;
     int width = 64; ///< of the images in pixels
 };
 
@@ -74,6 +75,9 @@ struct LineConvergenceResult {
     std::vector<SceneResult> scenes;
     std::vector<ExpectationResult> expectations;
 };
+
+/// How many seeds the noise of so many samples is measured with: few samples are cheap, and have the heaviest tails.
+int seeds_for(const LineConvergence& experiment, int count);
 
 /// \param settings as for run_experiment(); references have no meaning
 /// \throws std::runtime_error if a scene cannot be loaded

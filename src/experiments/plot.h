@@ -21,7 +21,7 @@ struct Plot {
     std::vector<PlotCurve> curves; ///< colours depend on the position in this list
 };
 
-/// An SVG element with axes, grid, curves and a legend, to stand in a page or, as it is, in a file.
+/// An SVG file with axes, grid, curves and a legend.
 std::string to_svg(const Plot& plot);
 
 } // namespace nusselt::experiments

@@ -1,9 +1,12 @@
 #include "experiments/experiment.h"
 
+#include "experiments/line_registry.h"
+
 #include <fmt/core.h>
 #include <fmt/format.h>
 
 #include <initializer_list>
+#include <utility>
 
 namespace nusselt::experiments {
 
@@ -186,8 +189,12 @@ Experiment tube() {
 } // namespace
 
 const std::vector<Experiment>& all_experiments() {
-    static const std::vector<Experiment> experiments = {line_diffuse(),    tube(),         wall(),
-                                                        polygon_diffuse(), planes_image(), biased()};
+    static const std::vector<Experiment> experiments = [] {
+        std::vector<Experiment> all = {line_diffuse(),    tube(),         wall(),
+                                       polygon_diffuse(), planes_image(), biased()};
+        for (Experiment& experiment : line_experiments()) all.push_back(std::move(experiment));
+        return all;
+    }();
     return experiments;
 }
 

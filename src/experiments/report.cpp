@@ -104,6 +104,7 @@ void write_report(const ExperimentResult& result, const std::filesystem::path& f
                     scale) +
         differences;
     image::write_atomically(folder / "index.html", [&](std::ofstream& file) { file << html; });
+    image::write_atomically(folder / "numbers.json", [&](std::ofstream& file) { file << to_json(result); });
 }
 
 } // namespace nusselt::experiments

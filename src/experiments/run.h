@@ -47,7 +47,10 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunSettings&
 /// The numbers of all variants and what became of the expectations, as text.
 std::string to_text(const ExperimentResult& result);
 
-/// Writes a page index.html with a table and the images as PNG and EXR into a folder, which is created.
+/// The numbers alone.
+std::string to_json(const ExperimentResult& result);
+
+/// Writes a page index.html with a table, the images as PNG and EXR, and numbers.json into a folder, which is created.
 void write_report(const ExperimentResult& result, const std::filesystem::path& folder);
 
 } // namespace nusselt::experiments

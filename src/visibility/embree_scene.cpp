@@ -1,6 +1,7 @@
 #include "visibility/embree_scene.h"
 
 #include "visibility/alpha.h"
+#include "visibility/embree_device.h"
 #include "visibility/embree_packets.h"
 #include "visibility/scene_parts.h"
 #include "visibility/tube_mesh.h"
@@ -11,7 +12,6 @@
 #include <bit>
 #include <cstring>
 #include <stdexcept>
-#include <string>
 
 namespace nusselt::visibility {
 
@@ -20,9 +20,6 @@ namespace {
 /// Scenes with this many triangles are stored compactly; see docs/performance.md.
 constexpr std::size_t kManyTriangles = 2'000'000;
 
-struct DeviceDeleter {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
 struct SceneDeleter {
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 };
@@ -32,25 +29,12 @@ struct BufferDeleter {
 struct GeometryDeleter {
     void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
 };
-using Device = std::unique_ptr<RTCDeviceTy, DeviceDeleter>;
 using SceneHandle = std::unique_ptr<RTCSceneTy, SceneDeleter>;
 using Buffer = std::unique_ptr<RTCBufferTy, BufferDeleter>;
 using Geometry = std::unique_ptr<RTCGeometryTy, GeometryDeleter>;
 
-[[noreturn]] void throw_embree_error(RTCError code) {
-    if (code == RTC_ERROR_OUT_OF_MEMORY)
-        throw std::runtime_error("not enough memory for the bounding volume hierarchy of the scene");
-    if (code == RTC_ERROR_UNSUPPORTED_CPU) throw std::runtime_error("Embree does not support this processor");
-    throw std::runtime_error("Embree reports error " + std::to_string(code) + " while it builds the scene");
-}
-
-void check_for_error(RTCDevice device) {
-    if (const RTCError code = rtcGetDeviceError(device); code != RTC_ERROR_NONE) throw_embree_error(code);
-}
-
-Device make_device() {
-    Device device(rtcNewDevice(nullptr));
-    if (!device) throw_embree_error(rtcGetDeviceError(nullptr));
+Device make_ray_device() {
+    Device device = make_device();
     if (rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) == 0)
         throw std::runtime_error("this Embree was built without ray masks (EMBREE_RAY_MASK)");
     return device;
@@ -204,7 +188,7 @@ struct EmbreeScene::State {
     void attach_instances();
 
     const scene::Scene& scene;
-    Device device = make_device();
+    Device device = make_ray_device();
     Buffer positions;
     std::vector<SceneHandle> objects;
     SceneHandle world;

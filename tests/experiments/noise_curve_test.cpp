@@ -81,7 +81,8 @@ TEST_F(RenderSeeds, MeasuresTheNoiseOfIndependentSamples) {
     const render_cpu::Renderer renderer(scene_, 2);
     NoiseCurve curve;
     for (const int n : {4, 16, 64}) {
-        const SeedStatistics s = render_seeds(renderer, render_cpu::choose_isa(), with_count(settings_, n), 8);
+        const SeedStatistics s =
+            render_seeds(renderer, render_cpu::choose_isa(), with_count(settings_, n), 8);
         curve.push_back({n, s.variance, s.seconds});
         EXPECT_GT(s.seconds, 0);
     }
@@ -99,7 +100,8 @@ TEST_F(RenderSeeds, SeedsDiffer) {
     const image::Image second = renderer.render(settings_, isa).image;
     double sum = 0;
     for (std::size_t i = 0; i < first.pixels.size(); ++i) {
-        const double difference = static_cast<double>(first.pixels[i]) - static_cast<double>(second.pixels[i]);
+        const double difference =
+            static_cast<double>(first.pixels[i]) - static_cast<double>(second.pixels[i]);
         sum += difference * difference / 2;
         EXPECT_FLOAT_EQ(s.mean.pixels[i], 0.5f * (first.pixels[i] + second.pixels[i]));
     }
@@ -107,10 +109,11 @@ TEST_F(RenderSeeds, SeedsDiffer) {
 }
 
 TEST(Plot, DrawsEachCurveAndLeavesOutWhatHasNoLogarithm) {
-    const Plot plot = {"a < b",
-                       "x",
-                       "y",
-                       {{"one", {{1, 1}, {10, 0.1}, {100, 0}}}, {"two", {{1, 2}, {100, 0.02}}, Stroke::dashed}}};
+    const Plot plot = {
+        "a < b",
+        "x",
+        "y",
+        {{"one", {{1, 1}, {10, 0.1}, {100, 0}}}, {"two", {{1, 2}, {100, 0.02}}, Stroke::dashed}}};
     const std::string svg = to_svg(plot);
     EXPECT_NE(svg.find("a &lt; b"), std::string::npos);
     EXPECT_NE(svg.find(">one<"), std::string::npos);

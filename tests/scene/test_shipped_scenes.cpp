@@ -131,8 +131,8 @@ TEST(ShippedScenes, Logo) {
     EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).z, 1);
 }
 
-TEST(ShippedScenes, Rings) {
-    const Scene scene = shipped("rings.pbrt");
+TEST(ShippedScenes, Ring) {
+    const Scene scene = shipped("ring.pbrt");
     ASSERT_EQ(scene.polygon_lights.size(), 1u);
     EXPECT_EQ(scene.polygon_lights[0].vertices.size(), 3u);
     EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).y, -1);
@@ -235,7 +235,7 @@ TEST(ShippedRigs, AreGoodFiles) {
 }
 
 TEST(ShippedRigs, SmallLightsHaveThePowerOfLargeOnes) {
-    for (const char* name : {"grid-planes.pbrt", "logo.pbrt", "soup.pbrt", "rings.pbrt"}) {
+    for (const char* name : {"grid-planes.pbrt", "logo.pbrt", "soup.pbrt", "ring.pbrt"}) {
         const Scene large = shipped(name);
         Scene small = shipped(name);
         apply_rig(read_rig(kFolder / "rigs/small-light.json"), small);

@@ -116,7 +116,8 @@ public:
     /// \param largest bound on offsets and coordinates along lines of the light [m].
     /// \param surface must outlive the object.
     NUSSELT_HD LineLight(const LinePlane<Real>& plane, const Real& largest, const Surface& surface) noexcept
-        : LineLight(plane, scale_for(plane, largest), surface, Scaled()) {}
+        : LineLight({scale_for(plane, largest) * plane.origin, plane.across, plane.along, plane.normal},
+                    surface, scale_for(plane, largest)) {}
 
     /// By the integrals of a Lambertian and of the fitted lobe above the horizon of the surface. Exact for Lambert,
     /// otherwise biased by the misfit. Not negative; the sum over disjoint parts is that of the whole up to rounding.
@@ -164,7 +165,7 @@ public:
             }
             const BrdfComponents<Real> expected = components(diffuse, specular);
             if (!any(choice.total > Real(0))) return expected;
-            const Vec3<Real> wi = direction_to(line, offset, choice);
+            const Vec3<Real> wi = direction_to(line, choice);
             const Real cosine = max(wi.z, Real(0));
             const Real cosine_density = Real(1 / kPi<scalar_t<Real>>) * cosine;
             const Real lobe_density = select(is_glossy_, surface_.lobe.density(wi), Real(0));
@@ -181,8 +182,6 @@ public:
     }
 
 private:
-    struct Scaled {};
-
     struct Line {
         detail::ImageOfLine<Real> cosine; ///< in shading space, for the diffuse component
         detail::ImageOfLine<Real> lobe;
@@ -216,18 +215,15 @@ private:
         return reciprocal_power_of_two(max(max(max(abs(p.x), abs(p.y)), abs(p.z)), largest));
     }
 
-    NUSSELT_HD LineLight(const LinePlane<Real>& plane, const Real& scale, const Surface& surface,
-                         Scaled /*tag*/) noexcept
+    /// \param plane scaled to coordinates of order one.
+    NUSSELT_HD LineLight(const LinePlane<Real>& plane, const Surface& surface, const Real& scale) noexcept
         : surface_(surface),
-          origin_(scale * plane.origin),
-          across_(plane.across),
-          along_(plane.along),
           scale_(scale),
-          cosine_(origin_, across_, along_, Real(1), abs(dot(origin_, plane.normal))),
-          lobe_(surface.lobe.to_cosine(origin_), surface.lobe.to_cosine(across_),
-                surface.lobe.to_cosine(along_),
+          cosine_(plane.origin, plane.across, plane.along, Real(1), abs(dot(plane.origin, plane.normal))),
+          lobe_(surface.lobe.to_cosine(plane.origin), surface.lobe.to_cosine(plane.across),
+                surface.lobe.to_cosine(plane.along),
                 surface.lobe.minor() * surface.lobe.to_cosine({Real(0), Real(1), Real(0)}).y,
-                abs(dot(origin_, plane.normal))),
+                abs(dot(plane.origin, plane.normal))),
           is_glossy_(surface.is_glossy()) {
         // Estimates of it are negative for eyes below the surface.
         diffuse_albedo_ = max(surface.diffuse_albedo, Vec3<Real>{Real(0), Real(0), Real(0)});
@@ -254,15 +250,14 @@ private:
     }
 
     /// To a point of the part, with a density by the lobe.
-    NUSSELT_HD Vec3<Real> direction_to(const Line& line, const Real& offset,
-                                       const Choice& choice) const noexcept {
+    NUSSELT_HD Vec3<Real> direction_to(const Line& line, const Choice& choice) const noexcept {
         using Image = detail::ImageOfLine<Real>;
         const Image image = Image::select_between(choice.is_lobe, line.lobe, line.cosine);
         const CosineArc<Real> arc(image.extent(choice.part));
         const Real coordinate = dot(arc.extent().position(arc.point(choice.u)), image.along) - image.shift;
         const Real at = coordinate / select(image.stretch > Real(0), image.stretch, Real(1));
-        const Vec3<Real> begin = fma(scale_ * offset, across_, origin_);
-        const Vec3<Real> p = fma(min(max(at, choice.part.begin), choice.part.end), along_, begin);
+        const Real on_part = min(max(at, choice.part.begin), choice.part.end);
+        const Vec3<Real> p = fma(on_part + line.cosine.shift, line.cosine.along, line.cosine.closest);
         return inverse_length(p) * p;
     }
 
@@ -272,9 +267,7 @@ private:
 
     const Surface& surface_;
 
-    // Scaled to coordinates of order one.
-    Vec3<Real> origin_, across_, along_;
-    Real scale_; ///< a power of two
+    Real scale_; ///< to coordinates of order one, a power of two
     detail::ImageOfPlane<Real> cosine_;
     detail::ImageOfPlane<Real> lobe_;
 

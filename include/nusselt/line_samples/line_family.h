@@ -62,23 +62,35 @@ NUSSELT_HD inline LineSegment<Real> segment_of(const LinePlane<Real>& plane, con
 template <class Real>
 struct LineChoice {
     Real offset; ///< [m]
-    Real pdf;    ///< of the offset [1/m]; 0: the light has no area
+    Real pdf;    ///< of the offset [1/m]; 0: the light has no area, or not in this line
 };
 
 /// \tparam Real with packs, a family per lane.
 /// \tparam N    bound on the number of vertices of the light.
+///
+/// Lights without area have lines without length and densities of 0; everything is finite for any extent of the light.
+/// What belongs to the light alone, offsets, coordinates and densities, is accurate relative to the light's extent,
+/// however far away the light is.
 template <class Real, int N>
 class LineFamily {
 public:
     /// \param light in any space.
     /// \param angle of the lines with the longest edge of the light, in [0, pi).
     NUSSELT_HD LineFamily(const ConvexPolygon<Real, N>& light, const Real& angle) noexcept {
-        Vec3<Real> longest = light.edge[0];
-        for (int j = 1; j < N; ++j)
-            longest =
-                select(dot(light.edge[j], light.edge[j]) > dot(longest, longest), light.edge[j], longest);
-        const Vec3<Real> tangent = normalize(longest);
-        const Vec3<Real> bitangent = cross(light.normal, tangent);
+        Real extent = Real(0);
+        for (int j = 0; j < N; ++j) {
+            const Vec3<Real>& edge = light.edge[j];
+            extent = max(max(max(abs(edge.x), abs(edge.y)), abs(edge.z)), extent);
+        }
+        scale_ = reciprocal_power_of_two(extent);
+        Vec3<Real> longest = scale_ * light.edge[0];
+        for (int j = 1; j < N; ++j) {
+            const Vec3<Real> edge = scale_ * light.edge[j];
+            longest = select(dot(edge, edge) > dot(longest, longest), edge, longest);
+        }
+        // Edges of tiny lights far from the origin of their space are rounded out of the plane.
+        const Vec3<Real> bitangent = normalize(cross(light.normal, longest));
+        const Vec3<Real> tangent = cross(bitangent, light.normal);
         const SinCos<Real> half = sincos_quarter_turn(Real(0.5) * angle);
         const Real sine = Real(2) * half.sin * half.cos;
         const Real cosine = fma(Real(-2) * half.sin, half.sin, Real(1));
@@ -94,7 +106,8 @@ public:
     NUSSELT_HD explicit LineFamily(const LineFamily<Single, N>& single) noexcept
         : plane_{broadcast<Real>(single.plane_.origin), broadcast<Real>(single.plane_.across),
                  broadcast<Real>(single.plane_.along), broadcast<Real>(single.plane_.normal)},
-          area_(single.area_) {
+          scale_(single.scale_),
+          scaled_area_(single.scaled_area_) {
         for (int k = 0; k < N; ++k)
             knot_[k] = {Real(single.knot_[k].offset),
                         {Real(single.knot_[k].extent.begin), Real(single.knot_[k].extent.end)}};
@@ -105,56 +118,82 @@ public:
     /// Of all lines of the light [m].
     NUSSELT_HD Interval<Real> offsets() const noexcept { return {knot_[0].offset, knot_[N - 1].offset}; }
 
-    /// \param u in [0, 1).
+    /// \param u in [0, 1); increasing u increases the offset.
     NUSSELT_HD LineChoice<Real> sample_uniform(const Real& u) const noexcept {
-        const Real extent = knot_[N - 1].offset - knot_[0].offset;
-        const auto lit = (extent > Real(0)) & (area_ > Real(0));
-        return {fma(u, extent, knot_[0].offset),
-                select(lit, Real(1) / select(lit, extent, Real(1)), Real(0))};
+        const Interval<Real> all = offsets();
+        return {min(fma(u, all.end - all.begin, all.begin), all.end), pdf_uniform()};
+    }
+
+    /// Density of the offsets of sample_uniform() [1/m].
+    NUSSELT_HD Real pdf_uniform() const noexcept {
+        const Interval<Real> all = offsets();
+        const Real extent = all.end - all.begin;
+        const auto lit = (extent > Real(0)) & (scaled_area_ > Real(0));
+        return select(lit, Real(1) / select(lit, extent, Real(1)), Real(0));
+    }
+
+    /// The random number that sample_uniform() makes this offset from, in [0, 1).
+    NUSSELT_HD Real invert_uniform(const Real& offset) const noexcept {
+        return below_one((offset - offsets().begin) * pdf_uniform());
     }
 
     /// With a density in proportion to the length of the line on the light.
     /// \param u in [0, 1); increasing u increases the offset.
     NUSSELT_HD LineChoice<Real> sample_by_length(const Real& u) const noexcept {
-        const Real target = u * area_;
+        const Real target = u * scaled_area_;
         Real below = Real(0);
-        Chord<Real> left = knot_[0];
-        Chord<Real> right = knot_[1];
         Real rest = target;
+        Span span{knot_[0], knot_[1]};
         for (int k = 1; k + 1 < N; ++k) {
-            below = below + area_between(knot_[k - 1], knot_[k]);
+            below = below + scaled_area({knot_[k - 1], knot_[k]});
             const auto beyond = target >= below;
-            left = select(beyond, knot_[k], left);
-            right = select(beyond, knot_[k + 1], right);
+            span = select(beyond, Span{knot_[k], knot_[k + 1]}, span);
             rest = select(beyond, target - below, rest);
         }
-        const Real l0 = left.extent.end - left.extent.begin;
-        const Real l1 = right.extent.end - right.extent.begin;
-        const Real width = right.offset - left.offset;
-        const Real part = area_between(left, right);
-        const Real x = min(rest / select(part > Real(0), part, Real(1)), Real(1));
+        const Real l0 = scale_ * length_of(span.left);
+        const Real l1 = scale_ * length_of(span.right);
+        const Real area = scaled_area(span);
+        const Real x = min(rest / select(area > Real(0), area, Real(1)), Real(1));
+        // Without a difference of nearly equal lengths.
         const Real denominator = l0 + sqrt(max(fma(x, l1 * l1 - l0 * l0, l0 * l0), Real(0)));
         const Real step = x * (l0 + l1) / select(denominator > Real(0), denominator, Real(1));
-        const Real offset = fma(width, min(step, Real(1)), left.offset);
+        const Real width = span.right.offset - span.left.offset;
+        const Real offset = min(fma(width, min(step, Real(1)), span.left.offset), span.right.offset);
         return {offset, pdf_by_length(offset)};
     }
 
     /// Density of the offsets of sample_by_length() [1/m].
     NUSSELT_HD Real pdf_by_length(const Real& offset) const noexcept {
-        const Interval<Real> extent = chord(offset).extent;
-        const auto lit = area_ > Real(0);
-        return select(lit, (extent.end - extent.begin) / select(lit, area_, Real(1)), Real(0));
+        const auto lit = scaled_area_ > Real(0);
+        const Real length = scale_ * length_of(chord(offset));
+        return select(lit, length / select(lit, scaled_area_, Real(1)), Real(0));
+    }
+
+    /// The random number that sample_by_length() makes this offset from, in [0, 1); 0 for lights without area.
+    NUSSELT_HD Real invert_by_length(const Real& offset) const noexcept {
+        Real below = Real(0);
+        Real before = Real(0);
+        Span span{knot_[0], knot_[1]};
+        for (int k = 1; k + 1 < N; ++k) {
+            below = below + scaled_area({knot_[k - 1], knot_[k]});
+            const auto beyond = offset >= knot_[k].offset;
+            span = select(beyond, Span{knot_[k], knot_[k + 1]}, span);
+            before = select(beyond, below, before);
+        }
+        Chord<Real> here = chord(offset);
+        here.offset = min(max(offset, span.left.offset), span.right.offset);
+        const auto lit = scaled_area_ > Real(0);
+        const Real area = before + scaled_area({span.left, here});
+        return below_one(area / select(lit, scaled_area_, Real(1)));
     }
 
     /// \param offset beyond those of the light, the closest line of the light counts.
     NUSSELT_HD Chord<Real> chord(const Real& offset) const noexcept {
-        Chord<Real> left = knot_[0];
-        Chord<Real> right = knot_[1];
-        for (int k = 1; k + 1 < N; ++k) {
-            const auto beyond = offset >= knot_[k].offset;
-            left = select(beyond, knot_[k], left);
-            right = select(beyond, knot_[k + 1], right);
-        }
+        Span span{knot_[0], knot_[1]};
+        for (int k = 1; k + 1 < N; ++k)
+            span = select(offset >= knot_[k].offset, Span{knot_[k], knot_[k + 1]}, span);
+        const Chord<Real>& left = span.left;
+        const Chord<Real>& right = span.right;
         const Real width = right.offset - left.offset;
         const Real x =
             min(max((offset - left.offset) / select(width > Real(0), width, Real(1)), Real(0)), Real(1));
@@ -164,11 +203,16 @@ public:
     }
 
     /// Of the light [m^2].
-    NUSSELT_HD Real area() const noexcept { return area_; }
+    NUSSELT_HD Real area() const noexcept { return scaled_area_ / scale_; }
 
 private:
     template <class, int>
     friend class LineFamily;
+
+    /// Neighbouring knots.
+    struct Span {
+        Chord<Real> left, right;
+    };
 
     NUSSELT_HD static Chord<Real> select(const mask_t<Real>& mask, const Chord<Real>& a,
                                          const Chord<Real>& b) noexcept {
@@ -176,16 +220,23 @@ private:
         return {select(mask, a.offset, b.offset),
                 {select(mask, a.extent.begin, b.extent.begin), select(mask, a.extent.end, b.extent.end)}};
     }
+    NUSSELT_HD static Span select(const mask_t<Real>& mask, const Span& a, const Span& b) noexcept {
+        return {select(mask, a.left, b.left), select(mask, a.right, b.right)};
+    }
     template <class T>
     NUSSELT_HD static T select(const mask_t<Real>& mask, const T& a, const T& b) noexcept {
         using nusselt::select;
         return select(mask, a, b);
     }
 
-    /// The area that lines between two knots cover.
-    NUSSELT_HD static Real area_between(const Chord<Real>& a, const Chord<Real>& b) noexcept {
-        const Real lengths = (a.extent.end - a.extent.begin) + (b.extent.end - b.extent.begin);
-        return Real(0.5) * lengths * (b.offset - a.offset);
+    NUSSELT_HD static Real length_of(const Chord<Real>& chord) noexcept {
+        return chord.extent.end - chord.extent.begin;
+    }
+
+    /// The area that lines between two knots cover, times the scale.
+    NUSSELT_HD Real scaled_area(const Span& span) const noexcept {
+        const Real mean_length = Real(0.5) * length_of(span.left) + Real(0.5) * length_of(span.right);
+        return mean_length * (scale_ * (span.right.offset - span.left.offset));
     }
 
     /// Finds the lines through the vertices.
@@ -193,7 +244,8 @@ private:
 
     LinePlane<Real> plane_;
     Chord<Real> knot_[N]; ///< through the vertices, by increasing offset; between them chords are linear
-    Real area_;
+    Real scale_;          ///< a power of two: one over the extent of the light, up to a factor of 2
+    Real scaled_area_;    ///< area times the scale [m]: areas themselves leave the range of Real earlier
 };
 
 template <class Real, int N>
@@ -226,8 +278,8 @@ NUSSELT_HD inline void LineFamily<Real, N>::project(const ConvexPolygon<Real, N>
             knot_[k] = select(swaps, knot_[k - 1], knot_[k]);
             knot_[k - 1] = lower;
         }
-    area_ = Real(0);
-    for (int k = 0; k + 1 < N; ++k) area_ = area_ + area_between(knot_[k], knot_[k + 1]);
+    scaled_area_ = Real(0);
+    for (int k = 0; k + 1 < N; ++k) scaled_area_ = scaled_area_ + scaled_area({knot_[k], knot_[k + 1]});
 }
 
 NUSSELT_NAMESPACE_END

@@ -1,0 +1,66 @@
+#pragma once
+/// The hierarchy that lines are traced with, as plain data: kernels compiled for other instruction sets read it. No
+/// type of the library appears here, nor any inline function.
+
+#include <cstdint>
+
+namespace nusselt::visibility {
+
+/// Children of a node, and triangles of a block.
+inline constexpr int kBvhWidth = 8;
+/// Of the hierarchy of the world or of an object, in nodes.
+inline constexpr int kLargestBvhDepth = 40;
+
+/// What a child is, as the two upmost bits of its reference; the rest is an index.
+inline constexpr std::uint32_t kBvhNode = 0;
+inline constexpr std::uint32_t kBvhBlock = std::uint32_t{1} << 30;
+inline constexpr std::uint32_t kBvhInstance = std::uint32_t{2} << 30;
+inline constexpr std::uint32_t kBvhKindMask = std::uint32_t{3} << 30;
+
+/// Children by their boxes. Those that do not exist have lower bounds of infinity, upper ones of minus infinity.
+struct alignas(64) LineBvhNode {
+    float bounds[6][kBvhWidth]; ///< lower x, y, z, then upper x, y, z [m]
+    std::uint32_t child[kBvhWidth];
+};
+
+/// Triangles. Unused slots hold triangles without area.
+struct alignas(64) TriangleBlock {
+    /// Of the first, second and third corner x, y, z [m], in lexicographic order: the same for all that share them.
+    float corner[9][kBvhWidth];
+    std::int32_t light[kBvhWidth]; ///< index into Scene::polygon_lights, -1 for surfaces that do not emit
+};
+
+/// No reference: nothing is there.
+inline constexpr std::uint32_t kEmptyBvh = ~std::uint32_t{0};
+
+/// Where traversal starts. References to what is in world space, or kEmptyBvh.
+struct LineBvhRoots {
+    std::uint32_t triangles; ///< of the world
+    std::uint32_t instances;
+};
+
+/// A copy of an object.
+struct LineBvhInstance {
+    float world_from_object[9];  ///< the linear part in rows
+    float object_from_world[12]; ///< as Instance::world_from_object
+    std::uint32_t triangles;     ///< reference to those of the object
+    float extent;                ///< largest coordinate of the object [m]
+};
+
+struct LineBvhView {
+    const LineBvhNode* nodes;
+    const TriangleBlock* blocks;
+    const LineBvhInstance* instances;
+    LineBvhRoots full;    ///< surfaces that rays always hit
+    LineBvhRoots partial; ///< surfaces that rays hit with a probability, see alpha.h
+    float extent;         ///< largest coordinate of the world, instances included [m]
+};
+
+/// Work done for lines.
+struct LineCounters {
+    std::uint64_t box_tests;      ///< boxes against pyramids or groups of lines
+    std::uint64_t triangle_tests; ///< triangles whose shadows were found
+    std::uint64_t line_tests;     ///< shadows against packs of lines
+};
+
+} // namespace nusselt::visibility
