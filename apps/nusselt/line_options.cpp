@@ -4,7 +4,7 @@
 
 #include <fmt/core.h>
 
-#include <optional>
+#include <algorithm>
 #include <utility>
 
 namespace nusselt::app {
@@ -25,7 +25,8 @@ void add_line_kind_options(CLI::App& command, LineOptions& options) {
         ->group(kGroup);
     command
         .add_option("--offsets", options.offsets,
-                    "Density of lines: by their length on the light, or uniform. Default: length")
+                    "Density of lines: by their length on the light, uniform, or by what the surface would\n"
+                    "reflect of them without shadows. Default: length")
         ->transform(to_name_of(render_cpu::kLineOffsets))
         ->group(kGroup);
     command
@@ -74,18 +75,22 @@ void apply_line_options(const LineOptions& options, render_cpu::RenderSettings& 
         lines.many_occluders = from_name(render_cpu::kManyOccludersChoices, *options.many_occluders);
 }
 
-void check_line_options(const LineOptions& options, render_cpu::Technique technique) {
-    if (from_name(render_cpu::kIntegrators, options.integrator) == render_cpu::Integrator::lines) {
+void check_line_options(const RenderOptions& options, render_cpu::Technique technique) {
+    const LineOptions& lines = options.lines;
+    if (from_name(render_cpu::kIntegrators, lines.integrator) == render_cpu::Integrator::lines) {
         if (technique == render_cpu::Technique::ltc_analytic)
             throw CLI::ValidationError(
                 "--integrator", "lines have shadows, --technique ltc_analytic has none; take another one");
         return;
     }
-    for (const auto& [name, is_given] : {std::pair("--lines", options.count.has_value()),
-                                         std::pair("--orientation", options.orientation.has_value()),
-                                         std::pair("--offsets", options.offsets.has_value()),
-                                         std::pair("--line-shading", options.shading.has_value()),
-                                         std::pair("--many-occluders", options.many_occluders.has_value())})
+    const auto wants_pieces =
+        std::count(options.layers.begin(), options.layers.end(), name_of(render_cpu::LayerKind::pieces)) > 0;
+    for (const auto& [name, is_given] : {std::pair("--lines", lines.count.has_value()),
+                                         std::pair("--orientation", lines.orientation.has_value()),
+                                         std::pair("--offsets", lines.offsets.has_value()),
+                                         std::pair("--line-shading", lines.shading.has_value()),
+                                         std::pair("--many-occluders", lines.many_occluders.has_value()),
+                                         std::pair("--layers pieces", wants_pieces)})
         if (is_given) throw CLI::ValidationError(name, "is for --integrator lines, which is not given");
 }
 

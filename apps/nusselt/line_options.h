@@ -19,7 +19,7 @@ void add_line_kind_options(CLI::App& command, LineOptions& options);
 /// \throws std::invalid_argument for values that the command line does not let through
 void apply_line_options(const LineOptions& options, render_cpu::RenderSettings& settings);
 
-/// \throws CLI::ValidationError if the options do not fit together or to the technique
-void check_line_options(const LineOptions& options, render_cpu::Technique technique);
+/// \throws CLI::ValidationError if there are options for line samples without these, or for what these cannot be
+void check_line_options(const RenderOptions& options, render_cpu::Technique technique);
 
 } // namespace nusselt::app

@@ -15,6 +15,9 @@ inline constexpr Scalar kShortestPart = Scalar(1e-6);
 template <class Real>
 class VisibleParts {
 public:
+    /// Without storage: to be assigned to before it is used.
+    VisibleParts() noexcept = default;
+
     /// \param storage  for `capacity` intervals, which outlives this object.
     /// \param capacity at least 1. A line that falls into more parts loses some of them, see lost().
     NUSSELT_HD VisibleParts(Interval<Real>* storage, int capacity) noexcept
@@ -89,8 +92,8 @@ private:
         lost_ = lost_ + select(lanes, Real(1), Real(0));
     }
 
-    Interval<Real>* part_;
-    int capacity_;
+    Interval<Real>* part_ = nullptr;
+    int capacity_ = 0;
     int count_ = 0;
     Real shortest_ = Real(0);
     Real lost_ = Real(0);
