@@ -20,6 +20,7 @@ void setup_bench(CLI::App& app, int& exit_code) {
     setup_bench_fuzz(*command, exit_code);
     setup_bench_tubes(*command, exit_code);
     setup_bench_scale(*command, exit_code);
+    setup_bench_phong_lines(*command, exit_code);
 }
 
 } // namespace nusselt::app

@@ -152,6 +152,10 @@ struct BenchTubesOptions {
     int repetitions = 31;
 };
 
+struct BenchPhongLinesOptions {
+    int repetitions = 31;
+};
+
 struct BenchScaleOptions {
     std::uint64_t triangles = 10'000'000;
     std::uint64_t emissive = 100'000;
@@ -197,6 +201,7 @@ void setup_bench_worst_case(CLI::App& bench, int& exit_code);
 void setup_bench_fuzz(CLI::App& bench, int& exit_code);
 void setup_bench_tubes(CLI::App& bench, int& exit_code);
 void setup_bench_scale(CLI::App& bench, int& exit_code);
+void setup_bench_phong_lines(CLI::App& bench, int& exit_code);
 
 /// Renders and writes the images.
 /// \returns 0, or 130 if it was interrupted
@@ -249,6 +254,9 @@ int run_bench_fuzz(const BenchFuzzOptions& options);
 
 /// Measures noise and cost of sampling cylinders and prints the table.
 int run_bench_tubes(const BenchTubesOptions& options);
+
+/// Measures Phong lobes along lines and prints the table.
+int run_bench_phong_lines(const BenchPhongLinesOptions& options);
 
 /// Measures time and memory of large scenes and prints or writes the tables.
 int run_bench_scale(const BenchScaleOptions& options);

@@ -199,8 +199,8 @@ TEST(PhongLineBillen, RecursionEqualsQuadrature) {
 TEST(PhongLineBillen, TableConvergesToTheRecursion) {
     for (const int exponent : {1, 20, 999, 10000}) {
         const nusselt::CosinePowerRecursion<double> exact(exponent);
-        const nusselt::CosinePowerTable<double> coarse(exponent, 256);
-        const nusselt::CosinePowerTable<double> fine(exponent, 1024);
+        const nusselt::CosinePowerTable<double, 256> coarse(exponent);
+        const nusselt::CosinePowerTable<double, 1024> fine(exponent);
         double coarse_error = 0;
         double fine_error = 0;
         const double total = exact(1.5707963267948966);
