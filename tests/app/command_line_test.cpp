@@ -48,6 +48,10 @@ TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
                                 "map",
                                 "reproduce",
                                 "fit-ltc"}) {
+    for (const char* command :
+         {"", "render", "merge", "info", "lights", "techniques", "compare", "convert", "bench", "bench rays",
+          "bench strategies", "bench samplers", "bench accuracy", "bench worst-case", "bench fuzz",
+          "bench tubes", "bench shadows", "map", "reproduce", "fit-ltc"}) {
         const Outcome help = run(std::string(command) + " --help");
         EXPECT_EQ(help.exit_code, 0) << command;
         EXPECT_NE(help.out.find("Usage:"), std::string::npos) << command;
@@ -78,6 +82,8 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo) {
                                   "bench tubes --repetitions 0",
                                   "bench phong-lines --repetitions 0",
                                   "bench fuzz --count -1",
+                                  "bench shadows --count 0",
+                                  "bench shadows --seed -3",
                                   "bench fuzz --count 18446744073709551616",
                                   "bench fuzz --seed -3",
                                   "bench fuzz --count 1e3",

@@ -101,7 +101,9 @@ TEST(VisibleParts, TooLittleRoomNeverAddsLight) {
             for (int i = 0; i < kLanes; ++i) {
                 const double expected = visible_length(occluders, i);
                 EXPECT_LE(length.lane(i), expected + 1e-6) << index;
-                if (parts.lost().lane(i) == 0) EXPECT_NEAR(length.lane(i), expected, 3e-5) << index;
+                if (parts.lost().lane(i) == 0) {
+                    EXPECT_NEAR(length.lane(i), expected, 3e-5) << index;
+                }
                 lost += parts.lost().lane(i) > 0;
             }
         }
