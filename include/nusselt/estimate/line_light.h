@@ -10,6 +10,7 @@
 #include <nusselt/estimate/mis.h>
 #include <nusselt/estimate/surface.h>
 #include <nusselt/geometry/convex_polygon.h>
+#include <nusselt/line_samples/shading.h>
 #include <nusselt/line_samples/visible_parts.h>
 #include <nusselt/ltc/light_transform.h>
 #include <nusselt/sampling/cosine_arc.h>
@@ -219,11 +220,11 @@ private:
     NUSSELT_HD LineLight(const LinePlane<Real>& plane, const Surface& surface, const Real& scale) noexcept
         : surface_(surface),
           scale_(scale),
-          cosine_(plane.origin, plane.across, plane.along, Real(1), abs(dot(plane.origin, plane.normal))),
+          cosine_(plane.origin, plane.across, plane.along, Real(1), abs(plane_distance(plane))),
           lobe_(surface.lobe.to_cosine(plane.origin), surface.lobe.to_cosine(plane.across),
                 surface.lobe.to_cosine(plane.along),
                 surface.lobe.minor() * surface.lobe.to_cosine({Real(0), Real(1), Real(0)}).y,
-                abs(dot(plane.origin, plane.normal))),
+                abs(plane_distance(plane))),
           is_glossy_(surface.is_glossy()) {
         // Estimates of it are negative for eyes below the surface.
         diffuse_albedo_ = max(surface.diffuse_albedo, Vec3<Real>{Real(0), Real(0), Real(0)});

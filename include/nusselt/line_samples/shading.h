@@ -31,19 +31,27 @@ struct BothSides {
     }
 };
 
+/// Signed distance of the plane of a light from the origin [m], positive if the normal points away from it; 0 if it cannot
+/// be told from rounding.
+template <class Real>
+NUSSELT_HD inline Real plane_distance(const LinePlane<Real>& plane) noexcept {
+    const Vec3<Real> product{plane.origin.x * plane.normal.x, plane.origin.y * plane.normal.y,
+                             plane.origin.z * plane.normal.z};
+    const Real distance = product.x + product.y + product.z;
+    const Real rounding = Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) *
+                          (abs(product.x) + abs(product.y) + abs(product.z));
+    return select(abs(distance) > rounding, distance, Real(0));
+}
+
 /// Cosine between the normal of a light and the direction from the point of an infinite line that is closest to the
 /// origin to the origin; negative behind the light, 0 if the plane cannot be told from one through the origin.
 /// \param plane as seen from a shading point [m].
 template <class Real>
 NUSSELT_HD inline Real cosine_at_light(const LinePlane<Real>& plane, const Real& offset) noexcept {
-    const Vec3<Real> product{plane.origin.x * plane.normal.x, plane.origin.y * plane.normal.y,
-                             plane.origin.z * plane.normal.z};
-    const Real height = product.x + product.y + product.z;
-    const Real rounding = Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) *
-                          (abs(product.x) + abs(product.y) + abs(product.z));
+    const Real height = plane_distance(plane);
     const Real aside = dot(plane.origin, plane.across) + offset;
     const Vec3<Real> closest{height, aside, Real(0)};
-    return select(abs(height) > rounding, -normalize(closest).x, Real(0));
+    return -normalize(closest).x;
 }
 
 /// What a part of a line contributes to a Lambertian surface.
