@@ -11,6 +11,8 @@ void setup_bench(CLI::App& app, int& exit_code) {
     command->require_subcommand(1);
     setup_bench_rays(*command, exit_code);
     setup_bench_strategies(*command, exit_code);
+    setup_bench_lines(*command, exit_code);
+    setup_bench_line_efficiency(*command, exit_code);
     setup_bench_samplers(*command, exit_code);
     setup_bench_gpu_samplers(*command, exit_code);
     setup_bench_accuracy(*command, exit_code);

@@ -13,6 +13,10 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace shadows {
 
+/// Lines that a case takes at once, whatever the instruction set.
+inline constexpr int kLinesPerCase = 16;
+using Lines = Pack<float, kLinesPerCase>;
+
 template <class T>
 using Triangle = std::array<Vec3<T>, 3>;
 

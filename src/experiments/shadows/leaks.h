@@ -10,8 +10,6 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace shadows {
 
-inline constexpr int kLinesPerCase = 16;
-
 /// A point in a closed mesh, and a light outside: nothing of the light may be visible.
 struct LeakCase {
     std::vector<Triangle<float>> triangles; ///< corners in either winding
@@ -53,9 +51,12 @@ inline LeakCase make_leak_case(std::uint64_t seed, std::uint64_t index) {
     Mesh mesh = make_closed_mesh(random);
     // Some stay aligned with the axes, as walls are.
     if (random.index(3) > 0) {
-        Vec3<double> axes[3];
-        for (Vec3<double>& axis : axes) axis = random.log_between(0.1, 1) * random.direction();
-        const auto map = [&](const Vec3<double>& v) { return v.x * axes[0] + v.y * axes[1] + v.z * axes[2]; };
+        const Vec3<double> x = random.direction();
+        const Vec3<double> y = normalize(cross(x, random.direction()));
+        const Vec3<double> size{random.log_between(0.1, 1), random.log_between(0.1, 1), 1};
+        const auto map = [&](const Vec3<double>& v) {
+            return (size.x * v.x) * x + (size.y * v.y) * y + (size.z * v.z) * cross(x, y);
+        };
         for (Vec3<double>& v : mesh.vertices) v = map(v);
         mesh.inside = map(mesh.inside);
     }
@@ -103,8 +104,6 @@ inline LeakCase make_leak_case(std::uint64_t seed, std::uint64_t index) {
     }
     return result;
 }
-
-using Lines = Pack<float, kLinesPerCase>;
 
 /// Calls `use` with the offsets of the lines of a case, their extents on the light and a function that calls its argument
 /// with the part of each line that an occluder hides, for all occluders.
