@@ -373,6 +373,26 @@ TEST(ReflectedOffsets, BlackSurfacesSampleByLength) {
     }
 }
 
+TEST(ReflectedOffsets, HostileLightsGetFiniteOffsets) {
+    HostileReflections<float> reflections(56);
+    int drawn = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const auto c = reflections.next<PolygonReflection<float>>();
+        const LineFamily<float, 4> family(c.light, 0.7f);
+        const auto surface = c.surface();
+        const LineLight<float> light(family.plane(), largest_coordinate(c.light), surface);
+        const auto choice = ReflectedOffsets<float, 4>(family, light).sample(c.u[0].x);
+        ASSERT_TRUE(std::isfinite(choice.pdf) && choice.pdf >= 0) << hexadecimal<float>(c);
+        const auto offsets = family.offsets();
+        const float rounding = 1e-6f * (offsets.end - offsets.begin) +
+                               1e-6f * std::max(std::abs(offsets.begin), std::abs(offsets.end));
+        ASSERT_GE(choice.offset, offsets.begin - rounding) << hexadecimal<float>(c);
+        ASSERT_LE(choice.offset, offsets.end + rounding) << hexadecimal<float>(c);
+        drawn += choice.pdf > 0;
+    }
+    EXPECT_GT(drawn, 10'000);
+}
+
 TEST(ReflectedOffsets, LanesEqualScalars) {
     using P = NativeFloat;
     constexpr int kLanes = nusselt::RealTraits<P>::kLanes;
