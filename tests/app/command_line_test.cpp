@@ -45,13 +45,12 @@ TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
                                 "bench fuzz",
                                 "bench tubes",
                                 "bench phong-lines",
+                                "bench shadows",
+                                "bench lines",
+                                "bench line-efficiency",
                                 "map",
                                 "reproduce",
                                 "fit-ltc"}) {
-    for (const char* command :
-         {"", "render", "merge", "info", "lights", "techniques", "compare", "convert", "bench", "bench rays",
-          "bench strategies", "bench samplers", "bench accuracy", "bench worst-case", "bench fuzz",
-          "bench tubes", "bench shadows", "map", "reproduce", "fit-ltc"}) {
         const Outcome help = run(std::string(command) + " --help");
         EXPECT_EQ(help.exit_code, 0) << command;
         EXPECT_NE(help.out.find("Usage:"), std::string::npos) << command;
