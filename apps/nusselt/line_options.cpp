@@ -4,51 +4,63 @@
 
 #include <fmt/core.h>
 
-#include <optional>
+#include <algorithm>
 #include <utility>
 
 namespace nusselt::app {
 
+namespace {
+
+constexpr const char* kGroup = "Line samples";
+
+} // namespace
+
+void add_line_kind_options(CLI::App& command, LineOptions& options) {
+    command
+        .add_option(
+            "--orientation", options.orientation,
+            "Directions of lines: parallel, random but the same for all lines of a shading point and\n"
+            "light; fixed, along the longest edge of the light; independent. Default: parallel")
+        ->transform(to_name_of(render_cpu::kLineOrientations))
+        ->group(kGroup);
+    command
+        .add_option("--offsets", options.offsets,
+                    "Density of lines: by their length on the light, uniform, or by what the surface would\n"
+                    "reflect of them without shadows. Default: length")
+        ->transform(to_name_of(render_cpu::kLineOffsets))
+        ->group(kGroup);
+    command
+        .add_option("--line-shading", options.shading,
+                    "unbiased: the integral of a linearly transformed cosine over what is visible of a line, "
+                    "and one\n"
+                    "point for the difference to the BRDF; analytic: without that. Default: unbiased")
+        ->transform(to_name_of(render_cpu::kLineShadings))
+        ->group(kGroup);
+}
+
 void add_line_options(CLI::App& command, LineOptions& options) {
-    const auto group = "Line samples";
     command
         .add_option("--integrator", options.integrator,
                     "What is sampled of polygonal lights: points, or lines with exact visibility. Tubes and\n"
                     "lines always get --spp points")
         ->transform(to_name_of(render_cpu::kIntegrators))
         ->capture_default_str()
-        ->group(group);
+        ->group(kGroup);
     command
         .add_option("--lines", options.count,
                     fmt::format("Lines per shading point and light, 1 to {}. Default: {}",
                                 render_cpu::kMaxLines, render_cpu::LineSettings().count))
         ->check(CLI::Range(1, render_cpu::kMaxLines))
-        ->group(group);
-    command
-        .add_option("--orientation", options.orientation,
-                    "Directions of lines: parallel, random but the same for all lines of a shading point and\n"
-                    "light; fixed, along the longest edge of the light; independent. Default: parallel")
-        ->transform(to_name_of(render_cpu::kLineOrientations))
-        ->group(group);
-    command
-        .add_option("--offsets", options.offsets,
-                    "Density of lines: by their length on the light, or uniform. Default: length")
-        ->transform(to_name_of(render_cpu::kLineOffsets))
-        ->group(group);
+        ->group(kGroup);
+    add_line_kind_options(command, options);
     command
         .add_option(
-            "--line-shading", options.shading,
-            "unbiased: the integral of a linearly transformed cosine over what is visible of a line, and one\n"
-            "point for the difference to the BRDF; analytic: without that. Default: unbiased")
-        ->transform(to_name_of(render_cpu::kLineShadings))
-        ->group(group);
-    command
-        .add_option("--many-occluders", options.many_occluders,
-                    "What shading points take where many triangles may hide a light: points, of the technique\n"
-                    "and strategies of the other options, which are faster there; or lines all the same.\n"
-                    "Default: points")
+            "--many-occluders", options.many_occluders,
+            "What shading points take where many triangles may hide a light: points, of the technique\n"
+            "and strategies of the other options, which are faster there; or lines all the same.\n"
+            "Default: points")
         ->transform(to_name_of(render_cpu::kManyOccludersChoices))
-        ->group(group);
+        ->group(kGroup);
 }
 
 void apply_line_options(const LineOptions& options, render_cpu::RenderSettings& settings) {
@@ -63,18 +75,22 @@ void apply_line_options(const LineOptions& options, render_cpu::RenderSettings& 
         lines.many_occluders = from_name(render_cpu::kManyOccludersChoices, *options.many_occluders);
 }
 
-void check_line_options(const LineOptions& options, render_cpu::Technique technique) {
-    if (from_name(render_cpu::kIntegrators, options.integrator) == render_cpu::Integrator::lines) {
+void check_line_options(const RenderOptions& options, render_cpu::Technique technique) {
+    const LineOptions& lines = options.lines;
+    if (from_name(render_cpu::kIntegrators, lines.integrator) == render_cpu::Integrator::lines) {
         if (technique == render_cpu::Technique::ltc_analytic)
             throw CLI::ValidationError(
                 "--integrator", "lines have shadows, --technique ltc_analytic has none; take another one");
         return;
     }
-    for (const auto& [name, is_given] : {std::pair("--lines", options.count.has_value()),
-                                         std::pair("--orientation", options.orientation.has_value()),
-                                         std::pair("--offsets", options.offsets.has_value()),
-                                         std::pair("--line-shading", options.shading.has_value()),
-                                         std::pair("--many-occluders", options.many_occluders.has_value())})
+    const auto wants_pieces =
+        std::count(options.layers.begin(), options.layers.end(), name_of(render_cpu::LayerKind::pieces)) > 0;
+    for (const auto& [name, is_given] : {std::pair("--lines", lines.count.has_value()),
+                                         std::pair("--orientation", lines.orientation.has_value()),
+                                         std::pair("--offsets", lines.offsets.has_value()),
+                                         std::pair("--line-shading", lines.shading.has_value()),
+                                         std::pair("--many-occluders", lines.many_occluders.has_value()),
+                                         std::pair("--layers pieces", wants_pieces)})
         if (is_given) throw CLI::ValidationError(name, "is for --integrator lines, which is not given");
 }
 

@@ -12,11 +12,14 @@ namespace nusselt::app {
 /// Adds --integrator and all that goes with it.
 void add_line_options(CLI::App& command, LineOptions& options);
 
+/// Adds --orientation, --offsets and --line-shading.
+void add_line_kind_options(CLI::App& command, LineOptions& options);
+
 /// Changes those settings that the options name.
 /// \throws std::invalid_argument for values that the command line does not let through
 void apply_line_options(const LineOptions& options, render_cpu::RenderSettings& settings);
 
-/// \throws CLI::ValidationError if the options do not fit together or to the technique
-void check_line_options(const LineOptions& options, render_cpu::Technique technique);
+/// \throws CLI::ValidationError if there are options for line samples without these, or for what these cannot be
+void check_line_options(const RenderOptions& options, render_cpu::Technique technique);
 
 } // namespace nusselt::app

@@ -10,6 +10,34 @@
 
 namespace nusselt::app {
 
+namespace {
+
+/// Null without line samples.
+nlohmann::ordered_json line_samples_json(const render_cpu::RenderSettings& settings,
+                                         const render_cpu::LineStatistics& work) {
+    if (settings.integrator != render_cpu::Integrator::lines) return nullptr;
+    const render_cpu::LineSettings& lines = settings.lines;
+    const auto per_line = [&](std::uint64_t count) {
+        return work.lines > 0 ? static_cast<double>(count) / static_cast<double>(work.lines) : 0.0;
+    };
+    return {{"lines", lines.count},
+            {"orientation", render_cpu::name_of(lines.orientation)},
+            {"offsets", render_cpu::name_of(lines.offsets)},
+            {"line_shading", render_cpu::name_of(lines.shading)},
+            {"many_occluders", render_cpu::name_of(lines.many_occluders)},
+            {"bvh_seconds", work.build_seconds},
+            {"visibility_thread_seconds", work.visibility_seconds},
+            {"traced_lines", work.lines},
+            {"lights_with_lines", work.line_lights},
+            {"lights_with_points", work.point_lights},
+            {"box_tests", work.box_tests},
+            {"triangle_tests", work.triangle_tests},
+            {"shadow_tests", work.shadow_tests},
+            {"parts_per_line", per_line(work.parts)}};
+}
+
+} // namespace
+
 nlohmann::ordered_json report_json(const RenderOptions& options, const render_cpu::RenderSettings& settings,
                                    render_cpu::Isa isa, const scene::Scene& scene,
                                    const render_cpu::RenderStatistics& statistics, const Times& times) {
@@ -50,6 +78,7 @@ nlohmann::ordered_json report_json(const RenderOptions& options, const render_cp
           {"shading", statistics.shading_seconds},
           {"shadow_rays", statistics.shadow_seconds}}},
         {"rays", {{"primary", statistics.primary_rays}, {"shadow", statistics.shadow_rays}}},
+        {"line_samples", line_samples_json(settings, statistics.lines)},
         {"rejected_samples", statistics.rejected_samples},
         {"rays_per_thread_second",
          {{"primary", rate(statistics.primary_rays, statistics.primary_seconds)},

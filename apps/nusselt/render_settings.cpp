@@ -97,7 +97,7 @@ void check_combination(const RenderOptions& options) {
     if (options.camera_rays && options.samples % *options.camera_rays != 0)
         throw CLI::ValidationError("--camera-rays", fmt::format("{} does not divide --spp, which is {}",
                                                                 *options.camera_rays, options.samples));
-    check_line_options(options.lines, technique);
+    check_line_options(options, technique);
     check_exr_only(options);
 }
 

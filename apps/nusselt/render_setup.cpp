@@ -77,8 +77,9 @@ void add_layers_option(CLI::App& command, std::vector<std::string>& layers) {
         .add_option(
             "--layers", layers,
             "Layers that EXR files have beside the image, separated by commas: albedo, normal, depth,\n"
-            "emission, diffuse, specular, lights (the light of each lamp alone), variance (of the\n"
-            "mean of each pixel; with two or more camera rays), or all. Default: none")
+            "emission, diffuse, specular, lights (the light of each lamp alone), pieces (visible parts\n"
+            "per line sample), variance (of the mean of each pixel; with two or more camera rays), or\n"
+            "all. Default: none")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->check(CLI::IsMember(names));

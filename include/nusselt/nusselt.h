@@ -8,7 +8,9 @@
 #include <nusselt/bsdf/phong.h>
 #include <nusselt/estimate/backward_error.h>
 #include <nusselt/estimate/direct_light.h>
+#include <nusselt/estimate/line_light.h>
 #include <nusselt/estimate/reference_integrals.h>
+#include <nusselt/estimate/reflected_offsets.h>
 #include <nusselt/line_samples/phong.h>
 #include <nusselt/line_samples/shading.h>
 #include <nusselt/ltc/line_shading.h>

@@ -101,6 +101,8 @@ std::vector<LayerFormat> layer_formats(const scene::Scene& scene, const RenderSe
     if (wants_specular) formats.push_back({"specular", kRgb});
     if (wanted(LayerKind::lights))
         for (const std::string& name : light_layer_names(scene.emitters)) formats.push_back({name, kRgb});
+    if (wanted(LayerKind::pieces) && settings.integrator == Integrator::lines)
+        formats.push_back({"pieces", {"Y"}});
     if (wanted(LayerKind::variance) && has_variance(settings)) formats.push_back({"variance", kRgb});
     return formats;
 }
@@ -152,7 +154,8 @@ FrameTargets::FrameTargets(Frame& frame) {
         {"albedo", &LayerTargets::albedo},     {"normal", &LayerTargets::normal},
         {"depth", &LayerTargets::depth},       {"coverage", &LayerTargets::coverage},
         {"emission", &LayerTargets::emission}, {"diffuse", &LayerTargets::diffuse},
-        {"specular", &LayerTargets::specular}, {"variance", &LayerTargets::variance}};
+        {"specular", &LayerTargets::specular}, {"pieces", &LayerTargets::pieces},
+        {"variance", &LayerTargets::variance}};
     for (image::Layer& layer : frame.layers) {
         if (layer.name.starts_with("light.")) lights_.push_back(layer.data.data());
         for (const auto& [name, member] : targets)

@@ -24,8 +24,8 @@ struct Frame {
 /// Takes the memory for an image and the layers of the settings.
 ///
 /// Layers are, in this order and if they are asked for: albedo, normal, depth and coverage, emission (with diffuse or
-/// specular, too), diffuse, specular, `light.NAME` for each emitter, and variance unless there is but one camera ray per
-/// pixel. docs/rendering.md says what they hold.
+/// specular, too), diffuse, specular, `light.NAME` for each emitter, pieces with line samples, and variance unless there is
+/// but one camera ray per pixel. docs/rendering.md says what they hold.
 /// \throws std::runtime_error if no file could hold that many pixels, or if the machine does not have the memory
 Frame make_frame(const scene::Scene& scene, const RenderSettings& settings);
 

@@ -9,6 +9,10 @@
 #include <cstddef>
 #include <cstdint>
 
+namespace nusselt::visibility {
+struct LineBvhView;
+}
+
 namespace nusselt::render_cpu {
 
 /// A material as a row of floats, so that kernels gather any entry with one stride.
@@ -127,6 +131,7 @@ struct LayerTargets {
     float* normal;
     float* depth;    ///< one float per pixel
     float* coverage; ///< one float per pixel
+    float* pieces;   ///< one float per pixel
     float* emission;
     float* diffuse;
     float* specular;
@@ -137,6 +142,11 @@ struct LayerTargets {
 struct RenderJob {
     KernelScene scene;
     visibility::RayTracer tracer;
+    Integrator integrator;
+    LineSettings lines;
+    const visibility::LineBvhView* line_bvh; ///< null without line samples
+    std::int32_t most_occluders;             ///< see most_occluders_for_lines()
+    std::uint32_t points_in_place_of_lines;
     Technique technique;
     Strategies strategies;
     Mis mis;
@@ -157,6 +167,9 @@ struct RenderJob {
 /// Floats per emitter that a kernel needs to sum up layers of lights: two vectors for up to 16 lanes.
 inline constexpr std::size_t kLightSumFloats = 2 * 3 * 16;
 
+/// Working memory that line samples take.
+inline constexpr std::size_t kLineMemoryBytes = std::size_t(1) << 18;
+
 /// Pixels x_begin <= x < x_end, y_begin <= y < y_end of the film.
 struct Tile {
     std::int32_t x_begin, y_begin, x_end, y_end;
@@ -170,17 +183,32 @@ struct TileStatistics {
     std::uint64_t primary_rays;
     std::uint64_t shadow_rays;
     std::uint64_t rejected_samples; ///< see RenderStatistics
+    // Of line samples, see LineStatistics.
+    std::uint64_t line_visibility_ticks;
+    std::uint64_t lines;
+    std::uint64_t line_parts;
+    std::uint64_t line_lights;
+    std::uint64_t point_lights;
+    std::uint64_t line_box_tests;
+    std::uint64_t line_triangle_tests;
+    std::uint64_t line_shadow_tests;
+};
+
+/// Working memory of one thread, aligned to 64 bytes.
+struct TileMemory {
+    float* light_sums; ///< kLightSumFloats for each emitter; not used without layers of lights
+    void* lines;       ///< kLineMemoryBytes; not used without line samples
 };
 
 /// Renders a tile and adds its work to the statistics. Any number of threads may render different tiles.
-/// \param light_sums kLightSumFloats floats for each emitter, aligned to 64 bytes, as working memory; not used
-///                   without layers of lights
-using RenderTile = void (*)(const RenderJob& job, const Tile& tile, float* light_sums,
+using RenderTile = void (*)(const RenderJob& job, const Tile& tile, const TileMemory& memory,
                             TileStatistics& statistics);
 
-void render_tile_sse42(const RenderJob& job, const Tile& tile, float* light_sums, TileStatistics& statistics);
-void render_tile_avx2(const RenderJob& job, const Tile& tile, float* light_sums, TileStatistics& statistics);
-void render_tile_avx512(const RenderJob& job, const Tile& tile, float* light_sums,
+void render_tile_sse42(const RenderJob& job, const Tile& tile, const TileMemory& memory,
+                       TileStatistics& statistics);
+void render_tile_avx2(const RenderJob& job, const Tile& tile, const TileMemory& memory,
+                      TileStatistics& statistics);
+void render_tile_avx512(const RenderJob& job, const Tile& tile, const TileMemory& memory,
                         TileStatistics& statistics);
 
 } // namespace nusselt::render_cpu

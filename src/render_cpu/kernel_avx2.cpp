@@ -4,8 +4,9 @@ namespace nusselt::render_cpu {
 
 static_assert(nusselt::kernel::kLanes == 8, "compiled for another instruction set than the name says");
 
-void render_tile_avx2(const RenderJob& job, const Tile& tile, float* light_sums, TileStatistics& statistics) {
-    kernel::TileRenderer(job, tile, light_sums, statistics).render();
+void render_tile_avx2(const RenderJob& job, const Tile& tile, const TileMemory& memory,
+                      TileStatistics& statistics) {
+    kernel::TileRenderer(job, tile, memory, statistics).render();
 }
 
 } // namespace nusselt::render_cpu

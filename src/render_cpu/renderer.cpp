@@ -2,6 +2,7 @@
 
 #include "render_cpu/film.h"
 #include "render_cpu/flush_denormals.h"
+#include "render_cpu/line_choice.h"
 #include "scene/fingerprint.h"
 
 #include "tables/ltc_table.h"
@@ -58,6 +59,14 @@ public:
         work_.primary_rays += work.primary_rays;
         work_.shadow_rays += work.shadow_rays;
         work_.rejected_samples += work.rejected_samples;
+        work_.line_visibility_ticks += work.line_visibility_ticks;
+        work_.lines += work.lines;
+        work_.line_parts += work.line_parts;
+        work_.line_lights += work.line_lights;
+        work_.point_lights += work.point_lights;
+        work_.line_box_tests += work.line_box_tests;
+        work_.line_triangle_tests += work.line_triangle_tests;
+        work_.line_shadow_tests += work.line_shadow_tests;
         frame_.is_finished[tile] = 1;
         finished_pixels_ += pixel_count(frame_.tiles[tile]);
         if (monitor_.tile_finished) monitor_.tile_finished(tile);
@@ -76,17 +85,21 @@ private:
     std::uint64_t finished_pixels_ = 0;
 };
 
-/// Working memory of one thread for layers of lights, as kernels want it.
-class LightSums {
+/// Working memory of one thread, as kernels want it.
+class ThreadMemory {
 public:
-    explicit LightSums(std::size_t emitter_count) : sums_(emitter_count) {}
-    float* data() { return sums_.empty() ? nullptr : sums_.front().values; }
+    ThreadMemory(std::size_t summed_emitters, std::size_t line_bytes)
+        : sums_(summed_emitters * kLightSumFloats * sizeof(float) / sizeof(Block)),
+          lines_(line_bytes / sizeof(Block)) {}
+
+    TileMemory view() { return {sums_.empty() ? nullptr : sums_.front().floats, lines_.data()}; }
 
 private:
-    struct alignas(64) Sum {
-        float values[kLightSumFloats];
+    struct alignas(64) Block {
+        float floats[16];
     };
-    std::vector<Sum> sums_;
+    std::vector<Block> sums_;
+    std::vector<Block> lines_;
 };
 
 } // namespace
@@ -110,6 +123,16 @@ Renderer::Renderer(const scene::Scene& scene, int thread_count)
           });
       }()) {}
 
+visibility::LineBvhView Renderer::Lines::get(const scene::Scene& scene, tbb::task_arena& arena) {
+    // With an exception, the next rendering tries again.
+    std::call_once(once_, [&] {
+        const auto begin = Clock::now();
+        arena.execute([&] { bvh_.emplace(scene); });
+        build_seconds_ = seconds_since(begin);
+    });
+    return bvh_->view();
+}
+
 RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const RenderMonitor& monitor) const {
     return render(settings, isa, embree_.tracer(), monitor);
 }
@@ -131,12 +154,21 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
                                        const RenderMonitor& monitor) const {
     const FrameTargets targets(frame);
     RenderJob job{};
+    visibility::LineBvhView line_bvh{};
     job.scene = arrays_.view(settings.brdf);
     if (uses_lobes(settings)) {
         const tables::LtcTable& ltc = tables::frostbite_ltc_table();
         job.scene.ltc = {ltc.entries.data(), ltc.roughnesses, ltc.inclinations, ltc.f0s};
     }
     job.tracer = tracer;
+    job.integrator = settings.integrator;
+    job.lines = settings.lines;
+    if (settings.integrator == Integrator::lines && !scene_.polygon_lights.empty()) {
+        line_bvh = lines_.get(scene_, arena_);
+        job.line_bvh = &line_bvh;
+    }
+    job.most_occluders = most_occluders_for_lines(settings.lines.count);
+    job.points_in_place_of_lines = static_cast<std::uint32_t>(points_in_place_of_lines(settings.lines.count));
     job.technique = settings.technique;
     job.strategies = settings.strategies;
     job.mis = settings.mis;
@@ -155,7 +187,8 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
 
     const RenderTile render_tile = kernel_for(isa);
     const std::size_t summed_emitters = job.layers.lights == nullptr ? 0 : scene_.emitters.size();
-    tbb::enumerable_thread_specific<LightSums> light_sums(summed_emitters);
+    const std::size_t line_bytes = settings.integrator == Integrator::lines ? kLineMemoryBytes : 0;
+    tbb::enumerable_thread_specific<ThreadMemory> memory(summed_emitters, line_bytes);
     Tally tally(frame, monitor);
     const TickClock clock;
     arena_.execute([&] {
@@ -163,7 +196,7 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
             if (frame.is_finished[i] != 0 || (monitor.cancel != nullptr && *monitor.cancel)) return;
             const FlushDenormals flush_denormals;
             TileStatistics work{};
-            render_tile(job, frame.tiles[i], light_sums.local().data(), work);
+            render_tile(job, frame.tiles[i], memory.local().view(), work);
             tally.add(i, work);
         });
     });
@@ -179,6 +212,15 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     statistics.primary_rays = work.primary_rays;
     statistics.shadow_rays = work.shadow_rays;
     statistics.rejected_samples = work.rejected_samples;
+    statistics.lines.build_seconds = job.line_bvh == nullptr ? 0 : lines_.build_seconds();
+    statistics.lines.visibility_seconds = scale * static_cast<double>(work.line_visibility_ticks);
+    statistics.lines.lines = work.lines;
+    statistics.lines.parts = work.line_parts;
+    statistics.lines.line_lights = work.line_lights;
+    statistics.lines.point_lights = work.point_lights;
+    statistics.lines.box_tests = work.line_box_tests;
+    statistics.lines.triangle_tests = work.line_triangle_tests;
+    statistics.lines.shadow_tests = work.line_shadow_tests;
     statistics.threads = thread_count_;
     return statistics;
 }

@@ -8,12 +8,15 @@
 #include "render_cpu/settings.h"
 #include "scene/scene.h"
 #include "visibility/embree_scene.h"
+#include "visibility/line_bvh.h"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <atomic>
 #include <functional>
+#include <mutex>
+#include <optional>
 
 namespace nusselt::render_cpu {
 
@@ -25,6 +28,19 @@ struct RenderMonitor {
     std::function<void(std::size_t tile)> tile_finished;
     /// Once this is true, no further tile is begun.
     const std::atomic<bool>* cancel = nullptr;
+};
+
+/// Work for line samples.
+struct LineStatistics {
+    double build_seconds = 0;      ///< of their bounding volume hierarchy
+    double visibility_seconds = 0; ///< for visible parts of lines, the sum over all threads
+    std::uint64_t lines = 0;
+    std::uint64_t parts = 0;          ///< visible ones of all lines
+    std::uint64_t line_lights = 0;    ///< pairs of a shading point and a light with lines
+    std::uint64_t point_lights = 0;   ///< pairs that got points: there are many occluders, or partly present ones
+    std::uint64_t box_tests = 0;      ///< of boxes against what lines span with their shading point
+    std::uint64_t triangle_tests = 0; ///< of triangles against that
+    std::uint64_t shadow_tests = 0;   ///< of shadows of triangles against a pack of lines
 };
 
 struct RenderStatistics {
@@ -39,6 +55,7 @@ struct RenderStatistics {
     /// Light samples that count as black because their direction, density or reflected radiance is NaN or
     /// infinite: 0 unless there is NaN or overflow in the scene, or a bug.
     std::uint64_t rejected_samples = 0;
+    LineStatistics lines;
     int threads = 0;
 };
 
@@ -59,7 +76,7 @@ public:
     Renderer(const scene::Scene& scene, int thread_count);
 
     /// \throws std::invalid_argument see validate()
-    /// \throws std::runtime_error see make_frame()
+    /// \throws std::runtime_error see make_frame(), and LineBvh for line samples
     RenderResult render(const RenderSettings& settings, Isa isa, const RenderMonitor& monitor = {}) const;
 
     /// As above with another way to trace rays, which must behave like that of the scene.
@@ -69,12 +86,25 @@ public:
     /// Renders the tiles of a frame that are not finished.
     /// \param frame    from make_frame() with this scene and these settings
     /// \param settings valid
+    /// \throws std::runtime_error see LineBvh, for line samples
     RenderStatistics render_into(Frame& frame, const RenderSettings& settings, Isa isa,
                                  const visibility::RayTracer& tracer, const RenderMonitor& monitor) const;
 
     const visibility::EmbreeScene& visibility() const { return embree_; }
 
 private:
+    /// The hierarchy for line samples, which is built when it is needed first.
+    class Lines {
+    public:
+        visibility::LineBvhView get(const scene::Scene& scene, tbb::task_arena& arena);
+        double build_seconds() const { return build_seconds_; }
+
+    private:
+        std::once_flag once_;
+        std::optional<visibility::LineBvh> bvh_;
+        double build_seconds_ = 0;
+    };
+
     const scene::Scene& scene_;
     int thread_count_;
     tbb::global_control thread_limit_;
@@ -82,6 +112,7 @@ private:
     double build_seconds_ = 0;
     KernelArrays arrays_;
     visibility::EmbreeScene embree_;
+    mutable Lines lines_;
 };
 
 /// Number of threads that the machine runs at once.

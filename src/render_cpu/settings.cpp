@@ -187,6 +187,8 @@ std::string_view name_of(LayerKind kind) {
         return "specular";
     case LayerKind::lights:
         return "lights";
+    case LayerKind::pieces:
+        return "pieces";
     case LayerKind::variance:
         return "variance";
     }
@@ -221,6 +223,8 @@ std::string_view name_of(LineOffsets offsets) {
         return "length";
     case LineOffsets::uniform:
         return "uniform";
+    case LineOffsets::reflected:
+        return "reflected";
     }
     return {};
 }

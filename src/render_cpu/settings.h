@@ -53,7 +53,17 @@ enum class BrdfChoice : std::uint32_t {
 };
 
 /// What images can show beside the radiance of their pixels; see make_frame().
-enum class LayerKind : std::uint32_t { albedo, normal, depth, emission, diffuse, specular, lights, variance };
+enum class LayerKind : std::uint32_t {
+    albedo,
+    normal,
+    depth,
+    emission,
+    diffuse,
+    specular,
+    lights,
+    pieces, ///< visible parts per line sample
+    variance,
+};
 
 /// One of several shares of the tiles of an image, for work on several machines.
 struct Part {
@@ -78,6 +88,7 @@ enum class LineOrientation : std::uint32_t {
 enum class LineOffsets : std::uint32_t {
     length, ///< in proportion to the length of the line on the light
     uniform,
+    reflected, ///< in proportion to what the surface would reflect of the line without shadows, as far as that is known
 };
 
 /// What is known of the visible parts of a line sample.
@@ -162,11 +173,12 @@ inline constexpr std::array kPixelPositions = {PixelPosition::jittered, PixelPos
 inline constexpr std::array kBrdfChoices = {BrdfChoice::material, BrdfChoice::lambert};
 inline constexpr std::array kLayerKinds = {LayerKind::albedo,   LayerKind::normal,  LayerKind::depth,
                                            LayerKind::emission, LayerKind::diffuse, LayerKind::specular,
-                                           LayerKind::lights,   LayerKind::variance};
+                                           LayerKind::lights,   LayerKind::pieces,  LayerKind::variance};
 inline constexpr std::array kIntegrators = {Integrator::points, Integrator::lines};
 inline constexpr std::array kLineOrientations = {LineOrientation::parallel, LineOrientation::fixed,
                                                  LineOrientation::independent};
-inline constexpr std::array kLineOffsets = {LineOffsets::length, LineOffsets::uniform};
+inline constexpr std::array kLineOffsets = {LineOffsets::length, LineOffsets::uniform,
+                                            LineOffsets::reflected};
 inline constexpr std::array kLineShadings = {LineShading::unbiased, LineShading::analytic};
 inline constexpr std::array kManyOccludersChoices = {ManyOccluders::points, ManyOccluders::lines};
 std::string_view name_of(Technique technique);

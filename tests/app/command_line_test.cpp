@@ -45,6 +45,9 @@ TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
                                 "bench fuzz",
                                 "bench tubes",
                                 "bench phong-lines",
+                                "bench shadows",
+                                "bench lines",
+                                "bench line-efficiency",
                                 "map",
                                 "reproduce",
                                 "fit-ltc"}) {
@@ -78,6 +81,8 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo) {
                                   "bench tubes --repetitions 0",
                                   "bench phong-lines --repetitions 0",
                                   "bench fuzz --count -1",
+                                  "bench shadows --count 0",
+                                  "bench shadows --seed -3",
                                   "bench fuzz --count 18446744073709551616",
                                   "bench fuzz --seed -3",
                                   "bench fuzz --count 1e3",

@@ -182,6 +182,20 @@ TEST_P(ClosedForm, ProjectedSolidAngleHasNoVariance) {
     EXPECT_LT(worst, 1e-4);
 }
 
+/// Along each line the integral is exact: what is left is how it changes from line to line.
+TEST_P(ClosedForm, ManyLinesHaveNextToNoVariance) {
+    settings_.samples = 1;
+    settings_.integrator = render_cpu::Integrator::lines;
+    settings_.lines.count = 128;
+    for (const auto offsets : render_cpu::kLineOffsets) {
+        settings_.lines.offsets = offsets;
+        const image::Image image = renderer_.render(settings_, render_cpu::choose_isa()).image;
+        for (std::size_t i = 0; i < expected_.size(); ++i)
+            if (!std::isnan(expected_[i]))
+                ASSERT_NEAR(image.pixels[3 * i], expected_[i], 1e-3 * expected_[i]);
+    }
+}
+
 /// Its bias is small, but not zero.
 TEST_P(ClosedForm, BiasedVariantIsClose) {
     for (const auto& row :

@@ -31,10 +31,25 @@ std::vector<RenderSettings> all_settings() {
                 settings.mis = mis;
                 all.push_back(settings);
             }
+    for (const auto orientation : render_cpu::kLineOrientations)
+        for (const auto offsets : render_cpu::kLineOffsets)
+            for (const auto shading : render_cpu::kLineShadings) {
+                RenderSettings settings;
+                settings.integrator = render_cpu::Integrator::lines;
+                settings.lines = {5, orientation, offsets, shading, render_cpu::ManyOccluders::lines};
+                all.push_back(settings);
+            }
     return all;
 }
 
 std::string description_of(const RenderSettings& settings) {
+    if (settings.integrator == render_cpu::Integrator::lines)
+        return std::string("lines, ")
+            .append(name_of(settings.lines.orientation))
+            .append(", ")
+            .append(name_of(settings.lines.offsets))
+            .append(", ")
+            .append(name_of(settings.lines.shading));
     std::string text(name_of(settings.technique));
     for (const auto name : {name_of(settings.strategies), name_of(settings.mis)})
         text.append(", ").append(name);
@@ -48,7 +63,10 @@ void expect_sane_images(const scene::Scene& scene) {
         if (!is_supported(isa)) continue;
         for (RenderSettings settings : all_settings()) {
             settings.samples = 4;
-            const bool may_be_negative = settings.mis == render_cpu::Mis::optimal;
+            const bool has_lines = settings.integrator == render_cpu::Integrator::lines;
+            const bool may_be_negative =
+                settings.mis == render_cpu::Mis::optimal ||
+                (has_lines && settings.lines.shading == render_cpu::LineShading::unbiased);
             const render_cpu::RenderResult result = renderer.render(settings, isa);
             ASSERT_EQ(result.statistics.rejected_samples, 0u)
                 << description_of(settings) << ", " << name_of(isa);

@@ -40,6 +40,7 @@ struct Case {
     Technique technique;
     Strategies strategies;
     Mis mis;
+    render_cpu::Integrator integrator = render_cpu::Integrator::points;
 };
 
 const Case kCases[] = {
@@ -53,6 +54,8 @@ const Case kCases[] = {
     {"separate", Technique::projected_solid_angle, Strategies::diffuse_ltc, Mis::separate},
     {"ggx", Technique::projected_solid_angle, Strategies::diffuse_ggx, Mis::balance},
     {"analytic", Technique::ltc_analytic, Strategies::diffuse, Mis::balance},
+    {"lines", Technique::projected_solid_angle, Strategies::diffuse_ltc, Mis::balance,
+     render_cpu::Integrator::lines},
 };
 
 class Layers : public testing::TestWithParam<Case> {
@@ -62,6 +65,7 @@ protected:
         settings.technique = GetParam().technique;
         settings.strategies = GetParam().strategies;
         settings.mis = GetParam().mis;
+        settings.integrator = GetParam().integrator;
         settings.samples = 4;
         settings.camera_rays = 2;
         return settings;

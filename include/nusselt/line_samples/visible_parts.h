@@ -15,6 +15,9 @@ inline constexpr Scalar kShortestPart = Scalar(1e-6);
 template <class Real>
 class VisibleParts {
 public:
+    /// Without storage: to be assigned to before it is used.
+    VisibleParts() noexcept = default;
+
     /// \param storage  for `capacity` intervals, which outlives this object.
     /// \param capacity at least 1. A line that falls into more parts loses some of them, see lost().
     NUSSELT_HD VisibleParts(Interval<Real>* storage, int capacity) noexcept
@@ -42,6 +45,14 @@ public:
 
     /// Lanes in which anything is visible.
     NUSSELT_HD mask_t<Real> lit() const noexcept { return bounds_.begin < bounds_.end; }
+
+    /// Lanes in which something between begin and end is visible.
+    NUSSELT_HD mask_t<Real> overlap(const Interval<Real>& interval) const noexcept {
+        auto result = mask_t<Real>(false);
+        for (int k = 0; k < count_; ++k)
+            result = result | ((interval.begin < part_[k].end) & (interval.end > part_[k].begin));
+        return result;
+    }
 
     /// How many parts were taken for hidden since there was no room for them.
     NUSSELT_HD const Real& lost() const noexcept { return lost_; }
@@ -89,8 +100,8 @@ private:
         lost_ = lost_ + select(lanes, Real(1), Real(0));
     }
 
-    Interval<Real>* part_;
-    int capacity_;
+    Interval<Real>* part_ = nullptr;
+    int capacity_ = 0;
     int count_ = 0;
     Real shortest_ = Real(0);
     Real lost_ = Real(0);

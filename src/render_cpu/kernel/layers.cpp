@@ -43,7 +43,8 @@ DiffuseShares diffuse_shares(const GlossySurface<Real, SurfaceBrdf>& surface, co
 }
 
 void LayerSums::clear() noexcept {
-    albedo_ = normal_ = emission_ = diffuse_ = specular_ = depth_and_coverage_ = square_deviations_ = {};
+    albedo_ = normal_ = emission_ = diffuse_ = specular_ = depth_and_coverage_ = pieces_ =
+        square_deviations_ = {};
     rays_ = 0;
     mean_ = {};
     if (job_.layers.lights == nullptr) return;
@@ -117,6 +118,8 @@ void LayerSums::write(const PixelBlock& block) const noexcept {
         store_grey(job_, block, depth_and_coverage_.sum.x / max(hits, Real(1)), layers.depth);
         store_grey(job_, block, scale * hits, layers.coverage);
     }
+    if (layers.pieces != nullptr)
+        store_grey(job_, block, pieces_.sum.y / max(pieces_.sum.x, Real(1)), layers.pieces);
     if (layers.variance != nullptr)
         store_rgb(job_, block, Real(1 / (rays_ * (rays_ - 1))) * square_deviations_.sum, layers.variance);
     if (layers.lights == nullptr) return;

@@ -30,7 +30,7 @@ DiffuseShares diffuse_shares(const GlossySurface<Real, SurfaceBrdf>& surface, co
 /// Sums over the camera rays of one packet of pixels.
 class LayerSums {
 public:
-    /// \param light_sums see RenderTile
+    /// \param light_sums see TileMemory
     LayerSums(const render_cpu::RenderJob& job, float* light_sums) noexcept
         : job_(job), light_sums_(light_sums) {}
 
@@ -56,6 +56,9 @@ public:
     /// \param number of the light among all lights of the scene
     void add_light(std::uint32_t number, const Reflected& reflected) noexcept;
 
+    /// Adds lines of a light, and how many visible parts they have.
+    void add_pieces(const Real& lines, const Real& parts) noexcept { pieces_.add({lines, parts, Real(0)}); }
+
     /// Ends a camera ray. \param radiance all that arrives along it, times its weight
     void add_radiance(const Vector& radiance) noexcept;
 
@@ -72,6 +75,7 @@ private:
     Real weight_ = Real(1);
     CompensatedSum albedo_, normal_, emission_, diffuse_, specular_;
     CompensatedSum depth_and_coverage_; ///< in x and y
+    CompensatedSum pieces_;             ///< lines and their parts, in x and y
     // Of the radiance of camera rays (Welford).
     float rays_ = 0;
     Vector mean_{};

@@ -26,11 +26,21 @@ LightFunctions paired_technique_functions(const render_cpu::RenderJob& job) noex
 /// Without samples and without shadows.
 LightFunctions analytic_functions() noexcept;
 
-/// \copydoc LightFunctions
-inline LightFunctions light_functions(const render_cpu::RenderJob& job) noexcept {
+/// Lines for polygons.
+/// \param points for all else
+LightFunctions line_functions(const LightFunctions& points) noexcept;
+
+/// Points of lights.
+inline LightFunctions point_functions(const render_cpu::RenderJob& job) noexcept {
     if (job.technique == render_cpu::Technique::ltc_analytic) return analytic_functions();
     if (job.strategies == render_cpu::Strategies::diffuse) return single_technique_functions(job.technique);
     return paired_technique_functions(job);
+}
+
+/// \copydoc LightFunctions
+inline LightFunctions light_functions(const render_cpu::RenderJob& job) noexcept {
+    const LightFunctions points = point_functions(job);
+    return job.integrator == render_cpu::Integrator::lines ? line_functions(points) : points;
 }
 
 } // namespace kernel

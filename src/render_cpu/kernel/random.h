@@ -43,16 +43,46 @@ inline Sampler sampler_of(render_cpu::SampleOrder order) noexcept {
 
 /// For one sample of one light.
 /// \param sample number among all samples of the pixel
+/// \param count  how many of them there are
 /// \param pair   number of the pair of dimensions
 inline Vec2<Real> random_for_light(const render_cpu::RenderJob& job, const PixelBlock& block,
-                                   std::uint32_t sample, std::uint32_t light, std::uint32_t pair) noexcept {
-    const std::uint32_t count = job.camera_rays * job.light_samples;
+                                   std::uint32_t sample, std::uint32_t count, std::uint32_t light,
+                                   std::uint32_t pair) noexcept {
     const PacketSamples samples(sample);
     float x[kLanes];
     float y[kLanes];
     light_random_lanes(sampler_of(job.sample_order), job.seed, block.x, block.y, samples.number, count, light,
                        pair, x, y);
     return {Real::load(x), Real::load(y)};
+}
+
+/// For lines of one shading point and light, a line per lane.
+/// \param lane       of the pixel in the packet
+/// \param first      number of the line in the first lane, among those of the shading point
+/// \param pair       number of the pair of dimensions; those above it must be free as well
+inline Vec2<Real> random_for_lines(const render_cpu::RenderJob& job, const PixelBlock& block, int lane,
+                                   std::uint32_t camera_ray, std::uint32_t first, std::uint32_t light,
+                                   std::uint32_t pair) noexcept {
+    const auto per_point = static_cast<std::uint32_t>(job.lines.count);
+    const Sampler sampler = sampler_of(job.sample_order);
+    // Aligned blocks of Sobol' points are as even as all of them. Other samplers cover the light with as many samples as
+    // they are told: each shading point gets numbers of its own.
+    const bool is_sequence = sampler == Sampler::sobol || sampler == Sampler::independent;
+    const std::uint32_t before = is_sequence ? camera_ray * per_point : 0;
+    std::uint32_t x[kLanes];
+    std::uint32_t y[kLanes];
+    std::uint32_t number[kLanes];
+    for (std::uint32_t i = 0; i < kLanes; ++i) {
+        x[i] = block.x[lane];
+        y[i] = block.y[lane];
+        const std::uint32_t line = first + i;
+        number[i] = before + (line < per_point ? line : per_point - 1);
+    }
+    float u_x[kLanes];
+    float u_y[kLanes];
+    light_random_lanes(sampler, job.seed, x, y, number, is_sequence ? job.camera_rays * per_point : per_point,
+                       light, is_sequence ? pair : pair + camera_ray, u_x, u_y);
+    return {Real::load(u_x), Real::load(u_y)};
 }
 
 /// Camera rays, one for each pixel of a packet.

@@ -47,22 +47,36 @@ struct SampleSum {
 class ReflectedLight {
 public:
     /// \param camera_ray number of the camera rays of this packet, below job.camera_rays
-    /// \param layers     to add the light to, or null
+    /// \param layers      to add the light to, or null
+    /// \param line_memory see TileMemory
     ReflectedLight(const render_cpu::RenderJob& job, const PixelBlock& block, const Surface& surface,
-                   std::uint32_t camera_ray, LayerSums* layers,
+                   std::uint32_t camera_ray, LayerSums* layers, void* line_memory,
                    render_cpu::TileStatistics& statistics) noexcept
         : job_(job),
           block_(block),
           surface_(surface),
-          first_sample_(camera_ray * job.light_samples),
+          camera_ray_(camera_ray),
+          lanes_(surface.valid),
+          light_samples_(job.light_samples),
           layers_(layers),
+          line_memory_(line_memory),
           statistics_(statistics) {}
 
     const render_cpu::RenderJob& job() const noexcept { return job_; }
     const Surface& surface() const noexcept { return surface_; }
 
+    render_cpu::TileStatistics& statistics() noexcept { return statistics_; }
+    void* line_memory() const noexcept { return line_memory_; }
+
+    /// From now on, lights are those of these shading points only and get that many samples.
+    void choose(LaneMask lanes, std::uint32_t light_samples) noexcept {
+        lanes_ = surface_.valid & lanes;
+        light_samples_ = light_samples;
+    }
+
+    /// In world space.
     template <int N>
-    LocalPolygon<N> polygon(std::int32_t index) const noexcept {
+    ConvexPolygon<float, N> world_polygon(std::int32_t index) const noexcept {
         const render_cpu::PolygonLightRecord& record = job_.scene.polygon_lights[index];
         const scene::Float3* corners = job_.scene.polygon_corners + record.first_corner;
         ConvexPolygon<float, N> world;
@@ -71,9 +85,15 @@ public:
             world.edge[j] = to_vec(corners[N + j]);
         }
         world.normal = to_vec(record.normal);
-        const auto local = to_shading_space(world, surface_.position, surface_.frame);
+        return world;
+    }
 
-        LaneMask lit = surface_.valid & !is_part_of_light(index);
+    template <int N>
+    LocalPolygon<N> polygon(std::int32_t index) const noexcept {
+        const render_cpu::PolygonLightRecord& record = job_.scene.polygon_lights[index];
+        const auto local = to_shading_space(world_polygon<N>(index), surface_.position, surface_.frame);
+
+        LaneMask lit = lanes_ & !is_part_of_light(index);
         // Comparisons with NaN are false: negated they keep it, so that it is counted.
         if (record.two_sided == 0) lit &= !(dot(local.normal, local.vertex[0]) >= Real(0));
         Real highest = local.vertex[0].z;
@@ -87,8 +107,7 @@ public:
         const LineSegment<float> world{to_vec(record.begin), to_vec(record.direction), record.length};
         const auto local = to_shading_space(world, surface_.position, surface_.frame);
         const Real end = local.p0.z + local.length * local.s.z;
-        return {local, surface_.valid & !(max(local.p0.z, end) <= Real(0)),
-                to_vec(record.radiance_times_radius),
+        return {local, lanes_ & !(max(local.p0.z, end) <= Real(0)), to_vec(record.radiance_times_radius),
                 static_cast<std::uint32_t>(job_.scene.polygon_light_count + index)};
     }
 
@@ -99,10 +118,8 @@ public:
         const LineSegment<Real>& l = axis.shape;
         const Real slope = sqrt(max(Real(1) - l.s.z * l.s.z, Real(0)));
         const Real highest = max(l.p0.z, l.p0.z + l.length * l.s.z) + Real(record.radius) * slope;
-        return {{l, Real(record.radius)},
-                surface_.valid & !(highest <= Real(0)),
-                to_vec(record.radiance),
-                axis.number};
+        return {
+            {l, Real(record.radius)}, lanes_ & !(highest <= Real(0)), to_vec(record.radiance), axis.number};
     }
 
     /// Adds the reflected radiance of one light [W/(sr m^2)], the mean over its samples.
@@ -110,8 +127,9 @@ public:
     template <class Shape, class Sample>
     void add(const LocalLight<Shape>& light, const Sample& sample) noexcept {
         SampleSum sum;
-        for (std::uint32_t i = 0; i < job_.light_samples; ++i) sample(first_sample_ + i, sum);
-        const float scale = 1.0f / static_cast<float>(job_.light_samples);
+        const std::uint32_t first = camera_ray_ * light_samples_;
+        for (std::uint32_t i = 0; i < light_samples_; ++i) sample(first + i, sum);
+        const float scale = 1.0f / static_cast<float>(light_samples_);
         add_for(light, light.lit, scale * light.emission, {sum.all.sum, sum.diffuse.sum});
     }
 
@@ -124,12 +142,32 @@ public:
         add_for(light, light.lit & sound, light.emission, reflected);
     }
 
+    /// Adds what is known of lines of a light.
+    /// \param lines taken of it
+    /// \param parts into which occluders cut what is visible of them
+    void add_pieces(const Real& lines, const Real& parts) noexcept {
+        if (layers_ != nullptr) layers_->add_pieces(lines, parts);
+    }
+
     /// Random numbers for one sample of a light.
     /// \param pair number of the technique that they are for
     template <class Shape>
     Vec2<Real> random(const LocalLight<Shape>& light, std::uint32_t sample,
                       std::uint32_t pair) const noexcept {
-        return random_for_light(job_, block_, sample, light.number, pair);
+        return random_for_light(job_, block_, sample, job_.camera_rays * light_samples_, light.number, pair);
+    }
+
+    /// Random numbers for all lines of a shading point and polygonal light together.
+    Vec2<Real> orientation_random(std::int32_t light, std::uint32_t pair) const noexcept {
+        return random_for_light(job_, block_, camera_ray_, job_.camera_rays,
+                                static_cast<std::uint32_t>(light), pair);
+    }
+
+    /// \copydoc random_for_lines
+    Vec2<Real> line_random(std::int32_t light, int lane, std::uint32_t first,
+                           std::uint32_t pair) const noexcept {
+        return random_for_lines(job_, block_, lane, camera_ray_, first, static_cast<std::uint32_t>(light),
+                                pair);
     }
 
     /// Traces shadow rays for a sample and adds what it contributes.
@@ -205,8 +243,11 @@ private:
     const render_cpu::RenderJob& job_;
     const PixelBlock& block_;
     const Surface& surface_;
-    std::uint32_t first_sample_;
+    std::uint32_t camera_ray_;
+    LaneMask lanes_; ///< shading points that get light
+    std::uint32_t light_samples_;
     LayerSums* layers_;
+    void* line_memory_;
     render_cpu::TileStatistics& statistics_;
     Vector radiance_{Real(0), Real(0), Real(0)};
 };

@@ -17,14 +17,14 @@ inline constexpr int kBlockHeight = kLanes / kBlockWidth;
 
 class TileRenderer {
 public:
-    /// \param light_sums see RenderTile
-    TileRenderer(const render_cpu::RenderJob& job, const render_cpu::Tile& tile, float* light_sums,
-                 render_cpu::TileStatistics& statistics) noexcept
+    TileRenderer(const render_cpu::RenderJob& job, const render_cpu::Tile& tile,
+                 const render_cpu::TileMemory& memory, render_cpu::TileStatistics& statistics) noexcept
         : job_(job),
           tile_(tile),
           statistics_(statistics),
           functions_(light_functions(job)),
-          layer_sums_(job, light_sums),
+          line_memory_(memory.lines),
+          layer_sums_(job, memory.light_sums),
           layers_(job.has_layers ? &layer_sums_ : nullptr) {}
     TileRenderer(const TileRenderer&) = delete;
     TileRenderer& operator=(const TileRenderer&) = delete;
@@ -39,7 +39,7 @@ public:
 private:
     void render_block(std::int32_t x_begin, std::int32_t y_begin) noexcept {
         const std::uint64_t begin = __builtin_ia32_rdtsc();
-        const std::uint64_t traced_before = statistics_.primary_ticks + statistics_.shadow_ticks;
+        const std::uint64_t traced_before = traced_ticks();
         const PixelBlock block = make_block(x_begin, y_begin);
         CompensatedSum sum;
         if (layers_ != nullptr) layers_->clear();
@@ -50,8 +50,12 @@ private:
         }
         store_rgb(job_, block, Real(1.0f / static_cast<float>(job_.camera_rays)) * sum.sum, job_.pixels);
         if (layers_ != nullptr) layers_->write(block);
-        const std::uint64_t traced = statistics_.primary_ticks + statistics_.shadow_ticks - traced_before;
-        statistics_.shading_ticks += __builtin_ia32_rdtsc() - begin - traced;
+        statistics_.shading_ticks += __builtin_ia32_rdtsc() - begin - (traced_ticks() - traced_before);
+    }
+
+    /// All but shading.
+    std::uint64_t traced_ticks() const noexcept {
+        return statistics_.primary_ticks + statistics_.shadow_ticks + statistics_.line_visibility_ticks;
     }
 
     PixelBlock make_block(std::int32_t x_begin, std::int32_t y_begin) const noexcept {
@@ -111,7 +115,7 @@ private:
         const Surface surface =
             make_surface(job_.scene, hits, LaneMask::from_bits(on_triangle), -normalize(direction));
         if (layers_ != nullptr) layers_->add_surface(surface);
-        ReflectedLight reflected(job_, block, surface, camera_ray, layers_, statistics_);
+        ReflectedLight reflected(job_, block, surface, camera_ray, layers_, line_memory_, statistics_);
         for (std::int32_t i = 0; i < job_.scene.polygon_light_count; ++i) {
             const bool is_small = job_.scene.polygon_lights[i].slots == 4;
             (is_small ? functions_.add_polygon4 : functions_.add_polygon8)(reflected, i);
@@ -173,6 +177,7 @@ private:
     render_cpu::Tile tile_;
     render_cpu::TileStatistics& statistics_;
     LightFunctions functions_;
+    void* line_memory_;
     LayerSums layer_sums_;
     LayerSums* layers_; ///< null if the job has none
 };

@@ -1,0 +1,334 @@
+#include "render_cpu/kernel/light_functions.h"
+#include "render_cpu/kernel/line_memory.h"
+#include "render_cpu/kernel/shading_point.h"
+
+#include <nusselt/estimate/reflected_offsets.h>
+#include <nusselt/line_samples/line_family.h>
+
+NUSSELT_NAMESPACE_BEGIN
+namespace kernel {
+namespace {
+
+using render_cpu::LineOffsets;
+using render_cpu::LineOrientation;
+using render_cpu::LineShading;
+using render_cpu::ManyOccluders;
+
+/// Numbers of the pairs of random numbers that point samples have no use for. All from the last one on are for lines.
+enum Pair : std::uint32_t { kOrientationPair = 2, kLinePair = 3 };
+
+using Estimator = LineLight<Real, SurfaceBrdf>;
+
+template <class T>
+LinePlane<Real> broadcast_plane(const LinePlane<T>& plane) noexcept {
+    return {broadcast<Real>(plane.origin), broadcast<Real>(plane.across), broadcast<Real>(plane.along),
+            broadcast<Real>(plane.normal)};
+}
+
+template <int N>
+ConvexPolygon<Real, N> broadcast_polygon(const ConvexPolygon<float, N>& polygon) noexcept {
+    ConvexPolygon<Real, N> result;
+    for (int j = 0; j < N; ++j) {
+        result.vertex[j] = broadcast<Real>(polygon.vertex[j]);
+        result.edge[j] = broadcast<Real>(polygon.edge[j]);
+    }
+    result.normal = broadcast<Real>(polygon.normal);
+    return result;
+}
+
+/// Bound on the distance of points of the light from its first vertex [m].
+template <int N>
+float half_circumference(const ConvexPolygon<float, N>& polygon) noexcept {
+    float sum = 0;
+    for (const Vec3<float>& edge : polygon.edge) sum += length(edge);
+    return 0.5f * sum;
+}
+
+/// The part of each line that is above the geometry of the surface.
+Interval<Real> above_surface(const Chord<Real>& chord, const LinePlane<float>& plane,
+                             const ShadingPoint& point) noexcept {
+    const Vector along = broadcast<Real>(plane.along);
+    const Vector base =
+        fma(chord.offset, broadcast<Real>(plane.across), broadcast<Real>(plane.origin - point.position));
+    return above_horizon(fma(chord.extent.begin, along, base), fma(chord.extent.end, along, base),
+                         broadcast<Real>(point.geometric_normal), chord.extent);
+}
+
+float sum_of_lanes(const Real& x) noexcept {
+    float lanes[kLanes];
+    x.store(lanes);
+    float sum = 0;
+    for (const float lane : lanes) sum += lane;
+    return sum;
+}
+
+Vec3<float> sum_of_lanes(const Vector& v) noexcept {
+    return {sum_of_lanes(v.x), sum_of_lanes(v.y), sum_of_lanes(v.z)};
+}
+
+LaneMask first_lanes(std::uint32_t count) noexcept {
+    return count >= kLanes ? LaneMask(true) : LaneMask::from_bits((1u << count) - 1);
+}
+
+/// What lines of one shading point and light add up to.
+struct LineSum {
+    CompensatedSum all, diffuse;
+    std::uint64_t parts = 0;
+};
+
+/// Results per shading point, in the lanes of a packet.
+struct PacketResult {
+    Lanes all{};
+    Lanes diffuse{};
+    float parts[kLanes] = {};
+
+    void set(int lane, const LineSum& sum) noexcept {
+        set(all, lane, sum_of_lanes(sum.all.sum));
+        set(diffuse, lane, sum_of_lanes(sum.diffuse.sum));
+        parts[lane] = static_cast<float>(sum.parts);
+    }
+
+private:
+    static void set(Lanes& lanes, int lane, const Vec3<float>& v) noexcept {
+        lanes.x[lane] = v.x;
+        lanes.y[lane] = v.y;
+        lanes.z[lane] = v.z;
+    }
+};
+
+/// Takes lines of one light for one shading point after the other.
+template <int N>
+class LineSampler {
+public:
+    LineSampler(ReflectedLight& reflected, std::int32_t light) noexcept
+        : reflected_(reflected),
+          settings_(reflected.job().lines),
+          memory_(*static_cast<LineMemory*>(reflected.line_memory())),
+          light_(light),
+          count_(static_cast<std::uint32_t>(settings_.count)),
+          polygon_(reflected.world_polygon<N>(light)),
+          families_(broadcast_polygon(polygon_), common_angles()) {}
+
+    ~LineSampler() {
+        render_cpu::TileStatistics& statistics = reflected_.statistics();
+        statistics.line_box_tests += counters_.box_tests;
+        statistics.line_triangle_tests += counters_.triangle_tests;
+        statistics.line_shadow_tests += counters_.line_tests;
+    }
+    LineSampler(const LineSampler&) = delete;
+    LineSampler& operator=(const LineSampler&) = delete;
+
+    /// Takes the lines of a shading point.
+    /// \returns false where lines cannot be taken, or there are so many occluders that points are faster
+    bool sample(int lane, PacketResult& result) noexcept {
+        const ShadingPoint point = shading_point(reflected_.surface(), lane);
+        const auto family = single_lane<Family>(families_, lane);
+        const SeenLight seen = see_light(polygon_, family, point.apex, light_);
+        const bool may_take_points = settings_.many_occluders == ManyOccluders::points;
+        OccluderList list(memory_.occluders, may_take_points ? most_listed() : OccluderStorage::kCapacity);
+        const Occluders found =
+            timed([&] { return list.collect(*reflected_.job().line_bvh, seen, counters_); });
+        render_cpu::TileStatistics& statistics = reflected_.statistics();
+        if (found == Occluders::partial || (found == Occluders::too_many && may_take_points)) {
+            ++statistics.point_lights;
+            return false;
+        }
+        LineSum sum;
+        if (found != Occluders::hide_all) {
+            const bool is_independent = settings_.orientation == LineOrientation::independent;
+            if (is_independent)
+                add_independent(point, sum);
+            else
+                add_family(point, family, {seen, found == Occluders::listed ? &list : nullptr}, {0, count_},
+                           sum);
+        }
+        result.set(lane, sum);
+        ++statistics.line_lights;
+        statistics.lines += count_;
+        statistics.line_parts += sum.parts;
+        return true;
+    }
+
+private:
+    using Family = LineFamily<float, N>;
+
+    struct ChosenLines {
+        Real pdf; ///< of the offset [1/m]
+        Real u;   ///< random
+        LaneMask drawn;
+    };
+
+    /// Numbers of lines among those of the shading point.
+    struct Range {
+        std::uint32_t first, count;
+    };
+
+    struct Visibility {
+        SeenLight seen;
+        const OccluderList* list; ///< of all that may hide lines, or null
+    };
+
+    struct ParallelLines {
+        const LinePlane<float>& plane; ///< in world space
+        const LineFamily<Real, N>& family;
+        const Estimator& estimator;
+        const Visibility& visibility;
+    };
+
+    /// A direction for each shading point of the packet.
+    Real common_angles() const noexcept {
+        if (settings_.orientation != LineOrientation::parallel) return Real(0);
+        return Real(kPi<float>) * reflected_.orientation_random(light_, kOrientationPair).x;
+    }
+
+    int most_listed() const noexcept {
+        const std::int32_t most = reflected_.job().most_occluders;
+        return most < OccluderStorage::kCapacity ? most : OccluderStorage::kCapacity;
+    }
+
+    template <class Work>
+    auto timed(const Work& work) noexcept {
+        const std::uint64_t begin = __builtin_ia32_rdtsc();
+        const auto result = work();
+        reflected_.statistics().line_visibility_ticks += __builtin_ia32_rdtsc() - begin;
+        return result;
+    }
+
+    /// Each line is a family by itself.
+    void add_independent(const ShadingPoint& point, LineSum& sum) noexcept {
+        for (std::uint32_t first = 0; first < count_; first += kLanes) {
+            const Real angles =
+                Real(kPi<float>) * reflected_.line_random(light_, point.lane, first, kOrientationPair).x;
+            const LineFamily<Real, N> families(broadcast_polygon(polygon_), angles);
+            for (std::uint32_t i = 0; i < kLanes && first + i < count_; ++i) {
+                const auto family = single_lane<Family>(families, static_cast<int>(i));
+                add_family(point, family, {see_light(polygon_, family, point.apex, light_), nullptr},
+                           {first + i, 1}, sum);
+            }
+        }
+    }
+
+    /// Adds parallel lines.
+    void add_family(const ShadingPoint& point, const Family& family, const Visibility& visibility,
+                    const Range& range, LineSum& sum) noexcept {
+        const LineFamily<Real, N> lines(family);
+        const LinePlane<float> local = to_shading_space(family.plane(), point.position, point.frame);
+        const Estimator estimator(broadcast_plane(local), Real(half_circumference(polygon_)), point.surface);
+        const auto add = [&](const auto& sample_offset) {
+            add_lines(point, {family.plane(), lines, estimator, visibility}, sample_offset, range, sum);
+        };
+        switch (settings_.offsets) {
+        case LineOffsets::length:
+            return add([&](const Real& u) { return lines.sample_by_length(u); });
+        case LineOffsets::uniform:
+            return add([&](const Real& u) { return lines.sample_uniform(u); });
+        case LineOffsets::reflected:
+            const ReflectedOffsets<Real, N> offsets(lines, estimator);
+            return add([&](const Real& u) { return offsets.sample(u); });
+        }
+    }
+
+    template <class SampleOffset>
+    void add_lines(const ShadingPoint& point, const ParallelLines& lines, const SampleOffset& sample_offset,
+                   const Range& range, LineSum& sum) noexcept {
+        constexpr std::uint32_t kBatch = kLanes * kPacksPerBatch;
+        for (std::uint32_t done = 0; done < range.count; done += kBatch) {
+            const std::uint32_t rest = range.count - done;
+            ChosenLines chosen[kPacksPerBatch];
+            TracedLines<Real> traced[kPacksPerBatch];
+            const int packs = choose(point, lines, sample_offset,
+                                     {range.first + done, rest < kBatch ? rest : kBatch}, chosen, traced);
+            find_visible_parts(lines.visibility, traced, packs);
+            for (int i = 0; i < packs; ++i) add_pack(point, lines.estimator, chosen[i], traced[i], sum);
+        }
+    }
+
+    /// \returns the number of packs
+    template <class SampleOffset>
+    int choose(const ShadingPoint& point, const ParallelLines& lines, const SampleOffset& sample_offset,
+               const Range& range, ChosenLines* chosen, TracedLines<Real>* traced) noexcept {
+        int packs = 0;
+        for (std::uint32_t k = 0; k < range.count; k += kLanes, ++packs) {
+            const Vec2<Real> u = reflected_.line_random(light_, point.lane, range.first + k, kLinePair);
+            const LineChoice<Real> choice = sample_offset(u.x);
+            const LaneMask drawn = first_lanes(range.count - k) & (choice.pdf > Real(0));
+            chosen[packs] = {choice.pdf, u.y, drawn};
+            traced[packs].offset = choice.offset;
+            const Chord<Real> chord = lines.family.chord(choice.offset);
+            const Interval<Real> extent = above_surface(chord, lines.plane, point);
+            const Interval<Real> none = empty_interval<Real>();
+            traced[packs].parts = VisibleParts<Real>(memory_.parts[packs], kPartsPerLine);
+            traced[packs].parts.reset(
+                {select(drawn, extent.begin, none.begin), select(drawn, extent.end, none.end)});
+        }
+        return packs;
+    }
+
+    void find_visible_parts(const Visibility& visibility, TracedLines<Real>* lines, int packs) noexcept {
+        const std::uint64_t begin = __builtin_ia32_rdtsc();
+        if (visibility.list != nullptr)
+            visibility.list->cut(lines, packs, counters_);
+        else
+            LineTracer<Real>(*reflected_.job().line_bvh, visibility.seen, lines, packs, counters_).trace();
+        reflected_.statistics().line_visibility_ticks += __builtin_ia32_rdtsc() - begin;
+    }
+
+    void add_pack(const ShadingPoint& point, const Estimator& estimator, const ChosenLines& lines,
+                  const TracedLines<Real>& traced, LineSum& sum) noexcept {
+        const VisibleParts<Real>& parts = traced.parts;
+        for (int i = 0; i < parts.count(); ++i) sum.parts += count_lanes(parts[i].begin < parts[i].end);
+        const bool has_lobe_only = settings_.shading == LineShading::analytic || !point.is_frostbite;
+        const BrdfComponents<Real> light = has_lobe_only ? estimator.analytic(traced.offset, parts)
+                                                         : estimator.unbiased(traced.offset, parts, lines.u);
+        const Real weight = Real(1) / select(lines.drawn, lines.pdf, Real(1));
+        const Vector diffuse = weight * light.diffuse;
+        const Vector all = diffuse + weight * light.specular;
+        const LaneMask sound = is_finite(all);
+        reflected_.statistics().rejected_samples += count_lanes(lines.drawn & !sound);
+        const Vector zero{Real(0), Real(0), Real(0)};
+        sum.all.add(select(lines.drawn & sound, all, zero));
+        sum.diffuse.add(select(lines.drawn & sound, diffuse, zero));
+    }
+
+    ReflectedLight& reflected_;
+    const render_cpu::LineSettings& settings_;
+    LineMemory& memory_;
+    std::int32_t light_;
+    std::uint32_t count_;
+    ConvexPolygon<float, N> polygon_; ///< in world space
+    visibility::LineCounters counters_{};
+    LineFamily<Real, N> families_; ///< one for each shading point of the packet
+};
+
+template <int N>
+void add_polygon(ReflectedLight& reflected, std::int32_t index) noexcept {
+    LocalPolygon<N> light = reflected.polygon<N>(index);
+    const std::uint32_t lit = light.lit.bits();
+    if (lit == 0) return;
+    const render_cpu::RenderJob& job = reflected.job();
+    PacketResult result;
+    std::uint32_t with_points = 0;
+    {
+        LineSampler<N> sampler(reflected, index);
+        for (int lane = 0; lane < kLanes; ++lane)
+            if ((lit >> lane & 1u) != 0 && !sampler.sample(lane, result)) with_points |= 1u << lane;
+    }
+    light.lit = LaneMask::from_bits(lit & ~with_points);
+    const auto lines = static_cast<float>(job.lines.count);
+    reflected.add_known(light, {Real(1 / lines) * load(result.all), Real(1 / lines) * load(result.diffuse)});
+    reflected.add_pieces(select(light.lit, Real(lines), Real(0)), Real::load(result.parts));
+    if (with_points == 0) return;
+    reflected.choose(LaneMask::from_bits(with_points), job.points_in_place_of_lines);
+    const LightFunctions points = point_functions(job);
+    (N == 4 ? points.add_polygon4 : points.add_polygon8)(reflected, index);
+    reflected.choose(LaneMask(true), job.light_samples);
+}
+
+} // namespace
+
+LightFunctions line_functions(const LightFunctions& points) noexcept {
+    return {&add_polygon<4>, &add_polygon<8>, points.add_line, points.add_tube};
+}
+
+} // namespace kernel
+NUSSELT_NAMESPACE_END

@@ -1,0 +1,17 @@
+#pragma once
+/// Lines or points: what is faster depends on how many triangles may hide a light from a shading point.
+
+#include "render_cpu/settings.h"
+
+namespace nusselt::render_cpu {
+
+/// Bound on the triangles in the pyramid of a shading point and a light: beyond it, points reach the same error in less
+/// time. See docs/performance.md for measurements.
+/// \param lines per shading point and light
+int most_occluders_for_lines(int lines);
+
+/// Points that are about as noisy as so many lines, since noise falls faster with the number of lines than of points.
+/// \param lines per shading point and light
+int points_in_place_of_lines(int lines);
+
+} // namespace nusselt::render_cpu

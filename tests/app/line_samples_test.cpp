@@ -1,0 +1,87 @@
+// `nusselt render --integrator lines` as a user sees it.
+
+#include "program.h"
+
+#include "image/io.h"
+#include "image/layers.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace nusselt {
+
+namespace {
+
+const std::string kRender = "render '" + kScenes + "/cornell-panel.pbrt' --resolution 24x24 -q ";
+
+nlohmann::json report_of(const Outcome& rendered) {
+    EXPECT_EQ(rendered.exit_code, 0) << rendered.err;
+    return nlohmann::json::parse(rendered.out);
+}
+
+TEST_F(CommandLine, RendersWithLines) {
+    const auto report =
+        report_of(run(kRender + "--integrator lines --lines 3 --orientation fixed --offsets uniform "
+                                "--line-shading analytic --many-occluders lines --pixel-center "
+                                "-o lines.exr --json -"));
+    const auto& lines = report["line_samples"];
+    EXPECT_EQ(lines["lines"], 3);
+    EXPECT_EQ(lines["orientation"], "fixed");
+    EXPECT_EQ(lines["offsets"], "uniform");
+    EXPECT_EQ(lines["line_shading"], "analytic");
+    EXPECT_EQ(lines["many_occluders"], "lines");
+    EXPECT_GT(lines["lights_with_lines"], 0);
+    EXPECT_EQ(lines["lights_with_points"], 0);
+    EXPECT_EQ(lines["traced_lines"], 3 * lines["lights_with_lines"].get<int>());
+    EXPECT_GT(lines["box_tests"], 0);
+
+    const auto metadata = image::read_layers(path("lines.exr")).metadata;
+    EXPECT_EQ(metadata.at("integrator"), "lines");
+    EXPECT_EQ(metadata.at("lines"), "3");
+    EXPECT_EQ(metadata.at("orientation"), "fixed");
+    EXPECT_EQ(metadata.at("offsets"), "uniform");
+    EXPECT_EQ(metadata.at("line_shading"), "analytic");
+    EXPECT_EQ(metadata.at("many_occluders"), "lines");
+
+    EXPECT_TRUE(report_of(run(kRender + "-o points.exr --json -"))["line_samples"].is_null());
+    EXPECT_EQ(image::read_layers(path("points.exr")).metadata.count("lines"), 0u);
+}
+
+TEST_F(CommandLine, RefusesOptionsThatLinesHaveNoUseFor) {
+    for (const char* option : {"--lines 4", "--orientation fixed", "--offsets uniform",
+                               "--line-shading analytic", "--many-occluders lines", "--layers pieces"}) {
+        const Outcome wrong = run(kRender + option);
+        EXPECT_EQ(wrong.exit_code, 2) << option;
+        expect_message(wrong.err, "--integrator lines");
+    }
+    const Outcome analytic = run(kRender + "--integrator lines --technique ltc_analytic");
+    EXPECT_EQ(analytic.exit_code, 2);
+    expect_message(analytic.err, "ltc_analytic");
+    for (const char* option : {"--lines 0", "--lines 65537", "--orientation up", "--offsets width"}) {
+        const Outcome wrong = run(kRender + "--integrator lines " + option);
+        EXPECT_EQ(wrong.exit_code, 2) << option;
+        expect_message(wrong.err, "--help");
+    }
+}
+
+TEST_F(CommandLine, PartsOfLineSamplesMergeToTheWholeImage) {
+    const std::string lines = kRender + "--integrator lines --lines 2 --layers all --spp 2 ";
+    ASSERT_EQ(run(lines + "-o whole.exr").exit_code, 0);
+    ASSERT_EQ(run(lines + "--part 1/2 -o 1.exr").exit_code, 0);
+    ASSERT_EQ(run(lines + "--part 2/2 -o 2.exr").exit_code, 0);
+    const Outcome merged = run("merge merged.exr 1.exr 2.exr");
+    ASSERT_EQ(merged.exit_code, 0) << merged.err;
+    const Outcome same = run("compare merged.exr whole.exr --max mse=0");
+    EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
+
+    ASSERT_EQ(run(lines + "--part 2/2 --offsets uniform -o other.exr").exit_code, 0);
+    const Outcome refused = run("merge wrong.exr 1.exr other.exr");
+    EXPECT_EQ(refused.exit_code, 1);
+    expect_message(refused.err, "offsets");
+}
+
+} // namespace
+
+} // namespace nusselt
