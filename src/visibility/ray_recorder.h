@@ -20,6 +20,16 @@ struct RayBatch {
     std::vector<ShadowQuery<N>> shadow;
 };
 
+/// Times of Embree's functions alone [s].
+struct ReplaySeconds {
+    double closest_hit = 0;
+    double shadow = 0;
+
+    ReplaySeconds operator+(const ReplaySeconds& other) const {
+        return {closest_hit + other.closest_hit, shadow + other.shadow};
+    }
+};
+
 /// Traces packets of N rays as a scene does and remembers them.
 template <int N>
 class RayRecorder {
@@ -47,14 +57,17 @@ public:
 
     /// Traces a batch again. Embree overwrites packets, so this works on a copy; it is made, and with it the
     /// rays enter the cache, before the clock starts.
-    /// \returns the time of Embree's functions alone [s]
-    double replay(const RayBatch<N>& batch) const {
+    ReplaySeconds replay(const RayBatch<N>& batch) const {
+        using Clock = std::chrono::steady_clock;
         RayBatch<N> copy = batch;
         const RTCScene scene = embree_scene(inner_.context);
-        const auto begin = std::chrono::steady_clock::now();
+        const auto begin = Clock::now();
         for (ClosestHitQuery<N>& query : copy.closest_hit) query.trace(scene);
+        const auto middle = Clock::now();
         for (ShadowQuery<N>& query : copy.shadow) query.trace(scene);
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        const auto end = Clock::now();
+        return {std::chrono::duration<double>(middle - begin).count(),
+                std::chrono::duration<double>(end - middle).count()};
     }
 
 private:
