@@ -18,8 +18,10 @@ void setup_bench(CLI::App& app, int& exit_code) {
     setup_bench_accuracy(*command, exit_code);
     setup_bench_worst_case(*command, exit_code);
     setup_bench_fuzz(*command, exit_code);
+    setup_bench_shadows(*command, exit_code);
     setup_bench_tubes(*command, exit_code);
     setup_bench_scale(*command, exit_code);
+    setup_bench_phong_lines(*command, exit_code);
 }
 
 } // namespace nusselt::app

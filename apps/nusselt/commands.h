@@ -148,7 +148,19 @@ struct BenchFuzzOptions {
     std::optional<std::string> isa;
 };
 
+struct BenchShadowsOptions {
+    std::uint64_t seed = 1;
+    std::uint64_t first = 0;
+    std::uint64_t count = 625'000;
+    std::optional<int> threads;
+    std::optional<std::string> isa;
+};
+
 struct BenchTubesOptions {
+    int repetitions = 31;
+};
+
+struct BenchPhongLinesOptions {
     int repetitions = 31;
 };
 
@@ -195,8 +207,10 @@ void setup_bench_gpu_samplers(CLI::App& bench, int& exit_code);
 void setup_bench_accuracy(CLI::App& bench, int& exit_code);
 void setup_bench_worst_case(CLI::App& bench, int& exit_code);
 void setup_bench_fuzz(CLI::App& bench, int& exit_code);
+void setup_bench_shadows(CLI::App& bench, int& exit_code);
 void setup_bench_tubes(CLI::App& bench, int& exit_code);
 void setup_bench_scale(CLI::App& bench, int& exit_code);
+void setup_bench_phong_lines(CLI::App& bench, int& exit_code);
 
 /// Renders and writes the images.
 /// \returns 0, or 130 if it was interrupted
@@ -246,9 +260,13 @@ int run_fit_ltc(const FitLtcOptions& options);
 /// Runs techniques on hostile lights and prints what breaks their contract.
 /// \returns 0, or 1 if anything does
 int run_bench_fuzz(const BenchFuzzOptions& options);
+int run_bench_shadows(const BenchShadowsOptions& options);
 
 /// Measures noise and cost of sampling cylinders and prints the table.
 int run_bench_tubes(const BenchTubesOptions& options);
+
+/// Measures Phong lobes along lines and prints the table.
+int run_bench_phong_lines(const BenchPhongLinesOptions& options);
 
 /// Measures time and memory of large scenes and prints or writes the tables.
 int run_bench_scale(const BenchScaleOptions& options);
