@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <nusselt/line_samples/partial_shadow.h>
+#include <nusselt/line_samples/visible_parts.h>
 
 #include "experiments/shadows/shadow_case.h"
 #include "visibility/stored_shadows.h"
