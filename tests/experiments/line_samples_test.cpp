@@ -59,7 +59,8 @@ TEST_P(LineSamplesOfScene, HaveTheMeanOfPoints) {
     const BiasStatistics reference = statistics_of(renderer_, settings_, 0);
     int seed = 1000;
     for (const auto choice : render_cpu::kManyOccludersChoices)
-        for (const auto offsets : render_cpu::kLineOffsets) {
+        // Noise of uniform offsets in highlights is far from normal.
+        for (const auto offsets : {render_cpu::LineOffsets::length, render_cpu::LineOffsets::reflected}) {
             render_cpu::RenderSettings settings = line_settings();
             settings.lines.offsets = offsets;
             settings.lines.many_occluders = choice;
