@@ -31,9 +31,9 @@ void add_line_kind_options(CLI::App& command, LineOptions& options) {
         ->group(kGroup);
     command
         .add_option("--line-shading", options.shading,
-                    "unbiased: the integral of a linearly transformed cosine over what is visible of a line, "
-                    "and one\n"
-                    "point for the difference to the BRDF; analytic: without that. Default: unbiased")
+                    "unbiased: the integral of a linearly transformed cosine over what is visible of a\n"
+                    "line, and one point for the difference to the BRDF; analytic: without that.\n"
+                    "Default: unbiased")
         ->transform(to_name_of(render_cpu::kLineShadings))
         ->group(kGroup);
 }

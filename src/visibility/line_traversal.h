@@ -7,6 +7,8 @@
 
 #include "visibility/block_shadows.h"
 
+#include <nusselt/line_samples/visible_parts.h>
+
 NUSSELT_NAMESPACE_BEGIN
 
 /// A line per lane and what is visible of it. Lanes without a line have no parts.
