@@ -32,7 +32,7 @@ def code(root):
 
 
 # The benchmarks of polygons and lines do not measure these; their numbers come from tests.
-UNMEASURED = ["cylinder.md", "ggx_visible_normals.md", "ltc.md", "mis.md"]
+UNMEASURED = ["cylinder.md", "ggx_visible_normals.md", "line_samples.md", "ltc.md", "mis.md"]
 
 
 def regions(root):

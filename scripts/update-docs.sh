@@ -1,12 +1,20 @@
 #!/usr/bin/env bash
 # Draws the pictures of docs/techniques again and fills in the tables of accuracy and cost.
-# Usage: scripts/update-docs.sh [pictures]
+# Usage: scripts/update-docs.sh [pictures|lines]
 #   pictures  only the pictures, which are the same on every machine; the tables take some minutes
+#   lines     only the tables and plots of docs/line-samples.md, which take half an hour and a machine that is idle;
+#             NUSSELT_SCENES must name the folder with sponza/
 # NUSSELT names the program; default: build/release/apps/nusselt/nusselt
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=${NUSSELT:-build/release/apps/nusselt/nusselt}
 
+cpu=$(sed -nE 's/^model name\s*: (.*)/\1/p' /proc/cpuinfo | head -n 1)
+if [ "${1:-}" = lines ]; then
+    experiments=(lines-orientation lines-offsets lines-pieces lines-large lines-small lines-visibility)
+    "$program" reproduce "${experiments[@]}" -o out/reproduce || echo "an expectation does not hold" >&2
+    exec python3 scripts/fill-line-samples.py out/reproduce "$cpu"
+fi
 for picture in docs/techniques/images/*.svg; do
     "$program" map "$(basename "$picture" .svg)" "$picture"
 done
@@ -16,5 +24,4 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$program" bench accuracy --json "$work/accuracy.json" >"$work/log"
 "$program" bench samplers --json "$work/samplers.json" >"$work/log"
-cpu=$(sed -nE 's/^model name\s*: (.*)/\1/p' /proc/cpuinfo | head -n 1)
 python3 scripts/fill-docs.py "$work/accuracy.json" "$work/samplers.json" "$cpu"

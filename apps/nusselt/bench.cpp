@@ -11,13 +11,17 @@ void setup_bench(CLI::App& app, int& exit_code) {
     command->require_subcommand(1);
     setup_bench_rays(*command, exit_code);
     setup_bench_strategies(*command, exit_code);
+    setup_bench_lines(*command, exit_code);
+    setup_bench_line_efficiency(*command, exit_code);
     setup_bench_samplers(*command, exit_code);
     setup_bench_gpu_samplers(*command, exit_code);
     setup_bench_accuracy(*command, exit_code);
     setup_bench_worst_case(*command, exit_code);
     setup_bench_fuzz(*command, exit_code);
+    setup_bench_shadows(*command, exit_code);
     setup_bench_tubes(*command, exit_code);
     setup_bench_scale(*command, exit_code);
+    setup_bench_phong_lines(*command, exit_code);
 }
 
 } // namespace nusselt::app

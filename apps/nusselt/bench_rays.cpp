@@ -1,81 +1,45 @@
 #include "bench_frames.h"
 #include "commands.h"
+#include "recorded_rays.h"
 #include "render_setup.h"
 
 #include "image/atomic_file.h"
-#include "render_cpu/flush_denormals.h"
 #include "render_cpu/renderer.h"
 #include "scene/load.h"
-#include "visibility/ray_recorder.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
-#include <tbb/parallel_reduce.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
-#include <functional>
 #include <memory>
 
 namespace nusselt::app {
 
 namespace {
 
-/// Traces all recorded rays again with all threads of the arena.
-/// \returns the time of Embree's functions alone, the mean over the threads [s]
-template <int N>
-double replay(const visibility::RayRecorder<N>& recorder, tbb::task_arena& arena) {
-    const std::vector<const visibility::RayBatch<N>*> batches = recorder.batches();
-    const double thread_seconds = arena.execute([&] {
-        return tbb::parallel_reduce(
-            tbb::blocked_range<std::size_t>(0, batches.size()), 0.0,
-            [&](const auto& range, double sum) {
-                const render_cpu::FlushDenormals flush_denormals;
-                for (std::size_t i = range.begin(); i < range.end(); ++i) sum += recorder.replay(*batches[i]);
-                return sum;
-            },
-            std::plus<>());
-    });
-    return thread_seconds / arena.max_concurrency();
-}
-
 /// One technique: the same rays with and without everything else.
 struct RaysRow {
     render_cpu::Technique technique;
     std::uint64_t primary_rays = 0;
     std::uint64_t shadow_rays = 0;
-    double trace_seconds = 0;  ///< Embree's functions alone, see replay(), median
+    double trace_seconds = 0;  ///< Embree's functions alone, the mean over the threads, median
     double render_seconds = 0; ///< whole render phase, median
     double ratio() const { return render_seconds / trace_seconds; }
 };
 
-template <int N>
 RaysRow measure(const render_cpu::Renderer& renderer, const render_cpu::RenderSettings& settings,
                 render_cpu::Isa isa, tbb::task_arena& arena, int repetitions) {
-    visibility::RayRecorder<N> recorder(renderer.visibility());
-    const render_cpu::RenderResult recorded = renderer.render(settings, isa, recorder.tracer());
+    const std::unique_ptr<RecordedRays> rays = record_rays(renderer, settings, isa);
     std::vector<double> trace_seconds;
     std::vector<double> render_seconds;
     for (int i = 0; i < repetitions; ++i) {
-        trace_seconds.push_back(replay(recorder, arena));
+        const visibility::ReplaySeconds traced = rays->replay(arena);
+        trace_seconds.push_back((traced.closest_hit + traced.shadow) / arena.max_concurrency());
         render_seconds.push_back(renderer.render(settings, isa).statistics.render_seconds);
     }
-    return {settings.technique, recorded.statistics.primary_rays, recorded.statistics.shadow_rays,
-            median(trace_seconds), median(render_seconds)};
-}
-
-RaysRow measure(const render_cpu::Renderer& renderer, const render_cpu::RenderSettings& settings,
-                render_cpu::Isa isa, tbb::task_arena& arena, int repetitions) {
-    switch (isa) {
-    case render_cpu::Isa::sse42:
-        return measure<4>(renderer, settings, isa, arena, repetitions);
-    case render_cpu::Isa::avx2:
-        return measure<8>(renderer, settings, isa, arena, repetitions);
-    case render_cpu::Isa::avx512:
-        break;
-    }
-    return measure<16>(renderer, settings, isa, arena, repetitions);
+    return {settings.technique, rays->primary_count, rays->shadow_count, median(trace_seconds),
+            median(render_seconds)};
 }
 
 std::string json_text(const BenchRaysOptions& options, const scene::Scene& scene, render_cpu::Isa isa,

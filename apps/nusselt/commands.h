@@ -83,6 +83,26 @@ struct BenchStrategiesOptions : BenchFramesOptions {
     BenchStrategiesOptions() { repetitions = 15; }
 };
 
+struct BenchLinesOptions : BenchFramesOptions {
+    std::vector<int> counts = {4, 16, 64}; ///< of lines per shading point and light
+    LineOptions lines;                     ///< but for their number
+    std::optional<std::string> json;       ///< "-" is the standard output, instead of the table
+};
+
+struct BenchLineEfficiencyOptions {
+    std::filesystem::path scene;
+    std::optional<int> threads; ///< default: one, then all
+    std::optional<std::string> resolution;
+    std::optional<std::string> isa;
+    std::string strategies = "diffuse";
+    std::optional<float> roughness; ///< of all surfaces
+    LineOptions lines;              ///< but for their number
+    int most_points = 1024;
+    int most_lines = 256;
+    int repetitions = 5;
+    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
+};
+
 struct BenchSamplersOptions {
     int repetitions = 31;
     std::optional<std::string> isa;
@@ -128,7 +148,19 @@ struct BenchFuzzOptions {
     std::optional<std::string> isa;
 };
 
+struct BenchShadowsOptions {
+    std::uint64_t seed = 1;
+    std::uint64_t first = 0;
+    std::uint64_t count = 625'000;
+    std::optional<int> threads;
+    std::optional<std::string> isa;
+};
+
 struct BenchTubesOptions {
+    int repetitions = 31;
+};
+
+struct BenchPhongLinesOptions {
     int repetitions = 31;
 };
 
@@ -168,13 +200,17 @@ void setup_fit_ltc(CLI::App& app, int& exit_code);
 // Below `bench`.
 void setup_bench_rays(CLI::App& bench, int& exit_code);
 void setup_bench_strategies(CLI::App& bench, int& exit_code);
+void setup_bench_lines(CLI::App& bench, int& exit_code);
+void setup_bench_line_efficiency(CLI::App& bench, int& exit_code);
 void setup_bench_samplers(CLI::App& bench, int& exit_code);
 void setup_bench_gpu_samplers(CLI::App& bench, int& exit_code);
 void setup_bench_accuracy(CLI::App& bench, int& exit_code);
 void setup_bench_worst_case(CLI::App& bench, int& exit_code);
 void setup_bench_fuzz(CLI::App& bench, int& exit_code);
+void setup_bench_shadows(CLI::App& bench, int& exit_code);
 void setup_bench_tubes(CLI::App& bench, int& exit_code);
 void setup_bench_scale(CLI::App& bench, int& exit_code);
+void setup_bench_phong_lines(CLI::App& bench, int& exit_code);
 
 /// Renders and writes the images.
 /// \returns 0, or 130 if it was interrupted
@@ -194,6 +230,12 @@ int run_bench_rays(const BenchRaysOptions& options);
 
 /// Measures what a second technique for the specular component costs.
 int run_bench_strategies(const BenchStrategiesOptions& options);
+
+/// Measures what line samples cost, in shadow rays.
+int run_bench_lines(const BenchLinesOptions& options);
+
+/// Measures how long line samples and point samples take to the same error.
+int run_bench_line_efficiency(const BenchLineEfficiencyOptions& options);
 
 /// Measures the cost of each technique and prints or writes the table.
 int run_bench_samplers(const BenchSamplersOptions& options);
@@ -218,9 +260,13 @@ int run_fit_ltc(const FitLtcOptions& options);
 /// Runs techniques on hostile lights and prints what breaks their contract.
 /// \returns 0, or 1 if anything does
 int run_bench_fuzz(const BenchFuzzOptions& options);
+int run_bench_shadows(const BenchShadowsOptions& options);
 
 /// Measures noise and cost of sampling cylinders and prints the table.
 int run_bench_tubes(const BenchTubesOptions& options);
+
+/// Measures Phong lobes along lines and prints the table.
+int run_bench_phong_lines(const BenchPhongLinesOptions& options);
 
 /// Measures time and memory of large scenes and prints or writes the tables.
 int run_bench_scale(const BenchScaleOptions& options);

@@ -9,41 +9,50 @@
 
 namespace nusselt::app {
 
-void add_line_options(CLI::App& command, LineOptions& options) {
-    const auto group = "Line samples";
-    command
-        .add_option("--integrator", options.integrator,
-                    "What is sampled of polygonal lights: points, or lines with exact visibility. Tubes and\n"
-                    "lines always get --spp points")
-        ->transform(to_name_of(render_cpu::kIntegrators))
-        ->capture_default_str()
-        ->group(group);
-    command
-        .add_option("--lines", options.count,
-                    fmt::format("Lines per shading point and light, 1 to {}. Default: {}",
-                                render_cpu::kMaxLines, render_cpu::LineSettings().count))
-        ->check(CLI::Range(1, render_cpu::kMaxLines))
-        ->group(group);
+namespace {
+
+constexpr const char* kGroup = "Line samples";
+
+} // namespace
+
+void add_line_kind_options(CLI::App& command, LineOptions& options) {
     command
         .add_option(
             "--orientation", options.orientation,
             "Directions of lines: parallel, random but the same for all lines of a shading point and\n"
             "light; fixed, along the longest edge of the light; independent. Default: parallel")
         ->transform(to_name_of(render_cpu::kLineOrientations))
-        ->group(group);
+        ->group(kGroup);
     command
         .add_option("--offsets", options.offsets,
                     "Density of lines: by their length on the light, uniform, or by what the surface would\n"
                     "reflect of them without shadows. Default: length")
         ->transform(to_name_of(render_cpu::kLineOffsets))
-        ->group(group);
+        ->group(kGroup);
     command
         .add_option("--line-shading", options.shading,
-                    "unbiased: the integral of a linearly transformed cosine over what is visible of a line, "
-                    "and one\n"
-                    "point for the difference to the BRDF; analytic: without that. Default: unbiased")
+                    "unbiased: the integral of a linearly transformed cosine over what is visible of a\n"
+                    "line, and one point for the difference to the BRDF; analytic: without that.\n"
+                    "Default: unbiased")
         ->transform(to_name_of(render_cpu::kLineShadings))
-        ->group(group);
+        ->group(kGroup);
+}
+
+void add_line_options(CLI::App& command, LineOptions& options) {
+    command
+        .add_option("--integrator", options.integrator,
+                    "What is sampled of polygonal lights: points, or lines with exact visibility. Tubes and\n"
+                    "lines always get --spp points")
+        ->transform(to_name_of(render_cpu::kIntegrators))
+        ->capture_default_str()
+        ->group(kGroup);
+    command
+        .add_option("--lines", options.count,
+                    fmt::format("Lines per shading point and light, 1 to {}. Default: {}",
+                                render_cpu::kMaxLines, render_cpu::LineSettings().count))
+        ->check(CLI::Range(1, render_cpu::kMaxLines))
+        ->group(kGroup);
+    add_line_kind_options(command, options);
     command
         .add_option(
             "--many-occluders", options.many_occluders,
@@ -51,7 +60,7 @@ void add_line_options(CLI::App& command, LineOptions& options) {
             "and strategies of the other options, which are faster there; or lines all the same.\n"
             "Default: points")
         ->transform(to_name_of(render_cpu::kManyOccludersChoices))
-        ->group(group);
+        ->group(kGroup);
 }
 
 void apply_line_options(const LineOptions& options, render_cpu::RenderSettings& settings) {

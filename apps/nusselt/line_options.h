@@ -12,6 +12,9 @@ namespace nusselt::app {
 /// Adds --integrator and all that goes with it.
 void add_line_options(CLI::App& command, LineOptions& options);
 
+/// Adds --orientation, --offsets and --line-shading.
+void add_line_kind_options(CLI::App& command, LineOptions& options);
+
 /// Changes those settings that the options name.
 /// \throws std::invalid_argument for values that the command line does not let through
 void apply_line_options(const LineOptions& options, render_cpu::RenderSettings& settings);

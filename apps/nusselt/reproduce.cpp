@@ -2,6 +2,7 @@
 #include "render_setup.h"
 
 #include "experiments/line_convergence.h"
+#include "experiments/line_visibility.h"
 #include "experiments/noise_table.h"
 #include "experiments/run.h"
 #include "image/atomic_file.h"
@@ -20,6 +21,7 @@ namespace {
 
 using experiments::Experiment;
 using experiments::LineConvergence;
+using experiments::LineVisibility;
 using experiments::NoiseTable;
 
 /// What all kinds of experiments have.
@@ -37,6 +39,8 @@ std::vector<Heading> all_headings() {
         headings.push_back({t.name, t.source, t.description});
     for (const LineConvergence& c : experiments::all_line_convergences())
         headings.push_back({c.name, c.source, c.description});
+    for (const LineVisibility& v : experiments::all_line_visibilities())
+        headings.push_back({v.name, v.source, v.description});
     return headings;
 }
 
@@ -126,6 +130,7 @@ int run_reproduce(const ReproduceOptions& options) {
     };
     run_all(experiments::all_experiments(), experiments::run_experiment);
     run_all(experiments::all_line_convergences(), experiments::run_line_convergence);
+    run_all(experiments::all_line_visibilities(), experiments::run_line_visibility);
     for (const NoiseTable& table : experiments::all_noise_tables())
         if (is_chosen(options, table.name))
             all_hold = report(experiments::measure_noise(table), options.output / table.name) && all_hold;

@@ -5,9 +5,14 @@
 #include <nusselt/bsdf/frostbite.h>
 #include <nusselt/bsdf/ggx_visible_normals.h>
 #include <nusselt/bsdf/lambert.h>
+#include <nusselt/bsdf/phong.h>
 #include <nusselt/estimate/backward_error.h>
 #include <nusselt/estimate/direct_light.h>
+#include <nusselt/estimate/line_light.h>
 #include <nusselt/estimate/reference_integrals.h>
+#include <nusselt/estimate/reflected_offsets.h>
+#include <nusselt/line_samples/phong.h>
+#include <nusselt/line_samples/shading.h>
 #include <nusselt/ltc/line_shading.h>
 #include <nusselt/ltc/polygon_shading.h>
 #include <nusselt/ltc/table_file.h>

@@ -58,6 +58,9 @@ ConvergenceSeries lines(const std::string& label, SampleOrder order) {
 std::vector<ConvergenceSeries> all_series() {
     ConvergenceSeries unbiased = lines("lines, unbiased, stratified", SampleOrder::stratified);
     unbiased.settings.lines.shading = LineShading::unbiased;
+    ConvergenceSeries important = unbiased;
+    important.label = "lines, by importance, stratified";
+    important.settings.lines.offsets = render_cpu::LineOffsets::reflected;
     ConvergenceSeries turned = lines("lines, each turned, stratified", SampleOrder::stratified);
     turned.settings.lines.orientation = LineOrientation::independent;
     return {points("points, independent", SampleOrder::independent),
@@ -68,6 +71,7 @@ std::vector<ConvergenceSeries> all_series() {
             lines("lines, stratified", SampleOrder::stratified),
             lines("lines, Sobol'", SampleOrder::sobol),
             unbiased,
+            important,
             turned};
 }
 
@@ -78,12 +82,14 @@ std::vector<OrderBetween> expected_orders() {
             {"lines, each turned, stratified", -0.6, -0.45},
             {"points, stratified", -0.9, -0.6, 1},
             {"lines, stratified", kAny, -1.1, 1},
-            {"lines, unbiased, stratified", kAny, -0.9, 1}};
+            {"lines, unbiased, stratified", kAny, -0.9, 1},
+            {"lines, by importance, stratified", kAny, -0.9, 1}};
 }
 
 std::vector<LessNoise> expected_less_noise() {
     return {{"lines, independent", "points, independent", kMostLines},
-            {"lines, stratified", "points, stratified", kMostLines}};
+            {"lines, stratified", "points, stratified", kMostLines},
+            {"lines, by importance, stratified", "points, by importance, stratified", kMostLines}};
 }
 
 LineConvergence convergence(const std::string& name, const std::string& figures, const std::string& lights,

@@ -2,11 +2,12 @@
 /// What triangles of a scene hide of the lines of a light. Compiled for each instruction set, like
 /// src/render_cpu/kernel: neither standard containers nor algorithms.
 ///
-/// All lines that start at one shading point lie in one pyramid. OccluderList collects what is in it: that needs no
-/// lines, so that decisions based on it are independent of their offsets. Then lines are cut by the list. Where it would
-/// be long, trace_lines() traverses the hierarchy with the lines that still have light.
+/// All lines that start at one shading point lie in one pyramid: the hierarchy is traversed once for all of them, close
+/// parts first, and only with what is still visible of the lines.
 
 #include "visibility/block_shadows.h"
+
+#include <nusselt/line_samples/visible_parts.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -22,7 +23,8 @@ template <class Real, class Shadow>
 NUSSELT_INLINE void cut_lines(TracedLines<Real>& lines, const Shadow& shadow,
                               visibility::LineCounters& counters) noexcept {
     ++counters.line_tests;
-    lines.parts.cut(hidden_interval(shadow, lines.offset));
+    const Interval<Real> hidden = hidden_interval(shadow, lines.offset);
+    if (any(lines.parts.overlap(hidden))) lines.parts.cut(hidden);
 }
 template <class Real>
 NUSSELT_INLINE void cut_lines(TracedLines<Real>& lines, const TriangleShadow<float>& shadow,
@@ -41,7 +43,7 @@ public:
     /// \param visitor with functions
     ///        `void enter(space)`: what follows is in these coordinates
     ///        `uint32_t touched(node, bits)`: those of the children that are of interest
-    ///        `bool visit(shadows)`: whether to go on, with the BlockShadows of a block
+    ///        `bool visit(pyramid, space, block)`: whether to go on
     template <class Visitor>
     NUSSELT_HD void run(const visibility::LineBvhRoots& roots, Visitor& visitor) const noexcept {
         const TracedSpace world = world_space(seen_, bvh_.extent);
@@ -68,7 +70,7 @@ private:
                 push_children(bvh_.nodes[index], pyramid, space, visitor, stack, size);
                 break;
             case visibility::kBvhBlock:
-                if (!visit(bvh_.blocks[index], pyramid, space, visitor)) return false;
+                if (!visitor.visit(pyramid, space, bvh_.blocks[index])) return false;
                 break;
             default: {
                 const visibility::LineBvhInstance& instance = bvh_.instances[index];
@@ -80,14 +82,6 @@ private:
             }
         }
         return true;
-    }
-
-    template <class Visitor>
-    NUSSELT_INLINE bool visit(const visibility::TriangleBlock& block, const LightPyramid& pyramid,
-                              const TracedSpace& space, Visitor& visitor) const noexcept {
-        counters_.triangle_tests += visibility::kBvhWidth;
-        const BlockShadows shadows = BlockShadows::make(seen_, pyramid, space, block);
-        return shadows.relevant() == 0 || visitor.visit(shadows);
     }
 
     /// The closest child on top.
@@ -123,10 +117,12 @@ private:
         constexpr int kLine = 64;
         if (kind == visibility::kBvhNode) {
             const auto* begin = reinterpret_cast<const char*>(bvh_.nodes + index);
-            for (std::size_t i = 0; i < sizeof(visibility::LineBvhNode); i += kLine) __builtin_prefetch(begin + i);
+            for (std::size_t i = 0; i < sizeof(visibility::LineBvhNode); i += kLine)
+                __builtin_prefetch(begin + i);
         } else if (kind == visibility::kBvhBlock) {
             const auto* begin = reinterpret_cast<const char*>(bvh_.blocks + index);
-            for (std::size_t i = 0; i < sizeof(visibility::TriangleBlock); i += kLine) __builtin_prefetch(begin + i);
+            for (std::size_t i = 0; i < sizeof(visibility::TriangleBlock); i += kLine)
+                __builtin_prefetch(begin + i);
         }
     }
 
@@ -145,132 +141,61 @@ private:
     visibility::LineCounters& counters_;
 };
 
-/// Room for occluders.
-struct OccluderStorage {
-    static constexpr int kCapacity = 1024;
-    static constexpr int kPartialCapacity = 64;
-
-    TriangleShadow<float> whole[kCapacity];
-    PartialShadow<float> partial[kPartialCapacity];
-};
-
-/// What a list of occluders says about a light.
-enum class Occluders {
-    listed,   ///< all are in the list
-    hide_all, ///< nothing of the light is visible
-    too_many, ///< the list is not complete
-    partial,  ///< some are only partly there (an alpha below 1): lines cannot tell, take points
-};
-
-/// The triangles between a point and a light, in memory of the caller.
-class OccluderList {
-public:
-    /// \param storage  outlives this object.
-    /// \param capacity number of occluders from which on they are too many, at most OccluderStorage::kCapacity.
-    NUSSELT_HD OccluderList(OccluderStorage& storage, int capacity) noexcept
-        : storage_(storage), capacity_(capacity) {}
-
-    /// Replaces the list. The result does not depend on the offsets of lines.
-    NUSSELT_HD Occluders collect(const visibility::LineBvhView& bvh, const SeenLight& seen,
-                                 visibility::LineCounters& counters) noexcept {
-        count_ = partial_count_ = 0;
-        if (!seen.is_visible()) return Occluders::hide_all;
-        const PyramidTraversal traversal(bvh, seen, counters);
-        Collector collector{*this, seen, Occluders::listed};
-        traversal.run(bvh.full, collector);
-        if (collector.result == Occluders::hide_all) return Occluders::hide_all;
-        Finder finder{false};
-        traversal.run(bvh.partial, finder);
-        return finder.found ? Occluders::partial : collector.result;
-    }
-
-    NUSSELT_HD int count() const noexcept { return count_ + partial_count_; }
-
-    /// Takes what the listed triangles hide from packs of lines.
-    template <class Real>
-    NUSSELT_HD void cut(TracedLines<Real>* packs, int pack_count,
-                        visibility::LineCounters& counters) const noexcept {
-        for (int p = 0; p < pack_count; ++p) {
-            for (int i = 0; i < partial_count_; ++i) cut_lines(packs[p], storage_.partial[i], counters);
-            for (int i = 0; i < count_ && any(packs[p].parts.lit()); ++i)
-                cut_lines(packs[p], storage_.whole[i], counters);
-        }
-    }
-
-private:
-    struct Collector {
-        OccluderList& list;
-        const SeenLight& seen;
-        Occluders result;
+/// How many blocks of triangles have boxes in the pyramid of a light, or some number above the bound if there are more: what
+/// tracing lines will cost. Does not depend on lines, so that decisions based on it cause no bias.
+NUSSELT_HD inline int count_occluding_blocks(const visibility::LineBvhView& bvh, const SeenLight& seen,
+                                             int bound, visibility::LineCounters& counters) noexcept {
+    struct Counter {
+        int bound;
+        int count;
 
         void enter(const TracedSpace&) const noexcept {}
-        std::uint32_t touched(const visibility::LineBvhNode&, std::uint32_t bits) const noexcept {
-            return bits;
-        }
-
-        NUSSELT_INLINE bool visit(const BlockShadows& shadows) noexcept {
-            return shadows.for_each([&](const auto& shadow) {
-                if (covers(shadow))
-                    result = Occluders::hide_all;
-                else if (!list.add(shadow))
-                    result = Occluders::too_many;
-                return result == Occluders::listed;
-            });
-        }
-
-        /// Whether the whole light is hidden.
-        NUSSELT_INLINE bool covers(const TriangleShadow<float>& shadow) const noexcept {
-            return shadow.first <= seen.bounds.offsets.begin && shadow.last >= seen.bounds.offsets.end &&
-                   covers_corners(shadow);
-        }
-        NUSSELT_HD bool covers(const PartialShadow<float>& shadow) const noexcept {
-            return covers_corners(shadow);
-        }
-        template <class Shadow>
-        NUSSELT_HD bool covers_corners(const Shadow& shadow) const noexcept {
-            for (int j = 0; j < seen.corner_count; ++j) {
-                const Interval<float> hidden =
-                    hidden_interval(shadow, seen.corner[j].x - seen.frame.origin.x);
-                const float t = seen.corner[j].y - seen.frame.origin.y;
-                if (!(hidden.begin <= t && t <= hidden.end)) return false;
+        NUSSELT_INLINE std::uint32_t touched(const visibility::LineBvhNode& node,
+                                             std::uint32_t bits) noexcept {
+            std::uint32_t others = 0;
+            for (; bits != 0; bits &= bits - 1) {
+                const int child = __builtin_ctz(bits);
+                const bool is_block = (node.child[child] & visibility::kBvhKindMask) == visibility::kBvhBlock;
+                count += is_block;
+                others |= static_cast<std::uint32_t>(!is_block) << child;
             }
-            return true;
+            return count > bound ? 0 : others;
+        }
+        bool visit(const LightPyramid&, const TracedSpace&, const visibility::TriangleBlock&) noexcept {
+            return ++count <= bound;
         }
     };
+    Counter counter{bound, 0};
+    if (seen.is_visible()) PyramidTraversal(bvh, seen, counters).run(bvh.full, counter);
+    return counter.count;
+}
 
-    /// Whether there is anything.
+/// Whether a light has surfaces in its pyramid that are only partly there (an alpha below 1): lines cannot tell what is
+/// visible, take points. Does not depend on lines either.
+NUSSELT_HD inline bool has_partial_surfaces(const visibility::LineBvhView& bvh, const SeenLight& seen,
+                                            visibility::LineCounters& counters) noexcept {
     struct Finder {
+        const SeenLight& seen;
+        visibility::LineCounters& counters;
         bool found;
 
         void enter(const TracedSpace&) const noexcept {}
         std::uint32_t touched(const visibility::LineBvhNode&, std::uint32_t bits) const noexcept {
             return bits;
         }
-        bool visit(const BlockShadows&) noexcept {
-            found = true;
-            return false;
+        bool visit(const LightPyramid& pyramid, const TracedSpace& space,
+                   const visibility::TriangleBlock& block) noexcept {
+            counters.triangle_tests += visibility::kBvhWidth;
+            found = BlockShadows::make(seen, pyramid, space, block).relevant() != 0;
+            return !found;
         }
     };
+    Finder finder{seen, counters, false};
+    if (seen.is_visible()) PyramidTraversal(bvh, seen, counters).run(bvh.partial, finder);
+    return finder.found;
+}
 
-    /// \returns whether there was room
-    NUSSELT_INLINE bool add(const TriangleShadow<float>& shadow) noexcept {
-        if (count() >= capacity_) return false;
-        storage_.whole[count_++] = shadow;
-        return true;
-    }
-    NUSSELT_INLINE bool add(const PartialShadow<float>& shadow) noexcept {
-        if (count() >= capacity_ || partial_count_ == OccluderStorage::kPartialCapacity) return false;
-        storage_.partial[partial_count_++] = shadow;
-        return true;
-    }
-
-    OccluderStorage& storage_;
-    int capacity_;
-    int count_ = 0;
-    int partial_count_ = 0;
-};
-
-/// Packs of lines that trace_lines() takes at once.
+/// Packs of lines that LineTracer takes at once.
 inline constexpr int kLargestLinePackCount = 16;
 
 /// Takes what triangles hide from packs of lines: nodes that no line with light touches are skipped.
@@ -307,10 +232,9 @@ public:
             margin_[p] = Real(rounding) *
                          fma(abs(x), Real(size(space.frame.normal)), origin.z * size(space.frame.across));
         }
+        rounding_ = rounding * (size(space.frame.along) + size(space.frame.normal));
         along_margin_ =
-            rounding * (origin.z * size(space.frame.along) +
-                        (abs(origin.y) + max(-seen_.bounds.extent.begin, seen_.bounds.extent.end)) *
-                            size(space.frame.normal));
+            kTraversalRounding * (abs(origin.y) + max(-seen_.bounds.extent.begin, seen_.bounds.extent.end));
     }
 
     NUSSELT_INLINE std::uint32_t touched(const visibility::LineBvhNode& node, std::uint32_t bits) noexcept {
@@ -319,9 +243,6 @@ public:
                                  BvhReal(0.5f) * (row(5) - row(2))};
         const Vec3<BvhReal> centre =
             space_->seen(Vec3<BvhReal>{row(0) + half.x, row(1) + half.y, row(2) + half.z});
-        const auto extent = [&](const Vec3<float>& r) {
-            return fma(abs(BvhReal(r.x)), half.x, fma(abs(BvhReal(r.y)), half.y, abs(BvhReal(r.z)) * half.z));
-        };
         Boxes boxes;
         centre.x.store(boxes.centre[0]);
         centre.y.store(boxes.centre[1]);
@@ -329,8 +250,7 @@ public:
         half.x.store(boxes.half[0]);
         half.y.store(boxes.half[1]);
         half.z.store(boxes.half[2]);
-        extent(space_->frame.along).store(boxes.extent_along);
-        extent(space_->frame.normal).store(boxes.extent_normal);
+        store_extent(centre, half, boxes);
         std::uint32_t result = 0;
         for (; bits != 0; bits &= bits - 1) {
             const int child = __builtin_ctz(bits);
@@ -339,7 +259,10 @@ public:
         return result;
     }
 
-    NUSSELT_INLINE bool visit(const BlockShadows& shadows) noexcept {
+    NUSSELT_INLINE bool visit(const LightPyramid& pyramid, const TracedSpace& space,
+                              const visibility::TriangleBlock& block) noexcept {
+        counters_.triangle_tests += visibility::kBvhWidth;
+        const BlockShadows shadows = BlockShadows::make(seen_, pyramid, space, block);
         return shadows.for_each([&](const auto& shadow) {
             for (int p = 0; p < pack_count_; ++p) cut_lines(packs_[p], shadow, counters_);
             return true;
@@ -351,8 +274,8 @@ private:
     struct Boxes {
         alignas(64) float centre[3][visibility::kBvhWidth];
         float half[3][visibility::kBvhWidth];
-        float extent_along[visibility::kBvhWidth];
-        float extent_normal[visibility::kBvhWidth];
+        float begin[visibility::kBvhWidth]; ///< of their projections, along the lines [m]
+        float end[visibility::kBvhWidth];
     };
 
     bool is_lit() const noexcept {
@@ -361,26 +284,45 @@ private:
         return false;
     }
 
+    /// Finds where along the lines their projections are.
+    NUSSELT_INLINE void store_extent(const Vec3<BvhReal>& centre, const Vec3<BvhReal>& half,
+                                     Boxes& boxes) const noexcept {
+        const auto extent = [&](const Vec3<float>& r) {
+            return fma(abs(BvhReal(r.x)), half.x,
+                       fma(abs(BvhReal(r.y)), half.y, fma(abs(BvhReal(r.z)), half.z, BvhReal(rounding_))));
+        };
+        const Vec3<float>& origin = seen_.frame.origin;
+        const BvhReal along = extent(space_->frame.along);
+        const BvhReal normal = extent(space_->frame.normal);
+        const BvhReal nearest = centre.z - normal;
+        const BvhReal to_nearest = BvhReal(origin.z) / nearest;
+        const BvhReal to_farthest = BvhReal(origin.z) / (centre.z + normal);
+        const BvhReal low = centre.y - along;
+        const BvhReal high = centre.y + along;
+        const BvhReal begin = min(low * to_nearest, low * to_farthest) - BvhReal(origin.y);
+        const BvhReal end = max(high * to_nearest, high * to_farthest) - BvhReal(origin.y);
+        const auto projects = nearest > BvhReal(0);
+        constexpr float kInfinity = std::numeric_limits<float>::infinity();
+        select(projects, begin - BvhReal(along_margin_), BvhReal(-kInfinity)).store(boxes.begin);
+        select(projects, end + BvhReal(along_margin_), BvhReal(kInfinity)).store(boxes.end);
+    }
+
     /// Whether any line with light touches a box.
     NUSSELT_INLINE bool touches(const Boxes& boxes, int child) const noexcept {
         ++counters_.box_tests;
         const Vec3<float>& origin = seen_.frame.origin;
-        const Real x = boxes.centre[0][child];
-        const Real y = origin.z * boxes.centre[1][child];
+        const Real x = origin.z * boxes.centre[0][child];
         const Real z = boxes.centre[2][child];
-        const Real reach_y = origin.z * boxes.extent_along[child] + along_margin_;
-        const Real reach_z = boxes.extent_normal[child];
+        const Interval<Real> extent{Real(boxes.begin[child]), Real(boxes.end[child])};
         for (int p = 0; p < pack_count_; ++p) {
             const Vec3<Real>& slope = slope_[p];
-            const Real side = fma(Real(origin.z), x, -(packs_[p].offset + origin.x) * z);
+            const Real side = x - (packs_[p].offset + origin.x) * z;
             const Real reach = fma(slope.x, Real(boxes.half[0][child]),
                                    fma(slope.y, Real(boxes.half[1][child]),
                                        fma(slope.z, Real(boxes.half[2][child]), margin_[p])));
-            const Real begin = packs_[p].parts.bounds().begin + origin.y;
-            const Real end = packs_[p].parts.bounds().end + origin.y;
-            const auto above = fma(-begin, z, y) + fma(abs(begin), reach_z, reach_y) >= Real(0);
-            const auto below = fma(-end, z, y) - fma(abs(end), reach_z, reach_y) <= Real(0);
-            if (any(packs_[p].parts.lit() & (abs(side) <= reach) & above & below)) return true;
+            const auto crosses = abs(side) <= reach;
+            if (any(crosses & packs_[p].parts.lit()) && any(crosses & packs_[p].parts.overlap(extent)))
+                return true;
         }
         return false;
     }
@@ -394,7 +336,8 @@ private:
     // Per line: size of the components of the gradient of the plane through the line and the apex, and rounding.
     Vec3<Real> slope_[kLargestLinePackCount];
     Real margin_[kLargestLinePackCount];
-    float along_margin_ = 0;
+    float rounding_ = 0;     ///< of coordinates in the axes of the frame [its unit]
+    float along_margin_ = 0; ///< of coordinates along lines [m]
 };
 
 NUSSELT_NAMESPACE_END

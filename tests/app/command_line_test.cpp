@@ -28,10 +28,29 @@ namespace nusselt {
 namespace {
 
 TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
-    for (const char* command :
-         {"", "render", "merge", "info", "lights", "techniques", "compare", "convert", "bench", "bench rays",
-          "bench strategies", "bench samplers", "bench accuracy", "bench worst-case", "bench fuzz",
-          "bench tubes", "map", "reproduce", "fit-ltc"}) {
+    for (const char* command : {"",
+                                "render",
+                                "merge",
+                                "info",
+                                "lights",
+                                "techniques",
+                                "compare",
+                                "convert",
+                                "bench",
+                                "bench rays",
+                                "bench strategies",
+                                "bench samplers",
+                                "bench accuracy",
+                                "bench worst-case",
+                                "bench fuzz",
+                                "bench tubes",
+                                "bench phong-lines",
+                                "bench shadows",
+                                "bench lines",
+                                "bench line-efficiency",
+                                "map",
+                                "reproduce",
+                                "fit-ltc"}) {
         const Outcome help = run(std::string(command) + " --help");
         EXPECT_EQ(help.exit_code, 0) << command;
         EXPECT_NE(help.out.find("Usage:"), std::string::npos) << command;
@@ -60,7 +79,10 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo) {
                                   "bench worst-case --starts -1",
                                   "bench accuracy --count 0",
                                   "bench tubes --repetitions 0",
+                                  "bench phong-lines --repetitions 0",
                                   "bench fuzz --count -1",
+                                  "bench shadows --count 0",
+                                  "bench shadows --seed -3",
                                   "bench fuzz --count 18446744073709551616",
                                   "bench fuzz --seed -3",
                                   "bench fuzz --count 1e3",
@@ -231,6 +253,13 @@ TEST_F(CommandLine, PrintsTheNoiseOfTubes) {
     const Outcome bench = run("bench tubes --repetitions 1");
     EXPECT_EQ(bench.exit_code, 0) << bench.err;
     for (const char* text : {"rejection", "before a wide cap", "long and close"})
+        EXPECT_NE(bench.out.find(text), std::string::npos) << bench.out;
+}
+
+TEST_F(CommandLine, ComparesPhongLobesAlongLines) {
+    const Outcome bench = run("bench phong-lines --repetitions 1");
+    EXPECT_EQ(bench.exit_code, 0) << bench.err;
+    for (const char* text : {"recursion", "table", "100000"})
         EXPECT_NE(bench.out.find(text), std::string::npos) << bench.out;
 }
 

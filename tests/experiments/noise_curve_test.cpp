@@ -1,6 +1,7 @@
 #include "experiments/noise_curve.h"
 
 #include "experiments/plot.h"
+#include "render_cpu/film.h"
 #include "scene/load.h"
 
 #include <gtest/gtest.h>
@@ -65,8 +66,7 @@ class RenderSeeds : public testing::Test {
 protected:
     RenderSeeds()
         : scene_(scene::load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes/planes.pbrt")) {
-        scene_.film.width = 48;
-        scene_.film.height = 36;
+        render_cpu::resize_film(scene_, 48, 36);
         settings_.technique = render_cpu::Technique::area;
         settings_.sample_order = render_cpu::SampleOrder::independent;
         settings_.pixel_position = render_cpu::PixelPosition::center;

@@ -2,18 +2,14 @@
 /// and the heuristic; estimators with a mistake do not.
 
 #include <algorithm>
-#include <cstdint>
-#include <random>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include <nusselt/random/sobol.h>
-#include <nusselt/random/unit_interval.h>
-
 #include "hypothesis.h"
 #include "reflected_light.h"
+#include "replicates.h"
 
 namespace nusselt_test {
 namespace {
@@ -30,9 +26,6 @@ using nusselt::WeightedBalanceHeuristic;
 using ClampedOptimal = nusselt::ClampedOptimalHeuristic<double>;
 using Optimal = nusselt::OptimalHeuristic<double>;
 
-constexpr int kReplicates = 17;
-constexpr std::uint32_t kPoints = 256;
-
 /// A shadow or another edge on a line adds a step to a net of one dimension: an error of the kind that is seldom seen.
 constexpr double kSlack = 5e-4;
 
@@ -44,29 +37,6 @@ struct Counts {
 /// What a sample adds to the reflected light.
 double share(const DirectLightSample<double>& s, Visibility visibility) {
     return visibility(s.wi) * sum_of_channels(s.shadowed) + sum_of_channels(s.constant);
-}
-
-/// Independent means of an estimator over randomised nets. \param estimate from a function that gives random points.
-template <class Estimate>
-std::vector<double> means_of(const Estimate& estimate) {
-    std::mt19937 engine(7);
-    std::vector<double> means;
-    for (int r = 0; r < kReplicates; ++r) {
-        double sum = 0;
-        std::uint32_t seeds[8];
-        for (std::uint32_t& seed : seeds) seed = static_cast<std::uint32_t>(engine());
-        for (std::uint32_t i = 0; i < kPoints; ++i) {
-            const nusselt::UInt2 bits = nusselt::sobol(i);
-            const std::uint32_t* seed = seeds;
-            sum += estimate([&] {
-                const double x = nusselt::to_unit<double>(nusselt::owen_scramble(bits.x, *seed++));
-                return nusselt::Vec2<double>{
-                    x, nusselt::to_unit<double>(nusselt::owen_scramble(bits.y, *seed++))};
-            });
-        }
-        means.push_back(sum / kPoints);
-    }
-    return means;
 }
 
 double p_value(const std::vector<double>& means, double truth) {

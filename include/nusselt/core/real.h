@@ -85,7 +85,13 @@ NUSSELT_INLINE float fma(float a, float b, float c) noexcept {
 #if defined(__FMA__) || defined(__ARM_FEATURE_FMA) || defined(__CUDA_ARCH__)
     return std::fma(a, b, c);
 #else
-    return static_cast<float>(static_cast<double>(a) * static_cast<double>(b) + static_cast<double>(c));
+    auto rounded =
+        static_cast<float>(static_cast<double>(a) * static_cast<double>(b) + static_cast<double>(c));
+#if defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)
+    // g++ 12 vectorises neighbouring calls and forgets to round what is an operand of another call.
+    __asm__("" : "+x"(rounded));
+#endif
+    return rounded;
 #endif
 }
 NUSSELT_INLINE double fma(double a, double b, double c) noexcept { return std::fma(a, b, c); }

@@ -18,6 +18,16 @@ NUSSELT_NAMESPACE_BEGIN
 
 namespace detail {
 
+/// Distance of a plane from the origin, 0 if it cannot be told from rounding.
+template <class Real>
+NUSSELT_INLINE Real plane_distance(const Vec3<Real>& point, const Vec3<Real>& normal) noexcept {
+    const Vec3<Real> product{point.x * normal.x, point.y * normal.y, point.z * normal.z};
+    const Real distance = abs(product.x + product.y + product.z);
+    const Real rounding = Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) *
+                          (abs(product.x) + abs(product.y) + abs(product.z));
+    return select(distance > rounding, distance, Real(0));
+}
+
 /// A line of a light in the cosine space of a lobe, where coordinates along the line are stretched.
 template <class Real>
 struct ImageOfLine {
@@ -219,11 +229,12 @@ private:
     NUSSELT_HD LineLight(const LinePlane<Real>& plane, const Surface& surface, const Real& scale) noexcept
         : surface_(surface),
           scale_(scale),
-          cosine_(plane.origin, plane.across, plane.along, Real(1), abs(dot(plane.origin, plane.normal))),
+          cosine_(plane.origin, plane.across, plane.along, Real(1),
+                  detail::plane_distance(plane.origin, plane.normal)),
           lobe_(surface.lobe.to_cosine(plane.origin), surface.lobe.to_cosine(plane.across),
                 surface.lobe.to_cosine(plane.along),
                 surface.lobe.minor() * surface.lobe.to_cosine({Real(0), Real(1), Real(0)}).y,
-                abs(dot(plane.origin, plane.normal))),
+                detail::plane_distance(plane.origin, plane.normal)),
           is_glossy_(surface.is_glossy()) {
         // Estimates of it are negative for eyes below the surface.
         diffuse_albedo_ = max(surface.diffuse_albedo, Vec3<Real>{Real(0), Real(0), Real(0)});

@@ -6,17 +6,19 @@
 /// closed forms, are tabulated, and offsets drawn from the table: they stay stratified in one dimension.
 
 #include <nusselt/estimate/line_light.h>
-#include <nusselt/sampling/piecewise_linear.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
 /// \tparam Real  float, double, long double or a pack: a line per lane, of one light and surface point.
 /// \tparam N     bound on the number of vertices of the light.
-/// \tparam Nodes of the table: narrower highlights than the distance between two of them are left to chance.
+/// \tparam Nodes of the table, a power of two: highlights narrower than the distance between two of them are left to
+///               chance.
 template <class Real, int N, int Nodes = 32>
 class ReflectedOffsets {
+    static_assert(Nodes >= 2 && (Nodes & (Nodes - 1)) == 0, "for the search by halves");
     using Scalar = scalar_t<Real>;
     static constexpr int kLanes = RealTraits<Real>::kLanes;
+    static constexpr int kCells = Nodes - 1;
 
 public:
     /// The same family and light in all lanes.
@@ -25,58 +27,85 @@ public:
     NUSSELT_HD ReflectedOffsets(const LineFamily<Real, N>& family,
                                 const LineLight<Real, Brdf>& light) noexcept
         : family_(family) {
-        Scalar value[Nodes];
         Scalar sum = 0;
         for (int begin = 0; begin < Nodes; begin += kLanes) {
-            Real x = Real(0);
-            for (int i = 0; i < kLanes; ++i) {
-                const int node = begin + i < Nodes ? begin + i : Nodes - 1;
-                set_lane(x, i, Table::node(node));
-            }
-            const Real reflected = relative_radiance(light, x);
+            Scalar lanes[kLanes];
+            for (int i = 0; i < kLanes; ++i)
+                lanes[i] = static_cast<Scalar>(begin + i) / static_cast<Scalar>(kCells);
+            store(relative_radiance(light, load(lanes)), lanes);
             for (int i = 0; i < kLanes && begin + i < Nodes; ++i) {
-                value[begin + i] = lane_of(reflected, i);
-                sum += value[begin + i];
+                density_[begin + i] = lanes[i];
+                sum += lanes[i];
             }
         }
-        // Whatever the table misses is sampled by length.
-        const Scalar least = sum > 0 ? sum * Scalar(kLeastShare / Nodes) : Scalar(1);
-        Real density[Nodes];
-        for (int i = 0; i < Nodes; ++i) density[i] = Real(value[i] + least);
-        table_ = Table(density);
+        // Whatever the table misses is sampled by length, and all of lights that are next to black.
+        const bool is_lit = sum > kTiny<Scalar> && sum <= std::numeric_limits<Scalar>::max();
+        const Scalar scale = is_lit ? Scalar(Nodes) / sum : Scalar(0);
+        for (Scalar& density : density_)
+            density = is_lit ? fma(density, scale, Scalar(kLeastShare)) : Scalar(1);
+        below_[0] = 0;
+        for (int i = 0; i < kCells; ++i)
+            below_[i + 1] = below_[i] + Scalar(0.5) * (density_[i] + density_[i + 1]);
     }
 
     /// \param u in [0, 1); increasing u increases the offset.
     NUSSELT_HD LineChoice<Real> sample(const Real& u) const noexcept {
-        const Real x = below_one(table_.invert(u));
-        const LineChoice<Real> by_length = family_.sample_by_length(x);
-        return {by_length.offset, by_length.pdf * (table_.value(x) / table_.integral())};
+        const Real target = u * Real(below_[kCells]);
+        const Cell cell = cell_of(target);
+        const Real rest = max(target - cell.below, Real(0));
+        const Real rise = cell.right - cell.left;
+        const Real root = sqrt(max(fma(Real(2) * rise, rest, cell.left * cell.left), Real(0)));
+        const Real share = min(Real(2) * rest / (cell.left + root), Real(1));
+        const LineChoice<Real> by_length =
+            family_.sample_by_length(below_one((cell.index + share) * Real(Scalar(1) / kCells)));
+        const Real density = fma(share, rise, cell.left) * Real(kCells / below_[kCells]);
+        return {by_length.offset, by_length.pdf * density};
     }
 
 private:
-    using Table = PiecewiseLinear<Real, Nodes>;
-
     /// Of the mean of the table, everywhere.
     static constexpr double kLeastShare = 0.1;
 
-    NUSSELT_HD static void set_lane(Real& x, int lane, Scalar value) noexcept {
-        if constexpr (kLanes == 1)
-            x = value;
-        else
-            x.set_lane(lane, value);
-    }
-    NUSSELT_HD static Scalar lane_of(const Real& x, int lane) noexcept {
-        if constexpr (kLanes == 1)
-            return x;
-        else
-            return x.lane(lane);
+    /// Between two nodes.
+    struct Cell {
+        Real index, below, left, right;
+    };
+
+    NUSSELT_HD Cell cell_of(const Real& target) const noexcept {
+        Scalar lanes[kLanes], index[kLanes], below[kLanes], left[kLanes], right[kLanes];
+        store(target, lanes);
+        for (int i = 0; i < kLanes; ++i) {
+            int cell = 0;
+            for (int step = Nodes / 2; step > 0; step /= 2)
+                cell += below_[cell + step] <= lanes[i] ? step : 0;
+            cell = cell < kCells ? cell : kCells - 1;
+            index[i] = static_cast<Scalar>(cell);
+            below[i] = below_[cell];
+            left[i] = density_[cell];
+            right[i] = density_[cell + 1];
+        }
+        return {load(index), load(below), load(left), load(right)};
     }
 
-    /// What a line sampled by length would add, without shadows. \param x random number of the line
+    NUSSELT_HD static Real load(const Scalar* lanes) noexcept {
+        if constexpr (kLanes == 1)
+            return lanes[0];
+        else
+            return Real::load(lanes);
+    }
+    NUSSELT_HD static void store(const Real& x, Scalar* lanes) noexcept {
+        if constexpr (kLanes == 1)
+            lanes[0] = x;
+        else
+            x.store(lanes);
+    }
+
+    /// What a line sampled by length would add, without shadows.
+    /// \param u random number of the line, beyond [0, 1] the same as at its end
     template <class Brdf>
-    NUSSELT_HD Real relative_radiance(const LineLight<Real, Brdf>& light, const Real& x) const noexcept {
+    NUSSELT_HD Real relative_radiance(const LineLight<Real, Brdf>& light, const Real& u) const noexcept {
         // The first and the last line of a light may have no length.
-        const Real inside = min(max(x, Real(Scalar(1e-3))), Real(Scalar(1 - 1e-3)));
+        const Real inside = min(max(u, Real(Scalar(1e-3))), Real(Scalar(1 - 1e-3)));
         const LineChoice<Real> choice = family_.sample_by_length(inside);
         Interval<Real> whole[1];
         VisibleParts<Real> parts(whole, 1);
@@ -88,7 +117,8 @@ private:
     }
 
     const LineFamily<Real, N>& family_;
-    Table table_;
+    Scalar density_[Nodes]; ///< of the random number of sample_by_length(), not normalised
+    Scalar below_[Nodes];   ///< its integral from 0 to the node, in cells
 };
 
 NUSSELT_NAMESPACE_END

@@ -52,20 +52,18 @@ NUSSELT_INLINE Real signed_angle(const Real& y, const Real& x) noexcept {
 
 } // namespace detail
 
-/// Integral of a Phong lobe of albedo 1 over the part of a linear light above the surface, per radius [1/m].
-/// \param light    in shading space [m].
+/// Integral of a Phong lobe of albedo 1 over a part of a linear light that is above the surface, per radius.
+/// \param e        of the part, in any unit of length: the result is per such unit.
 /// \param mirror   unit, in shading space: mirrored(wo).
 /// \param exponent 0 or at least 1; any real number. Between 0 and 1, where the lobe has a sharp end, 1e-3 may be lost.
 template <class Real>
-NUSSELT_HD inline Real phong_integral(const LineSegment<Real>& light, const Vec3<Real>& mirror,
+NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real>& mirror,
                                       const Real& exponent) noexcept {
     using Scalar = scalar_t<Real>;
     using Quadrature = detail::PhongQuadrature<Scalar>;
     constexpr GaussLegendre<Scalar, Quadrature::kNodes> kRule;
     const Real half_turn = Real(kPi<Scalar>);
     const Real quarter_turn = Real(kPi<Scalar> / 2);
-    const Real scale = scale_of(light);
-    const LineExtent<Real> e = clipped_extent(scaled(light, scale));
     if (!any(e.visible)) return Real(0);
 
     // Angles from the begin, theta, and from the mirrored direction in the plane of line and origin, u.
@@ -100,21 +98,28 @@ NUSSELT_HD inline Real phong_integral(const LineSegment<Real>& light, const Vec3
         sum = fma(Real(kRule.weight(i)) * cosine, height * exp_of_negative(exponent * logarithm), sum);
     }
     const auto lit = e.visible & (width > Real(0)) & (mirror.z > Real(0));
-    const Real factor = Real(2) * phong_normalisation(exponent) * width / e.distance * scale;
+    const Real factor = Real(2) * phong_normalisation(exponent) * width / e.distance;
     return select(lit, factor * sum, Real(0));
 }
 
-/// What a part of a line of a planar light contributes to a Phong surface, as diffuse_part() [1/m].
+/// The same over the part of a segment above the surface [1/m].
+/// \param light in shading space [m].
+template <class Real>
+NUSSELT_HD inline Real phong_integral(const LineSegment<Real>& light, const Vec3<Real>& mirror,
+                                      const Real& exponent) noexcept {
+    const Real scale = scale_of(light);
+    return phong_integral(clipped_extent(scaled(light, scale)), mirror, exponent) * scale;
+}
+
+/// What a part of a line of a planar light contributes to a Phong surface [1/m], see shading.h.
 /// \tparam Sides FrontSide or BothSides.
-/// \param plane    in shading space [m].
 /// \param mirror   unit, in shading space: mirrored(wo).
 /// \param exponent as for phong_integral().
 template <class Sides = FrontSide, class Real>
-NUSSELT_HD inline Real phong_part(const LinePlane<Real>& plane, const Real& offset,
-                                  const Interval<Real>& part, const Vec3<Real>& mirror,
-                                  const Real& exponent) noexcept {
-    return Real(scalar_t<Real>(0.5)) * Sides::lit(cosine_at_light(plane, offset)) *
-           phong_integral(segment_of(plane, offset, part), mirror, exponent);
+NUSSELT_HD inline Real phong_part(const SeenLine<Real>& line, const Interval<Real>& part,
+                                  const Vec3<Real>& mirror, const Real& exponent) noexcept {
+    return Real(scalar_t<Real>(0.5)) * Sides::lit(line.cosine_at_light()) *
+           (phong_integral(line.above_horizon(part), mirror, exponent) * line.scale());
 }
 
 NUSSELT_NAMESPACE_END

@@ -139,8 +139,9 @@ NUSSELT_HD inline mask_t<Real> hides_all(const TriangleShadow<Real>& shadow,
     // Shadows are convex.
     const Interval<Real> first = hidden_interval(shadow, bounds.offsets.begin);
     const Interval<Real> last = hidden_interval(shadow, bounds.offsets.end);
-    return (max(first.begin, last.begin) <= bounds.extent.begin) &
-           (min(first.end, last.end) >= bounds.extent.end);
+    const auto begins = max(first.begin, last.begin) <= bounds.extent.begin;
+    const auto ends = min(first.end, last.end) >= bounds.extent.end;
+    return begins & ends;
 }
 
 namespace detail {

@@ -46,6 +46,14 @@ public:
     /// Lanes in which anything is visible.
     NUSSELT_HD mask_t<Real> lit() const noexcept { return bounds_.begin < bounds_.end; }
 
+    /// Lanes in which something between begin and end is visible.
+    NUSSELT_HD mask_t<Real> overlap(const Interval<Real>& interval) const noexcept {
+        auto result = mask_t<Real>(false);
+        for (int k = 0; k < count_; ++k)
+            result = result | ((interval.begin < part_[k].end) & (interval.end > part_[k].begin));
+        return result;
+    }
+
     /// How many parts were taken for hidden since there was no room for them.
     NUSSELT_HD const Real& lost() const noexcept { return lost_; }
 

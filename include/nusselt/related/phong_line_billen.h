@@ -6,8 +6,8 @@
 /// exponents only, in time that is linear in them or with the error of the table, and cancels where the line is far from
 /// the mirrored direction.
 
+#include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <nusselt/bsdf/phong.h>
 #include <nusselt/geometry/clip_line.h>
@@ -43,35 +43,33 @@ private:
 
 /// The same, tabulated and interpolated. Points are cubes of equidistant numbers: denser near 0, beyond which high powers
 /// vanish.
-template <class Real>
+/// \tparam Points number of intervals of the table.
+template <class Real, int Points = 4096>
 class CosinePowerTable {
 public:
-    /// \param points number of intervals of the table, at least 1.
-    CosinePowerTable(int exponent, int points) : points_(static_cast<Real>(points)) {
-        const CosinePowerRecursion<Real> recursion(exponent);
-        for (int i = 0; i <= points; ++i) {
-            const Real x = static_cast<Real>(i) / points_;
-            values_.push_back(recursion(kQuarterTurn * x * x * x));
+    /// \param exponent at least 0.
+    explicit CosinePowerTable(int exponent) noexcept {
+        const CosinePowerRecursion<double> recursion(exponent);
+        for (int i = 0; i <= Points; ++i) {
+            const double x = static_cast<double>(i) / Points;
+            values_[i] = static_cast<Real>(recursion(kPi<double> / 2 * x * x * x));
         }
     }
 
     /// \param u in [-pi / 2, pi / 2].
     Real operator()(const Real& u) const noexcept {
-        const Real share = std::fmin(std::fabs(u) / kQuarterTurn, Real(1));
-        const Real position = points_ * std::cbrt(share);
-        const Real cell = std::fmin(std::floor(position), points_ - 1);
-        const Real begin = cell / points_;
-        const Real end = (cell + 1) / points_;
-        const Real x = (share - begin * begin * begin) / (end * end * end - begin * begin * begin);
-        const auto i = static_cast<std::size_t>(cell);
-        return std::copysign(values_[i] + x * (values_[i + 1] - values_[i]), u);
+        const Real share = std::fmin(std::fabs(u) / (kPi<Real> / 2), Real(1));
+        const int cell = std::min(static_cast<int>(Real(Points) * std::cbrt(share)), Points - 1);
+        const Real begin = cube(static_cast<Real>(cell) / Points);
+        const Real end = cube(static_cast<Real>(cell + 1) / Points);
+        const Real x = (share - begin) / (end - begin);
+        return std::copysign(values_[cell] + x * (values_[cell + 1] - values_[cell]), u);
     }
 
 private:
-    static constexpr Real kQuarterTurn = kPi<Real> / 2;
+    static Real cube(Real x) noexcept { return x * x * x; }
 
-    Real points_;
-    std::vector<Real> values_;
+    Real values_[Points + 1];
 };
 
 /// Meaning and parameters as those of phong_integral().

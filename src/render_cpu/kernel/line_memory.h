@@ -15,7 +15,6 @@ inline constexpr int kPartsPerLine = 64;
 
 struct LineMemory {
     Interval<Real> parts[kPacksPerBatch][kPartsPerLine];
-    OccluderStorage occluders;
 };
 static_assert(sizeof(LineMemory) <= render_cpu::kLineMemoryBytes, "renderers reserve less");
 static_assert(kPacksPerBatch <= kLargestLinePackCount, "more than are traced at once");

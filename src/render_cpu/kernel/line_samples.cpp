@@ -124,24 +124,16 @@ public:
         const ShadingPoint point = shading_point(reflected_.surface(), lane);
         const auto family = single_lane<Family>(families_, lane);
         const SeenLight seen = see_light(polygon_, family, point.apex, light_);
-        const bool may_take_points = settings_.many_occluders == ManyOccluders::points;
-        OccluderList list(memory_.occluders, may_take_points ? most_listed() : OccluderStorage::kCapacity);
-        const Occluders found =
-            timed([&] { return list.collect(*reflected_.job().line_bvh, seen, counters_); });
         render_cpu::TileStatistics& statistics = reflected_.statistics();
-        if (found == Occluders::partial || (found == Occluders::too_many && may_take_points)) {
+        if (timed([&] { return needs_points(seen); })) {
             ++statistics.point_lights;
             return false;
         }
         LineSum sum;
-        if (found != Occluders::hide_all) {
-            const bool is_independent = settings_.orientation == LineOrientation::independent;
-            if (is_independent)
-                add_independent(point, sum);
-            else
-                add_family(point, family, {seen, found == Occluders::listed ? &list : nullptr}, {0, count_},
-                           sum);
-        }
+        if (settings_.orientation == LineOrientation::independent)
+            add_independent(point, sum);
+        else
+            add_family(point, family, seen, {0, count_}, sum);
         result.set(lane, sum);
         ++statistics.line_lights;
         statistics.lines += count_;
@@ -163,16 +155,11 @@ private:
         std::uint32_t first, count;
     };
 
-    struct Visibility {
-        SeenLight seen;
-        const OccluderList* list; ///< of all that may hide lines, or null
-    };
-
     struct ParallelLines {
         const LinePlane<float>& plane; ///< in world space
         const LineFamily<Real, N>& family;
         const Estimator& estimator;
-        const Visibility& visibility;
+        const SeenLight& seen;
     };
 
     /// A direction for each shading point of the packet.
@@ -181,9 +168,12 @@ private:
         return Real(kPi<float>) * reflected_.orientation_random(light_, kOrientationPair).x;
     }
 
-    int most_listed() const noexcept {
-        const std::int32_t most = reflected_.job().most_occluders;
-        return most < OccluderStorage::kCapacity ? most : OccluderStorage::kCapacity;
+    bool needs_points(const SeenLight& seen) noexcept {
+        const render_cpu::RenderJob& job = reflected_.job();
+        if (has_partial_surfaces(*job.line_bvh, seen, counters_)) return true;
+        return settings_.many_occluders == ManyOccluders::points &&
+               count_occluding_blocks(*job.line_bvh, seen, job.most_occluders, counters_) >
+                   job.most_occluders;
     }
 
     template <class Work>
@@ -202,20 +192,20 @@ private:
             const LineFamily<Real, N> families(broadcast_polygon(polygon_), angles);
             for (std::uint32_t i = 0; i < kLanes && first + i < count_; ++i) {
                 const auto family = single_lane<Family>(families, static_cast<int>(i));
-                add_family(point, family, {see_light(polygon_, family, point.apex, light_), nullptr},
-                           {first + i, 1}, sum);
+                add_family(point, family, see_light(polygon_, family, point.apex, light_), {first + i, 1},
+                           sum);
             }
         }
     }
 
     /// Adds parallel lines.
-    void add_family(const ShadingPoint& point, const Family& family, const Visibility& visibility,
+    void add_family(const ShadingPoint& point, const Family& family, const SeenLight& seen,
                     const Range& range, LineSum& sum) noexcept {
         const LineFamily<Real, N> lines(family);
         const LinePlane<float> local = to_shading_space(family.plane(), point.position, point.frame);
         const Estimator estimator(broadcast_plane(local), Real(half_circumference(polygon_)), point.surface);
         const auto add = [&](const auto& sample_offset) {
-            add_lines(point, {family.plane(), lines, estimator, visibility}, sample_offset, range, sum);
+            add_lines(point, {family.plane(), lines, estimator, seen}, sample_offset, range, sum);
         };
         switch (settings_.offsets) {
         case LineOffsets::length:
@@ -238,7 +228,7 @@ private:
             TracedLines<Real> traced[kPacksPerBatch];
             const int packs = choose(point, lines, sample_offset,
                                      {range.first + done, rest < kBatch ? rest : kBatch}, chosen, traced);
-            find_visible_parts(lines.visibility, traced, packs);
+            find_visible_parts(lines.seen, traced, packs);
             for (int i = 0; i < packs; ++i) add_pack(point, lines.estimator, chosen[i], traced[i], sum);
         }
     }
@@ -264,12 +254,9 @@ private:
         return packs;
     }
 
-    void find_visible_parts(const Visibility& visibility, TracedLines<Real>* lines, int packs) noexcept {
+    void find_visible_parts(const SeenLight& seen, TracedLines<Real>* lines, int packs) noexcept {
         const std::uint64_t begin = __builtin_ia32_rdtsc();
-        if (visibility.list != nullptr)
-            visibility.list->cut(lines, packs, counters_);
-        else
-            LineTracer<Real>(*reflected_.job().line_bvh, visibility.seen, lines, packs, counters_).trace();
+        LineTracer<Real>(*reflected_.job().line_bvh, seen, lines, packs, counters_).trace();
         reflected_.statistics().line_visibility_ticks += __builtin_ia32_rdtsc() - begin;
     }
 

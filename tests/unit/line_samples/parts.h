@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <nusselt/line_samples/line_family.h>
+#include <nusselt/line_samples/shading.h>
 
 #include "experiments/hostile/lights.h"
 #include "geometry/reference.h"
@@ -154,6 +154,8 @@ struct RandomPart {
         const double b = random.uniform();
         part = {at(std::min(a, b)), at(std::max(a, b))};
     }
+
+    nusselt::SeenLine<T> seen() const { return {family.plane(), {offset, whole}}; }
 
     ExactPart exact(const nusselt::Interval<T>& interval) const { return {family.plane(), offset, interval}; }
 

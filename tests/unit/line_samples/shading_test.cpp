@@ -22,6 +22,7 @@ using nusselt::Interval;
 using nusselt::LineFamily;
 using nusselt::lobe_part;
 using nusselt::Ltc;
+using nusselt::SeenLine;
 
 /// Lights of all sizes from next to the point to far away.
 struct Place {
@@ -42,8 +43,7 @@ TEST(DiffusePart, EqualsQuadratureInDouble) {
         for (int k = 0; k < 600; ++k) {
             const RandomPart<double> part(random, 3 + k % 6, place.distance, place.size);
             const double exact = static_cast<double>(exact_diffuse(part.exact(part.part)));
-            EXPECT_NEAR(diffuse_part(part.family.plane(), part.offset, part.part), exact, 1e-10 * exact)
-                << place.name;
+            EXPECT_NEAR(diffuse_part(part.seen(), part.part), exact, 1e-10 * exact) << place.name;
             lit += exact > 0;
         }
         EXPECT_GT(lit, 100);
@@ -56,7 +56,8 @@ TEST(DiffusePart, TestRejectsAMovedLine) {
     for (int k = 0; k < 600; ++k) {
         const RandomPart<double> part(random, 3 + k % 6, 2, 1);
         const double exact = static_cast<double>(exact_diffuse(part.exact(part.part)));
-        const double moved = diffuse_part(part.family.plane(), part.offset + 1e-6, part.part);
+        const double moved =
+            diffuse_part(SeenLine(part.family.plane(), {part.offset + 1e-6, part.whole}), part.part);
         failures += !(std::fabs(moved - exact) <= 1e-10 * exact);
     }
     EXPECT_GT(failures, 100);
@@ -70,8 +71,7 @@ TEST(DiffusePart, EqualsQuadratureInFloat) {
             const RandomPart<float> part(random, 3 + k % 6, place.distance, place.size);
             const double exact = static_cast<double>(exact_diffuse(part.exact(part.part)));
             if (!(exact > 0)) continue;
-            const double value =
-                static_cast<double>(diffuse_part(part.family.plane(), part.offset, part.part));
+            const double value = static_cast<double>(diffuse_part(part.seen(), part.part));
             errors.push_back(std::fabs(value - exact) / exact);
         }
         std::sort(errors.begin(), errors.end());
@@ -107,8 +107,7 @@ void expect_lobe_equals_quadrature(const std::vector<NamedLobe>& lobes) {
             }));
             // The coefficients are rounded: narrow lobes turn by more than their share.
             const double rounding = 1e-10 + 1e-15 / static_cast<double>(width * width);
-            EXPECT_NEAR(lobe_part<Horizons>(part.family.plane(), part.offset, part.part, ltc), exact,
-                        rounding * exact)
+            EXPECT_NEAR(lobe_part<Horizons>(part.seen(), part.part, ltc), exact, rounding * exact)
                 << lobe.name;
             lit += exact > 0;
         }
@@ -130,10 +129,11 @@ TEST(Sides, BothAreTheFrontAndTheBack) {
         const RandomPart<double> part(random, 3 + k % 6, 2, 1);
         nusselt::LinePlane<double> turned = part.family.plane();
         turned.normal = -turned.normal;
-        const double front = diffuse_part(part.family.plane(), part.offset, part.part);
-        const double back = diffuse_part(turned, part.offset, part.part);
+        const double front = diffuse_part(part.seen(), part.part);
+        const double back = diffuse_part(SeenLine(turned, {part.offset, part.whole}), part.part);
         EXPECT_TRUE(front == 0 || back == 0);
-        EXPECT_EQ(diffuse_part<BothSides>(turned, part.offset, part.part), front + back);
+        EXPECT_EQ(diffuse_part<BothSides>(SeenLine(turned, {part.offset, part.whole}), part.part),
+                  front + back);
     }
 }
 
@@ -145,7 +145,9 @@ TEST(Sides, PointsOnThePlaneSeeNothing) {
         const auto light = nusselt::make_polygon<8>(part.light.vertex, 4);
         const LineFamily<float, 8> family(light, static_cast<float>(random.between(0, 3)));
         const float offset = family.sample_uniform(0.4f).offset;
-        EXPECT_EQ(diffuse_part<BothSides>(family.plane(), offset, family.chord(offset).extent), 0);
+        EXPECT_EQ(diffuse_part<BothSides>(SeenLine(family.plane(), family.chord(offset)),
+                                          family.chord(offset).extent),
+                  0);
     }
 }
 
@@ -186,11 +188,11 @@ TEST(Lines, IntegrateToThePolygon) {
         const auto light = light_above(random, 3 + k % 6);
         const LineFamily<double, 8> family(light, random.between(0, 3.14159));
         const double diffuse = over_lines(family, light, [&](double offset, const Interval<double>& chord) {
-            return diffuse_part(family.plane(), offset, chord);
+            return diffuse_part(SeenLine(family.plane(), {offset, chord}), chord);
         });
         EXPECT_NEAR(diffuse, diffuse_integral(light), 1e-12);
         const double lobe = over_lines(family, light, [&](double offset, const Interval<double>& chord) {
-            return lobe_part<CosineHorizon>(family.plane(), offset, chord, ltc);
+            return lobe_part<CosineHorizon>(SeenLine(family.plane(), family.chord(offset)), chord, ltc);
         });
         EXPECT_NEAR(lobe, nusselt::lobe_integral<CosineHorizon>(light, ltc), 1e-12);
     }
@@ -203,7 +205,7 @@ TEST(Lines, IntegrateToThePartOfThePolygonAboveTheHorizon) {
         const auto light = ellipse_polygon<double, 8>(random, 3 + k % 6, 2, 1.5);
         const LineFamily<double, 8> family(light, random.between(0, 3.14159));
         const double diffuse = over_lines(family, light, [&](double offset, const Interval<double>& chord) {
-            return diffuse_part<BothSides>(family.plane(), offset, chord);
+            return diffuse_part<BothSides>(SeenLine(family.plane(), {offset, chord}), chord);
         });
         EXPECT_NEAR(diffuse, diffuse_integral(light), 1e-5);
     }

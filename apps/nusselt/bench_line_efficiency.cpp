@@ -1,0 +1,184 @@
+#include "bench_output.h"
+#include "commands.h"
+#include "line_options.h"
+#include "render_setup.h"
+#include "validators.h"
+
+#include "experiments/line_efficiency.h"
+#include "scene/load.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace nusselt::app {
+
+namespace {
+
+using experiments::EqualErrorRow;
+using experiments::LineEfficiency;
+using experiments::NoiseCurve;
+
+struct ThreadsResult {
+    int threads;
+    LineEfficiency efficiency;
+};
+
+void print_curve(const char* title, const NoiseCurve& curve, double mean) {
+    fmt::print("{:<8}", title);
+    for (const experiments::CurvePoint& p : curve)
+        fmt::print("{:>7}: {:.2e} {:.3g} ms", p.count, std::sqrt(p.variance) / mean, 1e3 * p.seconds);
+    fmt::print("\n");
+}
+
+void print_order(const char* title, const NoiseCurve& curve) {
+    constexpr int kFirst = 4;
+    if (curve.back().count > kFirst)
+        fmt::print("order of {} from {} to {}: {:.2f}\n", title, kFirst, curve.back().count,
+                   experiments::fitted_order(curve, kFirst, curve.back().count));
+}
+
+void print_table(const ThreadsResult& result) {
+    const LineEfficiency& efficiency = result.efficiency;
+    fmt::print("Threads: {}. Relative standard deviations and times:\n", result.threads);
+    print_curve("points", efficiency.points, efficiency.mean);
+    print_curve("lines", efficiency.lines, efficiency.mean);
+    print_curve("choice", efficiency.choice, efficiency.mean);
+    print_order("points", efficiency.points);
+    print_order("lines", efficiency.lines);
+    print_order("the choice", efficiency.choice);
+
+    const std::vector<EqualErrorRow> rows = equal_error_rows(efficiency);
+    fmt::print("\n{:>8}{:>12}{:>13}{:>14}{:>16}{:>15}\n", "points", "error", "points ms", "lines/points",
+               "choice/points", "choice/better");
+    for (const EqualErrorRow& row : rows)
+        fmt::print("{:>8}{:>12.2e}{:>13.2f}{:>13.3f}{}{:>16.3f}{:>15.3f}\n", row.points,
+                   std::sqrt(row.variance) / efficiency.mean, 1e3 * row.points_seconds,
+                   row.lines_over_points(), row.lines_are_extrapolated ? '*' : ' ',
+                   row.choice_seconds / row.points_seconds, row.loss());
+    const auto first = crossover(rows);
+    fmt::print("{}; the choice takes up to {:.2f} times as long as the better of both\n\n",
+               first ? fmt::format("lines win from {} points", *first) : "points win", largest_loss(rows));
+}
+
+nlohmann::ordered_json to_json(const NoiseCurve& curve) {
+    auto list = nlohmann::ordered_json::array();
+    for (const experiments::CurvePoint& p : curve)
+        list.push_back({{"count", p.count}, {"variance", p.variance}, {"seconds", p.seconds}});
+    return list;
+}
+
+std::string to_json(const std::vector<ThreadsResult>& results, const BenchLineEfficiencyOptions& options,
+                    const scene::Scene& scene, render_cpu::Isa isa) {
+    auto list = nlohmann::ordered_json::array();
+    for (const ThreadsResult& result : results) {
+        auto rows = nlohmann::ordered_json::array();
+        for (const EqualErrorRow& row : equal_error_rows(result.efficiency))
+            rows.push_back({{"points", row.points},
+                            {"variance", row.variance},
+                            {"points_seconds", row.points_seconds},
+                            {"lines_seconds", row.lines_seconds},
+                            {"lines_are_extrapolated", row.lines_are_extrapolated},
+                            {"choice_seconds", row.choice_seconds}});
+        list.push_back({{"threads", result.threads},
+                        {"mean_radiance", result.efficiency.mean},
+                        {"points", to_json(result.efficiency.points)},
+                        {"lines", to_json(result.efficiency.lines)},
+                        {"choice", to_json(result.efficiency.choice)},
+                        {"equal_error", rows}});
+    }
+    const nlohmann::ordered_json json = {{"scene", options.scene.string()},
+                                         {"width", scene.film.width},
+                                         {"height", scene.film.height},
+                                         {"strategies", options.strategies},
+                                         {"repetitions", options.repetitions},
+                                         {"isa", render_cpu::name_of(isa)},
+                                         {"results", list}};
+    // Paths may hold bytes that are not UTF-8.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+experiments::LineEfficiencySettings settings_of(const BenchLineEfficiencyOptions& options) {
+    experiments::LineEfficiencySettings settings;
+    settings.points.strategies = from_name(render_cpu::kStrategies, options.strategies);
+    settings.points.sample_order = render_cpu::SampleOrder::stratified;
+    settings.points.pixel_position = render_cpu::PixelPosition::center;
+    apply_line_options(options.lines, settings.points);
+    settings.lines = settings.points.lines;
+    settings.most_points = options.most_points;
+    settings.most_lines = options.most_lines;
+    settings.rounds = options.repetitions;
+    return settings;
+}
+
+} // namespace
+
+void setup_bench_line_efficiency(CLI::App& bench, int& exit_code) {
+    const auto options = std::make_shared<BenchLineEfficiencyOptions>();
+    CLI::App* command = bench.add_subcommand(
+        "line-efficiency",
+        "How long line samples take to the error of point samples: standard deviations over seeds, and "
+        "times\n"
+        "of stratified point samples (projected solid angle) and line samples in turn, and of the choice\n"
+        "between both for each shading point (--many-occluders points). Times to equal errors are\n"
+        "interpolated; * means that the largest number of lines was not enough.");
+    command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
+    command
+        ->add_option("--most-points", options->most_points,
+                     "Point samples per pixel and light, in powers of two from 4 to this")
+        ->check(CLI::Range(2 * experiments::kFewestPoints, render_cpu::kMaxSamples))
+        ->capture_default_str();
+    command
+        ->add_option("--most-lines", options->most_lines,
+                     "Lines per shading point and light, in powers of two from 1 to this")
+        ->check(CLI::Range(2, render_cpu::kMaxLines))
+        ->capture_default_str();
+    command
+        ->add_option("--repetitions", options->repetitions,
+                     fmt::format("Rounds of {} images of each kind, 1 to 1000", experiments::kSeedsPerRound))
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->add_option("--strategies", options->strategies, "Of point samples, as for nusselt render")
+        ->transform(to_name_of(render_cpu::kStrategies))
+        ->capture_default_str();
+    command
+        ->add_option("--roughness", options->roughness,
+                     "Makes all surfaces glossy: roughness, with a reflectance of 0.04 at normal incidence")
+        ->check(number(0, 1));
+    add_line_kind_options(*command, options->lines);
+    add_machine_options(*command, options->threads, options->isa);
+    add_resolution_option(*command, options->resolution);
+    add_json_option(*command, options->json);
+    command->callback([options, &exit_code] { exit_code = run_bench_line_efficiency(*options); });
+}
+
+int run_bench_line_efficiency(const BenchLineEfficiencyOptions& options) {
+    const render_cpu::Isa isa = render_cpu::choose_isa(options.isa);
+    scene::Scene scene = scene::load_scene(options.scene);
+    apply_resolution(options.resolution, scene);
+    if (options.roughness) experiments::make_glossy(scene, *options.roughness);
+    const experiments::LineEfficiencySettings settings = settings_of(options);
+    std::vector<int> threads = {1, render_cpu::default_thread_count()};
+    if (options.threads) threads = {*options.threads};
+
+    std::vector<ThreadsResult> results;
+    for (const int count : threads) {
+        const render_cpu::Renderer renderer(scene, count);
+        results.push_back({count, measure_line_efficiency(renderer, isa, settings, [&](int round) {
+                               fmt::print(stderr, "threads {}, round {} of {}\n", count, round + 1,
+                                          settings.rounds);
+                           })});
+    }
+    write_results(options.json, to_json(results, options, scene, isa), [&] {
+        for (const ThreadsResult& result : results) print_table(result);
+    });
+    return 0;
+}
+
+} // namespace nusselt::app

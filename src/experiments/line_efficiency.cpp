@@ -1,0 +1,111 @@
+#include "experiments/line_efficiency.h"
+
+#include "experiments/image_errors.h"
+
+#include <algorithm>
+
+namespace nusselt::experiments {
+
+namespace {
+
+/// A curve in the making.
+struct Series {
+    render_cpu::RenderSettings settings;
+    std::vector<int> counts;
+    std::vector<double> variances;            ///< for each count, sum over the rounds
+    std::vector<std::vector<double>> seconds; ///< for each count, of all rounds
+
+    Series(const render_cpu::RenderSettings& with, int first, int last) : settings(with) {
+        for (int n = first; n <= last; n *= 2) counts.push_back(n);
+        variances.resize(counts.size());
+        seconds.resize(counts.size());
+    }
+
+    /// \returns the mean radiance
+    double render(const render_cpu::Renderer& renderer, render_cpu::Isa isa, int round) {
+        settings.seed = static_cast<std::uint32_t>(round * kSeedsPerRound);
+        double mean = 0;
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            const SeedStatistics result =
+                render_seeds(renderer, isa, with_count(settings, counts[i]), kSeedsPerRound);
+            variances[i] += result.variance;
+            seconds[i].push_back(result.seconds);
+            mean = mean_radiance(result.mean);
+        }
+        return mean;
+    }
+
+    NoiseCurve curve() const {
+        NoiseCurve result;
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            std::vector<double> sorted = seconds[i];
+            std::sort(sorted.begin(), sorted.end());
+            result.push_back(
+                {counts[i], variances[i] / static_cast<double>(sorted.size()), sorted[sorted.size() / 2]});
+        }
+        return result;
+    }
+};
+
+double seconds_to(const NoiseCurve& curve, double variance) {
+    if (variance >= curve.front().variance) return curve.front().seconds;
+    return seconds_to_variance(curve, variance);
+}
+
+} // namespace
+
+LineEfficiency measure_line_efficiency(const render_cpu::Renderer& renderer, render_cpu::Isa isa,
+                                       const LineEfficiencySettings& settings,
+                                       const std::function<void(int round)>& progress) {
+    render_cpu::RenderSettings with_lines = settings.points;
+    with_lines.integrator = render_cpu::Integrator::lines;
+    with_lines.lines = settings.lines;
+    with_lines.lines.many_occluders = render_cpu::ManyOccluders::lines;
+    render_cpu::RenderSettings with_choice = with_lines;
+    with_choice.lines.many_occluders = render_cpu::ManyOccluders::points;
+
+    Series points(settings.points, kFewestPoints, settings.most_points);
+    Series lines(with_lines, 1, settings.most_lines);
+    Series choice(with_choice, 1, settings.most_lines);
+    double mean = 0;
+    for (int round = 0; round < settings.rounds; ++round) {
+        progress(round);
+        for (Series* series : {&points, &lines, &choice}) mean = series->render(renderer, isa, round);
+    }
+    return {points.curve(), lines.curve(), choice.curve(), mean};
+}
+
+std::vector<EqualErrorRow> equal_error_rows(const LineEfficiency& efficiency) {
+    std::vector<EqualErrorRow> rows;
+    for (const CurvePoint& point : efficiency.points)
+        rows.push_back({point.count, point.variance, point.seconds,
+                        seconds_to(efficiency.lines, point.variance),
+                        seconds_to(efficiency.choice, point.variance),
+                        point.variance < efficiency.lines.back().variance});
+    return rows;
+}
+
+std::optional<int> crossover(const std::vector<EqualErrorRow>& rows) {
+    std::optional<int> first;
+    for (auto row = rows.rbegin(); row != rows.rend() && row->lines_over_points() < 1; ++row)
+        first = row->points;
+    return first;
+}
+
+double largest_loss(const std::vector<EqualErrorRow>& rows) {
+    double largest = 0;
+    for (const EqualErrorRow& row : rows) largest = std::max(largest, row.loss());
+    return largest;
+}
+
+void make_glossy(scene::Scene& scene, float roughness) {
+    for (scene::Material& material : scene.materials) {
+        material.model = scene::BrdfModel::frostbite;
+        material.f0 = {0.04f, 0.04f, 0.04f};
+        material.f0_texture = {};
+        material.roughness = roughness;
+        material.roughness_texture = {};
+    }
+}
+
+} // namespace nusselt::experiments

@@ -1,0 +1,65 @@
+#pragma once
+/// Time until line samples are as exact as point samples.
+
+#include "experiments/noise_curve.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace nusselt::experiments {
+
+struct LineEfficiencySettings {
+    render_cpu::RenderSettings points; ///< all that is not said below, with Integrator::points
+    render_cpu::LineSettings
+        lines;              ///< but for their number and for what is done where there are many occluders
+    int most_points = 1024; ///< per shading point and light, in powers of two from kFewestPoints
+    int most_lines = 256;   ///< likewise, from 1
+    int rounds = 5;         ///< of kSeedsPerRound images of each kind; all kinds take turns
+};
+
+inline constexpr int kFewestPoints = 4;
+inline constexpr int kSeedsPerRound = 2;
+
+struct LineEfficiency {
+    NoiseCurve points;
+    NoiseCurve lines;  ///< ManyOccluders::lines
+    NoiseCurve choice; ///< ManyOccluders::points; by the number of lines where there are not many
+    double mean = 0;   ///< radiance, over pixels and channels
+};
+
+/// \param progress called before each round with its number, from 0
+/// \throws std::invalid_argument, std::runtime_error see Renderer::render()
+LineEfficiency measure_line_efficiency(const render_cpu::Renderer& renderer, render_cpu::Isa isa,
+                                       const LineEfficiencySettings& settings,
+                                       const std::function<void(int round)>& progress);
+
+/// Times until images are as exact as those of so many points [s].
+struct EqualErrorRow {
+    int points = 0;
+    double variance = 0;
+    double points_seconds = 0;
+    double lines_seconds = 0;
+    double choice_seconds = 0;
+    bool lines_are_extrapolated = false; ///< the largest number of lines is not enough
+
+    double lines_over_points() const { return lines_seconds / points_seconds; }
+    /// How much longer the choice takes than the better one of lines and points.
+    double loss() const { return choice_seconds / std::min(points_seconds, lines_seconds); }
+};
+
+/// For each number of points. Where a single line is exact enough, its time counts: none takes less.
+std::vector<EqualErrorRow> equal_error_rows(const LineEfficiency& efficiency);
+
+/// The fewest points of which lines reach the error in less time, and so for all that are more.
+std::optional<int> crossover(const std::vector<EqualErrorRow>& rows);
+
+/// The largest EqualErrorRow::loss().
+double largest_loss(const std::vector<EqualErrorRow>& rows);
+
+/// Gives all surfaces a specular component of this roughness, with a reflectance of 0.04 at normal incidence.
+void make_glossy(scene::Scene& scene, float roughness);
+
+} // namespace nusselt::experiments

@@ -1,0 +1,138 @@
+/// Lines of hostile lights: everything finite, no light from behind, no part brighter than the whole.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <nusselt/line_samples/phong.h>
+
+#include "experiments/hostile/lights.h"
+#include "sampling/flush_denormals.h"
+
+namespace nusselt_test {
+namespace {
+
+using nusselt::BothHorizons;
+using nusselt::BothSides;
+using nusselt::Interval;
+using nusselt::LineFamily;
+using nusselt::LinePlane;
+using nusselt::SeenLine;
+using nusselt::Vec3;
+using nusselt::hostile::HostileLights;
+using nusselt::hostile::RandomSource;
+
+template <class T>
+bool finite(const Vec3<T>& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+template <class T>
+struct HostileCase {
+    explicit HostileCase(std::uint64_t seed, std::uint64_t index)
+        : lights(seed, index),
+          random(seed + 1, index),
+          light(lights.template polygon<8>()),
+          family(light, static_cast<T>(random.index(4) == 0 ? random.log_between(1e-12, 1e-3)
+                                                            : random.between(0, 3.141592))) {}
+
+    T share() {
+        return random.index(6) == 0 ? static_cast<T>(random.index(2)) : static_cast<T>(random.uniform());
+    }
+
+    HostileLights<T> lights;
+    RandomSource random;
+    nusselt::ConvexPolygon<T, 8> light;
+    LineFamily<T, 8> family;
+};
+
+/// What is wrong with the offsets of a family; empty if nothing is.
+template <class T>
+std::string problem_of_offsets(HostileCase<T>& c) {
+    const auto& family = c.family;
+    const T u = c.lights.random_number();
+    const Interval<T> all = family.offsets();
+    const auto& plane = family.plane();
+    if (!finite(plane.along) || !finite(plane.across) || !(all.begin <= all.end)) return "plane";
+    for (const auto& choice : {family.sample_by_length(u), family.sample_uniform(u)}) {
+        if (!(choice.offset >= all.begin && choice.offset <= all.end)) return "offset beyond the light";
+        if (!(choice.pdf >= 0) || !std::isfinite(choice.pdf)) return "density";
+        const Interval<T> chord = family.chord(choice.offset).extent;
+        if (!std::isfinite(chord.begin) || !std::isfinite(chord.end) || chord.end < chord.begin)
+            return "chord";
+    }
+    const T offset = family.sample_by_length(u).offset;
+    for (const T inverse : {family.invert_by_length(offset), family.invert_uniform(offset)})
+        if (!(inverse >= 0 && inverse < 1)) return "inverse";
+    if (!(family.area() >= 0)) return "area";
+    return {};
+}
+
+/// What is wrong with the integrals along a line.
+template <class T>
+std::string problem_of_parts(HostileCase<T>& c) {
+    const auto& family = c.family;
+    const auto& plane = family.plane();
+    const T offset = family.sample_by_length(c.lights.random_number()).offset;
+    const Interval<T> whole = family.chord(offset).extent;
+    const auto at = [&](T x) {
+        return std::min(std::max(whole.begin + x * (whole.end - whole.begin), whole.begin), whole.end);
+    };
+    const T a = at(c.share());
+    const T b = at(c.share());
+    const Interval<T> part{std::min(a, b), std::max(a, b)};
+    const nusselt::Ltc<T> ltc(c.lights.lobe());
+    const Vec3<T> mirror = nusselt::broadcast<T>(c.random.direction());
+    const T exponent = static_cast<T>(c.random.log_between(1, 1e5));
+    const SeenLine<T> line(plane, {offset, whole});
+    // Rounding moves ends over the horizon, and turns lines near the point.
+    const auto e = line.above_horizon(whole);
+    const T rounding =
+        64 * std::numeric_limits<T>::epsilon() / (e.visible ? std::min(e.distance, T(1)) : T(1));
+    const T above_horizon =
+        e.visible ? std::fabs(line.cosine_at_light()) * e.sine_extent / e.distance * line.scale() : 0;
+    const T diffuse = diffuse_part<BothSides>(line, whole);
+    const T diffuse_of_part = diffuse_part<BothSides>(line, part);
+    const T phong = phong_part<BothSides>(line, whole, mirror, exponent);
+    const T phong_of_part = phong_part<BothSides>(line, part, mirror, exponent);
+    const T lobe = lobe_part<BothHorizons, BothSides>(line, whole, ltc);
+    for (const T value : {diffuse, diffuse_of_part, phong, phong_of_part, lobe})
+        if (!std::isfinite(value) || value < 0) return "not finite or negative";
+    if (diffuse_of_part >
+        diffuse + rounding * diffuse + 8 * std::numeric_limits<T>::epsilon() * above_horizon)
+        return "a part is brighter than the whole";
+    // The narrower a lobe, the more it changes by rounding; the quadrature errs by little of the lobe.
+    if (phong_of_part > phong + (rounding * std::sqrt(exponent) + T(1e-5)) * (phong + above_horizon))
+        return "a part is brighter than the whole in a Phong lobe";
+    if (diffuse_part(line, part) > 0 && line.cosine_at_light() <= 0) return "light from behind";
+    return {};
+}
+
+template <class T>
+void expect_no_problems(std::uint64_t seed, int cases) {
+    int failures = 0;
+    int lit = 0;
+    for (int k = 0; k < cases && failures < 5; ++k) {
+        HostileCase<T> c(seed, static_cast<std::uint64_t>(k));
+        std::string problem = problem_of_offsets(c);
+        if (problem.empty()) problem = problem_of_parts(c);
+        lit += c.family.sample_by_length(T(0.5)).pdf > 0;
+        if (problem.empty()) continue;
+        ++failures;
+        ADD_FAILURE() << problem << ", case " << k;
+    }
+    EXPECT_GT(lit, cases / 2);
+}
+
+TEST(HostileLineFamily, NeverFailsInFloat) { expect_no_problems<float>(1, 1'000'000); }
+TEST(HostileLineFamily, NeverFailsInDouble) { expect_no_problems<double>(2, 200'000); }
+TEST(HostileLineFamily, NeverFailsWithDenormalsFlushed) {
+    const FlushDenormalsToZero flush;
+    expect_no_problems<float>(3, 100'000);
+}
+
+} // namespace
+} // namespace nusselt_test
