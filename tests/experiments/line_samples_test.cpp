@@ -13,13 +13,13 @@
 namespace nusselt::experiments {
 namespace {
 
-constexpr int kFrames = 12;
+constexpr int kFrames = 40;
 
 class LineSamplesOfScene : public testing::TestWithParam<const char*> {
 protected:
     LineSamplesOfScene()
         : scene_(load_small(GetParam())), renderer_(scene_, render_cpu::default_thread_count()) {
-        settings_.samples = 8;
+        settings_.samples = 4;
         settings_.strategies = render_cpu::Strategies::diffuse_ltc;
     }
 
