@@ -129,7 +129,7 @@ TEST(LineConvergence, FewSamplesGetMoreSeeds) {
     const LineConvergence& experiment = all_line_convergences()[0];
     EXPECT_EQ(seeds_for(experiment, 1024), experiment.seeds);
     EXPECT_EQ(seeds_for(experiment, 1), experiment.most_seeds);
-    EXPECT_EQ(seeds_for(experiment, 16), 32);
+    EXPECT_EQ(seeds_for(experiment, 16), 64);
 }
 
 class Folder : public testing::Test {
