@@ -1,6 +1,7 @@
 #include "experiments/line_efficiency.h"
 
 #include "experiments/image_errors.h"
+#include "experiments/process_time.h"
 
 #include <algorithm>
 
@@ -22,14 +23,15 @@ struct Series {
     }
 
     /// \returns the mean radiance
-    double render(const render_cpu::Renderer& renderer, render_cpu::Isa isa, int round) {
+    double render(const render_cpu::Renderer& renderer, render_cpu::Isa isa, int threads, int round) {
         settings.seed = static_cast<std::uint32_t>(round * kSeedsPerRound);
         double mean = 0;
         for (std::size_t i = 0; i < counts.size(); ++i) {
+            const double begin = process_seconds();
             const SeedStatistics result =
                 render_seeds(renderer, isa, with_count(settings, counts[i]), kSeedsPerRound);
+            seconds[i].push_back((process_seconds() - begin) / (kSeedsPerRound * threads));
             variances[i] += result.variance;
-            seconds[i].push_back(result.seconds);
             mean = mean_radiance(result.mean);
         }
         return mean;
@@ -70,7 +72,8 @@ LineEfficiency measure_line_efficiency(const render_cpu::Renderer& renderer, ren
     double mean = 0;
     for (int round = 0; round < settings.rounds; ++round) {
         progress(round);
-        for (Series* series : {&points, &lines, &choice}) mean = series->render(renderer, isa, round);
+        for (Series* series : {&points, &lines, &choice})
+            mean = series->render(renderer, isa, settings.threads, round);
     }
     return {points.curve(), lines.curve(), choice.curve(), mean};
 }
