@@ -58,6 +58,9 @@ ConvergenceSeries lines(const std::string& label, SampleOrder order) {
 std::vector<ConvergenceSeries> all_series() {
     ConvergenceSeries unbiased = lines("lines, unbiased, stratified", SampleOrder::stratified);
     unbiased.settings.lines.shading = LineShading::unbiased;
+    ConvergenceSeries important = unbiased;
+    important.label = "lines, by importance, stratified";
+    important.settings.lines.offsets = render_cpu::LineOffsets::reflected;
     ConvergenceSeries turned = lines("lines, each turned, stratified", SampleOrder::stratified);
     turned.settings.lines.orientation = LineOrientation::independent;
     return {points("points, independent", SampleOrder::independent),
@@ -68,6 +71,7 @@ std::vector<ConvergenceSeries> all_series() {
             lines("lines, stratified", SampleOrder::stratified),
             lines("lines, Sobol'", SampleOrder::sobol),
             unbiased,
+            important,
             turned};
 }
 
@@ -78,12 +82,15 @@ std::vector<OrderBetween> expected_orders() {
             {"lines, each turned, stratified", -0.6, -0.45},
             {"points, stratified", -0.9, -0.6, 1},
             {"lines, stratified", kAny, -1.1, 1},
-            {"lines, unbiased, stratified", kAny, -0.9, 1}};
+            {"lines, unbiased, stratified", kAny, -0.9, 1},
+            {"lines, by importance, stratified", kAny, -0.9, 1}};
 }
 
 std::vector<LessNoise> expected_less_noise() {
     return {{"lines, independent", "points, independent", kMostLines},
-            {"lines, stratified", "points, stratified", kMostLines}};
+            {"lines, stratified", "points, stratified", kMostLines},
+            // Points have the lobes of polished floors for themselves: these are narrow in both dimensions.
+            {"lines, by importance, stratified", "points, by importance, stratified", kMostLines, 1}};
 }
 
 LineConvergence convergence(const std::string& name, const std::string& figures, const std::string& lights,
@@ -162,12 +169,15 @@ double variance_at(const NoiseCurve& curve, int count) {
     return found->variance;
 }
 
+std::string in_all_scenes_but(int exceptions) {
+    return exceptions > 0 ? fmt::format(" in all scenes but {}", exceptions) : " in all scenes";
+}
+
 std::string to_text(const OrderBetween& e) {
     std::string text = fmt::format("order of '{}' ", e.series);
     text += std::isinf(e.low) ? fmt::format("at most {:g}", e.high)
                               : fmt::format("between {:g} and {:g}", e.low, e.high);
-    text += " in all scenes";
-    return e.exceptions > 0 ? fmt::format("{} but {}", text, e.exceptions) : text;
+    return text + in_all_scenes_but(e.exceptions);
 }
 
 } // namespace
@@ -219,13 +229,14 @@ std::vector<ExpectationResult> check_expectations(const LineConvergence& experim
     for (const LessNoise& e : experiment.less_noise) {
         const std::size_t less = index_of(experiment, e.series);
         const std::size_t more = index_of(experiment, e.than);
-        const bool holds = std::all_of(scenes.begin(), scenes.end(), [&](const SceneResult& s) {
-            return s.is_skipped ||
-                   variance_at(s.series[less].curve, e.count) < variance_at(s.series[more].curve, e.count);
+        const auto violations = std::count_if(scenes.begin(), scenes.end(), [&](const SceneResult& s) {
+            return !s.is_skipped &&
+                   !(variance_at(s.series[less].curve, e.count) < variance_at(s.series[more].curve, e.count));
         });
-        results.push_back({fmt::format("{0} of '{1}' have less noise than {0} of '{2}' in all scenes",
-                                       e.count, e.series, e.than),
-                           holds});
+        results.push_back(
+            {fmt::format("{0} of '{1}' have less noise than {0} of '{2}'", e.count, e.series, e.than) +
+                 in_all_scenes_but(e.exceptions),
+             violations <= e.exceptions});
     }
     return results;
 }

@@ -31,11 +31,12 @@ struct OrderBetween {
     int exceptions = 0;
 };
 
-/// That a series has less noise than another with as many samples, in all scenes.
+/// That a series has less noise than another with as many samples, in all scenes but a few.
 struct LessNoise {
     std::string series;
     std::string than;
     int count;
+    int exceptions = 0;
 };
 
 struct LineConvergence {

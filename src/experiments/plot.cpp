@@ -16,12 +16,12 @@ constexpr double kHeight = 300;
 constexpr double kLeft = 72;
 constexpr double kTop = 34;
 constexpr double kBottom = 46;
-constexpr double kLegend = 235;
+constexpr double kLegend = 275;
 constexpr double kRow = 18;
 
 // Apart for people with any kind of colour vision (M. Okabe and K. Ito 2008).
 constexpr std::array kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9",
-                                "#e69f00", "#000000", "#999933", "#882255"};
+                                "#e69f00", "#000000", "#999933", "#882255", "#332288"};
 
 bool is_drawable(const std::pair<double, double>& p) {
     return p.first > 0 && p.second > 0 && std::isfinite(p.first) && std::isfinite(p.second);

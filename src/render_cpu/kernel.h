@@ -168,7 +168,7 @@ struct RenderJob {
 inline constexpr std::size_t kLightSumFloats = 2 * 3 * 16;
 
 /// Working memory that line samples take.
-inline constexpr std::size_t kLineMemoryBytes = std::size_t(1) << 18;
+inline constexpr std::size_t kLineMemoryBytes = std::size_t(1) << 16;
 
 /// Pixels x_begin <= x < x_end, y_begin <= y < y_end of the film.
 struct Tile {

@@ -5,7 +5,7 @@
 
 namespace nusselt::render_cpu {
 
-/// Bound on the blocks of triangles in the pyramid of a shading point and a light (see count_occluding_blocks()): beyond it,
+/// Bound on the blocks of triangles in the pyramid of a shading point and a light (see has_many_occluders()): beyond it,
 /// points reach the same error in less time. See docs/performance.md for measurements.
 /// \param lines per shading point and light
 int most_occluders_for_lines(int lines);

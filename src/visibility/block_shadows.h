@@ -3,9 +3,9 @@
 /// line_traversal.h.
 
 #include "visibility/line_pyramid.h"
+#include "visibility/stored_shadows.h"
 
 #include <nusselt/line_samples/partial_shadow.h>
-#include <nusselt/line_samples/stored_shadows.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

@@ -179,9 +179,13 @@ struct LineBvh::State {
     struct Root {
         std::uint32_t reference = kEmptyBvh;
         Box bounds;
+        std::uint64_t block_count = 0; ///< with those of instances
+    };
+    struct Roots {
+        Root triangles, instances;
     };
 
-    LineBvhRoots add_all(const scene::Scene& scene, Presence presence);
+    Roots add_all(const scene::Scene& scene, Presence presence);
     Root add_triangles(const scene::Scene& scene, Presence presence, std::uint32_t first,
                        std::uint32_t count);
     Root add_instances(const scene::Scene& scene, const std::vector<Root>& objects);
@@ -197,7 +201,7 @@ struct LineBvh::State {
     std::vector<TriangleBlock> blocks;
     std::vector<LineBvhInstance> instances;
     float extent = 0;
-    LineBvhRoots full, partial; // after what they are made of
+    Roots full, partial; // after what they are made of
 };
 
 LineBvh::State::State(const scene::Scene& scene)
@@ -207,7 +211,7 @@ LineBvh::State::State(const scene::Scene& scene)
     device.reset();
 }
 
-LineBvhRoots LineBvh::State::add_all(const scene::Scene& scene, Presence presence) {
+LineBvh::State::Roots LineBvh::State::add_all(const scene::Scene& scene, Presence presence) {
     const auto world_count = static_cast<std::uint32_t>(world_triangle_count(scene));
     const Root world = add_triangles(scene, presence, 0, world_count);
     std::vector<Root> objects;
@@ -216,7 +220,7 @@ LineBvhRoots LineBvh::State::add_all(const scene::Scene& scene, Presence presenc
     const Root copies = add_instances(scene, objects);
     for (const Root* root : {&world, &copies})
         if (root->reference != kEmptyBvh) extent = std::max(extent, root->bounds.largest_coordinate());
-    return {world.reference, copies.reference};
+    return {world, copies};
 }
 
 LineBvh::State::Root LineBvh::State::add_triangles(const scene::Scene& scene, Presence presence,
@@ -228,16 +232,21 @@ LineBvh::State::Root LineBvh::State::add_triangles(const scene::Scene& scene, Pr
         for (const auto& corner : corners_of(scene, triangle)) box.add(corner);
         if (is_finite(box)) primitives.push_back(make_primitive(box, triangle));
     }
+    const std::size_t blocks_before = blocks.size();
     const auto leaf = [&](const BuiltLeaf& of) { return add_block(scene, of); };
-    return add(std::move(primitives), kBvhWidth, leaf);
+    Root root = add(std::move(primitives), kBvhWidth, leaf);
+    root.block_count = blocks.size() - blocks_before;
+    return root;
 }
 
 LineBvh::State::Root LineBvh::State::add_instances(const scene::Scene& scene,
                                                    const std::vector<Root>& objects) {
     std::vector<RTCBuildPrimitive> primitives;
+    std::uint64_t block_count = 0;
     for (const scene::Instance& instance : scene.instances) {
         const Root& object = objects[instance.object];
         if (object.reference == kEmptyBvh) continue;
+        block_count += object.block_count;
         const auto& m = instance.world_from_object;
         const auto index = static_cast<std::uint32_t>(instances.size());
         primitives.push_back(make_primitive(transformed(m, object.bounds), index));
@@ -249,7 +258,9 @@ LineBvh::State::Root LineBvh::State::add_instances(const scene::Scene& scene,
         target.extent = object.bounds.largest_coordinate();
     }
     const auto leaf = [](const BuiltLeaf& of) { return kBvhInstance | of.primitive[0]; };
-    return add(std::move(primitives), 1, leaf);
+    Root root = add(std::move(primitives), 1, leaf);
+    root.block_count = block_count;
+    return root;
 }
 
 template <class Leaf>
@@ -262,7 +273,7 @@ LineBvh::State::Root LineBvh::State::add(std::vector<RTCBuildPrimitive> primitiv
     const BuiltNode* built = build(device.get(), bvh.get(), primitives, leaf_size);
     // Large scenes need the memory for what follows.
     primitives = {};
-    return {flatten(built, 0, leaf), bounds};
+    return {flatten(built, 0, leaf), bounds, 0};
 }
 
 template <class Leaf>
@@ -307,8 +318,17 @@ LineBvh::LineBvh(LineBvh&&) noexcept = default;
 LineBvh& LineBvh::operator=(LineBvh&&) noexcept = default;
 
 LineBvhView LineBvh::view() const {
-    return {state_->nodes.data(), state_->blocks.data(), state_->instances.data(),
-            state_->full,         state_->partial,       state_->extent};
+    const auto references = [](const State::Roots& roots) {
+        return LineBvhRoots{roots.triangles.reference, roots.instances.reference};
+    };
+    const State::Roots& full = state_->full;
+    return {state_->nodes.data(),
+            state_->blocks.data(),
+            state_->instances.data(),
+            references(full),
+            references(state_->partial),
+            state_->extent,
+            full.triangles.block_count + full.instances.block_count};
 }
 
 std::size_t LineBvh::bytes() const {

@@ -54,6 +54,8 @@ struct LineBvhView {
     LineBvhRoots full;    ///< surfaces that rays always hit
     LineBvhRoots partial; ///< surfaces that rays hit with a probability, see alpha.h
     float extent;         ///< largest coordinate of the world, instances included [m]
+    std::uint64_t
+        full_block_count; ///< of surfaces that rays always hit, objects as often as there are instances
 };
 
 /// Work done for lines.

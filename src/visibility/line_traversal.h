@@ -7,6 +7,8 @@
 
 #include "visibility/block_shadows.h"
 
+#include <nusselt/line_samples/visible_parts.h>
+
 NUSSELT_NAMESPACE_BEGIN
 
 /// A line per lane and what is visible of it. Lanes without a line have no parts.
@@ -139,10 +141,10 @@ private:
     visibility::LineCounters& counters_;
 };
 
-/// How many blocks of triangles have boxes in the pyramid of a light, or some number above the bound if there are more: what
-/// tracing lines will cost. Does not depend on lines, so that decisions based on it cause no bias.
-NUSSELT_HD inline int count_occluding_blocks(const visibility::LineBvhView& bvh, const SeenLight& seen,
-                                             int bound, visibility::LineCounters& counters) noexcept {
+/// Whether more than some number of blocks of triangles have boxes in the pyramid of a light: how many tells what tracing
+/// lines will cost. Does not depend on lines, so that decisions based on it cause no bias.
+NUSSELT_HD inline bool has_many_occluders(const visibility::LineBvhView& bvh, const SeenLight& seen,
+                                          int bound, visibility::LineCounters& counters) noexcept {
     struct Counter {
         int bound;
         int count;
@@ -163,9 +165,10 @@ NUSSELT_HD inline int count_occluding_blocks(const visibility::LineBvhView& bvh,
             return ++count <= bound;
         }
     };
+    if (bvh.full_block_count <= static_cast<std::uint64_t>(bound) || !seen.is_visible()) return false;
     Counter counter{bound, 0};
-    if (seen.is_visible()) PyramidTraversal(bvh, seen, counters).run(bvh.full, counter);
-    return counter.count;
+    PyramidTraversal(bvh, seen, counters).run(bvh.full, counter);
+    return counter.count > bound;
 }
 
 /// Whether a light has surfaces in its pyramid that are only partly there (an alpha below 1): lines cannot tell what is

@@ -242,27 +242,42 @@ TEST(LineBvh, SurfacesThatArePartlyThereAreFoundInThePyramidOnly) {
     EXPECT_NEAR(visible_share(trace<16>(scene, bvh, {{0, 0, 0}, 0, 0.2f, 16})), 1, 1e-6);
 }
 
-TEST(LineBvh, CountsOccludersUpToABound) {
+TEST(LineBvh, TellsWhereManyOccludersAre) {
     std::mt19937 random(7);
     scene::Scene scene = make_empty_scene();
     add_ceiling_light(scene);
     add_soup(scene, 3000, random);
-    const LineBvh bvh(scene);
-    visibility::LineCounters counters{};
-    const auto count = [&](const Vec3<float>& point, int bound) {
-        return count_occluding_blocks(bvh.view(), seen_light(scene, {point, 0, 0.2f, 16}), bound, counters);
-    };
-    const int all = count({0, 0, -2}, 1 << 20);
-    EXPECT_GT(all, 3000 / 8 / 4);
-    EXPECT_LE(all, 3002);
-    EXPECT_EQ(count({0, 0, -2}, all), all);
-    EXPECT_GT(count({0, 0, -2}, 20), 20);
-    // Above all triangles but those of the light.
-    EXPECT_LE(count({0, 0, 1.8f}, 1 << 20), 1);
-    // The same for all orientations, up to rounding: it depends on the light.
-    EXPECT_EQ(
-        count_occluding_blocks(bvh.view(), seen_light(scene, {{0, 0, -2}, 0, 1.7f, 16}), 1 << 20, counters),
-        all);
+    for (const bool are_instances : {false, true}) {
+        if (are_instances) {
+            scene.objects.push_back({"all", 2, 3000});
+            scene.instances.resize(1);
+        }
+        const LineBvh bvh(scene);
+        visibility::LineCounters counters{};
+        const auto are_many = [&](const Vec3<float>& point, float angle, int bound) {
+            return has_many_occluders(bvh.view(), seen_light(scene, {point, 0, angle, 16}), bound, counters);
+        };
+        const int blocks = static_cast<int>(bvh.view().full_block_count);
+        EXPECT_GT(blocks, 3000 / 8);
+        EXPECT_LE(blocks, 3002);
+        // How many there are, by bisection.
+        const auto count = [&](const Vec3<float>& point, float angle) {
+            int low = -1;
+            int high = blocks;
+            while (high - low > 1) {
+                const int middle = (low + high) / 2;
+                (are_many(point, angle, middle) ? low : high) = middle;
+            }
+            return high;
+        };
+        const int below = count({0, 0, -2}, 0.2f);
+        EXPECT_GT(below, blocks / 4);
+        EXPECT_LT(below, blocks);
+        // It depends on the light, not on its lines.
+        EXPECT_EQ(count({0, 0, -2}, 1.7f), below);
+        // Above all triangles but those of the light.
+        EXPECT_LE(count({0, 0, 1.8f}, 0.2f), 1);
+    }
 }
 
 } // namespace

@@ -42,6 +42,11 @@ NUSSELT_HD inline PartialShadow<Scalar> make_partial_shadow(const ShadowFrame<Sc
         const detail::ShadowCorner<Scalar>& q = corner[PartialShadow<Scalar>::kSecond[e]];
         const Vec3<Scalar> d = q.position - p.position;
         shadow.edge[e] = detail::shadow_edge(frame, p, q);
+        if (p.position.z == Scalar(0) && q.position.z == Scalar(0)) {
+            // Level with the point: infinitely far on the side where lines cross it.
+            const Scalar side = fma(p.position.y, d.x, -(p.position.x * d.y)) * d.x;
+            shadow.edge[e] = {copysign(kInfinity, side), Scalar(0)};
+        }
         shadow.turn[e] = fma(p.position.z, d.x, -(p.position.x * d.z)) > Scalar(0);
         shadow.beyond_below_end[e] = p.position.z > frame.end;
         shadow.end_of_edge[e] = kInfinity;

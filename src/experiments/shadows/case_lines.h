@@ -4,9 +4,10 @@
 #include <utility>
 
 #include <nusselt/line_samples/partial_shadow.h>
-#include <nusselt/line_samples/stored_shadows.h>
+#include <nusselt/line_samples/visible_parts.h>
 
 #include "experiments/shadows/shadow_case.h"
+#include "visibility/stored_shadows.h"
 
 NUSSELT_NAMESPACE_BEGIN
 namespace shadows {

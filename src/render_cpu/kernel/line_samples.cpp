@@ -172,8 +172,7 @@ private:
         const render_cpu::RenderJob& job = reflected_.job();
         if (has_partial_surfaces(*job.line_bvh, seen, counters_)) return true;
         return settings_.many_occluders == ManyOccluders::points &&
-               count_occluding_blocks(*job.line_bvh, seen, job.most_occluders, counters_) >
-                   job.most_occluders;
+               has_many_occluders(*job.line_bvh, seen, job.most_occluders, counters_);
     }
 
     template <class Work>

@@ -1,8 +1,7 @@
 #pragma once
-/// From shadows in packs of triangles to single ones for packs of lines, and back from lines to what remains of a light.
+/// From shadows in packs of triangles to single ones for packs of lines.
 
 #include <nusselt/line_samples/triangle_shadow.h>
-#include <nusselt/line_samples/visible_parts.h>
 #include <nusselt/simd/pack.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -34,23 +33,5 @@ private:
 
     Scalar value_[9][N];
 };
-
-/// Extends a rectangle by what is visible of lines.
-template <class Scalar, int N>
-inline LineBounds<Scalar> join(LineBounds<Scalar> bounds, const Pack<Scalar, N>& offset,
-                               const VisibleParts<Pack<Scalar, N>>& parts) noexcept {
-    const Interval<Scalar> none = empty_interval<Scalar>();
-    Scalar value[4][N];
-    const Mask<Scalar, N> lit = parts.lit();
-    select(lit, offset, Pack<Scalar, N>(none.begin)).store(value[0]);
-    select(lit, offset, Pack<Scalar, N>(none.end)).store(value[1]);
-    parts.bounds().begin.store(value[2]);
-    parts.bounds().end.store(value[3]);
-    for (int i = 0; i < N; ++i) {
-        bounds.offsets = {min(value[0][i], bounds.offsets.begin), max(value[1][i], bounds.offsets.end)};
-        bounds.extent = {min(value[2][i], bounds.extent.begin), max(value[3][i], bounds.extent.end)};
-    }
-    return bounds;
-}
 
 NUSSELT_NAMESPACE_END
