@@ -163,13 +163,14 @@ int run_bench_line_efficiency(const BenchLineEfficiencyOptions& options) {
     scene::Scene scene = scene::load_scene(options.scene);
     apply_resolution(options.resolution, scene);
     if (options.roughness) experiments::make_glossy(scene, *options.roughness);
-    const experiments::LineEfficiencySettings settings = settings_of(options);
+    experiments::LineEfficiencySettings settings = settings_of(options);
     std::vector<int> threads = {1, render_cpu::default_thread_count()};
     if (options.threads) threads = {*options.threads};
 
     std::vector<ThreadsResult> results;
     for (const int count : threads) {
         const render_cpu::Renderer renderer(scene, count);
+        settings.threads = count;
         results.push_back({count, measure_line_efficiency(renderer, isa, settings, [&](int round) {
                                fmt::print(stderr, "threads {}, round {} of {}\n", count, round + 1,
                                           settings.rounds);

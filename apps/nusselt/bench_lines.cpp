@@ -5,6 +5,7 @@
 #include "recorded_rays.h"
 #include "render_setup.h"
 
+#include "experiments/process_time.h"
 #include "render_cpu/renderer.h"
 #include "scene/load.h"
 
@@ -43,6 +44,23 @@ struct LinesTable {
 
 double per(double seconds, std::uint64_t count) { return seconds / static_cast<double>(count); }
 
+struct MeasuredFrame {
+    render_cpu::RenderStatistics work;
+    double seconds;            ///< that threads ran for, in all
+    double visibility_seconds; ///< of these, for visible parts of lines
+};
+
+/// Clocks of threads are too slow to be read for each light: they give the whole, which ticks share out.
+MeasuredFrame render(const render_cpu::Renderer& renderer, const render_cpu::RenderSettings& settings,
+                     render_cpu::Isa isa) {
+    const double begin = experiments::process_seconds();
+    const render_cpu::RenderStatistics work = renderer.render(settings, isa).statistics;
+    const double seconds = experiments::process_seconds() - begin;
+    const double ticked = work.primary_seconds + work.shading_seconds + work.shadow_seconds +
+                          work.lines.visibility_seconds;
+    return {work, seconds, seconds * work.lines.visibility_seconds / ticked};
+}
+
 /// In turn, so that whatever else happens on the machine concerns lines and rays.
 LinesTable measure(const render_cpu::Renderer& renderer, const BenchLinesOptions& options,
                    render_cpu::Isa isa, int threads) {
@@ -66,17 +84,16 @@ LinesTable measure(const render_cpu::Renderer& renderer, const BenchLinesOptions
     tbb::task_arena arena(threads);
     for (int i = 0; i < options.repetitions; ++i) {
         const double ray = per(rays->replay(arena).shadow, rays->shadow_count);
-        const double point =
-            per(threads * renderer.render(points, isa).statistics.render_seconds, rays->shadow_count);
+        const double point = per(render(renderer, points, isa).seconds, rays->shadow_count);
         table.shadow_ray.push_back(ray);
         for (LinesRow& row : table.rows) {
-            const render_cpu::RenderStatistics work = renderer.render(row.settings, isa).statistics;
-            row.work = work.lines;
+            const MeasuredFrame frame = render(renderer, row.settings, isa);
+            row.work = frame.work.lines;
             if (row.work.lines == 0)
                 throw std::runtime_error("no surface in the image faces a polygonal light");
-            row.visible_parts.push_back(per(work.lines.visibility_seconds, row.work.lines));
+            row.visible_parts.push_back(per(frame.visibility_seconds, row.work.lines));
             row.visibility_over_ray.push_back(row.visible_parts.back() / ray);
-            row.line_over_point.push_back(per(threads * work.render_seconds, row.work.lines) / point);
+            row.line_over_point.push_back(per(frame.seconds, row.work.lines) / point);
         }
     }
     return table;

@@ -1,6 +1,7 @@
 #include "experiments/line_efficiency.h"
 
 #include "experiments/image_errors.h"
+#include "experiments/process_time.h"
 
 #include <algorithm>
 
@@ -14,6 +15,7 @@ struct Series {
     std::vector<int> counts;
     std::vector<double> variances;            ///< for each count, sum over the rounds
     std::vector<std::vector<double>> seconds; ///< for each count, of all rounds
+    double mean = 0;                          ///< radiance of the image that was rendered last
 
     Series(const render_cpu::RenderSettings& with, int first, int last) : settings(with) {
         for (int n = first; n <= last; n *= 2) counts.push_back(n);
@@ -21,18 +23,17 @@ struct Series {
         seconds.resize(counts.size());
     }
 
-    /// \returns the mean radiance
-    double render(const render_cpu::Renderer& renderer, render_cpu::Isa isa, int round) {
+    /// Does nothing if there is no such count.
+    void render(const render_cpu::Renderer& renderer, render_cpu::Isa isa, int threads, int round,
+                std::size_t i) {
+        if (i >= counts.size()) return;
         settings.seed = static_cast<std::uint32_t>(round * kSeedsPerRound);
-        double mean = 0;
-        for (std::size_t i = 0; i < counts.size(); ++i) {
-            const SeedStatistics result =
-                render_seeds(renderer, isa, with_count(settings, counts[i]), kSeedsPerRound);
-            variances[i] += result.variance;
-            seconds[i].push_back(result.seconds);
-            mean = mean_radiance(result.mean);
-        }
-        return mean;
+        const double begin = process_seconds();
+        const SeedStatistics result =
+            render_seeds(renderer, isa, with_count(settings, counts[i]), kSeedsPerRound);
+        seconds[i].push_back((process_seconds() - begin) / (kSeedsPerRound * threads));
+        variances[i] += result.variance;
+        mean = mean_radiance(result.mean);
     }
 
     NoiseCurve curve() const {
@@ -67,12 +68,14 @@ LineEfficiency measure_line_efficiency(const render_cpu::Renderer& renderer, ren
     Series points(settings.points, kFewestPoints, settings.most_points);
     Series lines(with_lines, 1, settings.most_lines);
     Series choice(with_choice, 1, settings.most_lines);
-    double mean = 0;
+    const std::size_t count = std::max(points.counts.size(), lines.counts.size());
     for (int round = 0; round < settings.rounds; ++round) {
         progress(round);
-        for (Series* series : {&points, &lines, &choice}) mean = series->render(renderer, isa, round);
+        for (std::size_t i = 0; i < count; ++i)
+            for (Series* series : {&points, &lines, &choice})
+                series->render(renderer, isa, settings.threads, round, i);
     }
-    return {points.curve(), lines.curve(), choice.curve(), mean};
+    return {points.curve(), lines.curve(), choice.curve(), points.mean};
 }
 
 std::vector<EqualErrorRow> equal_error_rows(const LineEfficiency& efficiency) {

@@ -18,11 +18,13 @@ struct LineEfficiencySettings {
     int most_points = 1024; ///< per shading point and light, in powers of two from kFewestPoints
     int most_lines = 256;   ///< likewise, from 1
     int rounds = 5;         ///< of kSeedsPerRound images of each kind; all kinds take turns
+    int threads = 1;        ///< of the renderer
 };
 
 inline constexpr int kFewestPoints = 4;
 inline constexpr int kSeedsPerRound = 2;
 
+/// Times are those that the program's threads run, over their number: what else the machine does has little influence.
 struct LineEfficiency {
     NoiseCurve points;
     NoiseCurve lines;  ///< ManyOccluders::lines

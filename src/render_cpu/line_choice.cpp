@@ -6,9 +6,10 @@
 namespace nusselt::render_cpu {
 
 int most_occluders_for_lines(int lines) {
-    // Cornell boxes and Sponza have up to 256 blocks in a pyramid, and 3 to 11 us for 16 lines; the bathroom mostly has more
-    // than 2048, and 130 us. Points in place of 16 lines take 4 to 8 us.
-    return static_cast<int>(std::lround(2 * std::pow(lines, 1.5)));
+    // Fewer lines take as long as a whole pack of them.
+    constexpr int kFewestLines = 8;
+    if (lines < kFewestLines) return -1;
+    return static_cast<int>(std::lround(2.5 * lines));
 }
 
 int points_in_place_of_lines(int lines) {
