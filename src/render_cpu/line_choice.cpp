@@ -5,15 +5,26 @@
 
 namespace nusselt::render_cpu {
 
+namespace {
+
+// Tracing takes time in proportion to the blocks, whatever the number of lines; points in place of the lines take time in
+// proportion to their number, which grows with a power of that of the lines.
+constexpr double kBlocksForOneLine = 2;
+constexpr double kBlocksExponent = 1.5;
+constexpr double kPointsExponent = 1.4;
+
+/// Of a pixel and light: what stratified samples are made for.
+constexpr int kMostPoints = 1 << 22;
+
+} // namespace
+
 int most_occluders_for_lines(int lines) {
-    // Cornell boxes and Sponza have up to 256 blocks in a pyramid, and 3 to 11 us for 16 lines; the bathroom mostly has more
-    // than 2048, and 130 us. Points in place of 16 lines take 4 to 8 us.
-    return static_cast<int>(std::lround(2 * std::pow(lines, 1.5)));
+    return static_cast<int>(std::lround(kBlocksForOneLine * std::pow(lines, kBlocksExponent)));
 }
 
-int points_in_place_of_lines(int lines) {
-    const double points = std::round(std::pow(lines, 1.4));
-    return static_cast<int>(std::min<double>(points, kMaxSamples));
+int points_in_place_of_lines(int lines, int camera_rays) {
+    const int most = std::clamp(kMostPoints / camera_rays, 1, kMaxSamples);
+    return static_cast<int>(std::min<double>(std::round(std::pow(lines, kPointsExponent)), most));
 }
 
 } // namespace nusselt::render_cpu
