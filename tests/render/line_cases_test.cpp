@@ -46,7 +46,7 @@ TEST(LineParts, NoneIsLost) {
             return render_cpu::Renderer(scene, 2).render(settings, isa).image;
         };
         const image::Image open = image_of(make_soup(0, kImage));
-        for (const int count : {200, 800, 3000}) {
+        for (const int count : {200, 3000}) {
             const image::Image slats = image_of(make_slats(count, kImage));
             int shading_points = 0;
             for (std::size_t i = 0; i < open.pixels.size(); ++i) {
@@ -62,7 +62,7 @@ TEST(LineParts, NoneIsLost) {
 
 /// Where the points that correct fitted lobes are taken from pieces of lines.
 TEST(LineParts, HaveTheMeanOfPointsOnGlossySurfaces) {
-    constexpr int kImage = 8;
+    constexpr int kImage = kRegionsPerAxis;
     scene::Scene scene = make_slats(800, kImage);
     scene.materials[0].model = scene::BrdfModel::frostbite;
     scene.materials[0].f0 = {0.2f, 0.2f, 0.2f};

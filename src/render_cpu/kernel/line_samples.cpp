@@ -175,8 +175,9 @@ private:
     /// Each line is a family by itself.
     void add_independent(const ShadingPoint& point, LineSum& sum) noexcept {
         for (std::uint32_t first = 0; first < count_; first += kLanes) {
+            // Not x: jittered numbers have x in the same order in each pair, so that offsets would go with angles.
             const Real angles =
-                Real(kPi<float>) * reflected_.line_random(light_, point.lane, first, kOrientationPair).x;
+                Real(kPi<float>) * reflected_.line_random(light_, point.lane, first, kOrientationPair).y;
             const LineFamily<Real, N> families(broadcast_polygon(polygon_), angles);
             for (std::uint32_t i = 0; i < kLanes && first + i < count_; ++i) {
                 const auto family = single_lane<Family>(families, static_cast<int>(i));
