@@ -115,24 +115,4 @@ private:
     Interval<Real> bounds_ = empty_interval<Real>();
 };
 
-/// The part of a line that is not below the horizon of the point.
-/// \param to_begin, to_end from the point to the ends of the line [m]
-/// \param normal         of the surface, in the same space
-/// \param whole          coordinates of these ends [m]
-template <class Real>
-NUSSELT_HD inline Interval<Real> above_horizon(const Vec3<Real>& to_begin, const Vec3<Real>& to_end,
-                                               const Vec3<Real>& normal,
-                                               const Interval<Real>& whole) noexcept {
-    const Real begin = dot(normal, to_begin);
-    const Real end = dot(normal, to_end);
-    const Real difference = begin - end;
-    const Real share = begin / select(difference == Real(0), Real(1), difference);
-    const Real crossing = min(max(fma(share, whole.end - whole.begin, whole.begin), whole.begin), whole.end);
-    const auto begins_below = begin < Real(0);
-    const auto ends_below = end < Real(0);
-    const Interval<Real> none = empty_interval<Real>();
-    return {select(begins_below, select(ends_below, none.begin, crossing), whole.begin),
-            select(ends_below, select(begins_below, none.end, crossing), whole.end)};
-}
-
 NUSSELT_NAMESPACE_END
