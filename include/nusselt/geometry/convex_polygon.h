@@ -85,6 +85,18 @@ NUSSELT_HD inline ConvexPolygon<Real, N> make_polygon(const Vec3<Real>* vertices
     return polygon;
 }
 
+/// The same polygon in all lanes.
+template <class Real, class Single, int N>
+NUSSELT_HD inline ConvexPolygon<Real, N> broadcast(const ConvexPolygon<Single, N>& polygon) noexcept {
+    ConvexPolygon<Real, N> result;
+    for (int j = 0; j < N; ++j) {
+        result.vertex[j] = broadcast<Real>(polygon.vertex[j]);
+        result.edge[j] = broadcast<Real>(polygon.edge[j]);
+    }
+    result.normal = broadcast<Real>(polygon.normal);
+    return result;
+}
+
 /// The polygon seen from a shading point: the point becomes the origin, the normal of the frame +z.
 /// \tparam Real may be a pack while the polygon is scalar: one light, a shading point per lane.
 template <class Real, class LightReal, int N>

@@ -16,25 +16,6 @@ using render_cpu::ManyOccluders;
 
 using Estimator = LineLight<Real, SurfaceBrdf>;
 
-template <int N>
-ConvexPolygon<Real, N> broadcast_polygon(const ConvexPolygon<float, N>& polygon) noexcept {
-    ConvexPolygon<Real, N> result;
-    for (int j = 0; j < N; ++j) {
-        result.vertex[j] = broadcast<Real>(polygon.vertex[j]);
-        result.edge[j] = broadcast<Real>(polygon.edge[j]);
-    }
-    result.normal = broadcast<Real>(polygon.normal);
-    return result;
-}
-
-/// Bound on the distance of points of the light from its first vertex [m].
-template <int N>
-float half_circumference(const ConvexPolygon<float, N>& polygon) noexcept {
-    float sum = 0;
-    for (const Vec3<float>& edge : polygon.edge) sum += length(edge);
-    return 0.5f * sum;
-}
-
 /// The part of each line that is above the geometry of the surface.
 Interval<Real> above_surface(const Chord<Real>& chord, const LinePlane<float>& plane,
                              const ShadingPoint& point) noexcept {
@@ -99,7 +80,7 @@ public:
           count_(static_cast<std::uint32_t>(settings_.count)),
           polygon_(reflected.world_polygon<N>(light)),
           fixed_(polygon_, 0.0f),
-          families_(broadcast_polygon(polygon_), common_angles()) {}
+          families_(broadcast<Real>(polygon_), common_angles()) {}
 
     /// Takes the lines of a shading point.
     /// \returns false where lines cannot be taken, or there are so many occluders that points are faster
@@ -178,7 +159,7 @@ private:
             // Not x: jittered numbers have x in the same order in each pair, so that offsets would go with angles.
             const Real angles =
                 Real(kPi<float>) * reflected_.line_random(light_, point.lane, first, kOrientationPair).y;
-            const LineFamily<Real, N> families(broadcast_polygon(polygon_), angles);
+            const LineFamily<Real, N> families(broadcast<Real>(polygon_), angles);
             for (std::uint32_t i = 0; i < kLanes && first + i < count_; ++i) {
                 const auto family = single_lane<Family>(families, static_cast<int>(i));
                 add_family(point, family, {first + i, 1}, sum);
@@ -193,7 +174,7 @@ private:
         const LineFamily<Real, N> lines(family);
         const Estimator estimator(
             to_shading_space(family.plane(), broadcast<Real>(point.position), point.frame),
-            Real(half_circumference(polygon_)), point.surface);
+            Real(family.reach()), point.surface);
         const auto add = [&](const auto& sample_offset) {
             add_lines(point, {family.plane(), lines, estimator, seen}, sample_offset, range, sum);
         };
