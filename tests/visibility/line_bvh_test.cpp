@@ -325,6 +325,12 @@ TEST(LineBvh, TellsWhereManyOccludersAre) {
         EXPECT_LT(below, blocks);
         // It depends on the light, not on its lines.
         EXPECT_EQ(count({0, 0, -2}, 1.7f), below);
+        // Whoever has counted enough does not look at what is left.
+        visibility::LineCounters few{}, all{};
+        const SeenLight seen = seen_light(scene, {{0, 0, -2}, 0, 0.2f, 16});
+        EXPECT_TRUE(has_many_occluders(bvh.view(), seen, 2, few));
+        EXPECT_FALSE(has_many_occluders(bvh.view(), seen, below, all));
+        EXPECT_LE(few.box_tests, all.box_tests / 10);
         // Above all triangles but those of the light.
         EXPECT_LE(count({0, 0, 1.8f}, 0.2f), 1);
     }
