@@ -56,8 +56,8 @@ MeasuredFrame render(const render_cpu::Renderer& renderer, const render_cpu::Ren
     const double begin = experiments::process_seconds();
     const render_cpu::RenderStatistics work = renderer.render(settings, isa).statistics;
     const double seconds = experiments::process_seconds() - begin;
-    const double ticked = work.primary_seconds + work.shading_seconds + work.shadow_seconds +
-                          work.lines.visibility_seconds;
+    const double ticked =
+        work.primary_seconds + work.shading_seconds + work.shadow_seconds + work.lines.visibility_seconds;
     return {work, seconds, seconds * work.lines.visibility_seconds / ticked};
 }
 
