@@ -12,16 +12,12 @@ namespace {
 constexpr double kBlocksPerLine = 2.5;
 constexpr double kPointsExponent = 1.4;
 
-/// Fewer lines take as long as a whole pack of them.
-constexpr int kFewestLines = 8;
-
 /// Of a pixel and light: what stratified samples are made for.
 constexpr int kMostPoints = 1 << 22;
 
 } // namespace
 
 int most_occluders_for_lines(int lines) {
-    if (lines < kFewestLines) return -1;
     return static_cast<int>(std::lround(kBlocksPerLine * lines));
 }
 

@@ -21,6 +21,7 @@ struct PartialShadow {
     Scalar end_of_edge[3]; ///< offset where the edge reaches the light [m]
     bool beyond_below_end[3]; ///< lines with smaller offsets than that meet the edge beyond the light
     ShadowEdge<Scalar> end;   ///< where the plane of the triangle reaches the light
+    bool faces; ///< whether the point is on the side of the triangle where its corners go clockwise
 };
 
 /// \param a, b, c as for make_triangle_shadow().
@@ -57,8 +58,9 @@ NUSSELT_HD inline PartialShadow<Scalar> make_partial_shadow(const ShadowFrame<Sc
     }
     const Vec3<Scalar> n =
         detail::fused_cross(corner[1].position - corner[0].position, corner[2].position - corner[0].position);
-    const Scalar constant = frame.unit * detail::fused_dot(n, corner[0].position) / kShadowEnd<Scalar>;
-    shadow.end = detail::shadow_edge(frame, n, constant, Scalar(0));
+    const Scalar height = detail::fused_dot(n, corner[0].position);
+    shadow.faces = height > Scalar(0);
+    shadow.end = detail::shadow_edge(frame, n, frame.unit * height / kShadowEnd<Scalar>, Scalar(0));
     return shadow;
 }
 
@@ -116,20 +118,24 @@ NUSSELT_HD inline Interval<Real> hidden_interval(const PartialShadow<Scalar>& sh
     const auto p = detail::select(crosses_ab, detail::shadow_crossing(shadow, 0, offset, above[0]), bc);
     const auto q = detail::select(crosses_ac, detail::shadow_crossing(shadow, 2, offset, above[0]), bc);
 
-    // A crossing behind the point is at -t in the opposite direction, and the shadow reaches from the other crossing away
-    // from it, to infinity.
+    // With one crossing behind the point, the shadow reaches from the other one to infinity. Where to follows from the side
+    // on which the point sees the triangle: large triangles seen edge-on have both crossings at nearly the same t.
     const Mask p_is_lower = p.t < q.t;
     const auto lower = detail::select(p_is_lower, p, q);
     const auto upper = detail::select(p_is_lower, q, p);
-    const Mask both = lower.front & upper.front;
+    const Mask both = p.front & q.front;
+    const auto front = detail::select(p.front, p, q);
+    const Mask rises = !((above[0] ^ Mask(shadow.faces)) ^ p.front);
     const Interval<Real> nothing = empty_interval<Real>();
-    const Real begin = select(both, lower.t, select(upper.front, upper.t, nothing.end));
-    const Real end = select(both, upper.t, select(lower.front, lower.t, nothing.begin));
-    const Mask begins_beyond = upper.front & detail::select_mask(both, lower.beyond, upper.beyond);
-    const Mask ends_beyond = lower.front & detail::select_mask(both, upper.beyond, lower.beyond);
+    const Real begin = select(both, lower.t, select(rises, front.t, nothing.end));
+    const Real end = select(both, upper.t, select(rises, nothing.begin, front.t));
+    const Mask falls = !rises;
+    const Mask rises_beyond = rises & front.beyond;
+    const Mask falls_beyond = falls & front.beyond;
+    const Mask begins_beyond = detail::select_mask(both, lower.beyond, rises_beyond);
+    const Mask ends_beyond = detail::select_mask(both, upper.beyond, falls_beyond);
     const Real light = min(max(fma(Real(shadow.end.slope), offset, Real(shadow.end.at_zero)), begin), end);
-    const Mask hides =
-        (crosses_ab | crosses_ac) & (lower.front | upper.front) & !(begins_beyond & ends_beyond);
+    const Mask hides = (crosses_ab | crosses_ac) & (p.front | q.front) & !(begins_beyond & ends_beyond);
     return {select(hides, select(begins_beyond, light, begin), nothing.begin),
             select(hides, select(ends_beyond, light, end), nothing.end)};
 }

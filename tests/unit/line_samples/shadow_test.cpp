@@ -141,6 +141,48 @@ TEST(TriangleShadow, VisibleLengthsMatchPointTests) {
     EXPECT_GT(partly, 16 * kCases / 10);
 }
 
+// All that such a floor has far from the point is projected to nearly the same place, its horizon.
+TEST(TriangleShadow, FloorThroughTheLightHidesWhatIsBelowIt) {
+    const Vec3<float> corners[] = {
+        {-0.2f, 0.5f, 0}, {0.1f, -1, 0}, {2.3f, -1.7f, 0}, {3.4f, 0.5f, 0}, {1, 1.6f, 0}};
+    const auto light = make_polygon<8>(corners, 5);
+    const Vec3<float> floor[] = {{-6, 0, -6}, {-6, 0, 6}, {6, 0, -6}, {6, 0, 6}};
+    constexpr int kOffsets = 200;
+    int cases = 0;
+    for (const float distance : {0.001f, 0.01f, 0.1f, 1.0f})
+        for (const float angle : {0.0f, 0.7f, 1.5f, 2.5f}) {
+            const LineFamily<float, 8> family(light, angle);
+            const Vec3<float> point{1.37f, 1e-4f, distance};
+            const ShadowFrame<float> frame = make_shadow_frame(family.plane(), point);
+            for (int i = 0; i < kOffsets; ++i) {
+                const float closest = dot(point - family.plane().origin, family.plane().across);
+                const float offset = closest + 0.1f * distance * (float(i) - 0.5f * kOffsets);
+                const Interval<float> extent = family.chord(offset).extent;
+                for (const float share :
+                     {-20.0f, -5.0f, -1.0f, -0.3f, -0.1f, 0.1f, 0.3f, 1.0f, 5.0f, 20.0f}) {
+                    const float t =
+                        dot(point - family.plane().origin, family.plane().along) + share * distance;
+                    if (t < extent.begin || t > extent.end) continue;
+                    const Vec3<float> p =
+                        family.plane().origin + offset * family.plane().across + t * family.plane().along;
+                    if (std::abs(p.y) < 1e-4f * distance) continue;
+                    bool is_hidden = false;
+                    for (int triangle = 0; triangle < 2; ++triangle) {
+                        const Occluder occluder{{{floor[triangle].x, 0, floor[triangle].z},
+                                                 {floor[triangle + 1].x, 0, floor[triangle + 1].z},
+                                                 {floor[triangle + 2].x, 0, floor[triangle + 2].z}}};
+                        const Interval<float> hidden = hidden_by(occluder, frame, offset);
+                        is_hidden |= hidden.begin <= t && t <= hidden.end;
+                    }
+                    EXPECT_EQ(is_hidden, p.y < 0)
+                        << distance << " m, angle " << angle << ", " << p.x << " " << p.y;
+                    ++cases;
+                }
+            }
+        }
+    EXPECT_GT(cases, 5000);
+}
+
 TEST(TriangleShadow, ClosedMeshesDoNotLeak) {
     constexpr int kCases = 100'000 / kLinesPerCase;
     std::vector<Occluder> storage;
