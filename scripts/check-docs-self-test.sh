@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Shows that scripts/fill-docs.py fills regions, and that scripts/check-docs.py accepts good pages and finds each kind
-# of offence.
+# Shows that scripts/fill-docs.py and scripts/fill-line-samples.py fill regions, and that scripts/check-docs.py accepts good pages
+# and finds each kind of offence.
 set -euo pipefail
 scripts=$(cd "$(dirname "$0")" && pwd)
 tree=$(mktemp -d)
@@ -68,6 +68,33 @@ if python3 "$scripts/fill-docs.py" "$tree/accuracy.json" "$tree/samplers.json" C
     echo "a technique without rows was accepted"
     exit 1
 fi
+
+# The page of line samples.
+mkdir -p "$tree/reports/lines-a" "$tree/docs/images"
+cat >"$tree/reports/lines-a/numbers.json" <<'END'
+{"scenes": [{"scene": "one", "skipped": false, "series": [{"series": "lines", "order": -1.234, "fit": [4, 256]}]}]}
+END
+echo drawn >"$tree/reports/lines-a/one-time.svg"
+lines=$tree/docs/line-samples.md
+printf '<!-- generated: orders lines-a -->\n<!-- end -->\n![one](images/lines-a-one-time.svg)\n' >"$lines"
+python3 "$scripts/fill-line-samples.py" "$tree/reports" "Some CPU" "$tree"
+diff "$lines" - <<'END'
+<!-- generated: orders lines-a -->
+|  | one |
+| --- | --- |
+| lines, N = 4 to 256 | -1.23 |
+
+On Some CPU.
+<!-- end -->
+![one](images/lines-a-one-time.svg)
+END
+grep -q drawn "$tree/docs/images/lines-a-one-time.svg"
+sed -i 's/false/true/' "$tree/reports/lines-a/numbers.json"
+if python3 "$scripts/fill-line-samples.py" "$tree/reports" CPU "$tree" 2>/dev/null; then
+    echo "a page without a scene was accepted"
+    exit 1
+fi
+rm "$lines"
 
 # Code.
 echo 'int two() { return 1 + 1; } int three();' >"$tree/examples/a.cpp"

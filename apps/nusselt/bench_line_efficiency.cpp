@@ -109,8 +109,7 @@ experiments::LineEfficiencySettings settings_of(const BenchLineEfficiencyOptions
     settings.points.strategies = from_name(render_cpu::kStrategies, options.strategies);
     settings.points.sample_order = render_cpu::SampleOrder::stratified;
     settings.points.pixel_position = render_cpu::PixelPosition::center;
-    apply_line_options(options.lines, settings.points);
-    settings.lines = settings.points.lines;
+    apply_line_kind_options(options.lines, settings.lines);
     settings.most_points = options.most_points;
     settings.most_lines = options.most_lines;
     settings.rounds = options.repetitions;
@@ -152,7 +151,8 @@ void setup_bench_line_efficiency(CLI::App& bench, int& exit_code) {
                      "Makes all surfaces glossy: roughness, with a reflectance of 0.04 at normal incidence")
         ->check(number(0, 1));
     add_line_kind_options(*command, options->lines);
-    add_machine_options(*command, options->threads, options->isa);
+    add_machine_options(*command, options->threads, options->isa,
+                        "one, then as many as the machine runs at once");
     add_resolution_option(*command, options->resolution);
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_line_efficiency(*options); });

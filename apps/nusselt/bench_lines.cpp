@@ -56,8 +56,8 @@ MeasuredFrame render(const render_cpu::Renderer& renderer, const render_cpu::Ren
     const double begin = experiments::process_seconds();
     const render_cpu::RenderStatistics work = renderer.render(settings, isa).statistics;
     const double seconds = experiments::process_seconds() - begin;
-    const double ticked = work.primary_seconds + work.shading_seconds + work.shadow_seconds +
-                          work.lines.visibility_seconds;
+    const double ticked =
+        work.primary_seconds + work.shading_seconds + work.shadow_seconds + work.lines.visibility_seconds;
     return {work, seconds, seconds * work.lines.visibility_seconds / ticked};
 }
 
@@ -71,7 +71,7 @@ LinesTable measure(const render_cpu::Renderer& renderer, const BenchLinesOptions
     for (const int count : options.counts) {
         render_cpu::RenderSettings lines = points;
         lines.samples = 1;
-        apply_line_options(options.lines, lines);
+        apply_line_kind_options(options.lines, lines.lines);
         lines.integrator = render_cpu::Integrator::lines;
         lines.lines.count = count;
         lines.lines.many_occluders = render_cpu::ManyOccluders::lines;
@@ -153,7 +153,7 @@ void setup_bench_lines(CLI::App& bench, int& exit_code) {
         "whole render phase for each line, over that for each point. Then, for each shading point and\n"
         "light: boxes and triangles tested, and shadows of triangles that packs of lines were cut with; and\n"
         "visible parts for each line. Medians of runs in turn.");
-    add_frame_options(*command, *options, "point samples per pixel and light");
+    add_frame_options(*command, *options, "pixel and light, of the rendering with points");
     command->add_option("--lines", options->counts, "Lines per shading point and light, separated by commas")
         ->delimiter(',')
         ->check(CLI::Range(1, render_cpu::kMaxLines))

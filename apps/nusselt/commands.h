@@ -14,13 +14,17 @@ class App;
 
 namespace nusselt::app {
 
-/// Of line samples. Defaults are those of render_cpu::RenderSettings.
-struct LineOptions {
-    std::string integrator = "points";
-    std::optional<int> count;
+/// Of line samples, whatever their number. Defaults are those of render_cpu::LineSettings.
+struct LineKindOptions {
     std::optional<std::string> orientation;
     std::optional<std::string> offsets;
     std::optional<std::string> shading;
+};
+
+/// Whether there are line samples, and how. Defaults are those of render_cpu::RenderSettings.
+struct LineOptions : LineKindOptions {
+    std::string integrator = "points";
+    std::optional<int> count;
     std::optional<std::string> many_occluders;
 };
 
@@ -85,8 +89,8 @@ struct BenchStrategiesOptions : BenchFramesOptions {
 
 struct BenchLinesOptions : BenchFramesOptions {
     std::vector<int> counts = {4, 16, 64}; ///< of lines per shading point and light
-    LineOptions lines;                     ///< but for their number
-    std::optional<std::string> json;       ///< "-" is the standard output, instead of the table
+    LineKindOptions lines;
+    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
 };
 
 struct BenchLineEfficiencyOptions {
@@ -96,7 +100,7 @@ struct BenchLineEfficiencyOptions {
     std::optional<std::string> isa;
     std::string strategies = "diffuse";
     std::optional<float> roughness; ///< of all surfaces
-    LineOptions lines;              ///< but for their number
+    LineKindOptions lines;
     int most_points = 1024;
     int most_lines = 256;
     int repetitions = 5;

@@ -15,7 +15,7 @@ constexpr const char* kGroup = "Line samples";
 
 } // namespace
 
-void add_line_kind_options(CLI::App& command, LineOptions& options) {
+void add_line_kind_options(CLI::App& command, LineKindOptions& options) {
     command
         .add_option(
             "--orientation", options.orientation,
@@ -42,7 +42,7 @@ void add_line_options(CLI::App& command, LineOptions& options) {
     command
         .add_option("--integrator", options.integrator,
                     "What is sampled of polygonal lights: points, or lines with exact visibility. Tubes and\n"
-                    "lines always get --spp points")
+                    "linear lights always get --spp points")
         ->transform(to_name_of(render_cpu::kIntegrators))
         ->capture_default_str()
         ->group(kGroup);
@@ -56,21 +56,25 @@ void add_line_options(CLI::App& command, LineOptions& options) {
     command
         .add_option(
             "--many-occluders", options.many_occluders,
-            "What shading points take where many triangles may hide a light: points, of the technique\n"
-            "and strategies of the other options, which are faster there; or lines all the same.\n"
-            "Default: points")
+            "What shading points take where many triangles may hide a light: round(N^1.4) points in place\n"
+            "of N lines, of the technique and strategies of the other options, which are faster there; or\n"
+            "lines all the same. Default: points")
         ->transform(to_name_of(render_cpu::kManyOccludersChoices))
         ->group(kGroup);
+}
+
+void apply_line_kind_options(const LineKindOptions& options, render_cpu::LineSettings& settings) {
+    if (options.orientation)
+        settings.orientation = from_name(render_cpu::kLineOrientations, *options.orientation);
+    if (options.offsets) settings.offsets = from_name(render_cpu::kLineOffsets, *options.offsets);
+    if (options.shading) settings.shading = from_name(render_cpu::kLineShadings, *options.shading);
 }
 
 void apply_line_options(const LineOptions& options, render_cpu::RenderSettings& settings) {
     settings.integrator = from_name(render_cpu::kIntegrators, options.integrator);
     render_cpu::LineSettings& lines = settings.lines;
     if (options.count) lines.count = *options.count;
-    if (options.orientation)
-        lines.orientation = from_name(render_cpu::kLineOrientations, *options.orientation);
-    if (options.offsets) lines.offsets = from_name(render_cpu::kLineOffsets, *options.offsets);
-    if (options.shading) lines.shading = from_name(render_cpu::kLineShadings, *options.shading);
+    apply_line_kind_options(options, lines);
     if (options.many_occluders)
         lines.many_occluders = from_name(render_cpu::kManyOccludersChoices, *options.many_occluders);
 }

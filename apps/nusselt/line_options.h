@@ -13,10 +13,13 @@ namespace nusselt::app {
 void add_line_options(CLI::App& command, LineOptions& options);
 
 /// Adds --orientation, --offsets and --line-shading.
-void add_line_kind_options(CLI::App& command, LineOptions& options);
+void add_line_kind_options(CLI::App& command, LineKindOptions& options);
 
 /// Changes those settings that the options name.
 /// \throws std::invalid_argument for values that the command line does not let through
+void apply_line_kind_options(const LineKindOptions& options, render_cpu::LineSettings& settings);
+
+/// The same for all options, and the integrator.
 void apply_line_options(const LineOptions& options, render_cpu::RenderSettings& settings);
 
 /// \throws CLI::ValidationError if there are options for line samples without these, or for what these cannot be

@@ -172,7 +172,8 @@ void setup_render(CLI::App& app, int& exit_code) {
     command
         ->add_option("--sampler", options->sampler,
                      "Random numbers: independent, Owen-scrambled Sobol' points, uniform jittered (best for\n"
-                     "linear lights), or stratified (multi-jittered: any --spp has as many strata)")
+                     "linear lights), or stratified (multi-jittered: as many strata in each dimension as\n"
+                     "samples; best for line samples)")
         ->transform(to_name_of(render_cpu::kSampleOrders))
         ->capture_default_str();
     command

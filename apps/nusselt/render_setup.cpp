@@ -43,10 +43,10 @@ std::string check_resolution(const std::string& text) {
 
 } // namespace
 
-void add_machine_options(CLI::App& command, std::optional<int>& threads, std::optional<std::string>& isa) {
+void add_machine_options(CLI::App& command, std::optional<int>& threads, std::optional<std::string>& isa,
+                         const std::string& default_threads) {
     constexpr int kMaxThreads = 1024;
-    command
-        .add_option("--threads", threads, "Threads, 1 to 1024. Default: as many as the machine runs at once")
+    command.add_option("--threads", threads, "Threads, 1 to 1024. Default: " + default_threads)
         ->check(CLI::Range(1, kMaxThreads));
     command
         .add_option("--isa", isa,

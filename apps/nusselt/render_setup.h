@@ -42,7 +42,9 @@ auto from_name(const Values& values, const std::string& name) {
 }
 
 /// Adds --threads and --isa.
-void add_machine_options(CLI::App& command, std::optional<int>& threads, std::optional<std::string>& isa);
+/// \param default_threads for the help: how many threads there are without the option
+void add_machine_options(CLI::App& command, std::optional<int>& threads, std::optional<std::string>& isa,
+                         const std::string& default_threads = "as many as the machine runs at once");
 
 /// Adds --resolution.
 void add_resolution_option(CLI::App& command, std::optional<std::string>& resolution);

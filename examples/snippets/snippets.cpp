@@ -1,9 +1,12 @@
 // The code in README.md and in the second half of docs/porting.md, as functions. The tests compile this file and compare
 // what the functions return with closed forms.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -116,6 +119,43 @@ void projected_solid_angles(const ConvexPolygon<float, 4>& light, const Vec3<Pac
     using Real = Pack<float, 8>;
     const PolygonProjectedSolidAngle<Real, 4> technique(to_shading_space(light, points, frames));
     technique.measure().store(result);
+}
+
+/// What a triangle hides of a line.
+Interval<float> hidden_by(const std::array<Vec, 3>& triangle, const ShadowFrame<float>& frame, float offset) {
+    const auto [a, b, c] = triangle;
+    const auto shadows = make_triangle_shadow(frame, a, b, c);
+    return shadows.partial ? hidden_interval(make_partial_shadow(frame, a, b, c), offset)
+                           : hidden_interval(shadows.shadow, offset);
+}
+
+/// \param light, triangles in world space. \param u random, stratified.
+float light_of_lines(const ConvexPolygon<float, 4>& light, std::vector<std::array<Vec, 3>> triangles,
+                     const Vec& point, const Vec& normal, float emitted, const std::vector<float>& u) {
+    // Neighbours in a mesh have their edge in common, bit by bit.
+    for (auto& triangle : triangles)
+        std::sort(triangle.begin(), triangle.end(), [](const Vec& a, const Vec& b) {
+            return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+        });
+    float radiance = 0;
+    const auto frame = Frame<float>::from_normal(normal);
+    const float angle = 0.7f;
+    const LineFamily<float, 4> family(light, angle);
+    const auto plane = to_shading_space(family.plane(), point, frame);
+    const auto shadow_frame = make_shadow_frame(family.plane(), point);
+    for (const float random : u) {
+        const auto line = family.sample_by_length(random);
+        if (!(line.pdf > 0)) continue;
+        const auto chord = family.chord(line.offset);
+        Interval<float> memory[64];
+        VisibleParts<float> parts(memory, 64);
+        parts.reset(chord.extent);
+        for (const auto& triangle : triangles) parts.cut(hidden_by(triangle, shadow_frame, line.offset));
+        const SeenLine<float> seen(plane, chord);
+        for (int k = 0; k < parts.count(); ++k)
+            radiance += emitted * kAlbedo * diffuse_part<BothSides>(seen, parts[k]) / line.pdf;
+    }
+    return radiance / static_cast<float>(u.size());
 }
 
 /// Runs on the host and on the device.

@@ -11,8 +11,11 @@
 #include <nusselt/estimate/line_light.h>
 #include <nusselt/estimate/reference_integrals.h>
 #include <nusselt/estimate/reflected_offsets.h>
+#include <nusselt/line_samples/partial_shadow.h>
 #include <nusselt/line_samples/phong.h>
 #include <nusselt/line_samples/shading.h>
+#include <nusselt/line_samples/triangle_shadow.h>
+#include <nusselt/line_samples/visible_parts.h>
 #include <nusselt/ltc/line_shading.h>
 #include <nusselt/ltc/polygon_shading.h>
 #include <nusselt/ltc/table_file.h>

@@ -78,9 +78,10 @@ std::vector<ConvergenceSeries> all_series() {
 
 std::vector<OrderBetween> expected_orders() {
     constexpr double kAny = -std::numeric_limits<double>::infinity();
-    return {{"points, independent", -0.55, -0.45},
-            {"lines, independent", -0.55, -0.45},
-            {"lines, each turned, stratified", -0.6, -0.45},
+    // A small light above the polished floor of the logo makes noise in few pixels. What is measured of it is rough.
+    return {{"points, independent", -0.55, -0.45, 1},
+            {"lines, independent", -0.55, -0.45, 1},
+            {"lines, each turned, stratified", -0.6, -0.45, 1},
             {"points, stratified", -0.9, -0.6, 1},
             {"lines, stratified", kAny, -1.1, 1},
             {"lines, unbiased, stratified", kAny, -0.9, 1},
@@ -191,7 +192,7 @@ const std::vector<LineConvergence>& all_line_convergences() {
 }
 
 int seeds_for(const LineConvergence& experiment, int count) {
-    constexpr int kSamples = 512;
+    constexpr int kSamples = 1024;
     return std::clamp(kSamples / count, experiment.seeds, std::max(experiment.seeds, experiment.most_seeds));
 }
 

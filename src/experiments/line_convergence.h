@@ -47,8 +47,8 @@ struct LineConvergence {
     std::vector<ConvergenceSeries> series;
     std::vector<OrderBetween> orders;
     std::vector<LessNoise> less_noise;
-    int seeds = 8; ///< at least; more for few samples, up to
-    int most_seeds = 64;
+    int seeds = 16; ///< at least; more for few samples, up to
+    int most_seeds = 128;
     int width = 64; ///< of the images in pixels
 };
 

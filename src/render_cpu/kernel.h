@@ -4,14 +4,11 @@
 
 #include "render_cpu/settings.h"
 #include "scene/scene.h"
+#include "visibility/line_bvh_view.h"
 #include "visibility/ray_packets.h"
 
 #include <cstddef>
 #include <cstdint>
-
-namespace nusselt::visibility {
-struct LineBvhView;
-}
 
 namespace nusselt::render_cpu {
 
@@ -189,9 +186,7 @@ struct TileStatistics {
     std::uint64_t line_parts;
     std::uint64_t line_lights;
     std::uint64_t point_lights;
-    std::uint64_t line_box_tests;
-    std::uint64_t line_triangle_tests;
-    std::uint64_t line_shadow_tests;
+    visibility::LineCounters line_counters;
 };
 
 /// Working memory of one thread, aligned to 64 bytes.

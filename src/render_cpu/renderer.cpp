@@ -64,9 +64,9 @@ public:
         work_.line_parts += work.line_parts;
         work_.line_lights += work.line_lights;
         work_.point_lights += work.point_lights;
-        work_.line_box_tests += work.line_box_tests;
-        work_.line_triangle_tests += work.line_triangle_tests;
-        work_.line_shadow_tests += work.line_shadow_tests;
+        work_.line_counters.box_tests += work.line_counters.box_tests;
+        work_.line_counters.triangle_tests += work.line_counters.triangle_tests;
+        work_.line_counters.line_tests += work.line_counters.line_tests;
         frame_.is_finished[tile] = 1;
         finished_pixels_ += pixel_count(frame_.tiles[tile]);
         if (monitor_.tile_finished) monitor_.tile_finished(tile);
@@ -168,7 +168,6 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
         job.line_bvh = &line_bvh;
     }
     job.most_occluders = most_occluders_for_lines(settings.lines.count);
-    job.points_in_place_of_lines = static_cast<std::uint32_t>(points_in_place_of_lines(settings.lines.count));
     job.technique = settings.technique;
     job.strategies = settings.strategies;
     job.mis = settings.mis;
@@ -178,6 +177,8 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.seed = settings.seed;
     job.camera_rays = static_cast<std::uint32_t>(camera_ray_count(settings));
     job.light_samples = static_cast<std::uint32_t>(settings.samples) / job.camera_rays;
+    job.points_in_place_of_lines = static_cast<std::uint32_t>(
+        points_in_place_of_lines(settings.lines.count, camera_ray_count(settings)));
     job.x_begin = frame.bounds.x_begin;
     job.y_begin = frame.bounds.y_begin;
     job.width = frame.image.width;
@@ -218,9 +219,9 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     statistics.lines.parts = work.line_parts;
     statistics.lines.line_lights = work.line_lights;
     statistics.lines.point_lights = work.point_lights;
-    statistics.lines.box_tests = work.line_box_tests;
-    statistics.lines.triangle_tests = work.line_triangle_tests;
-    statistics.lines.shadow_tests = work.line_shadow_tests;
+    statistics.lines.box_tests = work.line_counters.box_tests;
+    statistics.lines.triangle_tests = work.line_counters.triangle_tests;
+    statistics.lines.shadow_tests = work.line_counters.line_tests;
     statistics.threads = thread_count_;
     return statistics;
 }

@@ -88,10 +88,10 @@ enum class LineOrientation : std::uint32_t {
 enum class LineOffsets : std::uint32_t {
     length, ///< in proportion to the length of the line on the light
     uniform,
-    reflected, ///< in proportion to what the surface would reflect of the line without shadows, as far as that is known
+    reflected, ///< in proportion to what the surface would reflect of the line without shadows
 };
 
-/// What is known of the visible parts of a line sample.
+/// How the visible parts of a line sample are shaded.
 enum class LineShading : std::uint32_t {
     unbiased, ///< the integral of a fitted lobe, and one point for what the BRDF is beyond that
     analytic, ///< the integral of the fitted lobe alone

@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -94,12 +93,6 @@ struct Box {
         add({{primitive.lower_x, primitive.lower_y, primitive.lower_z}});
         add({{primitive.upper_x, primitive.upper_y, primitive.upper_z}});
     }
-    float largest_coordinate() const {
-        float largest = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            largest = std::max({largest, std::fabs(lower[axis]), std::fabs(upper[axis])});
-        return largest;
-    }
 };
 
 RTCBuildPrimitive make_primitive(const Box& box, std::uint32_t index) {
@@ -125,11 +118,13 @@ Corners corners_of(const scene::Scene& scene, std::uint32_t triangle) {
     return corners;
 }
 
-bool is_finite(const Box& box) {
-    const auto is_finite_point = [](const std::array<float, 3>& p) {
-        return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+/// Whether Embree's builder can sort the box, and its scenes have it: squares of coordinates must be in the range of float.
+bool is_usable(const Box& box) {
+    constexpr float kLargest = 1.844e18f;
+    const auto is_usable_point = [](const std::array<float, 3>& p) {
+        return std::all_of(p.begin(), p.end(), [](float x) { return std::fabs(x) < kLargest; });
     };
-    return is_finite_point(box.lower) && is_finite_point(box.upper);
+    return is_usable_point(box.lower) && is_usable_point(box.upper);
 }
 
 /// World space to object space.
@@ -155,17 +150,23 @@ std::array<float, 12> inverse_of(const std::array<float, 12>& m) {
     return result;
 }
 
+/// Rounding errors included: those of instances far from the origin of their object are not those of their box.
 /// \param m as Instance::world_from_object
 Box transformed(const std::array<float, 12>& m, const Box& box) {
     Box result;
     for (std::size_t row = 0; row < 3; ++row) {
         result.lower[row] = result.upper[row] = m[4 * row + 3];
+        float size = std::fabs(m[4 * row + 3]);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const float a = m[4 * row + axis] * box.lower[axis];
             const float b = m[4 * row + axis] * box.upper[axis];
             result.lower[row] += std::min(a, b);
             result.upper[row] += std::max(a, b);
+            size += std::max(std::fabs(a), std::fabs(b));
         }
+        const float rounding = 4 * std::numeric_limits<float>::epsilon() * size;
+        result.lower[row] -= rounding;
+        result.upper[row] += rounding;
     }
     return result;
 }
@@ -200,7 +201,6 @@ struct LineBvh::State {
     std::vector<LineBvhNode> nodes;
     std::vector<TriangleBlock> blocks;
     std::vector<LineBvhInstance> instances;
-    float extent = 0;
     Roots full, partial; // after what they are made of
 };
 
@@ -218,8 +218,6 @@ LineBvh::State::Roots LineBvh::State::add_all(const scene::Scene& scene, Presenc
     for (const scene::Object& object : scene.objects)
         objects.push_back(add_triangles(scene, presence, object.first_triangle, object.triangle_count));
     const Root copies = add_instances(scene, objects);
-    for (const Root* root : {&world, &copies})
-        if (root->reference != kEmptyBvh) extent = std::max(extent, root->bounds.largest_coordinate());
     return {world, copies};
 }
 
@@ -230,7 +228,7 @@ LineBvh::State::Root LineBvh::State::add_triangles(const scene::Scene& scene, Pr
         if (presence_of(scene.materials[scene.triangle_material[triangle]]) != presence) continue;
         Box box;
         for (const auto& corner : corners_of(scene, triangle)) box.add(corner);
-        if (is_finite(box)) primitives.push_back(make_primitive(box, triangle));
+        if (is_usable(box)) primitives.push_back(make_primitive(box, triangle));
     }
     const std::size_t blocks_before = blocks.size();
     const auto leaf = [&](const BuiltLeaf& of) { return add_block(scene, of); };
@@ -246,16 +244,16 @@ LineBvh::State::Root LineBvh::State::add_instances(const scene::Scene& scene,
     for (const scene::Instance& instance : scene.instances) {
         const Root& object = objects[instance.object];
         if (object.reference == kEmptyBvh) continue;
-        block_count += object.block_count;
         const auto& m = instance.world_from_object;
-        const auto index = static_cast<std::uint32_t>(instances.size());
-        primitives.push_back(make_primitive(transformed(m, object.bounds), index));
+        const Box box = transformed(m, object.bounds);
+        if (!is_usable(box)) continue;
+        block_count += object.block_count;
+        primitives.push_back(make_primitive(box, static_cast<std::uint32_t>(instances.size())));
         LineBvhInstance& target = instances.emplace_back();
         for (std::size_t i = 0; i < 9; ++i) target.world_from_object[i] = m[4 * (i / 3) + i % 3];
         const auto inverse = inverse_of(m);
         std::copy(inverse.begin(), inverse.end(), target.object_from_world);
         target.triangles = object.reference;
-        target.extent = object.bounds.largest_coordinate();
     }
     const auto leaf = [](const BuiltLeaf& of) { return kBvhInstance | of.primitive[0]; };
     Root root = add(std::move(primitives), 1, leaf);
@@ -279,8 +277,7 @@ LineBvh::State::Root LineBvh::State::add(std::vector<RTCBuildPrimitive> primitiv
 template <class Leaf>
 std::uint32_t LineBvh::State::flatten(const BuiltNode* built, int depth, const Leaf& leaf) {
     if (built->is_leaf) return leaf(static_cast<const BuiltLeaf&>(*built));
-    if (depth == kLargestBvhDepth)
-        throw std::runtime_error("the bounding volume hierarchy of the scene is too deep for line samples");
+    assert(depth < kLargestBvhDepth && "the builder fails instead");
     const auto& inner = static_cast<const BuiltInner&>(*built);
     const auto index = static_cast<std::uint32_t>(nodes.size());
     LineBvhNode& node = nodes.emplace_back();
@@ -303,7 +300,7 @@ std::uint32_t LineBvh::State::add_block(const scene::Scene& scene, const BuiltLe
     const float* anywhere = &scene.positions[scene.triangles[leaf.primitive[0]].vertex[0]].x;
     for (std::size_t i = 0; i < kBvhWidth; ++i) {
         const bool exists = i < leaf.count;
-        block.light[i] = exists ? scene.triangle_light[leaf.primitive[i]] : -1;
+        block.light[i] = exists ? scene.triangle_light[leaf.primitive[i]] : kNoTriangle;
         const Corners corners = exists ? corners_of(scene, leaf.primitive[i]) : Corners{};
         for (std::size_t row = 0; row < 9; ++row)
             block.corner[row][i] = exists ? corners[row / 3][row % 3] : anywhere[row % 3];
@@ -322,18 +319,9 @@ LineBvhView LineBvh::view() const {
         return LineBvhRoots{roots.triangles.reference, roots.instances.reference};
     };
     const State::Roots& full = state_->full;
-    return {state_->nodes.data(),
-            state_->blocks.data(),
-            state_->instances.data(),
-            references(full),
-            references(state_->partial),
-            state_->extent,
-            full.triangles.block_count + full.instances.block_count};
-}
-
-std::size_t LineBvh::bytes() const {
-    return state_->nodes.size() * sizeof(LineBvhNode) + state_->blocks.size() * sizeof(TriangleBlock) +
-           state_->instances.size() * sizeof(LineBvhInstance);
+    return {state_->nodes.data(),        state_->blocks.data(),
+            state_->instances.data(),    references(full),
+            references(state_->partial), full.triangles.block_count + full.instances.block_count};
 }
 
 } // namespace nusselt::visibility

@@ -4,7 +4,6 @@
 #include "scene/scene.h"
 #include "visibility/line_bvh_view.h"
 
-#include <cstddef>
 #include <memory>
 
 namespace nusselt::visibility {
@@ -13,10 +12,11 @@ namespace nusselt::visibility {
 /// several threads at once.
 class LineBvh {
 public:
-    /// Builds the hierarchy with the threads of the caller's oneTBB arena. Triangles with coordinates that are not finite
-    /// are left out.
+    /// Builds the hierarchy with the threads of the caller's oneTBB arena. Triangles and instances with coordinates that
+    /// are not finite, or beyond 1.8e18, are left out, as in Embree's scenes.
     /// \param scene not needed afterwards
-    /// \throws std::runtime_error for a lack of memory
+    /// \throws std::runtime_error for a lack of memory, a hierarchy deeper than kLargestBvhDepth and what else Embree's
+    ///         builder reports
     explicit LineBvh(const scene::Scene& scene);
     ~LineBvh();
     LineBvh(LineBvh&&) noexcept;
@@ -24,9 +24,6 @@ public:
 
     /// Valid as long as this object lives.
     LineBvhView view() const;
-
-    /// Bytes of all arrays.
-    std::size_t bytes() const;
 
 private:
     struct State;

@@ -8,7 +8,8 @@ namespace nusselt::visibility {
 
 /// Children of a node, and triangles of a block.
 inline constexpr int kBvhWidth = 8;
-/// Of the hierarchy of the world or of an object, in nodes.
+/// Of the hierarchy of the world or of an object, in nodes. Halving 2^32 triangles eight ways needs 11, triangles whose
+/// sizes are a geometric series over the range of float need 36.
 inline constexpr int kLargestBvhDepth = 40;
 
 /// What a child is, as the two upmost bits of its reference; the rest is an index.
@@ -23,7 +24,10 @@ struct alignas(64) LineBvhNode {
     std::uint32_t child[kBvhWidth];
 };
 
-/// Triangles. Unused slots hold triangles without area.
+/// TriangleBlock::light of slots without a triangle.
+inline constexpr std::int32_t kNoTriangle = -2;
+
+/// Triangles. Unused slots hold finite coordinates.
 struct alignas(64) TriangleBlock {
     /// Of the first, second and third corner x, y, z [m], in lexicographic order: the same for all that share them.
     float corner[9][kBvhWidth];
@@ -44,7 +48,6 @@ struct LineBvhInstance {
     float world_from_object[9];  ///< the linear part in rows
     float object_from_world[12]; ///< as Instance::world_from_object
     std::uint32_t triangles;     ///< reference to those of the object
-    float extent;                ///< largest coordinate of the object [m]
 };
 
 struct LineBvhView {
@@ -53,15 +56,14 @@ struct LineBvhView {
     const LineBvhInstance* instances;
     LineBvhRoots full;    ///< surfaces that rays always hit
     LineBvhRoots partial; ///< surfaces that rays hit with a probability, see alpha.h
-    float extent;         ///< largest coordinate of the world, instances included [m]
-    std::uint64_t
-        full_block_count; ///< of surfaces that rays always hit, objects as often as there are instances
+    /// Of surfaces that rays always hit, objects as often as there are instances.
+    std::uint64_t full_block_count;
 };
 
 /// Work done for lines.
 struct LineCounters {
     std::uint64_t box_tests;      ///< boxes against pyramids or groups of lines
-    std::uint64_t triangle_tests; ///< triangles whose shadows were found
+    std::uint64_t triangle_tests; ///< triangles whose shadows were found, without those of the light
     std::uint64_t line_tests;     ///< shadows against packs of lines
 };
 

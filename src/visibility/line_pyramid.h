@@ -7,14 +7,18 @@
 #include <nusselt/line_samples/triangle_shadow.h>
 #include <nusselt/simd/pack.h>
 
+#include <limits>
+
 NUSSELT_NAMESPACE_BEGIN
 
 /// Of the children of a node, or the triangles of a block.
 using BvhReal = Pack<float, visibility::kBvhWidth>;
 using BvhMask = Mask<float, visibility::kBvhWidth>;
 
-/// Tests of boxes err on the side of traversal: by this share of the largest coordinate [rounding errors of float].
-inline constexpr float kTraversalRounding = 16 * 6e-8f;
+/// Tests of boxes err on the side of traversal: by this share of the largest coordinate of the box or the point. That is
+/// twice what the longest chain of operations on a coordinate adds up to, eight roundings of half an epsilon each: the
+/// corner of the light (2), cross product (2), rotation to the space of the box (2), product with the box (2).
+inline constexpr float kTraversalRounding = 8 * std::numeric_limits<float>::epsilon();
 
 /// The lines of a light that is seen from a point.
 struct SeenLight {
@@ -62,7 +66,7 @@ NUSSELT_HD inline SeenLight see_light(const ConvexPolygon<float, N>& polygon,
 struct TracedSpace {
     /// With the point in these coordinates, and axes that lead from differences of them to the coordinates of the light.
     ShadowFrame<float> frame;
-    float extent; ///< largest coordinate that matters
+    float apex; ///< largest coordinate of the point
 
     /// In the axes of the frame and its unit.
     template <class Real>
@@ -84,8 +88,8 @@ NUSSELT_HD inline float largest_coordinate(const Vec3<float>& p) noexcept {
     return max(max(abs(p.x), abs(p.y)), abs(p.z));
 }
 
-NUSSELT_HD inline TracedSpace world_space(const SeenLight& seen, float extent) noexcept {
-    return {seen.frame, max(extent, largest_coordinate(seen.frame.point))};
+NUSSELT_HD inline TracedSpace world_space(const SeenLight& seen) noexcept {
+    return {seen.frame, largest_coordinate(seen.frame.point)};
 }
 
 NUSSELT_HD inline TracedSpace object_space(const SeenLight& seen,
@@ -107,7 +111,14 @@ NUSSELT_HD inline TracedSpace object_space(const SeenLight& seen,
     frame.across = transformed(frame.across);
     frame.along = transformed(frame.along);
     frame.normal = transformed(frame.normal);
-    return {frame, max(instance.extent, largest_coordinate(frame.point))};
+    return {frame, largest_coordinate(frame.point)};
+}
+
+/// Largest coordinate of each child of a node.
+NUSSELT_INLINE BvhReal sizes_of(const visibility::LineBvhNode& node) noexcept {
+    BvhReal size(0.0f);
+    for (const auto& row : node.bounds) size = max(size, abs(BvhReal::load(row)));
+    return size;
 }
 
 /// The pyramid with the point as apex and the light as base, to cull what lies outside.
@@ -130,6 +141,7 @@ public:
     /// Children whose boxes may touch the pyramid.
     NUSSELT_INLINE BvhMask touched(const visibility::LineBvhNode& node) const noexcept {
         auto touched = BvhMask(true);
+        const BvhReal size = sizes_of(node);
         for (int i = 0; i < count_; ++i) {
             const Plane& plane = plane_[i];
             const BvhReal x = BvhReal::load(node.bounds[plane.row[0]]);
@@ -138,7 +150,7 @@ public:
             const BvhReal farthest =
                 fma(BvhReal(plane.normal.x), x,
                     fma(BvhReal(plane.normal.y), y, fma(BvhReal(plane.normal.z), z, plane.constant)));
-            touched &= farthest >= BvhReal(0);
+            touched &= fma(BvhReal(plane.rounding), size, farthest) >= BvhReal(0);
         }
         return touched;
     }
@@ -146,35 +158,41 @@ public:
     /// Triangles that may touch the pyramid.
     NUSSELT_INLINE BvhMask touched(const Vec3<BvhReal> (&corner)[3]) const noexcept {
         auto touched = BvhMask(true);
+        BvhReal size(0.0f);
+        for (const Vec3<BvhReal>& p : corner) size = max(size, max(max(abs(p.x), abs(p.y)), abs(p.z)));
         for (int i = 0; i < count_; ++i) {
             const auto product = [&](const Vec3<BvhReal>& p) {
                 const Vec3<float>& n = plane_[i].normal;
                 return fma(BvhReal(n.x), p.x, fma(BvhReal(n.y), p.y, BvhReal(n.z) * p.z));
             };
             const BvhReal farthest = max(max(product(corner[0]), product(corner[1])), product(corner[2]));
-            touched &= farthest + BvhReal(plane_[i].constant) >= BvhReal(0);
+            const BvhReal margin = fma(BvhReal(plane_[i].rounding), size, BvhReal(plane_[i].constant));
+            touched &= farthest + margin >= BvhReal(0);
         }
         return touched;
     }
 
 private:
-    /// normal.p + constant >= 0 inside.
+    /// normal.p + constant + rounding * (largest coordinate of p) >= 0 inside.
     struct Plane {
         Vec3<float> normal;
         float constant;
+        float rounding;
         int row[3]; ///< of LineBvhNode::bounds: what is farthest inside
     };
 
     /// \param m        in the axes of the frame
     /// \param constant in its unit
-    /// \param size        of products in m
+    /// \param size     of products in m
     NUSSELT_HD void add(const TracedSpace& space, const Vec3<float>& m, float constant, float size) noexcept {
         const Vec3<float> n = space.gradient(m);
         const float scale = largest_coordinate(space.frame.across) + largest_coordinate(space.frame.along) +
                             largest_coordinate(space.frame.normal);
-        const float margin = kTraversalRounding * (size * scale * space.extent + constant);
+        const float rounding = kTraversalRounding * size * scale;
+        const float margin = fma(rounding, space.apex, kTraversalRounding * constant);
         plane_[count_++] = {n,
                             constant - dot(n, space.frame.point) + margin,
+                            rounding,
                             {n.x < 0 ? 0 : 3, n.y < 0 ? 1 : 4, n.z < 0 ? 2 : 5}};
     }
 

@@ -42,11 +42,11 @@ public:
 
     /// \param visitor with functions
     ///        `void enter(space)`: what follows is in these coordinates
-    ///        `uint32_t touched(node, bits)`: those of the children that are of interest
+    ///        `bool touched(node, bits)`: takes children that are not of interest from the bits; whether to go on
     ///        `bool visit(pyramid, space, block)`: whether to go on
     template <class Visitor>
     NUSSELT_HD void run(const visibility::LineBvhRoots& roots, Visitor& visitor) const noexcept {
-        const TracedSpace world = world_space(seen_, bvh_.extent);
+        const TracedSpace world = world_space(seen_);
         visitor.enter(world);
         if (roots.triangles != visibility::kEmptyBvh && !walk(roots.triangles, world, visitor)) return;
         if (roots.instances != visibility::kEmptyBvh) walk(roots.instances, world, visitor);
@@ -67,7 +67,7 @@ private:
             const std::uint32_t index = reference & ~visibility::kBvhKindMask;
             switch (reference & visibility::kBvhKindMask) {
             case visibility::kBvhNode:
-                push_children(bvh_.nodes[index], pyramid, space, visitor, stack, size);
+                if (!push_children(bvh_.nodes[index], pyramid, space, visitor, stack, size)) return false;
                 break;
             case visibility::kBvhBlock:
                 if (!visitor.visit(pyramid, space, bvh_.blocks[index])) return false;
@@ -85,14 +85,16 @@ private:
     }
 
     /// The closest child on top.
+    /// \returns whether to go on
     template <class Visitor>
-    NUSSELT_INLINE void push_children(const visibility::LineBvhNode& node, const LightPyramid& pyramid,
+    NUSSELT_INLINE bool push_children(const visibility::LineBvhNode& node, const LightPyramid& pyramid,
                                       const TracedSpace& space, Visitor& visitor, std::uint32_t* stack,
                                       int& size) const noexcept {
         counters_.box_tests += visibility::kBvhWidth;
         std::uint32_t bits = pyramid.touched(node).bits();
-        if (bits != 0) bits = visitor.touched(node, bits);
-        if (bits == 0) return;
+        if (bits == 0) return true;
+        if (!visitor.touched(node, bits)) return false;
+        if (bits == 0) return true;
         float depth[visibility::kBvhWidth];
         depths(node, space).store(depth);
         float depth_of[visibility::kBvhWidth];
@@ -108,6 +110,7 @@ private:
             stack[k] = node.child[child];
             depth_of[k - first] = depth[child];
         }
+        return true;
     }
 
     /// Memory is what takes most of the time in large scenes.
@@ -142,7 +145,8 @@ private:
 };
 
 /// Whether more than some number of blocks of triangles have boxes in the pyramid of a light: how many tells what tracing
-/// lines will cost. Does not depend on lines, so that decisions based on it cause no bias.
+/// lines will cost. Depends on the direction of lines, by rounding, and on nothing else of them: with a light that is
+/// seen along a fixed direction, decisions are functions of the light and the point.
 NUSSELT_HD inline bool has_many_occluders(const visibility::LineBvhView& bvh, const SeenLight& seen,
                                           int bound, visibility::LineCounters& counters) noexcept {
     struct Counter {
@@ -150,8 +154,7 @@ NUSSELT_HD inline bool has_many_occluders(const visibility::LineBvhView& bvh, co
         int count;
 
         void enter(const TracedSpace&) const noexcept {}
-        NUSSELT_INLINE std::uint32_t touched(const visibility::LineBvhNode& node,
-                                             std::uint32_t bits) noexcept {
+        NUSSELT_INLINE bool touched(const visibility::LineBvhNode& node, std::uint32_t& bits) noexcept {
             std::uint32_t others = 0;
             for (; bits != 0; bits &= bits - 1) {
                 const int child = __builtin_ctz(bits);
@@ -159,7 +162,8 @@ NUSSELT_HD inline bool has_many_occluders(const visibility::LineBvhView& bvh, co
                 count += is_block;
                 others |= static_cast<std::uint32_t>(!is_block) << child;
             }
-            return count > bound ? 0 : others;
+            bits = others;
+            return count <= bound;
         }
         bool visit(const LightPyramid&, const TracedSpace&, const visibility::TriangleBlock&) noexcept {
             return ++count <= bound;
@@ -172,7 +176,8 @@ NUSSELT_HD inline bool has_many_occluders(const visibility::LineBvhView& bvh, co
 }
 
 /// Whether a light has surfaces in its pyramid that are only partly there (an alpha below 1): lines cannot tell what is
-/// visible, take points. Does not depend on lines either.
+/// visible, take points. Depends on the direction of lines, as triangles count that reach into the rectangle around the
+/// light along it: take the same fixed direction as for has_many_occluders().
 NUSSELT_HD inline bool has_partial_surfaces(const visibility::LineBvhView& bvh, const SeenLight& seen,
                                             visibility::LineCounters& counters) noexcept {
     struct Finder {
@@ -181,13 +186,12 @@ NUSSELT_HD inline bool has_partial_surfaces(const visibility::LineBvhView& bvh, 
         bool found;
 
         void enter(const TracedSpace&) const noexcept {}
-        std::uint32_t touched(const visibility::LineBvhNode&, std::uint32_t bits) const noexcept {
-            return bits;
-        }
+        bool touched(const visibility::LineBvhNode&, std::uint32_t&) const noexcept { return true; }
         bool visit(const LightPyramid& pyramid, const TracedSpace& space,
                    const visibility::TriangleBlock& block) noexcept {
-            counters.triangle_tests += visibility::kBvhWidth;
-            found = BlockShadows::make(seen, pyramid, space, block).relevant() != 0;
+            const BlockShadows shadows = BlockShadows::make(seen, pyramid, space, block);
+            counters.triangle_tests += shadows.count();
+            found = shadows.relevant() != 0;
             return !found;
         }
     };
@@ -197,7 +201,7 @@ NUSSELT_HD inline bool has_partial_surfaces(const visibility::LineBvhView& bvh, 
 }
 
 /// Packs of lines that LineTracer takes at once.
-inline constexpr int kLargestLinePackCount = 16;
+inline constexpr int kLargestLinePackCount = 8;
 
 /// Takes what triangles hide from packs of lines: nodes that no line with light touches are skipped.
 template <class Real>
@@ -221,7 +225,6 @@ public:
         space_ = &space;
         const Vec3<float>& origin = seen_.frame.origin;
         const auto size = [](const Vec3<float>& v) { return abs(v.x) + abs(v.y) + abs(v.z); };
-        const float rounding = kTraversalRounding * space.extent;
         for (int p = 0; p < pack_count_; ++p) {
             const Real x = packs_[p].offset + origin.x;
             const auto slope = [&](float across, float normal) {
@@ -230,15 +233,15 @@ public:
             slope_[p] = {slope(space.frame.across.x, space.frame.normal.x),
                          slope(space.frame.across.y, space.frame.normal.y),
                          slope(space.frame.across.z, space.frame.normal.z)};
-            margin_[p] = Real(rounding) *
+            margin_[p] = Real(kTraversalRounding) *
                          fma(abs(x), Real(size(space.frame.normal)), origin.z * size(space.frame.across));
         }
-        rounding_ = rounding * (size(space.frame.along) + size(space.frame.normal));
+        rounding_ = kTraversalRounding * (size(space.frame.along) + size(space.frame.normal));
         along_margin_ =
             kTraversalRounding * (abs(origin.y) + max(-seen_.bounds.extent.begin, seen_.bounds.extent.end));
     }
 
-    NUSSELT_INLINE std::uint32_t touched(const visibility::LineBvhNode& node, std::uint32_t bits) noexcept {
+    NUSSELT_INLINE bool touched(const visibility::LineBvhNode& node, std::uint32_t& bits) noexcept {
         const auto row = [&](int i) { return BvhReal::load(node.bounds[i]); };
         const Vec3<BvhReal> half{BvhReal(0.5f) * (row(3) - row(0)), BvhReal(0.5f) * (row(4) - row(1)),
                                  BvhReal(0.5f) * (row(5) - row(2))};
@@ -251,23 +254,26 @@ public:
         half.x.store(boxes.half[0]);
         half.y.store(boxes.half[1]);
         half.z.store(boxes.half[2]);
-        store_extent(centre, half, boxes);
+        const BvhReal size = max(sizes_of(node), BvhReal(space_->apex));
+        size.store(boxes.size);
+        store_extent(centre, half, size, boxes);
         std::uint32_t result = 0;
         for (; bits != 0; bits &= bits - 1) {
             const int child = __builtin_ctz(bits);
             result |= static_cast<std::uint32_t>(touches(boxes, child)) << child;
         }
-        return result;
+        bits = result;
+        return true;
     }
 
     NUSSELT_INLINE bool visit(const LightPyramid& pyramid, const TracedSpace& space,
                               const visibility::TriangleBlock& block) noexcept {
-        counters_.triangle_tests += visibility::kBvhWidth;
         const BlockShadows shadows = BlockShadows::make(seen_, pyramid, space, block);
-        return shadows.for_each([&](const auto& shadow) {
+        counters_.triangle_tests += shadows.count();
+        shadows.for_each([&](const auto& shadow) {
             for (int p = 0; p < pack_count_; ++p) cut_lines(packs_[p], shadow, counters_);
-            return true;
-        }) && is_lit();
+        });
+        return is_lit();
     }
 
 private:
@@ -275,6 +281,7 @@ private:
     struct Boxes {
         alignas(64) float centre[3][visibility::kBvhWidth];
         float half[3][visibility::kBvhWidth];
+        float size[visibility::kBvhWidth]; ///< largest coordinate of the box and the point, in their own axes
         float begin[visibility::kBvhWidth]; ///< of their projections, along the lines [m]
         float end[visibility::kBvhWidth];
     };
@@ -287,10 +294,11 @@ private:
 
     /// Finds where along the lines their projections are.
     NUSSELT_INLINE void store_extent(const Vec3<BvhReal>& centre, const Vec3<BvhReal>& half,
-                                     Boxes& boxes) const noexcept {
+                                     const BvhReal& size, Boxes& boxes) const noexcept {
+        const BvhReal rounding = BvhReal(rounding_) * size;
         const auto extent = [&](const Vec3<float>& r) {
             return fma(abs(BvhReal(r.x)), half.x,
-                       fma(abs(BvhReal(r.y)), half.y, fma(abs(BvhReal(r.z)), half.z, BvhReal(rounding_))));
+                       fma(abs(BvhReal(r.y)), half.y, fma(abs(BvhReal(r.z)), half.z, rounding)));
         };
         const Vec3<float>& origin = seen_.frame.origin;
         const BvhReal along = extent(space_->frame.along);
@@ -315,12 +323,13 @@ private:
         const Real x = origin.z * boxes.centre[0][child];
         const Real z = boxes.centre[2][child];
         const Interval<Real> extent{Real(boxes.begin[child]), Real(boxes.end[child])};
+        const Real size(boxes.size[child]);
         for (int p = 0; p < pack_count_; ++p) {
             const Vec3<Real>& slope = slope_[p];
             const Real side = x - (packs_[p].offset + origin.x) * z;
             const Real reach = fma(slope.x, Real(boxes.half[0][child]),
                                    fma(slope.y, Real(boxes.half[1][child]),
-                                       fma(slope.z, Real(boxes.half[2][child]), margin_[p])));
+                                       fma(slope.z, Real(boxes.half[2][child]), size * margin_[p])));
             const auto crosses = abs(side) <= reach;
             if (any(crosses & packs_[p].parts.lit()) && any(crosses & packs_[p].parts.overlap(extent)))
                 return true;
@@ -334,10 +343,11 @@ private:
     int pack_count_;
     visibility::LineCounters& counters_;
     const TracedSpace* space_ = nullptr;
-    // Per line: size of the components of the gradient of the plane through the line and the apex, and rounding.
+    // Per line: size of the components of the gradient of the plane through the line and the apex, and its rounding as
+    // a share of coordinates.
     Vec3<Real> slope_[kLargestLinePackCount];
     Real margin_[kLargestLinePackCount];
-    float rounding_ = 0;     ///< of coordinates in the axes of the frame [its unit]
+    float rounding_ = 0;     ///< of coordinates in the axes of the frame, as a share of those of their own
     float along_margin_ = 0; ///< of coordinates along lines [m]
 };
 

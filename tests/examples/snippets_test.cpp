@@ -101,6 +101,46 @@ TEST(Snippets, PacksAgreeWithTheClosedForm) {
     }
 }
 
+/// Albedo / pi times the integral over the visible part of the light, by midpoints.
+double reflected_under(const std::vector<std::array<Vec, 3>>& triangles) {
+    const Vec u = kCorners[1] - kCorners[0], v = kCorners[3] - kCorners[0];
+    const Vec area = cross(u, v);
+    constexpr int kSteps = 800;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j) {
+            const Vec p = kCorners[0] + (static_cast<float>(i) + 0.5f) / kSteps * u +
+                          (static_cast<float>(j) + 0.5f) / kSteps * v;
+            bool is_visible = true;
+            for (const auto& t : triangles) {
+                const float a = dot(p, cross(t[0], t[1])), b = dot(p, cross(t[1], t[2])),
+                            c = dot(p, cross(t[2], t[0]));
+                is_visible = is_visible && !((a > 0) == (b > 0) && (b > 0) == (c > 0));
+            }
+            const double squared = dot(p, p);
+            if (is_visible) sum += p.z * std::fabs(dot(p, area)) / (squared * squared);
+        }
+    return kEmitted * kAlbedo / kPi<double> * sum / (kSteps * kSteps);
+}
+
+TEST(Snippets, LinesAgreeWithAreaSampling) {
+    const auto light = make_polygon<4>(kCorners, 4);
+    std::vector<float> u(4096);
+    for (std::size_t i = 0; i < u.size(); ++i)
+        u[i] = (static_cast<float>(i) + 0.5f) / static_cast<float>(u.size());
+    std::vector<std::array<Vec, 3>> triangles;
+    const double whole = reflected_under(triangles);
+    for (int count = 0; count < 3; ++count) {
+        const double expected = reflected_under(triangles);
+        EXPECT_NEAR(light_of_lines(light, triangles, {0, 0, 0}, {0, 0, 1}, kEmitted, u), expected,
+                    2e-3 * whole)
+            << count;
+        const float x = 0.4f * static_cast<float>(count);
+        triangles.push_back({Vec{x, 0.1f, 0.6f}, Vec{x - 0.15f, -0.1f, 0.5f}, Vec{x + 0.1f, -0.1f, 0.55f}});
+    }
+    EXPECT_LT(reflected_under(triangles), 0.95 * whole);
+}
+
 TEST(Snippets, TubeOverhead) {
     // An endless tube at the height h: 2 R / h times the integral of cos^2, which is pi / 2.
     const auto tube = make_line(Vec{-1e4f, 0, 0.5f}, Vec{1e4f, 0, 0.5f});

@@ -1,12 +1,11 @@
 /// Line samples: the mean is that of point samples, whatever is chosen, and what must not matter does not.
 
-#include "scenes.h"
+#include "line_scenes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 
 namespace nusselt::render_test {
@@ -21,35 +20,12 @@ using render_cpu::RenderResult;
 using render_cpu::RenderSettings;
 using render_cpu::Technique;
 
-constexpr int kSize = 32;
-constexpr int kSamples = 16;
-
 /// Not seen from its axis: the centres of pixels would be on the edges between walls, where rounding decides whether a
 /// wall hides the light from points of its neighbour.
 scene::Scene make_box(int size) {
     scene::Scene scene = make_box_scene(size);
     set_camera(scene, {0.03f, -4, 1.02f}, {0, 0, 1}, {0, 0, 1}, 0.32, size, size);
     return scene;
-}
-
-RenderSettings line_settings(int lines) {
-    RenderSettings settings;
-    settings.integrator = Integrator::lines;
-    settings.lines.count = lines;
-    settings.lines.many_occluders = ManyOccluders::lines;
-    // Seeds of render_region_means() depend on it: references have another one.
-    settings.technique = Technique::solid_angle;
-    settings.pixel_position = render_cpu::PixelPosition::center;
-    settings.samples = kSamples;
-    settings.camera_rays = 1;
-    return settings;
-}
-
-RenderSettings point_settings() {
-    RenderSettings settings = line_settings(1);
-    settings.integrator = Integrator::points;
-    settings.technique = Technique::projected_solid_angle;
-    return settings;
 }
 
 std::string description_of(const RenderSettings& settings) {
@@ -216,31 +192,6 @@ INSTANTIATE_TEST_SUITE_P(AllIsas, LineIsaInvariance,
                          testing::Values(render_cpu::Isa::avx2, render_cpu::Isa::avx512),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
-/// A floor below a panel, and small triangles in between. They are black: seen almost edge-on by the light, they would be
-/// bright in a few images out of many.
-scene::Scene make_soup(int triangles) {
-    scene::Scene scene = make_floor(kSize);
-    scene.materials.push_back({.name = "black", .diffuse = {0, 0, 0}});
-    add_polygon_light(
-        scene,
-        {Float3{-0.5f, -0.5f, 1}, Float3{-0.5f, 0.5f, 1}, Float3{0.5f, 0.5f, 1}, Float3{0.5f, -0.5f, 1}},
-        {5, 5, 5}, false, 0);
-    std::mt19937 generator(5);
-    std::uniform_real_distribution<float> uniform(-1, 1);
-    for (int i = 0; i < triangles; ++i) {
-        const Float3 p{0.6f * uniform(generator), 0.6f * uniform(generator),
-                       0.5f + 0.1f * uniform(generator)};
-        const auto near = [&] {
-            return Float3{p.x + 0.05f * uniform(generator), p.y + 0.05f * uniform(generator),
-                          p.z + 0.05f * uniform(generator)};
-        };
-        const Float3 q = near();
-        const Float3 r = near();
-        add_quad(scene, {p, q, r, r}, 1);
-    }
-    return scene;
-}
-
 /// The choice does not depend on random numbers, and it does not change the mean.
 TEST(LineChoice, TakesPointsBehindManyOccluders) {
     const scene::Scene scene = make_soup(300);
@@ -266,17 +217,6 @@ TEST(LineChoice, TakesPointsBehindManyOccluders) {
     EXPECT_LT(largest_t(render_region_means(renderer, settings, kSeeds, tracer), reference), kLargestT);
     settings.lines.many_occluders = ManyOccluders::lines;
     EXPECT_LT(largest_t(render_region_means(renderer, settings, kSeeds, tracer), reference), kLargestT);
-}
-
-/// With more triangles than are listed, lines are traced through the hierarchy.
-TEST(LineChoice, TracesLinesThroughManyOccluders) {
-    const scene::Scene scene = make_soup(6000);
-    const render_cpu::Renderer renderer(scene, 2);
-    const auto tracer = renderer.visibility().tracer();
-    RenderSettings settings = line_settings(4);
-    EXPECT_LT(largest_t(render_region_means(renderer, settings, kSeeds, tracer),
-                        render_region_means(renderer, point_settings(), kSeeds, tracer)),
-              kLargestT);
 }
 
 const std::vector<float>& pieces_of(const RenderResult& result) {

@@ -141,7 +141,7 @@ TEST(LineLightMeans, MistakesAreFound) {
                                    double u) {
         Surface white = lines.surface;
         white.specular_albedo = {1, 1, 1};
-        const LineLight<double> light(lines.family.plane(), 100, white);
+        const LineLight<double> light(lines.family.plane(), lines.family.reach(), white);
         return kUnbiased(lines, offset, parts, u) - kAnalytic(lines, offset, parts, u) +
                sum_of(light.analytic(offset, parts));
     };

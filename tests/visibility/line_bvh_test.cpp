@@ -242,6 +242,56 @@ TEST(LineBvh, SurfacesThatArePartlyThereAreFoundInThePyramidOnly) {
     EXPECT_NEAR(visible_share(trace<16>(scene, bvh, {{0, 0, 0}, 0, 0.2f, 16})), 1, 1e-6);
 }
 
+/// Margins for rounding are those of each box: far triangles cost nothing but themselves.
+TEST(LineBvh, FarTrianglesDoNotWidenThePyramid) {
+    std::mt19937 random(11);
+    scene::Scene scene = make_empty_scene();
+    add_ceiling_light(scene);
+    add_soup(scene, 20000, random);
+    scene::Scene with_far = scene;
+    add_triangle(with_far, {-1e7f, -1e7f, -1e7f}, {1e7f, -1e7f, -1e7f}, {0, 1e7f, -1e7f});
+    const auto box_tests = [](const scene::Scene& of) {
+        const LineBvh bvh(of);
+        visibility::LineCounters counters{};
+        EXPECT_FALSE(
+            has_many_occluders(bvh.view(), seen_light(of, {{3, 0.1f, -0.5f}, 0, 0.2f, 16}), 2500, counters));
+        std::mt19937 queries(1);
+        using Real = Pack<float, 4>;
+        Interval<Real> storage[64];
+        for (int i = 0; i < 100; ++i) {
+            LineQuery query = random_query(queries);
+            query.point.x += 3;
+            const SeenLight seen = seen_light(of, query);
+            const Interval<float>& offsets = seen.bounds.offsets;
+            TracedLines<Real> lines{Real(0.5f * (offsets.begin + offsets.end)),
+                                    VisibleParts<Real>(storage, 64)};
+            lines.parts.reset({Real(seen.bounds.extent.begin), Real(seen.bounds.extent.end)});
+            LineTracer<Real>(bvh.view(), seen, &lines, 1, counters).trace();
+        }
+        return static_cast<double>(counters.box_tests);
+    };
+    const double expected = box_tests(scene);
+    EXPECT_GT(expected, 1000);
+    EXPECT_LE(box_tests(with_far), 1.1 * expected);
+}
+
+/// Who decides by what lies in the pyramid has to see the light along a fixed direction.
+TEST(LineBvh, PartialSurfacesCountInTheRectangleOfTheDirection) {
+    scene::Scene scene = make_empty_scene();
+    add_ceiling_light(scene);
+    // From the origin beside the corner (1, 0.75) of the light, though its box touches the pyramid.
+    add_triangle(scene, {0.51f, 0.373f, 1}, {0.49f, 0.39f, 1}, {0.51f, 0.39f, 1}, kPartial);
+    const LineBvh bvh(scene);
+    visibility::LineCounters counters{};
+    const auto is_found = [&](float angle) {
+        return has_partial_surfaces(bvh.view(), seen_light(scene, {{0, 0, 0}, 0, angle, 16}), counters);
+    };
+    EXPECT_FALSE(is_found(0));
+    EXPECT_TRUE(is_found(0.3f));
+    // One triangle, twice; the light itself is always there.
+    EXPECT_EQ(counters.triangle_tests, 2);
+}
+
 TEST(LineBvh, TellsWhereManyOccludersAre) {
     std::mt19937 random(7);
     scene::Scene scene = make_empty_scene();
@@ -275,6 +325,12 @@ TEST(LineBvh, TellsWhereManyOccludersAre) {
         EXPECT_LT(below, blocks);
         // It depends on the light, not on its lines.
         EXPECT_EQ(count({0, 0, -2}, 1.7f), below);
+        // Whoever has counted enough does not look at what is left.
+        visibility::LineCounters few{}, all{};
+        const SeenLight seen = seen_light(scene, {{0, 0, -2}, 0, 0.2f, 16});
+        EXPECT_TRUE(has_many_occluders(bvh.view(), seen, 2, few));
+        EXPECT_FALSE(has_many_occluders(bvh.view(), seen, below, all));
+        EXPECT_LE(few.box_tests, all.box_tests / 10);
         // Above all triangles but those of the light.
         EXPECT_LE(count({0, 0, 1.8f}, 0.2f), 1);
     }

@@ -97,7 +97,11 @@ std::vector<VisibleLine> trace(const scene::Scene& scene, const visibility::Line
     }
     const visibility::LineBvhView view = bvh.view();
     visibility::LineCounters counters{};
-    LineTracer<Real>(view, seen_light(scene, query), packs.data(), pack_count, counters).trace();
+    const SeenLight seen = seen_light(scene, query);
+    for (int p = 0; p < pack_count; p += kLargestLinePackCount)
+        LineTracer<Real>(view, seen, packs.data() + p, std::min(pack_count - p, kLargestLinePackCount),
+                         counters)
+            .trace();
     std::vector<VisibleLine> result;
     for (int i = 0; i < query.line_count; ++i)
         result.push_back(line_of(wholes[static_cast<std::size_t>(i)],

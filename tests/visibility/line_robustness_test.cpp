@@ -90,7 +90,7 @@ TEST(HostileTriangles, AreLeftOutOrHideNothing) {
     add_ceiling_light(scene);
     add_soup(scene, 50, random);
     const scene::Scene sound = scene;
-    for (const float bad : {kNan, kInfinity, -kInfinity}) {
+    for (const float bad : {kNan, kInfinity, -kInfinity, 3e38f}) {
         add_triangle(scene, {bad, 0, 1}, {0, 1, 1}, {1, 0, 1});
         add_triangle(scene, {0, 0, 1}, {0, bad, 1}, {1, 0, 1});
         add_triangle(scene, {bad, bad, bad}, {bad, bad, bad}, {bad, bad, bad});
@@ -104,6 +104,31 @@ TEST(HostileTriangles, AreLeftOutOrHideNothing) {
         const auto lines = trace<16>(scene, bvh, query);
         ASSERT_TRUE(are_valid(lines));
         EXPECT_LE(difference(lines, cut_by_all(sound, query)), 1e-5);
+    }
+}
+
+TEST(HostileInstances, AreLeftOutOrHideNothing) {
+    std::mt19937 random(3);
+    scene::Scene sound = make_empty_scene();
+    add_ceiling_light(sound);
+    add_soup(sound, 50, random);
+    const auto first = static_cast<std::uint32_t>(sound.triangles.size());
+    add_soup(sound, 50, random);
+    make_object(sound, first);
+    sound.instances = {{0, {0.4f, 0.1f, 0, -0.3f, -0.1f, 0.4f, 0, 0.5f, 0, 0, 0.4f, 0.1f}}};
+    scene::Scene scene = sound;
+    for (const float bad : {kNan, kInfinity, -kInfinity, 3e38f}) {
+        scene.instances.push_back({0, {1, 0, 0, bad, 0, 1, 0, bad, 0, 0, 1, bad}});
+        scene.instances.push_back({0, {bad, bad, 0, 0, 0, bad, 0, 0, bad, 0, bad, 0}});
+    }
+    const LineBvh bvh(scene);
+    const LineBvh expected(sound);
+    EXPECT_EQ(bvh.view().full_block_count, expected.view().full_block_count);
+    for (int i = 0; i < 20; ++i) {
+        const LineQuery query{{0.1f * static_cast<float>(i), 0, -1.5f}, 0, 0.1f * static_cast<float>(i), 16};
+        const auto lines = trace<16>(scene, bvh, query);
+        ASSERT_TRUE(are_valid(lines));
+        EXPECT_LE(difference(lines, trace<16>(sound, expected, query)), 1e-5);
     }
 }
 

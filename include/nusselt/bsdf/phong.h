@@ -5,8 +5,8 @@
 /// P. Dutre 2016, Line Sampling for Direct Illumination, Eq. 9: albedo (n + 2) / (2 pi) (r.l)^n. The albedo is reached
 /// at normal incidence; elsewhere less is reflected.
 
-#include <nusselt/bsdf/components.h>
 #include <nusselt/core/exponential.h>
+#include <nusselt/core/vec.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -43,10 +43,6 @@ public:
         const Real power = exp_of_negative(exponent_ * negative_log_of_cosine(angle));
         const auto lit = (wi.z > Real(0)) & (mirror_.z > Real(0)) & (angle.cos > Real(0));
         return select(lit, phong_normalisation(exponent_) * power, Real(0)) * albedo_;
-    }
-
-    NUSSELT_HD BrdfComponents<Real> eval_components(const Vec3<Real>& wi) const noexcept {
-        return {{Real(0), Real(0), Real(0)}, eval(wi)};
     }
 
 private:

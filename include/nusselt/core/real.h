@@ -88,7 +88,8 @@ NUSSELT_INLINE float fma(float a, float b, float c) noexcept {
     auto rounded =
         static_cast<float>(static_cast<double>(a) * static_cast<double>(b) + static_cast<double>(c));
 #if defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)
-    // g++ 12 vectorises neighbouring calls and forgets to round what is an operand of another call.
+    // g++ 12 vectorises neighbouring calls and forgets to round what is an operand of another call: without this,
+    // TriangleShadow.PacksHaveTheBitsOfScalars fails for x86-64-v2.
     __asm__("" : "+x"(rounded));
 #endif
     return rounded;

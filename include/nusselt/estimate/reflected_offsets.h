@@ -12,7 +12,7 @@ NUSSELT_NAMESPACE_BEGIN
 /// \tparam Real  float, double, long double or a pack: a line per lane, of one light and surface point.
 /// \tparam N     bound on the number of vertices of the light.
 /// \tparam Nodes of the table, a power of two: highlights narrower than the distance between two of them are left to
-///               chance.
+///               chance. Each costs as much as a line without shadows.
 template <class Real, int N, int Nodes = 32>
 class ReflectedOffsets {
     static_assert(Nodes >= 2 && (Nodes & (Nodes - 1)) == 0, "for the search by halves");
@@ -63,8 +63,13 @@ public:
     }
 
 private:
-    /// Of the mean of the table, everywhere.
+    /// Of the mean of the table, everywhere: what is between two nodes has about that share of its density by length, and
+    /// all else loses no more than that.
     static constexpr double kLeastShare = 0.1;
+
+    /// Nodes at the ends of the light are moved inside by this share of its area: the first and the last line may have no
+    /// length.
+    static constexpr double kInset = 1e-3;
 
     /// Between two nodes.
     struct Cell {
@@ -104,8 +109,7 @@ private:
     /// \param u random number of the line, beyond [0, 1] the same as at its end
     template <class Brdf>
     NUSSELT_HD Real relative_radiance(const LineLight<Real, Brdf>& light, const Real& u) const noexcept {
-        // The first and the last line of a light may have no length.
-        const Real inside = min(max(u, Real(Scalar(1e-3))), Real(Scalar(1 - 1e-3)));
+        const Real inside = min(max(u, Real(Scalar(kInset))), Real(Scalar(1 - kInset)));
         const LineChoice<Real> choice = family_.sample_by_length(inside);
         Interval<Real> whole[1];
         VisibleParts<Real> parts(whole, 1);

@@ -46,6 +46,20 @@ NUSSELT_HD inline Vec3<Real> doubled_area_normal(const ConvexPolygon<Real, N>& p
     return select(present, sum, Vec3<Real>{Real(0), Real(0), Real(0)});
 }
 
+namespace detail {
+
+/// The dot product, 0 if it cannot be told from rounding.
+template <class Real>
+NUSSELT_INLINE Real dot_or_zero(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    const Vec3<Real> product{a.x * b.x, a.y * b.y, a.z * b.z};
+    const Real sum = product.x + product.y + product.z;
+    const Real rounding = Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) *
+                          (abs(product.x) + abs(product.y) + abs(product.z));
+    return select(abs(sum) > rounding, sum, Real(0));
+}
+
+} // namespace detail
+
 /// Signed distance of the origin from the plane of the polygon [m], positive if the normal points away from
 /// it; 0 if it cannot be told from rounding. The nearest vertex decides: it has the smallest rounding error, none
 /// if it is the origin.
@@ -55,12 +69,7 @@ NUSSELT_HD inline Real plane_distance(const ConvexPolygon<Real, N>& polygon) noe
     Vec3<Real> nearest = polygon.vertex[0];
     for (int j = 1; j < N; ++j)
         nearest = select(extent(polygon.vertex[j]) < extent(nearest), polygon.vertex[j], nearest);
-    const Vec3<Real> product{polygon.normal.x * nearest.x, polygon.normal.y * nearest.y,
-                             polygon.normal.z * nearest.z};
-    const Real distance = product.x + product.y + product.z;
-    const Real rounding = Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) *
-                          (abs(product.x) + abs(product.y) + abs(product.z));
-    return select(abs(distance) > rounding, distance, Real(0));
+    return detail::dot_or_zero(polygon.normal, nearest);
 }
 
 /// The polygon with the given vertices [m].
@@ -74,6 +83,18 @@ NUSSELT_HD inline ConvexPolygon<Real, N> make_polygon(const Vec3<Real>* vertices
     for (int j = 0; j < N; ++j) polygon.edge[j] = polygon.vertex[j + 1 < N ? j + 1 : 0] - polygon.vertex[j];
     polygon.normal = normalize(doubled_area_normal(polygon));
     return polygon;
+}
+
+/// The same polygon in all lanes.
+template <class Real, class Single, int N>
+NUSSELT_HD inline ConvexPolygon<Real, N> broadcast(const ConvexPolygon<Single, N>& polygon) noexcept {
+    ConvexPolygon<Real, N> result;
+    for (int j = 0; j < N; ++j) {
+        result.vertex[j] = broadcast<Real>(polygon.vertex[j]);
+        result.edge[j] = broadcast<Real>(polygon.edge[j]);
+    }
+    result.normal = broadcast<Real>(polygon.normal);
+    return result;
 }
 
 /// The polygon seen from a shading point: the point becomes the origin, the normal of the frame +z.

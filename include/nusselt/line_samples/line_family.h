@@ -20,6 +20,13 @@ struct LinePlane {
     Vec3<Real> normal; ///< unit, cross(across, along)
 };
 
+/// The same plane in all lanes.
+template <class Real, class Single>
+NUSSELT_HD inline LinePlane<Real> broadcast(const LinePlane<Single>& plane) noexcept {
+    return {broadcast<Real>(plane.origin), broadcast<Real>(plane.across), broadcast<Real>(plane.along),
+            broadcast<Real>(plane.normal)};
+}
+
 /// The plane seen from a shading point: the point becomes the origin, the normal of the frame +z.
 /// \tparam Real may be a pack while the plane is scalar.
 template <class Real, class LightReal>
@@ -56,6 +63,26 @@ NUSSELT_HD inline LineSegment<Real> segment_of(const LinePlane<Real>& plane, con
                                                const Interval<Real>& part) noexcept {
     return {fma(part.begin, plane.along, fma(offset, plane.across, plane.origin)), plane.along,
             max(part.end - part.begin, Real(0))};
+}
+
+/// The part of a line that is not below the horizon of a point.
+/// \param to_begin, to_end from the point to the ends of the line [m]
+/// \param normal         of the surface, in the same space
+/// \param whole          coordinates of these ends [m]
+template <class Real>
+NUSSELT_HD inline Interval<Real> above_horizon(const Vec3<Real>& to_begin, const Vec3<Real>& to_end,
+                                               const Vec3<Real>& normal,
+                                               const Interval<Real>& whole) noexcept {
+    const Real begin = dot(normal, to_begin);
+    const Real end = dot(normal, to_end);
+    const Real difference = begin - end;
+    const Real share = begin / select(difference == Real(0), Real(1), difference);
+    const Real crossing = min(max(fma(share, whole.end - whole.begin, whole.begin), whole.begin), whole.end);
+    const auto begins_below = begin < Real(0);
+    const auto ends_below = end < Real(0);
+    const Interval<Real> none = empty_interval<Real>();
+    return {select(begins_below, select(ends_below, none.begin, crossing), whole.begin),
+            select(ends_below, select(begins_below, none.end, crossing), whole.end)};
 }
 
 /// A line by its offset, with the density of that.
@@ -104,10 +131,7 @@ public:
     /// Broadcasts a family to all lanes of a pack, to take many lines of one light.
     template <class Single>
     NUSSELT_HD explicit LineFamily(const LineFamily<Single, N>& single) noexcept
-        : plane_{broadcast<Real>(single.plane_.origin), broadcast<Real>(single.plane_.across),
-                 broadcast<Real>(single.plane_.along), broadcast<Real>(single.plane_.normal)},
-          scale_(single.scale_),
-          scaled_area_(single.scaled_area_) {
+        : plane_(broadcast<Real>(single.plane_)), scale_(single.scale_), scaled_area_(single.scaled_area_) {
         for (int k = 0; k < N; ++k)
             knot_[k] = {Real(single.knot_[k].offset),
                         {Real(single.knot_[k].extent.begin), Real(single.knot_[k].extent.end)}};
@@ -135,6 +159,14 @@ public:
     /// The random number that sample_uniform() makes this offset from, in [0, 1).
     NUSSELT_HD Real invert_uniform(const Real& offset) const noexcept {
         return below_one((offset - offsets().begin) * pdf_uniform());
+    }
+
+    /// Largest absolute value of the offsets and of the coordinates along lines [m].
+    NUSSELT_HD Real reach() const noexcept {
+        Real largest = Real(0);
+        for (const Chord<Real>& knot : knot_)
+            largest = max(max(max(abs(knot.extent.begin), abs(knot.extent.end)), abs(knot.offset)), largest);
+        return largest;
     }
 
     /// With a density in proportion to the length of the line on the light.

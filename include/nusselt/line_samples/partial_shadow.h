@@ -15,8 +15,7 @@ struct PartialShadow {
     static constexpr int kSecond[3] = {1, 2, 2};
 
     Scalar corner[3]; ///< offsets [m]
-    bool behind
-        [3]; ///< the corner is behind the point: its offset is that of the line in the opposite direction
+    bool behind[3]; ///< corners behind the point, whose offset is that of the line in the opposite direction
     ShadowEdge<Scalar> edge[3];
     bool turn[3];          ///< lines that pass the first corner of the edge on the other side meet it behind
     Scalar end_of_edge[3]; ///< offset where the edge reaches the light [m]

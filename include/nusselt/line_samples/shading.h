@@ -49,12 +49,7 @@ public:
         base_ = fma(scale_ * offset, plane.across, origin);
         base_coordinate_ = dot(base_, plane.along);
 
-        const Vec3<Real> product{origin.x * plane.normal.x, origin.y * plane.normal.y,
-                                 origin.z * plane.normal.z};
-        const Real rounding = Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) *
-                              (abs(product.x) + abs(product.y) + abs(product.z));
-        const Real sum = product.x + product.y + product.z;
-        const Real height = select(abs(sum) > rounding, sum, Real(0));
+        const Real height = detail::dot_or_zero(origin, plane.normal);
         const Real aside = fma(scale_, offset, dot(origin, plane.across));
         closest_ = fma(height, plane.normal, aside * plane.across);
         distance_ = sqrt(fma(height, height, aside * aside));

@@ -11,7 +11,9 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// Occluders within this share of the way from the light are missed: the light is in the scene itself.
+/// Share of the way to the light on which occluders count, for lines as for shadow rays: only then both have the same
+/// mean. It must end before the light, which is in the scene itself: single precision puts points of it, and the triangles
+/// around it, up to some 1e-6 of the way off. Occluders within the last 1e-4 of the way are missed.
 template <class Scalar>
 inline constexpr Scalar kShadowEnd = Scalar(1) - Scalar(1e-4);
 
@@ -132,18 +134,6 @@ NUSSELT_HD inline mask_t<Real> may_hide(const TriangleShadow<Real>& shadow,
     return (begin <= end) & (lowest < bounds.extent.end) & (highest > bounds.extent.begin);
 }
 
-/// Whether everything in the rectangle is hidden.
-template <class Real>
-NUSSELT_HD inline mask_t<Real> hides_all(const TriangleShadow<Real>& shadow,
-                                         const LineBounds<Real>& bounds) noexcept {
-    // Shadows are convex.
-    const Interval<Real> first = hidden_interval(shadow, bounds.offsets.begin);
-    const Interval<Real> last = hidden_interval(shadow, bounds.offsets.end);
-    const auto begins = max(first.begin, last.begin) <= bounds.extent.begin;
-    const auto ends = min(first.end, last.end) >= bounds.extent.end;
-    return begins & ends;
-}
-
 namespace detail {
 
 /// A corner of an occluder.
@@ -180,6 +170,8 @@ NUSSELT_INLINE ShadowCorner<Real> shadow_corner(const ShadowFrame<Real>& frame,
 template <class Real>
 NUSSELT_INLINE ShadowEdge<Real> shadow_edge(const ShadowFrame<Real>& frame, const Vec3<Real>& m,
                                             const Real& constant, const Real& otherwise) noexcept {
+    // Steeper edges end at t of their first corner: their offsets differ by 2^-20 of their length at most, which is about
+    // what rounding does to them, and so is what such an edge hides of the lines in between.
     constexpr scalar_t<Real> kSteepest = power_of_two<scalar_t<Real>>(20);
     const auto usable = abs(m.x) < Real(kSteepest) * abs(m.y);
     const Real inverse = Real(-1) / select(usable, m.y, Real(1));
@@ -205,8 +197,8 @@ NUSSELT_INLINE ShadowEdge<Real> select(const mask_t<Real>& mask, const ShadowEdg
 template <class Real>
 struct TriangleShadows {
     TriangleShadow<Real> shadow; ///< nothing where partial
-    mask_t<Real>
-        partial; ///< the triangle crosses the plane of the light, or the parallel one through the point
+    /// Triangles that cross the plane of the light, or the parallel one through the point.
+    mask_t<Real> partial;
 };
 
 /// \param a, b, c corners in the space of the frame, ordered by their position there (such as lexicographically) and not

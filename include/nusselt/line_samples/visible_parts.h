@@ -6,7 +6,7 @@
 NUSSELT_NAMESPACE_BEGIN
 
 /// Gaps between shadows shorter than this share of the line are rounding: those of meshes whose neighbours do not share
-/// all corners.
+/// all corners. So each occluder may hide that share too much, which is far below what rounding moves shadows by anyway.
 template <class Scalar>
 inline constexpr Scalar kShortestPart = Scalar(1e-6);
 
@@ -19,7 +19,8 @@ public:
     VisibleParts() noexcept = default;
 
     /// \param storage  for `capacity` intervals, which outlives this object.
-    /// \param capacity at least 1. A line that falls into more parts loses some of them, see lost().
+    /// \param capacity at least 1. Of a line that falls into more parts, each further cut drops the shorter remainder of
+    ///                 what it splits: results are much too dark where that happens often, check lost().
     NUSSELT_HD VisibleParts(Interval<Real>* storage, int capacity) noexcept
         : part_(storage), capacity_(capacity) {}
 
@@ -70,9 +71,13 @@ public:
                 const auto keeps_left = hidden.begin - part.begin > shortest_;
                 const auto keeps_right = part.end - hidden.end > shortest_;
                 const auto splits = overlaps & keeps_left & keeps_right;
-                if (any(splits)) add({hidden.end, part.end}, splits);
-                const auto shortens = overlaps & keeps_left;
-                const auto starts_later = overlaps & !keeps_left;
+                mask_t<Real> starts_later = overlaps & !keeps_left;
+                if (any(splits)) {
+                    const auto no_room = add({hidden.end, part.end}, splits);
+                    const auto right_is_longer = part.end - hidden.end > hidden.begin - part.begin;
+                    starts_later = starts_later | (no_room & right_is_longer);
+                }
+                const auto shortens = overlaps & !starts_later;
                 part.end = select(shortens, hidden.begin, part.end);
                 part.begin = select(starts_later, hidden.end, part.begin);
                 const auto ends = starts_later & !keeps_right;
@@ -86,7 +91,8 @@ public:
 
 private:
     /// Stores another part of some lanes.
-    NUSSELT_HD void add(const Interval<Real>& part, mask_t<Real> lanes) noexcept {
+    /// \returns lanes that have no room for it
+    NUSSELT_HD mask_t<Real> add(const Interval<Real>& part, mask_t<Real> lanes) noexcept {
         for (int k = 0; any(lanes); ++k) {
             if (k == count_) {
                 if (count_ == capacity_) break;
@@ -98,6 +104,7 @@ private:
             lanes = lanes & !fits;
         }
         lost_ = lost_ + select(lanes, Real(1), Real(0));
+        return lanes;
     }
 
     Interval<Real>* part_ = nullptr;
@@ -107,25 +114,5 @@ private:
     Real lost_ = Real(0);
     Interval<Real> bounds_ = empty_interval<Real>();
 };
-
-/// The part of a line that is not below the horizon of the point.
-/// \param to_begin, to_end from the point to the ends of the line [m]
-/// \param normal         of the surface, in the same space
-/// \param whole          coordinates of these ends [m]
-template <class Real>
-NUSSELT_HD inline Interval<Real> above_horizon(const Vec3<Real>& to_begin, const Vec3<Real>& to_end,
-                                               const Vec3<Real>& normal,
-                                               const Interval<Real>& whole) noexcept {
-    const Real begin = dot(normal, to_begin);
-    const Real end = dot(normal, to_end);
-    const Real difference = begin - end;
-    const Real share = begin / select(difference == Real(0), Real(1), difference);
-    const Real crossing = min(max(fma(share, whole.end - whole.begin, whole.begin), whole.begin), whole.end);
-    const auto begins_below = begin < Real(0);
-    const auto ends_below = end < Real(0);
-    const Interval<Real> none = empty_interval<Real>();
-    return {select(begins_below, select(ends_below, none.begin, crossing), whole.begin),
-            select(ends_below, select(begins_below, none.end, crossing), whole.end)};
-}
 
 NUSSELT_NAMESPACE_END

@@ -79,11 +79,13 @@ struct StratumGrid {
         rows = n / columns;
     }
 
-    /// Exact for numbers of points up to 2^22. As floats, since there are no divisions of integers in SIMD.
+    /// Exact for numbers of points up to 2^24. As floats, since there are no divisions of integers in SIMD: beyond 2^22
+    /// the quotient may round up to the next column.
     NUSSELT_HD constexpr std::uint32_t column_of(std::uint32_t cell) const noexcept {
         const float cells = static_cast<float>(static_cast<std::int32_t>(cell)) + 0.5f;
-        return static_cast<std::uint32_t>(
+        const auto column = static_cast<std::uint32_t>(
             static_cast<std::int32_t>(cells / static_cast<float>(static_cast<std::int32_t>(rows))));
+        return column - (column * rows > cell ? 1u : 0u);
     }
 };
 

@@ -5,19 +5,23 @@
 #include "render_cpu/kernel/lanes.h"
 #include "visibility/line_traversal.h"
 
+#include <type_traits>
+
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 
-/// Packs of lines whose visible parts are found at once.
-inline constexpr int kPacksPerBatch = 8;
-/// Bound on the visible parts of a line.
-inline constexpr int kPartsPerLine = 64;
+/// Bound on the visible parts of lines that are traced alone.
+inline constexpr int kPartsInMemory = render_cpu::kLineMemoryBytes / sizeof(Interval<Real>);
+/// The same for lines that share the memory.
+inline constexpr int kPartsPerLine = kPartsInMemory / kLargestLinePackCount;
+/// How often lines are halved that have more parts: into pieces so short that single precision does not tell apart more
+/// parts of them.
+inline constexpr int kMostHalvings = 16;
 
 struct LineMemory {
-    Interval<Real> parts[kPacksPerBatch][kPartsPerLine];
+    Interval<Real> parts[kPartsInMemory];
 };
-static_assert(sizeof(LineMemory) <= render_cpu::kLineMemoryBytes, "renderers reserve less");
-static_assert(kPacksPerBatch <= kLargestLinePackCount, "more than are traced at once");
+static_assert(std::is_trivially_copyable_v<LineMemory>, "renderers hand out bytes");
 
 } // namespace kernel
 NUSSELT_NAMESPACE_END

@@ -14,35 +14,7 @@ using render_cpu::LineOrientation;
 using render_cpu::LineShading;
 using render_cpu::ManyOccluders;
 
-/// Numbers of the pairs of random numbers that point samples have no use for. All from the last one on are for lines.
-enum Pair : std::uint32_t { kOrientationPair = 2, kLinePair = 3 };
-
 using Estimator = LineLight<Real, SurfaceBrdf>;
-
-template <class T>
-LinePlane<Real> broadcast_plane(const LinePlane<T>& plane) noexcept {
-    return {broadcast<Real>(plane.origin), broadcast<Real>(plane.across), broadcast<Real>(plane.along),
-            broadcast<Real>(plane.normal)};
-}
-
-template <int N>
-ConvexPolygon<Real, N> broadcast_polygon(const ConvexPolygon<float, N>& polygon) noexcept {
-    ConvexPolygon<Real, N> result;
-    for (int j = 0; j < N; ++j) {
-        result.vertex[j] = broadcast<Real>(polygon.vertex[j]);
-        result.edge[j] = broadcast<Real>(polygon.edge[j]);
-    }
-    result.normal = broadcast<Real>(polygon.normal);
-    return result;
-}
-
-/// Bound on the distance of points of the light from its first vertex [m].
-template <int N>
-float half_circumference(const ConvexPolygon<float, N>& polygon) noexcept {
-    float sum = 0;
-    for (const Vec3<float>& edge : polygon.edge) sum += length(edge);
-    return 0.5f * sum;
-}
 
 /// The part of each line that is above the geometry of the surface.
 Interval<Real> above_surface(const Chord<Real>& chord, const LinePlane<float>& plane,
@@ -107,33 +79,27 @@ public:
           light_(light),
           count_(static_cast<std::uint32_t>(settings_.count)),
           polygon_(reflected.world_polygon<N>(light)),
-          families_(broadcast_polygon(polygon_), common_angles()) {}
-
-    ~LineSampler() {
-        render_cpu::TileStatistics& statistics = reflected_.statistics();
-        statistics.line_box_tests += counters_.box_tests;
-        statistics.line_triangle_tests += counters_.triangle_tests;
-        statistics.line_shadow_tests += counters_.line_tests;
-    }
-    LineSampler(const LineSampler&) = delete;
-    LineSampler& operator=(const LineSampler&) = delete;
+          fixed_(polygon_, 0.0f),
+          families_(broadcast<Real>(polygon_), common_angles()) {}
 
     /// Takes the lines of a shading point.
     /// \returns false where lines cannot be taken, or there are so many occluders that points are faster
     bool sample(int lane, PacketResult& result) noexcept {
         const ShadingPoint point = shading_point(reflected_.surface(), lane);
-        const auto family = single_lane<Family>(families_, lane);
-        const SeenLight seen = see_light(polygon_, family, point.apex, light_);
+        // Rounding differs between orientations: the choice must not depend on what is random.
+        const SeenLight seen = see_light(polygon_, fixed_, point.apex, light_);
         render_cpu::TileStatistics& statistics = reflected_.statistics();
-        if (timed([&] { return needs_points(seen); })) {
+        if (needs_points(seen)) {
             ++statistics.point_lights;
             return false;
         }
         LineSum sum;
-        if (settings_.orientation == LineOrientation::independent)
+        if (!is_sound(seen))
+            statistics.rejected_samples += count_;
+        else if (settings_.orientation == LineOrientation::independent)
             add_independent(point, sum);
         else
-            add_family(point, family, seen, {0, count_}, sum);
+            add_family(point, single_lane<Family>(families_, lane), {0, count_}, sum);
         result.set(lane, sum);
         ++statistics.line_lights;
         statistics.lines += count_;
@@ -147,6 +113,8 @@ private:
     struct ChosenLines {
         Real pdf; ///< of the offset [1/m]
         Real u;   ///< random
+        Real offset;
+        Interval<Real> extent; ///< above the surface
         LaneMask drawn;
     };
 
@@ -165,44 +133,48 @@ private:
     /// A direction for each shading point of the packet.
     Real common_angles() const noexcept {
         if (settings_.orientation != LineOrientation::parallel) return Real(0);
-        return Real(kPi<float>) * reflected_.orientation_random(light_, kOrientationPair).x;
+        return Real(kPi<float>) * reflected_.orientation_random(light_).x;
     }
 
     bool needs_points(const SeenLight& seen) noexcept {
+        const TickTimer timer(reflected_.statistics().line_visibility_ticks);
         const render_cpu::RenderJob& job = reflected_.job();
-        if (has_partial_surfaces(*job.line_bvh, seen, counters_)) return true;
+        if (has_partial_surfaces(*job.line_bvh, seen, counters())) return true;
         return settings_.many_occluders == ManyOccluders::points &&
-               has_many_occluders(*job.line_bvh, seen, job.most_occluders, counters_);
+               has_many_occluders(*job.line_bvh, seen, job.most_occluders, counters());
     }
 
-    template <class Work>
-    auto timed(const Work& work) noexcept {
-        const std::uint64_t begin = __builtin_ia32_rdtsc();
-        const auto result = work();
-        reflected_.statistics().line_visibility_ticks += __builtin_ia32_rdtsc() - begin;
-        return result;
+    /// Whether the point and the light are finite: no line has any density where they are not.
+    static bool is_sound(const SeenLight& seen) noexcept {
+        const Vec3<float>& p = seen.frame.point;
+        const Vec3<float>& o = seen.frame.origin;
+        return nusselt::is_finite(p.x + p.y + p.z) && nusselt::is_finite(o.x + o.y + o.z);
     }
+
+    visibility::LineCounters& counters() noexcept { return reflected_.statistics().line_counters; }
 
     /// Each line is a family by itself.
     void add_independent(const ShadingPoint& point, LineSum& sum) noexcept {
         for (std::uint32_t first = 0; first < count_; first += kLanes) {
+            // Not x: jittered numbers have x in the same order in each pair, so that offsets would go with angles.
             const Real angles =
-                Real(kPi<float>) * reflected_.line_random(light_, point.lane, first, kOrientationPair).x;
-            const LineFamily<Real, N> families(broadcast_polygon(polygon_), angles);
+                Real(kPi<float>) * reflected_.line_random(light_, point.lane, first, kOrientationPair).y;
+            const LineFamily<Real, N> families(broadcast<Real>(polygon_), angles);
             for (std::uint32_t i = 0; i < kLanes && first + i < count_; ++i) {
                 const auto family = single_lane<Family>(families, static_cast<int>(i));
-                add_family(point, family, see_light(polygon_, family, point.apex, light_), {first + i, 1},
-                           sum);
+                add_family(point, family, {first + i, 1}, sum);
             }
         }
     }
 
     /// Adds parallel lines.
-    void add_family(const ShadingPoint& point, const Family& family, const SeenLight& seen,
-                    const Range& range, LineSum& sum) noexcept {
+    void add_family(const ShadingPoint& point, const Family& family, const Range& range,
+                    LineSum& sum) noexcept {
+        const SeenLight seen = see_light(polygon_, family, point.apex, light_);
         const LineFamily<Real, N> lines(family);
-        const LinePlane<float> local = to_shading_space(family.plane(), point.position, point.frame);
-        const Estimator estimator(broadcast_plane(local), Real(half_circumference(polygon_)), point.surface);
+        const Estimator estimator(
+            to_shading_space(family.plane(), broadcast<Real>(point.position), point.frame),
+            Real(family.reach()), point.surface);
         const auto add = [&](const auto& sample_offset) {
             add_lines(point, {family.plane(), lines, estimator, seen}, sample_offset, range, sum);
         };
@@ -220,52 +192,80 @@ private:
     template <class SampleOffset>
     void add_lines(const ShadingPoint& point, const ParallelLines& lines, const SampleOffset& sample_offset,
                    const Range& range, LineSum& sum) noexcept {
-        constexpr std::uint32_t kBatch = kLanes * kPacksPerBatch;
+        constexpr std::uint32_t kBatch = kLanes * kLargestLinePackCount;
         for (std::uint32_t done = 0; done < range.count; done += kBatch) {
             const std::uint32_t rest = range.count - done;
-            ChosenLines chosen[kPacksPerBatch];
-            TracedLines<Real> traced[kPacksPerBatch];
+            ChosenLines chosen[kLargestLinePackCount];
+            TracedLines<Real> traced[kLargestLinePackCount];
             const int packs = choose(point, lines, sample_offset,
-                                     {range.first + done, rest < kBatch ? rest : kBatch}, chosen, traced);
+                                     {range.first + done, rest < kBatch ? rest : kBatch}, chosen);
+            for (int i = 0; i < packs; ++i)
+                traced[i] = make_traced(chosen[i], chosen[i].extent, i * kPartsPerLine, kPartsPerLine);
             find_visible_parts(lines.seen, traced, packs);
-            for (int i = 0; i < packs; ++i) add_pack(point, lines.estimator, chosen[i], traced[i], sum);
+            for (int i = 0; i < packs; ++i)
+                if (!has_lost_parts(traced[i])) add_pack(point, lines.estimator, chosen[i], traced[i], sum);
+            // These take the memory of the others.
+            for (int i = 0; i < packs; ++i)
+                if (has_lost_parts(traced[i]))
+                    add_crowded(point, lines, chosen[i], chosen[i].extent, kMostHalvings, sum);
         }
+    }
+
+    /// Adds a part of the lines of a pack that have many visible parts: with all memory, and in halves where even that does
+    /// not suffice. Halves are estimated like lines of their own, whose sum is that of the whole.
+    void add_crowded(const ShadingPoint& point, const ParallelLines& lines, const ChosenLines& chosen,
+                     const Interval<Real>& extent, int halvings, LineSum& sum) noexcept {
+        TracedLines<Real> traced = make_traced(chosen, extent, 0, kPartsInMemory);
+        find_visible_parts(lines.seen, &traced, 1);
+        if (halvings == 0 || !has_lost_parts(traced))
+            return add_pack(point, lines.estimator, chosen, traced, sum);
+        const Real middle = fma(Real(0.5f), extent.end - extent.begin, extent.begin);
+        add_crowded(point, lines, chosen, {extent.begin, middle}, halvings - 1, sum);
+        add_crowded(point, lines, chosen, {middle, extent.end}, halvings - 1, sum);
+    }
+
+    static bool has_lost_parts(const TracedLines<Real>& lines) noexcept {
+        return any(lines.parts.lost() > Real(0));
+    }
+
+    /// \param first slot in memory
+    TracedLines<Real> make_traced(const ChosenLines& chosen, const Interval<Real>& extent, int first,
+                                  int capacity) noexcept {
+        TracedLines<Real> lines{chosen.offset, VisibleParts<Real>(memory_.parts + first, capacity)};
+        const Interval<Real> none = empty_interval<Real>();
+        lines.parts.reset(
+            {select(chosen.drawn, extent.begin, none.begin), select(chosen.drawn, extent.end, none.end)});
+        return lines;
     }
 
     /// \returns the number of packs
     template <class SampleOffset>
     int choose(const ShadingPoint& point, const ParallelLines& lines, const SampleOffset& sample_offset,
-               const Range& range, ChosenLines* chosen, TracedLines<Real>* traced) noexcept {
+               const Range& range, ChosenLines* chosen) noexcept {
         int packs = 0;
         for (std::uint32_t k = 0; k < range.count; k += kLanes, ++packs) {
             const Vec2<Real> u = reflected_.line_random(light_, point.lane, range.first + k, kLinePair);
             const LineChoice<Real> choice = sample_offset(u.x);
-            const LaneMask drawn = first_lanes(range.count - k) & (choice.pdf > Real(0));
-            chosen[packs] = {choice.pdf, u.y, drawn};
-            traced[packs].offset = choice.offset;
+            // Comparisons with NaN are false: negated they keep it, so that it is counted.
+            const LaneMask drawn = first_lanes(range.count - k) & !(choice.pdf <= Real(0));
             const Chord<Real> chord = lines.family.chord(choice.offset);
-            const Interval<Real> extent = above_surface(chord, lines.plane, point);
-            const Interval<Real> none = empty_interval<Real>();
-            traced[packs].parts = VisibleParts<Real>(memory_.parts[packs], kPartsPerLine);
-            traced[packs].parts.reset(
-                {select(drawn, extent.begin, none.begin), select(drawn, extent.end, none.end)});
+            chosen[packs] = {choice.pdf, u.y, choice.offset, above_surface(chord, lines.plane, point), drawn};
         }
         return packs;
     }
 
     void find_visible_parts(const SeenLight& seen, TracedLines<Real>* lines, int packs) noexcept {
-        const std::uint64_t begin = __builtin_ia32_rdtsc();
-        LineTracer<Real>(*reflected_.job().line_bvh, seen, lines, packs, counters_).trace();
-        reflected_.statistics().line_visibility_ticks += __builtin_ia32_rdtsc() - begin;
+        const TickTimer timer(reflected_.statistics().line_visibility_ticks);
+        LineTracer<Real>(*reflected_.job().line_bvh, seen, lines, packs, counters()).trace();
     }
 
     void add_pack(const ShadingPoint& point, const Estimator& estimator, const ChosenLines& lines,
                   const TracedLines<Real>& traced, LineSum& sum) noexcept {
         const VisibleParts<Real>& parts = traced.parts;
         for (int i = 0; i < parts.count(); ++i) sum.parts += count_lanes(parts[i].begin < parts[i].end);
-        const bool has_lobe_only = settings_.shading == LineShading::analytic || !point.is_frostbite;
-        const BrdfComponents<Real> light = has_lobe_only ? estimator.analytic(traced.offset, parts)
-                                                         : estimator.unbiased(traced.offset, parts, lines.u);
+        const bool is_closed_form = settings_.shading == LineShading::analytic || !point.is_frostbite;
+        const BrdfComponents<Real> light = is_closed_form ? estimator.analytic(traced.offset, parts)
+                                                          : estimator.unbiased(traced.offset, parts, lines.u);
         const Real weight = Real(1) / select(lines.drawn, lines.pdf, Real(1));
         const Vector diffuse = weight * light.diffuse;
         const Vector all = diffuse + weight * light.specular;
@@ -282,17 +282,17 @@ private:
     std::int32_t light_;
     std::uint32_t count_;
     ConvexPolygon<float, N> polygon_; ///< in world space
-    visibility::LineCounters counters_{};
+    Family fixed_;
     LineFamily<Real, N> families_; ///< one for each shading point of the packet
 };
 
 template <int N>
 void add_points(ReflectedLight& reflected, std::int32_t index, LaneMask lanes) noexcept {
     const render_cpu::RenderJob& job = reflected.job();
-    reflected.choose(lanes, job.points_in_place_of_lines);
+    ReflectedLight others = reflected.with(lanes, job.points_in_place_of_lines);
     const LightFunctions points = point_functions(job);
-    (N == 4 ? points.add_polygon4 : points.add_polygon8)(reflected, index);
-    reflected.choose(LaneMask(true), job.light_samples);
+    (N == 4 ? points.add_polygon4 : points.add_polygon8)(others, index);
+    reflected.add(others);
 }
 
 template <int N>
@@ -308,11 +308,9 @@ void add_polygon(ReflectedLight& reflected, std::int32_t index) noexcept {
     }
     PacketResult result;
     std::uint32_t with_points = 0;
-    {
-        LineSampler<N> sampler(reflected, index);
-        for (int lane = 0; lane < kLanes; ++lane)
-            if ((lit >> lane & 1u) != 0 && !sampler.sample(lane, result)) with_points |= 1u << lane;
-    }
+    LineSampler<N> sampler(reflected, index);
+    for (int lane = 0; lane < kLanes; ++lane)
+        if ((lit >> lane & 1u) != 0 && !sampler.sample(lane, result)) with_points |= 1u << lane;
     light.lit = LaneMask::from_bits(lit & ~with_points);
     const auto lines = static_cast<float>(job.lines.count);
     reflected.add_known(light, {Real(1 / lines) * load(result.all), Real(1 / lines) * load(result.diffuse)});

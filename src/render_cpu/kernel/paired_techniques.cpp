@@ -46,16 +46,18 @@ void add_light(ReflectedLight& reflected, const LocalLight<Shape>& light) noexce
     const DirectLight<Real, Shape, SurfaceBrdf, Pair> estimator(light.shape, surface);
     if (job.mis == Mis::one_sample) {
         reflected.add(light, [&](std::uint32_t number, SampleSum& sum) {
-            reflected.add_sample(light.lit, estimator.sample_one(reflected.random(light, number, 0)), sum);
+            reflected.add_sample(light.lit, estimator.sample_one(reflected.random(light, number, kPointPair)),
+                                 sum);
         });
         return;
     }
     const ChosenHeuristic heuristic{job.mis, Real(job.visibility_estimate)};
     reflected.add(light, [&](std::uint32_t number, SampleSum& sum) {
-        reflected.add_sample(light.lit,
-                             estimator.sample_diffuse(heuristic, reflected.random(light, number, 0)), sum);
-        reflected.add_sample(glossy, estimator.sample_specular(heuristic, reflected.random(light, number, 1)),
-                             sum);
+        reflected.add_sample(
+            light.lit, estimator.sample_diffuse(heuristic, reflected.random(light, number, kPointPair)), sum);
+        reflected.add_sample(
+            glossy, estimator.sample_specular(heuristic, reflected.random(light, number, kSpecularPointPair)),
+            sum);
     });
 }
 

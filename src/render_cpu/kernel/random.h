@@ -41,13 +41,22 @@ inline Sampler sampler_of(render_cpu::SampleOrder order) noexcept {
     return Sampler::sobol;
 }
 
+/// Pairs of random numbers of a light.
+enum RandomPair : std::uint32_t {
+    kPointPair,         ///< for the only technique, or the diffuse one
+    kSpecularPointPair, ///< for the specular one
+    // Lines have a pair of their own for each camera ray, see random_for_lines(): every other one from here on.
+    kOrientationPair,
+    kLinePair,
+};
+
 /// For one sample of one light.
 /// \param sample number among all samples of the pixel
 /// \param count  how many of them there are
-/// \param pair   number of the pair of dimensions
+/// \param pair   which pair of dimensions
 inline Vec2<Real> random_for_light(const render_cpu::RenderJob& job, const PixelBlock& block,
                                    std::uint32_t sample, std::uint32_t count, std::uint32_t light,
-                                   std::uint32_t pair) noexcept {
+                                   RandomPair pair) noexcept {
     const PacketSamples samples(sample);
     float x[kLanes];
     float y[kLanes];
@@ -59,14 +68,15 @@ inline Vec2<Real> random_for_light(const render_cpu::RenderJob& job, const Pixel
 /// For lines of one shading point and light, a line per lane.
 /// \param lane       of the pixel in the packet
 /// \param first      number of the line in the first lane, among those of the shading point
-/// \param pair       number of the pair of dimensions; those above it must be free as well
+/// \param pair       kOrientationPair or kLinePair
 inline Vec2<Real> random_for_lines(const render_cpu::RenderJob& job, const PixelBlock& block, int lane,
                                    std::uint32_t camera_ray, std::uint32_t first, std::uint32_t light,
-                                   std::uint32_t pair) noexcept {
+                                   RandomPair pair) noexcept {
     const auto per_point = static_cast<std::uint32_t>(job.lines.count);
     const Sampler sampler = sampler_of(job.sample_order);
-    // Aligned blocks of Sobol' points are as even as all of them. Other samplers cover the light with as many samples as
-    // they are told: each shading point gets numbers of its own.
+    // Aligned blocks of Sobol' points, of a power of two each, are as even as all of them; other numbers of lines are even
+    // over all camera rays only. Other samplers cover the light with as many samples as they are told: each shading point gets
+    // numbers of its own.
     const bool is_sequence = sampler == Sampler::sobol || sampler == Sampler::independent;
     const std::uint32_t before = is_sequence ? camera_ray * per_point : 0;
     std::uint32_t x[kLanes];
@@ -81,7 +91,7 @@ inline Vec2<Real> random_for_lines(const render_cpu::RenderJob& job, const Pixel
     float u_x[kLanes];
     float u_y[kLanes];
     light_random_lanes(sampler, job.seed, x, y, number, is_sequence ? job.camera_rays * per_point : per_point,
-                       light, is_sequence ? pair : pair + camera_ray, u_x, u_y);
+                       light, is_sequence ? pair : pair + 2 * camera_ray, u_x, u_y);
     return {Real::load(u_x), Real::load(u_y)};
 }
 

@@ -6,17 +6,14 @@
 #include "render_cpu/kernel/layers.h"
 #include "render_cpu/kernel/random.h"
 #include "render_cpu/kernel/surface.h"
+#include "render_cpu/kernel/tick_timer.h"
 
 #include <nusselt/estimate/direct_light.h>
 #include <nusselt/geometry/cylinder.h>
+#include <nusselt/line_samples/triangle_shadow.h>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
-
-/// Share of the way to the light that shadow rays trace. They must stop before the light, which is in the scene
-/// itself: single precision puts the sampled point, and the triangles around it, up to some 1e-6 of the way
-/// off. Occluders within the last 1e-4 of the way are missed.
-inline constexpr float kShadowRayEnd = 1 - 1e-4f;
 
 /// Lanes whose components are neither NaN nor infinite.
 inline LaneMask is_finite(const Vector& v) noexcept {
@@ -68,11 +65,18 @@ public:
     render_cpu::TileStatistics& statistics() noexcept { return statistics_; }
     void* line_memory() const noexcept { return line_memory_; }
 
-    /// From now on, lights are those of these shading points only and get that many samples.
-    void choose(LaneMask lanes, std::uint32_t light_samples) noexcept {
-        lanes_ = surface_.valid & lanes;
-        light_samples_ = light_samples;
+    /// For some of the shading points, with another number of samples of each light. Layers and statistics are the same, the
+    /// radiance begins at 0: see add().
+    ReflectedLight with(LaneMask lanes, std::uint32_t light_samples) const noexcept {
+        ReflectedLight result = *this;
+        result.lanes_ &= lanes;
+        result.light_samples_ = light_samples;
+        result.radiance_ = {Real(0), Real(0), Real(0)};
+        return result;
     }
+
+    /// Adds what another one has found, whose layers are the same.
+    void add(const ReflectedLight& other) noexcept { radiance_ = radiance_ + other.radiance_; }
 
     /// In world space.
     template <int N>
@@ -150,22 +154,21 @@ public:
     }
 
     /// Random numbers for one sample of a light.
-    /// \param pair number of the technique that they are for
+    /// \param pair of the technique that they are for
     template <class Shape>
-    Vec2<Real> random(const LocalLight<Shape>& light, std::uint32_t sample,
-                      std::uint32_t pair) const noexcept {
+    Vec2<Real> random(const LocalLight<Shape>& light, std::uint32_t sample, RandomPair pair) const noexcept {
         return random_for_light(job_, block_, sample, job_.camera_rays * light_samples_, light.number, pair);
     }
 
     /// Random numbers for all lines of a shading point and polygonal light together.
-    Vec2<Real> orientation_random(std::int32_t light, std::uint32_t pair) const noexcept {
+    Vec2<Real> orientation_random(std::int32_t light) const noexcept {
         return random_for_light(job_, block_, camera_ray_, job_.camera_rays,
-                                static_cast<std::uint32_t>(light), pair);
+                                static_cast<std::uint32_t>(light), kOrientationPair);
     }
 
     /// \copydoc random_for_lines
     Vec2<Real> line_random(std::int32_t light, int lane, std::uint32_t first,
-                           std::uint32_t pair) const noexcept {
+                           RandomPair pair) const noexcept {
         return random_for_lines(job_, block_, lane, camera_ray_, first, static_cast<std::uint32_t>(light),
                                 pair);
     }
@@ -223,12 +226,11 @@ private:
         direction.x.store(rays.direction[0]);
         direction.y.store(rays.direction[1]);
         direction.z.store(rays.direction[2]);
-        Real(kShadowRayEnd).store(rays.t_far);
+        Real(kShadowEnd<float>).store(rays.t_far);
         const visibility::PacketTracer<kLanes>& tracer = job_.tracer;
-        const std::uint64_t begin = __builtin_ia32_rdtsc();
-        const std::uint32_t blocked = tracer.occluded(job_.tracer.context, active, rays);
-        statistics_.shadow_ticks += __builtin_ia32_rdtsc() - begin;
         statistics_.shadow_rays += count_lanes(needed);
+        const TickTimer timer(statistics_.shadow_ticks);
+        const std::uint32_t blocked = tracer.occluded(job_.tracer.context, active, rays);
         return LaneMask::from_bits(active & ~blocked);
     }
 
@@ -267,7 +269,7 @@ template <class Shape, class Technique>
 void add_samples(ReflectedLight& reflected, const LocalLight<Shape>& light,
                  const Technique& technique) noexcept {
     reflected.add(light, [&](std::uint32_t number, SampleSum& sum) {
-        const Vec2<Real> u = reflected.random(light, number, 0);
+        const Vec2<Real> u = reflected.random(light, number, kPointPair);
         reflected.add_sample(light.lit, reflect(reflected.surface(), draw(technique, u)), sum);
     });
 }

@@ -9,12 +9,12 @@ namespace kernel {
 
 struct ShadingPoint {
     GlossySurface<Real, SurfaceBrdf> surface; ///< the same in all lanes
-    Frame<float> frame;
-    Vec3<float> position;         ///< world space [m]
-    Vec3<float> geometric_normal; ///< unit, on the side of the eye
-    Vec3<float> apex;             ///< of shadows: where shadow rays start [m]
-    bool is_frostbite;            ///< or Lambert
-    int lane;                     ///< of the packet
+    Frame<Real> frame;                        ///< the same in all lanes
+    Vec3<float> position;                     ///< world space [m]
+    Vec3<float> geometric_normal;             ///< see Surface
+    Vec3<float> apex;                         ///< of shadows: where shadow rays start [m]
+    bool is_frostbite;                        ///< or Lambert
+    int lane;                                 ///< of the packet
 };
 
 inline ShadingPoint shading_point(const Surface& surface, int lane) noexcept {
@@ -28,7 +28,7 @@ inline ShadingPoint shading_point(const Surface& surface, int lane) noexcept {
     return {{broadcast_lane(glossy.wo, lane), broadcast_lane(glossy.alpha, lane), brdf,
              broadcast_lane(glossy.lobe, lane), broadcast_lane(glossy.diffuse_albedo, lane),
              broadcast_lane(glossy.specular_albedo, lane)},
-            single_lane<Frame<float>>(surface.frame, lane),
+            broadcast_lane(surface.frame, lane),
             position,
             normal,
             position + offset * normal,

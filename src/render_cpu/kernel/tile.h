@@ -7,6 +7,7 @@
 #include "render_cpu/kernel/light_functions.h"
 #include "render_cpu/kernel/pixel_output.h"
 #include "render_cpu/kernel/surface.h"
+#include "render_cpu/kernel/tick_timer.h"
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
@@ -140,10 +141,9 @@ private:
         Real(kInfinity).store(rays.t_far);
         visibility::HitPacket<kLanes> hits;
         const visibility::PacketTracer<kLanes>& tracer = job_.tracer;
-        const std::uint64_t begin = __builtin_ia32_rdtsc();
-        tracer.intersect(job_.tracer.context, active, rays, hits);
-        statistics_.primary_ticks += __builtin_ia32_rdtsc() - begin;
         statistics_.primary_rays += static_cast<std::uint64_t>(__builtin_popcount(active));
+        const TickTimer timer(statistics_.primary_ticks);
+        tracer.intersect(job_.tracer.context, active, rays, hits);
         return hits;
     }
 

@@ -52,14 +52,6 @@ struct CutLine {
 const std::vector<std::vector<Interval<double>>> kShadows = {
     {}, {{0.2, 0.5}}, {{0.3, 0.35}, {0.7, 0.72}, {0.9, 1.1}}, {{-1, 2}}};
 
-/// Bound on coordinates on a light.
-template <class Real, int N>
-Real largest_coordinate(const nusselt::ConvexPolygon<Real, N>& light) {
-    Real sum = Real(0);
-    for (const auto& edge : light.edge) sum = sum + length(edge);
-    return sum;
-}
-
 /// A BRDF whose components times the cosine are just what the integrals stand for.
 struct FittingBrdf {
     Colour albedo, specular;
@@ -115,8 +107,7 @@ TEST(LineLight, AnalyticIsTheIntegral) {
             const auto light = make_light<double>(c);
             for (const double angle : {0.0, 0.7, 2.4}) {
                 const LineFamily<double, 4> family(light, angle);
-                const LineLight<double, FittingBrdf> estimator(family.plane(), largest_coordinate(light),
-                                                               surface);
+                const LineLight<double, FittingBrdf> estimator(family.plane(), family.reach(), surface);
                 for (std::size_t i = 0; i < kShadows.size(); ++i) {
                     const double offset = family.sample_by_length((static_cast<double>(i) + 0.4) / 4).offset;
                     const CutLine<double> line(family.chord(offset).extent, kShadows[i]);
@@ -148,8 +139,7 @@ TEST(LineLight, NoNoiseWhereLobesFit) {
         for (const PolygonCase& c : polygon_cases()) {
             const auto light = make_light<double>(c);
             const LineFamily<double, 4> family(light, 0.7);
-            const LineLight<double, FittingBrdf> estimator(family.plane(), largest_coordinate(light),
-                                                           surface);
+            const LineLight<double, FittingBrdf> estimator(family.plane(), family.reach(), surface);
             for (const auto& shadows : kShadows) {
                 const double offset = family.sample_by_length(0.3).offset;
                 const CutLine<double> line(family.chord(offset).extent, shadows);
@@ -172,8 +162,7 @@ TEST(LineLight, LambertianSurfacesNeedNoPoint) {
         {0, 0, 1}, 1, brdf, Ltc<double>(lobe_cases()[0].coefficients), brdf.albedo, {0, 0, 0}};
     const auto light = make_light<double>(polygon_cases()[0]);
     const LineFamily<double, 4> family(light, 0.7);
-    const LineLight<double, nusselt::Lambert<double>> estimator(family.plane(), largest_coordinate(light),
-                                                                surface);
+    const LineLight<double, nusselt::Lambert<double>> estimator(family.plane(), family.reach(), surface);
     // The mean over offsets is the closed form for polygons.
     constexpr int kLines = 20'000;
     Colour sum{0, 0, 0};
@@ -193,7 +182,7 @@ TEST(LineLight, HiddenLinesAreBlack) {
     const auto surface = fitting_surface(lobe_cases()[0].coefficients);
     const auto light = make_light<double>(polygon_cases()[0]);
     const LineFamily<double, 4> family(light, 0);
-    const LineLight<double, FittingBrdf> estimator(family.plane(), largest_coordinate(light), surface);
+    const LineLight<double, FittingBrdf> estimator(family.plane(), family.reach(), surface);
     const double offset = family.sample_by_length(0.3).offset;
     const CutLine<double> line(family.chord(offset).extent, {{-1, 2}});
     const auto reflected = estimator.unbiased(offset, line.parts, 0.5);
@@ -206,6 +195,7 @@ template <class Real>
 struct LineCaseOf {
     PolygonReflection<Real> reflection;
     LinePlane<Real> plane;
+    Real reach;
     Real offset;
     Interval<Real> whole, hidden;
 };
@@ -232,6 +222,7 @@ private:
         c.reflection = reflection;
         const LineFamily<T, 4> family(c.reflection.light, static_cast<T>(random_.between(0, 3.14)));
         c.plane = family.plane();
+        c.reach = family.reach();
         c.offset = family.sample_by_length(c.reflection.u[0].x).offset;
         c.whole = family.chord(c.offset).extent;
         const T length = c.whole.end - c.whole.begin;
@@ -254,7 +245,7 @@ struct LineResults {
 template <class Real>
 LineResults<Real> results_of(const LineCaseOf<Real>& c) {
     const auto surface = c.reflection.surface();
-    const LineLight<Real> estimator(c.plane, largest_coordinate(c.reflection.light), surface);
+    const LineLight<Real> estimator(c.plane, c.reach, surface);
     Interval<Real> storage[2];
     VisibleParts<Real> parts(storage, 2);
     parts.reset(c.whole);
@@ -313,7 +304,7 @@ TEST(ReflectedOffsets, DensityFitsTheSamples) {
     for (const PolygonCase& c : polygon_cases()) {
         const auto light = make_light<double>(c);
         const LineFamily<double, 4> family(light, 0.7);
-        const LineLight<double, FittingBrdf> estimator(family.plane(), largest_coordinate(light), surface);
+        const LineLight<double, FittingBrdf> estimator(family.plane(), family.reach(), surface);
         const ReflectedOffsets<double, 4> offsets(family, estimator);
         // du / d offset is the density.
         constexpr int kSteps = 4000;
@@ -338,7 +329,7 @@ TEST(ReflectedOffsets, LessNoiseThanByLength) {
     for (const PolygonCase& c : polygon_cases()) {
         const auto light = make_light<double>(c);
         const LineFamily<double, 4> family(light, 0.7);
-        const LineLight<double, FittingBrdf> estimator(family.plane(), largest_coordinate(light), surface);
+        const LineLight<double, FittingBrdf> estimator(family.plane(), family.reach(), surface);
         const ReflectedOffsets<double, 4> offsets(family, estimator);
         const auto variance = [&](const auto& sample) {
             double sum = 0;
@@ -365,7 +356,7 @@ TEST(ReflectedOffsets, BlackSurfacesSampleByLength) {
     const LineFamily<double, 4> family(light, 0);
     auto surface = fitting_surface(lobe_cases()[0].coefficients);
     surface.diffuse_albedo = surface.specular_albedo = {0, 0, 0};
-    const LineLight<double, FittingBrdf> estimator(family.plane(), largest_coordinate(light), surface);
+    const LineLight<double, FittingBrdf> estimator(family.plane(), family.reach(), surface);
     const ReflectedOffsets<double, 4> offsets(family, estimator);
     for (const double u : {0.1, 0.5, 0.8}) {
         EXPECT_NEAR(offsets.sample(u).offset, family.sample_by_length(u).offset, 1e-12);
@@ -380,7 +371,7 @@ TEST(ReflectedOffsets, HostileLightsGetFiniteOffsets) {
         const auto c = reflections.next<PolygonReflection<float>>();
         const LineFamily<float, 4> family(c.light, 0.7f);
         const auto surface = c.surface();
-        const LineLight<float> light(family.plane(), largest_coordinate(c.light), surface);
+        const LineLight<float> light(family.plane(), family.reach(), surface);
         const auto choice = ReflectedOffsets<float, 4>(family, light).sample(c.u[0].x);
         ASSERT_TRUE(std::isfinite(choice.pdf) && choice.pdf >= 0) << hexadecimal<float>(c);
         const auto offsets = family.offsets();
@@ -408,10 +399,10 @@ TEST(ReflectedOffsets, LanesEqualScalars) {
         const LineFamily<P, 4> families(family);
         const auto surface = c.surface();
         const auto surfaces = packed.surface();
-        const ReflectedOffsets<float, 4> offsets(
-            family, LineLight<float>(family.plane(), largest_coordinate(c.light), surface));
-        const ReflectedOffsets<P, 4> many(
-            families, LineLight<P>(families.plane(), largest_coordinate(packed.light), surfaces));
+        const ReflectedOffsets<float, 4> offsets(family,
+                                                 LineLight<float>(family.plane(), family.reach(), surface));
+        const ReflectedOffsets<P, 4> many(families,
+                                          LineLight<P>(families.plane(), families.reach(), surfaces));
         P u = P(0.f);
         for (int lane = 0; lane < kLanes; ++lane)
             u.set_lane(lane, (static_cast<float>(lane) + 0.5f) / static_cast<float>(kLanes));

@@ -168,6 +168,21 @@ TEST(LineFamily, DensitiesAreTheDerivativesOfTheInverses) {
     }
 }
 
+TEST(LineFamily, ReachIsThatOfTheFarthestVertex) {
+    RandomSource random(14);
+    for (int k = 0; k < 500; ++k) {
+        const auto light = ellipse_polygon<double, 8>(random, 3 + k % 6, 3, 1);
+        const LineFamily<double, 8> family(light, random.between(0, 3.14159));
+        double farthest = 0;
+        for (const Vec3<double>& vertex : light.vertex) {
+            const Vec3<double> p = vertex - family.plane().origin;
+            farthest = std::max(
+                {farthest, std::abs(dot(p, family.plane().across)), std::abs(dot(p, family.plane().along))});
+        }
+        EXPECT_NEAR(family.reach(), farthest, 1e-13 * farthest);
+    }
+}
+
 TEST(LineFamily, OffsetsIncreaseWithTheRandomNumber) {
     RandomSource random(5);
     for (int k = 0; k < 300; ++k) {

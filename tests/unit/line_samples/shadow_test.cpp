@@ -262,7 +262,7 @@ TEST(TriangleShadow, PowersOfTwoScaleEveryBit) {
 }
 
 TEST(TriangleShadow, CullingMissesNoLine) {
-    int culled = 0, all_hidden = 0;
+    int culled = 0;
     for (std::uint64_t index = 0; index < 3000; ++index) {
         const Soup soup(index);
         RandomSource random(8, index);
@@ -280,9 +280,7 @@ TEST(TriangleShadow, CullingMissesNoLine) {
                                      vector_of(t.corner[2]))
                     .shadow;
             const bool may = may_hide(shadow, bounds);
-            const bool everything = hides_all(shadow, bounds);
             culled += !may;
-            all_hidden += everything;
             for (int i = 0; i <= 100; ++i) {
                 const float step =
                     0.01f * static_cast<float>(i) * (bounds.offsets.end - bounds.offsets.begin);
@@ -291,15 +289,10 @@ TEST(TriangleShadow, CullingMissesNoLine) {
                 const bool hides = hidden.begin < hidden.end && hidden.begin < bounds.extent.end &&
                                    hidden.end > bounds.extent.begin;
                 EXPECT_TRUE(may || !hides) << index;
-                if (!everything) continue;
-                // Between the ends, a corner may be off by its rounding.
-                EXPECT_LE(hidden.begin, bounds.extent.begin + 1e-5f * size) << index;
-                EXPECT_GE(hidden.end, bounds.extent.end - 1e-5f * size) << index;
             }
         }
     }
     EXPECT_GT(culled, 1000);
-    EXPECT_GT(all_hidden, 100);
 }
 
 void expect_no_violation(std::uint64_t seed) {

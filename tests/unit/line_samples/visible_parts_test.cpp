@@ -111,6 +111,40 @@ TEST(VisibleParts, TooLittleRoomNeverAddsLight) {
     EXPECT_GT(lost, 100);
 }
 
+/// Whatever the order of cuts: lines lose what is short first.
+TEST(VisibleParts, TooLittleRoomKeepsTheLongerRemainders) {
+    constexpr int kCapacity = 8;
+    for (const bool is_reversed : {false, true})
+        for (const bool is_descending : {false, true}) {
+            Interval<Lines> storage[kCapacity];
+            VisibleParts<Lines> parts(storage, kCapacity);
+            parts.reset({Lines(0.0f), Lines(1.0f)});
+            // Seven large gaps of 0.1 and as many occluders of 0.01, all of them cut by another one close to an end.
+            const auto cut = [&](float begin, float end) {
+                const Interval<float> hidden =
+                    is_reversed ? Interval<float>{1 - end, 1 - begin} : Interval<float>{begin, end};
+                parts.cut({Lines(hidden.begin), Lines(hidden.end)});
+            };
+            const auto cut_all = [&](float begin, float length) {
+                for (int k = 0; k < 7; ++k) {
+                    const float at = static_cast<float>(is_descending ? 6 - k : k) * 0.11f + begin;
+                    cut(at, at + length);
+                }
+            };
+            cut_all(0.1f, 0.01f);
+            EXPECT_EQ(parts.count(), kCapacity);
+            EXPECT_EQ(parts.lost().lane(0), 0);
+            cut_all(0.09f, 0.005f);
+            EXPECT_EQ(parts.lost().lane(3), 7);
+            for (int i = 0; i < kLanes; ++i)
+                EXPECT_NEAR(visible_length(parts).lane(i), 1 - 7 * (0.01f + 0.005f + 0.005f), 1e-5f);
+            cut_all(0.005f, 0.005f);
+            EXPECT_EQ(parts.lost().lane(3), 14);
+            for (int i = 0; i < kLanes; ++i)
+                EXPECT_NEAR(visible_length(parts).lane(i), 1 - 7 * 0.02f - 7 * 0.01f, 1e-5f);
+        }
+}
+
 TEST(VisibleParts, SlotsOfHiddenLinesAreFree) {
     Interval<float> storage[4];
     VisibleParts<float> parts(storage, 4);

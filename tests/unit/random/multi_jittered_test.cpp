@@ -111,7 +111,7 @@ TEST(StratumGrid, IsAsSquareAsDivisorsAllow) {
 }
 
 TEST(StratumGrid, FindsColumnsExactly) {
-    for (const std::uint32_t n : {1u, 7u, 30u, 1021u, 4194301u, 4194304u}) {
+    for (const std::uint32_t n : {1u, 7u, 30u, 1021u, 4194301u, 4194304u, 16769025u, 16777216u}) {
         const StratumGrid grid(n);
         for (std::uint32_t cell = 0; cell < n; ++cell) ASSERT_EQ(grid.column_of(cell), cell / grid.rows) << n;
     }
