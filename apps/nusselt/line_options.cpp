@@ -26,7 +26,7 @@ void add_line_kind_options(CLI::App& command, LineKindOptions& options) {
     command
         .add_option("--offsets", options.offsets,
                     "Density of lines: by their length on the light, uniform, or by what the surface would\n"
-                    "reflect of them without shadows. Default: length")
+                    "reflect of them without shadows. Default: reflected")
         ->transform(to_name_of(render_cpu::kLineOffsets))
         ->group(kGroup);
     command

@@ -44,11 +44,12 @@ ConvergenceSeries importance_sampled_points(const std::string& label) {
     return series;
 }
 
-/// In parallel, with closed forms alone, as in the paper.
+/// In parallel, by length, with closed forms alone, as in the paper.
 ConvergenceSeries lines(const std::string& label, SampleOrder order) {
     ConvergenceSeries series = {label, {}, powers_of_two(kMostLines), 4, kMostLines};
     series.settings.integrator = Integrator::lines;
     series.settings.lines.shading = LineShading::analytic;
+    series.settings.lines.offsets = render_cpu::LineOffsets::length;
     series.settings.lines.many_occluders = render_cpu::ManyOccluders::lines;
     series.settings.sample_order = order;
     series.settings.pixel_position = render_cpu::PixelPosition::center;

@@ -142,7 +142,7 @@ struct RenderJob {
     Integrator integrator;
     LineSettings lines;
     const visibility::LineBvhView* line_bvh; ///< null without line samples
-    std::int32_t most_occluders;             ///< see most_occluders_for_lines()
+    std::int32_t most_occluders;             ///< see most_occluders_for_lines(); below 0: points everywhere
     std::uint32_t points_in_place_of_lines;
     Technique technique;
     Strategies strategies;

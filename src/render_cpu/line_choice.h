@@ -9,6 +9,7 @@ namespace nusselt::render_cpu {
 /// Bound on the blocks of triangles in the pyramid of a shading point and a light (see has_many_occluders()): beyond it,
 /// points reach the same error in less time.
 /// \param lines per shading point and light
+/// \returns -1 if points are better even without any occluder
 int most_occluders_for_lines(int lines);
 
 /// Points that are about as noisy as so many lines, since noise falls faster with the number of lines than of points. At

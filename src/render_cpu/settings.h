@@ -106,7 +106,7 @@ enum class ManyOccluders : std::uint32_t {
 struct LineSettings {
     int count = 16; ///< per shading point and light, 1 to kMaxLines
     LineOrientation orientation = LineOrientation::parallel;
-    LineOffsets offsets = LineOffsets::length;
+    LineOffsets offsets = LineOffsets::reflected;
     LineShading shading = LineShading::unbiased;
     ManyOccluders many_occluders = ManyOccluders::points;
 };

@@ -287,11 +287,25 @@ private:
 };
 
 template <int N>
+void add_points(ReflectedLight& reflected, std::int32_t index, LaneMask lanes) noexcept {
+    const render_cpu::RenderJob& job = reflected.job();
+    ReflectedLight others = reflected.with(lanes, job.points_in_place_of_lines);
+    const LightFunctions points = point_functions(job);
+    (N == 4 ? points.add_polygon4 : points.add_polygon8)(others, index);
+    reflected.add(others);
+}
+
+template <int N>
 void add_polygon(ReflectedLight& reflected, std::int32_t index) noexcept {
     LocalPolygon<N> light = reflected.polygon<N>(index);
     const std::uint32_t lit = light.lit.bits();
     if (lit == 0) return;
     const render_cpu::RenderJob& job = reflected.job();
+    if (job.lines.many_occluders == ManyOccluders::points && job.most_occluders < 0) {
+        reflected.statistics().point_lights += count_lanes(light.lit);
+        add_points<N>(reflected, index, light.lit);
+        return;
+    }
     PacketResult result;
     std::uint32_t with_points = 0;
     LineSampler<N> sampler(reflected, index);
@@ -301,11 +315,7 @@ void add_polygon(ReflectedLight& reflected, std::int32_t index) noexcept {
     const auto lines = static_cast<float>(job.lines.count);
     reflected.add_known(light, {Real(1 / lines) * load(result.all), Real(1 / lines) * load(result.diffuse)});
     reflected.add_pieces(select(light.lit, Real(lines), Real(0)), Real::load(result.parts));
-    if (with_points == 0) return;
-    ReflectedLight others = reflected.with(LaneMask::from_bits(with_points), job.points_in_place_of_lines);
-    const LightFunctions points = point_functions(job);
-    (N == 4 ? points.add_polygon4 : points.add_polygon8)(others, index);
-    reflected.add(others);
+    if (with_points != 0) add_points<N>(reflected, index, LaneMask::from_bits(with_points));
 }
 
 } // namespace
