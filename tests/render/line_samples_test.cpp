@@ -194,16 +194,16 @@ INSTANTIATE_TEST_SUITE_P(AllIsas, LineIsaInvariance,
 
 /// The choice does not depend on random numbers, and it does not change the mean.
 TEST(LineChoice, TakesPointsBehindManyOccluders) {
-    const scene::Scene scene = make_soup(300);
+    const scene::Scene scene = make_soup(900);
     const render_cpu::Renderer renderer(scene, 2);
     const auto tracer = renderer.visibility().tracer();
-    RenderSettings settings = line_settings(4);
+    RenderSettings settings = line_settings(16);
     const auto statistics_of = [&] {
         return renderer.render(settings, render_cpu::choose_isa()).statistics.lines;
     };
     const render_cpu::LineStatistics lines_only = statistics_of();
     EXPECT_EQ(lines_only.point_lights, 0u);
-    EXPECT_EQ(lines_only.lines, 4 * lines_only.line_lights);
+    EXPECT_EQ(lines_only.lines, 16 * lines_only.line_lights);
 
     settings.lines.orientation = LineOrientation::fixed;
     settings.lines.many_occluders = ManyOccluders::points;
@@ -217,6 +217,15 @@ TEST(LineChoice, TakesPointsBehindManyOccluders) {
     EXPECT_LT(largest_t(render_region_means(renderer, settings, kSeeds, tracer), reference), kLargestT);
     settings.lines.many_occluders = ManyOccluders::lines;
     EXPECT_LT(largest_t(render_region_means(renderer, settings, kSeeds, tracer), reference), kLargestT);
+}
+
+TEST(LineChoice, TakesPointsInPlaceOfFewLines) {
+    const scene::Scene scene = make_soup(0);
+    RenderSettings settings = line_settings(15);
+    settings.lines.many_occluders = ManyOccluders::points;
+    EXPECT_EQ(render(scene, settings).statistics.lines.lines, 0u);
+    settings.lines.count = 16;
+    EXPECT_GT(render(scene, settings).statistics.lines.lines, 0u);
 }
 
 const std::vector<float>& pieces_of(const RenderResult& result) {
