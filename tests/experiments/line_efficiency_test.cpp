@@ -61,7 +61,9 @@ TEST(LineEfficiency, SaysWhereLinesAreExtrapolated) {
     efficiency.lines = curve(1, 16, 1.2, 3); // as good as 64 points
     for (const EqualErrorRow& row : equal_error_rows(efficiency)) {
         // At 64 itself rounding decides.
-        if (row.points != 64) EXPECT_EQ(row.lines_are_extrapolated, row.points > 64) << row.points;
+        if (row.points != 64) {
+            EXPECT_EQ(row.lines_are_extrapolated, row.points > 64) << row.points;
+        }
         EXPECT_NEAR(row.lines_seconds, 3e-3 * std::pow(row.points, 2.0 / 3.0), 1e-9);
     }
 }
