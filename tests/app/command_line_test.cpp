@@ -249,6 +249,39 @@ TEST_F(CommandLine, TimesASecondTechnique) {
     EXPECT_NE(bench.out.find("diffuse+ltc"), std::string::npos) << bench.out;
 }
 
+TEST_F(CommandLine, MeasuresWhatLinesCost) {
+    const Outcome bench =
+        run("bench lines '" + kScenes +
+            "/cornell-panel.pbrt' --resolution 32x32 --repetitions 1 --lines 4,16 --json -");
+    ASSERT_EQ(bench.exit_code, 0) << bench.err;
+    const nlohmann::json json = nlohmann::json::parse(bench.out);
+    EXPECT_GT(json["shadow_rays"], 0);
+    EXPECT_GT(json["shadow_ray_nanoseconds"], 0.0);
+    ASSERT_EQ(json["rows"].size(), 2u);
+    EXPECT_EQ(json["rows"][1]["lines"], 16);
+    EXPECT_EQ(json["rows"][1]["traced_lines"].get<int>(), 4 * json["rows"][0]["traced_lines"].get<int>());
+    for (const char* key : {"visibility_over_shadow_ray", "line_over_point", "triangles_per_light"})
+        EXPECT_GT(json["rows"][0][key], 0.0) << key;
+    EXPECT_EQ(run("bench lines a.pbrt --lines 0").exit_code, 2);
+}
+
+TEST_F(CommandLine, MeasuresHowLongLinesTakeToTheErrorOfPoints) {
+    const Outcome bench =
+        run("bench line-efficiency '" + kScenes +
+            "/cornell-panel.pbrt' --resolution 16x16 --repetitions 2 --most-points 16 --most-lines 4 "
+            "--roughness 0.5 --strategies diffuse+ltc --threads 2 --json -");
+    ASSERT_EQ(bench.exit_code, 0) << bench.err;
+    const nlohmann::json json = nlohmann::json::parse(bench.out);
+    ASSERT_EQ(json["results"].size(), 1u);
+    const nlohmann::json& result = json["results"][0];
+    EXPECT_EQ(result["points"].size(), 3u);
+    EXPECT_EQ(result["lines"].size(), 3u);
+    EXPECT_EQ(result["equal_error"].size(), 3u);
+    EXPECT_LT(result["points"][2]["variance"], result["points"][0]["variance"]);
+    EXPECT_LT(result["lines"][2]["variance"], result["lines"][0]["variance"]);
+    EXPECT_EQ(run("bench line-efficiency a.pbrt --roughness 2").exit_code, 2);
+}
+
 TEST_F(CommandLine, PrintsTheNoiseOfTubes) {
     const Outcome bench = run("bench tubes --repetitions 1");
     EXPECT_EQ(bench.exit_code, 0) << bench.err;
