@@ -18,20 +18,36 @@ struct TracedLines {
     VisibleParts<Real> parts;
 };
 
-/// Takes a shadow from a pack of lines.
-template <class Real, class Shadow>
-NUSSELT_INLINE void cut_lines(TracedLines<Real>& lines, const Shadow& shadow,
-                              visibility::LineCounters& counters) noexcept {
-    ++counters.line_tests;
-    const Interval<Real> hidden = hidden_interval(shadow, lines.offset);
-    if (any(lines.parts.overlap(hidden))) lines.parts.cut(hidden);
-}
+/// What shadows hide of a pack of lines, to be taken from them at once: neighbours in a mesh share edges, so that most
+/// shadows of a block join.
 template <class Real>
-NUSSELT_INLINE void cut_lines(TracedLines<Real>& lines, const TriangleShadow<float>& shadow,
-                              visibility::LineCounters& counters) noexcept {
-    const auto crosses = (Real(shadow.first) <= lines.offset) & (lines.offset < Real(shadow.last));
-    if (any(crosses & lines.parts.lit())) cut_lines(lines, broadcast<Real>(shadow), counters);
-}
+class JoinedShadows {
+public:
+    template <class Shadow>
+    NUSSELT_INLINE void add(TracedLines<Real>& lines, const Shadow& shadow,
+                            visibility::LineCounters& counters) noexcept {
+        ++counters.line_tests;
+        const Interval<Real> hidden = hidden_interval(shadow, lines.offset);
+        const auto joins = (hidden.begin > hidden.end) | (joined_.begin > joined_.end) |
+                           ((hidden.begin <= joined_.end) & (hidden.end >= joined_.begin));
+        if (all(joins)) {
+            joined_ = {min(joined_.begin, hidden.begin), max(joined_.end, hidden.end)};
+        } else {
+            lines.parts.cut(joined_);
+            joined_ = hidden;
+        }
+    }
+    NUSSELT_INLINE void add(TracedLines<Real>& lines, const TriangleShadow<float>& shadow,
+                            visibility::LineCounters& counters) noexcept {
+        const auto crosses = (Real(shadow.first) <= lines.offset) & (lines.offset < Real(shadow.last));
+        if (any(crosses & lines.parts.lit())) add(lines, broadcast<Real>(shadow), counters);
+    }
+
+    NUSSELT_INLINE void cut(TracedLines<Real>& lines) const noexcept { lines.parts.cut(joined_); }
+
+private:
+    Interval<Real> joined_ = empty_interval<Real>();
+};
 
 /// Visits the blocks of triangles that a light may have in its pyramid, those close to its apex first.
 class PyramidTraversal {
@@ -270,9 +286,11 @@ public:
                               const visibility::TriangleBlock& block) noexcept {
         const BlockShadows shadows = BlockShadows::make(seen_, pyramid, space, block);
         counters_.triangle_tests += shadows.count();
-        shadows.for_each([&](const auto& shadow) {
-            for (int p = 0; p < pack_count_; ++p) cut_lines(packs_[p], shadow, counters_);
-        });
+        for (int p = 0; p < pack_count_; ++p) {
+            JoinedShadows<Real> joined;
+            shadows.for_each([&](const auto& shadow) { joined.add(packs_[p], shadow, counters_); });
+            joined.cut(packs_[p]);
+        }
         return is_lit();
     }
 

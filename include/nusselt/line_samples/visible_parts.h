@@ -63,7 +63,7 @@ public:
         const auto hides = hidden.begin < hidden.end;
         if (!any(hides & (hidden.begin < bounds_.end) & (hidden.end > bounds_.begin))) return;
         const Interval<Real> none = empty_interval<Real>();
-        bounds_ = none;
+        Interval<Real> bounds = none;
         for (int k = count_ - 1; k >= 0; --k) {
             Interval<Real> part = part_[k];
             const auto overlaps = hides & (hidden.begin < part.end) & (hidden.end > part.begin);
@@ -74,6 +74,7 @@ public:
                 mask_t<Real> starts_later = overlaps & !keeps_left;
                 if (any(splits)) {
                     const auto no_room = add({hidden.end, part.end}, splits);
+                    bounds.end = max(bounds.end, select(splits & !no_room, part.end, none.end));
                     const auto right_is_longer = part.end - hidden.end > hidden.begin - part.begin;
                     starts_later = starts_later | (no_room & right_is_longer);
                 }
@@ -84,8 +85,9 @@ public:
                 part = {select(ends, none.begin, part.begin), select(ends, none.end, part.end)};
                 part_[k] = part;
             }
-            bounds_ = {min(bounds_.begin, part.begin), max(bounds_.end, part.end)};
+            bounds = {min(bounds.begin, part.begin), max(bounds.end, part.end)};
         }
+        bounds_ = bounds;
         while (count_ > 0 && !any(part_[count_ - 1].begin < part_[count_ - 1].end)) --count_;
     }
 
@@ -100,7 +102,6 @@ private:
             }
             const auto fits = lanes & !(part_[k].begin < part_[k].end);
             part_[k] = {select(fits, part.begin, part_[k].begin), select(fits, part.end, part_[k].end)};
-            bounds_.end = max(bounds_.end, select(fits, part.end, bounds_.end));
             lanes = lanes & !fits;
         }
         lost_ = lost_ + select(lanes, Real(1), Real(0));
