@@ -16,6 +16,13 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
+/// Where among the lines of a light a lobe is brightest.
+template <class Real>
+struct LinePeak {
+    Real offset; ///< [m]
+    Real width;  ///< about that of the peak [m]; infinite if there is none
+};
+
 namespace detail {
 
 /// A line of a light in the cosine space of a lobe, where coordinates along the line are stretched.
@@ -86,6 +93,18 @@ struct ImageOfPlane {
         const Real inverse = Real(1) / select(stretch > Real(0), stretch, Real(1));
         along = inverse * image_of_along;
         factor = (Real(1 / (2 * kPi<scalar_t<Real>>)) * determinant) * (height * inverse);
+    }
+
+    /// Whose planes through the origin are closest to the pole of the lobe, among those with offsets in the interval.
+    NUSSELT_INLINE LinePeak<Real> peak(const Interval<Real>& offsets) const noexcept {
+        const Vec3<Real> moment = cross(origin, along);
+        const Vec3<Real> slope = cross(across, along);
+        const auto has_peak = slope.z != Real(0);
+        const Real steepness = select(has_peak, slope.z, Real(1));
+        const Real offset = min(max(-moment.z / steepness, offsets.begin), offsets.end);
+        const Vec3<Real> there = fma(offset, slope, moment);
+        constexpr scalar_t<Real> kInfinity = std::numeric_limits<scalar_t<Real>>::infinity();
+        return {offset, select(has_peak, sqrt(dot(there, there)) / abs(steepness), Real(kInfinity))};
     }
 
     NUSSELT_INLINE ImageOfLine<Real> line(const Real& offset) const noexcept {
@@ -178,6 +197,17 @@ public:
                     fma(factor, cosine * brdf.specular - lobe_density * surface_.specular_albedo,
                         expected.specular)};
         }
+    }
+
+    /// Of the fitted lobe, for diffuse surfaces of the cosine.
+    /// \param offsets of the light [m].
+    NUSSELT_HD LinePeak<Real> peak(const Interval<Real>& offsets) const noexcept {
+        const Interval<Real> scaled_offsets{scale_ * offsets.begin, scale_ * offsets.end};
+        const LinePeak<Real> cosine = cosine_.peak(scaled_offsets);
+        const LinePeak<Real> lobe = lobe_.peak(scaled_offsets);
+        const Real metres = Real(1) / scale_;
+        return {metres * select(is_glossy_, lobe.offset, cosine.offset),
+                metres * select(is_glossy_, lobe.width, cosine.width)};
     }
 
 private:

@@ -11,11 +11,11 @@ NUSSELT_NAMESPACE_BEGIN
 
 /// \tparam Real  float, double, long double or a pack: a line per lane, of one light and surface point.
 /// \tparam N     bound on the number of vertices of the light.
-/// \tparam Nodes of the table, a power of two: highlights narrower than the distance between two of them are left to
-///               chance. Each costs as much as a line without shadows.
+/// \tparam Nodes of the table, a power of two, closer to each other near the peak of the lobe. Each costs as much as a line
+///               without shadows.
 template <class Real, int N, int Nodes = 32>
 class ReflectedOffsets {
-    static_assert(Nodes >= 2 && (Nodes & (Nodes - 1)) == 0, "for the search by halves");
+    static_assert(Nodes >= 4 && (Nodes & (Nodes - 1)) == 0, "for the search by halves and the root of the ratio");
     using Scalar = scalar_t<Real>;
     static constexpr int kLanes = RealTraits<Real>::kLanes;
     static constexpr int kCells = Nodes - 1;
@@ -27,38 +27,34 @@ public:
     NUSSELT_HD ReflectedOffsets(const LineFamily<Real, N>& family,
                                 const LineLight<Real, Brdf>& light) noexcept
         : family_(family) {
-        Scalar sum = 0;
+        place_nodes(light.peak(family.offsets()));
         for (int begin = 0; begin < Nodes; begin += kLanes) {
             Scalar lanes[kLanes];
-            for (int i = 0; i < kLanes; ++i)
-                lanes[i] = static_cast<Scalar>(begin + i) / static_cast<Scalar>(kCells);
+            for (int i = 0; i < kLanes; ++i) lanes[i] = node_[begin + i < kCells ? begin + i : kCells];
             store(relative_radiance(light, load(lanes)), lanes);
-            for (int i = 0; i < kLanes && begin + i < Nodes; ++i) {
-                density_[begin + i] = lanes[i];
-                sum += lanes[i];
-            }
+            for (int i = 0; i < kLanes && begin + i < Nodes; ++i) density_[begin + i] = lanes[i];
         }
         // Whatever the table misses is sampled by length, and all of lights that are next to black.
-        const bool is_lit = sum > kTiny<Scalar> && sum <= std::numeric_limits<Scalar>::max();
-        const Scalar scale = is_lit ? Scalar(Nodes) / sum : Scalar(0);
+        const Scalar mean = integrate();
+        const bool is_lit = mean > kTiny<Scalar> && mean <= std::numeric_limits<Scalar>::max();
+        const Scalar scale = is_lit ? Scalar(1) / mean : Scalar(0);
         for (Scalar& density : density_)
             density = is_lit ? fma(density, scale, Scalar(kLeastShare)) : Scalar(1);
-        below_[0] = 0;
-        for (int i = 0; i < kCells; ++i)
-            below_[i + 1] = below_[i] + Scalar(0.5) * (density_[i] + density_[i + 1]);
+        integrate();
     }
 
     /// \param u in [0, 1); increasing u increases the offset.
     NUSSELT_HD LineChoice<Real> sample(const Real& u) const noexcept {
         const Real target = u * Real(below_[kCells]);
         const Cell cell = cell_of(target);
-        const Real rest = max(target - cell.below, Real(0));
+        const Real width = cell.end - cell.begin;
+        const Real rest = max(target - cell.below, Real(0)) / width;
         const Real rise = cell.right - cell.left;
         const Real root = sqrt(max(fma(Real(2) * rise, rest, cell.left * cell.left), Real(0)));
         const Real share = min(Real(2) * rest / (cell.left + root), Real(1));
         const LineChoice<Real> by_length =
-            family_.sample_by_length(below_one((cell.index + share) * Real(Scalar(1) / kCells)));
-        const Real density = fma(share, rise, cell.left) * Real(kCells / below_[kCells]);
+            family_.sample_by_length(below_one(fma(share, width, cell.begin)));
+        const Real density = fma(share, rise, cell.left) * Real(Scalar(1) / below_[kCells]);
         return {by_length.offset, by_length.pdf * density};
     }
 
@@ -69,29 +65,73 @@ private:
 
     /// Nodes at the ends of the light are moved inside by this share of its area: the first and the last line may have no
     /// length.
-    static constexpr double kInset = 1e-3;
+    static constexpr double kInset = 1e-5;
+
+    /// The narrowest peak that gets nodes of its own, as a share of the light: single precision still tells them apart.
+    static constexpr double kNarrowest = 1e-4;
+
+    /// Nodes for wider peaks are even, and their differences would only lose digits.
+    static constexpr double kWidest = 8;
 
     /// Between two nodes.
     struct Cell {
-        Real index, below, left, right;
+        Real begin, end, below, left, right;
     };
 
+    /// With distances to the peak that grow like a hyperbolic sine: even inside the peak, in proportion to themselves
+    /// outside, even everywhere if the peak is as wide as the light.
+    NUSSELT_HD void place_nodes(const LinePeak<Real>& peak) noexcept {
+        const Scalar at_peak = first_lane(family_.invert_by_length(peak.offset));
+        const Scalar relative_width = first_lane(peak.width * family_.pdf_by_length(peak.offset));
+        // Comparisons that are false for NaN.
+        const Scalar centre = at_peak > 0 ? at_peak : Scalar(0);
+        const Scalar width =
+            relative_width < Scalar(kWidest) ? max(relative_width, Scalar(kNarrowest)) : Scalar(kWidest);
+        const auto growth = [&](Scalar distance) {
+            const Scalar x = distance / width;
+            return x + sqrt(fma(x, x, Scalar(1)));
+        };
+        const Scalar before = growth(centre);
+        Scalar ratio = before * growth(1 - centre);
+        for (int cells = Nodes; cells > 1; cells /= 2) ratio = sqrt(ratio);
+        Scalar power = Scalar(1) / before;
+        for (int i = 0; i < Nodes; ++i, power *= ratio)
+            node_[i] = fma(Scalar(0.5) * width, power - Scalar(1) / power, centre);
+        node_[0] = 0;
+        node_[kCells] = 1;
+    }
+
+    /// \returns the integral from 0 to 1
+    NUSSELT_HD Scalar integrate() noexcept {
+        below_[0] = 0;
+        for (int i = 0; i < kCells; ++i)
+            below_[i + 1] = below_[i] +
+                            Scalar(0.5) * (density_[i] + density_[i + 1]) * (node_[i + 1] - node_[i]);
+        return below_[kCells];
+    }
+
     NUSSELT_HD Cell cell_of(const Real& target) const noexcept {
-        Scalar lanes[kLanes], index[kLanes], below[kLanes], left[kLanes], right[kLanes];
+        Scalar lanes[kLanes], begin[kLanes], end[kLanes], below[kLanes], left[kLanes], right[kLanes];
         store(target, lanes);
         for (int i = 0; i < kLanes; ++i) {
             int cell = 0;
             for (int step = Nodes / 2; step > 0; step /= 2)
                 cell += below_[cell + step] <= lanes[i] ? step : 0;
             cell = cell < kCells ? cell : kCells - 1;
-            index[i] = static_cast<Scalar>(cell);
+            begin[i] = node_[cell];
+            end[i] = node_[cell + 1];
             below[i] = below_[cell];
             left[i] = density_[cell];
             right[i] = density_[cell + 1];
         }
-        return {load(index), load(below), load(left), load(right)};
+        return {load(begin), load(end), load(below), load(left), load(right)};
     }
 
+    NUSSELT_HD static Scalar first_lane(const Real& x) noexcept {
+        Scalar lanes[kLanes];
+        store(x, lanes);
+        return lanes[0];
+    }
     NUSSELT_HD static Real load(const Scalar* lanes) noexcept {
         if constexpr (kLanes == 1)
             return lanes[0];
@@ -121,8 +161,9 @@ private:
     }
 
     const LineFamily<Real, N>& family_;
-    Scalar density_[Nodes]; ///< of the random number of sample_by_length(), not normalised
-    Scalar below_[Nodes];   ///< its integral from 0 to the node, in cells
+    Scalar node_[Nodes];    ///< random numbers of sample_by_length()
+    Scalar density_[Nodes]; ///< of that number, not normalised
+    Scalar below_[Nodes];   ///< its integral from 0 to the node
 };
 
 NUSSELT_NAMESPACE_END
