@@ -199,15 +199,13 @@ public:
         }
     }
 
-    /// Of the fitted lobe, for diffuse surfaces of the cosine.
+    /// Of the fitted lobe; diffuse surfaces have none.
     /// \param offsets of the light [m].
     NUSSELT_HD LinePeak<Real> peak(const Interval<Real>& offsets) const noexcept {
-        const Interval<Real> scaled_offsets{scale_ * offsets.begin, scale_ * offsets.end};
-        const LinePeak<Real> cosine = cosine_.peak(scaled_offsets);
-        const LinePeak<Real> lobe = lobe_.peak(scaled_offsets);
+        const LinePeak<Real> scaled_peak = lobe_.peak({scale_ * offsets.begin, scale_ * offsets.end});
         const Real metres = Real(1) / scale_;
-        return {metres * select(is_glossy_, lobe.offset, cosine.offset),
-                metres * select(is_glossy_, lobe.width, cosine.width)};
+        constexpr scalar_t<Real> kInfinity = std::numeric_limits<scalar_t<Real>>::infinity();
+        return {metres * scaled_peak.offset, select(is_glossy_, metres * scaled_peak.width, Real(kInfinity))};
     }
 
 private:

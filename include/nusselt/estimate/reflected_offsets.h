@@ -5,20 +5,22 @@
 /// samples where densities of lines by length miss highlights. Deviation: the integrals along unshadowed lines, which have
 /// closed forms, are tabulated, and offsets drawn from the table: they stay stratified in one dimension.
 
+#include <bit>
+
 #include <nusselt/estimate/line_light.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
 /// \tparam Real  float, double, long double or a pack: a line per lane, of one light and surface point.
 /// \tparam N     bound on the number of vertices of the light.
-/// \tparam Nodes of the table, a power of two, closer to each other near the peak of the lobe. Each costs as much as a line
-///               without shadows.
+/// \tparam Nodes of the table, even ones; half as many are added around highlights that are narrower than the distance of
+///               two. Each costs as much as a line without shadows.
 template <class Real, int N, int Nodes = 32>
 class ReflectedOffsets {
-    static_assert(Nodes >= 4 && (Nodes & (Nodes - 1)) == 0, "for the search by halves and the root of the ratio");
     using Scalar = scalar_t<Real>;
     static constexpr int kLanes = RealTraits<Real>::kLanes;
-    static constexpr int kCells = Nodes - 1;
+    static constexpr int kPeakNodes = Nodes / 2; ///< the same on both sides
+    static constexpr int kMostNodes = Nodes + kPeakNodes;
 
 public:
     /// The same family and light in all lanes.
@@ -28,24 +30,24 @@ public:
                                 const LineLight<Real, Brdf>& light) noexcept
         : family_(family) {
         place_nodes(light.peak(family.offsets()));
-        for (int begin = 0; begin < Nodes; begin += kLanes) {
+        for (int begin = 0; begin <= cells_; begin += kLanes) {
             Scalar lanes[kLanes];
-            for (int i = 0; i < kLanes; ++i) lanes[i] = node_[begin + i < kCells ? begin + i : kCells];
+            for (int i = 0; i < kLanes; ++i) lanes[i] = node_[begin + i < cells_ ? begin + i : cells_];
             store(relative_radiance(light, load(lanes)), lanes);
-            for (int i = 0; i < kLanes && begin + i < Nodes; ++i) density_[begin + i] = lanes[i];
+            for (int i = 0; i < kLanes && begin + i <= cells_; ++i) density_[begin + i] = lanes[i];
         }
         // Whatever the table misses is sampled by length, and all of lights that are next to black.
         const Scalar mean = integrate();
         const bool is_lit = mean > kTiny<Scalar> && mean <= std::numeric_limits<Scalar>::max();
         const Scalar scale = is_lit ? Scalar(1) / mean : Scalar(0);
-        for (Scalar& density : density_)
-            density = is_lit ? fma(density, scale, Scalar(kLeastShare)) : Scalar(1);
+        for (int i = 0; i <= cells_; ++i)
+            density_[i] = is_lit ? fma(density_[i], scale, Scalar(kLeastShare)) : Scalar(1);
         integrate();
     }
 
     /// \param u in [0, 1); increasing u increases the offset.
     NUSSELT_HD LineChoice<Real> sample(const Real& u) const noexcept {
-        const Real target = u * Real(below_[kCells]);
+        const Real target = u * Real(below_[cells_]);
         const Cell cell = cell_of(target);
         const Real width = cell.end - cell.begin;
         const Real rest = max(target - cell.below, Real(0)) / width;
@@ -54,7 +56,7 @@ public:
         const Real share = min(Real(2) * rest / (cell.left + root), Real(1));
         const LineChoice<Real> by_length =
             family_.sample_by_length(below_one(fma(share, width, cell.begin)));
-        const Real density = fma(share, rise, cell.left) * Real(Scalar(1) / below_[kCells]);
+        const Real density = fma(share, rise, cell.left) * Real(Scalar(1) / below_[cells_]);
         return {by_length.offset, by_length.pdf * density};
     }
 
@@ -65,49 +67,53 @@ private:
 
     /// Nodes at the ends of the light are moved inside by this share of its area: the first and the last line may have no
     /// length.
-    static constexpr double kInset = 1e-5;
+    static constexpr double kInset = 1e-3;
 
-    /// The narrowest peak that gets nodes of its own, as a share of the light: single precision still tells them apart.
+    /// The narrowest highlight that gets nodes of its own, as a share of the light: single precision still tells them
+    /// apart.
     static constexpr double kNarrowest = 1e-4;
-
-    /// Nodes for wider peaks are even, and their differences would only lose digits.
-    static constexpr double kWidest = 8;
 
     /// Between two nodes.
     struct Cell {
         Real begin, end, below, left, right;
     };
 
-    /// With distances to the peak that grow like a hyperbolic sine: even inside the peak, in proportion to themselves
-    /// outside, even everywhere if the peak is as wide as the light.
     NUSSELT_HD void place_nodes(const LinePeak<Real>& peak) noexcept {
-        const Scalar at_peak = first_lane(family_.invert_by_length(peak.offset));
-        const Scalar relative_width = first_lane(peak.width * family_.pdf_by_length(peak.offset));
-        // Comparisons that are false for NaN.
-        const Scalar centre = at_peak > 0 ? at_peak : Scalar(0);
-        const Scalar width =
-            relative_width < Scalar(kWidest) ? max(relative_width, Scalar(kNarrowest)) : Scalar(kWidest);
-        const auto growth = [&](Scalar distance) {
-            const Scalar x = distance / width;
-            return x + sqrt(fma(x, x, Scalar(1)));
-        };
-        const Scalar before = growth(centre);
-        Scalar ratio = before * growth(1 - centre);
-        for (int cells = Nodes; cells > 1; cells /= 2) ratio = sqrt(ratio);
-        Scalar power = Scalar(1) / before;
-        for (int i = 0; i < Nodes; ++i, power *= ratio)
-            node_[i] = fma(Scalar(0.5) * width, power - Scalar(1) / power, centre);
-        node_[0] = 0;
-        node_[kCells] = 1;
+        constexpr Scalar kSpacing = Scalar(1) / Scalar(Nodes - 1);
+        const Scalar centre = first_lane(family_.invert_by_length(peak.offset));
+        const Scalar width = first_lane(peak.width * family_.pdf_by_length(peak.offset));
+        Scalar around[kPeakNodes];
+        // False for NaN.
+        const bool has_peak = width < kSpacing && centre >= 0;
+        if (has_peak) {
+            // Distances grow in proportion to themselves, from half the width to the spacing of the others.
+            Scalar distance = Scalar(0.5) * max(width, Scalar(kNarrowest));
+            Scalar ratio = kSpacing / distance;
+            for (int nodes = kPeakNodes / 2; nodes > 1; nodes /= 2) ratio = sqrt(ratio);
+            for (int i = 0; i < kPeakNodes / 2; ++i, distance *= ratio) {
+                around[kPeakNodes / 2 - 1 - i] = centre - distance;
+                around[kPeakNodes / 2 + i] = centre + distance;
+            }
+        }
+        int next = has_peak ? 0 : kPeakNodes;
+        while (next < kPeakNodes && !(around[next] > 0)) ++next;
+        int count = 0;
+        for (int i = 0; i < Nodes; ++i) {
+            const Scalar even = static_cast<Scalar>(i) / static_cast<Scalar>(Nodes - 1);
+            while (next < kPeakNodes && around[next] < even) node_[count++] = around[next++];
+            if (next < kPeakNodes && around[next] == even) ++next;
+            node_[count++] = even;
+        }
+        cells_ = count - 1;
     }
 
     /// \returns the integral from 0 to 1
     NUSSELT_HD Scalar integrate() noexcept {
         below_[0] = 0;
-        for (int i = 0; i < kCells; ++i)
+        for (int i = 0; i < cells_; ++i)
             below_[i + 1] = below_[i] +
                             Scalar(0.5) * (density_[i] + density_[i + 1]) * (node_[i + 1] - node_[i]);
-        return below_[kCells];
+        return below_[cells_];
     }
 
     NUSSELT_HD Cell cell_of(const Real& target) const noexcept {
@@ -115,9 +121,8 @@ private:
         store(target, lanes);
         for (int i = 0; i < kLanes; ++i) {
             int cell = 0;
-            for (int step = Nodes / 2; step > 0; step /= 2)
-                cell += below_[cell + step] <= lanes[i] ? step : 0;
-            cell = cell < kCells ? cell : kCells - 1;
+            for (int step = kLargestStep; step > 0; step /= 2)
+                if (cell + step < cells_ && below_[cell + step] <= lanes[i]) cell += step;
             begin[i] = node_[cell];
             end[i] = node_[cell + 1];
             below[i] = below_[cell];
@@ -126,6 +131,9 @@ private:
         }
         return {load(begin), load(end), load(below), load(left), load(right)};
     }
+
+    /// Of the search by halves, a power of two.
+    static constexpr int kLargestStep = static_cast<int>(std::bit_floor(static_cast<unsigned>(kMostNodes)));
 
     NUSSELT_HD static Scalar first_lane(const Real& x) noexcept {
         Scalar lanes[kLanes];
@@ -161,9 +169,10 @@ private:
     }
 
     const LineFamily<Real, N>& family_;
-    Scalar node_[Nodes];    ///< random numbers of sample_by_length()
-    Scalar density_[Nodes]; ///< of that number, not normalised
-    Scalar below_[Nodes];   ///< its integral from 0 to the node
+    int cells_;                  ///< number of nodes less one
+    Scalar node_[kMostNodes];    ///< random numbers of sample_by_length(), increasing from 0 to 1
+    Scalar density_[kMostNodes]; ///< of that number, not normalised
+    Scalar below_[kMostNodes];   ///< its integral from 0 to the node
 };
 
 NUSSELT_NAMESPACE_END
