@@ -1,5 +1,6 @@
 #include "render_cpu/kernel/light_functions.h"
 #include "render_cpu/kernel/line_memory.h"
+#include "render_cpu/kernel/line_numbers.h"
 #include "render_cpu/kernel/shading_point.h"
 
 #include <nusselt/estimate/reflected_offsets.h>
@@ -242,9 +243,12 @@ private:
     template <class SampleOffset>
     int choose(const ShadingPoint& point, const ParallelLines& lines, const SampleOffset& sample_offset,
                const Range& range, ChosenLines* chosen) noexcept {
+        const LineNumbers numbers(range.count, [&](std::uint32_t k) {
+            return reflected_.line_random(light_, point.lane, range.first + k, kLinePair);
+        });
         int packs = 0;
         for (std::uint32_t k = 0; k < range.count; k += kLanes, ++packs) {
-            const Vec2<Real> u = reflected_.line_random(light_, point.lane, range.first + k, kLinePair);
+            const Vec2<Real> u = numbers.pack(k);
             const LineChoice<Real> choice = sample_offset(u.x);
             // Comparisons with NaN are false: negated they keep it, so that it is counted.
             const LaneMask drawn = first_lanes(range.count - k) & !(choice.pdf <= Real(0));
