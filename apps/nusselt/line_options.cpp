@@ -56,9 +56,9 @@ void add_line_options(CLI::App& command, LineOptions& options) {
     command
         .add_option(
             "--many-occluders", options.many_occluders,
-            "What shading points take where many triangles may hide a light: round(N^1.4) points in place\n"
-            "of N lines, of the technique and strategies of the other options, which are faster there; or\n"
-            "lines all the same. Default: points")
+            "What shading points take where many triangles may hide a light: about N^1.4 points in place of\n"
+            "N lines, of the technique and strategies of the other options, which are faster there (with\n"
+            "fewer than 16 lines everywhere); or lines all the same. Default: points")
         ->transform(to_name_of(render_cpu::kManyOccludersChoices))
         ->group(kGroup);
 }

@@ -13,7 +13,7 @@ namespace nusselt::render_cpu {
 int most_occluders_for_lines(int lines);
 
 /// Points that are about as noisy as so many lines, since noise falls faster with the number of lines than of points. At
-/// least 1; bounded by what there are random numbers for.
+/// least 1, a power of two; bounded by what there are random numbers for.
 /// \param lines       per shading point and light
 /// \param camera_rays per pixel
 int points_in_place_of_lines(int lines, int camera_rays);

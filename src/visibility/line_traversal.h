@@ -49,7 +49,13 @@ private:
     Interval<Real> joined_ = empty_interval<Real>();
 };
 
-/// Visits the blocks of triangles that a light may have in its pyramid, those close to its apex first.
+enum class VisitOrder {
+    any,
+    closest_first, ///< what is close hides most
+};
+
+/// Visits the blocks of triangles that a light may have in its pyramid.
+template <VisitOrder order>
 class PyramidTraversal {
 public:
     NUSSELT_HD PyramidTraversal(const visibility::LineBvhView& bvh, const SeenLight& seen,
@@ -100,7 +106,6 @@ private:
         return true;
     }
 
-    /// The closest child on top.
     /// \returns whether to go on
     template <class Visitor>
     NUSSELT_INLINE bool push_children(const visibility::LineBvhNode& node, const LightPyramid& pyramid,
@@ -111,6 +116,13 @@ private:
         if (bits == 0) return true;
         if (!visitor.touched(node, bits)) return false;
         if (bits == 0) return true;
+        if constexpr (order == VisitOrder::any) {
+            for (; bits != 0; bits &= bits - 1) {
+                stack[size] = node.child[__builtin_ctz(bits)];
+                prefetch(stack[size++]);
+            }
+            return true;
+        }
         float depth[visibility::kBvhWidth];
         depths(node, space).store(depth);
         float depth_of[visibility::kBvhWidth];
@@ -187,7 +199,7 @@ NUSSELT_HD inline bool has_many_occluders(const visibility::LineBvhView& bvh, co
     };
     if (bvh.full_block_count <= static_cast<std::uint64_t>(bound) || !seen.is_visible()) return false;
     Counter counter{bound, 0};
-    PyramidTraversal(bvh, seen, counters).run(bvh.full, counter);
+    PyramidTraversal<VisitOrder::any>(bvh, seen, counters).run(bvh.full, counter);
     return counter.count > bound;
 }
 
@@ -212,7 +224,7 @@ NUSSELT_HD inline bool has_partial_surfaces(const visibility::LineBvhView& bvh, 
         }
     };
     Finder finder{seen, counters, false};
-    if (seen.is_visible()) PyramidTraversal(bvh, seen, counters).run(bvh.partial, finder);
+    if (seen.is_visible()) PyramidTraversal<VisitOrder::any>(bvh, seen, counters).run(bvh.partial, finder);
     return finder.found;
 }
 
@@ -234,7 +246,7 @@ public:
             for (int p = 0; p < pack_count_; ++p) packs_[p].parts.reset({Real(0), Real(0)});
             return;
         }
-        PyramidTraversal(bvh_, seen_, counters_).run(bvh_.full, *this);
+        PyramidTraversal<VisitOrder::closest_first>(bvh_, seen_, counters_).run(bvh_.full, *this);
     }
 
     void enter(const TracedSpace& space) noexcept {

@@ -131,8 +131,8 @@ TEST(LineOrPoints, HaveTheMeanOfPointsWithManyCameraRays) {
 /// Stratified samples are made for 2^22 of a pixel.
 TEST(LineOrPoints, TakesNoMorePointsThanThereAreRandomNumbersFor) {
     EXPECT_EQ(render_cpu::points_in_place_of_lines(1, 1), 1);
-    EXPECT_EQ(render_cpu::points_in_place_of_lines(16, 1), 49);
-    EXPECT_EQ(render_cpu::points_in_place_of_lines(16, 1 << 10), 49);
+    EXPECT_EQ(render_cpu::points_in_place_of_lines(16, 1), 64);
+    EXPECT_EQ(render_cpu::points_in_place_of_lines(16, 1 << 10), 64);
     EXPECT_EQ(render_cpu::points_in_place_of_lines(render_cpu::kMaxLines, 1), render_cpu::kMaxSamples);
     EXPECT_EQ(render_cpu::points_in_place_of_lines(render_cpu::kMaxLines, 1 << 12), 1 << 10);
     EXPECT_EQ(render_cpu::points_in_place_of_lines(1 << 11, render_cpu::kMaxSamples), 4);
