@@ -54,8 +54,7 @@ public:
         const Real rise = cell.right - cell.left;
         const Real root = sqrt(max(fma(Real(2) * rise, rest, cell.left * cell.left), Real(0)));
         const Real share = min(Real(2) * rest / (cell.left + root), Real(1));
-        const LineChoice<Real> by_length =
-            family_.sample_by_length(below_one(fma(share, width, cell.begin)));
+        const LineChoice<Real> by_length = family_.sample_by_length(below_one(fma(share, width, cell.begin)));
         const Real density = fma(share, rise, cell.left) * Real(Scalar(1) / below_[cells_]);
         return {by_length.offset, by_length.pdf * density};
     }
@@ -111,8 +110,8 @@ private:
     NUSSELT_HD Scalar integrate() noexcept {
         below_[0] = 0;
         for (int i = 0; i < cells_; ++i)
-            below_[i + 1] = below_[i] +
-                            Scalar(0.5) * (density_[i] + density_[i + 1]) * (node_[i + 1] - node_[i]);
+            below_[i + 1] =
+                below_[i] + Scalar(0.5) * (density_[i] + density_[i + 1]) * (node_[i + 1] - node_[i]);
         return below_[cells_];
     }
 
