@@ -30,11 +30,12 @@ BEGIN {
     allow("src/visibility", "library src/scene")
     allow("src/tables", "library")
     allow("src/fit", "library src/image")
-    allow("src/render_cpu", "library src/image src/scene src/visibility src/tables")
+    allow("src/render", "src/scene")
+    allow("src/render_cpu", "library src/image src/scene src/visibility src/tables src/render")
     # SPIR-V as arrays, which the build makes. The two renderers never see each other.
     allow("src/shaders", "")
     allow("src/gpu", "library src/shaders")
-    below = "library src/image src/scene src/visibility src/render_cpu src/gpu src/shaders"
+    below = "library src/image src/scene src/visibility src/render src/render_cpu src/gpu src/shaders"
     below = below " src/tables"
     allow("src/experiments", below)
     allow("apps/nusselt", below " src/experiments src/fit")

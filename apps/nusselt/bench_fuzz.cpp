@@ -16,7 +16,7 @@
 namespace nusselt::app {
 
 int run_bench_fuzz(const BenchFuzzOptions& options) {
-    const std::string isa(render_cpu::name_of(render_cpu::choose_isa(options.isa)));
+    const std::string isa(name_of(render_cpu::choose_isa(options.isa)));
     experiments::FuzzSettings settings{options.techniques, options.seed, options.first, options.count,
                                        options.threads.value_or(render_cpu::default_thread_count())};
     const auto begin = std::chrono::steady_clock::now();

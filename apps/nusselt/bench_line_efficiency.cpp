@@ -98,7 +98,7 @@ std::string to_json(const std::vector<ThreadsResult>& results, const BenchLineEf
                                          {"height", scene.film.height},
                                          {"strategies", options.strategies},
                                          {"repetitions", options.repetitions},
-                                         {"isa", render_cpu::name_of(isa)},
+                                         {"isa", name_of(isa)},
                                          {"results", list}};
     // Paths may hold bytes that are not UTF-8.
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -106,9 +106,9 @@ std::string to_json(const std::vector<ThreadsResult>& results, const BenchLineEf
 
 experiments::LineEfficiencySettings settings_of(const BenchLineEfficiencyOptions& options) {
     experiments::LineEfficiencySettings settings;
-    settings.points.strategies = from_name(render_cpu::kStrategies, options.strategies);
-    settings.points.sample_order = render_cpu::SampleOrder::stratified;
-    settings.points.pixel_position = render_cpu::PixelPosition::center;
+    settings.points.strategies = from_name(render::kStrategies, options.strategies);
+    settings.points.sample_order = render::SampleOrder::stratified;
+    settings.points.pixel_position = render::PixelPosition::center;
     apply_line_kind_options(options.lines, settings.lines);
     settings.most_points = options.most_points;
     settings.most_lines = options.most_lines;
@@ -131,12 +131,12 @@ void setup_bench_line_efficiency(CLI::App& bench, int& exit_code) {
     command
         ->add_option("--most-points", options->most_points,
                      "Point samples per pixel and light, in powers of two from 4 to this")
-        ->check(CLI::Range(2 * experiments::kFewestPoints, render_cpu::kMaxSamples))
+        ->check(CLI::Range(2 * experiments::kFewestPoints, render::kMaxSamples))
         ->capture_default_str();
     command
         ->add_option("--most-lines", options->most_lines,
                      "Lines per shading point and light, in powers of two from 1 to this")
-        ->check(CLI::Range(2, render_cpu::kMaxLines))
+        ->check(CLI::Range(2, render::kMaxLines))
         ->capture_default_str();
     command
         ->add_option("--repetitions", options->repetitions,
@@ -144,7 +144,7 @@ void setup_bench_line_efficiency(CLI::App& bench, int& exit_code) {
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command->add_option("--strategies", options->strategies, "Of point samples, as for nusselt render")
-        ->transform(to_name_of(render_cpu::kStrategies))
+        ->transform(to_name_of(render::kStrategies))
         ->capture_default_str();
     command
         ->add_option("--roughness", options->roughness,

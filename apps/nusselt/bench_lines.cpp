@@ -22,7 +22,7 @@ namespace {
 
 /// Many lines per shading point and light.
 struct LinesRow {
-    render_cpu::RenderSettings settings;
+    render::RenderSettings settings;
     render_cpu::LineStatistics work = {};
     std::vector<double> visibility_over_ray = {}; ///< for each repetition
     std::vector<double> line_over_point = {};
@@ -51,7 +51,7 @@ struct MeasuredFrame {
 };
 
 /// Clocks of threads are too slow to be read for each light: they give the whole, which ticks share out.
-MeasuredFrame render(const render_cpu::Renderer& renderer, const render_cpu::RenderSettings& settings,
+MeasuredFrame render(const render_cpu::Renderer& renderer, const render::RenderSettings& settings,
                      render_cpu::Isa isa) {
     const double begin = experiments::process_seconds();
     const render_cpu::RenderStatistics work = renderer.render(settings, isa).statistics;
@@ -64,17 +64,17 @@ MeasuredFrame render(const render_cpu::Renderer& renderer, const render_cpu::Ren
 /// In turn, so that whatever else happens on the machine concerns lines and rays.
 LinesTable measure(const render_cpu::Renderer& renderer, const BenchLinesOptions& options,
                    render_cpu::Isa isa, int threads) {
-    render_cpu::RenderSettings points;
+    render::RenderSettings points;
     points.samples = options.samples;
     points.camera_rays = 1;
     LinesTable table;
     for (const int count : options.counts) {
-        render_cpu::RenderSettings lines = points;
+        render::RenderSettings lines = points;
         lines.samples = 1;
         apply_line_kind_options(options.lines, lines.lines);
-        lines.integrator = render_cpu::Integrator::lines;
+        lines.integrator = render::Integrator::lines;
         lines.lines.count = count;
-        lines.lines.many_occluders = render_cpu::ManyOccluders::lines;
+        lines.lines.many_occluders = render::ManyOccluders::lines;
         table.rows.push_back({lines});
     }
     const std::unique_ptr<RecordedRays> rays = record_rays(renderer, points, isa);
@@ -128,12 +128,12 @@ std::string to_json(const LinesTable& table, const BenchLinesOptions& options, c
         {"scene", options.scene.string()},
         {"width", scene.film.width},
         {"height", scene.film.height},
-        {"orientation", render_cpu::name_of(table.rows.front().settings.lines.orientation)},
-        {"line_shading", render_cpu::name_of(table.rows.front().settings.lines.shading)},
+        {"orientation", render::name_of(table.rows.front().settings.lines.orientation)},
+        {"line_shading", render::name_of(table.rows.front().settings.lines.shading)},
         {"samples", options.samples},
         {"repetitions", options.repetitions},
         {"threads", threads},
-        {"isa", render_cpu::name_of(isa)},
+        {"isa", name_of(isa)},
         {"shadow_rays", table.shadow_rays},
         {"shadow_ray_nanoseconds", 1e9 * median(table.shadow_ray)},
         {"rows", list}};
@@ -156,7 +156,7 @@ void setup_bench_lines(CLI::App& bench, int& exit_code) {
     add_frame_options(*command, *options, "pixel and light, of the rendering with points");
     command->add_option("--lines", options->counts, "Lines per shading point and light, separated by commas")
         ->delimiter(',')
-        ->check(CLI::Range(1, render_cpu::kMaxLines))
+        ->check(CLI::Range(1, render::kMaxLines))
         ->capture_default_str();
     add_line_kind_options(*command, options->lines);
     add_json_option(*command, options->json);

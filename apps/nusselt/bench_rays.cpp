@@ -20,7 +20,7 @@ namespace {
 
 /// One technique: the same rays with and without everything else.
 struct RaysRow {
-    render_cpu::Technique technique;
+    render::Technique technique;
     std::uint64_t primary_rays = 0;
     std::uint64_t shadow_rays = 0;
     double trace_seconds = 0;  ///< Embree's functions alone, the mean over the threads, median
@@ -28,7 +28,7 @@ struct RaysRow {
     double ratio() const { return render_seconds / trace_seconds; }
 };
 
-RaysRow measure(const render_cpu::Renderer& renderer, const render_cpu::RenderSettings& settings,
+RaysRow measure(const render_cpu::Renderer& renderer, const render::RenderSettings& settings,
                 render_cpu::Isa isa, tbb::task_arena& arena, int repetitions) {
     const std::unique_ptr<RecordedRays> rays = record_rays(renderer, settings, isa);
     std::vector<double> trace_seconds;
@@ -46,16 +46,20 @@ std::string json_text(const BenchRaysOptions& options, const scene::Scene& scene
                       int threads, const std::vector<RaysRow>& rows) {
     auto list = nlohmann::ordered_json::array();
     for (const RaysRow& row : rows)
-        list.push_back({{"technique", render_cpu::name_of(row.technique)},
+        list.push_back({{"technique", render::name_of(row.technique)},
                         {"primary_rays", row.primary_rays},
                         {"shadow_rays", row.shadow_rays},
                         {"trace_seconds", row.trace_seconds},
                         {"render_seconds", row.render_seconds},
                         {"ratio", row.ratio()}});
-    const nlohmann::ordered_json json = {{"scene", options.scene.string()},    {"width", scene.film.width},
-                                         {"height", scene.film.height},        {"samples", options.samples},
-                                         {"repetitions", options.repetitions}, {"threads", threads},
-                                         {"isa", render_cpu::name_of(isa)},    {"techniques", list}};
+    const nlohmann::ordered_json json = {{"scene", options.scene.string()},
+                                         {"width", scene.film.width},
+                                         {"height", scene.film.height},
+                                         {"samples", options.samples},
+                                         {"repetitions", options.repetitions},
+                                         {"threads", threads},
+                                         {"isa", name_of(isa)},
+                                         {"techniques", list}};
     // Paths may hold bytes that are not UTF-8.
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -89,14 +93,14 @@ int run_bench_rays(const BenchRaysOptions& options) {
         fmt::print("{:<30}{:>14}{:>14}{:>12}{:>12}{:>8}\n", "technique", "primary rays", "shadow rays",
                    "Embree ms", "render ms", "ratio");
     std::vector<RaysRow> rows;
-    for (const render_cpu::Technique technique : render_cpu::kTechniques) {
-        render_cpu::RenderSettings settings;
+    for (const render::Technique technique : render::kTechniques) {
+        render::RenderSettings settings;
         settings.technique = technique;
         settings.samples = options.samples;
         rows.push_back(measure(renderer, settings, isa, arena, options.repetitions));
         const RaysRow& row = rows.back();
         if (prints_table)
-            fmt::print("{:<30}{:>14}{:>14}{:>12.2f}{:>12.2f}{:>8.3f}\n", render_cpu::name_of(technique),
+            fmt::print("{:<30}{:>14}{:>14}{:>12.2f}{:>12.2f}{:>8.3f}\n", render::name_of(technique),
                        row.primary_rays, row.shadow_rays, 1e3 * row.trace_seconds, 1e3 * row.render_seconds,
                        row.ratio());
     }

@@ -16,7 +16,7 @@
 namespace nusselt::app {
 
 int run_bench_shadows(const BenchShadowsOptions& options) {
-    const std::string isa(render_cpu::name_of(render_cpu::choose_isa(options.isa)));
+    const std::string isa(name_of(render_cpu::choose_isa(options.isa)));
     const experiments::ShadowFuzzSettings settings{
         options.seed, options.first, options.count,
         options.threads.value_or(render_cpu::default_thread_count())};

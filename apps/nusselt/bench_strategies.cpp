@@ -15,25 +15,25 @@ namespace nusselt::app {
 
 namespace {
 
-using render_cpu::Strategies;
+using render::Strategies;
 
 /// Times of one choice of strategies, a number for each repetition [s].
 struct StrategiesRow {
     std::string name;
-    render_cpu::RenderSettings settings;
+    render::RenderSettings settings;
     std::uint64_t shadow_rays = 0;
     std::vector<double> render_seconds = {};  ///< of the whole render phase
     std::vector<double> shading_seconds = {}; ///< sum over threads, without tracing of rays
 };
 
 std::vector<StrategiesRow> make_rows(int samples) {
-    render_cpu::RenderSettings one;
+    render::RenderSettings one;
     one.samples = samples;
     one.camera_rays = 1;
     one.strategies = Strategies::diffuse;
-    render_cpu::RenderSettings two = one;
+    render::RenderSettings two = one;
     two.samples = 2 * samples;
-    render_cpu::RenderSettings both = one;
+    render::RenderSettings both = one;
     both.strategies = Strategies::diffuse_ltc;
     return {{"diffuse", one}, {"diffuse, two samples", two}, {"diffuse+ltc", both}};
 }

@@ -14,14 +14,14 @@ class App;
 
 namespace nusselt::app {
 
-/// Of line samples, whatever their number. Defaults are those of render_cpu::LineSettings.
+/// Of line samples, whatever their number. Defaults are those of render::LineSettings.
 struct LineKindOptions {
     std::optional<std::string> orientation;
     std::optional<std::string> offsets;
     std::optional<std::string> shading;
 };
 
-/// Whether there are line samples, and how. Defaults are those of render_cpu::RenderSettings.
+/// Whether there are line samples, and how. Defaults are those of render::RenderSettings.
 struct LineOptions : LineKindOptions {
     std::string integrator = "points";
     std::optional<int> count;

@@ -21,20 +21,20 @@ void add_line_kind_options(CLI::App& command, LineKindOptions& options) {
             "--orientation", options.orientation,
             "Directions of lines: parallel, random but the same for all lines of a shading point and\n"
             "light; fixed, along the longest edge of the light; independent. Default: parallel")
-        ->transform(to_name_of(render_cpu::kLineOrientations))
+        ->transform(to_name_of(render::kLineOrientations))
         ->group(kGroup);
     command
         .add_option("--offsets", options.offsets,
                     "Density of lines: by their length on the light, uniform, or by what the surface would\n"
                     "reflect of them without shadows. Default: reflected")
-        ->transform(to_name_of(render_cpu::kLineOffsets))
+        ->transform(to_name_of(render::kLineOffsets))
         ->group(kGroup);
     command
         .add_option("--line-shading", options.shading,
                     "unbiased: the integral of a linearly transformed cosine over what is visible of a\n"
                     "line, and one point for the difference to the BRDF; analytic: without that.\n"
                     "Default: unbiased")
-        ->transform(to_name_of(render_cpu::kLineShadings))
+        ->transform(to_name_of(render::kLineShadings))
         ->group(kGroup);
 }
 
@@ -43,14 +43,14 @@ void add_line_options(CLI::App& command, LineOptions& options) {
         .add_option("--integrator", options.integrator,
                     "What is sampled of polygonal lights: points, or lines with exact visibility. Tubes and\n"
                     "linear lights always get --spp points")
-        ->transform(to_name_of(render_cpu::kIntegrators))
+        ->transform(to_name_of(render::kIntegrators))
         ->capture_default_str()
         ->group(kGroup);
     command
         .add_option("--lines", options.count,
-                    fmt::format("Lines per shading point and light, 1 to {}. Default: {}",
-                                render_cpu::kMaxLines, render_cpu::LineSettings().count))
-        ->check(CLI::Range(1, render_cpu::kMaxLines))
+                    fmt::format("Lines per shading point and light, 1 to {}. Default: {}", render::kMaxLines,
+                                render::LineSettings().count))
+        ->check(CLI::Range(1, render::kMaxLines))
         ->group(kGroup);
     add_line_kind_options(command, options);
     command
@@ -59,36 +59,36 @@ void add_line_options(CLI::App& command, LineOptions& options) {
             "What shading points take where many triangles may hide a light: about N^1.4 points in place of\n"
             "N lines, of the technique and strategies of the other options, which are faster there (with\n"
             "fewer than 16 lines everywhere); or lines all the same. Default: points")
-        ->transform(to_name_of(render_cpu::kManyOccludersChoices))
+        ->transform(to_name_of(render::kManyOccludersChoices))
         ->group(kGroup);
 }
 
-void apply_line_kind_options(const LineKindOptions& options, render_cpu::LineSettings& settings) {
+void apply_line_kind_options(const LineKindOptions& options, render::LineSettings& settings) {
     if (options.orientation)
-        settings.orientation = from_name(render_cpu::kLineOrientations, *options.orientation);
-    if (options.offsets) settings.offsets = from_name(render_cpu::kLineOffsets, *options.offsets);
-    if (options.shading) settings.shading = from_name(render_cpu::kLineShadings, *options.shading);
+        settings.orientation = from_name(render::kLineOrientations, *options.orientation);
+    if (options.offsets) settings.offsets = from_name(render::kLineOffsets, *options.offsets);
+    if (options.shading) settings.shading = from_name(render::kLineShadings, *options.shading);
 }
 
-void apply_line_options(const LineOptions& options, render_cpu::RenderSettings& settings) {
-    settings.integrator = from_name(render_cpu::kIntegrators, options.integrator);
-    render_cpu::LineSettings& lines = settings.lines;
+void apply_line_options(const LineOptions& options, render::RenderSettings& settings) {
+    settings.integrator = from_name(render::kIntegrators, options.integrator);
+    render::LineSettings& lines = settings.lines;
     if (options.count) lines.count = *options.count;
     apply_line_kind_options(options, lines);
     if (options.many_occluders)
-        lines.many_occluders = from_name(render_cpu::kManyOccludersChoices, *options.many_occluders);
+        lines.many_occluders = from_name(render::kManyOccludersChoices, *options.many_occluders);
 }
 
-void check_line_options(const RenderOptions& options, render_cpu::Technique technique) {
+void check_line_options(const RenderOptions& options, render::Technique technique) {
     const LineOptions& lines = options.lines;
-    if (from_name(render_cpu::kIntegrators, lines.integrator) == render_cpu::Integrator::lines) {
-        if (technique == render_cpu::Technique::ltc_analytic)
+    if (from_name(render::kIntegrators, lines.integrator) == render::Integrator::lines) {
+        if (technique == render::Technique::ltc_analytic)
             throw CLI::ValidationError(
                 "--integrator", "lines have shadows, --technique ltc_analytic has none; take another one");
         return;
     }
     const auto wants_pieces =
-        std::count(options.layers.begin(), options.layers.end(), name_of(render_cpu::LayerKind::pieces)) > 0;
+        std::count(options.layers.begin(), options.layers.end(), name_of(render::LayerKind::pieces)) > 0;
     for (const auto& [name, is_given] : {std::pair("--lines", lines.count.has_value()),
                                          std::pair("--orientation", lines.orientation.has_value()),
                                          std::pair("--offsets", lines.offsets.has_value()),

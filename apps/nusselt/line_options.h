@@ -3,7 +3,7 @@
 
 #include "commands.h"
 
-#include "render_cpu/settings.h"
+#include "render/settings.h"
 
 #include <CLI/CLI.hpp>
 
@@ -17,12 +17,12 @@ void add_line_kind_options(CLI::App& command, LineKindOptions& options);
 
 /// Changes those settings that the options name.
 /// \throws std::invalid_argument for values that the command line does not let through
-void apply_line_kind_options(const LineKindOptions& options, render_cpu::LineSettings& settings);
+void apply_line_kind_options(const LineKindOptions& options, render::LineSettings& settings);
 
 /// The same for all options, and the integrator.
-void apply_line_options(const LineOptions& options, render_cpu::RenderSettings& settings);
+void apply_line_options(const LineOptions& options, render::RenderSettings& settings);
 
 /// \throws CLI::ValidationError if there are options for line samples without these, or for what these cannot be
-void check_line_options(const RenderOptions& options, render_cpu::Technique technique);
+void check_line_options(const RenderOptions& options, render::Technique technique);
 
 } // namespace nusselt::app

@@ -16,7 +16,7 @@ namespace {
 template <int N>
 class PacketsOfRays : public RecordedRays {
 public:
-    PacketsOfRays(const render_cpu::Renderer& renderer, const render_cpu::RenderSettings& settings,
+    PacketsOfRays(const render_cpu::Renderer& renderer, const render::RenderSettings& settings,
                   render_cpu::Isa isa)
         : recorder_(renderer.visibility()) {
         const render_cpu::RenderStatistics work =
@@ -47,7 +47,7 @@ private:
 } // namespace
 
 std::unique_ptr<RecordedRays> record_rays(const render_cpu::Renderer& renderer,
-                                          const render_cpu::RenderSettings& settings, render_cpu::Isa isa) {
+                                          const render::RenderSettings& settings, render_cpu::Isa isa) {
     switch (isa) {
     case render_cpu::Isa::sse42:
         return std::make_unique<PacketsOfRays<4>>(renderer, settings, isa);

@@ -26,6 +26,6 @@ public:
 /// Renders and records the rays.
 /// \param renderer must outlive the result
 std::unique_ptr<RecordedRays> record_rays(const render_cpu::Renderer& renderer,
-                                          const render_cpu::RenderSettings& settings, render_cpu::Isa isa);
+                                          const render::RenderSettings& settings, render_cpu::Isa isa);
 
 } // namespace nusselt::app

@@ -76,7 +76,7 @@ void check_names(const RenderOptions& options, const scene::Film& film) {
                                          "; give one another name");
 }
 
-void print_warnings(const RenderOptions& options, const render_cpu::RenderSettings& settings,
+void print_warnings(const RenderOptions& options, const render::RenderSettings& settings,
                     const scene::Scene& scene) {
     for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
     if (scene.emitters.empty())
@@ -88,7 +88,7 @@ void print_warnings(const RenderOptions& options, const render_cpu::RenderSettin
             "sample ever hits a line\n",
             scene.line_lights.size(), name_of(settings.technique));
     const auto wants_variance =
-        std::count(settings.layers.begin(), settings.layers.end(), render_cpu::LayerKind::variance) > 0;
+        std::count(settings.layers.begin(), settings.layers.end(), render::LayerKind::variance) > 0;
     if (wants_variance && !has_variance(settings))
         fmt::print(stderr,
                    "warning: there is no layer of the variance: it needs two or more camera rays per "
@@ -97,7 +97,7 @@ void print_warnings(const RenderOptions& options, const render_cpu::RenderSettin
 }
 
 /// Writes the frame to all files. EXR files get all that is known, others the image.
-void write_outputs(const RenderOptions& options, const render_cpu::RenderSettings& settings,
+void write_outputs(const RenderOptions& options, const render::RenderSettings& settings,
                    const scene::Film& film, render_cpu::Frame&& frame, const image::Metadata& metadata) {
     const std::vector<std::filesystem::path> paths = output_paths(options, film);
     for (const std::filesystem::path& path : paths)
@@ -142,11 +142,11 @@ void setup_render(CLI::App& app, int& exit_code) {
         ->allow_extra_args(false);
     command
         ->add_option("--spp", options->samples,
-                     fmt::format("Samples per pixel, light and technique, 1 to {}", render_cpu::kMaxSamples))
-        ->check(CLI::Range(1, render_cpu::kMaxSamples))
+                     fmt::format("Samples per pixel, light and technique, 1 to {}", render::kMaxSamples))
+        ->check(CLI::Range(1, render::kMaxSamples))
         ->capture_default_str();
     command->add_option("--technique", options->technique, "How lights are sampled; see `nusselt techniques`")
-        ->transform(to_name_of(render_cpu::kTechniques))
+        ->transform(to_name_of(render::kTechniques))
         ->capture_default_str();
     command
         ->add_option(
@@ -155,14 +155,14 @@ void setup_render(CLI::App& app, int& exit_code) {
             "the diffuse component of materials and linearly transformed cosines for the specular one; or\n"
             "the same with GGX visible normals, for polygons only. Default: diffuse+ltc with techniques of\n"
             "projected solid angles and --brdf material, else diffuse")
-        ->transform(to_name_of(render_cpu::kStrategies));
+        ->transform(to_name_of(render::kStrategies));
     command
         ->add_option(
             "--mis", options->mis,
             "How the samples of two techniques are combined: a heuristic of multiple importance\n"
             "sampling, one sample of either technique, or each component estimated separately. Default:\n"
             "clamped_optimal, but balance with GGX visible normals")
-        ->transform(to_name_of(render_cpu::kMisHeuristics));
+        ->transform(to_name_of(render::kMisHeuristics));
     command
         ->add_option(
             "--visibility-estimate", options->visibility_estimate,
@@ -174,21 +174,21 @@ void setup_render(CLI::App& app, int& exit_code) {
                      "Random numbers: independent, Owen-scrambled Sobol' points, uniform jittered (best for\n"
                      "linear lights), or stratified (multi-jittered: as many strata in each dimension as\n"
                      "samples; best for line samples)")
-        ->transform(to_name_of(render_cpu::kSampleOrders))
+        ->transform(to_name_of(render::kSampleOrders))
         ->capture_default_str();
     command
         ->add_option(
             "--camera-rays", options->camera_rays,
             "Camera rays per pixel, a divisor of --spp. Default: as --spp, but 1 with --pixel-center")
-        ->check(CLI::Range(1, render_cpu::kMaxSamples));
+        ->check(CLI::Range(1, render::kMaxSamples));
     command->add_flag_callback(
         "--pixel-center",
-        [options] { options->pixel_position = render_cpu::name_of(render_cpu::PixelPosition::center); },
+        [options] { options->pixel_position = render::name_of(render::PixelPosition::center); },
         "Send all camera rays through pixel centres, to measure noise. Default: random positions in\n"
         "the pixel");
     command
         ->add_option("--brdf", options->brdf, "BRDFs of the materials, or Lambertian ones with their albedo")
-        ->transform(to_name_of(render_cpu::kBrdfChoices))
+        ->transform(to_name_of(render::kBrdfChoices))
         ->capture_default_str();
     command->add_option("--seed", options->seed, "Chooses the random numbers, 0 to 2^32 - 1")
         ->capture_default_str();
@@ -229,7 +229,7 @@ void setup_render(CLI::App& app, int& exit_code) {
 
 int run_render(const RenderOptions& options) {
     const auto begin = Clock::now();
-    const render_cpu::RenderSettings settings = make_settings(options);
+    const render::RenderSettings settings = make_settings(options);
     const render_cpu::Isa isa = render_cpu::choose_isa(options.isa);
     check_outputs(options);
 
@@ -241,7 +241,7 @@ int run_render(const RenderOptions& options) {
     times.load = seconds_since(begin);
     if (!options.quiet) print_warnings(options, settings, scene);
 
-    render_cpu::Frame frame = make_frame(scene, settings);
+    render_cpu::Frame frame = render_cpu::make_frame(scene, settings);
     image::Metadata metadata = make_metadata(scene, settings, isa);
     if (!options.rigs.empty()) metadata["light_rigs"] = rig_names(options.rigs);
     std::optional<Checkpointer> checkpointer;

@@ -13,18 +13,18 @@ namespace nusselt::app {
 namespace {
 
 /// Null without line samples.
-nlohmann::ordered_json line_samples_json(const render_cpu::RenderSettings& settings,
+nlohmann::ordered_json line_samples_json(const render::RenderSettings& settings,
                                          const render_cpu::LineStatistics& work) {
-    if (settings.integrator != render_cpu::Integrator::lines) return nullptr;
-    const render_cpu::LineSettings& lines = settings.lines;
+    if (settings.integrator != render::Integrator::lines) return nullptr;
+    const render::LineSettings& lines = settings.lines;
     const auto per_line = [&](std::uint64_t count) {
         return work.lines > 0 ? static_cast<double>(count) / static_cast<double>(work.lines) : 0.0;
     };
     return {{"lines", lines.count},
-            {"orientation", render_cpu::name_of(lines.orientation)},
-            {"offsets", render_cpu::name_of(lines.offsets)},
-            {"line_shading", render_cpu::name_of(lines.shading)},
-            {"many_occluders", render_cpu::name_of(lines.many_occluders)},
+            {"orientation", render::name_of(lines.orientation)},
+            {"offsets", render::name_of(lines.offsets)},
+            {"line_shading", render::name_of(lines.shading)},
+            {"many_occluders", render::name_of(lines.many_occluders)},
             {"bvh_seconds", work.build_seconds},
             {"visibility_thread_seconds", work.visibility_seconds},
             {"traced_lines", work.lines},
@@ -38,7 +38,7 @@ nlohmann::ordered_json line_samples_json(const render_cpu::RenderSettings& setti
 
 } // namespace
 
-nlohmann::ordered_json report_json(const RenderOptions& options, const render_cpu::RenderSettings& settings,
+nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,
                                    render_cpu::Isa isa, const scene::Scene& scene,
                                    const render_cpu::RenderStatistics& statistics, const Times& times) {
     nlohmann::ordered_json rigs = nlohmann::ordered_json::array();
@@ -46,7 +46,7 @@ nlohmann::ordered_json report_json(const RenderOptions& options, const render_cp
     const auto rate = [](std::uint64_t rays, double seconds) {
         return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
     };
-    const bool is_combined = settings.strategies != render_cpu::Strategies::diffuse;
+    const bool is_combined = settings.strategies != render::Strategies::diffuse;
     return {
         {"scene", options.scene.string()},
         {"light_rigs", rigs},
@@ -54,18 +54,18 @@ nlohmann::ordered_json report_json(const RenderOptions& options, const render_cp
         {"scene_bytes", scene::array_bytes(scene)},
         {"width", scene.film.width},
         {"height", scene.film.height},
-        {"technique", render_cpu::name_of(settings.technique)},
-        {"strategies", render_cpu::name_of(settings.strategies)},
-        {"mis", is_combined ? nlohmann::ordered_json(render_cpu::name_of(settings.mis)) : nullptr},
+        {"technique", render::name_of(settings.technique)},
+        {"strategies", render::name_of(settings.strategies)},
+        {"mis", is_combined ? nlohmann::ordered_json(render::name_of(settings.mis)) : nullptr},
         {"visibility_estimate", is_combined ? nlohmann::ordered_json(settings.visibility_estimate) : nullptr},
         {"samples", settings.samples},
-        {"camera_rays", render_cpu::camera_ray_count(settings)},
-        {"pixel_position", render_cpu::name_of(settings.pixel_position)},
-        {"sampler", render_cpu::name_of(settings.sample_order)},
-        {"brdf", render_cpu::name_of(settings.brdf)},
+        {"camera_rays", render::camera_ray_count(settings)},
+        {"pixel_position", render::name_of(settings.pixel_position)},
+        {"sampler", render::name_of(settings.sample_order)},
+        {"brdf", render::name_of(settings.brdf)},
         {"seed", settings.seed},
         {"part", fmt::format("{}/{}", settings.part.number, settings.part.count)},
-        {"isa", render_cpu::name_of(isa)},
+        {"isa", name_of(isa)},
         {"threads", statistics.threads},
         {"seconds",
          {{"load", times.load},

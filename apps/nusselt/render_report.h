@@ -19,7 +19,7 @@ struct Times {
     double total = 0;
 };
 
-nlohmann::ordered_json report_json(const RenderOptions& options, const render_cpu::RenderSettings& settings,
+nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,
                                    render_cpu::Isa isa, const scene::Scene& scene,
                                    const render_cpu::RenderStatistics& statistics, const Times& times);
 

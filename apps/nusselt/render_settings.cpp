@@ -19,19 +19,19 @@ namespace nusselt::app {
 namespace {
 
 /// As asked for. By default a technique for each component of the BRDF, if there are two and techniques for them.
-render_cpu::Strategies strategies_of(const RenderOptions& options, render_cpu::Technique technique,
-                                     render_cpu::BrdfChoice brdf) {
-    if (options.strategies) return from_name(render_cpu::kStrategies, *options.strategies);
-    const auto both = render_cpu::Strategies::diffuse_ltc;
-    const bool useful = brdf == render_cpu::BrdfChoice::material;
-    return useful && allows(technique, both) ? both : render_cpu::Strategies::diffuse;
+render::Strategies strategies_of(const RenderOptions& options, render::Technique technique,
+                                 render::BrdfChoice brdf) {
+    if (options.strategies) return from_name(render::kStrategies, *options.strategies);
+    const auto both = render::Strategies::diffuse_ltc;
+    const bool useful = brdf == render::BrdfChoice::material;
+    return useful && allows(technique, both) ? both : render::Strategies::diffuse;
 }
 
-std::vector<render_cpu::LayerKind> layers_of(const std::vector<std::string>& names) {
-    std::vector<render_cpu::LayerKind> kinds;
+std::vector<render::LayerKind> layers_of(const std::vector<std::string>& names) {
+    std::vector<render::LayerKind> kinds;
     for (const std::string& name : names) {
-        if (name == kAllLayers) return {render_cpu::kLayerKinds.begin(), render_cpu::kLayerKinds.end()};
-        kinds.push_back(from_name(render_cpu::kLayerKinds, name));
+        if (name == kAllLayers) return {render::kLayerKinds.begin(), render::kLayerKinds.end()};
+        kinds.push_back(from_name(render::kLayerKinds, name));
     }
     return kinds;
 }
@@ -48,46 +48,46 @@ void check_exr_only(const RenderOptions& options) {
 
 } // namespace
 
-render_cpu::RenderSettings make_settings(const RenderOptions& options) {
-    render_cpu::RenderSettings settings;
-    settings.technique = from_name(render_cpu::kTechniques, options.technique);
-    settings.brdf = from_name(render_cpu::kBrdfChoices, options.brdf);
+render::RenderSettings make_settings(const RenderOptions& options) {
+    render::RenderSettings settings;
+    settings.technique = from_name(render::kTechniques, options.technique);
+    settings.brdf = from_name(render::kBrdfChoices, options.brdf);
     settings.strategies = strategies_of(options, settings.technique, settings.brdf);
     if (options.mis)
-        settings.mis = from_name(render_cpu::kMisHeuristics, *options.mis);
+        settings.mis = from_name(render::kMisHeuristics, *options.mis);
     else if (!allows(settings.strategies, settings.mis))
-        settings.mis = render_cpu::Mis::balance;
+        settings.mis = render::Mis::balance;
     if (options.visibility_estimate) settings.visibility_estimate = *options.visibility_estimate;
-    settings.sample_order = from_name(render_cpu::kSampleOrders, options.sampler);
-    settings.pixel_position = from_name(render_cpu::kPixelPositions, options.pixel_position);
+    settings.sample_order = from_name(render::kSampleOrders, options.sampler);
+    settings.pixel_position = from_name(render::kPixelPositions, options.pixel_position);
     settings.samples = options.samples;
     settings.camera_rays = options.camera_rays;
     settings.seed = options.seed;
     apply_line_options(options.lines, settings);
     settings.layers = layers_of(options.layers);
     if (options.part) settings.part = parse_part(*options.part).value();
-    render_cpu::validate(settings);
+    render::validate(settings);
     return settings;
 }
 
 void check_combination(const RenderOptions& options) {
-    const auto technique = from_name(render_cpu::kTechniques, options.technique);
-    const auto brdf = from_name(render_cpu::kBrdfChoices, options.brdf);
+    const auto technique = from_name(render::kTechniques, options.technique);
+    const auto brdf = from_name(render::kBrdfChoices, options.brdf);
     const auto strategies = strategies_of(options, technique, brdf);
     if (!allows(technique, strategies)) {
         std::vector<std::string_view> others;
-        for (const auto other : render_cpu::kTechniques)
+        for (const auto other : render::kTechniques)
             if (allows(other, strategies)) others.push_back(name_of(other));
         throw CLI::ValidationError("--strategies",
                                    fmt::format("{} needs --technique {}, not {}", name_of(strategies),
                                                fmt::join(others, " or "), options.technique));
     }
-    if (strategies == render_cpu::Strategies::diffuse && (options.mis || options.visibility_estimate))
+    if (strategies == render::Strategies::diffuse && (options.mis || options.visibility_estimate))
         throw CLI::ValidationError(options.mis ? "--mis" : "--visibility-estimate",
                                    "there is nothing to combine with --strategies diffuse");
-    if (options.mis && !allows(strategies, from_name(render_cpu::kMisHeuristics, *options.mis))) {
+    if (options.mis && !allows(strategies, from_name(render::kMisHeuristics, *options.mis))) {
         std::vector<std::string_view> others;
-        for (const auto other : render_cpu::kMisHeuristics)
+        for (const auto other : render::kMisHeuristics)
             if (allows(strategies, other)) others.push_back(name_of(other));
         throw CLI::ValidationError(
             "--mis", fmt::format("{} weighs techniques by what they contribute without shadows, "

@@ -3,12 +3,12 @@
 
 #include "commands.h"
 
-#include "render_cpu/settings.h"
+#include "render/settings.h"
 
 namespace nusselt::app {
 
 /// \throws std::invalid_argument for values that the command line does not let through
-render_cpu::RenderSettings make_settings(const RenderOptions& options);
+render::RenderSettings make_settings(const RenderOptions& options);
 
 /// \throws CLI::ValidationError if choices that are possible by themselves do not fit together
 void check_combination(const RenderOptions& options);

@@ -1,6 +1,6 @@
 #include "render_setup.h"
 
-#include "render_cpu/film.h"
+#include "render/film.h"
 #include "scene/limits.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ std::string check_part(const std::string& text) {
     if (parse_part(text)) return "";
     return "'" + text +
            "' is not of the form NUMBER/COUNT, such as 1/4, with a number from 1 to the count, at most " +
-           std::to_string(render_cpu::kMaxParts);
+           std::to_string(render::kMaxParts);
 }
 
 std::string check_resolution(const std::string& text) {
@@ -67,11 +67,11 @@ void apply_resolution(const std::optional<std::string>& resolution, scene::Scene
     if (!resolution) return;
     const std::optional<Resolution> size = parse_resolution(*resolution);
     if (!size) throw std::invalid_argument("resolution " + check_resolution(*resolution));
-    render_cpu::resize_film(scene, size->width, size->height);
+    render::resize_film(scene, size->width, size->height);
 }
 
 void add_layers_option(CLI::App& command, std::vector<std::string>& layers) {
-    std::vector<std::string> names = names_of(render_cpu::kLayerKinds);
+    std::vector<std::string> names = names_of(render::kLayerKinds);
     names.emplace_back(kAllLayers);
     command
         .add_option(
@@ -94,15 +94,15 @@ void add_part_option(CLI::App& command, std::optional<std::string>& part) {
         ->check(check_part, "NUMBER/COUNT");
 }
 
-std::optional<render_cpu::Part> parse_part(const std::string& text) {
-    render_cpu::Part part;
+std::optional<render::Part> parse_part(const std::string& text) {
+    render::Part part;
     const char* const end = text.data() + text.size();
     const auto number = std::from_chars(text.data(), end, part.number);
     if (number.ec != std::errc() || number.ptr == end || *number.ptr != '/') return {};
     const auto count = std::from_chars(number.ptr + 1, end, part.count);
     if (count.ec != std::errc() || count.ptr != end) return {};
-    const bool is_possible = part.count >= 1 && part.count <= render_cpu::kMaxParts && part.number >= 1 &&
-                             part.number <= part.count;
+    const bool is_possible =
+        part.count >= 1 && part.count <= render::kMaxParts && part.number >= 1 && part.number <= part.count;
     return is_possible ? std::optional(part) : std::nullopt;
 }
 

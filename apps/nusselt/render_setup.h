@@ -1,7 +1,7 @@
 #pragma once
 /// Options that several commands share.
 
-#include "render_cpu/settings.h"
+#include "render/settings.h"
 #include "scene/scene.h"
 
 #include <CLI/CLI.hpp>
@@ -14,7 +14,7 @@
 
 namespace nusselt::app {
 
-/// Names of the values of an enumeration, see render_cpu/settings.h.
+/// Names of the values of an enumeration, see render/settings.h.
 template <class Values>
 std::vector<std::string> names_of(const Values& values) {
     std::vector<std::string> names;
@@ -54,13 +54,13 @@ void apply_resolution(const std::optional<std::string>& resolution, scene::Scene
 
 inline constexpr const char* kAllLayers = "all";
 
-/// Adds --layers. \param layers names of render_cpu::kLayerKinds, or kAllLayers
+/// Adds --layers. \param layers names of render::kLayerKinds, or kAllLayers
 void add_layers_option(CLI::App& command, std::vector<std::string>& layers);
 
 /// Adds --part.
 void add_part_option(CLI::App& command, std::optional<std::string>& part);
 
 /// From "2/3". \returns nothing if that is no part
-std::optional<render_cpu::Part> parse_part(const std::string& text);
+std::optional<render::Part> parse_part(const std::string& text);
 
 } // namespace nusselt::app

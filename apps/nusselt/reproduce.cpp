@@ -98,7 +98,7 @@ void setup_reproduce(CLI::App& app, int& exit_code) {
     command
         ->add_option("--reference-spp", options->reference_samples,
                      "Samples per pixel and light of references, 1 to 2^20. Default: as each experiment says")
-        ->check(CLI::Range(1, render_cpu::kMaxSamples));
+        ->check(CLI::Range(1, render::kMaxSamples));
     command
         ->add_option("--width", options->width,
                      "Width of the images in pixels, 1 to 16384. Default: as each scene says")

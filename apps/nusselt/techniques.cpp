@@ -1,6 +1,6 @@
 #include "commands.h"
 
-#include "render_cpu/settings.h"
+#include "render/settings.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -9,7 +9,7 @@ namespace nusselt::app {
 
 namespace {
 
-using render_cpu::Technique;
+using render::Technique;
 
 struct TechniqueRow {
     Technique technique;
@@ -63,8 +63,7 @@ int run_techniques() {
     constexpr const char* kFormat = "{:<30}{:<9}{:<31}{:<33}{}\n";
     fmt::print(kFormat, "technique", "light", "density proportional to", "paper", "nusselt/sampling/");
     for (const TechniqueRow& row : kRows)
-        fmt::print(kFormat, render_cpu::name_of(row.technique), row.light, row.density, row.paper,
-                   row.header);
+        fmt::print(kFormat, render::name_of(row.technique), row.light, row.density, row.paper, row.header);
     fmt::print("\n"
                "Tubes are linear lights with their radius; lines the limit of a small one, for\n"
                "Shape \"line\" with \"bool finite\" false. The samples of the specular component\n"

@@ -1,7 +1,7 @@
 #pragma once
 /// Figures and tables of the papers as data: what to render with which settings, and what is expected.
 
-#include "render_cpu/settings.h"
+#include "render/settings.h"
 
 #include <string>
 #include <utility>
@@ -13,7 +13,7 @@ namespace nusselt::experiments {
 /// One image of a comparison.
 struct Variant {
     std::string label;
-    render_cpu::RenderSettings settings;
+    render::RenderSettings settings;
 };
 
 /// A part of the image that is also measured by itself, in shares of its width and height from the top left.
@@ -71,7 +71,7 @@ struct Experiment {
     std::string source;      ///< paper and figure
     std::string description; ///< one sentence
     std::string scene;       ///< below the folder of the shipped scenes
-    render_cpu::RenderSettings reference;
+    render::RenderSettings reference;
     std::vector<Variant> variants;
     std::vector<Expectation> expectations;
     std::vector<Inset> insets = {};

@@ -13,10 +13,10 @@ namespace nusselt::experiments {
 
 namespace {
 
-using render_cpu::Integrator;
-using render_cpu::LineOrientation;
-using render_cpu::LineShading;
-using render_cpu::SampleOrder;
+using render::Integrator;
+using render::LineOrientation;
+using render::LineShading;
+using render::SampleOrder;
 
 constexpr int kMostPoints = 1024;
 constexpr int kMostLines = 256;
@@ -30,17 +30,17 @@ std::vector<int> powers_of_two(int last) {
 /// Uniform points of the area, as in the paper.
 ConvergenceSeries points(const std::string& label, SampleOrder order) {
     ConvergenceSeries series = {label, {}, powers_of_two(kMostPoints), 16, kMostPoints};
-    series.settings.technique = render_cpu::Technique::area;
+    series.settings.technique = render::Technique::area;
     series.settings.sample_order = order;
-    series.settings.pixel_position = render_cpu::PixelPosition::center;
+    series.settings.pixel_position = render::PixelPosition::center;
     return series;
 }
 
 /// The best points that this renderer has.
 ConvergenceSeries importance_sampled_points(const std::string& label) {
     ConvergenceSeries series = points(label, SampleOrder::stratified);
-    series.settings.technique = render_cpu::Technique::projected_solid_angle;
-    series.settings.strategies = render_cpu::Strategies::diffuse_ltc;
+    series.settings.technique = render::Technique::projected_solid_angle;
+    series.settings.strategies = render::Strategies::diffuse_ltc;
     return series;
 }
 
@@ -49,10 +49,10 @@ ConvergenceSeries lines(const std::string& label, SampleOrder order) {
     ConvergenceSeries series = {label, {}, powers_of_two(kMostLines), 4, kMostLines};
     series.settings.integrator = Integrator::lines;
     series.settings.lines.shading = LineShading::analytic;
-    series.settings.lines.offsets = render_cpu::LineOffsets::length;
-    series.settings.lines.many_occluders = render_cpu::ManyOccluders::lines;
+    series.settings.lines.offsets = render::LineOffsets::length;
+    series.settings.lines.many_occluders = render::ManyOccluders::lines;
     series.settings.sample_order = order;
-    series.settings.pixel_position = render_cpu::PixelPosition::center;
+    series.settings.pixel_position = render::PixelPosition::center;
     return series;
 }
 
@@ -61,7 +61,7 @@ std::vector<ConvergenceSeries> all_series() {
     unbiased.settings.lines.shading = LineShading::unbiased;
     ConvergenceSeries important = unbiased;
     important.label = "lines, by importance, stratified";
-    important.settings.lines.offsets = render_cpu::LineOffsets::reflected;
+    important.settings.lines.offsets = render::LineOffsets::reflected;
     ConvergenceSeries turned = lines("lines, each turned, stratified", SampleOrder::stratified);
     turned.settings.lines.orientation = LineOrientation::independent;
     return {points("points, independent", SampleOrder::independent),

@@ -18,7 +18,7 @@ namespace nusselt::experiments {
 /// One kind of sample.
 struct ConvergenceSeries {
     std::string label;
-    render_cpu::RenderSettings settings;
+    render::RenderSettings settings;
     std::vector<int> counts; ///< of points or lines, growing
     int fit_first, fit_last; ///< the order is fitted to these counts
 };

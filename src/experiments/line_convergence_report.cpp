@@ -61,7 +61,7 @@ Plot error_plot(const LineConvergence& experiment, const SceneResult& scene, con
         const auto integrator = experiment.series[i].settings.integrator;
         PlotCurve curve = {experiment.series[i].label,
                            {},
-                           integrator == render_cpu::Integrator::lines ? Stroke::solid : Stroke::dashed};
+                           integrator == render::Integrator::lines ? Stroke::solid : Stroke::dashed};
         for (const CurvePoint& p : scene.series[i].curve)
             curve.points.emplace_back(x_of(p), p.variance / (scene.mean * scene.mean));
         plot.curves.push_back(std::move(curve));

@@ -11,13 +11,13 @@ namespace {
 
 /// A curve in the making.
 struct Series {
-    render_cpu::RenderSettings settings;
+    render::RenderSettings settings;
     std::vector<int> counts;
     std::vector<double> variances;            ///< for each count, sum over the rounds
     std::vector<std::vector<double>> seconds; ///< for each count, of all rounds
     double mean = 0;                          ///< radiance of the image that was rendered last
 
-    Series(const render_cpu::RenderSettings& with, int first, int last) : settings(with) {
+    Series(const render::RenderSettings& with, int first, int last) : settings(with) {
         for (int n = first; n <= last; n *= 2) counts.push_back(n);
         variances.resize(counts.size());
         seconds.resize(counts.size());
@@ -58,12 +58,12 @@ double seconds_to(const NoiseCurve& curve, double variance) {
 LineEfficiency measure_line_efficiency(const render_cpu::Renderer& renderer, render_cpu::Isa isa,
                                        const LineEfficiencySettings& settings,
                                        const std::function<void(int round)>& progress) {
-    render_cpu::RenderSettings with_lines = settings.points;
-    with_lines.integrator = render_cpu::Integrator::lines;
+    render::RenderSettings with_lines = settings.points;
+    with_lines.integrator = render::Integrator::lines;
     with_lines.lines = settings.lines;
-    with_lines.lines.many_occluders = render_cpu::ManyOccluders::lines;
-    render_cpu::RenderSettings with_choice = with_lines;
-    with_choice.lines.many_occluders = render_cpu::ManyOccluders::points;
+    with_lines.lines.many_occluders = render::ManyOccluders::lines;
+    render::RenderSettings with_choice = with_lines;
+    with_choice.lines.many_occluders = render::ManyOccluders::points;
 
     Series points(settings.points, kFewestPoints, settings.most_points);
     Series lines(with_lines, 1, settings.most_lines);

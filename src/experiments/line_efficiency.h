@@ -12,13 +12,12 @@
 namespace nusselt::experiments {
 
 struct LineEfficiencySettings {
-    render_cpu::RenderSettings points; ///< all that is not said below, with Integrator::points
-    render_cpu::LineSettings
-        lines;              ///< but for their number and for what is done where there are many occluders
-    int most_points = 1024; ///< per shading point and light, in powers of two from kFewestPoints
-    int most_lines = 256;   ///< likewise, from 1
-    int rounds = 5;         ///< of kSeedsPerRound images of each kind; all kinds take turns
-    int threads = 1;        ///< of the renderer
+    render::RenderSettings points; ///< all that is not said below, with Integrator::points
+    render::LineSettings lines; ///< but for their number and for what is done where there are many occluders
+    int most_points = 1024;     ///< per shading point and light, in powers of two from kFewestPoints
+    int most_lines = 256;       ///< likewise, from 1
+    int rounds = 5;             ///< of kSeedsPerRound images of each kind; all kinds take turns
+    int threads = 1;            ///< of the renderer
 };
 
 inline constexpr int kFewestPoints = 4;

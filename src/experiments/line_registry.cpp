@@ -4,31 +4,31 @@ namespace nusselt::experiments {
 
 namespace {
 
-using render_cpu::LineOffsets;
-using render_cpu::LineOrientation;
-using render_cpu::RenderSettings;
-using render_cpu::SampleOrder;
+using render::LineOffsets;
+using render::LineOrientation;
+using render::RenderSettings;
+using render::SampleOrder;
 
 constexpr int kLines = 16;
 
 /// Many points, by sampling that has nothing to do with lines.
 RenderSettings reference() {
     RenderSettings settings;
-    settings.strategies = render_cpu::Strategies::diffuse_ltc;
+    settings.strategies = render::Strategies::diffuse_ltc;
     settings.samples = 256;
-    settings.pixel_position = render_cpu::PixelPosition::center;
+    settings.pixel_position = render::PixelPosition::center;
     return settings;
 }
 
 Variant lines(const std::string& label, LineOrientation orientation, LineOffsets offsets) {
     RenderSettings settings;
-    settings.integrator = render_cpu::Integrator::lines;
+    settings.integrator = render::Integrator::lines;
     settings.lines.count = kLines;
     settings.lines.orientation = orientation;
     settings.lines.offsets = offsets;
-    settings.lines.many_occluders = render_cpu::ManyOccluders::lines;
+    settings.lines.many_occluders = render::ManyOccluders::lines;
     settings.sample_order = SampleOrder::stratified;
-    settings.pixel_position = render_cpu::PixelPosition::center;
+    settings.pixel_position = render::PixelPosition::center;
     return {label, settings};
 }
 

@@ -1,6 +1,6 @@
 #include "experiments/line_scenes.h"
 
-#include "render_cpu/film.h"
+#include "render/film.h"
 #include "scene/load.h"
 #include "scene/rig_json.h"
 
@@ -42,7 +42,7 @@ std::optional<scene::Scene> load_line_scene(const LineScene& line_scene, const R
         scene::apply_rig(scene::read_rig(settings.scenes / "rigs" / line_scene.rig), scene);
     if (width > 0) {
         const double height = static_cast<double>(scene.film.height) * width / scene.film.width;
-        render_cpu::resize_film(scene, width, std::max(1, static_cast<int>(std::lround(height))));
+        render::resize_film(scene, width, std::max(1, static_cast<int>(std::lround(height))));
     }
     return scene;
 }

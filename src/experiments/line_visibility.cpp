@@ -9,8 +9,8 @@ namespace nusselt::experiments {
 
 namespace {
 
+using render::RenderSettings;
 using render_cpu::LineStatistics;
-using render_cpu::RenderSettings;
 
 std::vector<LineScene> in_both_lights() {
     std::vector<LineScene> scenes;
@@ -55,13 +55,13 @@ LineVisibility table() {
 
 RenderSettings settings_of(const LineVisibility& experiment) {
     RenderSettings settings;
-    settings.integrator = render_cpu::Integrator::lines;
+    settings.integrator = render::Integrator::lines;
     settings.lines.count = experiment.lines;
-    settings.lines.shading = render_cpu::LineShading::analytic;
-    settings.lines.many_occluders = render_cpu::ManyOccluders::lines;
-    settings.sample_order = render_cpu::SampleOrder::stratified;
-    settings.pixel_position = render_cpu::PixelPosition::center;
-    settings.layers = {render_cpu::LayerKind::pieces};
+    settings.lines.shading = render::LineShading::analytic;
+    settings.lines.many_occluders = render::ManyOccluders::lines;
+    settings.sample_order = render::SampleOrder::stratified;
+    settings.pixel_position = render::PixelPosition::center;
+    settings.layers = {render::LayerKind::pieces};
     return settings;
 }
 

@@ -17,13 +17,13 @@ double median(std::vector<double> values) {
 
 } // namespace
 
-render_cpu::RenderSettings with_count(render_cpu::RenderSettings settings, int count) {
-    (settings.integrator == render_cpu::Integrator::lines ? settings.lines.count : settings.samples) = count;
+render::RenderSettings with_count(render::RenderSettings settings, int count) {
+    (settings.integrator == render::Integrator::lines ? settings.lines.count : settings.samples) = count;
     return settings;
 }
 
 SeedStatistics render_seeds(const render_cpu::Renderer& renderer, render_cpu::Isa isa,
-                            render_cpu::RenderSettings settings, int seeds) {
+                            render::RenderSettings settings, int seeds) {
     std::vector<double> means, squares, seconds;
     SeedStatistics result;
     for (int i = 0; i < seeds; ++i, ++settings.seed) {

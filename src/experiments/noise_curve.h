@@ -21,7 +21,7 @@ struct CurvePoint {
 using NoiseCurve = std::vector<CurvePoint>;
 
 /// The settings with this many lines if there are line samples, else with this many point samples.
-render_cpu::RenderSettings with_count(render_cpu::RenderSettings settings, int count);
+render::RenderSettings with_count(render::RenderSettings settings, int count);
 
 /// What several seeds say about an image.
 struct SeedStatistics {
@@ -34,7 +34,7 @@ struct SeedStatistics {
 /// \param seeds at least 2
 /// \throws std::invalid_argument, std::runtime_error see Renderer::render()
 SeedStatistics render_seeds(const render_cpu::Renderer& renderer, render_cpu::Isa isa,
-                            render_cpu::RenderSettings settings, int seeds);
+                            render::RenderSettings settings, int seeds);
 
 /// y = factor x^exponent
 struct PowerLaw {

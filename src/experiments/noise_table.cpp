@@ -19,8 +19,8 @@ namespace {
 using Real = double;
 using Light = ConvexPolygon<Real, 4>;
 using Surface = GlossySurface<Real>;
-using render_cpu::Mis;
-using render_cpu::Strategies;
+using render::Mis;
+using render::Strategies;
 
 /// Of the light, at a height of 1 [m].
 constexpr Real kHalfSide = 0.5;

@@ -2,7 +2,7 @@
 /// Tables of the noise of one light on a plane, computed without images.
 
 #include "experiments/report_table.h"
-#include "render_cpu/settings.h"
+#include "render/settings.h"
 
 #include <filesystem>
 #include <string>
@@ -13,8 +13,8 @@ namespace nusselt::experiments {
 /// Two samples of the light, one from each technique where there are two.
 struct NoiseEstimator {
     std::string label;
-    render_cpu::Strategies strategies;
-    render_cpu::Mis mis = render_cpu::Mis::clamped_optimal;
+    render::Strategies strategies;
+    render::Mis mis = render::Mis::clamped_optimal;
     double visibility_estimate = 0.5;
 };
 

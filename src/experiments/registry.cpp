@@ -12,12 +12,12 @@ namespace nusselt::experiments {
 
 namespace {
 
-using render_cpu::Mis;
-using render_cpu::PixelPosition;
-using render_cpu::RenderSettings;
-using render_cpu::SampleOrder;
-using render_cpu::Strategies;
-using render_cpu::Technique;
+using render::Mis;
+using render::PixelPosition;
+using render::RenderSettings;
+using render::SampleOrder;
+using render::Strategies;
+using render::Technique;
 
 /// Camera rays through the centres of pixels, so that light sampling is the only source of noise.
 RenderSettings noise_measurement(Technique technique, int samples, SampleOrder order) {
@@ -62,7 +62,7 @@ std::vector<Variant> two_rays_each(std::initializer_list<Mis> heuristics) {
 /// One sample of the technique and one of visible normals, under the balance heuristic.
 Variant with_visible_normals(Technique technique) {
     RenderSettings settings = noise_measurement(technique, 1, SampleOrder::independent);
-    settings.strategies = render_cpu::Strategies::diffuse_ggx;
+    settings.strategies = render::Strategies::diffuse_ggx;
     settings.mis = Mis::balance;
     return {std::string(name_of(technique)) + " + GGX", settings};
 }

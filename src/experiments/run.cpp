@@ -1,6 +1,6 @@
 #include "experiments/run.h"
 
-#include "render_cpu/film.h"
+#include "render/film.h"
 #include "render_cpu/renderer.h"
 #include "scene/load.h"
 
@@ -35,11 +35,11 @@ constexpr int kPenumbraSamples = 1024;
 /// and without shadows: outside of penumbrae both images agree to the bit, or that with shadows is black.
 /// Independent of the techniques under test except area sampling.
 std::vector<bool> outside_penumbrae(const render_cpu::Renderer& renderer, render_cpu::Isa isa,
-                                    const render_cpu::RenderSettings& reference) {
-    render_cpu::RenderSettings settings = reference;
+                                    const render::RenderSettings& reference) {
+    render::RenderSettings settings = reference;
     settings.samples = std::min(settings.samples, kPenumbraSamples);
-    settings.technique = render_cpu::Technique::area;
-    settings.strategies = render_cpu::Strategies::diffuse;
+    settings.technique = render::Technique::area;
+    settings.strategies = render::Strategies::diffuse;
     const image::Image traced = renderer.render(settings, isa).image;
     const auto open = without_shadows(renderer.visibility().tracer());
     const image::Image unshadowed = renderer.render(settings, isa, open).image;
@@ -127,7 +127,7 @@ struct Reference {
 };
 
 Reference render_reference(const render_cpu::Renderer& renderer, render_cpu::Isa isa,
-                           render_cpu::RenderSettings settings, int frames) {
+                           render::RenderSettings settings, int frames) {
     Reference reference;
     std::vector<double> sums;
     for (int i = 0; i < frames; ++i) {
@@ -150,7 +150,7 @@ VariantResult render_variant(const render_cpu::Renderer& renderer, render_cpu::I
     BiasStatistics statistics;
     VariantResult result;
     result.label = variant.label;
-    render_cpu::RenderSettings settings = variant.settings;
+    render::RenderSettings settings = variant.settings;
     for (int i = 0; i < experiment.frames; ++i) {
         settings.seed = seed_of_frame(i, false);
         render_cpu::RenderResult rendered = renderer.render(settings, isa);
@@ -172,7 +172,7 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunSettings&
     scene::Scene scene = scene::load_scene(settings.scenes / experiment.scene);
     if (settings.width > 0) {
         const double height = static_cast<double>(scene.film.height) * settings.width / scene.film.width;
-        render_cpu::resize_film(scene, settings.width, std::max(1, static_cast<int>(std::lround(height))));
+        render::resize_film(scene, settings.width, std::max(1, static_cast<int>(std::lround(height))));
     }
     const int threads = settings.threads > 0 ? settings.threads : render_cpu::default_thread_count();
     const render_cpu::Renderer renderer(scene, threads);

@@ -24,7 +24,7 @@ struct VariantResult {
 
 struct ExperimentResult {
     const Experiment* experiment = nullptr;
-    render_cpu::RenderSettings reference_settings;
+    render::RenderSettings reference_settings;
     image::Image reference;
     double mean = 0;                    ///< of the reference
     double share_outside_penumbrae = 0; ///< of the pixels

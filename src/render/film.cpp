@@ -1,4 +1,4 @@
-#include "render_cpu/film.h"
+#include "render/film.h"
 
 #include "scene/limits.h"
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 namespace {
 
@@ -63,4 +63,4 @@ void resize_film(scene::Scene& scene, int width, int height) {
     scene.film.height = height;
 }
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

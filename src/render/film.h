@@ -3,7 +3,7 @@
 
 #include "scene/scene.h"
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 /// The pixels of the film that an image of it has: the crop, or all.
 scene::PixelBounds rendered_pixels(const scene::Film& film);
@@ -14,4 +14,4 @@ scene::PixelBounds rendered_pixels(const scene::Film& film);
 /// \throws std::invalid_argument unless both lie between 1 and scene::kMaxFilmSize
 void resize_film(scene::Scene& scene, int width, int height);
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

@@ -1,12 +1,10 @@
-#include "render_cpu/pixel_filter.h"
-
-#include "render_cpu/kernel.h"
+#include "render/pixel_filter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 namespace {
 
@@ -80,4 +78,4 @@ PixelFilterTable make_filter_table(const scene::PixelFilter& filter, float radiu
     return table;
 }
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

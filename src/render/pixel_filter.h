@@ -5,7 +5,10 @@
 
 #include <vector>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
+
+/// A power of two.
+inline constexpr int kFilterCells = 512;
 
 /// A filter along one axis in kFilterCells cells of equal width: with the weights, expectations are those of a filter that
 /// is constant in each cell and has the same integral there. Empty for boxes, whose rays are uniform.
@@ -21,4 +24,4 @@ struct PixelFilterTable {
 /// \throws std::runtime_error if the filter has no positive integral
 PixelFilterTable make_filter_table(const scene::PixelFilter& filter, float radius);
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

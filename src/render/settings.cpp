@@ -1,9 +1,9 @@
-#include "render_cpu/settings.h"
+#include "render/settings.h"
 
 #include <stdexcept>
 #include <string>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 bool allows(Technique technique, Strategies strategies) {
     switch (strategies) {
@@ -249,4 +249,4 @@ std::string_view name_of(ManyOccluders choice) {
     return {};
 }
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 /// How directions towards lights are sampled.
 enum class Technique : std::uint32_t {
@@ -194,4 +194,4 @@ std::string_view name_of(LineOffsets offsets);
 std::string_view name_of(LineShading shading);
 std::string_view name_of(ManyOccluders choice);
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

@@ -1,6 +1,6 @@
 #include "render_cpu/frame.h"
 
-#include "render_cpu/film.h"
+#include "render/film.h"
 #include "render_cpu/memory.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 
 #include "image/image.h"
 #include "image/layers.h"
+#include "render/settings.h"
 #include "render_cpu/kernel.h"
-#include "render_cpu/settings.h"
 #include "scene/scene.h"
 
 #include <cstdint>

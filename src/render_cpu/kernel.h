@@ -2,7 +2,8 @@
 /// What the renderer hands to the kernels: plain data only, so that code compiled for different instruction
 /// sets agrees on it. No type of the library appears here, nor any inline function.
 
-#include "render_cpu/settings.h"
+#include "render/pixel_filter.h"
+#include "render/settings.h"
 #include "scene/scene.h"
 #include "visibility/line_bvh_view.h"
 #include "visibility/ray_packets.h"
@@ -11,6 +12,8 @@
 #include <cstdint>
 
 namespace nusselt::render_cpu {
+
+using namespace render;
 
 /// A material as a row of floats, so that kernels gather any entry with one stride.
 struct MaterialRow {
@@ -84,9 +87,6 @@ struct InstanceRecord {
     float handedness; ///< -1 for mirror images, else 1
     float rounding;   ///< how many times rounding errors grow on the way to the object and back
 };
-
-/// Cells of tabulated pixel filters, a power of two.
-inline constexpr int kFilterCells = 512;
 
 /// How camera rays spread over a pixel along one axis.
 struct FilterAxis {

@@ -1,6 +1,6 @@
 #include "render_cpu/kernel_arrays.h"
 
-#include "render_cpu/film.h"
+#include "render/film.h"
 
 #include <nusselt/geometry/convex_polygon.h>
 #include <nusselt/geometry/line_segment.h>

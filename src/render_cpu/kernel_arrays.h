@@ -1,8 +1,8 @@
 #pragma once
 /// The arrays behind KernelScene.
 
+#include "render/pixel_filter.h"
 #include "render_cpu/kernel.h"
-#include "render_cpu/pixel_filter.h"
 
 #include <vector>
 

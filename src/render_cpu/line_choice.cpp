@@ -27,7 +27,7 @@ int most_occluders_for_lines(int lines) {
 }
 
 int points_in_place_of_lines(int lines, int camera_rays) {
-    const int most = std::clamp(kMostPoints / camera_rays, 1, kMaxSamples);
+    const int most = std::clamp(kMostPoints / camera_rays, 1, render::kMaxSamples);
     // Powers of two, whose permutations take half the time of others.
     const long exponent = std::lround(kPointsExponent * std::log2(lines));
     return 1 << std::min(exponent, std::lround(std::floor(std::log2(most))));

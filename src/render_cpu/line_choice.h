@@ -2,7 +2,7 @@
 /// Lines or points: what is faster depends on how many triangles may hide a light from a shading point. `nusselt bench
 /// line-efficiency` measures both, and what the choice between them loses.
 
-#include "render_cpu/settings.h"
+#include "render/settings.h"
 
 namespace nusselt::render_cpu {
 

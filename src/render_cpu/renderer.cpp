@@ -1,6 +1,6 @@
 #include "render_cpu/renderer.h"
 
-#include "render_cpu/film.h"
+#include "render/film.h"
 #include "render_cpu/flush_denormals.h"
 #include "render_cpu/line_choice.h"
 #include "scene/fingerprint.h"

@@ -2,10 +2,10 @@
 /// Renders direct light of a scene with all cores.
 
 #include "image/image.h"
+#include "render/settings.h"
 #include "render_cpu/frame.h"
 #include "render_cpu/isa.h"
 #include "render_cpu/kernel_arrays.h"
-#include "render_cpu/settings.h"
 #include "scene/scene.h"
 #include "visibility/embree_scene.h"
 #include "visibility/line_bvh.h"

@@ -99,7 +99,7 @@ TEST(Run, NoticesAWrongMean) {
     Experiment mutant = experiment("wall");
     Variant wrong = mutant.variants[0];
     wrong.label = "ltc_analytic";
-    wrong.settings.technique = render_cpu::Technique::ltc_analytic;
+    wrong.settings.technique = render::Technique::ltc_analytic;
     mutant.variants = {mutant.variants[0], wrong};
     mutant.expectations = {Unbiased{{mutant.variants[0].label}}, Unbiased{{wrong.label}}};
     const ExperimentResult result = run(mutant);
@@ -110,7 +110,7 @@ TEST(Run, NoticesAWrongMean) {
 // Solid angle sampling posing as projected solid angle sampling must be noticed.
 TEST(Run, ExpectationsFailForAnImpostor) {
     Experiment mutant = experiment("line-diffuse");
-    for (Variant& v : mutant.variants) v.settings.technique = render_cpu::Technique::solid_angle;
+    for (Variant& v : mutant.variants) v.settings.technique = render::Technique::solid_angle;
     const ExperimentResult result = run(mutant);
     for (const ExpectationResult& expectation : result.expectations)
         EXPECT_FALSE(expectation.holds) << expectation.text;
@@ -118,8 +118,8 @@ TEST(Run, ExpectationsFailForAnImpostor) {
 
 // Shading without shadows posing as the biased variant, and noise posing as analytic shading.
 TEST(Run, LimitsOfErrorsFailForImpostors) {
-    render_cpu::RenderSettings unshadowed;
-    unshadowed.technique = render_cpu::Technique::ltc_analytic;
+    render::RenderSettings unshadowed;
+    unshadowed.technique = render::Technique::ltc_analytic;
     const Variant impostors[] = {{"projected_solid_angle_biased", unshadowed}, {"ltc_analytic", {}}};
     const char* const names[] = {"biased", "planes-image"};
     for (int i = 0; i < 2; ++i) {

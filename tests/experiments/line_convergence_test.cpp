@@ -84,13 +84,13 @@ TEST(LineConvergence, ExpectationsHoldInSmallImages) {
 // Points posing as lines have the order of points, lines posing as points that of lines.
 TEST(LineConvergence, ExpectationsFailForImpostors) {
     LineConvergence mutant = small(all_line_convergences()[0]);
-    const auto settings_of = [&](const std::string& label) -> render_cpu::RenderSettings& {
+    const auto settings_of = [&](const std::string& label) -> render::RenderSettings& {
         return std::find_if(mutant.series.begin(), mutant.series.end(),
                             [&](const ConvergenceSeries& s) { return s.label == label; })
             ->settings;
     };
     std::swap(settings_of("points, stratified"), settings_of("lines, stratified"));
-    settings_of("lines, independent").sample_order = render_cpu::SampleOrder::stratified;
+    settings_of("lines, independent").sample_order = render::SampleOrder::stratified;
     for (const std::string series : {"points, stratified", "lines, stratified", "lines, independent"}) {
         LineConvergence one = mutant;
         std::erase_if(one.series, [&](const ConvergenceSeries& s) { return s.label != series; });

@@ -1,7 +1,7 @@
 /// Line samples have the mean of point samples on the scenes of the repository.
 
 #include "experiments/bias_statistics.h"
-#include "render_cpu/film.h"
+#include "render/film.h"
 #include "render_cpu/renderer.h"
 #include "scene/load.h"
 
@@ -20,19 +20,19 @@ protected:
     LineSamplesOfScene()
         : scene_(load_small(GetParam())), renderer_(scene_, render_cpu::default_thread_count()) {
         settings_.samples = 4;
-        settings_.strategies = render_cpu::Strategies::diffuse_ltc;
+        settings_.strategies = render::Strategies::diffuse_ltc;
     }
 
     static scene::Scene load_small(const std::string& name) {
         scene::Scene scene =
             scene::load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes" / (name + ".pbrt"));
         // Not square: in symmetrical scenes, pixel centres would be on edges between walls.
-        render_cpu::resize_film(scene, 65, 48);
+        render::resize_film(scene, 65, 48);
         return scene;
     }
 
-    static BiasStatistics statistics_of(const render_cpu::Renderer& renderer,
-                                        render_cpu::RenderSettings settings, int first_seed) {
+    static BiasStatistics statistics_of(const render_cpu::Renderer& renderer, render::RenderSettings settings,
+                                        int first_seed) {
         BiasStatistics statistics;
         for (int i = 0; i < kFrames; ++i) {
             settings.seed = static_cast<std::uint32_t>(first_seed + i);
@@ -43,25 +43,25 @@ protected:
         return statistics;
     }
 
-    render_cpu::RenderSettings line_settings() const {
-        render_cpu::RenderSettings settings = settings_;
-        settings.integrator = render_cpu::Integrator::lines;
+    render::RenderSettings line_settings() const {
+        render::RenderSettings settings = settings_;
+        settings.integrator = render::Integrator::lines;
         settings.lines.count = 4;
         return settings;
     }
 
     scene::Scene scene_;
     render_cpu::Renderer renderer_;
-    render_cpu::RenderSettings settings_;
+    render::RenderSettings settings_;
 };
 
 TEST_P(LineSamplesOfScene, HaveTheMeanOfPoints) {
     const BiasStatistics reference = statistics_of(renderer_, settings_, 0);
     int seed = 1000;
-    for (const auto choice : render_cpu::kManyOccludersChoices)
+    for (const auto choice : render::kManyOccludersChoices)
         // Noise of uniform offsets in highlights is far from normal.
-        for (const auto offsets : {render_cpu::LineOffsets::length, render_cpu::LineOffsets::reflected}) {
-            render_cpu::RenderSettings settings = line_settings();
+        for (const auto offsets : {render::LineOffsets::length, render::LineOffsets::reflected}) {
+            render::RenderSettings settings = line_settings();
             settings.lines.offsets = offsets;
             settings.lines.many_occluders = choice;
             const BiasTest test = statistics_of(renderer_, settings, seed += 1000).compare(reference);

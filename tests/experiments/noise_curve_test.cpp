@@ -1,7 +1,7 @@
 #include "experiments/noise_curve.h"
 
 #include "experiments/plot.h"
-#include "render_cpu/film.h"
+#include "render/film.h"
 #include "scene/load.h"
 
 #include <gtest/gtest.h>
@@ -66,14 +66,14 @@ class RenderSeeds : public testing::Test {
 protected:
     RenderSeeds()
         : scene_(scene::load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes/planes.pbrt")) {
-        render_cpu::resize_film(scene_, 48, 36);
-        settings_.technique = render_cpu::Technique::area;
-        settings_.sample_order = render_cpu::SampleOrder::independent;
-        settings_.pixel_position = render_cpu::PixelPosition::center;
+        render::resize_film(scene_, 48, 36);
+        settings_.technique = render::Technique::area;
+        settings_.sample_order = render::SampleOrder::independent;
+        settings_.pixel_position = render::PixelPosition::center;
     }
 
     scene::Scene scene_;
-    render_cpu::RenderSettings settings_;
+    render::RenderSettings settings_;
 };
 
 // Independent samples have the order -1/2, and one pixel's variance is that of its samples over their number.

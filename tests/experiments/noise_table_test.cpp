@@ -31,7 +31,7 @@ TEST(NoiseTable, LimitsHold) {
 TEST(NoiseTable, LimitsFailForAnotherEstimator) {
     NoiseTable mutant = all_noise_tables()[0];
     mutant.angles = {34, 69};
-    for (NoiseEstimator& e : mutant.estimators) e.strategies = render_cpu::Strategies::diffuse;
+    for (NoiseEstimator& e : mutant.estimators) e.strategies = render::Strategies::diffuse;
     for (const ExpectationResult& e : measure_noise(mutant, {8, 256}).expectations)
         EXPECT_FALSE(e.holds) << e.text;
 }

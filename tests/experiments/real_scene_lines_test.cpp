@@ -5,7 +5,7 @@
 #include "experiments/image_errors.h"
 #include "experiments/noise_curve.h"
 
-#include "render_cpu/film.h"
+#include "render/film.h"
 #include "scene/load.h"
 
 #include <gtest/gtest.h>
@@ -20,10 +20,10 @@ namespace nusselt::experiments {
 
 namespace {
 
-using render_cpu::Integrator;
-using render_cpu::LineShading;
-using render_cpu::ManyOccluders;
-using render_cpu::RenderSettings;
+using render::Integrator;
+using render::LineShading;
+using render::ManyOccluders;
+using render::RenderSettings;
 
 constexpr int kFrames = 24;
 
@@ -31,10 +31,10 @@ RenderSettings point_settings() {
     RenderSettings settings;
     settings.samples = 64;
     // Some materials are nearly mirrors: points by the cosine alone have no normal noise there.
-    settings.strategies = render_cpu::Strategies::diffuse_ltc;
+    settings.strategies = render::Strategies::diffuse_ltc;
     settings.camera_rays = 1;
-    settings.pixel_position = render_cpu::PixelPosition::center;
-    settings.sample_order = render_cpu::SampleOrder::stratified;
+    settings.pixel_position = render::PixelPosition::center;
+    settings.sample_order = render::SampleOrder::stratified;
     return settings;
 }
 
@@ -55,7 +55,7 @@ protected:
         const char* const folder = std::getenv("NUSSELT_SCENES");
         if (folder == nullptr) GTEST_SKIP() << "set NUSSELT_SCENES to the folder with bathroom/ and sponza/";
         scene_ = scene::load_scene(std::filesystem::path(folder) / GetParam());
-        render_cpu::resize_film(scene_, 64, 48);
+        render::resize_film(scene_, 64, 48);
     }
 
     static BiasStatistics frames(const scene::Scene& scene, RenderSettings settings) {

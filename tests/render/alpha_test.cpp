@@ -261,10 +261,10 @@ scene::Scene make_screen_scene(float alpha) {
     return scene;
 }
 
-std::vector<std::vector<double>> screen_means(float alpha, render_cpu::Technique technique, int seeds) {
+std::vector<std::vector<double>> screen_means(float alpha, render::Technique technique, int seeds) {
     const scene::Scene scene = make_screen_scene(alpha);
     const render_cpu::Renderer renderer(scene, 2);
-    render_cpu::RenderSettings settings;
+    render::RenderSettings settings;
     settings.technique = technique;
     settings.samples = 16;
     return render_region_means(renderer, settings, seeds, renderer.visibility().tracer());
@@ -272,7 +272,7 @@ std::vector<std::vector<double>> screen_means(float alpha, render_cpu::Technique
 
 /// Each shadow ray crosses the screen at most once: the image is linear in alpha. Another alpha is told apart.
 TEST(Alpha, ShadowsAreLinearInIt) {
-    const auto technique = render_cpu::Technique::projected_solid_angle;
+    const auto technique = render::Technique::projected_solid_angle;
     const auto mean = [](const std::vector<std::vector<double>>& rows) {
         std::vector<double> result(rows.at(0).size());
         for (const auto& row : rows)
@@ -310,8 +310,8 @@ TEST(Alpha, LightsWithoutSurfacesShine) {
     without.triangle_material.resize(without.triangles.size());
     without.triangle_light.resize(without.triangles.size());
 
-    render_cpu::RenderSettings settings;
-    settings.pixel_position = render_cpu::PixelPosition::center;
+    render::RenderSettings settings;
+    settings.pixel_position = render::PixelPosition::center;
     const auto render = [&](const scene::Scene& scene) {
         return render_cpu::Renderer(scene, 2).render(settings, render_cpu::choose_isa()).image;
     };
@@ -334,9 +334,8 @@ TEST(Alpha, TwoSidedLightsShineUpwardsToo) {
             scene,
             {Float3{-0.4f, -0.3f, 1}, Float3{0.6f, -0.3f, 1}, Float3{0.6f, 0.5f, 1}, Float3{-0.4f, 0.5f, 1}},
             {5, 5, 5}, two_sided, 1);
-        const auto image = render_cpu::Renderer(scene, 2)
-                               .render(render_cpu::RenderSettings(), render_cpu::choose_isa())
-                               .image;
+        const auto image =
+            render_cpu::Renderer(scene, 2).render(render::RenderSettings(), render_cpu::choose_isa()).image;
         double sum = 0;
         for (const float value : image.pixels) sum += value;
         EXPECT_EQ(sum > 0, two_sided);

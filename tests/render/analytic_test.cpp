@@ -10,8 +10,8 @@
 namespace nusselt::render_test {
 namespace {
 
-using render_cpu::RenderSettings;
-using render_cpu::Technique;
+using render::RenderSettings;
+using render::Technique;
 
 constexpr int kSize = 32;
 constexpr float kRoughness = 0.6f;
@@ -51,7 +51,7 @@ scene::Scene glossy(scene::Scene scene, float roughness) {
 }
 
 image::Image rendered(const scene::Scene& scene, RenderSettings settings) {
-    settings.pixel_position = render_cpu::PixelPosition::center;
+    settings.pixel_position = render::PixelPosition::center;
     const auto result = render_cpu::Renderer(scene, 2).render(settings, render_cpu::choose_isa());
     EXPECT_EQ(result.statistics.rejected_samples, 0u);
     return result.image;
@@ -65,7 +65,7 @@ image::Image analytic(const scene::Scene& scene) {
 
 image::Image converged(const scene::Scene& scene) {
     RenderSettings settings;
-    settings.strategies = render_cpu::Strategies::diffuse_ltc;
+    settings.strategies = render::Strategies::diffuse_ltc;
     settings.samples = 256;
     return rendered(scene, settings);
 }

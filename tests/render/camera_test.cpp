@@ -2,7 +2,7 @@
 
 #include "scenes.h"
 
-#include "render_cpu/film.h"
+#include "render/film.h"
 
 #include <gtest/gtest.h>
 
@@ -44,9 +44,9 @@ scene::Scene make_cells(int width, int height, double pixel) {
     return scene;
 }
 
-image::Image render(const scene::Scene& scene, render_cpu::PixelPosition position,
+image::Image render(const scene::Scene& scene, render::PixelPosition position,
                     render_cpu::Isa isa = render_cpu::choose_isa()) {
-    render_cpu::RenderSettings settings;
+    render::RenderSettings settings;
     settings.samples = 2;
     settings.pixel_position = position;
     return render_cpu::Renderer(scene, 2).render(settings, isa).image;
@@ -54,8 +54,8 @@ image::Image render(const scene::Scene& scene, render_cpu::PixelPosition positio
 
 /// Compares with the cell that each pixel centre lies in.
 void expect_cells(const scene::Scene& scene, double pixel) {
-    const PixelBounds bounds = render_cpu::rendered_pixels(scene.film);
-    const image::Image image = render(scene, render_cpu::PixelPosition::center);
+    const PixelBounds bounds = render::rendered_pixels(scene.film);
+    const image::Image image = render(scene, render::PixelPosition::center);
     ASSERT_EQ(image.width, bounds.x_end - bounds.x_begin);
     ASSERT_EQ(image.height, bounds.y_end - bounds.y_begin);
     for (int y = 0; y < image.height; ++y)
@@ -80,9 +80,9 @@ TEST(Orthographic, SeesTheCellsBehindEachPixel) {
 
 TEST(Orthographic, KeepsItsShorterAxisWhenTheFilmIsResized) {
     scene::Scene scene = make_cells(50, 40, 0.07);
-    render_cpu::resize_film(scene, 30, 20);
+    render::resize_film(scene, 30, 20);
     expect_cells(scene, 0.07 * 40 / 20);
-    render_cpu::resize_film(scene, 25, 60);
+    render::resize_film(scene, 25, 60);
     expect_cells(scene, 0.07 * 40 / 25);
 }
 
@@ -92,7 +92,7 @@ TEST(Perspective, KeepsItsShorterAxisWhenTheFilmIsResized) {
     scene.camera = {};
     set_camera(scene, {0, 0, 2}, {0, 0, 0}, {0, 1, 0}, 0.07 * 40 / (2 * 2), 50, 40);
     expect_cells(scene, 0.07);
-    render_cpu::resize_film(scene, 25, 60);
+    render::resize_film(scene, 25, 60);
     expect_cells(scene, 0.07 * 40 / 25);
 }
 
@@ -100,7 +100,7 @@ TEST(ResizedCrop, KeepsItsShareOfTheFilm) {
     const auto resized = [](const PixelBounds& crop, int width, int height) {
         scene::Scene scene = make_cells(100, 60, 0.01);
         scene.film.crop = crop;
-        render_cpu::resize_film(scene, width, height);
+        render::resize_film(scene, width, height);
         const PixelBounds result = scene.film.crop.value();
         return std::array{result.x_begin, result.x_end, result.y_begin, result.y_end};
     };
@@ -121,13 +121,13 @@ TEST_P(Crops, AreBitIdenticalToTheSamePixelsOfTheWholeFilm) {
     scene::Scene scene = make_box_scene(70);
     scene.materials[0].alpha = 0.9f;
     scene.film.filter = {.kind = scene::FilterKind::mitchell, .radius_x = 2, .radius_y = 1.5f};
-    render_cpu::resize_film(scene, 77, 59);
-    const image::Image whole = render(scene, render_cpu::PixelPosition::jittered, GetParam());
+    render::resize_film(scene, 77, 59);
+    const image::Image whole = render(scene, render::PixelPosition::jittered, GetParam());
     for (const PixelBounds& crop :
          {PixelBounds{0, 0, 77, 59}, PixelBounds{16, 16, 32, 48}, PixelBounds{3, 5, 72, 58},
           PixelBounds{41, 30, 42, 31}, PixelBounds{76, 58, 77, 59}, PixelBounds{17, 0, 19, 59}}) {
         scene.film.crop = crop;
-        const image::Image image = render(scene, render_cpu::PixelPosition::jittered, GetParam());
+        const image::Image image = render(scene, render::PixelPosition::jittered, GetParam());
         ASSERT_EQ(image.width, crop.x_end - crop.x_begin);
         ASSERT_EQ(image.height, crop.y_end - crop.y_begin);
         const auto row_floats = static_cast<std::ptrdiff_t>(3 * image.width);

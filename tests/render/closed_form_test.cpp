@@ -13,7 +13,7 @@
 namespace nusselt::render_test {
 namespace {
 
-using render_cpu::Technique;
+using render::Technique;
 
 constexpr int kSize = 40;
 constexpr float kRadiance = 5;
@@ -101,7 +101,7 @@ struct Case {
 class ClosedForm : public testing::TestWithParam<Case> {
 protected:
     ClosedForm() : scene_(GetParam().make_scene()), renderer_(scene_, 2) {
-        settings_.pixel_position = render_cpu::PixelPosition::center;
+        settings_.pixel_position = render::PixelPosition::center;
         settings_.samples = 4;
         expected_ = reference(scene_, lights_only(), GetParam().floor_radiance);
     }
@@ -120,7 +120,7 @@ protected:
         for (int seed = 0; seed < kSeeds; ++seed) {
             settings_.seed = static_cast<std::uint32_t>(seed);
             const auto result = renderer_.render(settings_, render_cpu::choose_isa(), tracer);
-            EXPECT_EQ(result.statistics.rejected_samples, 0u) << render_cpu::name_of(technique);
+            EXPECT_EQ(result.statistics.rejected_samples, 0u) << render::name_of(technique);
             rows.push_back(mean_ratios(result.image));
         }
         return rows;
@@ -148,15 +148,15 @@ protected:
 
     scene::Scene scene_;
     render_cpu::Renderer renderer_;
-    render_cpu::RenderSettings settings_;
+    render::RenderSettings settings_;
     std::vector<double> expected_;
 };
 
 TEST_P(ClosedForm, EachTechniqueConverges) {
-    for (const Technique technique : render_cpu::kTechniques) {
+    for (const Technique technique : render::kTechniques) {
         if (technique == Technique::projected_solid_angle_biased) continue;
         EXPECT_LT(largest_t_of(technique, renderer_.visibility().tracer()), kLargestT)
-            << render_cpu::name_of(technique);
+            << render::name_of(technique);
     }
 }
 
@@ -185,9 +185,9 @@ TEST_P(ClosedForm, ProjectedSolidAngleHasNoVariance) {
 /// Along each line the integral is exact: what is left is how it changes from line to line.
 TEST_P(ClosedForm, ManyLinesHaveNextToNoVariance) {
     settings_.samples = 1;
-    settings_.integrator = render_cpu::Integrator::lines;
+    settings_.integrator = render::Integrator::lines;
     settings_.lines.count = 1024;
-    for (const auto offsets : render_cpu::kLineOffsets) {
+    for (const auto offsets : render::kLineOffsets) {
         settings_.lines.offsets = offsets;
         const image::Image image = renderer_.render(settings_, render_cpu::choose_isa()).image;
         for (std::size_t i = 0; i < expected_.size(); ++i) {
@@ -208,7 +208,7 @@ TEST_P(ClosedForm, BiasedVariantIsClose) {
 TEST_P(ClosedForm, RejectsARendererThatIsTooDark) {
     const LossyTracer mutant(renderer_.visibility().tracer(), 0.01);
     for (const Technique technique : {Technique::solid_angle, Technique::projected_solid_angle})
-        EXPECT_GT(largest_t_of(technique, mutant.tracer()), kLargestT) << render_cpu::name_of(technique);
+        EXPECT_GT(largest_t_of(technique, mutant.tracer()), kLargestT) << render::name_of(technique);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, ClosedForm,

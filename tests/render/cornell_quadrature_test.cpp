@@ -3,7 +3,7 @@
 
 #include "scenes.h"
 
-#include "render_cpu/film.h"
+#include "render/film.h"
 #include "scene/load.h"
 
 #include <nusselt/core/vec.h>
@@ -207,17 +207,17 @@ protected:
     void load(const char* file, int height) {
         scene_ = scene::load_scene(std::string(NUSSELT_SOURCE_DIR "/scenes/") + file);
         for (scene::LineLight& light : scene_.line_lights) light.model = scene::TubeModel::linear;
-        render_cpu::resize_film(scene_, height + 1, height);
+        render::resize_film(scene_, height + 1, height);
         const Quadrature quadrature(scene_);
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < height + 1; ++x) pixels_.push_back(quadrature.pixel(x, y));
     }
 
     image::Image render(int samples) const {
-        render_cpu::RenderSettings settings;
+        render::RenderSettings settings;
         settings.samples = samples;
-        settings.pixel_position = render_cpu::PixelPosition::center;
-        settings.brdf = render_cpu::BrdfChoice::lambert;
+        settings.pixel_position = render::PixelPosition::center;
+        settings.brdf = render::BrdfChoice::lambert;
         return render_cpu::Renderer(scene_, 2).render(settings, render_cpu::choose_isa()).image;
     }
 

@@ -14,36 +14,36 @@ namespace {
 
 constexpr int kSize = 24;
 
-using render_cpu::RenderSettings;
+using render::RenderSettings;
 
 /// All ways to sample lights, with all ways to combine the samples.
 std::vector<RenderSettings> all_settings() {
     std::vector<RenderSettings> all;
-    for (const auto technique : render_cpu::kTechniques)
-        for (const auto strategies : render_cpu::kStrategies)
-            for (const auto mis : render_cpu::kMisHeuristics) {
+    for (const auto technique : render::kTechniques)
+        for (const auto strategies : render::kStrategies)
+            for (const auto mis : render::kMisHeuristics) {
                 if (!allows(technique, strategies) || !allows(strategies, mis)) continue;
                 // One technique leaves nothing to combine.
-                if (strategies == render_cpu::Strategies::diffuse && mis != RenderSettings().mis) continue;
+                if (strategies == render::Strategies::diffuse && mis != RenderSettings().mis) continue;
                 RenderSettings settings;
                 settings.technique = technique;
                 settings.strategies = strategies;
                 settings.mis = mis;
                 all.push_back(settings);
             }
-    for (const auto orientation : render_cpu::kLineOrientations)
-        for (const auto offsets : render_cpu::kLineOffsets)
-            for (const auto shading : render_cpu::kLineShadings) {
+    for (const auto orientation : render::kLineOrientations)
+        for (const auto offsets : render::kLineOffsets)
+            for (const auto shading : render::kLineShadings) {
                 RenderSettings settings;
-                settings.integrator = render_cpu::Integrator::lines;
-                settings.lines = {5, orientation, offsets, shading, render_cpu::ManyOccluders::lines};
+                settings.integrator = render::Integrator::lines;
+                settings.lines = {5, orientation, offsets, shading, render::ManyOccluders::lines};
                 all.push_back(settings);
             }
     return all;
 }
 
 std::string description_of(const RenderSettings& settings) {
-    if (settings.integrator == render_cpu::Integrator::lines)
+    if (settings.integrator == render::Integrator::lines)
         return std::string("lines, ")
             .append(name_of(settings.lines.orientation))
             .append(", ")
@@ -63,10 +63,10 @@ void expect_sane_images(const scene::Scene& scene) {
         if (!is_supported(isa)) continue;
         for (RenderSettings settings : all_settings()) {
             settings.samples = 4;
-            const bool has_lines = settings.integrator == render_cpu::Integrator::lines;
+            const bool has_lines = settings.integrator == render::Integrator::lines;
             const bool may_be_negative =
-                settings.mis == render_cpu::Mis::optimal ||
-                (has_lines && settings.lines.shading == render_cpu::LineShading::unbiased);
+                settings.mis == render::Mis::optimal ||
+                (has_lines && settings.lines.shading == render::LineShading::unbiased);
             const render_cpu::RenderResult result = renderer.render(settings, isa);
             ASSERT_EQ(result.statistics.rejected_samples, 0u)
                 << description_of(settings) << ", " << name_of(isa);
@@ -240,7 +240,7 @@ TEST(HostileScenes, RejectedSamplesOfDiffuseSurfacesAreCounted) {
             scene.materials[0].diffuse.*channel = bad;
             for (const RenderSettings& settings : all_settings()) {
                 // Two techniques take what is beyond all floats for a light that almost meets the point.
-                if (std::isinf(bad) && settings.strategies != render_cpu::Strategies::diffuse) continue;
+                if (std::isinf(bad) && settings.strategies != render::Strategies::diffuse) continue;
                 expect_rejections(scene, settings, "diffuse albedo " + std::to_string(bad));
             }
         }
@@ -252,7 +252,7 @@ TEST(HostileScenes, RejectedSamplesOfGlossySurfacesAreCounted) {
         scene.materials[1].f0.*channel = std::nanf("");
         for (const RenderSettings& settings : all_settings()) {
             // The table of lobes, all that it knows of f0, takes NaN for 0.
-            if (settings.technique == render_cpu::Technique::ltc_analytic) continue;
+            if (settings.technique == render::Technique::ltc_analytic) continue;
             expect_rejections(scene, settings, "f0 NaN");
         }
     }

@@ -142,7 +142,7 @@ scene::Scene flattened(const scene::Scene& scene, NormalTransform transform_norm
 }
 
 image::Image render(const scene::Scene& scene, render_cpu::Isa isa) {
-    render_cpu::RenderSettings settings;
+    render::RenderSettings settings;
     settings.samples = 4;
     const auto result = render_cpu::Renderer(scene, 2).render(settings, isa);
     EXPECT_EQ(result.statistics.rejected_samples, 0u);

@@ -10,8 +10,8 @@ namespace {
 constexpr int kSize = 64;
 
 image::Image render(const scene::Scene& scene, int threads, render_cpu::Isa isa,
-                    render_cpu::Technique technique) {
-    render_cpu::RenderSettings settings;
+                    render::Technique technique) {
+    render::RenderSettings settings;
     settings.technique = technique;
     settings.samples = 4;
     return render_cpu::Renderer(scene, threads).render(settings, isa).image;
@@ -20,11 +20,11 @@ image::Image render(const scene::Scene& scene, int threads, render_cpu::Isa isa,
 TEST(Invariance, ThreadCountChangesNoBit) {
     const scene::Scene scene = make_box_scene(kSize);
     const render_cpu::Isa isa = render_cpu::choose_isa();
-    for (const auto technique : render_cpu::kTechniques) {
+    for (const auto technique : render::kTechniques) {
         const image::Image one = render(scene, 1, isa, technique);
         for (const int threads : {2, 5})
             EXPECT_EQ(one.pixels, render(scene, threads, isa, technique).pixels)
-                << render_cpu::name_of(technique) << ", " << threads << " threads";
+                << render::name_of(technique) << ", " << threads << " threads";
     }
 }
 
@@ -33,10 +33,10 @@ class IsaInvariance : public testing::TestWithParam<render_cpu::Isa> {};
 TEST_P(IsaInvariance, HardlyAnyPixelDiffers) {
     if (!is_supported(GetParam())) GTEST_SKIP() << "this processor does not support it";
     const scene::Scene scene = make_box_scene(4 * kSize);
-    for (const auto technique : render_cpu::kTechniques) {
+    for (const auto technique : render::kTechniques) {
         const image::Image baseline = render(scene, 2, render_cpu::Isa::sse42, technique);
         const image::Image other = render(scene, 2, GetParam(), technique);
-        EXPECT_LE(differing_share(baseline, other, 1e-4), 1e-4) << render_cpu::name_of(technique);
+        EXPECT_LE(differing_share(baseline, other, 1e-4), 1e-4) << render::name_of(technique);
     }
 }
 
@@ -48,11 +48,11 @@ INSTANTIATE_TEST_SUITE_P(AllIsas, IsaInvariance,
 TEST(Invariance, PowersOfTwoAsUnitOfLengthChangeNoBit) {
     const scene::Scene scene = make_box_scene(kSize);
     const render_cpu::Isa isa = render_cpu::choose_isa();
-    for (const auto technique : render_cpu::kTechniques) {
+    for (const auto technique : render::kTechniques) {
         const image::Image reference = render(scene, 2, isa, technique);
         for (const float factor : {0x1p-10f, 0x1p10f})
             EXPECT_EQ(reference.pixels, render(scaled(scene, factor), 2, isa, technique).pixels)
-                << render_cpu::name_of(technique) << ", " << factor;
+                << render::name_of(technique) << ", " << factor;
     }
 }
 
@@ -60,12 +60,12 @@ TEST(Invariance, PowersOfTwoAsUnitOfLengthChangeNoBit) {
 TEST(Invariance, UnitOfLengthChangesNextToNothing) {
     const scene::Scene scene = make_box_scene(kSize);
     const render_cpu::Isa isa = render_cpu::choose_isa();
-    for (const auto technique : render_cpu::kTechniques) {
+    for (const auto technique : render::kTechniques) {
         const image::Image reference = render(scene, 2, isa, technique);
         for (const float factor : {1e-3f, 1e3f})
             EXPECT_LE(differing_share(reference, render(scaled(scene, factor), 2, isa, technique), 1e-3),
                       2e-3)
-                << render_cpu::name_of(technique) << ", " << factor;
+                << render::name_of(technique) << ", " << factor;
     }
 }
 

@@ -13,16 +13,16 @@
 namespace nusselt::render_test {
 namespace {
 
-using render_cpu::LayerKind;
-using render_cpu::Mis;
+using render::LayerKind;
+using render::Mis;
+using render::RenderSettings;
+using render::Strategies;
+using render::Technique;
 using render_cpu::RenderResult;
-using render_cpu::RenderSettings;
-using render_cpu::Strategies;
-using render_cpu::Technique;
 
 constexpr int kSize = 40;
 
-const std::vector<LayerKind> kAllKinds = {render_cpu::kLayerKinds.begin(), render_cpu::kLayerKinds.end()};
+const std::vector<LayerKind> kAllKinds = {render::kLayerKinds.begin(), render::kLayerKinds.end()};
 
 const std::vector<float>& data_of(const RenderResult& result, const std::string& name) {
     for (const image::Layer& layer : result.layers)
@@ -40,7 +40,7 @@ struct Case {
     Technique technique;
     Strategies strategies;
     Mis mis;
-    render_cpu::Integrator integrator = render_cpu::Integrator::points;
+    render::Integrator integrator = render::Integrator::points;
 };
 
 const Case kCases[] = {
@@ -55,7 +55,7 @@ const Case kCases[] = {
     {"ggx", Technique::projected_solid_angle, Strategies::diffuse_ggx, Mis::balance},
     {"analytic", Technique::ltc_analytic, Strategies::diffuse, Mis::balance},
     {"lines", Technique::projected_solid_angle, Strategies::diffuse_ltc, Mis::balance,
-     render_cpu::Integrator::lines},
+     render::Integrator::lines},
 };
 
 class Layers : public testing::TestWithParam<Case> {
@@ -204,7 +204,7 @@ TEST(LayersStatistics, VarianceIsThatBetweenSeeds) {
     const scene::Scene scene = make_box_scene(kSize);
     const render_cpu::Renderer renderer(scene, 2);
     RenderSettings settings;
-    settings.sample_order = render_cpu::SampleOrder::independent;
+    settings.sample_order = render::SampleOrder::independent;
     settings.samples = 4;
     settings.layers = {LayerKind::variance};
     const std::size_t floats = 3 * kSize * kSize;
@@ -240,7 +240,7 @@ TEST(LayersOfHits, ShowTheFirstSurface) {
     scene.materials[0].diffuse = {0.6f, 0.4f, 0.2f};
     set_radius(scene);
     RenderSettings settings;
-    settings.pixel_position = render_cpu::PixelPosition::center;
+    settings.pixel_position = render::PixelPosition::center;
     settings.layers = {LayerKind::albedo, LayerKind::normal, LayerKind::depth};
     const RenderResult result = render(scene, settings);
     const std::vector<float>& albedo = data_of(result, "albedo");

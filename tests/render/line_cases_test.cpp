@@ -11,10 +11,10 @@
 namespace nusselt::render_test {
 namespace {
 
-using render_cpu::LineOrientation;
-using render_cpu::ManyOccluders;
+using render::LineOrientation;
+using render::ManyOccluders;
+using render::RenderSettings;
 using render_cpu::RenderResult;
-using render_cpu::RenderSettings;
 
 constexpr float kSlatShare = 0.16f; ///< of each period
 
@@ -88,7 +88,7 @@ TEST(LineOrPoints, DoesNotDependOnRandomNumbers) {
         scene::Scene scene = make_soup(is_gauze ? 40 : 300);
         if (is_gauze) make_gauze(scene);
         const render_cpu::Renderer renderer(scene, 2);
-        for (const auto orientation : render_cpu::kLineOrientations) {
+        for (const auto orientation : render::kLineOrientations) {
             RenderSettings settings = line_settings(4);
             settings.lines.orientation = orientation;
             settings.lines.many_occluders = is_gauze ? ManyOccluders::lines : ManyOccluders::points;
@@ -112,10 +112,10 @@ TEST(LineOrPoints, HaveTheMeanOfPointsWithManyCameraRays) {
     const render_cpu::Renderer renderer(scene, 2);
     const auto tracer = renderer.visibility().tracer();
     RenderSettings points = point_settings();
-    points.pixel_position = render_cpu::PixelPosition::jittered;
+    points.pixel_position = render::PixelPosition::jittered;
     points.camera_rays = 4;
     const auto reference = render_region_means(renderer, points, kSeeds, tracer);
-    for (const auto order : render_cpu::kSampleOrders)
+    for (const auto order : render::kSampleOrders)
         for (const auto orientation : {LineOrientation::parallel, LineOrientation::independent}) {
             RenderSettings settings = line_settings(5);
             settings.pixel_position = points.pixel_position;
@@ -133,9 +133,9 @@ TEST(LineOrPoints, TakesNoMorePointsThanThereAreRandomNumbersFor) {
     EXPECT_EQ(render_cpu::points_in_place_of_lines(1, 1), 1);
     EXPECT_EQ(render_cpu::points_in_place_of_lines(16, 1), 64);
     EXPECT_EQ(render_cpu::points_in_place_of_lines(16, 1 << 10), 64);
-    EXPECT_EQ(render_cpu::points_in_place_of_lines(render_cpu::kMaxLines, 1), render_cpu::kMaxSamples);
-    EXPECT_EQ(render_cpu::points_in_place_of_lines(render_cpu::kMaxLines, 1 << 12), 1 << 10);
-    EXPECT_EQ(render_cpu::points_in_place_of_lines(1 << 11, render_cpu::kMaxSamples), 4);
+    EXPECT_EQ(render_cpu::points_in_place_of_lines(render::kMaxLines, 1), render::kMaxSamples);
+    EXPECT_EQ(render_cpu::points_in_place_of_lines(render::kMaxLines, 1 << 12), 1 << 10);
+    EXPECT_EQ(render_cpu::points_in_place_of_lines(1 << 11, render::kMaxSamples), 4);
 }
 
 /// A regular polygon that faces the floor, with a triangle in front.

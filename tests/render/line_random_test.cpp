@@ -13,7 +13,7 @@ namespace nusselt::render_test {
 namespace {
 
 using kernel::kLanes;
-using render_cpu::SampleOrder;
+using render::SampleOrder;
 
 kernel::PixelBlock make_block() {
     kernel::PixelBlock block{};
@@ -50,7 +50,7 @@ TEST_P(LineRandom, NumbersComeOnce) {
     EXPECT_EQ(std::adjacent_find(all.begin(), all.end()), all.end());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LineRandom, testing::ValuesIn(render_cpu::kSampleOrders),
+INSTANTIATE_TEST_SUITE_P(All, LineRandom, testing::ValuesIn(render::kSampleOrders),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
 } // namespace

@@ -11,14 +11,14 @@
 namespace nusselt::render_test {
 namespace {
 
-using render_cpu::Integrator;
-using render_cpu::LineOffsets;
-using render_cpu::LineOrientation;
-using render_cpu::LineShading;
-using render_cpu::ManyOccluders;
+using render::Integrator;
+using render::LineOffsets;
+using render::LineOrientation;
+using render::LineShading;
+using render::ManyOccluders;
+using render::RenderSettings;
+using render::Technique;
 using render_cpu::RenderResult;
-using render_cpu::RenderSettings;
-using render_cpu::Technique;
 
 /// Not seen from its axis: the centres of pixels would be on the edges between walls, where rounding decides whether a
 /// wall hides the light from points of its neighbour.
@@ -54,14 +54,14 @@ protected:
 
 TEST_F(LineSamples, HaveTheMeanOfPoints) {
     const auto reference = rows(point_settings());
-    for (const auto orientation : render_cpu::kLineOrientations)
-        for (const auto offsets : render_cpu::kLineOffsets) {
+    for (const auto orientation : render::kLineOrientations)
+        for (const auto offsets : render::kLineOffsets) {
             RenderSettings settings = line_settings(5);
             settings.lines.orientation = orientation;
             settings.lines.offsets = offsets;
             EXPECT_LT(largest_t(rows(settings), reference), kLargestT) << description_of(settings);
         }
-    for (const auto order : render_cpu::kSampleOrders) {
+    for (const auto order : render::kSampleOrders) {
         RenderSettings settings = line_settings(8);
         settings.sample_order = order;
         EXPECT_LT(largest_t(rows(settings), reference), kLargestT) << description_of(settings);
@@ -70,10 +70,10 @@ TEST_F(LineSamples, HaveTheMeanOfPoints) {
 
 TEST_F(LineSamples, HaveTheMeanOfPointsWithManyCameraRays) {
     RenderSettings points = point_settings();
-    points.pixel_position = render_cpu::PixelPosition::jittered;
+    points.pixel_position = render::PixelPosition::jittered;
     points.camera_rays = kSamples;
     const auto reference = rows(points);
-    for (const auto order : render_cpu::kSampleOrders) {
+    for (const auto order : render::kSampleOrders) {
         RenderSettings settings = line_settings(1);
         settings.pixel_position = points.pixel_position;
         settings.camera_rays = kSamples;
@@ -85,7 +85,7 @@ TEST_F(LineSamples, HaveTheMeanOfPointsWithManyCameraRays) {
 /// The integral along a line is exact for matte surfaces.
 TEST_F(LineSamples, AnalyticOnesHaveTheMeanOfPointsOnMatteSurfaces) {
     RenderSettings points = point_settings();
-    points.brdf = render_cpu::BrdfChoice::lambert;
+    points.brdf = render::BrdfChoice::lambert;
     RenderSettings settings = line_settings(4);
     settings.brdf = points.brdf;
     settings.lines.shading = LineShading::analytic;
@@ -115,7 +115,7 @@ std::vector<RenderSettings> varied_settings() {
     all[2].lines.count = 100;
     all[3].lines.many_occluders = ManyOccluders::points;
     for (RenderSettings& settings : all) {
-        settings.pixel_position = render_cpu::PixelPosition::jittered;
+        settings.pixel_position = render::PixelPosition::jittered;
         settings.samples = 2;
         settings.camera_rays = 2;
     }
@@ -236,7 +236,7 @@ const std::vector<float>& pieces_of(const RenderResult& result) {
 TEST(LinePieces, AreTheVisiblePartsPerLine) {
     scene::Scene scene = make_soup(0);
     RenderSettings settings = line_settings(16);
-    settings.layers = {render_cpu::LayerKind::pieces};
+    settings.layers = {render::LayerKind::pieces};
     settings.lines.orientation = LineOrientation::fixed;
     const RenderResult open = render(scene, settings);
     const std::vector<float>& whole = pieces_of(open);
@@ -329,13 +329,13 @@ TEST(LineSettings, OutOfRangeAreRefused) {
         EXPECT_THROW(render(scene, settings), std::invalid_argument);
     };
     expect_refused(line_settings(0));
-    expect_refused(line_settings(render_cpu::kMaxLines + 1));
+    expect_refused(line_settings(render::kMaxLines + 1));
     RenderSettings settings = line_settings(1);
     settings.technique = Technique::ltc_analytic;
     expect_refused(settings);
-    settings = line_settings(render_cpu::kMaxLines);
-    settings.samples = render_cpu::kMaxSamples;
-    settings.camera_rays = render_cpu::kMaxSamples;
+    settings = line_settings(render::kMaxLines);
+    settings.samples = render::kMaxSamples;
+    settings.camera_rays = render::kMaxSamples;
     expect_refused(settings);
 }
 

@@ -4,16 +4,16 @@
 
 namespace nusselt::render_test {
 
-using render_cpu::RenderSettings;
+using render::RenderSettings;
 
 RenderSettings line_settings(int lines) {
     RenderSettings settings;
-    settings.integrator = render_cpu::Integrator::lines;
+    settings.integrator = render::Integrator::lines;
     settings.lines.count = lines;
-    settings.lines.many_occluders = render_cpu::ManyOccluders::lines;
+    settings.lines.many_occluders = render::ManyOccluders::lines;
     // Seeds of render_region_means() depend on it: references have another one.
-    settings.technique = render_cpu::Technique::solid_angle;
-    settings.pixel_position = render_cpu::PixelPosition::center;
+    settings.technique = render::Technique::solid_angle;
+    settings.pixel_position = render::PixelPosition::center;
     settings.samples = kSamples;
     settings.camera_rays = 1;
     return settings;
@@ -21,8 +21,8 @@ RenderSettings line_settings(int lines) {
 
 RenderSettings point_settings() {
     RenderSettings settings = line_settings(1);
-    settings.integrator = render_cpu::Integrator::points;
-    settings.technique = render_cpu::Technique::projected_solid_angle;
+    settings.integrator = render::Integrator::points;
+    settings.technique = render::Technique::projected_solid_angle;
     return settings;
 }
 

@@ -11,10 +11,10 @@ inline constexpr int kSize = 32;
 inline constexpr int kSamples = 16;
 
 /// One camera ray through the centre of each pixel; lines whatever the occluders.
-render_cpu::RenderSettings line_settings(int lines);
+render::RenderSettings line_settings(int lines);
 
 /// The same with points.
-render_cpu::RenderSettings point_settings();
+render::RenderSettings point_settings();
 
 /// A floor below a panel, and small triangles in between. They are black: seen almost edge-on by the light, they would be
 /// bright in a few images out of many.

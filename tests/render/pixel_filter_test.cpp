@@ -2,8 +2,8 @@
 
 #include "scenes.h"
 
+#include "render/pixel_filter.h"
 #include "render_cpu/kernel.h"
-#include "render_cpu/pixel_filter.h"
 
 #include <gtest/gtest.h>
 
@@ -103,15 +103,15 @@ std::vector<double> expected_pixels(const PixelFilter& filter, const AxisFunctio
     return pixels;
 }
 
-render_cpu::RenderSettings make_settings(int samples, render_cpu::SampleOrder order) {
-    render_cpu::RenderSettings settings;
+render::RenderSettings make_settings(int samples, render::SampleOrder order) {
+    render::RenderSettings settings;
     settings.samples = samples;
     settings.sample_order = order;
     return settings;
 }
 
 /// Red of each pixel, one row per seed.
-std::vector<std::vector<double>> rows_of(const scene::Scene& scene, render_cpu::RenderSettings settings,
+std::vector<std::vector<double>> rows_of(const scene::Scene& scene, render::RenderSettings settings,
                                          int seeds) {
     const render_cpu::Renderer renderer(scene, 2);
     std::vector<std::vector<double>> rows;
@@ -155,7 +155,7 @@ protected:
         constexpr int kSamples = 512;
         constexpr int kImages = 64;
         const auto rows = rows_of(make_corner(filter(), kCornerX, kCornerY),
-                                  make_settings(kSamples, render_cpu::SampleOrder::independent), kImages);
+                                  make_settings(kSamples, render::SampleOrder::independent), kImages);
         const std::vector<double> expected = expected_pixels(filter(), f);
         const std::vector<double> probability = expected_pixels(filter(), magnitude_function());
         const double weight = axis_weight(filter().radius_x) * axis_weight(filter().radius_y);
@@ -195,7 +195,7 @@ TEST_P(SignedFilters, TheTestTellsForgottenSigns) {
 /// On a constant only the signs of weights vary: the mean square weight is known. Without negative lobes all is exact.
 TEST_P(Filters, VaryBySignsAlone) {
     const auto rows =
-        rows_of(make_corner(filter(), -10, -10), make_settings(1, render_cpu::SampleOrder::independent), 256);
+        rows_of(make_corner(filter(), -10, -10), make_settings(1, render::SampleOrder::independent), 256);
     const double weight = axis_weight(filter().radius_x) * axis_weight(filter().radius_y);
     const double expected = weight * weight - 1;
     if (filter().kind == FilterKind::mitchell)
@@ -209,15 +209,14 @@ TEST_P(Filters, VaryBySignsAlone) {
 TEST_P(Filters, StayStratified) {
     const scene::Scene scene = make_corner(filter(), kCornerX, kCornerY);
     const double independent =
-        mean_variance(rows_of(scene, make_settings(256, render_cpu::SampleOrder::independent), 16));
-    const double sobol =
-        mean_variance(rows_of(scene, make_settings(256, render_cpu::SampleOrder::sobol), 16));
+        mean_variance(rows_of(scene, make_settings(256, render::SampleOrder::independent), 16));
+    const double sobol = mean_variance(rows_of(scene, make_settings(256, render::SampleOrder::sobol), 16));
     EXPECT_LT(sobol, 0.1 * independent);
 }
 
 TEST_P(Filters, DoNotMoveRaysThroughPixelCentres) {
-    render_cpu::RenderSettings settings = make_settings(1, render_cpu::SampleOrder::sobol);
-    settings.pixel_position = render_cpu::PixelPosition::center;
+    render::RenderSettings settings = make_settings(1, render::SampleOrder::sobol);
+    settings.pixel_position = render::PixelPosition::center;
     for (const auto& row : rows_of(make_corner(filter(), kCornerX, kCornerY), settings, 1))
         for (int i = 0; i < kSize * kSize; ++i)
             EXPECT_EQ(row[static_cast<std::size_t>(i)],
@@ -242,20 +241,20 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Filters,
 /// Narrow Gaussians and nearly flat ones are no special cases; what has no integral is an error.
 TEST(FilterTables, CoverAllParameters) {
     for (const float sigma : {1e-4f, 1e-2f, 1e2f, 1e6f}) {
-        const auto table = render_cpu::make_filter_table({FilterKind::gaussian, 2, 2, sigma}, 2);
+        const auto table = render::make_filter_table({FilterKind::gaussian, 2, 2, sigma}, 2);
         // The median of the distance: of a Gaussian, or of the parabola that its top is.
         const double expected = sigma < 1 ? 0.67449 * sigma : 2 * 0.347296;
         const auto& cumulative = table.cumulative;
         const auto above = std::upper_bound(cumulative.begin(), cumulative.end(), 0.75f);
         const double cell =
             static_cast<double>(above - cumulative.begin()) - 1 + (0.75 - above[-1]) / (above[0] - above[-1]);
-        EXPECT_NEAR(table.reach * (2 * cell / render_cpu::kFilterCells - 1), expected, 1e-3 * expected);
+        EXPECT_NEAR(table.reach * (2 * cell / render::kFilterCells - 1), expected, 1e-3 * expected);
         for (const float weight : table.weights) EXPECT_EQ(weight, 1);
     }
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_THROW(render_cpu::make_filter_table({FilterKind::gaussian, 2, 2, 0}, 2), std::runtime_error);
-    EXPECT_THROW(render_cpu::make_filter_table({FilterKind::triangle, 2, 2}, 0), std::runtime_error);
-    EXPECT_THROW(render_cpu::make_filter_table({FilterKind::mitchell, 2, 2, 0.5f, nan, 0}, 2),
+    EXPECT_THROW(render::make_filter_table({FilterKind::gaussian, 2, 2, 0}, 2), std::runtime_error);
+    EXPECT_THROW(render::make_filter_table({FilterKind::triangle, 2, 2}, 0), std::runtime_error);
+    EXPECT_THROW(render::make_filter_table({FilterKind::mitchell, 2, 2, 0.5f, nan, 0}, 2),
                  std::runtime_error);
 }
 

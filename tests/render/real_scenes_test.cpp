@@ -4,7 +4,7 @@
 #include "scenes.h"
 
 #include "image/metrics.h"
-#include "render_cpu/film.h"
+#include "render/film.h"
 #include "scene/load.h"
 #include "scene/rig.h"
 #include "scene/rig_json.h"
@@ -19,7 +19,7 @@
 namespace nusselt::render_test {
 namespace {
 
-using render_cpu::Technique;
+using render::Technique;
 
 class ScenesFolder : public testing::TestWithParam<const char*> {
 protected:
@@ -52,17 +52,17 @@ TEST_P(RealSceneWithRig, EachTechniqueGivesValidPixels) {
     scene::Scene scene = load(name + "/" + name + ".pbrt");
     scene::apply_rig(
         scene::read_rig(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes/rigs" / (rig + ".json")), scene);
-    render_cpu::resize_film(scene, 48, 32);
+    render::resize_film(scene, 48, 32);
     const render_cpu::Renderer renderer(scene, render_cpu::default_thread_count());
-    for (const Technique technique : render_cpu::kTechniques) {
-        render_cpu::RenderSettings settings;
+    for (const Technique technique : render::kTechniques) {
+        render::RenderSettings settings;
         settings.technique = technique;
         const render_cpu::RenderResult result = renderer.render(settings, render_cpu::choose_isa());
         EXPECT_EQ(image::compare(result.image, result.image).invalid_a.count, 0)
-            << render_cpu::name_of(technique);
+            << render::name_of(technique);
         EXPECT_TRUE(std::any_of(result.image.pixels.begin(), result.image.pixels.end(), [](float value) {
             return value > 0;
-        })) << render_cpu::name_of(technique);
+        })) << render::name_of(technique);
     }
 }
 
@@ -79,13 +79,13 @@ INSTANTIATE_TEST_SUITE_P(Published, RealSceneWithRig,
 
 TEST_P(RealScene, EachTechniqueGivesValidPixels) {
     const render_cpu::Renderer renderer(scene_, render_cpu::default_thread_count());
-    for (const Technique technique : render_cpu::kTechniques) {
-        render_cpu::RenderSettings settings;
+    for (const Technique technique : render::kTechniques) {
+        render::RenderSettings settings;
         settings.technique = technique;
         const render_cpu::RenderResult result = renderer.render(settings, render_cpu::choose_isa());
-        EXPECT_EQ(result.statistics.rejected_samples, 0u) << render_cpu::name_of(technique);
+        EXPECT_EQ(result.statistics.rejected_samples, 0u) << render::name_of(technique);
         EXPECT_EQ(image::compare(result.image, result.image).invalid_a.count, 0)
-            << render_cpu::name_of(technique);
+            << render::name_of(technique);
     }
 }
 
@@ -94,17 +94,17 @@ TEST_P(RealScene, EachTechniqueGivesValidPixels) {
 TEST_P(RealScene, TechniquesHaveTheSameMean) {
     const render_cpu::Renderer renderer(scene_, render_cpu::default_thread_count());
     const auto tracer = renderer.visibility().tracer();
-    render_cpu::RenderSettings settings;
+    render::RenderSettings settings;
     settings.samples = 256 / kSeeds;
     settings.camera_rays = 1;
-    settings.pixel_position = render_cpu::PixelPosition::center;
+    settings.pixel_position = render::PixelPosition::center;
     settings.technique = Technique::projected_solid_angle;
     const auto reference = render_region_means(renderer, settings, kSeeds, tracer);
     for (const Technique technique :
          {Technique::area, Technique::solid_angle, Technique::clipped_solid_angle}) {
         settings.technique = technique;
         EXPECT_LT(largest_t(render_region_means(renderer, settings, kSeeds, tracer), reference), kLargestT)
-            << render_cpu::name_of(technique);
+            << render::name_of(technique);
     }
 }
 

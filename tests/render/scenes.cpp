@@ -195,7 +195,7 @@ std::vector<double> region_means(const image::Image& image, int regions_per_axis
 }
 
 std::vector<std::vector<double>> render_region_means(const render_cpu::Renderer& renderer,
-                                                     render_cpu::RenderSettings settings, int seed_count,
+                                                     render::RenderSettings settings, int seed_count,
                                                      const visibility::RayTracer& tracer) {
     std::vector<std::vector<double>> rows;
     for (int seed = 0; seed < seed_count; ++seed) {

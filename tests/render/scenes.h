@@ -47,7 +47,7 @@ double differing_share(const image::Image& a, const image::Image& b, double tole
 
 /// Region means of images with different seeds: one row per seed.
 std::vector<std::vector<double>> render_region_means(const render_cpu::Renderer& renderer,
-                                                     render_cpu::RenderSettings settings, int seed_count,
+                                                     render::RenderSettings settings, int seed_count,
                                                      const visibility::RayTracer& tracer);
 
 inline constexpr int kRegionsPerAxis = 4;

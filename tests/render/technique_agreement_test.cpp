@@ -8,7 +8,7 @@
 namespace nusselt::render_test {
 namespace {
 
-using render_cpu::Technique;
+using render::Technique;
 
 constexpr int kSize = 32;
 constexpr int kSamples = 16;
@@ -19,7 +19,7 @@ protected:
         settings_.samples = kSamples;
         settings_.camera_rays = 1;
         // Stratified in the pixel, camera rays are noisier than light samples: they cancel in differences.
-        settings_.pixel_position = render_cpu::PixelPosition::center;
+        settings_.pixel_position = render::PixelPosition::center;
     }
 
     std::vector<std::vector<double>> rows(Technique technique, const visibility::RayTracer& tracer) {
@@ -29,18 +29,18 @@ protected:
 
     scene::Scene scene_;
     render_cpu::Renderer renderer_;
-    render_cpu::RenderSettings settings_;
+    render::RenderSettings settings_;
 };
 
 TEST_F(TechniqueAgreement, SameExpectation) {
     const auto tracer = renderer_.visibility().tracer();
-    for (const auto order : render_cpu::kSampleOrders) {
+    for (const auto order : render::kSampleOrders) {
         settings_.sample_order = order;
         const auto reference = rows(Technique::projected_solid_angle, tracer);
         for (const Technique technique :
              {Technique::area, Technique::solid_angle, Technique::clipped_solid_angle})
             EXPECT_LT(largest_t(rows(technique, tracer), reference), kLargestT)
-                << render_cpu::name_of(technique) << ", " << render_cpu::name_of(order);
+                << render::name_of(technique) << ", " << render::name_of(order);
     }
 }
 
@@ -50,16 +50,16 @@ TEST_F(TechniqueAgreement, TwoTechniquesHaveTheSameExpectationWithEachHeuristic)
     // Far from what it should be, and yet without bias.
     settings_.visibility_estimate = 0.8f;
     for (const auto technique : {Technique::projected_solid_angle, Technique::solid_angle})
-        for (const auto strategies : render_cpu::kStrategies)
-            for (const auto mis : render_cpu::kMisHeuristics) {
-                if (strategies == render_cpu::Strategies::diffuse || !allows(technique, strategies) ||
+        for (const auto strategies : render::kStrategies)
+            for (const auto mis : render::kMisHeuristics) {
+                if (strategies == render::Strategies::diffuse || !allows(technique, strategies) ||
                     !allows(strategies, mis))
                     continue;
                 settings_.strategies = strategies;
                 settings_.mis = mis;
                 EXPECT_LT(largest_t(rows(technique, tracer), reference), kLargestT)
-                    << render_cpu::name_of(technique) << ", " << render_cpu::name_of(strategies) << ", "
-                    << render_cpu::name_of(mis);
+                    << render::name_of(technique) << ", " << render::name_of(strategies) << ", "
+                    << render::name_of(mis);
             }
 }
 
@@ -68,14 +68,14 @@ TEST_F(TechniqueAgreement, RejectsTwoTechniquesThatAreTooDark) {
     const auto tracer = renderer_.visibility().tracer();
     const LossyTracer mutant(tracer, 0.03);
     const auto reference = rows(Technique::projected_solid_angle, tracer);
-    settings_.strategies = render_cpu::Strategies::diffuse_ltc;
-    settings_.mis = render_cpu::Mis::optimal;
+    settings_.strategies = render::Strategies::diffuse_ltc;
+    settings_.mis = render::Mis::optimal;
     EXPECT_GT(largest_t(rows(Technique::projected_solid_angle, mutant.tracer()), reference), kLargestT);
 }
 
 TEST_F(TechniqueAgreement, ManyCameraRaysHaveTheSameExpectation) {
     const auto tracer = renderer_.visibility().tracer();
-    settings_.pixel_position = render_cpu::PixelPosition::jittered;
+    settings_.pixel_position = render::PixelPosition::jittered;
     settings_.camera_rays = kSamples;
     const auto one_light_sample = rows(Technique::projected_solid_angle, tracer);
     settings_.camera_rays = kSamples / 4;

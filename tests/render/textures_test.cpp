@@ -52,9 +52,9 @@ scene::Scene make_textured_floor(const UvMap& map) {
 }
 
 image::Image render(const scene::Scene& scene) {
-    render_cpu::RenderSettings settings;
-    settings.technique = render_cpu::Technique::ltc_analytic;
-    settings.pixel_position = render_cpu::PixelPosition::center;
+    render::RenderSettings settings;
+    settings.technique = render::Technique::ltc_analytic;
+    settings.pixel_position = render::PixelPosition::center;
     settings.samples = 1;
     return render_cpu::Renderer(scene, 2).render(settings, render_cpu::choose_isa()).image;
 }

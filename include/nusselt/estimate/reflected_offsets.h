@@ -5,18 +5,17 @@
 /// samples where densities of lines by length miss highlights. Deviation: the integrals along unshadowed lines, which have
 /// closed forms, are tabulated, and offsets drawn from the table: they stay stratified in one dimension.
 
-#include <bit>
-
 #include <nusselt/estimate/line_light.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
 /// \tparam Real  float, double, long double or a pack: a line per lane, of one light and surface point.
 /// \tparam N     bound on the number of vertices of the light.
-/// \tparam Nodes of the table, even ones; half as many are added around highlights that are narrower than the distance of
+/// \tparam Nodes of the table, a power of two, even ones; half as many are added around highlights that are narrower than the distance of
 ///               two. Each costs as much as a line without shadows.
 template <class Real, int N, int Nodes = 32>
 class ReflectedOffsets {
+    static_assert(Nodes >= 4 && (Nodes & (Nodes - 1)) == 0, "for the search by halves");
     using Scalar = scalar_t<Real>;
     static constexpr int kLanes = RealTraits<Real>::kLanes;
     static constexpr int kPeakNodes = Nodes / 2; ///< the same on both sides
@@ -120,7 +119,7 @@ private:
         store(target, lanes);
         for (int i = 0; i < kLanes; ++i) {
             int cell = 0;
-            for (int step = kLargestStep; step > 0; step /= 2)
+            for (int step = Nodes; step > 0; step /= 2)
                 if (cell + step < cells_ && below_[cell + step] <= lanes[i]) cell += step;
             begin[i] = node_[cell];
             end[i] = node_[cell + 1];
@@ -130,9 +129,6 @@ private:
         }
         return {load(begin), load(end), load(below), load(left), load(right)};
     }
-
-    /// Of the search by halves, a power of two.
-    static constexpr int kLargestStep = static_cast<int>(std::bit_floor(static_cast<unsigned>(kMostNodes)));
 
     NUSSELT_HD static Scalar first_lane(const Real& x) noexcept {
         Scalar lanes[kLanes];

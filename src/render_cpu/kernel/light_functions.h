@@ -18,7 +18,7 @@ struct LightFunctions {
 };
 
 /// All samples come from one technique.
-LightFunctions single_technique_functions(render_cpu::Technique technique) noexcept;
+LightFunctions single_technique_functions(render::Technique technique) noexcept;
 
 /// Samples come from one technique for the diffuse and one for the specular component.
 LightFunctions paired_technique_functions(const render_cpu::RenderJob& job) noexcept;
@@ -32,15 +32,15 @@ LightFunctions line_functions(const LightFunctions& points) noexcept;
 
 /// Points of lights.
 inline LightFunctions point_functions(const render_cpu::RenderJob& job) noexcept {
-    if (job.technique == render_cpu::Technique::ltc_analytic) return analytic_functions();
-    if (job.strategies == render_cpu::Strategies::diffuse) return single_technique_functions(job.technique);
+    if (job.technique == render::Technique::ltc_analytic) return analytic_functions();
+    if (job.strategies == render::Strategies::diffuse) return single_technique_functions(job.technique);
     return paired_technique_functions(job);
 }
 
 /// \copydoc LightFunctions
 inline LightFunctions light_functions(const render_cpu::RenderJob& job) noexcept {
     const LightFunctions points = point_functions(job);
-    return job.integrator == render_cpu::Integrator::lines ? line_functions(points) : points;
+    return job.integrator == render::Integrator::lines ? line_functions(points) : points;
 }
 
 } // namespace kernel

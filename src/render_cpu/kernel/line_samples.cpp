@@ -10,10 +10,10 @@ NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 namespace {
 
-using render_cpu::LineOffsets;
-using render_cpu::LineOrientation;
-using render_cpu::LineShading;
-using render_cpu::ManyOccluders;
+using render::LineOffsets;
+using render::LineOrientation;
+using render::LineShading;
+using render::ManyOccluders;
 
 using Estimator = LineLight<Real, SurfaceBrdf>;
 
@@ -281,7 +281,7 @@ private:
     }
 
     ReflectedLight& reflected_;
-    const render_cpu::LineSettings& settings_;
+    const render::LineSettings& settings_;
     LineMemory& memory_;
     std::int32_t light_;
     std::uint32_t count_;

@@ -4,7 +4,7 @@ NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 namespace {
 
-using render_cpu::Mis;
+using render::Mis;
 
 /// The heuristic of the job. That it branches costs next to nothing: all lanes and samples go the same way.
 struct ChosenHeuristic {
@@ -84,14 +84,14 @@ LightFunctions functions() noexcept {
 
 /// For sampling of the BRDF: lines and tubes have samples of one technique only.
 template <class PolygonPair>
-LightFunctions brdf_functions(render_cpu::Technique technique) noexcept {
+LightFunctions brdf_functions(render::Technique technique) noexcept {
     const LightFunctions single = single_technique_functions(technique);
     return {&add_polygon<PolygonPair, 4>, &add_polygon<PolygonPair, 8>, single.add_line, single.add_tube};
 }
 
 template <template <class> class Lobe>
-LightFunctions brdf_functions_with(render_cpu::Technique technique) noexcept {
-    if (technique == render_cpu::Technique::solid_angle)
+LightFunctions brdf_functions_with(render::Technique technique) noexcept {
+    if (technique == render::Technique::solid_angle)
         return brdf_functions<SolidAngleAndBrdf<Lobe>>(technique);
     return brdf_functions<ProjectedSolidAngleAndBrdf<Lobe>>(technique);
 }
@@ -103,15 +103,15 @@ using VisibleNormals = GgxVisibleNormals<R>;
 
 LightFunctions paired_technique_functions(const render_cpu::RenderJob& job) noexcept {
     switch (job.strategies) {
-    case render_cpu::Strategies::diffuse_ggx:
+    case render::Strategies::diffuse_ggx:
         return brdf_functions_with<VisibleNormals>(job.technique);
-    case render_cpu::Strategies::diffuse_ggx_bounded:
+    case render::Strategies::diffuse_ggx_bounded:
         return brdf_functions_with<GgxBoundedVisibleNormals>(job.technique);
-    case render_cpu::Strategies::diffuse_ltc:
-    case render_cpu::Strategies::diffuse:
+    case render::Strategies::diffuse_ltc:
+    case render::Strategies::diffuse:
         break;
     }
-    if (job.technique == render_cpu::Technique::projected_solid_angle_biased)
+    if (job.technique == render::Technique::projected_solid_angle_biased)
         return functions<BiasedProjectedSolidAngleAndLtc, ProjectedSolidAngleAndLtc>();
     return functions<ProjectedSolidAngleAndLtc, ProjectedSolidAngleAndLtc>();
 }

@@ -27,15 +27,15 @@ struct PacketSamples {
     std::uint32_t number[kLanes];
 };
 
-inline Sampler sampler_of(render_cpu::SampleOrder order) noexcept {
+inline Sampler sampler_of(render::SampleOrder order) noexcept {
     switch (order) {
-    case render_cpu::SampleOrder::independent:
+    case render::SampleOrder::independent:
         return Sampler::independent;
-    case render_cpu::SampleOrder::jittered:
+    case render::SampleOrder::jittered:
         return Sampler::jittered;
-    case render_cpu::SampleOrder::stratified:
+    case render::SampleOrder::stratified:
         return Sampler::stratified;
-    case render_cpu::SampleOrder::sobol:
+    case render::SampleOrder::sobol:
         break;
     }
     return Sampler::sobol;
@@ -109,7 +109,7 @@ inline Real filtered_offset(const render_cpu::FilterAxis& filter, const Real& u,
     float lanes[kLanes];
     u.store(lanes);
     std::int32_t cell[kLanes] = {};
-    for (std::int32_t step = render_cpu::kFilterCells / 2; step > 0; step /= 2)
+    for (std::int32_t step = render::kFilterCells / 2; step > 0; step /= 2)
         for (int i = 0; i < kLanes; ++i) cell[i] += filter.cumulative[cell[i] + step] <= lanes[i] ? step : 0;
     float position[kLanes];
     float cell_weight[kLanes];
@@ -120,7 +120,7 @@ inline Real filtered_offset(const render_cpu::FilterAxis& filter, const Real& u,
         cell_weight[i] = filter.weights[cell[i]];
     }
     weight = weight * Real::load(cell_weight);
-    return reach * (Real(2.0f / render_cpu::kFilterCells) * Real::load(position) - Real(1));
+    return reach * (Real(2.0f / render::kFilterCells) * Real::load(position) - Real(1));
 }
 
 /// Not inlined: g++ leaves the hashes scalar when they are part of a large function.
@@ -128,7 +128,7 @@ inline Real filtered_offset(const render_cpu::FilterAxis& filter, const Real& u,
 camera_samples(const render_cpu::RenderJob& job, const PixelBlock& block, std::uint32_t camera_ray) noexcept {
     Vec2<Real> offset{Real(0), Real(0)};
     Real weight = Real(1);
-    if (job.pixel_position != render_cpu::PixelPosition::center) {
+    if (job.pixel_position != render::PixelPosition::center) {
         const PacketSamples samples(camera_ray);
         float u_x[kLanes];
         float u_y[kLanes];

@@ -44,18 +44,18 @@ using LinePsa = LineProjectedSolidAngle<R>;
 
 } // namespace
 
-LightFunctions single_technique_functions(render_cpu::Technique technique) noexcept {
+LightFunctions single_technique_functions(render::Technique technique) noexcept {
     switch (technique) {
-    case render_cpu::Technique::area:
+    case render::Technique::area:
         return functions<PolygonArea, LineArea, CylinderArea>();
-    case render_cpu::Technique::solid_angle:
+    case render::Technique::solid_angle:
         return functions<PolygonSolidAngle, LineSolidAngle, CylinderSolidAngle>();
-    case render_cpu::Technique::clipped_solid_angle:
+    case render::Technique::clipped_solid_angle:
         return functions<PolygonClippedSolidAngle, LineClippedSolidAngle, CylinderSolidAngle>();
-    case render_cpu::Technique::projected_solid_angle_biased:
+    case render::Technique::projected_solid_angle_biased:
         return functions<PolygonProjectedSolidAngleBiased, LinePsa, CylinderProjectedSolidAngle>();
-    case render_cpu::Technique::projected_solid_angle:
-    case render_cpu::Technique::ltc_analytic:
+    case render::Technique::projected_solid_angle:
+    case render::Technique::ltc_analytic:
         break;
     }
     return functions<PolygonPsa, LinePsa, CylinderProjectedSolidAngle>();
