@@ -351,6 +351,34 @@ TEST(ReflectedOffsets, LessNoiseThanByLength) {
     }
 }
 
+TEST(ReflectedOffsets, FindsHighlightsOfAnyWidth) {
+    const auto light = make_light<double>(
+        PolygonCase{"ceiling", {{-0.8, -0.7, 1.8}, {-0.8, 0.9, 1.8}, {1.1, 0.9, 1.8}, {1.1, -0.7, 1.8}}});
+    for (const double width : {0.03, 0.01, 1e-3, 1e-4})
+        for (const double tilt : {-0.3, 0.123}) {
+            const auto surface = fitting_surface({1 / width, -tilt / width, 1 / width, 0, 1, 1});
+            for (const double angle : {0.0, 0.7, 2.0}) {
+                const LineFamily<double, 4> family(light, angle);
+                const LineLight<double, FittingBrdf> estimator(family.plane(), family.reach(), surface);
+                const ReflectedOffsets<double, 4> offsets(family, estimator);
+                double sum = 0;
+                double squares = 0;
+                constexpr int kLines = 1000;
+                for (int i = 0; i < kLines; ++i) {
+                    const auto choice = offsets.sample((i + 0.5) / kLines);
+                    const CutLine<double> line(family.chord(choice.offset).extent, {});
+                    const double x =
+                        estimator.analytic(choice.offset, line.parts).specular.y / choice.pdf / kSpecular.y;
+                    sum += x / kLines;
+                    squares += x * x / kLines;
+                }
+                // All of the lobe is on the light, up to its tails.
+                EXPECT_NEAR(sum, 1, 0.02) << width;
+                EXPECT_LT(squares / (sum * sum) - 1, 0.4) << width;
+            }
+        }
+}
+
 TEST(ReflectedOffsets, BlackSurfacesSampleByLength) {
     const auto light = make_light<double>(polygon_cases()[0]);
     const LineFamily<double, 4> family(light, 0);
