@@ -142,6 +142,7 @@ float light_of_lines(const ConvexPolygon<float, 4>& light, std::vector<std::arra
     const float angle = 0.7f;
     const LineFamily<float, 4> family(light, angle);
     const auto plane = to_shading_space(family.plane(), point, frame);
+    const LobePlane<float, BothSides> lines({plane, family.reach()});
     const auto shadow_frame = make_shadow_frame(family.plane(), point);
     for (const float random : u) {
         const auto line = family.sample_by_length(random);
@@ -151,9 +152,9 @@ float light_of_lines(const ConvexPolygon<float, 4>& light, std::vector<std::arra
         VisibleParts<float> parts(memory, 64);
         parts.reset(chord.extent);
         for (const auto& triangle : triangles) parts.cut(hidden_by(triangle, shadow_frame, line.offset));
-        const SeenLine<float> seen(plane, chord);
+        const auto seen = lines.line(line.offset);
         for (int k = 0; k < parts.count(); ++k)
-            radiance += emitted * kAlbedo * diffuse_part<BothSides>(seen, parts[k]) / line.pdf;
+            radiance += emitted * kAlbedo * diffuse_part(seen, parts[k]) / line.pdf;
     }
     return radiance / static_cast<float>(u.size());
 }

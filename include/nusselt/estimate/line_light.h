@@ -9,115 +9,11 @@
 
 #include <nusselt/estimate/mis.h>
 #include <nusselt/estimate/surface.h>
-#include <nusselt/geometry/convex_polygon.h>
+#include <nusselt/line_samples/shading.h>
 #include <nusselt/line_samples/visible_parts.h>
-#include <nusselt/ltc/light_transform.h>
 #include <nusselt/sampling/cosine_arc.h>
 
 NUSSELT_NAMESPACE_BEGIN
-
-/// Where among the lines of a light a lobe is brightest.
-template <class Real>
-struct LinePeak {
-    Real offset; ///< [m]
-    Real width;  ///< about that of the peak [m]; infinite if there is none
-};
-
-namespace detail {
-
-/// A line of a light in the cosine space of a lobe, where coordinates along the line are stretched.
-template <class Real>
-struct ImageOfLine {
-    Vec3<Real> along;   ///< unit
-    Vec3<Real> closest; ///< point of the line
-    Real distance;      ///< of the line
-    Real shift;         ///< coordinate along the image of the point with coordinate 0
-    Real stretch;
-    Real height; ///< of the point with coordinate 0 over the horizon of the lobe
-    Real slope;  ///< of that height by the coordinate
-    Real factor; ///< of cosine_integral()
-
-    /// The integral of the lobe over a part, times cosine / distance^2 of the light, per scaled metre of offset.
-    NUSSELT_INLINE Real integral(const Interval<Real>& part) const noexcept {
-        const LineExtent<Real> e = extent(part);
-        return select(e.visible, cosine_integral(e) * factor, Real(0));
-    }
-
-    NUSSELT_INLINE LineExtent<Real> extent(const Interval<Real>& part) const noexcept {
-        const Real l0 = fma(part.begin, stretch, shift);
-        const Real l1 = fma(part.end, stretch, shift);
-        Vec3<Real> p0 = fma(l0, along, closest);
-        Vec3<Real> p1 = fma(l1, along, closest);
-        p0.z = fma(part.begin, slope, height);
-        p1.z = fma(part.end, slope, height);
-        return make_line_extent(along, p0, p1, closest, distance, l0, l1, (part.end - part.begin) * stretch);
-    }
-
-    /// What of a part is above the horizon of the lobe.
-    NUSSELT_INLINE Interval<Real> clipped(const Interval<Real>& part) const noexcept {
-        const auto rises = slope > Real(0);
-        const auto falls = slope < Real(0);
-        const auto is_level = !(rises | falls);
-        const Real crossing = -height / select(is_level, Real(1), slope);
-        const auto hidden = is_level & !(height > Real(0));
-        const Real begin = min(select(rises, max(part.begin, crossing), part.begin), part.end);
-        const Real end = max(select(falls, min(part.end, crossing), part.end), begin);
-        return {begin, select(hidden, begin, end)};
-    }
-
-    NUSSELT_INLINE static ImageOfLine select_between(const mask_t<Real>& mask, const ImageOfLine& a,
-                                                     const ImageOfLine& b) noexcept {
-        return {select(mask, a.along, b.along),       select(mask, a.closest, b.closest),
-                select(mask, a.distance, b.distance), select(mask, a.shift, b.shift),
-                select(mask, a.stretch, b.stretch),   select(mask, a.height, b.height),
-                select(mask, a.slope, b.slope),       select(mask, a.factor, b.factor)};
-    }
-};
-
-/// The lines of a light in the cosine space of a lobe.
-template <class Real>
-struct ImageOfPlane {
-    Vec3<Real> origin, across; ///< images of those of the light
-    Vec3<Real> along;          ///< image, unit
-    Real stretch;              ///< its length before
-    Real factor;
-
-    /// \param determinant of the map to cosine space.
-    /// \param height      distance of the plane of the light, before the map.
-    NUSSELT_HD ImageOfPlane(const Vec3<Real>& image_of_origin, const Vec3<Real>& image_of_across,
-                            const Vec3<Real>& image_of_along, const Real& determinant,
-                            const Real& height) noexcept
-        : origin(image_of_origin), across(image_of_across) {
-        const Real squared = dot(image_of_along, image_of_along);
-        stretch = sqrt(squared);
-        const Real inverse = Real(1) / select(stretch > Real(0), stretch, Real(1));
-        along = inverse * image_of_along;
-        factor = (Real(1 / (2 * kPi<scalar_t<Real>>)) * determinant) * (height * inverse);
-    }
-
-    /// Whose planes through the origin are closest to the pole of the lobe, among those with offsets in the interval.
-    NUSSELT_INLINE LinePeak<Real> peak(const Interval<Real>& offsets) const noexcept {
-        const Vec3<Real> moment = cross(origin, along);
-        const Vec3<Real> slope = cross(across, along);
-        const auto has_peak = slope.z != Real(0);
-        const Real steepness = select(has_peak, slope.z, Real(1));
-        const Real offset = min(max(-moment.z / steepness, offsets.begin), offsets.end);
-        const Vec3<Real> there = fma(offset, slope, moment);
-        constexpr scalar_t<Real> kInfinity = std::numeric_limits<scalar_t<Real>>::infinity();
-        return {offset, select(has_peak, sqrt(dot(there, there)) / abs(steepness), Real(kInfinity))};
-    }
-
-    NUSSELT_INLINE ImageOfLine<Real> line(const Real& offset) const noexcept {
-        const Vec3<Real> p = fma(offset, across, origin);
-        const Vec3<Real> moment = cross(p, along);
-        const Real squared = dot(moment, moment);
-        const Real inverse = Real(1) / select(squared > Real(0), squared, Real(1));
-        return {along, cross(along, moment), sqrt(squared),   dot(p, along), stretch,
-                p.z,   stretch * along.z,    factor * inverse};
-    }
-};
-
-} // namespace detail
 
 /// One light and surface point, for many lines of the light. The light shines to both sides.
 ///
@@ -135,7 +31,7 @@ public:
     /// \param reach   LineFamily::reach() of the lines [m], or more.
     /// \param surface must outlive the object.
     NUSSELT_HD LineLight(const LinePlane<Real>& plane, const Real& reach, const Surface& surface) noexcept
-        : LineLight(ScaledPlane(plane, reach), surface) {}
+        : LineLight(ScaledPlane<Real>(plane, reach), surface) {}
 
     /// By the integrals of a Lambertian and of the fitted lobe above the horizon of the surface. Exact for Lambert,
     /// otherwise biased by the misfit. Not negative; the sum over disjoint parts is that of the whole up to rounding.
@@ -148,7 +44,7 @@ public:
         Real specular = Real(0);
         for (int k = 0; k < parts.count(); ++k) {
             if (!any(parts[k].begin < parts[k].end)) continue;
-            const Interval<Real> above = line.cosine.clipped(scaled(parts[k]));
+            const Interval<Real> above = line.cosine.clipped(finite(parts[k]));
             diffuse = diffuse + line.cosine.integral(above);
             if (any(is_glossy_)) specular = specular + line.lobe.integral(line.lobe.clipped(above));
         }
@@ -171,7 +67,7 @@ public:
             Choice choice(u);
             for (int k = 0; k < parts.count(); ++k) {
                 if (!any(parts[k].begin < parts[k].end)) continue;
-                const Interval<Real> above = line.cosine.clipped(scaled(parts[k]));
+                const Interval<Real> above = line.cosine.clipped(finite(parts[k]));
                 const Real by_cosine = line.cosine.integral(above);
                 diffuse = diffuse + by_cosine;
                 choice.offer(cosine_weight_ * by_cosine, above, mask_t<Real>(false));
@@ -190,8 +86,7 @@ public:
             // The change from directions to points of the line is the same in the integrand and in the density.
             const Real density = fma(cosine_weight_, cosine_density, lobe_weight_ * lobe_density);
             const auto drawn = (choice.total > Real(0)) & (density > Real(0));
-            const Real factor =
-                scale_ * select(drawn, choice.total / select(drawn, density, Real(1)), Real(0));
+            const Real factor = select(drawn, choice.total / select(drawn, density, Real(1)), Real(0));
             const BrdfComponents<Real> brdf = surface_.brdf.eval_components(wi);
             return {fma(factor, cosine * brdf.diffuse - cosine_density * diffuse_albedo_, expected.diffuse),
                     fma(factor, cosine * brdf.specular - lobe_density * surface_.specular_albedo,
@@ -202,16 +97,15 @@ public:
     /// Of the fitted lobe; diffuse surfaces have none.
     /// \param offsets of the light [m].
     NUSSELT_HD LinePeak<Real> peak(const Interval<Real>& offsets) const noexcept {
-        const LinePeak<Real> scaled_peak = lobe_.peak({scale_ * offsets.begin, scale_ * offsets.end});
-        const Real metres = Real(1) / scale_;
+        const LinePeak<Real> of_lobe = lobe_.peak(offsets);
         constexpr scalar_t<Real> kInfinity = std::numeric_limits<scalar_t<Real>>::infinity();
-        return {metres * scaled_peak.offset, select(is_glossy_, metres * scaled_peak.width, Real(kInfinity))};
+        return {of_lobe.offset, select(is_glossy_, of_lobe.width, Real(kInfinity))};
     }
 
 private:
     struct Line {
-        detail::ImageOfLine<Real> cosine; ///< in shading space, for the diffuse component
-        detail::ImageOfLine<Real> lobe;
+        LobeLine<Real> cosine; ///< in shading space, for the diffuse component
+        LobeLine<Real> lobe;
     };
 
     /// A part of a line and a lobe, out of many that become known one after the other, in proportion to their weights.
@@ -237,28 +131,8 @@ private:
         mask_t<Real> is_lobe = mask_t<Real>(false);
     };
 
-    /// A plane in units that make coordinates of order one.
-    struct ScaledPlane {
-        NUSSELT_HD ScaledPlane(const LinePlane<Real>& metric, const Real& reach) noexcept : plane(metric) {
-            const Vec3<Real>& p = metric.origin;
-            scale = reciprocal_power_of_two(max(max(max(abs(p.x), abs(p.y)), abs(p.z)), reach));
-            plane.origin = scale * p;
-            height = abs(detail::dot_or_zero(plane.origin, plane.normal));
-        }
-
-        LinePlane<Real> plane;
-        Real scale;  ///< a power of two [1/m]
-        Real height; ///< of the shading point over the plane
-    };
-
-    NUSSELT_HD LineLight(const ScaledPlane& scaled, const Surface& surface) noexcept
-        : surface_(surface),
-          scale_(scaled.scale),
-          cosine_(scaled.plane.origin, scaled.plane.across, scaled.plane.along, Real(1), scaled.height),
-          lobe_(surface.lobe.to_cosine(scaled.plane.origin), surface.lobe.to_cosine(scaled.plane.across),
-                surface.lobe.to_cosine(scaled.plane.along),
-                surface.lobe.minor() * surface.lobe.to_cosine({Real(0), Real(1), Real(0)}).y, scaled.height),
-          is_glossy_(surface.is_glossy()) {
+    NUSSELT_HD LineLight(const ScaledPlane<Real>& plane, const Surface& surface) noexcept
+        : surface_(surface), cosine_(plane), lobe_(plane, surface.lobe), is_glossy_(surface.is_glossy()) {
         // Estimates of it are negative for eyes below the surface.
         diffuse_albedo_ = max(surface.diffuse_albedo, Vec3<Real>{Real(0), Real(0), Real(0)});
         lobe_weight_ = select(is_glossy_, largest_of(surface.specular_albedo), Real(0));
@@ -271,37 +145,35 @@ private:
     NUSSELT_HD static Real largest_of(const Vec3<Real>& v) noexcept { return max(max(v.x, v.y), v.z); }
 
     NUSSELT_HD Line line_at(const Real& offset) const noexcept {
-        const Real scaled_offset = scale_ * offset;
-        return {cosine_.line(scaled_offset), lobe_.line(scaled_offset)};
+        return {cosine_.line(offset), lobe_.line(offset)};
     }
 
     /// Empty parts get finite ends.
-    NUSSELT_HD Interval<Real> scaled(const Interval<Real>& part) const noexcept {
+    NUSSELT_HD static Interval<Real> finite(const Interval<Real>& part) noexcept {
         const auto lit = part.begin < part.end;
-        return {select(lit, scale_ * part.begin, Real(0)), select(lit, scale_ * part.end, Real(0))};
+        return {select(lit, part.begin, Real(0)), select(lit, part.end, Real(0))};
     }
 
     NUSSELT_HD BrdfComponents<Real> components(const Real& diffuse, const Real& specular) const noexcept {
-        return {(scale_ * diffuse) * diffuse_albedo_, (scale_ * specular) * surface_.specular_albedo};
+        return {diffuse * diffuse_albedo_, specular * surface_.specular_albedo};
     }
 
     /// To a point of the part, with a density by the lobe.
     NUSSELT_HD Vec3<Real> direction_to(const Line& line, const Choice& choice) const noexcept {
-        using Image = detail::ImageOfLine<Real>;
-        const Image image = Image::select_between(choice.is_lobe, line.lobe, line.cosine);
+        const auto image = LobeLine<Real>::select_between(choice.is_lobe, line.lobe, line.cosine);
         const CosineArc<Real> arc(image.extent(choice.part));
         const Real coordinate = dot(arc.extent().position(arc.point(choice.u)), image.along) - image.shift;
         const Real at = coordinate / select(image.stretch > Real(0), image.stretch, Real(1));
         const Real on_part = min(max(at, choice.part.begin), choice.part.end);
-        const Vec3<Real> p = fma(on_part + line.cosine.shift, line.cosine.along, line.cosine.closest);
+        const Vec3<Real> p =
+            fma(fma(on_part, line.cosine.stretch, line.cosine.shift), line.cosine.along, line.cosine.closest);
         return inverse_length(p) * p;
     }
 
     const Surface& surface_;
 
-    Real scale_; ///< to coordinates of order one, a power of two
-    detail::ImageOfPlane<Real> cosine_;
-    detail::ImageOfPlane<Real> lobe_;
+    LobePlane<Real, BothSides> cosine_;
+    LobePlane<Real, BothSides> lobe_;
 
     mask_t<Real> is_glossy_;
     Vec3<Real> diffuse_albedo_;

@@ -112,14 +112,17 @@ NUSSELT_HD inline Real phong_integral(const LineSegment<Real>& light, const Vec3
 }
 
 /// What a part of a line of a planar light contributes to a Phong surface [1/m], see shading.h.
-/// \tparam Sides FrontSide or BothSides.
+/// \param cosine   as for diffuse_part().
+/// \param part     with finite ends [m].
 /// \param mirror   unit, in shading space: mirrored(wo).
 /// \param exponent as for phong_integral().
-template <class Sides = FrontSide, class Real>
-NUSSELT_HD inline Real phong_part(const SeenLine<Real>& line, const Interval<Real>& part,
+template <class Real>
+NUSSELT_HD inline Real phong_part(const LobeLine<Real>& cosine, const Interval<Real>& part,
                                   const Vec3<Real>& mirror, const Real& exponent) noexcept {
-    return Real(scalar_t<Real>(0.5)) * Sides::lit(line.cosine_at_light()) *
-           (phong_integral(line.above_horizon(part), mirror, exponent) * line.scale());
+    // Of a cosine lobe the factor has 1 / (2 pi distance), and the integral of the Phong lobe the distance again.
+    const Real half_cosine_at_light = Real(kPi<scalar_t<Real>>) * cosine.distance * cosine.factor;
+    const LineExtent<Real> e = cosine.extent(cosine.clipped(part));
+    return select(e.visible, half_cosine_at_light * phong_integral(e, mirror, exponent), Real(0));
 }
 
 NUSSELT_NAMESPACE_END

@@ -15,12 +15,11 @@
 namespace nusselt_test {
 namespace {
 
-using nusselt::BothHorizons;
 using nusselt::BothSides;
 using nusselt::Interval;
 using nusselt::LineFamily;
 using nusselt::LinePlane;
-using nusselt::SeenLine;
+using nusselt::LobePlane;
 using nusselt::Vec3;
 using nusselt::hostile::HostileLights;
 using nusselt::hostile::RandomSource;
@@ -87,18 +86,18 @@ std::string problem_of_parts(HostileCase<T>& c) {
     const nusselt::Ltc<T> ltc(c.lights.lobe());
     const Vec3<T> mirror = nusselt::broadcast<T>(c.random.direction());
     const T exponent = static_cast<T>(c.random.log_between(1, 1e5));
-    const SeenLine<T> line(plane, {offset, whole});
+    const nusselt::ScaledPlane<T> light(plane, family.reach());
+    const auto line = LobePlane<T, BothSides>(light).line(offset);
     // Rounding moves ends over the horizon, and turns lines near the point.
-    const auto e = line.above_horizon(whole);
+    const auto e = line.extent(line.clipped(whole));
     const T rounding =
         64 * std::numeric_limits<T>::epsilon() / (e.visible ? std::min(e.distance, T(1)) : T(1));
-    const T above_horizon =
-        e.visible ? std::fabs(line.cosine_at_light()) * e.sine_extent / e.distance * line.scale() : 0;
-    const T diffuse = diffuse_part<BothSides>(line, whole);
-    const T diffuse_of_part = diffuse_part<BothSides>(line, part);
-    const T phong = phong_part<BothSides>(line, whole, mirror, exponent);
-    const T phong_of_part = phong_part<BothSides>(line, part, mirror, exponent);
-    const T lobe = lobe_part<BothHorizons, BothSides>(line, whole, ltc);
+    const T above_horizon = e.visible ? 2 * nusselt::kPi<T> * line.factor * e.sine_extent : 0;
+    const T diffuse = diffuse_part(line, whole);
+    const T diffuse_of_part = diffuse_part(line, part);
+    const T phong = phong_part(line, whole, mirror, exponent);
+    const T phong_of_part = phong_part(line, part, mirror, exponent);
+    const T lobe = lobe_part(line, LobePlane<T, BothSides>(light, ltc).line(offset), whole);
     for (const T value : {diffuse, diffuse_of_part, phong, phong_of_part, lobe})
         if (!std::isfinite(value) || value < 0) return "not finite or negative";
     if (diffuse_of_part >
@@ -107,7 +106,8 @@ std::string problem_of_parts(HostileCase<T>& c) {
     // The narrower a lobe, the more it changes by rounding; the quadrature errs by little of the lobe.
     if (phong_of_part > phong + (rounding * std::sqrt(exponent) + T(1e-5)) * (phong + above_horizon))
         return "a part is brighter than the whole in a Phong lobe";
-    if (diffuse_part(line, part) > 0 && line.cosine_at_light() <= 0) return "light from behind";
+    const T diffuse_front = diffuse_part(LobePlane<T>(light).line(offset), part);
+    if (diffuse_front != (light.height > 0 ? diffuse_of_part : 0)) return "light from behind";
     return {};
 }
 

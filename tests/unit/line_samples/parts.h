@@ -155,7 +155,13 @@ struct RandomPart {
         part = {at(std::min(a, b)), at(std::max(a, b))};
     }
 
-    nusselt::SeenLine<T> seen() const { return {family.plane(), {offset, whole}}; }
+    nusselt::ScaledPlane<T> scaled_plane() const { return {family.plane(), family.reach()}; }
+
+    /// As Lambertian surfaces see the line.
+    template <class Sides = nusselt::FrontSide>
+    nusselt::LobeLine<T> cosine() const {
+        return nusselt::LobePlane<T, Sides>(scaled_plane()).line(offset);
+    }
 
     ExactPart exact(const nusselt::Interval<T>& interval) const { return {family.plane(), offset, interval}; }
 

@@ -17,7 +17,6 @@ namespace {
 using nusselt::Interval;
 using nusselt::phong_integral;
 using nusselt::phong_part;
-using nusselt::SeenLine;
 using nusselt::Vec3;
 
 long double exact_phong(ExactPart part, const Point& mirror, long double exponent) {
@@ -80,7 +79,7 @@ constexpr double kExponents[] = {1, 1.5, 2, 3, 4.7, 10, 33.3, 100, 1000, 1e4, 1e
 template <class T>
 auto with_exponent(double exponent) {
     return [=](const RandomPart<T>& line, const Interval<T>& part, const Vec3<T>& mirror) {
-        return phong_part(line.seen(), part, mirror, static_cast<T>(exponent));
+        return phong_part(line.cosine(), part, mirror, static_cast<T>(exponent));
     };
 }
 
@@ -119,8 +118,8 @@ TEST(PhongPart, LambertianForExponentZero) {
     for (int k = 0; k < 100; ++k) {
         const RandomPart<double> part(random, 4, 2, 1);
         const Vec3<double> mirror{0, 0, 1};
-        const double lambertian = nusselt::diffuse_part(part.seen(), part.part);
-        EXPECT_NEAR(phong_part(part.seen(), part.part, mirror, 0.0), lambertian, 1e-13 * lambertian);
+        const double lambertian = nusselt::diffuse_part(part.cosine(), part.part);
+        EXPECT_NEAR(phong_part(part.cosine(), part.part, mirror, 0.0), lambertian, 1e-13 * lambertian);
     }
 }
 
@@ -187,7 +186,8 @@ TEST(PhongLineBillen, RecursionEqualsQuadrature) {
         const nusselt::CosinePowerRecursion<double> power(exponent + 2);
         const auto f = [&](const RandomPart<double>& line, const Interval<double>& part,
                            const Vec3<double>& mirror) {
-            const double cosine = nusselt::FrontSide::lit(line.seen().cosine_at_light());
+            const auto seen = line.cosine();
+            const double cosine = 2 * static_cast<double>(kPi) * seen.factor * (seen.distance / seen.stretch);
             return 0.5 * cosine *
                    nusselt::phong_integral_billen(nusselt::segment_of(line.family.plane(), line.offset, part),
                                                   mirror, exponent, power);

@@ -13,16 +13,15 @@
 namespace nusselt_test {
 namespace {
 
-using nusselt::BothHorizons;
 using nusselt::BothSides;
-using nusselt::CosineHorizon;
 using nusselt::diffuse_part;
 using nusselt::FrontSide;
 using nusselt::Interval;
 using nusselt::LineFamily;
 using nusselt::lobe_part;
+using nusselt::LobePlane;
 using nusselt::Ltc;
-using nusselt::SeenLine;
+using nusselt::ScaledPlane;
 
 /// Lights of all sizes from next to the point to far away.
 struct Place {
@@ -43,7 +42,7 @@ TEST(DiffusePart, EqualsQuadratureInDouble) {
         for (int k = 0; k < 600; ++k) {
             const RandomPart<double> part(random, 3 + k % 6, place.distance, place.size);
             const double exact = static_cast<double>(exact_diffuse(part.exact(part.part)));
-            EXPECT_NEAR(diffuse_part(part.seen(), part.part), exact, 1e-10 * exact) << place.name;
+            EXPECT_NEAR(diffuse_part(part.cosine(), part.part), exact, 1e-10 * exact) << place.name;
             lit += exact > 0;
         }
         EXPECT_GT(lit, 100);
@@ -57,7 +56,7 @@ TEST(DiffusePart, TestRejectsAMovedLine) {
         const RandomPart<double> part(random, 3 + k % 6, 2, 1);
         const double exact = static_cast<double>(exact_diffuse(part.exact(part.part)));
         const double moved =
-            diffuse_part(SeenLine(part.family.plane(), {part.offset + 1e-6, part.whole}), part.part);
+            diffuse_part(LobePlane<double>(part.scaled_plane()).line(part.offset + 1e-6), part.part);
         failures += !(std::fabs(moved - exact) <= 1e-10 * exact);
     }
     EXPECT_GT(failures, 100);
@@ -71,7 +70,7 @@ TEST(DiffusePart, EqualsQuadratureInFloat) {
             const RandomPart<float> part(random, 3 + k % 6, place.distance, place.size);
             const double exact = static_cast<double>(exact_diffuse(part.exact(part.part)));
             if (!(exact > 0)) continue;
-            const double value = static_cast<double>(diffuse_part(part.seen(), part.part));
+            const double value = static_cast<double>(diffuse_part(part.cosine(), part.part));
             errors.push_back(std::fabs(value - exact) / exact);
         }
         std::sort(errors.begin(), errors.end());
@@ -84,8 +83,20 @@ TEST(DiffusePart, EqualsQuadratureInFloat) {
     }
 }
 
-template <class Horizons>
-void expect_lobe_equals_quadrature(const std::vector<NamedLobe>& lobes) {
+/// Integral of a lobe over a part, above the horizon of the lobe.
+double above_its_horizon(const RandomPart<double>& part, const Ltc<double>& ltc) {
+    const auto lobe = LobePlane<double>(part.scaled_plane(), ltc).line(part.offset);
+    return lobe.integral(lobe.clipped(part.part));
+}
+
+/// The same above the surface too.
+double above_both_horizons(const RandomPart<double>& part, const Ltc<double>& ltc) {
+    return lobe_part(part.cosine(), LobePlane<double>(part.scaled_plane(), ltc).line(part.offset), part.part);
+}
+
+using Integral = double (*)(const RandomPart<double>&, const Ltc<double>&);
+
+void expect_lobe_equals_quadrature(const std::vector<NamedLobe>& lobes, Integral integral) {
     for (const NamedLobe& lobe : lobes) {
         const Ltc<long double> exact_ltc(lobe.coefficients);
         const auto& c = lobe.coefficients;
@@ -102,25 +113,26 @@ void expect_lobe_equals_quadrature(const std::vector<NamedLobe>& lobes) {
             exact_part.split_at({c.m20, 0, c.m22});
             exact_part.split_at_peak(axis, width);
             const double exact = static_cast<double>(exact_part.integral([&](const Point& wi) {
-                if (std::is_same_v<Horizons, BothHorizons> && wi.z <= 0) return 0.0L;
+                if (integral == above_both_horizons && wi.z <= 0) return 0.0L;
                 return exact_ltc.density(wi);
             }));
             // The coefficients are rounded: narrow lobes turn by more than their share.
             const double rounding = 1e-10 + 1e-15 / static_cast<double>(width * width);
-            EXPECT_NEAR(lobe_part<Horizons>(part.seen(), part.part, ltc), exact, rounding * exact)
-                << lobe.name;
+            EXPECT_NEAR(integral(part, ltc), exact, rounding * exact) << lobe.name;
             lit += exact > 0;
         }
         EXPECT_GT(lit, 30);
     }
 }
 
-TEST(LobePart, EqualsQuadrature) { expect_lobe_equals_quadrature<CosineHorizon>(wide_lobes()); }
-TEST(LobePart, EqualsQuadratureAboveTheSurface) { expect_lobe_equals_quadrature<BothHorizons>(wide_lobes()); }
+TEST(LobePart, EqualsQuadrature) { expect_lobe_equals_quadrature(wide_lobes(), above_its_horizon); }
+TEST(LobePart, EqualsQuadratureAboveTheSurface) {
+    expect_lobe_equals_quadrature(wide_lobes(), above_both_horizons);
+}
 TEST(LobePart, EqualsQuadratureForNarrowLobes) {
     std::vector<NamedLobe> lobes = all_lobes();
     lobes.erase(lobes.begin(), lobes.begin() + 4);
-    expect_lobe_equals_quadrature<BothHorizons>(lobes);
+    expect_lobe_equals_quadrature(lobes, above_both_horizons);
 }
 
 TEST(Sides, BothAreTheFrontAndTheBack) {
@@ -129,11 +141,12 @@ TEST(Sides, BothAreTheFrontAndTheBack) {
         const RandomPart<double> part(random, 3 + k % 6, 2, 1);
         nusselt::LinePlane<double> turned = part.family.plane();
         turned.normal = -turned.normal;
-        const double front = diffuse_part(part.seen(), part.part);
-        const double back = diffuse_part(SeenLine(turned, {part.offset, part.whole}), part.part);
+        const ScaledPlane<double> turned_plane(turned, part.family.reach());
+        const double front = diffuse_part(part.cosine(), part.part);
+        const double back = diffuse_part(LobePlane<double>(turned_plane).line(part.offset), part.part);
         EXPECT_TRUE(front == 0 || back == 0);
-        EXPECT_EQ(diffuse_part<BothSides>(SeenLine(turned, {part.offset, part.whole}), part.part),
-                  front + back);
+        const LobePlane<double, BothSides> both(turned_plane);
+        EXPECT_EQ(diffuse_part(both.line(part.offset), part.part), front + back);
     }
 }
 
@@ -145,9 +158,8 @@ TEST(Sides, PointsOnThePlaneSeeNothing) {
         const auto light = nusselt::make_polygon<8>(part.light.vertex, 4);
         const LineFamily<float, 8> family(light, static_cast<float>(random.between(0, 3)));
         const float offset = family.sample_uniform(0.4f).offset;
-        EXPECT_EQ(diffuse_part<BothSides>(SeenLine(family.plane(), family.chord(offset)),
-                                          family.chord(offset).extent),
-                  0);
+        const LobePlane<float, BothSides> lines({family.plane(), family.reach()});
+        EXPECT_EQ(diffuse_part(lines.line(offset), family.chord(offset).extent), 0);
     }
 }
 
@@ -187,14 +199,16 @@ TEST(Lines, IntegrateToThePolygon) {
     for (int k = 0; k < 60; ++k) {
         const auto light = light_above(random, 3 + k % 6);
         const LineFamily<double, 8> family(light, random.between(0, 3.14159));
+        const ScaledPlane<double> plane(family.plane(), family.reach());
         const double diffuse = over_lines(family, light, [&](double offset, const Interval<double>& chord) {
-            return diffuse_part(SeenLine(family.plane(), {offset, chord}), chord);
+            return diffuse_part(LobePlane<double>(plane).line(offset), chord);
         });
         EXPECT_NEAR(diffuse, diffuse_integral(light), 1e-12);
         const double lobe = over_lines(family, light, [&](double offset, const Interval<double>& chord) {
-            return lobe_part<CosineHorizon>(SeenLine(family.plane(), family.chord(offset)), chord, ltc);
+            const auto line = LobePlane<double>(plane, ltc).line(offset);
+            return line.integral(line.clipped(chord));
         });
-        EXPECT_NEAR(lobe, nusselt::lobe_integral<CosineHorizon>(light, ltc), 1e-12);
+        EXPECT_NEAR(lobe, nusselt::lobe_integral<nusselt::CosineHorizon>(light, ltc), 1e-12);
     }
 }
 
@@ -204,8 +218,9 @@ TEST(Lines, IntegrateToThePartOfThePolygonAboveTheHorizon) {
     for (int k = 0; k < 60; ++k) {
         const auto light = ellipse_polygon<double, 8>(random, 3 + k % 6, 2, 1.5);
         const LineFamily<double, 8> family(light, random.between(0, 3.14159));
+        const ScaledPlane<double> plane(family.plane(), family.reach());
         const double diffuse = over_lines(family, light, [&](double offset, const Interval<double>& chord) {
-            return diffuse_part<BothSides>(SeenLine(family.plane(), {offset, chord}), chord);
+            return diffuse_part(LobePlane<double, BothSides>(plane).line(offset), chord);
         });
         EXPECT_NEAR(diffuse, diffuse_integral(light), 1e-5);
     }
