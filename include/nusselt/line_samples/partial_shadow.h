@@ -14,14 +14,21 @@ struct PartialShadow {
     static constexpr int kFirst[3] = {0, 1, 0}; ///< corner of an edge
     static constexpr int kSecond[3] = {1, 2, 2};
 
-    Scalar corner[3]; ///< offsets [m]
-    bool behind[3]; ///< corners behind the point, whose offset is that of the line in the opposite direction
+    /// Offsets [m].
+    Scalar corner[3];
+    /// Corners behind the point, whose offset is that of the line in the opposite direction.
+    bool behind[3];
     ShadowEdge<Scalar> edge[3];
-    bool turn[3];          ///< lines that pass the first corner of the edge on the other side meet it behind
-    Scalar end_of_edge[3]; ///< offset where the edge reaches the light [m]
-    bool beyond_below_end[3]; ///< lines with smaller offsets than that meet the edge beyond the light
-    ShadowEdge<Scalar> end;   ///< where the plane of the triangle reaches the light
-    bool faces; ///< whether the point is on the side of the triangle where its corners go clockwise
+    /// Lines that pass the first corner of the edge on the other side meet it behind.
+    bool turn[3];
+    /// Offset where the edge reaches the light [m].
+    Scalar end_of_edge[3];
+    /// Lines with smaller offsets than that meet the edge beyond the light.
+    bool beyond_below_end[3];
+    /// Where the plane of the triangle reaches the light.
+    ShadowEdge<Scalar> end;
+    /// Whether the point is on the side of the triangle where its corners go clockwise.
+    bool faces;
 };
 
 /// \param a, b, c as for make_triangle_shadow().
@@ -93,9 +100,8 @@ NUSSELT_INLINE Mask select_mask(const Mask& mask, const Mask& a, const Mask& b) 
     return (mask & a) | (otherwise & b);
 }
 template <class Real>
-NUSSELT_INLINE ShadowCrossing<Real> select(const mask_t<Real>& mask, const ShadowCrossing<Real>& a,
-                                           const ShadowCrossing<Real>& b) noexcept {
-    using nusselt::select;
+NUSSELT_INLINE ShadowCrossing<Real> select_crossing(const mask_t<Real>& mask, const ShadowCrossing<Real>& a,
+                                                    const ShadowCrossing<Real>& b) noexcept {
     return {select(mask, a.t, b.t), select_mask(mask, a.front, b.front),
             select_mask(mask, a.beyond, b.beyond)};
 }
@@ -107,7 +113,6 @@ NUSSELT_INLINE ShadowCrossing<Real> select(const mask_t<Real>& mask, const Shado
 template <class Real, class Scalar>
 NUSSELT_HD inline Interval<Real> hidden_interval(const PartialShadow<Scalar>& shadow,
                                                  const Real& offset) noexcept {
-    using nusselt::select;
     using Mask = mask_t<Real>;
     // The plane of point and line has corners above and below.
     Mask above[3];
@@ -115,16 +120,18 @@ NUSSELT_HD inline Interval<Real> hidden_interval(const PartialShadow<Scalar>& sh
     const Mask crosses_ab = above[0] ^ above[1];
     const Mask crosses_ac = above[0] ^ above[2];
     const auto bc = detail::shadow_crossing(shadow, 1, offset, above[1]);
-    const auto p = detail::select(crosses_ab, detail::shadow_crossing(shadow, 0, offset, above[0]), bc);
-    const auto q = detail::select(crosses_ac, detail::shadow_crossing(shadow, 2, offset, above[0]), bc);
+    const auto p =
+        detail::select_crossing(crosses_ab, detail::shadow_crossing(shadow, 0, offset, above[0]), bc);
+    const auto q =
+        detail::select_crossing(crosses_ac, detail::shadow_crossing(shadow, 2, offset, above[0]), bc);
 
     // With one crossing behind the point, the shadow reaches from the other one to infinity. Where to follows from the side
     // on which the point sees the triangle: large triangles seen edge-on have both crossings at nearly the same t.
     const Mask p_is_lower = p.t < q.t;
-    const auto lower = detail::select(p_is_lower, p, q);
-    const auto upper = detail::select(p_is_lower, q, p);
+    const auto lower = detail::select_crossing(p_is_lower, p, q);
+    const auto upper = detail::select_crossing(p_is_lower, q, p);
     const Mask both = p.front & q.front;
-    const auto front = detail::select(p.front, p, q);
+    const auto front = detail::select_crossing(p.front, p, q);
     const Mask rises = !((above[0] ^ Mask(shadow.faces)) ^ p.front);
     const Interval<Real> nothing = empty_interval<Real>();
     const Real begin = select(both, lower.t, select(rises, front.t, nothing.end));

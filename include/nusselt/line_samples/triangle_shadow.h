@@ -185,9 +185,8 @@ NUSSELT_INLINE ShadowEdge<Real> shadow_edge(const ShadowFrame<Real>& frame, cons
 }
 
 template <class Real>
-NUSSELT_INLINE ShadowEdge<Real> select(const mask_t<Real>& mask, const ShadowEdge<Real>& a,
-                                       const ShadowEdge<Real>& b) noexcept {
-    using nusselt::select;
+NUSSELT_INLINE ShadowEdge<Real> select_edge(const mask_t<Real>& mask, const ShadowEdge<Real>& a,
+                                            const ShadowEdge<Real>& b) noexcept {
     return {select(mask, a.at_zero, b.at_zero), select(mask, a.slope, b.slope)};
 }
 
@@ -208,7 +207,6 @@ template <class Real>
 NUSSELT_HD inline TriangleShadows<Real> make_triangle_shadow(const ShadowFrame<Real>& frame,
                                                              const Vec3<Real>& a, const Vec3<Real>& b,
                                                              const Vec3<Real>& c) noexcept {
-    using nusselt::select;
     const detail::ShadowCorner<Real> corner[] = {
         detail::shadow_corner(frame, a), detail::shadow_corner(frame, b), detail::shadow_corner(frame, c)};
     const ShadowEdge<Real> ab = detail::shadow_edge(frame, corner[0], corner[1]);
@@ -230,13 +228,13 @@ NUSSELT_HD inline TriangleShadows<Real> make_triangle_shadow(const ShadowFrame<R
     return {{select(whole, min(min(u[0], u[1]), u[2]), none.begin),
              select(a_is_middle, u[0], select(c_is_middle, u[2], u[1])),
              select(whole, max(max(u[0], u[1]), u[2]), none.end),
-             detail::select(a_is_middle, bc, detail::select(c_is_middle, ab, ac)),
-             detail::select(a_is_middle, detail::select(b_before_c, ab, ac),
-                            detail::select(c_is_middle, detail::select(a_before_b, ac, bc),
-                                           detail::select(a_before_c, ab, bc))),
-             detail::select(a_is_middle, detail::select(b_before_c, ac, ab),
-                            detail::select(c_is_middle, detail::select(a_before_b, bc, ac),
-                                           detail::select(a_before_c, bc, ab)))},
+             detail::select_edge(a_is_middle, bc, detail::select_edge(c_is_middle, ab, ac)),
+             detail::select_edge(a_is_middle, detail::select_edge(b_before_c, ab, ac),
+                                 detail::select_edge(c_is_middle, detail::select_edge(a_before_b, ac, bc),
+                                                     detail::select_edge(a_before_c, ab, bc))),
+             detail::select_edge(a_is_middle, detail::select_edge(b_before_c, ac, ab),
+                                 detail::select_edge(c_is_middle, detail::select_edge(a_before_b, bc, ac),
+                                                     detail::select_edge(a_before_c, bc, ab)))},
             !(whole | nothing)};
 }
 
