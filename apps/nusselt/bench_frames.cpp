@@ -2,8 +2,6 @@
 
 #include "render_setup.h"
 
-#include <algorithm>
-
 namespace nusselt::app {
 
 void add_frame_options(CLI::App& command, BenchFramesOptions& options, const std::string& samples_of) {
@@ -16,12 +14,6 @@ void add_frame_options(CLI::App& command, BenchFramesOptions& options, const std
         ->capture_default_str();
     add_machine_options(command, options.threads, options.isa);
     add_resolution_option(command, options.resolution);
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 } // namespace nusselt::app

@@ -5,6 +5,7 @@
 #include "validators.h"
 
 #include "experiments/line_efficiency.h"
+#include "experiments/report_json.h"
 #include "scene/load.h"
 
 #include <CLI/CLI.hpp>
@@ -58,24 +59,20 @@ void print_table(const ThreadsResult& result) {
     fmt::print("\n{:>8}{:>12}{:>13}{:>14}{:>16}{:>15}\n", "points", "error", "points ms", "lines/points",
                "choice/points", "choice/better");
     for (const EqualErrorRow& row : rows)
-        fmt::print("{:>8}{:>12.2e}{:>13.2f}{:>13.3f}{}{:>16.3f}{:>15.3f}\n", row.points,
+        fmt::print("{:>8}{:>12.2e}{:>13.2f}{:>13.3f}{}{:>15.3f}{}{:>15.3f}\n", row.points,
                    std::sqrt(row.variance) / efficiency.mean, 1e3 * row.points_seconds,
                    row.lines_over_points(), row.lines_are_extrapolated ? '*' : ' ',
-                   row.choice_seconds / row.points_seconds, row.loss());
+                   row.choice_seconds / row.points_seconds, row.choice_is_extrapolated ? '*' : ' ',
+                   row.loss());
     const auto first = crossover(rows);
     fmt::print("{}; the choice takes up to {:.2f} times as long as the better of both\n\n",
-               first ? fmt::format("lines win from {} points", *first) : "points win", largest_loss(rows));
-}
-
-nlohmann::ordered_json to_json(const NoiseCurve& curve) {
-    auto list = nlohmann::ordered_json::array();
-    for (const experiments::CurvePoint& p : curve)
-        list.push_back({{"count", p.count}, {"variance", p.variance}, {"seconds", p.seconds}});
-    return list;
+               first ? fmt::format("lines win from {} points", *first) : "lines do not win",
+               largest_loss(rows));
 }
 
 std::string to_json(const std::vector<ThreadsResult>& results, const BenchLineEfficiencyOptions& options,
-                    const scene::Scene& scene, render_cpu::Isa isa) {
+                    const experiments::LineEfficiencySettings& settings, const scene::Scene& scene,
+                    render_cpu::Isa isa) {
     auto list = nlohmann::ordered_json::array();
     for (const ThreadsResult& result : results) {
         auto rows = nlohmann::ordered_json::array();
@@ -85,21 +82,28 @@ std::string to_json(const std::vector<ThreadsResult>& results, const BenchLineEf
                             {"points_seconds", row.points_seconds},
                             {"lines_seconds", row.lines_seconds},
                             {"lines_are_extrapolated", row.lines_are_extrapolated},
-                            {"choice_seconds", row.choice_seconds}});
+                            {"choice_seconds", row.choice_seconds},
+                            {"choice_is_extrapolated", row.choice_is_extrapolated}});
         list.push_back({{"threads", result.threads},
                         {"mean_radiance", result.efficiency.mean},
-                        {"points", to_json(result.efficiency.points)},
-                        {"lines", to_json(result.efficiency.lines)},
-                        {"choice", to_json(result.efficiency.choice)},
+                        {"points", experiments::to_json(result.efficiency.points)},
+                        {"lines", experiments::to_json(result.efficiency.lines)},
+                        {"choice", experiments::to_json(result.efficiency.choice)},
                         {"equal_error", rows}});
     }
-    const nlohmann::ordered_json json = {{"scene", options.scene.string()},
-                                         {"width", scene.film.width},
-                                         {"height", scene.film.height},
-                                         {"strategies", options.strategies},
-                                         {"repetitions", options.repetitions},
-                                         {"isa", name_of(isa)},
-                                         {"results", list}};
+    nlohmann::ordered_json json = {{"scene", options.scene.string()},
+                                   {"width", scene.film.width},
+                                   {"height", scene.film.height},
+                                   {"roughness", options.roughness
+                                                     ? nlohmann::ordered_json(*options.roughness)
+                                                     : nlohmann::ordered_json(nullptr)},
+                                   {"strategies", options.strategies}};
+    json.update(line_kind_json(settings.lines));
+    json.update({{"most_points", options.most_points},
+                 {"most_lines", options.most_lines},
+                 {"repetitions", options.repetitions},
+                 {"isa", name_of(isa)},
+                 {"results", list}});
     // Paths may hold bytes that are not UTF-8.
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -126,7 +130,9 @@ void setup_bench_line_efficiency(CLI::App& bench, int& exit_code) {
         "times\n"
         "of stratified point samples (projected solid angle) and line samples in turn, and of the choice\n"
         "between both for each shading point (--many-occluders points). Times to equal errors are\n"
-        "interpolated; * means that the largest number of lines was not enough.");
+        "interpolated; * means that the largest number of lines was not enough, which counts neither way.\n"
+        "Images should have 10^4 pixels or more: five rounds of two seeds give the standard deviation of a\n"
+        "single pixel to a third.");
     command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
     command
         ->add_option("--most-points", options->most_points,
@@ -176,7 +182,7 @@ int run_bench_line_efficiency(const BenchLineEfficiencyOptions& options) {
                                           settings.rounds);
                            })});
     }
-    write_results(options.json, to_json(results, options, scene, isa), [&] {
+    write_results(options.json, to_json(results, options, settings, scene, isa), [&] {
         for (const ThreadsResult& result : results) print_table(result);
     });
     return 0;

@@ -124,19 +124,16 @@ std::string to_json(const LinesTable& table, const BenchLinesOptions& options, c
                         {"triangles_per_light", row.per_light(row.work.triangle_tests)},
                         {"shadows_per_light", row.per_light(row.work.shadow_tests)},
                         {"parts_per_line", row.per_line(row.work.parts)}});
-    const nlohmann::ordered_json json = {
-        {"scene", options.scene.string()},
-        {"width", scene.film.width},
-        {"height", scene.film.height},
-        {"orientation", render::name_of(table.rows.front().settings.lines.orientation)},
-        {"line_shading", render::name_of(table.rows.front().settings.lines.shading)},
-        {"samples", options.samples},
-        {"repetitions", options.repetitions},
-        {"threads", threads},
-        {"isa", name_of(isa)},
-        {"shadow_rays", table.shadow_rays},
-        {"shadow_ray_nanoseconds", 1e9 * median(table.shadow_ray)},
-        {"rows", list}};
+    nlohmann::ordered_json json = {
+        {"scene", options.scene.string()}, {"width", scene.film.width}, {"height", scene.film.height}};
+    json.update(line_kind_json(table.rows.front().settings.lines));
+    json.update({{"samples", options.samples},
+                 {"repetitions", options.repetitions},
+                 {"threads", threads},
+                 {"isa", name_of(isa)},
+                 {"shadow_rays", table.shadow_rays},
+                 {"shadow_ray_nanoseconds", 1e9 * median(table.shadow_ray)},
+                 {"rows", list}});
     // Paths may hold bytes that are not UTF-8.
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

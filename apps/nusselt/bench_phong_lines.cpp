@@ -1,5 +1,6 @@
 #include "bench_output.h"
 #include "commands.h"
+#include "render_setup.h"
 
 #include "experiments/phong_lines.h"
 
@@ -29,15 +30,18 @@ void setup_bench_phong_lines(CLI::App& bench, int& exit_code) {
                                             "float, one thread. Errors, median and\n"
                                             "largest, over the integral along the whole line.");
     add_repetitions_option(*command, options->repetitions);
+    add_isa_option(*command, options->isa);
     command->callback([options, &exit_code] { exit_code = run_bench_phong_lines(*options); });
 }
 
 int run_bench_phong_lines(const BenchPhongLinesOptions& options) {
+    const render_cpu::Isa isa = render_cpu::choose_isa(options.isa);
+    fmt::print("packs of {}, {}\n", experiments::compare_phong_lines(1, 1, isa).lanes, name_of(isa));
     fmt::print("{:>8}{:>30}{:>30}{:>30}{:>30}\n", "exponent", "packs [ns], errors", "scalar [ns], errors",
                "table [ns], errors", "recursion [ns], errors");
     for (const int exponent : kExponents) {
         const experiments::PhongLineComparison row =
-            experiments::compare_phong_lines(exponent, options.repetitions);
+            experiments::compare_phong_lines(exponent, options.repetitions, isa);
         fmt::print("{:>8}", exponent);
         for (const auto* method : {&row.packed_quadrature, &row.quadrature, &row.table, &row.recursion})
             print_method(*method);

@@ -1,5 +1,6 @@
 #include "bench_output.h"
 #include "commands.h"
+#include "render_setup.h"
 
 #include "experiments/sampler_timing.h"
 #include "image/io.h"
@@ -61,12 +62,7 @@ void setup_bench_samplers(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchSamplersOptions>();
     CLI::App* command = bench.add_subcommand("samplers", "Cost of preparing and of sampling each technique");
     add_repetitions_option(*command, options->repetitions);
-    command
-        ->add_option("--isa", options->isa,
-                     "Instruction set: sse42, avx2 or avx512. Default: the environment variable NUSSELT_ISA, "
-                     "else the\n"
-                     "best one that the processor supports")
-        ->check(CLI::IsMember({"sse42", "avx2", "avx512"}));
+    add_isa_option(*command, options->isa);
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_samplers(*options); });
 }

@@ -49,11 +49,11 @@ int run_bench_shadows(const BenchShadowsOptions& options) {
 
 void setup_bench_shadows(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchShadowsOptions>();
-    CLI::App* command =
-        bench.add_subcommand("shadows", "Look for light that leaks through closed meshes onto line samples, "
-                                        "and for lights, points and occluders\n"
-                                        "that break their visible parts. Exits with 1 if there is any. A "
-                                        "case depends on its index and the seed only");
+    CLI::App* command = bench.add_subcommand(
+        "shadows", "Look for lines that see through closed meshes, and for lights, points "
+                   "and occluders that break\n"
+                   "visible parts of lines. Exits with 1 if there is any. A case depends "
+                   "on its index and the seed only");
     command->add_option("--count", options->count, "Cases of each kind, with 16 segments each")
         ->check(whole_number(1, 1'000'000'000'000))
         ->capture_default_str();

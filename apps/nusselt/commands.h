@@ -166,6 +166,7 @@ struct BenchTubesOptions {
 
 struct BenchPhongLinesOptions {
     int repetitions = 31;
+    std::optional<std::string> isa;
 };
 
 struct BenchScaleOptions {

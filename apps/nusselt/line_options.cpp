@@ -3,6 +3,7 @@
 #include "render_setup.h"
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -77,6 +78,12 @@ void apply_line_options(const LineOptions& options, render::RenderSettings& sett
     apply_line_kind_options(options, lines);
     if (options.many_occluders)
         lines.many_occluders = from_name(render::kManyOccludersChoices, *options.many_occluders);
+}
+
+nlohmann::ordered_json line_kind_json(const render::LineSettings& settings) {
+    return {{"orientation", render::name_of(settings.orientation)},
+            {"offsets", render::name_of(settings.offsets)},
+            {"line_shading", render::name_of(settings.shading)}};
 }
 
 void check_line_options(const RenderOptions& options, render::Technique technique) {

@@ -6,6 +6,7 @@
 #include "render/settings.h"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace nusselt::app {
 
@@ -21,6 +22,9 @@ void apply_line_kind_options(const LineKindOptions& options, render::LineSetting
 
 /// The same for all options, and the integrator.
 void apply_line_options(const LineOptions& options, render::RenderSettings& settings);
+
+/// What add_line_kind_options() can change, as an object.
+nlohmann::ordered_json line_kind_json(const render::LineSettings& settings);
 
 /// \throws CLI::ValidationError if there are options for line samples without these, or for what these cannot be
 void check_line_options(const RenderOptions& options, render::Technique technique);

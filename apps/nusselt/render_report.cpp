@@ -1,6 +1,7 @@
 #include "render_report.h"
 
 #include "json_output.h"
+#include "line_options.h"
 
 #include "scene/scene_size.h"
 
@@ -20,20 +21,19 @@ nlohmann::ordered_json line_samples_json(const render::RenderSettings& settings,
     const auto per_line = [&](std::uint64_t count) {
         return work.lines > 0 ? static_cast<double>(count) / static_cast<double>(work.lines) : 0.0;
     };
-    return {{"lines", lines.count},
-            {"orientation", render::name_of(lines.orientation)},
-            {"offsets", render::name_of(lines.offsets)},
-            {"line_shading", render::name_of(lines.shading)},
-            {"many_occluders", render::name_of(lines.many_occluders)},
-            {"bvh_seconds", work.build_seconds},
-            {"visibility_thread_seconds", work.visibility_seconds},
-            {"traced_lines", work.lines},
-            {"lights_with_lines", work.line_lights},
-            {"lights_with_points", work.point_lights},
-            {"box_tests", work.box_tests},
-            {"triangle_tests", work.triangle_tests},
-            {"shadow_tests", work.shadow_tests},
-            {"parts_per_line", per_line(work.parts)}};
+    nlohmann::ordered_json json = {{"lines", lines.count}};
+    json.update(line_kind_json(lines));
+    json.update({{"many_occluders", render::name_of(lines.many_occluders)},
+                 {"bvh_seconds", work.build_seconds},
+                 {"visibility_thread_seconds", work.visibility_seconds},
+                 {"traced_lines", work.lines},
+                 {"lights_with_lines", work.line_lights},
+                 {"lights_with_points", work.point_lights},
+                 {"box_tests", work.box_tests},
+                 {"triangle_tests", work.triangle_tests},
+                 {"shadow_tests", work.shadow_tests},
+                 {"parts_per_line", per_line(work.parts)}});
+    return json;
 }
 
 } // namespace
@@ -46,6 +46,8 @@ nlohmann::ordered_json report_json(const RenderOptions& options, const render::R
     const auto rate = [](std::uint64_t rays, double seconds) {
         return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
     };
+    // Most time goes into lines then.
+    const bool has_lines = settings.integrator == render::Integrator::lines;
     const bool is_combined = settings.strategies != render::Strategies::diffuse;
     return {
         {"scene", options.scene.string()},
@@ -54,6 +56,7 @@ nlohmann::ordered_json report_json(const RenderOptions& options, const render::R
         {"scene_bytes", scene::array_bytes(scene)},
         {"width", scene.film.width},
         {"height", scene.film.height},
+        {"integrator", render::name_of(settings.integrator)},
         {"technique", render::name_of(settings.technique)},
         {"strategies", render::name_of(settings.strategies)},
         {"mis", is_combined ? nlohmann::ordered_json(render::name_of(settings.mis)) : nullptr},
@@ -84,7 +87,9 @@ nlohmann::ordered_json report_json(const RenderOptions& options, const render::R
          {{"primary", rate(statistics.primary_rays, statistics.primary_seconds)},
           {"shadow", rate(statistics.shadow_rays, statistics.shadow_seconds)}}},
         {"rays_per_second",
-         rate(statistics.primary_rays + statistics.shadow_rays, statistics.render_seconds)},
+         has_lines ? nullptr
+                   : nlohmann::ordered_json(
+                         rate(statistics.primary_rays + statistics.shadow_rays, statistics.render_seconds))},
     };
 }
 

@@ -48,6 +48,10 @@ void add_machine_options(CLI::App& command, std::optional<int>& threads, std::op
     constexpr int kMaxThreads = 1024;
     command.add_option("--threads", threads, "Threads, 1 to 1024. Default: " + default_threads)
         ->check(CLI::Range(1, kMaxThreads));
+    add_isa_option(command, isa);
+}
+
+void add_isa_option(CLI::App& command, std::optional<std::string>& isa) {
     command
         .add_option("--isa", isa,
                     "Instruction set. Default: the environment variable NUSSELT_ISA, else the best one that\n"

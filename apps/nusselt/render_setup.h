@@ -46,6 +46,9 @@ auto from_name(const Values& values, const std::string& name) {
 void add_machine_options(CLI::App& command, std::optional<int>& threads, std::optional<std::string>& isa,
                          const std::string& default_threads = "as many as the machine runs at once");
 
+/// Adds --isa.
+void add_isa_option(CLI::App& command, std::optional<std::string>& isa);
+
 /// Adds --resolution.
 void add_resolution_option(CLI::App& command, std::optional<std::string>& resolution);
 

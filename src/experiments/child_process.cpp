@@ -34,6 +34,8 @@ private:
     int value_;
 };
 
+constexpr int kNotStarted = 127; ///< exit code, as of shells
+
 std::string read_all(int descriptor) {
     std::string text;
     char buffer[4096];
@@ -55,8 +57,7 @@ pid_t start(const std::vector<std::string>& command, int output) {
     if (child == 0) {
         // Other threads may have held locks: system calls only. Both ends of the pipe are closed by exec.
         if (::dup2(output, STDOUT_FILENO) >= 0) ::execv(arguments[0], arguments.data());
-        constexpr int kNotFound = 127;
-        ::_exit(kNotFound);
+        ::_exit(kNotStarted);
     }
     return child;
 }
@@ -77,6 +78,7 @@ ChildResult run_child(const std::vector<std::string>& command) {
     rusage usage{};
     while (::wait4(child, &status, 0, &usage) < 0)
         if (errno != EINTR) fail(command[0], std::strerror(errno));
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kNotStarted) fail(command[0], "it cannot be started");
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail(command[0], "it failed");
     result.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
     return result;

@@ -1,5 +1,6 @@
 #include "experiments/convergence.h"
 
+#include "experiments/median.h"
 #include "experiments/worst_case_lights.h"
 
 #include <algorithm>
@@ -13,11 +14,8 @@ namespace {
 
 using Real = long double;
 
-double median(std::vector<Real> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return static_cast<double>(*middle);
+double median_or_zero(std::vector<Real> values) {
+    return values.empty() ? 0 : static_cast<double>(median(std::move(values)));
 }
 
 template <class Case, int... Steps>
@@ -54,8 +52,8 @@ std::vector<ConvergenceRow> convergence_of(const std::vector<ErrorSequence>& err
             if (k < 2 || e[k - 2] > kLargest || e[k - 1] >= e[k - 2]) continue;
             orders.push_back(std::log(e[k] / e[k - 1]) / std::log(e[k - 1] / e[k - 2]));
         }
-        rows.push_back({static_cast<int>(k), median(after), median(digit_factors), digit_factors.size(),
-                        median(orders), orders.size()});
+        rows.push_back({static_cast<int>(k), median_or_zero(after), median_or_zero(digit_factors),
+                        digit_factors.size(), median_or_zero(orders), orders.size()});
     }
     return rows;
 }

@@ -15,6 +15,15 @@ bool contains(const Inset& inset, double x, double y) {
 
 } // namespace
 
+double mean_square_difference(const image::Image& a, const image::Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        const double difference = static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i]);
+        sum += difference * difference;
+    }
+    return sum / static_cast<double>(a.pixels.size());
+}
+
 double mean_radiance(const image::Image& image) {
     double sum = 0;
     for (const float value : image.pixels) sum += static_cast<double>(value);

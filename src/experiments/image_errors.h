@@ -58,6 +58,9 @@ private:
     std::int64_t invalid_pixels_ = 0;
 };
 
+/// Mean over all pixels and channels of two images of one size.
+double mean_square_difference(const image::Image& a, const image::Image& b);
+
 /// Mean over all pixels and channels.
 double mean_radiance(const image::Image& image);
 

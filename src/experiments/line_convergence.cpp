@@ -78,10 +78,10 @@ std::vector<ConvergenceSeries> all_series() {
 
 std::vector<OrderBetween> expected_orders() {
     constexpr double kAny = -std::numeric_limits<double>::infinity();
-    // A small light above the polished floor of the logo makes noise in few pixels. What is measured of it is rough.
-    return {{"points, independent", -0.55, -0.45, 1},
-            {"lines, independent", -0.55, -0.45, 1},
-            {"lines, each turned, stratified", -0.6, -0.45, 1},
+    // The polished floor of the logo makes noise in few pixels. What is measured of it is rough.
+    return {{"points, independent", -0.55, -0.45},
+            {"lines, independent", -0.55, -0.45},
+            {"lines, each turned, stratified", -0.6, -0.45},
             {"points, stratified", -0.9, -0.6, 1},
             {"lines, stratified", kAny, -1.1, 1},
             {"lines, unbiased, stratified", kAny, -0.9, 1},
@@ -102,17 +102,9 @@ LineConvergence convergence(const std::string& name, const std::string& figures,
             "Mean squared error over the number of samples and over time, under " + lights + " lights.",
             std::move(scenes),
             all_series(),
+            "points, by importance, stratified",
             expected_orders(),
             expected_less_noise()};
-}
-
-double mean_square_difference(const image::Image& a, const image::Image& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-        const double difference = static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i]);
-        sum += difference * difference;
-    }
-    return sum / static_cast<double>(a.pixels.size());
 }
 
 /// The mean over all seeds with the largest number of samples.
@@ -120,6 +112,14 @@ struct Converged {
     image::Image image;
     double variance; ///< of this mean
 };
+
+std::size_t index_of(const LineConvergence& experiment, const std::string& label) {
+    const auto found = std::find_if(experiment.series.begin(), experiment.series.end(),
+                                    [&](const ConvergenceSeries& series) { return series.label == label; });
+    if (found == experiment.series.end())
+        throw std::logic_error("experiment " + experiment.name + " has no series " + label);
+    return static_cast<std::size_t>(found - experiment.series.begin());
+}
 
 SceneResult run_scene(const LineConvergence& experiment, const LineScene& line_scene,
                       const scene::Scene& scene, int threads,
@@ -129,7 +129,7 @@ SceneResult run_scene(const LineConvergence& experiment, const LineScene& line_s
     SceneResult result;
     result.scene = line_scene.name;
     std::vector<Converged> converged;
-    std::size_t reference = 0;
+    const std::size_t reference = index_of(experiment, experiment.reference);
     for (const ConvergenceSeries& series : experiment.series) {
         progress(fmt::format("{}: {}", line_scene.name, series.label));
         SeriesResult measured;
@@ -138,14 +138,14 @@ SceneResult run_scene(const LineConvergence& experiment, const LineScene& line_s
         for (const int count : series.counts) {
             seeds = seeds_for(experiment, count);
             statistics = render_seeds(renderer, isa, with_count(series.settings, count), seeds);
-            measured.curve.push_back({count, statistics.variance, statistics.seconds});
+            measured.curve.push_back({count, statistics.variance, statistics.seconds, seeds});
         }
         measured.order = fitted_order(measured.curve, series.fit_first, series.fit_last);
-        if (series.settings.integrator == Integrator::points) reference = converged.size();
         converged.push_back({std::move(statistics.mean), statistics.variance / seeds});
         result.series.push_back(std::move(measured));
     }
     result.mean = mean_radiance(converged[reference].image);
+    result.reference_error = std::sqrt(converged[reference].variance) / result.mean;
     for (std::size_t i = 0; i < converged.size(); ++i) {
         const double noise = converged[i].variance + converged[reference].variance;
         const double square = mean_square_difference(converged[i].image, converged[reference].image);
@@ -154,14 +154,6 @@ SceneResult run_scene(const LineConvergence& experiment, const LineScene& line_s
             i == reference ? 0 : std::sqrt(std::max(square - noise, 0.0)) / result.mean;
     }
     return result;
-}
-
-std::size_t index_of(const LineConvergence& experiment, const std::string& label) {
-    const auto found = std::find_if(experiment.series.begin(), experiment.series.end(),
-                                    [&](const ConvergenceSeries& series) { return series.label == label; });
-    if (found == experiment.series.end())
-        throw std::logic_error("experiment " + experiment.name + " has no series " + label);
-    return static_cast<std::size_t>(found - experiment.series.begin());
 }
 
 double variance_at(const NoiseCurve& curve, int count) {
@@ -201,19 +193,12 @@ LineConvergenceResult run_line_convergence(const LineConvergence& experiment, co
     LineConvergenceResult result;
     result.experiment = &experiment;
     result.width = settings.width > 0 ? settings.width : experiment.width;
-    result.threads = settings.threads > 0 ? settings.threads : render_cpu::default_thread_count();
-    for (const LineScene& line_scene : experiment.scenes) {
-        const auto scene = load_line_scene(line_scene, settings, result.width);
-        if (scene) {
-            result.scenes.push_back(run_scene(experiment, line_scene, *scene, result.threads, progress));
-        } else {
-            progress(line_scene.name + " is skipped: set NUSSELT_SCENES to the folder that has it");
-            SceneResult skipped;
-            skipped.scene = line_scene.name;
-            skipped.is_skipped = true;
-            result.scenes.push_back(std::move(skipped));
-        }
-    }
+    result.threads = thread_count(settings);
+    result.scenes = for_each_scene<SceneResult>(experiment.scenes, settings, result.width, progress,
+                                                [&](const LineScene& line_scene, const scene::Scene& scene) {
+                                                    return run_scene(experiment, line_scene, scene,
+                                                                     result.threads, progress);
+                                                });
     result.expectations = check_expectations(experiment, result.scenes);
     return result;
 }
@@ -221,8 +206,12 @@ LineConvergenceResult run_line_convergence(const LineConvergence& experiment, co
 std::vector<ExpectationResult> check_expectations(const LineConvergence& experiment,
                                                   const std::vector<SceneResult>& scenes) {
     std::vector<ExpectationResult> results;
+    const auto measured = std::count_if(scenes.begin(), scenes.end(),
+                                        [](const SceneResult& scene) { return !scene.is_skipped; });
+    const auto says_little = [&](int exceptions) { return measured <= 2 * exceptions; };
     for (const OrderBetween& e : experiment.orders) {
         const std::size_t series = index_of(experiment, e.series);
+        if (says_little(e.exceptions)) continue;
         const auto violations = std::count_if(scenes.begin(), scenes.end(), [&](const SceneResult& s) {
             return !s.is_skipped && !(s.series[series].order >= e.low && s.series[series].order <= e.high);
         });
@@ -231,6 +220,7 @@ std::vector<ExpectationResult> check_expectations(const LineConvergence& experim
     for (const LessNoise& e : experiment.less_noise) {
         const std::size_t less = index_of(experiment, e.series);
         const std::size_t more = index_of(experiment, e.than);
+        if (says_little(e.exceptions)) continue;
         const auto violations = std::count_if(scenes.begin(), scenes.end(), [&](const SceneResult& s) {
             return !s.is_skipped &&
                    !(variance_at(s.series[less].curve, e.count) < variance_at(s.series[more].curve, e.count));

@@ -45,6 +45,7 @@ struct LineConvergence {
     std::string description; ///< one sentence
     std::vector<LineScene> scenes;
     std::vector<ConvergenceSeries> series;
+    std::string reference; ///< series against which biases are measured
     std::vector<OrderBetween> orders;
     std::vector<LessNoise> less_noise;
     int seeds = 16; ///< at least; more for few samples, up to
@@ -57,7 +58,7 @@ const std::vector<LineConvergence>& all_line_convergences();
 struct SeriesResult {
     NoiseCurve curve;
     double order = 0;
-    /// Against the last series of point samples, both with as many samples as there are; relative to the mean radiance.
+    /// Against the reference, both the mean over all seeds with the most samples; relative to the mean radiance.
     double bias = 0;       ///< of the mean of the image
     double pixel_bias = 0; ///< root mean square over pixels, beyond what noise explains
 };
@@ -65,7 +66,9 @@ struct SeriesResult {
 struct SceneResult {
     std::string scene;
     bool is_skipped = false; ///< it is not there
-    double mean = 0;         ///< radiance
+    double mean = 0;         ///< radiance of the reference
+    double reference_error =
+        0; ///< standard error of its pixels, root mean square, relative to the mean radiance
     std::vector<SeriesResult> series;
 };
 
@@ -85,7 +88,8 @@ int seeds_for(const LineConvergence& experiment, int count);
 LineConvergenceResult run_line_convergence(const LineConvergence& experiment, const RunSettings& settings,
                                            const std::function<void(std::string_view)>& progress);
 
-/// What became of the expectations; scenes that were skipped count neither way.
+/// What became of the expectations; scenes that were skipped count neither way. Those are left out whose exceptions are
+/// half of the remaining scenes or more: nothing much would be expected.
 std::vector<ExpectationResult> check_expectations(const LineConvergence& experiment,
                                                   const std::vector<SceneResult>& scenes);
 

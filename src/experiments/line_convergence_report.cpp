@@ -1,11 +1,13 @@
 #include "experiments/line_convergence.h"
 
 #include "experiments/plot.h"
+#include "experiments/report_json.h"
 #include "image/atomic_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 
 namespace nusselt::experiments {
@@ -26,14 +28,26 @@ Table order_table(const LineConvergenceResult& result) {
     return table;
 }
 
+/// Of the series with the most counts.
+std::vector<int> every_other_count(const std::vector<ConvergenceSeries>& series) {
+    const auto longest = std::max_element(series.begin(), series.end(), [](const auto& a, const auto& b) {
+        return a.counts.size() < b.counts.size();
+    });
+    std::vector<int> counts;
+    for (std::size_t i = 0; i < longest->counts.size(); i += 2) counts.push_back(longest->counts[i]);
+    return counts;
+}
+
 /// Root mean squares relative to the mean, times in parentheses.
 Table error_table(const LineConvergenceResult& result, const SceneResult& scene) {
-    Table table = {
-        {scene.scene + ": RMSE / mean (ms)", "N = 4", "16", "64", "256", "1024", "bias", "bias of pixels"}};
     const std::vector<ConvergenceSeries>& series = result.experiment->series;
+    const std::vector<int> counts = every_other_count(series);
+    Table table = {{scene.scene + ": RMSE / mean (ms)"}};
+    for (const int count : counts) table[0].push_back(fmt::format("N = {}", count));
+    table[0].insert(table[0].end(), {"bias", "bias of pixels"});
     for (std::size_t i = 0; i < series.size(); ++i) {
         std::vector<std::string> row = {series[i].label};
-        for (const int count : {4, 16, 64, 256, 1024}) {
+        for (const int count : counts) {
             row.emplace_back();
             for (const CurvePoint& p : scene.series[i].curve)
                 if (p.count == count)
@@ -44,6 +58,9 @@ Table error_table(const LineConvergenceResult& result, const SceneResult& scene)
         row.push_back(fmt::format("{:.1e}", scene.series[i].pixel_bias));
         table.push_back(std::move(row));
     }
+    table.push_back({"standard error of the reference of the biases"});
+    table.back().resize(counts.size() + 2);
+    table.back().push_back(fmt::format("{:.1e}", scene.reference_error));
     return table;
 }
 
@@ -76,12 +93,14 @@ std::string write_plot(const std::filesystem::path& folder, const std::string& f
 }
 
 std::string setting(const LineConvergenceResult& result) {
-    return fmt::format("Images are {} pixels wide, camera rays go through their centres. Errors are standard "
-                       "deviations over {} seeds or more, "
-                       "so that no reference is needed; times are medians over them, of {} threads. The "
-                       "order is the slope of the "
-                       "standard deviation over N in logarithmic axes, a least squares fit.",
-                       result.width, result.experiment->seeds, result.threads);
+    return fmt::format(
+        "Images are {} pixels wide, camera rays go through their centres. Errors are standard "
+        "deviations over {} seeds or more, "
+        "so that no reference is needed; times are medians over them, of {} threads. The "
+        "order is the slope of the "
+        "standard deviation over N in logarithmic axes, a least squares fit. Biases are against "
+        "'{}', the mean over all seeds with the most samples.",
+        result.width, result.experiment->seeds, result.threads, result.experiment->reference);
 }
 
 } // namespace
@@ -100,25 +119,25 @@ std::string to_json(const LineConvergenceResult& result) {
     for (const SceneResult& scene : result.scenes) {
         Json all = Json::array();
         for (std::size_t i = 0; i < scene.series.size(); ++i) {
-            Json curve = Json::array();
-            for (const CurvePoint& p : scene.series[i].curve)
-                curve.push_back({{"count", p.count}, {"variance", p.variance}, {"seconds", p.seconds}});
             all.push_back({{"series", series[i].label},
                            {"order", scene.series[i].order},
                            {"fit", {series[i].fit_first, series[i].fit_last}},
                            {"bias", scene.series[i].bias},
                            {"pixel_bias", scene.series[i].pixel_bias},
-                           {"curve", std::move(curve)}});
+                           {"curve", to_json(scene.series[i].curve)}});
         }
         scenes.push_back({{"scene", scene.scene},
                           {"skipped", scene.is_skipped},
                           {"mean", scene.mean},
+                          {"reference_error", scene.reference_error},
                           {"series", std::move(all)}});
     }
-    const Json document = {
-        {"experiment", result.experiment->name}, {"width", result.width},
-        {"seeds", result.experiment->seeds},     {"threads", result.threads},
-        {"scenes", std::move(scenes)},           {"expectations", to_json(result.expectations)}};
+    const Json document = {{"experiment", result.experiment->name},
+                           {"width", result.width},
+                           {"threads", result.threads},
+                           {"reference", result.experiment->reference},
+                           {"scenes", std::move(scenes)},
+                           {"expectations", to_json(result.expectations)}};
     return document.dump(1) + "\n";
 }
 

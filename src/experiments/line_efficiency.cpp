@@ -1,6 +1,7 @@
 #include "experiments/line_efficiency.h"
 
 #include "experiments/image_errors.h"
+#include "experiments/median.h"
 #include "experiments/process_time.h"
 
 #include <algorithm>
@@ -15,12 +16,13 @@ struct Series {
     std::vector<int> counts;
     std::vector<double> variances;            ///< for each count, sum over the rounds
     std::vector<std::vector<double>> seconds; ///< for each count, of all rounds
-    double mean = 0;                          ///< radiance of the image that was rendered last
+    std::vector<double> means;                ///< radiance, for each count, sum over the rounds
 
     Series(const render::RenderSettings& with, int first, int last) : settings(with) {
         for (int n = first; n <= last; n *= 2) counts.push_back(n);
         variances.resize(counts.size());
         seconds.resize(counts.size());
+        means.resize(counts.size());
     }
 
     /// Does nothing if there is no such count.
@@ -33,16 +35,15 @@ struct Series {
             render_seeds(renderer, isa, with_count(settings, counts[i]), kSeedsPerRound);
         seconds[i].push_back((process_seconds() - begin) / (kSeedsPerRound * threads));
         variances[i] += result.variance;
-        mean = mean_radiance(result.mean);
+        means[i] += mean_radiance(result.mean);
     }
 
     NoiseCurve curve() const {
         NoiseCurve result;
         for (std::size_t i = 0; i < counts.size(); ++i) {
-            std::vector<double> sorted = seconds[i];
-            std::sort(sorted.begin(), sorted.end());
-            result.push_back(
-                {counts[i], variances[i] / static_cast<double>(sorted.size()), sorted[sorted.size() / 2]});
+            const std::size_t rounds = seconds[i].size();
+            result.push_back({counts[i], variances[i] / static_cast<double>(rounds), median(seconds[i]),
+                              static_cast<int>(rounds) * kSeedsPerRound});
         }
         return result;
     }
@@ -75,29 +76,34 @@ LineEfficiency measure_line_efficiency(const render_cpu::Renderer& renderer, ren
             for (Series* series : {&points, &lines, &choice})
                 series->render(renderer, isa, settings.threads, round, i);
     }
-    return {points.curve(), lines.curve(), choice.curve(), points.mean};
+    return {points.curve(), lines.curve(), choice.curve(), points.means.back() / settings.rounds};
 }
 
 std::vector<EqualErrorRow> equal_error_rows(const LineEfficiency& efficiency) {
     std::vector<EqualErrorRow> rows;
     for (const CurvePoint& point : efficiency.points)
-        rows.push_back({point.count, point.variance, point.seconds,
-                        seconds_to(efficiency.lines, point.variance),
-                        seconds_to(efficiency.choice, point.variance),
-                        point.variance < efficiency.lines.back().variance});
+        rows.push_back(
+            {point.count, point.variance, point.seconds, seconds_to(efficiency.lines, point.variance),
+             seconds_to(efficiency.choice, point.variance), point.variance < efficiency.lines.back().variance,
+             point.variance < efficiency.choice.back().variance});
     return rows;
 }
 
 std::optional<int> crossover(const std::vector<EqualErrorRow>& rows) {
     std::optional<int> first;
-    for (auto row = rows.rbegin(); row != rows.rend() && row->lines_over_points() < 1; ++row)
+    for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
+        if (row->lines_are_extrapolated) continue;
+        if (row->lines_over_points() >= 1) break;
         first = row->points;
+    }
     return first;
 }
 
 double largest_loss(const std::vector<EqualErrorRow>& rows) {
     double largest = 0;
-    for (const EqualErrorRow& row : rows) largest = std::max(largest, row.loss());
+    for (const EqualErrorRow& row : rows)
+        if (!row.lines_are_extrapolated && !row.choice_is_extrapolated)
+            largest = std::max(largest, row.loss());
     return largest;
 }
 

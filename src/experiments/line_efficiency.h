@@ -28,7 +28,7 @@ struct LineEfficiency {
     NoiseCurve points;
     NoiseCurve lines;  ///< ManyOccluders::lines
     NoiseCurve choice; ///< ManyOccluders::points; by the number of lines where there are not many
-    double mean = 0;   ///< radiance, over pixels and channels
+    double mean = 0;   ///< radiance, over pixels and channels, of all images with the most points
 };
 
 /// \param progress called before each round with its number, from 0
@@ -44,7 +44,8 @@ struct EqualErrorRow {
     double points_seconds = 0;
     double lines_seconds = 0;
     double choice_seconds = 0;
-    bool lines_are_extrapolated = false; ///< the largest number of lines is not enough
+    /// The largest number of lines is not enough.
+    bool lines_are_extrapolated = false, choice_is_extrapolated = false;
 
     double lines_over_points() const { return lines_seconds / points_seconds; }
     /// How much longer the choice takes than the better one of lines and points.
@@ -54,10 +55,11 @@ struct EqualErrorRow {
 /// For each number of points. Where a single line is exact enough, its time counts: none takes less.
 std::vector<EqualErrorRow> equal_error_rows(const LineEfficiency& efficiency);
 
-/// The fewest points of which lines reach the error in less time, and so for all that are more.
+/// The fewest points that lines beat in time to the same error, if they beat all larger numbers too. Rows in which lines
+/// are extrapolated do not count.
 std::optional<int> crossover(const std::vector<EqualErrorRow>& rows);
 
-/// The largest EqualErrorRow::loss().
+/// The largest EqualErrorRow::loss(), of rows without extrapolation; 0 if there is none.
 double largest_loss(const std::vector<EqualErrorRow>& rows);
 
 /// Gives all surfaces a specular component of this roughness, with a reflectance of 0.04 at normal incidence.

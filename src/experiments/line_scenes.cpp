@@ -1,6 +1,7 @@
 #include "experiments/line_scenes.h"
 
 #include "render/film.h"
+#include "render_cpu/renderer.h"
 #include "scene/load.h"
 #include "scene/rig_json.h"
 
@@ -22,6 +23,10 @@ std::vector<LineScene> scenes_with(const std::string& rig, const std::string& sp
 }
 
 } // namespace
+
+int thread_count(const RunSettings& settings) {
+    return settings.threads > 0 ? settings.threads : render_cpu::default_thread_count();
+}
 
 std::vector<LineScene> scenes_with_large_lights() { return scenes_with("", "sponza/sponza.pbrt"); }
 

@@ -25,7 +25,7 @@ std::vector<LineScene> in_both_lights() {
     return scenes;
 }
 
-LineVisibility pieces() {
+LineVisibility visible_parts() {
     std::vector<LineScene> scenes = scenes_with_large_lights();
     const auto is_other = [](const LineScene& s) { return s.name != "soup" && s.name != "sponza"; };
     scenes.erase(std::remove_if(scenes.begin(), scenes.end(), is_other), scenes.end());
@@ -103,7 +103,7 @@ const char* name_of(double WorkPerLine::*work) {
 } // namespace
 
 const std::vector<LineVisibility>& all_line_visibilities() {
-    static const std::vector<LineVisibility> experiments = {pieces(), table()};
+    static const std::vector<LineVisibility> experiments = {visible_parts(), table()};
     return experiments;
 }
 
@@ -112,20 +112,13 @@ LineVisibilityResult run_line_visibility(const LineVisibility& experiment, const
     LineVisibilityResult result;
     result.experiment = &experiment;
     result.width = settings.width > 0 ? settings.width : experiment.width;
-    const int threads = settings.threads > 0 ? settings.threads : render_cpu::default_thread_count();
-    for (const LineScene& line_scene : experiment.scenes) {
-        const auto scene = load_line_scene(line_scene, settings, result.width);
-        if (scene) {
-            progress(line_scene.name);
-            result.scenes.push_back(run_scene(experiment, line_scene.name, *scene, threads));
-        } else {
-            progress(line_scene.name + " is skipped: set NUSSELT_SCENES to the folder that has it");
-            LineVisibilityScene skipped;
-            skipped.scene = line_scene.name;
-            skipped.is_skipped = true;
-            result.scenes.push_back(std::move(skipped));
-        }
-    }
+    const int threads = thread_count(settings);
+    result.scenes =
+        for_each_scene<LineVisibilityScene>(experiment.scenes, settings, result.width, progress,
+                                            [&](const LineScene& line_scene, const scene::Scene& scene) {
+                                                progress(line_scene.name);
+                                                return run_scene(experiment, line_scene.name, scene, threads);
+                                            });
     result.expectations = check_expectations(experiment, result.scenes);
     return result;
 }

@@ -1,5 +1,6 @@
 #include "experiments/line_visibility.h"
 
+#include "experiments/report_json.h"
 #include "image/atomic_file.h"
 #include "image/difference.h"
 #include "image/io.h"

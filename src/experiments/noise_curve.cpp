@@ -1,21 +1,12 @@
 #include "experiments/noise_curve.h"
 
-#include <algorithm>
+#include "experiments/median.h"
+
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 namespace nusselt::experiments {
-
-namespace {
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-} // namespace
 
 render::RenderSettings with_count(render::RenderSettings settings, int count) {
     (settings.integrator == render::Integrator::lines ? settings.lines.count : settings.samples) = count;

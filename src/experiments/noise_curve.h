@@ -15,6 +15,7 @@ struct CurvePoint {
     int count = 0;       ///< points or lines per shading point and light
     double variance = 0; ///< mean square error due to noise: mean over pixels and channels [radiance^2]
     double seconds = 0;  ///< of the render phase, median over the seeds
+    int seeds = 0;       ///< images that were rendered
 };
 
 /// From few to many samples.

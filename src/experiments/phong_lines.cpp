@@ -1,8 +1,8 @@
 #include "experiments/phong_lines.h"
 
 #include "experiments/hostile/lights.h"
+#include "experiments/median.h"
 #include "experiments/phong_lines_kernel.h"
-#include "render_cpu/isa.h"
 
 #include <nusselt/line_samples/phong.h>
 
@@ -92,12 +92,6 @@ void time_once(const Case& lines, int exponent, Series& series) {
     series.nanoseconds.push_back(std::chrono::duration<double, std::nano>(end - begin).count() / kPhongLines);
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 void judge(const Case& lines, int exponent, Series& series) {
     float result[kPhongLines];
     series.run(lines.parts, exponent, result);
@@ -111,15 +105,13 @@ void judge(const Case& lines, int exponent, Series& series) {
 
 } // namespace
 
-PhongLineComparison compare_phong_lines(int exponent, int repetitions, std::optional<std::string_view> isa) {
-    const render_cpu::Isa chosen = render_cpu::choose_isa(isa);
-    const PhongEvaluation evaluation = evaluation_for(chosen);
+PhongLineComparison compare_phong_lines(int exponent, int repetitions, render_cpu::Isa isa) {
+    const PhongEvaluation evaluation = evaluation_for(isa);
     static Case lines;
     make_case(exponent, lines);
     evaluation.tabulate(exponent);
 
     PhongLineComparison comparison;
-    comparison.isa = name_of(chosen);
     comparison.lanes = evaluation.lanes;
     Series series[] = {{evaluation.packed_quadrature, &comparison.packed_quadrature},
                        {evaluation.quadrature, &comparison.quadrature},

@@ -1,3 +1,5 @@
+#include "experiments/report_json.h"
+
 #include "experiments/run.h"
 
 #include <nlohmann/json.hpp>
@@ -27,6 +29,21 @@ Json to_json(const VariantResult& variant, const std::vector<Inset>& insets) {
 }
 
 } // namespace
+
+Json to_json(const std::vector<ExpectationResult>& expectations) {
+    Json list = Json::array();
+    for (const ExpectationResult& e : expectations)
+        list.push_back({{"expectation", e.text}, {"holds", e.holds}});
+    return list;
+}
+
+Json to_json(const NoiseCurve& curve) {
+    Json list = Json::array();
+    for (const CurvePoint& p : curve)
+        list.push_back(
+            {{"count", p.count}, {"seeds", p.seeds}, {"variance", p.variance}, {"seconds", p.seconds}});
+    return list;
+}
 
 std::string to_json(const ExperimentResult& result) {
     Json variants = Json::array();

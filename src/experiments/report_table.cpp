@@ -1,7 +1,6 @@
 #include "experiments/report_table.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -54,13 +53,6 @@ std::string to_html(const std::vector<ExpectationResult>& expectations) {
         html += fmt::format("<li{}>{}: {}\n", e.holds ? "" : " class=\"no\"", e.text,
                             e.holds ? "holds" : "does not hold");
     return html + "</ul>\n";
-}
-
-nlohmann::ordered_json to_json(const std::vector<ExpectationResult>& expectations) {
-    auto list = nlohmann::ordered_json::array();
-    for (const ExpectationResult& e : expectations)
-        list.push_back({{"expectation", e.text}, {"holds", e.holds}});
-    return list;
 }
 
 std::string page_head(const std::string& title) {

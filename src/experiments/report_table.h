@@ -1,8 +1,6 @@
 #pragma once
 /// What reports consist of, as text and as HTML.
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <string>
 #include <vector>
 
@@ -25,9 +23,6 @@ std::string to_text(const std::vector<ExpectationResult>& expectations);
 std::string to_html(const Table& table);
 
 std::string to_html(const std::vector<ExpectationResult>& expectations);
-
-/// A list of objects.
-nlohmann::ordered_json to_json(const std::vector<ExpectationResult>& expectations);
 
 /// The beginning of a page, up to its heading.
 std::string page_head(const std::string& title);

@@ -55,6 +55,7 @@ TEST(LineConvergence, NamesAreUniqueAndExpectationsReferToSeries) {
             EXPECT_NE(std::find(s.counts.begin(), s.counts.end(), s.fit_first), s.counts.end()) << s.label;
             EXPECT_NE(std::find(s.counts.begin(), s.counts.end(), s.fit_last), s.counts.end()) << s.label;
         }
+        EXPECT_EQ(labels.count(e.reference), 1u) << e.reference;
         for (const OrderBetween& o : e.orders) EXPECT_EQ(labels.count(o.series), 1u) << o.series;
         for (const LessNoise& l : e.less_noise) {
             EXPECT_EQ(labels.count(l.series), 1u) << l.series;
@@ -94,6 +95,7 @@ TEST(LineConvergence, ExpectationsFailForImpostors) {
     for (const std::string series : {"points, stratified", "lines, stratified", "lines, independent"}) {
         LineConvergence one = mutant;
         std::erase_if(one.series, [&](const ConvergenceSeries& s) { return s.label != series; });
+        one.reference = series;
         std::erase_if(one.orders, [&](const OrderBetween& e) { return e.series != series; });
         one.less_noise.clear();
         const LineConvergenceResult result = run(one);
@@ -121,6 +123,10 @@ TEST(LineConvergence, CountsExceptionsAndLeavesOutSkippedScenes) {
     EXPECT_TRUE(check_expectations(experiment, scenes)[0].holds);
     scenes[0] = scene_of_order(experiment, std::nan(""));
     EXPECT_FALSE(check_expectations(experiment, scenes)[0].holds);
+    // Two scenes with an exception say nothing.
+    scenes.pop_back();
+    scenes[1].is_skipped = true;
+    EXPECT_TRUE(check_expectations(experiment, scenes).empty());
     experiment.orders[0].series = "no such series";
     EXPECT_THROW(check_expectations(experiment, scenes), std::logic_error);
 }
@@ -146,6 +152,7 @@ class LineReport : public Folder {};
 
 TEST_F(LineReport, HasPlotsTablesAndAllNumbers) {
     LineConvergence experiment = small(all_line_convergences()[0]);
+    experiment.reference = experiment.series[1].label;
     experiment.scenes.push_back({"elsewhere", "nowhere.pbrt", "", SceneOrigin::published});
     experiment.series.resize(2);
     experiment.orders = {{experiment.series[0].label, -0.6, -0.4}};
@@ -171,6 +178,10 @@ TEST_F(LineReport, HasPlotsTablesAndAllNumbers) {
     EXPECT_EQ(numbers["scenes"][0]["series"].size(), 2u);
     EXPECT_EQ(numbers["scenes"][0]["series"][1]["curve"].size(), 5u);
     EXPECT_EQ(numbers["scenes"][0]["series"][1]["curve"][0]["count"], 4);
+    EXPECT_EQ(numbers["scenes"][0]["series"][1]["curve"][0]["seeds"], 32);
+    EXPECT_EQ(numbers["scenes"][0]["series"][1]["curve"][4]["seeds"], 16);
+    EXPECT_EQ(numbers["scenes"][0]["series"][1]["bias"], 0);
+    EXPECT_GT(numbers["scenes"][0]["reference_error"], 0);
 }
 
 } // namespace

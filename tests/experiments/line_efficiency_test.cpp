@@ -68,6 +68,18 @@ TEST(LineEfficiency, SaysWhereLinesAreExtrapolated) {
     }
 }
 
+TEST(LineEfficiency, ExtrapolationProvesNothing) {
+    LineEfficiency efficiency = example(3);
+    efficiency.lines = curve(1, 4, 1.2, 3); // as good as 8 points, where points win
+    EXPECT_FALSE(crossover(equal_error_rows(efficiency)));
+    efficiency = example(100);
+    efficiency.choice.resize(1); // as good as one point
+    efficiency.choice.push_back({2, 1e-1, 1, 0});
+    for (const EqualErrorRow& row : equal_error_rows(efficiency))
+        EXPECT_EQ(row.choice_is_extrapolated, row.variance < 1e-1) << row.points;
+    EXPECT_EQ(largest_loss(equal_error_rows(efficiency)), 0);
+}
+
 TEST(LineEfficiency, GlossySurfacesKeepTheirDiffuseAlbedo) {
     scene::Scene scene;
     scene.materials.resize(2);

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -50,6 +51,12 @@ protected:
         return settings;
     }
 
+    bool has_highlights() const {
+        return std::any_of(
+            scene_.materials.begin(), scene_.materials.end(),
+            [](const scene::Material& material) { return material.model != scene::BrdfModel::lambert; });
+    }
+
     scene::Scene scene_;
     render_cpu::Renderer renderer_;
     render::RenderSettings settings_;
@@ -59,8 +66,9 @@ TEST_P(LineSamplesOfScene, HaveTheMeanOfPoints) {
     const BiasStatistics reference = statistics_of(renderer_, settings_, 0);
     int seed = 1000;
     for (const auto choice : render::kManyOccludersChoices)
-        // Noise of uniform offsets in highlights is far from normal.
-        for (const auto offsets : {render::LineOffsets::length, render::LineOffsets::reflected}) {
+        for (const auto offsets : render::kLineOffsets) {
+            // Its noise in highlights is far from normal.
+            if (offsets == render::LineOffsets::uniform && has_highlights()) continue;
             render::RenderSettings settings = line_settings();
             settings.lines.offsets = offsets;
             settings.lines.many_occluders = choice;
@@ -73,7 +81,6 @@ TEST_P(LineSamplesOfScene, HaveTheMeanOfPoints) {
 
 /// The test of the test: lights that are two per cent darker.
 TEST_P(LineSamplesOfScene, ThatAreTooDarkAreRejected) {
-    if (scene_.polygon_lights.empty()) GTEST_SKIP() << "there are no polygonal lights";
     scene::Scene dark = scene_;
     for (scene::PolygonLight& light : dark.polygon_lights)
         for (float* channel : {&light.radiance.x, &light.radiance.y, &light.radiance.z}) *channel *= 0.98f;
@@ -84,8 +91,8 @@ TEST_P(LineSamplesOfScene, ThatAreTooDarkAreRejected) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, LineSamplesOfScene,
-                         testing::Values("biased", "bollards", "cornell-panel", "cornell-tube", "grid-planes",
-                                         "logo", "planes", "ring", "room", "soup", "wall"),
+                         testing::Values("biased", "cornell-panel", "grid-planes", "logo", "planes", "ring",
+                                         "room", "soup", "wall"),
                          [](const auto& test) {
                              std::string name = test.param;
                              for (char& c : name)

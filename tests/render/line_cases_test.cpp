@@ -60,7 +60,7 @@ TEST(LineParts, NoneIsLost) {
     }
 }
 
-/// Where the points that correct fitted lobes are taken from pieces of lines.
+/// Where the points that correct fitted lobes are taken from parts of lines.
 TEST(LineParts, HaveTheMeanOfPointsOnGlossySurfaces) {
     constexpr int kImage = kRegionsPerAxis;
     scene::Scene scene = make_slats(800, kImage);
