@@ -13,6 +13,7 @@
 #include <nusselt/line_samples/triangle_shadow.h>
 #include <nusselt/random/light_random.h>
 
+#include "least_squares.h"
 #include "reflected_light.h"
 #include "replicates.h"
 
@@ -220,12 +221,6 @@ struct Convergence {
     double error; ///< of 16 lines, relative
 };
 
-double mean_of(const std::vector<double>& values) {
-    double sum = 0;
-    for (const double value : values) sum += value;
-    return sum / static_cast<double>(values.size());
-}
-
 /// \param line of two random numbers, one value of an estimator
 template <class Line>
 Convergence convergence(const std::string& name, double truth, Sampler sampler, const Line& line) {
@@ -242,13 +237,7 @@ Convergence convergence(const std::string& name, double truth, Sampler sampler, 
         x.push_back(std::log(count));
         y.push_back(0.5 * std::log(squares));
     }
-    double product = 0;
-    double spread = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        product += (x[i] - mean_of(x)) * (y[i] - mean_of(y));
-        spread += (x[i] - mean_of(x)) * (x[i] - mean_of(x));
-    }
-    const Convergence result{product / spread, std::exp(y[0]) / truth};
+    const Convergence result{slope_of(x, y), std::exp(y[0]) / truth};
     std::printf("%-50s order %.2f, error of 16 lines %.5f\n", name.c_str(), result.order, result.error);
     return result;
 }
