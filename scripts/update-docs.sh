@@ -9,19 +9,21 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 program=${NUSSELT:-build/release/apps/nusselt/nusselt}
 
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
 cpu=$(sed -nE 's/^model name\s*: (.*)/\1/p' /proc/cpuinfo | head -n 1)
 if [ "${1:-}" = lines ]; then
     experiments=(lines-orientation lines-offsets lines-pieces lines-large lines-small lines-visibility)
-    "$program" reproduce "${experiments[@]}" -o out/reproduce || echo "an expectation does not hold" >&2
-    exec python3 scripts/fill-line-samples.py out/reproduce "$cpu"
+    # The exit code is that of an error, too; reports that were not written stop the other program.
+    "$program" reproduce "${experiments[@]}" -o "$work" || echo "an expectation does not hold, or an error" >&2
+    python3 scripts/fill-line-samples.py "$work" "$cpu"
+    exit
 fi
 for picture in docs/techniques/images/*.svg; do
     "$program" map "$(basename "$picture" .svg)" "$picture"
 done
 if [ "${1:-}" = pictures ]; then exit; fi
 
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 "$program" bench accuracy --json "$work/accuracy.json" >"$work/log"
 "$program" bench samplers --json "$work/samplers.json" >"$work/log"
 python3 scripts/fill-docs.py "$work/accuracy.json" "$work/samplers.json" "$cpu"
