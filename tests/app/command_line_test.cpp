@@ -252,11 +252,12 @@ TEST_F(CommandLine, TimesASecondTechnique) {
 TEST_F(CommandLine, MeasuresWhatLinesCost) {
     const Outcome bench =
         run("bench lines '" + kScenes +
-            "/cornell-panel.pbrt' --resolution 32x32 --repetitions 1 --lines 4,16 --json -");
+            "/cornell-panel.pbrt' --resolution 32x32 --repetitions 1 --lines 4,16 --offsets length --json -");
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
     const nlohmann::json json = nlohmann::json::parse(bench.out);
     EXPECT_GT(json["shadow_rays"], 0);
     EXPECT_GT(json["shadow_ray_nanoseconds"], 0.0);
+    EXPECT_EQ(json["offsets"], "length");
     ASSERT_EQ(json["rows"].size(), 2u);
     EXPECT_EQ(json["rows"][1]["lines"], 16);
     EXPECT_EQ(json["rows"][1]["traced_lines"].get<int>(), 4 * json["rows"][0]["traced_lines"].get<int>());
@@ -269,12 +270,16 @@ TEST_F(CommandLine, MeasuresHowLongLinesTakeToTheErrorOfPoints) {
     const Outcome bench =
         run("bench line-efficiency '" + kScenes +
             "/cornell-panel.pbrt' --resolution 16x16 --repetitions 2 --most-points 16 --most-lines 4 "
-            "--roughness 0.5 --strategies diffuse+ltc --threads 2 --json -");
+            "--roughness 0.5 --strategies diffuse+ltc --orientation fixed --threads 2 --json -");
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
     const nlohmann::json json = nlohmann::json::parse(bench.out);
+    EXPECT_EQ(json["roughness"], 0.5);
+    EXPECT_EQ(json["orientation"], "fixed");
+    EXPECT_EQ(json["most_points"], 16);
     ASSERT_EQ(json["results"].size(), 1u);
     const nlohmann::json& result = json["results"][0];
     EXPECT_EQ(result["points"].size(), 3u);
+    EXPECT_EQ(result["points"][0]["seeds"], 4);
     EXPECT_EQ(result["lines"].size(), 3u);
     EXPECT_EQ(result["equal_error"].size(), 3u);
     EXPECT_LT(result["points"][2]["variance"], result["points"][0]["variance"]);
@@ -290,9 +295,9 @@ TEST_F(CommandLine, PrintsTheNoiseOfTubes) {
 }
 
 TEST_F(CommandLine, ComparesPhongLobesAlongLines) {
-    const Outcome bench = run("bench phong-lines --repetitions 1");
+    const Outcome bench = run("bench phong-lines --repetitions 1 --isa sse42");
     EXPECT_EQ(bench.exit_code, 0) << bench.err;
-    for (const char* text : {"recursion", "table", "100000"})
+    for (const char* text : {"packs of 4, sse42", "recursion", "table", "100000"})
         EXPECT_NE(bench.out.find(text), std::string::npos) << bench.out;
 }
 

@@ -26,6 +26,8 @@ TEST_F(CommandLine, RendersWithLines) {
         report_of(run(kRender + "--integrator lines --lines 3 --orientation fixed --offsets uniform "
                                 "--line-shading analytic --many-occluders lines --pixel-center "
                                 "-o lines.exr --json -"));
+    EXPECT_EQ(report["integrator"], "lines");
+    EXPECT_TRUE(report["rays_per_second"].is_null());
     const auto& lines = report["line_samples"];
     EXPECT_EQ(lines["lines"], 3);
     EXPECT_EQ(lines["orientation"], "fixed");
@@ -45,7 +47,10 @@ TEST_F(CommandLine, RendersWithLines) {
     EXPECT_EQ(metadata.at("line_shading"), "analytic");
     EXPECT_EQ(metadata.at("many_occluders"), "lines");
 
-    EXPECT_TRUE(report_of(run(kRender + "-o points.exr --json -"))["line_samples"].is_null());
+    const auto points = report_of(run(kRender + "-o points.exr --json -"));
+    EXPECT_EQ(points["integrator"], "points");
+    EXPECT_GT(points["rays_per_second"], 0.0);
+    EXPECT_TRUE(points["line_samples"].is_null());
     EXPECT_EQ(image::read_layers(path("points.exr")).metadata.count("lines"), 0u);
 }
 
