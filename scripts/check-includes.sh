@@ -38,7 +38,8 @@ BEGIN {
     below = "library src/image src/scene src/visibility src/render src/render_cpu src/gpu src/shaders"
     below = below " src/tables"
     allow("src/experiments", below)
-    allow("apps/nusselt", below " src/experiments src/fit")
+    allow("apps/viewer", below " src/experiments")
+    allow("apps/nusselt", below " src/experiments src/fit apps/viewer")
 
     allow("shaders/interface", "shaders/nusselt")
     below = "shaders/nusselt shaders/interface"

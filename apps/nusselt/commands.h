@@ -30,8 +30,9 @@ struct LineOptions : LineKindOptions {
 
 struct RenderOptions {
     std::filesystem::path scene;
-    std::vector<std::filesystem::path> rigs;    ///< in the order in which they are applied
-    std::vector<std::filesystem::path> outputs; ///< empty: named after the film or the scene
+    std::vector<std::filesystem::path> rigs;     ///< in the order in which they are applied
+    std::optional<std::filesystem::path> camera; ///< file with another camera
+    std::vector<std::filesystem::path> outputs;  ///< empty: named after the film or the scene
     int samples = 1;
     std::string technique = "projected_solid_angle";
     std::optional<std::string> strategies;
@@ -54,6 +55,11 @@ struct RenderOptions {
     std::optional<std::filesystem::path> checkpoint;
     double checkpoint_interval = 60; ///< [s]
     std::optional<std::string> display_server;
+};
+
+struct CameraOptions {
+    std::filesystem::path scene;
+    std::optional<std::string> resolution;
 };
 
 struct MergeOptions {
@@ -195,6 +201,7 @@ struct ReproduceOptions {
 
 void setup_render(CLI::App& app, int& exit_code);
 void setup_merge(CLI::App& app, int& exit_code);
+void setup_camera(CLI::App& app, int& exit_code);
 void setup_techniques(CLI::App& app, int& exit_code);
 void setup_convert(CLI::App& app, int& exit_code);
 void setup_bench(CLI::App& app, int& exit_code);
@@ -226,6 +233,9 @@ int run_merge(const MergeOptions& options);
 
 /// Converts an image to another format, or prints the layers of an EXR file.
 int run_convert(const ConvertOptions& options);
+
+/// Prints the camera of a scene.
+int run_camera(const CameraOptions& options);
 
 /// Prints the table of techniques.
 int run_techniques();

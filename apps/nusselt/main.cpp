@@ -46,6 +46,7 @@ int main(int argc, char** argv) {
     setup_merge(app, exit_code);
     setup_info(app, exit_code);
     setup_lights(app, exit_code);
+    setup_camera(app, exit_code);
     setup_techniques(app, exit_code);
     setup_compare(app, exit_code);
     setup_convert(app, exit_code);

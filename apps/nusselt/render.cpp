@@ -15,6 +15,7 @@
 #include "render_cpu/checkpoint.h"
 #include "render_cpu/frame.h"
 #include "render_cpu/renderer.h"
+#include "scene/camera_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -62,9 +63,10 @@ void check_names(const RenderOptions& options, const scene::Film& film) {
     std::vector<std::filesystem::path> files = output_paths(options, film);
     if (options.json && options.json != "-") files.emplace_back(*options.json);
     if (options.checkpoint) files.push_back(*options.checkpoint);
+    const std::size_t written = files.size();
     files.push_back(options.scene);
+    if (options.camera) files.push_back(*options.camera);
     files.insert(files.end(), options.rigs.begin(), options.rigs.end());
-    const std::size_t written = files.size() - 1 - options.rigs.size();
     std::vector<std::filesystem::path> places;
     for (const std::filesystem::path& file : files)
         places.push_back(std::filesystem::weakly_canonical(absolute(file)));
@@ -194,6 +196,9 @@ void setup_render(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     add_line_options(*command, options->lines);
     add_rigs_option(*command, options->rigs);
+    command->add_option("--camera", options->camera,
+                        "Camera and image size in place of those of the scene: a JSON file as `nusselt "
+                        "camera`\nprints it. Default: the camera of the scene");
     add_machine_options(*command, options->threads, options->isa);
     add_resolution_option(*command, options->resolution);
     command->add_option("--exposure", options->exposure, "Brightens PNG images by this many stops, -64 to 64")
@@ -235,6 +240,7 @@ int run_render(const RenderOptions& options) {
 
     const InterruptGuard guard;
     scene::Scene scene = load_scene(options.scene, options.rigs);
+    if (options.camera) apply_camera(scene::read_camera_file(*options.camera), scene);
     check_names(options, scene.film);
     apply_resolution(options.resolution, scene);
     Times times;

@@ -1,25 +1,15 @@
 #include "scene/rig_text.h"
 
 #include "scene/light_edit.h"
+#include "scene/number_text.h"
 #include "scene/polygon.h"
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 namespace nusselt::scene {
 
 namespace {
-
-/// The shortest text that gives the same float.
-std::string number_text(float value) {
-    char buffer[32];
-    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
-std::string triple_text(const Float3& v) {
-    return "[" + number_text(v.x) + ", " + number_text(v.y) + ", " + number_text(v.z) + "]";
-}
 
 std::string boolean_text(bool value) { return value ? "true" : "false"; }
 

@@ -1,0 +1,37 @@
+#pragma once
+/// A camera that a person flies.
+
+#include "scene/scene.h"
+#include "scene/vector_math.h"
+
+namespace nusselt::viewer {
+
+/// Turns about an axis of the world that stays upright: that which is closest to what is up in the image at first.
+class FlyCamera {
+public:
+    /// \param width, height of the film that the raster positions of the camera refer to [pixels]
+    FlyCamera(const scene::Camera& start, int width, int height);
+
+    /// Angles by which the view turns to the right and upwards [rad]. It never passes the upright axis.
+    void turn(double right, double up);
+
+    /// How far to go along the image: to the right, downwards, and into it [m].
+    void move(const scene::Double3& by);
+
+    scene::Camera camera() const;
+
+    /// Unit vectors in the middle of the image; zero if the camera has none.
+    scene::Double3 forward() const;
+    scene::Double3 right() const;
+    scene::Double3 down() const;
+
+private:
+    void rotate(const scene::Double3& axis, double angle);
+
+    double width_, height_;
+    // As in scene::Camera.
+    scene::Double3 origin_, origin_right_, origin_down_, corner_, right_, down_;
+    scene::Double3 up_; ///< unit
+};
+
+} // namespace nusselt::viewer

@@ -1,0 +1,83 @@
+#include "scene/camera_file.h"
+
+#include "scene/json_node.h"
+#include "scene/limits.h"
+#include "scene/number_text.h"
+#include "scene/vector_math.h"
+
+namespace nusselt::scene {
+
+namespace {
+
+Float3 scaled(double factor, const Float3& v) { return to_float(factor * to_double(v)); }
+
+Float3 read_vector(const JsonNode& camera, std::string_view field) {
+    return camera.at(field).triple(-kMaxCoordinate, kMaxCoordinate);
+}
+
+Float3 read_vector_or_zero(const JsonNode& camera, std::string_view field) {
+    const auto node = camera.find(field);
+    return node ? node->triple(-kMaxCoordinate, kMaxCoordinate) : Float3{0, 0, 0};
+}
+
+/// Whether rays through different pixels differ.
+bool spans_an_image(const Float3& right, const Float3& down) {
+    return length(cross(to_double(right), to_double(down))) > 0;
+}
+
+} // namespace
+
+std::string to_camera_text(const FilmedCamera& view) {
+    const Camera& c = view.camera;
+    const auto across = [&](const Float3& per_pixel) { return triple_text(scaled(view.width, per_pixel)); };
+    const auto along = [&](const Float3& per_pixel) { return triple_text(scaled(view.height, per_pixel)); };
+    std::string text = "{\"version\": 1,\n  \"film\": [" + std::to_string(view.width) + ", " +
+                       std::to_string(view.height) + "],\n  \"camera\": {";
+    const auto add = [&](const char* field, const std::string& value) {
+        text += text.back() == '{' ? "\n    \"" : ",\n    \"";
+        text += std::string(field) + "\": " + value;
+    };
+    add("origin", triple_text(c.origin));
+    add("corner", triple_text(c.corner));
+    add("right", across(c.right));
+    add("down", along(c.down));
+    if (spans_an_image(c.origin_right, c.origin_down)) {
+        add("origin_right", across(c.origin_right));
+        add("origin_down", along(c.origin_down));
+    }
+    return text + "}}\n";
+}
+
+FilmedCamera read_camera_file(const std::filesystem::path& path) {
+    const nlohmann::json document = read_json(path);
+    const JsonNode root(document, path);
+    root.check_fields({"version", "film", "camera"});
+    root.at("version").integer(1, 1);
+    const JsonNode film_node = root.at("film");
+    const std::vector<JsonNode> film = film_node.elements();
+    if (film.size() != 2) film_node.fail_type("width and height");
+    FilmedCamera view;
+    view.width = static_cast<int>(film[0].integer(1, kMaxFilmSize));
+    view.height = static_cast<int>(film[1].integer(1, kMaxFilmSize));
+    const JsonNode node = root.at("camera");
+    node.check_fields({"origin", "corner", "right", "down", "origin_right", "origin_down"});
+    view.camera.origin = read_vector(node, "origin");
+    view.camera.corner = read_vector(node, "corner");
+    view.camera.right = scaled(1.0 / view.width, read_vector(node, "right"));
+    view.camera.down = scaled(1.0 / view.height, read_vector(node, "down"));
+    view.camera.origin_right = scaled(1.0 / view.width, read_vector_or_zero(node, "origin_right"));
+    view.camera.origin_down = scaled(1.0 / view.height, read_vector_or_zero(node, "origin_down"));
+    if (!spans_an_image(view.camera.right, view.camera.down) &&
+        !spans_an_image(view.camera.origin_right, view.camera.origin_down))
+        node.fail("right and down (or origin_right and origin_down) must not be parallel");
+    return view;
+}
+
+void apply_camera(const FilmedCamera& view, Scene& scene) {
+    scene.camera = view.camera;
+    scene.film.width = view.width;
+    scene.film.height = view.height;
+    scene.film.crop.reset();
+}
+
+} // namespace nusselt::scene
