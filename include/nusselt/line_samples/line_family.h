@@ -70,9 +70,9 @@ NUSSELT_HD inline LineSegment<Real> segment_of(const LinePlane<Real>& plane, con
 /// \param normal         of the surface, in the same space
 /// \param whole          coordinates of these ends [m]
 template <class Real>
-NUSSELT_HD inline Interval<Real> above_horizon(const Vec3<Real>& to_begin, const Vec3<Real>& to_end,
-                                               const Vec3<Real>& normal,
-                                               const Interval<Real>& whole) noexcept {
+NUSSELT_HD inline Interval<Real> part_above_horizon(const Vec3<Real>& to_begin, const Vec3<Real>& to_end,
+                                                    const Vec3<Real>& normal,
+                                                    const Interval<Real>& whole) noexcept {
     const Real begin = dot(normal, to_begin);
     const Real end = dot(normal, to_end);
     const Real difference = begin - end;

@@ -23,8 +23,8 @@ Interval<Real> above_surface(const Chord<Real>& chord, const LinePlane<float>& p
     const Vector along = broadcast<Real>(plane.along);
     const Vector base =
         fma(chord.offset, broadcast<Real>(plane.across), broadcast<Real>(plane.origin - point.position));
-    return above_horizon(fma(chord.extent.begin, along, base), fma(chord.extent.end, along, base),
-                         broadcast<Real>(point.geometric_normal), chord.extent);
+    return part_above_horizon(fma(chord.extent.begin, along, base), fma(chord.extent.end, along, base),
+                              broadcast<Real>(point.geometric_normal), chord.extent);
 }
 
 float sum_of_lanes(const Real& x) noexcept {
