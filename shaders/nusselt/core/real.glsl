@@ -102,6 +102,26 @@ vec3 exact_fma(float s, vec3 a, vec3 b) {
     return result;
 }
 
+/// a - q * b, exact where q is a / b up to a rounding.
+float division_remainder(float a, float b, float q) {
+    NUSSELT_PRECISE float product = q * b;
+    NUSSELT_PRECISE float remainder = (a - product) - two_product_error(q, b, product);
+    return remainder;
+}
+
+/// a / b, rounded to nearest as on a CPU; division on a GPU may err by two and a half roundings.
+/// \param a 0, or not much smaller or larger than 1.
+/// \param b positive, likewise.
+float rounded_quotient(float a, float b) {
+    float q = a / b;
+    q = q + division_remainder(a, b, q) / b; // the right one or a neighbour
+    float remainder = division_remainder(a, b, q);
+    if (remainder == 0.0) return q;
+    uint bits = floatBitsToUint(q);
+    float neighbour = uintBitsToFloat(remainder > 0.0 ? bits + 1u : bits - 1u);
+    return abs(division_remainder(a, b, neighbour)) < abs(remainder) ? neighbour : q;
+}
+
 #if !defined(GL_ES) || __VERSION__ >= 320
 /// Whether fma() rounds once on this device: what NUSSELT_FUSED_FMA may be set to.
 /// \param x 1.000244140625, from a buffer or uniform: compilers evaluate constants by other means than the device.

@@ -1,0 +1,63 @@
+#ifndef NUSSELT_RANDOM_LIGHT_RANDOM_GLSL
+#define NUSSELT_RANDOM_LIGHT_RANDOM_GLSL
+/// The random numbers of a renderer of direct light as a pure function of seed, pixel, sample, light and dimension. Twin
+/// of include/nusselt/random/light_random.h. The same bits as there.
+
+#include "../random/multi_jittered.glsl"
+#include "../random/pcg.glsl"
+#include "../random/sobol.glsl"
+
+// How the samples of one pixel and light relate to each other, numbered as in `enum class Sampler`, where they are
+// explained.
+const int kNusseltSamplerIndependent = 0;
+const int kNusseltSamplerSobol = 1;
+const int kNusseltSamplerJittered = 2;
+const int kNusseltSamplerStratified = 3;
+
+const uint kNusseltRandomOfCamera = 0u;
+const uint kNusseltRandomOfLight = 1u;
+
+/// A word for all that is the same in a whole image.
+uint random_stream(uint seed, uint purpose, uint light, uint pair) { return pcg4d(uvec4(light, pair, purpose, seed)).x; }
+
+vec2 stream_random(int kind, uint stream, uint x, uint y, uint index, uint sample_count) {
+    if (kind == kNusseltSamplerIndependent) {
+        uvec4 bits = pcg4d(uvec4(x, y, index, stream));
+        return vec2(to_unit(bits.x), to_unit(bits.y));
+    }
+    // What the samples of one pixel share.
+    uvec4 key = pcg4d(uvec4(x, y, 0u, stream));
+    if (kind == kNusseltSamplerJittered)
+        return vec2(uniform_jittered(to_unit(key.x), index, sample_count), to_unit(reverse_bits(index) + key.y));
+    if (kind == kNusseltSamplerStratified) {
+        // What a sample has of its own. Another key than that of the pixel for sample 0.
+        uvec4 jitter = pcg4d(uvec4(x, y, index + 1u, stream));
+        return multi_jittered(index, sample_count, MultiJitterKeys(key.x, key.y, key.z),
+                              vec2(to_unit(jitter.x), to_unit(jitter.y)));
+    }
+    uvec2 bits = owen_scrambled_sobol(index, SobolSeeds(key.z, key.x, key.y));
+    return vec2(to_unit(bits.x), to_unit(bits.y));
+}
+
+/// Two numbers in [0, 1) to sample a light with; linear lights use x only.
+/// \param kind         kNusseltSampler*.
+/// \param seed         chooses one of 2^32 images.
+/// \param x, y         the pixel.
+/// \param index        of the sample, below sample_count for jittered and stratified samples; the others have no use for
+///                     sample_count.
+/// \param sample_count samples per pixel and light, 1 to 2^22.
+/// \param light        number of the light.
+/// \param pair         number of the pair of dimensions, for techniques that need more than one.
+vec2 light_random(int kind, uint seed, uint x, uint y, uint index, uint sample_count, uint light, uint pair) {
+    return stream_random(kind, random_stream(seed, kNusseltRandomOfLight, light, pair), x, y, index, sample_count);
+}
+
+/// Two numbers in [0, 1): the position of a camera ray in its pixel. Jittered and stratified samplers use Sobol' points
+/// here: camera rays want both dimensions stratified alike, and do not know their number. Independent of all
+/// light_random(). Parameters as there.
+vec2 camera_random(int kind, uint seed, uint x, uint y, uint index) {
+    int camera_kind = kind == kNusseltSamplerIndependent ? kind : kNusseltSamplerSobol;
+    return stream_random(camera_kind, random_stream(seed, kNusseltRandomOfCamera, 0u, 0u), x, y, index, 1u);
+}
+
+#endif
