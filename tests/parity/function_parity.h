@@ -109,9 +109,10 @@ inline double error(const Output& output, long double value, long double exact) 
 
 /// Compares a shader of a group with C++. A group is a struct with shaders for devices whose fma() rounds twice or once,
 /// kInputs floats for each call, which draw() makes, and kOutputs, which call() returns in C++.
+/// \param tail where samples may fall on either side of an edge, the largest error is chance.
 template <class Group>
 Verdict judge_group(const gpu::Device& device, std::span<const std::uint32_t> shader, std::size_t calls,
-                    std::span<const std::uint32_t> table = {}) {
+                    std::span<const std::uint32_t> table = {}, Tail tail = Tail::largest) {
     std::vector<float> inputs;
     for (std::size_t i = 0; i < calls; ++i) {
         RandomSource random(1, i);
@@ -140,7 +141,7 @@ Verdict judge_group(const gpu::Device& device, std::span<const std::uint32_t> sh
                 verdict.excesses.push_back(
                     fmt::format("{} of call {} is not finite", Group::kOutputs[k].name, i));
     for (std::size_t k = 0; k < kCount; ++k)
-        verdict.add("", compare(Group::kOutputs[k].name, of_device[k], of_cpp[k], floor[k], {Tail::largest}));
+        verdict.add("", compare(Group::kOutputs[k].name, of_device[k], of_cpp[k], floor[k], {tail}));
     return verdict;
 }
 
@@ -148,11 +149,11 @@ Verdict judge_group(const gpu::Device& device, std::span<const std::uint32_t> sh
 /// \param table what the shader finds in the third buffer, if anything.
 template <class Group>
 void expect_group_parity(const gpu::Device& device, std::size_t calls = kCalls,
-                         std::span<const std::uint32_t> table = {}) {
+                         std::span<const std::uint32_t> table = {}, Tail tail = Tail::largest) {
     std::vector<std::span<const std::uint32_t>> variants{Group::kSplit};
     if (gpu::has_fused_fma(device)) variants.emplace_back(Group::kFused);
     for (const auto shader : variants) {
-        const Verdict verdict = judge_group<Group>(device, shader, calls, table);
+        const Verdict verdict = judge_group<Group>(device, shader, calls, table, tail);
         for (const std::string& excess : verdict.excesses) ADD_FAILURE() << excess;
         for (const std::string& where : verdict.vacuous)
             ADD_FAILURE() << "a budget that cannot fail: " << where;

@@ -16,12 +16,11 @@
 #include "shaders/seamed_table.h"
 #include "shaders/shading_frame_fused.h"
 #include "shaders/shading_frame_split.h"
+#include "table_words.h"
 #include "tables/engine_table.h"
 
 #include <nusselt/ltc/line_shading.h>
 #include <nusselt/ltc/polygon_shading.h>
-
-#include <cstring>
 
 namespace nusselt::parity {
 
@@ -267,14 +266,6 @@ struct EngineTable {
         return results_of(engine_table().view().lookup(roughness, cos_o, f0));
     }
 };
-
-/// The bytes of a table as a buffer has them.
-std::vector<std::uint32_t> words_of(const std::string& bytes) {
-    std::vector<std::uint32_t> words((bytes.size() + 3) / 4);
-    std::memcpy(words.data(), bytes.data(), bytes.size());
-    return words;
-}
-std::vector<std::uint32_t> table_words() { return words_of(tables::encode(tables::frostbite_ltc_table())); }
 
 template <class Group>
 class LtcFunctionParity : public GpuTest {};

@@ -1,0 +1,13 @@
+#ifndef NUSSELT_BSDF_COMPONENTS_GLSL
+#define NUSSELT_BSDF_COMPONENTS_GLSL
+/// The parts of a BRDF that samplers tell apart. Twin of include/nusselt/bsdf/components.h.
+
+#include "../core/compatibility.glsl"
+
+/// Values of a BRDF by component, without the cosine [1/sr].
+struct BrdfComponents {
+    vec3 diffuse;
+    vec3 specular;
+};
+
+#endif

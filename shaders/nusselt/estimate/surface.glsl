@@ -1,0 +1,54 @@
+#ifndef NUSSELT_ESTIMATE_SURFACE_GLSL
+#define NUSSELT_ESTIMATE_SURFACE_GLSL
+/// What is known of a point of a surface before lights are looked at. Twin of include/nusselt/estimate/surface.h.
+
+#include "../bsdf/frostbite.glsl"
+#include "../ltc/ltc.glsl"
+#include "../ltc/table.glsl"
+
+/// A point of a surface as seen from one direction, in shading space with wo in the xz half-plane (shading_frame()), with
+/// the Frostbite BRDF.
+struct GlossySurface {
+    vec3 wo;     ///< unit direction to the eye
+    float alpha; ///< of GGX
+    Frostbite brdf;
+    Ltc lobe;             ///< fit of the specular component times cosine
+    vec3 diffuse_albedo;  ///< estimates of the directional albedo of both components, at least 0
+    vec3 specular_albedo; ///< 0 where there is no specular component: its technique is then left out
+};
+
+/// Whether there is a specular component.
+bool is_glossy(vec3 specular_albedo) {
+    return nusselt_max(nusselt_max(specular_albedo.x, specular_albedo.y), specular_albedo.z) > 0.0;
+}
+bool glossy_surface_is_glossy(GlossySurface self) { return is_glossy(self.specular_albedo); }
+
+/// What a table says of a specular component.
+struct SpecularFit {
+    Ltc lobe;
+    vec3 albedo;
+};
+
+/// One lobe has to do for all colour channels: it is looked up with the mean of f0.
+float mean_f0(vec3 f0) { return (f0.x + f0.y + f0.z) * (1.0 / 3.0); }
+
+/// \param sum                of the eight neighbours, looked up with mean_f0(f0).
+/// \param of_black, of_white see ltc_table_albedo().
+SpecularFit fit_of(LtcTableEntry sum, float of_black, float of_white, vec3 f0) {
+    return SpecularFit(ltc_prepare(ltc_table_coefficients(sum)), ltc_table_albedo(of_black, of_white, f0));
+}
+
+/// A surface with the Frostbite BRDF.
+/// \param cos_o     cosine between the normal and the direction to the eye. Below the horizon the surface is black.
+/// \param albedo    of the diffuse part, in [0, 1].
+/// \param f0        reflectance of the specular part at normal incidence, in [0, 1].
+/// \param roughness perceptual, in [0, 1].
+/// \param fit       of the specular Frostbite BRDF at roughness, cos_o and f0.
+GlossySurface make_glossy_surface(float cos_o, vec3 albedo, vec3 f0, float roughness, SpecularFit fit) {
+    float sin_o = sqrt(nusselt_max((1.0 - cos_o) * (1.0 + cos_o), 0.0));
+    vec3 wo = vec3(sin_o, 0.0, cos_o);
+    Frostbite brdf = frostbite_prepare(wo, albedo, f0, roughness);
+    return GlossySurface(wo, ggx_alpha(roughness), brdf, fit.lobe, frostbite_diffuse_albedo(brdf), fit.albedo);
+}
+
+#endif

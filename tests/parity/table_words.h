@@ -1,0 +1,23 @@
+#pragma once
+/// Tables as buffers have them.
+
+#include "tables/ltc_table.h"
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace nusselt::parity {
+
+inline std::vector<std::uint32_t> words_of(const std::string& bytes) {
+    std::vector<std::uint32_t> words((bytes.size() + 3) / 4);
+    std::memcpy(words.data(), bytes.data(), bytes.size());
+    return words;
+}
+
+/// The file of the shipped table.
+inline std::vector<std::uint32_t> table_words() {
+    return words_of(tables::encode(tables::frostbite_ltc_table()));
+}
+
+} // namespace nusselt::parity
