@@ -4,8 +4,8 @@
 /// include/nusselt/bsdf/ggx_visible_normals.h, where the sources and deviations stand.
 ///
 /// All directions are unit vectors in shading space, pointing away from the surface.
-/// Measure: densities of directions with respect to solid angle [1/sr]; their integral over the sphere is 1. Samples may
-/// lie below the surface, wi.z <= 0: they count, with a contribution of zero.
+/// Measure: densities of directions with respect to solid angle [1/sr]; their integral over the sphere is 1. Samples
+/// may lie below the surface, wi.z <= 0: they count, with a contribution of zero.
 /// Edge cases: wo parallel to the normal is fine. wo.z <= 0: nothing is visible, the density is 0, samples are any unit
 /// vectors.
 
@@ -54,8 +54,8 @@ GgxVisibleNormals ggx_visible_normals_prepare(vec3 wo, float alpha) {
                                            ggx_visible_normals_clamped_alpha(alpha), 1.0);
 }
 
-/// Without normals that are sure to reflect to directions below the surface: fewer samples there, at the cost of a square
-/// root per surface point. GgxBoundedVisibleNormals in C++.
+/// Without normals that are sure to reflect to directions below the surface: fewer samples there, at the cost of a
+/// square root per surface point. GgxBoundedVisibleNormals in C++.
 GgxVisibleNormals ggx_bounded_visible_normals_prepare(vec3 wo, float alpha) {
     bool lit = wo.z > 0.0;
     vec3 upper = lit ? wo : vec3(0.0, 0.0, 1.0);

@@ -1,19 +1,20 @@
 #ifndef NUSSELT_ESTIMATE_DIRECT_LIGHT_GLSL
 #define NUSSELT_ESTIMATE_DIRECT_LIGHT_GLSL
-/// The light that a surface with a diffuse and a specular component reflects from one light, estimated without bias from
-/// a few samples. Twin of include/nusselt/estimate/direct_light.h, where the sources stand.
+/// The light that a surface with a diffuse and a specular component reflects from one light, estimated without bias
+/// from a few samples. Twin of include/nusselt/estimate/direct_light.h, where the sources stand.
 ///
-/// GLSL has no templates: who calls this prepares two techniques for the light, takes a sample of one of them, and tells
-/// the densities of both. With the projected solid angle and linearly transformed cosines, for a polygon:
+/// GLSL has no templates: who calls this prepares two techniques for the light, takes a sample of one of them, and
+/// tells the densities of both. With the projected solid angle and linearly transformed cosines, for a polygon:
 ///
 ///     PolygonProjectedSolidAngle diffuse = polygon_projected_solid_angle_prepare(light);
 ///     PolygonLtc specular = polygon_ltc_prepare(light, surface.lobe);
-///     DirectLight estimator = direct_light_prepare(
-///         surface.diffuse_albedo, surface.specular_albedo,
-///         (1.0 / kNusseltPi) * polygon_projected_solid_angle_measure(diffuse), polygon_ltc_measure(specular), 1.0, 1.0);
+///     float diffuse_integral = (1.0 / kNusseltPi) * polygon_projected_solid_angle_measure(diffuse);
+///     DirectLight estimator = direct_light_prepare(surface.diffuse_albedo, surface.specular_albedo, diffuse_integral,
+///                                                  polygon_ltc_measure(specular), 1.0, 1.0);
 ///     LightSample s = direct_light_drawn(estimator, 1, polygon_ltc_sample(specular, u));
 ///     MisSample at = direct_light_look_at(estimator, s, polygon_projected_solid_angle_pdf(diffuse, s.wi),
-///                                         polygon_ltc_pdf(specular, s.wi), frostbite_eval_components(surface.brdf, s.wi));
+///                                         polygon_ltc_pdf(specular, s.wi),
+///                                         frostbite_eval_components(surface.brdf, s.wi));
 ///     DirectLightSample result = direct_light_combined(s, mis_estimate(heuristic, 1, 0.5, estimator.techniques, at));
 ///
 /// The integral of what a polygon_brdf samples is not known: tell 0, and take the balance heuristic.
@@ -23,7 +24,8 @@
 #include "../estimate/surface.glsl"
 
 /// A sample of direct light. With V = 1 if the way to the light is free, else 0, and the radiance L of the light [W/(sr
-/// m^2)] (radiance times radius [W/(sr m)] for linear lights), it adds L (V shadowed + constant) to the reflected radiance.
+/// m^2)] (radiance times radius [W/(sr m)] for linear lights), it adds L (V shadowed + constant) to the reflected
+/// radiance.
 struct DirectLightSample {
     vec3 wi;       ///< unit direction to the light, in shading space
     vec3 p;        ///< the point on the light [m]
@@ -33,16 +35,17 @@ struct DirectLightSample {
 
 /// One light at one surface point.
 ///
-/// Unbiased for all heuristics, unless a technique is biased itself: technique 0, for the diffuse component, covers all of
-/// the light above the surface and takes over where the lobe is zero; samples below the surface count, with a BRDF of
-/// zero.
+/// Unbiased for all heuristics, unless a technique is biased itself: technique 0, for the diffuse component, covers all
+/// of the light above the surface and takes over where the lobe is zero; samples below the surface count, with a BRDF
+/// of zero.
 struct DirectLight {
     bool glossy; ///< if not, technique 1 is left out
     MisTechniques techniques;
 };
 
 /// \param diffuse_albedo, specular_albedo     of the surface, see GlossySurface.
-/// \param diffuse_integral, specular_integral of the normalised components over the light, as both techniques know them.
+/// \param diffuse_integral, specular_integral of the normalised components over the light, as both techniques know
+///                          them.
 /// \param diffuse_samples, specular_samples   how many samples of each there will be, > 0.
 DirectLight direct_light_prepare(vec3 diffuse_albedo, vec3 specular_albedo, float diffuse_integral,
                                  float specular_integral, float diffuse_samples, float specular_samples) {

@@ -3,9 +3,10 @@
 /// Multiple importance sampling (MIS): how samples of two techniques make one estimate. Twin of
 /// include/nusselt/estimate/mis.h, where the sources stand.
 ///
-/// The integrand is a sum of two components, the BRDF times cosine of the diffuse part (0) and of a lobe (1). Technique k
-/// samples with density p_k, which is nearly proportional to component k over the light. Its coefficient c_k estimates
-/// the integral of that component over the light without shadows. If both are exact, the integrand is the sum of c_k p_k.
+/// The integrand is a sum of two components, the BRDF times cosine of the diffuse part (0) and of a lobe (1). Technique
+/// k samples with density p_k, which is nearly proportional to component k over the light. Its coefficient c_k
+/// estimates the integral of that component over the light without shadows. If both are exact, the integrand is the sum
+/// of c_k p_k.
 
 #include "../core/real.glsl"
 
@@ -68,8 +69,8 @@ float mis_density(MisTechniques techniques, MisSample at, int k) {
 // All heuristics are functions of the techniques and of a sample, its densities and components; most depend on the
 // technique `drawn`, 0 or 1, that has sampled it. They are unbiased for any coefficients c_k >= 0 that do not depend on
 // the samples, as long as some n_k p_k (balance, power, optimal, clamped optimal with v < 1), some c_k p_k (weighted
-// balance, clamped optimal with v = 1) or p_0 (separate) is positive wherever the integrand is not zero. For the optimal
-// heuristic, densities must integrate to 1.
+// balance, clamped optimal with v = 1) or p_0 (separate) is positive wherever the integrand is not zero. For the
+// optimal heuristic, densities must integrate to 1.
 
 /// Weights proportional to n_k p_k.
 MisEstimate balance_heuristic(MisTechniques techniques, MisSample at) {
@@ -88,8 +89,8 @@ MisEstimate power_heuristic(int drawn, MisTechniques techniques, MisSample at) {
     return MisEstimate(factor * (at.component[0] + at.component[1]), vec3(0.0));
 }
 
-/// Weights proportional to c_k p_k: no noise at all where the coefficients are right and nothing casts a shadow. Penumbrae
-/// suffer where the coefficient of a technique is small.
+/// Weights proportional to c_k p_k: no noise at all where the coefficients are right and nothing casts a shadow.
+/// Penumbrae suffer where the coefficient of a technique is small.
 MisEstimate weighted_balance_heuristic(int drawn, MisTechniques techniques, MisSample at) {
     vec3 factor = ratio_or_zero(mis_coefficient(techniques, drawn), expected_integrand(techniques, at));
     return MisEstimate(factor * (at.component[0] + at.component[1]), vec3(0.0));
@@ -113,8 +114,8 @@ MisEstimate optimal_heuristic(int drawn, float visibility, MisTechniques techniq
                        visibility * (mis_coefficient(techniques, drawn) - expected));
 }
 
-/// Each technique estimates its own component only, for comparison: the noise of the components adds up. What technique 1
-/// cannot sample of component 1 is left to technique 0, so that nothing gets lost.
+/// Each technique estimates its own component only, for comparison: the noise of the components adds up. What technique
+/// 1 cannot sample of component 1 is left to technique 0, so that nothing gets lost.
 MisEstimate separate_components(int drawn, MisTechniques techniques, MisSample at) {
     float factor = ratio_or_zero(1.0, mis_density(techniques, at, drawn));
     vec3 component = at.component[1];

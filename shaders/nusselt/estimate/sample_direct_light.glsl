@@ -1,7 +1,7 @@
 #ifndef NUSSELT_ESTIMATE_SAMPLE_DIRECT_LIGHT_GLSL
 #define NUSSELT_ESTIMATE_SAMPLE_DIRECT_LIGHT_GLSL
-/// Direct light in one call, in world space, with the projected solid angle and linearly transformed cosines. Twin of the
-/// end of include/nusselt/estimate/direct_light.h.
+/// Direct light in one call, in world space, with the projected solid angle and linearly transformed cosines. Twin of
+/// the end of include/nusselt/estimate/direct_light.h.
 
 #include "../estimate/direct_light.glsl"
 #include "../estimate/surface.glsl"
@@ -54,10 +54,9 @@ PolygonDirectLight polygon_direct_light_prepare(ConvexPolygon light, GlossySurfa
     self.surface = surface;
     self.diffuse = polygon_projected_solid_angle_prepare(light);
     self.specular = polygon_ltc_prepare(light, surface.lobe);
-    self.estimator = direct_light_prepare(
-        surface.diffuse_albedo, surface.specular_albedo,
-        (1.0 / kNusseltPi) * polygon_projected_solid_angle_measure(self.diffuse), polygon_ltc_measure(self.specular), 1.0,
-        1.0);
+    float diffuse_integral = (1.0 / kNusseltPi) * polygon_projected_solid_angle_measure(self.diffuse);
+    self.estimator = direct_light_prepare(surface.diffuse_albedo, surface.specular_albedo, diffuse_integral,
+                                          polygon_ltc_measure(self.specular), 1.0, 1.0);
     return self;
 }
 
@@ -75,7 +74,7 @@ MisSample polygon_direct_light_look_at(PolygonDirectLight self, LightSample s) {
 /// \param drawn the technique that takes the sample: 0 for the diffuse component, 1 for the specular one.
 /// \param u     random in [0, 1)^2.
 DirectLightSample polygon_direct_light_sample(PolygonDirectLight self, int heuristic, float visibility, int drawn,
-                                            vec2 u) {
+                                              vec2 u) {
     LightSample s = polygon_direct_light_draw(self, drawn, u);
     return direct_light_combined(s, mis_estimate(heuristic, drawn, visibility, self.estimator.techniques,
                                                  polygon_direct_light_look_at(self, s)));
@@ -104,8 +103,8 @@ LineDirectLight line_direct_light_prepare(LineSegment light, GlossySurface surfa
     self.surface = surface;
     self.diffuse = line_projected_solid_angle_prepare(light);
     self.specular = line_ltc_prepare(light, surface.lobe);
-    self.estimator = direct_light_prepare(surface.diffuse_albedo, surface.specular_albedo,
-                                          (1.0 / kNusseltPi) * line_projected_solid_angle_measure(self.diffuse),
+    float diffuse_integral = (1.0 / kNusseltPi) * line_projected_solid_angle_measure(self.diffuse);
+    self.estimator = direct_light_prepare(surface.diffuse_albedo, surface.specular_albedo, diffuse_integral,
                                           line_ltc_measure(self.specular), 1.0, 1.0);
     return self;
 }
@@ -124,7 +123,7 @@ MisSample line_direct_light_look_at(LineDirectLight self, LightSample s) {
 /// \param drawn the technique that takes the sample: 0 for the diffuse component, 1 for the specular one.
 /// \param u     random in [0, 1).
 DirectLightSample line_direct_light_sample(LineDirectLight self, int heuristic, float visibility, int drawn,
-                                         float u) {
+                                           float u) {
     LightSample s = line_direct_light_draw(self, drawn, u);
     return direct_light_combined(s, mis_estimate(heuristic, drawn, visibility, self.estimator.techniques,
                                                  line_direct_light_look_at(self, s)));
@@ -139,8 +138,8 @@ DirectLightSample line_direct_light_sample_one(LineDirectLight self, float u) {
     return direct_light_combined(s, one_sample_choice_estimate(choice, line_direct_light_look_at(self, s)));
 }
 
-/// Everything in one call: an unbiased estimate of the light that a point of a surface reflects, from two samples. It is
-/// the sum over both of radiance (visibility shadowed + constant).
+/// Everything in one call: an unbiased estimate of the light that a point of a surface reflects, from two samples. It
+/// is the sum over both of radiance (visibility shadowed + constant).
 /// \param light      in world space.
 /// \param fit        of the specular Frostbite BRDF, for the roughness, f0 and dot(normal, wo) of the point: fit_of().
 /// \param heuristic  kNusseltMis* of mis_estimate(), such as kNusseltMisClampedOptimal.

@@ -6,8 +6,8 @@
 #include "../ltc/ltc.glsl"
 #include "../ltc/table.glsl"
 
-/// A point of a surface as seen from one direction, in shading space with wo in the xz half-plane (shading_frame()), with
-/// the Frostbite BRDF.
+/// A point of a surface as seen from one direction, in shading space with wo in the xz half-plane (shading_frame()),
+/// with the Frostbite BRDF.
 struct GlossySurface {
     vec3 wo;     ///< unit direction to the eye
     float alpha; ///< of GGX

@@ -1,7 +1,7 @@
 #ifndef NUSSELT_RANDOM_LIGHT_RANDOM_GLSL
 #define NUSSELT_RANDOM_LIGHT_RANDOM_GLSL
-/// The random numbers of a renderer of direct light as a pure function of seed, pixel, sample, light and dimension. Twin
-/// of include/nusselt/random/light_random.h. The same bits as there.
+/// The random numbers of a renderer of direct light as a pure function of seed, pixel, sample, light and dimension.
+/// Twin of include/nusselt/random/light_random.h. The same bits as there.
 
 #include "../random/multi_jittered.glsl"
 #include "../random/pcg.glsl"
@@ -18,7 +18,9 @@ const uint kNusseltRandomOfCamera = 0u;
 const uint kNusseltRandomOfLight = 1u;
 
 /// A word for all that is the same in a whole image.
-uint random_stream(uint seed, uint purpose, uint light, uint pair) { return pcg4d(uvec4(light, pair, purpose, seed)).x; }
+uint random_stream(uint seed, uint purpose, uint light, uint pair) {
+    return pcg4d(uvec4(light, pair, purpose, seed)).x;
+}
 
 vec2 stream_random(int kind, uint stream, uint x, uint y, uint index, uint sample_count) {
     if (kind == kNusseltSamplerIndependent) {
@@ -43,8 +45,8 @@ vec2 stream_random(int kind, uint stream, uint x, uint y, uint index, uint sampl
 /// \param kind         kNusseltSampler*.
 /// \param seed         chooses one of 2^32 images.
 /// \param x, y         the pixel.
-/// \param index        of the sample, below sample_count for jittered and stratified samples; the others have no use for
-///                     sample_count.
+/// \param index        of the sample, below sample_count for jittered and stratified samples; the others have no use
+///                     for sample_count.
 /// \param sample_count samples per pixel and light, 1 to 2^22.
 /// \param light        number of the light.
 /// \param pair         number of the pair of dimensions, for techniques that need more than one.

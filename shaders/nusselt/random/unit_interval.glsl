@@ -7,8 +7,8 @@
 /// A number in [0, 1), never 1: the highest 24 bits. Exact.
 float to_unit(uint bits) { return float(bits >> 8) * 5.9604644775390625e-8; }
 
-/// (u + k) / n, brought back into [k / n, (k + 1) / n) where rounding leaves it: point k of n that share u. The same bits
-/// as in C++.
+/// (u + k) / n, brought back into [k / n, (k + 1) / n) where rounding leaves it: point k of n that share u. The same
+/// bits as in C++.
 /// \param u in [0, 1).
 /// \param k below n.
 /// \param n at least 1, at most 2^23.
