@@ -371,7 +371,7 @@ TEST_F(EstimateParity, SamplingOfTheBrdfIsAsAccurateAsCpp) {
 }
 
 /// Estimates need a fit of the table for each surface.
-constexpr std::size_t kEstimates = kCalls / 4;
+constexpr std::size_t kEstimates = kCalls / 8;
 
 TEST_F(EstimateParity, PolygonsAreAsAccurateAsCpp) {
     expect_group_parity<PolygonDirectLight>(device(), kEstimates, table_words(), Tail::nearly_largest);
