@@ -107,14 +107,4 @@ using LineLtcPair =
 using LineClippedLtcPair = TechniquePair<OnLobeTraits<experiments::LineInput, hostile::LineClippedLtcKind>,
                                          hostile::LineClippedLtcKind>;
 
-template <int N>
-void draw(hostile::HostileLights<float>& source, hostile::PolygonOnLobe<float, N>& light, Vec2<float>& u) {
-    draw(source, static_cast<ConvexPolygon<float, N>&>(light), u);
-    light.lobe = source.lobe();
-}
-inline void draw(hostile::HostileLights<float>& source, hostile::LineOnLobe<float>& light, float& u) {
-    draw(source, static_cast<LineSegment<float>&>(light), u);
-    light.lobe = source.lobe();
-}
-
 } // namespace nusselt::parity

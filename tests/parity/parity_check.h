@@ -109,6 +109,12 @@ inline Vec3<experiments::Exact> hit_point(const LineSegment<experiments::Exact>&
     return light.p0 - dot(cross(wi, light.p0), across) / dot(across, across) * light.s;
 }
 
+/// Where a ray from the origin meets a cylinder, or would if rounding did not let it miss.
+inline Vec3<experiments::Exact> hit_point(const Cylinder<experiments::Exact>& light,
+                                          const Vec3<experiments::Exact>& wi) {
+    return intersect(light, wi).distance * wi;
+}
+
 template <int N>
 experiments::Exact size_of(const ConvexPolygon<experiments::Exact, N>& light) {
     experiments::Exact size = 0;
@@ -116,6 +122,9 @@ experiments::Exact size_of(const ConvexPolygon<experiments::Exact, N>& light) {
     return size;
 }
 inline experiments::Exact size_of(const LineSegment<experiments::Exact>& light) { return light.length; }
+inline experiments::Exact size_of(const Cylinder<experiments::Exact>& light) {
+    return light.axis.length + light.radius;
+}
 
 /// Judges measure and sample of a method, which may have no more.
 /// \tparam Traits of src/experiments/accuracy_techniques.h.

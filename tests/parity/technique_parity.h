@@ -2,10 +2,10 @@
 /// Runs a technique in GLSL and in C++ on the classes of lights of the accuracy tables, and compares their errors.
 
 #include "experiments/accuracy_cases.h"
-#include "experiments/hostile/lights.h"
 #include "experiments/hostile/techniques.h"
 #include "gpu/fused_fma.h"
 #include "gpu_test.h"
+#include "hostile_inputs.h"
 #include "parity_check.h"
 #include "shaders/twins.h"
 #include "twin.h"
@@ -159,24 +159,6 @@ void expect_parity(const Verdict& verdict);
 /// Random lights of each technique, in all classes together. Polygons come with two bounds on the number of vertices.
 inline constexpr int kRandomLights = 1'000'000;
 inline constexpr int kHostileLights = 100'000;
-
-inline void draw(hostile::HostileLights<float>& source, LineSegment<float>& light, float& u) {
-    light = source.line();
-    u = source.random_number();
-}
-template <int N>
-void draw(hostile::HostileLights<float>& source, ConvexPolygon<float, N>& light, Vec2<float>& u) {
-    if constexpr (N == 3) {
-        Vec3<float> v[4] = {}; // the fewest that there are
-        source.vertices<4>(v);
-        const Vec3<float> corners[3] = {v[0], v[1], v[2]};
-        light = make_polygon<3>(corners, 3);
-    } else {
-        light = source.polygon<N>();
-    }
-    u.x = source.random_number();
-    u.y = source.random_number();
-}
 
 /// The first of `count` hostile lights on which a twin breaks the contract; empty if there is none.
 template <class Pair>

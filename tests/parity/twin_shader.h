@@ -14,7 +14,7 @@ enum class Variant {
 
 struct TwinShader {
     const char* technique; ///< class name
-    int vertex_bound;      ///< 2 for lines
+    int vertex_bound;      ///< 2 for lines and cylinders
     Variant variant;
     std::span<const std::uint32_t> spirv;
 };

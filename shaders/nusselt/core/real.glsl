@@ -7,6 +7,7 @@
 
 const float kNusseltEpsilon = 1.1920928955078125e-7; // 2^-23
 const float kNusseltLargest = 3.402823466385288598e38;
+const float kNusseltSmallestNormal = 1.175494350822287508e-38; // 2^-126
 
 /// b if either operand is NaN: nusselt_max(x, 0.0) removes a NaN in x, which GLSL's max() need not do.
 float nusselt_max(float a, float b) { return a > b ? a : b; }

@@ -26,30 +26,23 @@ LineExtent make_line_extent(LineSegment line) {
                             dot(line.p0, line.s), dot(end, line.s), line.len);
 }
 
-/// The extent of the part of a segment with z > 0, in shading space. The parameters of the line stay; only an end point
-/// moves, to z = 0 exactly.
-LineExtent clipped_extent(LineSegment line) {
-    vec3 moment = nusselt_cross(line.p0, line.s);
-    vec3 closest = nusselt_cross(line.s, moment);
-    float distance = sqrt(dot(moment, moment));
-    vec3 p0 = line.p0;
-    vec3 p1 = end_of(line);
-    float begin = dot(p0, line.s);
-    float end = dot(p1, line.s);
-    float length = line.len;
+/// The part with z > 0 of a segment between two points of its line. The parameters of the line stay; only an end point
+/// moves, to z = 0 exactly. Parameters as those of make_line_extent().
+LineExtent clipped_extent(vec3 s, vec3 p0, vec3 p1, vec3 closest, float distance, float begin, float end,
+                          float length) {
     float z0 = without_tiny(p0.z);
     float z1 = without_tiny(p1.z);
     bool rises = z0 < 0.0 && z1 > 0.0;
     bool falls = z0 > 0.0 && z1 < 0.0;
     if (rises || falls) {
-        float slope = line.s.z;
+        float slope = s.z;
         // What remains follows from the end above the horizon: the difference of coordinates would cancel.
         length = nusselt_min((rises ? z1 : z0) / abs(slope), length);
         // The first formula errs by rounding times the distance over the slope, the second by rounding times the
         // length: the better one gives z = 0 up to rounding also near the axis of the light.
         bool steep = distance < abs(slope) * nusselt_max(abs(begin), abs(end));
         float crossing = steep ? -closest.z / slope : (rises ? end - length : begin + length);
-        vec3 on_horizon = vec3((crossing * line.s + closest).xy, 0.0);
+        vec3 on_horizon = vec3((crossing * s + closest).xy, 0.0);
         if (rises) {
             p0 = on_horizon;
             begin = crossing;
@@ -60,7 +53,15 @@ LineExtent clipped_extent(LineSegment line) {
     } else if (!(z0 >= 0.0 && z1 >= 0.0 && nusselt_max(p0.z, p1.z) > 0.0)) {
         length = 0.0;
     }
-    return make_line_extent(line.s, p0, p1, closest, distance, begin, end, length);
+    return make_line_extent(s, p0, p1, closest, distance, begin, end, length);
+}
+
+/// The extent of the part of a segment with z > 0, in shading space.
+LineExtent clipped_extent(LineSegment line) {
+    vec3 moment = nusselt_cross(line.p0, line.s);
+    vec3 p1 = end_of(line);
+    return clipped_extent(line.s, line.p0, p1, nusselt_cross(line.s, moment), sqrt(dot(moment, moment)),
+                          dot(line.p0, line.s), dot(p1, line.s), line.len);
 }
 
 /// The integral 2 int cos(alpha) n . w(alpha) d alpha from the begin of an extent to a point: the projected solid angle

@@ -173,6 +173,28 @@ Real area_pdf_tolerance(const LineSegment<Real>& light, const Vec3<Real>& p, con
     return Real(4) * slack / length(cross(light.s, p));
 }
 
+/// Next to a rim of a cylinder the direction may meet either side of it. On the mantle a step of the silhouette's order
+/// takes the cosine to zero.
+template <class Real>
+Real area_pdf_tolerance(const Cylinder<Real>& light, const Vec3<Real>& p, const Real&,
+                        const Real& slack) noexcept {
+    using T = scalar_t<Real>;
+    const Vec3<Real> from_begin = p - light.axis.p0;
+    const Real along = dot(from_begin, light.axis.s);
+    const Vec3<Real> across = cross(light.axis.s, cross(from_begin, light.axis.s));
+    const Real rho = length(across);
+    const Real to_ends = min(abs(along), abs(light.axis.length - along));
+    const Real to_mantle = abs(light.radius - rho);
+    const auto on_mantle = to_mantle <= to_ends;
+    const Vec3<Real> normal = select(on_mantle, normalize(across), light.axis.s);
+    const Real cosine = abs(dot(normalize(p), normal));
+    const Real moved = slack / cosine;
+    const Real smallest = min(light.radius, length(p));
+    const auto inside_one_part = max(to_ends, to_mantle) > Real(4) * moved;
+    return select(inside_one_part, Real(4) * moved / (cosine * smallest),
+                  Real(std::numeric_limits<T>::max()));
+}
+
 /// Calls report(mask, text) for each rule of the contract: the lanes that break it, and what they do.
 template <class Kind, class Real, class Report>
 void check_contract(const typename Kind::template Light<Real>& light,

@@ -3,6 +3,7 @@
 
 #include <type_traits>
 
+#include <nusselt/sampling/cylinder_area.h>
 #include <nusselt/sampling/cylinder_ltc.h>
 #include <nusselt/sampling/cylinder_projected_solid_angle.h>
 #include <nusselt/sampling/cylinder_solid_angle.h>
@@ -201,6 +202,13 @@ struct LineClippedLtcKind : LineOnLobeKind<BothHorizons> {
 struct CylinderKind : AnyCylinderKind {
     template <class Real>
     using Light = Cylinder<Real>;
+};
+struct CylinderAreaKind : CylinderKind {
+    template <class Real>
+    using Technique = CylinderArea<Real>;
+    static constexpr const char* kName = "CylinderArea";
+    static constexpr Measure kMeasure = Measure::kArea;
+    static constexpr Horizon kHorizon = Horizon::kIgnored;
 };
 struct CylinderSolidAngleKind : CylinderKind {
     template <class Real>

@@ -1,0 +1,169 @@
+#ifndef NUSSELT_GEOMETRY_CYLINDER_GLSL
+#define NUSSELT_GEOMETRY_CYLINDER_GLSL
+/// Solid cylinders, and the rectangles that half-planes through a shading point cut out of them. Twin of
+/// include/nusselt/geometry/cylinder.h.
+
+#include "../geometry/clip_line.glsl"
+
+/// A tubular light of finite radius: a cylinder that is closed by flat caps and emits outwards, also from its caps. A
+/// point inside receives no light.
+struct Cylinder {
+    LineSegment axis; ///< from the middle of one cap to that of the other
+    float radius;     ///< [m]
+};
+
+/// The cylinder seen from a shading point: the point becomes the origin, the normal of the frame +z.
+Cylinder to_shading_space(Cylinder world, vec3 point, Frame frame) {
+    return Cylinder(to_shading_space(world.axis, point, frame), world.radius);
+}
+
+/// Power of two that brings the coordinates of a cylinder to order one, so that their squares stay in range.
+float scale_of(Cylinder cylinder) {
+    float extent = nusselt_max(cylinder.axis.len, cylinder.radius);
+    return reciprocal_power_of_two(nusselt_max(largest_component(cylinder.axis.p0), extent));
+}
+
+Cylinder scaled(Cylinder cylinder, float scale) {
+    return Cylinder(scaled(cylinder.axis, scale), scale * cylinder.radius);
+}
+
+/// Where the half-plane of points l s + rho t, rho >= 0, through the origin meets an infinite cylinder with axis
+/// direction s: the strip of rho in [near, far].
+struct CylinderSlice {
+    vec2 azimuth;     ///< t in the basis m, n of the view
+    vec3 t;           ///< unit, perpendicular to the axis
+    float offset;     ///< of the half-plane from the axis, to the left of t if s points to the eye
+    float half_chord; ///< half the width of the strip outside of the cylinder
+    float near, far;  ///< near is 0 inside of the infinite cylinder
+    bool meets;       ///< false if the half-plane misses the cylinder; it then touches it
+};
+
+/// A cylinder as the origin sees it. Lengths are those of the cylinder, which shall have coordinates of order one
+/// (scaled()).
+struct CylinderView {
+    vec3 s, m, n; ///< right-handed, orthonormal; s is the direction of the axis
+    vec2 center;  ///< where the infinite axis passes, in the basis m, n
+    float radius;
+    float gap, sum;       ///< distance from the axis minus and plus the radius
+    vec3 begin, end;      ///< of the axis
+    float l0, l1, len;    ///< coordinates of begin and end along s, and their difference
+    vec2 touching;        ///< unit, from outside: the half-plane that touches on the side of n
+    bool outside;         ///< of the infinite cylinder; m then leads to its axis
+    bool visible;         ///< false inside, on the surface next to it, and for a cylinder without length or radius
+};
+
+/// \param cylinder with coordinates of order one.
+/// \param up       to which m leads as far as it can where the axis does not tell; may be zero.
+CylinderView make_cylinder_view(Cylinder cylinder, vec3 up) {
+    LineSegment axis = cylinder.axis;
+    CylinderView v;
+    v.s = axis.s;
+    v.begin = axis.p0;
+    v.end = end_of(axis);
+    v.len = axis.len;
+    v.radius = cylinder.radius;
+    vec3 moment = nusselt_cross(axis.p0, v.s);
+    vec3 closest = nusselt_cross(v.s, moment);
+    float distance = nusselt_length(moment);
+    v.gap = distance - v.radius;
+    v.sum = distance + v.radius;
+    v.l0 = dot(v.begin, v.s);
+    v.l1 = dot(v.end, v.s);
+    v.outside = v.gap >= 0.0 && distance > 0.0;
+    float apart = nusselt_max(nusselt_max(v.l0, -v.l1), v.gap);
+    v.visible = v.len > 0.0 && v.radius > 0.0 && apart > kNusseltTiny;
+
+    if (v.outside) {
+        v.m = nusselt_normalize(closest);
+        v.n = nusselt_cross(v.s, v.m);
+        v.center = vec2(distance, 0.0);
+        v.touching = vec2(sqrt(v.gap / distance) * sqrt(v.sum / distance), v.radius / distance);
+    } else {
+        vec3 upwards = nusselt_normalize(nusselt_cross(v.s, nusselt_cross(up, v.s)));
+        v.m = upwards == vec3(0.0) ? frame_from_normal(v.s).t : upwards;
+        v.n = nusselt_cross(v.s, v.m);
+        v.center = vec2(dot(closest, v.m), dot(closest, v.n));
+        v.touching = vec2(0.0, 1.0);
+    }
+    return v;
+}
+
+/// The half-plane in a direction, or the closest one that touches the cylinder if that one misses it.
+/// \param direction unit, in the basis m, n.
+CylinderSlice cylinder_view_slice(CylinderView self, vec2 direction) {
+    CylinderSlice c;
+    float safe_radius = self.visible ? self.radius : 1.0;
+    float x = det(self.center, direction) / safe_radius;
+    c.meets = abs(x) < 1.0 && (!self.outside || dot(self.center, direction) > 0.0);
+    c.azimuth = self.outside && !c.meets ? vec2(self.touching.x, copysign(self.touching.y, x)) : direction;
+    c.t = c.azimuth.x * self.m + c.azimuth.y * self.n;
+    float side = nusselt_min(nusselt_max(x, -1.0), 1.0);
+    c.offset = side * safe_radius;
+    float along = dot(self.center, c.azimuth); // the middle of the strip
+    // Sums of terms that are not negative; products may be too small to be represented.
+    float squared = (1.0 + side) * (1.0 - side);
+    if (!self.outside) {
+        float inside_along = along / safe_radius;
+        squared = nusselt_fma(inside_along, inside_along, (-self.gap / safe_radius) * (self.sum / safe_radius));
+    }
+    c.half_chord = sqrt(nusselt_max(squared, 0.0)) * safe_radius;
+    // The product of near and far is that of gap and sum: none of them comes from a difference, nor does the larger
+    // one fall below the root.
+    float larger = nusselt_max(abs(along) + c.half_chord, sqrt(abs(self.gap)) * sqrt(self.sum));
+    float other = abs(self.gap) * (self.sum / (larger > kNusseltTiny ? larger : 1.0));
+    c.far = self.outside || along > 0.0 ? larger : other;
+    c.near = self.outside ? nusselt_min(other, c.far) : 0.0;
+    return c;
+}
+
+/// The unit direction of the half-plane that contains a direction, in the basis m, n.
+vec2 cylinder_view_azimuth_of(CylinderView self, vec3 wi) {
+    vec2 in_plane = nusselt_normalize(vec3(dot(wi, self.m), dot(wi, self.n), 0.0)).xy;
+    return in_plane == vec2(0.0) ? vec2(1.0, 0.0) : in_plane;
+}
+
+/// The first point of a ray from the origin that stays in a half-plane and meets the closed cylinder; the closest point
+/// of the surface in that half-plane if rounding lets it miss.
+/// \param tangent l / rho of the direction.
+/// \return (l, rho)
+vec2 cylinder_view_first_point(CylinderView self, CylinderSlice c, float tangent) {
+    float on_mantle = c.near * tangent;
+    if (!(on_mantle < self.l0 || on_mantle > self.l1)) return vec2(on_mantle, c.near);
+    float l = on_mantle < self.l0 ? self.l0 : self.l1;
+    float on_cap = l / (tangent == 0.0 ? 1.0 : tangent);
+    return vec2(l, nusselt_min(nusselt_max(on_cap, c.near), c.far));
+}
+
+/// Where a ray meets a light. Without meaning if it does not hit, but for `hits`.
+struct LightHit {
+    bool hits;
+    float distance; ///< [m]
+    float cosine;   ///< between the ray, backwards, and the normal of the light
+};
+
+/// The first point where a ray from the origin meets a closed cylinder from outside: mantle or caps. Rays that start
+/// inside hit nothing.
+/// \param wi unit direction.
+LightHit intersect(Cylinder cylinder, vec3 wi) {
+    float scale = scale_of(cylinder);
+    CylinderView view = make_cylinder_view(scaled(cylinder, scale), vec3(0.0));
+    CylinderSlice slice = cylinder_view_slice(view, cylinder_view_azimuth_of(view, wi));
+    float sine = dot(wi, view.s);
+    float cosine = nusselt_max(dot(wi, slice.t), 0.0);
+    // The ray passes the strip from l = near tan(alpha) to far tan(alpha).
+    float enters = slice.near * sine;
+    float leaves = slice.far * sine;
+    bool reaches = nusselt_max(enters, leaves) >= view.l0 * cosine;
+    bool starts = nusselt_min(enters, leaves) <= view.l1 * cosine;
+    // Along the axis, the caps must lie ahead.
+    bool ahead = nusselt_max(cosine, sine * (view.l0 + view.l1)) > 0.0;
+    bool wide = slice.far > 0.0;
+    vec2 p = cylinder_view_first_point(view, slice, sine / nusselt_max(cosine, kNusseltTiny));
+    bool hits = view.visible && slice.meets && reaches && starts && ahead && wide;
+    bool on_mantle = p.x > view.l0 && p.x < view.l1;
+    float facing = cosine * slice.half_chord / (hits ? view.radius : 1.0);
+    return LightHit(hits, nusselt_length(vec3(p, 0.0)) * reciprocal_power_of_two(scale),
+                    on_mantle ? facing : abs(sine));
+}
+
+#endif
