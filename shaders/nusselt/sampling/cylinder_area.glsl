@@ -1,7 +1,7 @@
 #ifndef NUSSELT_SAMPLING_CYLINDER_AREA_GLSL
 #define NUSSELT_SAMPLING_CYLINDER_AREA_GLSL
-/// Uniform sampling of the surface of a closed cylinder, caps included. Cheap to prepare, but half of the samples or more
-/// lie on the far side, and it is noisy close to the light. Twin of include/nusselt/sampling/cylinder_area.h.
+/// Uniform sampling of the surface of a closed cylinder, caps included. Cheap to prepare, but half of the samples or
+/// more lie on the far side, and it is noisy close to the light. Twin of include/nusselt/sampling/cylinder_area.h.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr]: |p|^2 / (area cos_light). Space: any frame with
 /// the shading point as origin; no clipping, so that wi may point below the horizon. Edge cases: points that face away
@@ -31,8 +31,8 @@ float cylinder_area_density(CylinderArea self, float distance, float cosine) {
     return density > 0.0 && is_finite(density) ? density : 0.0;
 }
 
-/// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves from the middle of the cap at the begin over the
-///          mantle to the middle of the other cap.
+/// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves from the middle of the cap at the begin over
+///          the mantle to the middle of the other cap.
 LightSample cylinder_area_sample(CylinderArea self, vec2 u) {
     LineSegment axis = self.light.axis;
     float radius = self.light.radius;

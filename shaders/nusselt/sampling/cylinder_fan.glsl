@@ -137,8 +137,8 @@ void include_rim(CylinderImage self, float height, float rise, vec2 up, inout fl
     high = nusselt_max(high, nusselt_max(angle0, angle1));
 }
 
-/// The azimuths of the part of the cylinder that has importance. They are bounded by half-planes that touch the cylinder,
-/// if these reach above the horizon, or else by points of the rims in the horizon.
+/// The azimuths of the part of the cylinder that has importance. They are bounded by half-planes that touch the
+/// cylinder, if these reach above the horizon, or else by points of the rims in the horizon.
 AzimuthRange cylinder_image_range(CylinderImage self, int importance) {
     CylinderView view = self.view;
     vec2 left = view.touching;
@@ -186,11 +186,12 @@ float cylinder_image_tangent(CylinderImage self, float l, float rho, float widen
 }
 
 /// A corner of the rectangle, on the line at distance one.
-/// \param t      direction of the image of the half-plane.
-/// \param height of the corner over the distance to the line.
-vec3 cylinder_image_corner(CylinderImage self, vec3 t, float tangent, float height) {
+/// \param t        direction of the image of the half-plane.
+/// \param height   of the corner of the cylinder.
+/// \param distance of the image of that corner from the axis; may be 0 where the tangent is steepest.
+vec3 cylinder_image_corner(CylinderImage self, vec3 t, float tangent, float height, float distance) {
     vec3 p = tangent * self.s + t;
-    if (abs(tangent) < kNusseltSteepest) p.z = height;
+    if (abs(tangent) < kNusseltSteepest) p.z = height / distance;
     return p;
 }
 
@@ -225,8 +226,8 @@ CylinderHalfPlane cylinder_half_plane(CylinderImage self, int importance, vec2 d
     float across = h.slice.half_chord * height_of_t;
     float height0 = self.begin_height + (sideways + (begins_far ? across : -across));
     float height1 = self.end_height + (sideways + (ends_far ? across : -across));
-    vec3 p0 = cylinder_image_corner(self, t, tangent0, height0 / (rho0 * h.widening));
-    vec3 p1 = cylinder_image_corner(self, t, tangent1, height1 / (rho1 * h.widening));
+    vec3 p0 = cylinder_image_corner(self, t, tangent0, height0, rho0 * h.widening);
+    vec3 p1 = cylinder_image_corner(self, t, tangent1, height1, rho1 * h.widening);
     h.extent = importance_extent(importance, self.s, p0, p1, t, 1.0, tangent0, tangent1, len);
     float integral = importance_integral(importance, h.extent);
     h.integral = h.extent.visible && is_finite(integral) ? integral : 0.0;

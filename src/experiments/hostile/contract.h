@@ -173,8 +173,7 @@ Real area_pdf_tolerance(const LineSegment<Real>& light, const Vec3<Real>& p, con
     return Real(4) * slack / length(cross(light.s, p));
 }
 
-/// Next to a rim of a cylinder the direction may meet either side of it. On the mantle a step of the silhouette's order
-/// takes the cosine to zero.
+/// On the mantle the cosine itself changes, the more the flatter the direction is. Next to a rim it may meet either side.
 template <class Real>
 Real area_pdf_tolerance(const Cylinder<Real>& light, const Vec3<Real>& p, const Real&,
                         const Real& slack) noexcept {
