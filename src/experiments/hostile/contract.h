@@ -173,7 +173,8 @@ Real area_pdf_tolerance(const LineSegment<Real>& light, const Vec3<Real>& p, con
     return Real(4) * slack / length(cross(light.s, p));
 }
 
-/// On the mantle the cosine itself changes, the more the flatter the direction is. Next to a rim it may meet either side.
+/// On the mantle the cosine itself changes, the more the flatter the direction is. Next to a rim the direction may meet
+/// either side of it.
 template <class Real>
 Real area_pdf_tolerance(const Cylinder<Real>& light, const Vec3<Real>& p, const Real&,
                         const Real& slack) noexcept {
