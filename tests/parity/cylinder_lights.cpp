@@ -56,7 +56,7 @@ const std::vector<CylinderClass>& cylinder_classes() {
         for (const auto& light : tubes)
             result.push_back(
                 {light.name.c_str(), Visibility::everyone, [&light](Engine& e) { return moved(e, light); }});
-        result.push_back({"1 cm at 40 m", Visibility::everyone,
+        result.push_back({"cylinder of 1 cm at 40 m", Visibility::everyone,
                           [](Engine& e) { return around(e, 40.0 * above(e), 0.005, 0.002); }});
         result.push_back({"1e-3 of the radius beside it", Visibility::everyone, [](Engine& e) {
                               const Vec s = direction(e);

@@ -16,12 +16,17 @@ constexpr const char* kCorner = "samples next to the corner where all triangles 
                                 "direction passes from one to another";
 constexpr const char* kForeshortened =
     "a rounding of the direction is a large part of the line as it is seen";
+constexpr const char* kSilhouette =
+    "a sample in a thousand is so close to the silhouette that its rounded direction "
+    "misses the light, where the exact density is 0";
 constexpr VacuousBudget kVacuousBudgets[] = {
     {"square of 1 cm at 40 m: first random number, largest", kCorner},
     {"square of 1 mm at 40 m: first random number, largest", kCorner},
     {"square of 1 mm at 40 m: second random number, 99.9 %", kCorner},
     {"pointing at the point within 1e-4: first random number, largest", kForeshortened},
     {"pointing at the point within 1e-4: first random number, 99.99 %", kForeshortened},
+    {"cylinder of 1 cm at 40 m: density, 99.9 %", kSilhouette},
+    {"cylinder of 1 cm at 40 m: density of the sample, 99.9 %", kSilhouette},
 };
 
 } // namespace

@@ -51,7 +51,7 @@ LightSample cylinder_area_sample(CylinderArea self, vec2 u) {
     SinCos angle = sincos_half_turn(abs(turn));
     float sine = copysign(abs(angle.sine), turn);
     vec3 outwards = angle.cosine * self.frame.t + sine * self.frame.b;
-    vec3 p = nusselt_fma(rho, outwards, nusselt_fma(along, axis.s, axis.p0));
+    vec3 p = nusselt_fma(rho, outwards, exact_fma(along, axis.s, axis.p0));
     vec3 normal = on_mantle ? outwards : (on_first ? -axis.s : axis.s);
     vec3 wi = inverse_length(p) * p;
     return LightSample(wi, cylinder_area_density(self, nusselt_length(p), -dot(wi, normal)), p);
