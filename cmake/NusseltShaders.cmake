@@ -18,11 +18,15 @@ else()
     set(NUSSELT_BUILD_GPU ON)
 endif()
 
-# nusselt_add_shader(target name source [DEFINES define...]): compiles a source and makes
+# nusselt_add_shader(target name source [ENVIRONMENT environment] [DEFINES define...]): compiles a source for
+# vulkan1.1 or another environment of glslang and makes
 # `#include "shaders/<name>.h"` available to the sources of the target. The header has the array k<Name>, with name in
 # PascalCase. A relative source is one of the current source directory; shaders include others relative to shaders/.
 function(nusselt_add_shader target name source)
-    cmake_parse_arguments(arg "" "" "DEFINES" ${ARGN})
+    cmake_parse_arguments(arg "" "ENVIRONMENT" "DEFINES" ${ARGN})
+    if(NOT arg_ENVIRONMENT)
+        set(arg_ENVIRONMENT vulkan1.1)
+    endif()
     cmake_path(ABSOLUTE_PATH source)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/shaders)
     set(spirv ${folder}/${name}.spv)
@@ -30,7 +34,7 @@ function(nusselt_add_shader target name source)
     list(TRANSFORM arg_DEFINES PREPEND -D)
     file(MAKE_DIRECTORY ${folder})
     add_custom_command(OUTPUT ${header} BYPRODUCTS ${spirv}
-        COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.1 -g0 -I${PROJECT_SOURCE_DIR}/shaders ${arg_DEFINES}
+        COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env ${arg_ENVIRONMENT} -g0 -I${PROJECT_SOURCE_DIR}/shaders ${arg_DEFINES}
             --depfile ${spirv}.d -o ${spirv} ${source}
         COMMAND ${CMAKE_COMMAND} -D INPUT=${spirv} -D OUTPUT=${header} -D NAME=${name}
             -P ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake

@@ -12,14 +12,12 @@ std::string name_of(const Device& device, std::size_t bytes) {
     return device.description().name + ": a buffer of " + size_text(bytes);
 }
 
-vk::raii::Buffer make_buffer(const Device& device, std::size_t bytes) {
+vk::raii::Buffer make_buffer(const Device& device, std::size_t bytes, vk::BufferUsageFlags use) {
     assert(bytes > 0);
-    if (bytes > device.limits().maxStorageBufferRange)
+    if (bytes > device.limits().maxStorageBufferRange && use & vk::BufferUsageFlagBits::eStorageBuffer)
         throw Error(name_of(device, bytes) + " is too large, the limit is " +
                     size_text(device.limits().maxStorageBufferRange) + "; ask for less");
-    using Usage = vk::BufferUsageFlagBits;
-    const vk::BufferCreateInfo info({}, bytes,
-                                    Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst);
+    const vk::BufferCreateInfo info({}, bytes, use);
     return guarded(name_of(device, bytes), [&] { return vk::raii::Buffer(device.handle(), info); });
 }
 
@@ -31,14 +29,16 @@ vk::MemoryPropertyFlags properties_of(Residence residence) {
 
 } // namespace
 
-Buffer::Buffer(const Device& device, std::size_t bytes, Residence residence)
+Buffer::Buffer(const Device& device, std::size_t bytes, Residence residence, vk::BufferUsageFlags use)
     : device_(&device),
       size_(bytes),
       residence_(residence),
-      buffer_(make_buffer(device, bytes)),
-      memory_(device.allocate(buffer_.getMemoryRequirements(), properties_of(residence))) {
+      buffer_(make_buffer(device, bytes, use)),
+      memory_(device.allocate(buffer_.getMemoryRequirements(), properties_of(residence), use)) {
     guarded(name_of(device, bytes), [&] { buffer_.bindMemory(*memory_, 0); });
 }
+
+vk::DeviceAddress Buffer::address() const { return device_->handle().getBufferAddress({*buffer_}); }
 
 void Buffer::write_bytes(std::span<const std::byte> bytes) {
     assert(bytes.size() <= size_);

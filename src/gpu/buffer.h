@@ -8,6 +8,11 @@
 
 namespace nusselt::gpu {
 
+/// Storage buffers of shaders.
+inline constexpr vk::BufferUsageFlags kStorageUse = vk::BufferUsageFlagBits::eStorageBuffer |
+                                                    vk::BufferUsageFlagBits::eTransferSrc |
+                                                    vk::BufferUsageFlagBits::eTransferDst;
+
 /// Where a buffer lives.
 enum class Residence {
     host_visible, ///< memory that both sides see: for what is written or read once
@@ -17,11 +22,15 @@ enum class Residence {
 class Buffer {
 public:
     /// \param bytes size, positive.
+    /// \param use   what shaders and commands do with it.
     /// \throws Error if the device has no memory for it or no storage buffers as large.
-    Buffer(const Device& device, std::size_t bytes, Residence residence);
+    Buffer(const Device& device, std::size_t bytes, Residence residence,
+           vk::BufferUsageFlags use = kStorageUse);
 
     std::size_t size() const { return size_; }
     vk::Buffer handle() const { return *buffer_; }
+    /// Of the first byte on the device. Only with the use eShaderDeviceAddress.
+    vk::DeviceAddress address() const;
 
     /// Overwrites the beginning. \param values at most as large as the buffer.
     template <class T>

@@ -11,6 +11,9 @@ vk::raii::DescriptorSetLayout make_set_layout(const Device& device, const Comput
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (std::uint32_t i = 0; i < interface.storage_buffers; ++i)
         bindings.emplace_back(i, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute);
+    for (std::uint32_t i = 0; i < interface.ray_scenes; ++i)
+        bindings.emplace_back(interface.storage_buffers + i, vk::DescriptorType::eAccelerationStructureKHR, 1,
+                              vk::ShaderStageFlagBits::eCompute);
     return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
 
@@ -38,9 +41,11 @@ vk::raii::Pipeline make_pipeline(const Device& device, std::span<const std::uint
 }
 
 vk::raii::DescriptorPool make_descriptor_pool(const Device& device, const ComputeInterface& interface) {
-    const vk::DescriptorPoolSize size(vk::DescriptorType::eStorageBuffer,
-                                      std::max(interface.storage_buffers, 1u));
-    return {device.handle(), vk::DescriptorPoolCreateInfo({}, 1, size)};
+    std::vector<vk::DescriptorPoolSize> sizes = {
+        {vk::DescriptorType::eStorageBuffer, std::max(interface.storage_buffers, 1u)}};
+    if (interface.ray_scenes > 0)
+        sizes.emplace_back(vk::DescriptorType::eAccelerationStructureKHR, interface.ray_scenes);
+    return {device.handle(), vk::DescriptorPoolCreateInfo({}, 1, sizes)};
 }
 
 } // namespace
@@ -68,6 +73,16 @@ void ComputePipeline::bind(std::initializer_list<const Buffer*> buffers) {
             vk::WriteDescriptorSet(descriptors_, binding++, 0, vk::DescriptorType::eStorageBuffer, {}, info),
             {});
     }
+}
+
+void ComputePipeline::bind(const AccelerationStructure& scene) {
+    assert(interface_.ray_scenes == 1);
+    const vk::AccelerationStructureKHR handle = scene.handle();
+    const vk::WriteDescriptorSetAccelerationStructureKHR info(handle);
+    vk::WriteDescriptorSet write(descriptors_, interface_.storage_buffers, 0, 1,
+                                 vk::DescriptorType::eAccelerationStructureKHR);
+    write.pNext = &info;
+    device_->handle().updateDescriptorSets(write, {});
 }
 
 void ComputePipeline::dispatch(const Device::Commands& commands, std::span<const std::byte> push,

@@ -1,6 +1,7 @@
 #pragma once
 /// Compute shaders with storage buffers.
 
+#include "gpu/acceleration_structure.h"
 #include "gpu/buffer.h"
 
 #include <cstdint>
@@ -12,6 +13,7 @@ namespace nusselt::gpu {
 /// What a shader expects from outside.
 struct ComputeInterface {
     std::uint32_t storage_buffers = 0;         ///< bindings 0 to this, exclusive, of set 0
+    std::uint32_t ray_scenes = 0;              ///< acceleration structures: the bindings after those
     std::uint32_t push_constant_size = 0;      ///< [bytes]
     std::vector<std::uint32_t> constants = {}; ///< specialisation constants 0, 1, ...: the bits of each
 };
@@ -25,6 +27,8 @@ public:
 
     /// The buffers that the next dispatches use, in the order of their bindings. Not while commands run.
     void bind(std::initializer_list<const Buffer*> buffers);
+    /// \param scene what the only ray scene of the next dispatches is. Not while commands run.
+    void bind(const AccelerationStructure& scene);
 
     /// Records one dispatch.
     /// \param push the push constants, exactly as large as the interface says.

@@ -107,10 +107,59 @@ std::uint32_t choose_queue_family(const vk::raii::PhysicalDevice& device) {
     return static_cast<std::uint32_t>(found - families.begin());
 }
 
-vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint32_t queue_family) {
+constexpr const char* kRayExtensions[] = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                          VK_KHR_RAY_QUERY_EXTENSION_NAME,
+                                          VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
+
+DeviceFeatures features_of(const Instance& instance, const vk::raii::PhysicalDevice& device) {
+    const std::uint32_t version = std::min(instance.version(), device.getProperties().apiVersion);
+    if (version < VK_API_VERSION_1_2) return {};
+    const auto basic =
+        device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceBufferDeviceAddressFeatures>();
+    DeviceFeatures features;
+    features.buffer_addresses =
+        basic.get<vk::PhysicalDeviceBufferDeviceAddressFeatures>().bufferDeviceAddress != 0;
+    const bool has_extensions = std::all_of(std::begin(kRayExtensions), std::end(kRayExtensions),
+                                            [&](const char* name) { return has_extension(device, name); });
+    if (!features.buffer_addresses || !has_extensions) return features;
+    const auto rays =
+        device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceAccelerationStructureFeaturesKHR,
+                            vk::PhysicalDeviceRayQueryFeaturesKHR>();
+    features.ray_queries =
+        rays.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure != 0 &&
+        rays.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery != 0;
+    return features;
+}
+
+std::uint32_t scratch_alignment_of(const vk::raii::PhysicalDevice& device, const DeviceFeatures& features) {
+    if (!features.ray_queries) return 1;
+    return device
+        .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceAccelerationStructurePropertiesKHR>()
+        .get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>()
+        .minAccelerationStructureScratchOffsetAlignment;
+}
+
+vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint32_t queue_family,
+                             const DeviceFeatures& features) {
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue({}, queue_family, 1, &priority);
-    return {physical, vk::DeviceCreateInfo({}, queue)};
+    vk::StructureChain<vk::DeviceCreateInfo, vk::PhysicalDeviceBufferDeviceAddressFeatures,
+                       vk::PhysicalDeviceAccelerationStructureFeaturesKHR,
+                       vk::PhysicalDeviceRayQueryFeaturesKHR>
+        chain;
+    auto& info = chain.get<vk::DeviceCreateInfo>();
+    info.setQueueCreateInfos(queue);
+    chain.get<vk::PhysicalDeviceBufferDeviceAddressFeatures>().bufferDeviceAddress = true;
+    chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure = true;
+    chain.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery = true;
+    if (features.ray_queries) {
+        info.setPEnabledExtensionNames(kRayExtensions);
+    } else {
+        chain.unlink<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>();
+        chain.unlink<vk::PhysicalDeviceRayQueryFeaturesKHR>();
+    }
+    if (!features.buffer_addresses) chain.unlink<vk::PhysicalDeviceBufferDeviceAddressFeatures>();
+    return {physical, info};
 }
 
 } // namespace
@@ -140,10 +189,12 @@ Device::Device(const DeviceOptions& options) try
       physical_(choose(instance_, options)),
       description_(describe(physical_)),
       limits_(physical_.getProperties().limits),
+      features_(features_of(instance_, physical_)),
+      scratch_alignment_(scratch_alignment_of(physical_, features_)),
       queue_family_(choose_queue_family(physical_)),
       clock_(physical_.getQueueFamilyProperties()[queue_family_].timestampValidBits > 0 ? Clock::timestamps
                                                                                         : Clock::wall),
-      device_(make_device(physical_, queue_family_)),
+      device_(make_device(physical_, queue_family_, features_)),
       queue_(device_, queue_family_, 0),
       pool_(device_, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, queue_family_)),
       timestamps_(device_, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2)) {
@@ -194,7 +245,7 @@ double Device::time(const Record& record) const {
 }
 
 vk::raii::DeviceMemory Device::allocate(const vk::MemoryRequirements& requirements,
-                                        vk::MemoryPropertyFlags wanted) const {
+                                        vk::MemoryPropertyFlags wanted, vk::BufferUsageFlags use) const {
     const std::string activity =
         description_.name + ": allocating " + size_text(requirements.size) + " of memory";
     const vk::PhysicalDeviceMemoryProperties memory = physical_.getMemoryProperties();
@@ -203,9 +254,12 @@ vk::raii::DeviceMemory Device::allocate(const vk::MemoryRequirements& requiremen
                           (memory.memoryTypes[i].propertyFlags & wanted) == wanted &&
                           memory.memoryHeaps[memory.memoryTypes[i].heapIndex].size >= requirements.size;
         if (!fits) continue;
-        return guarded(activity, [&] {
-            return vk::raii::DeviceMemory(device_, vk::MemoryAllocateInfo(requirements.size, i));
-        });
+        vk::StructureChain<vk::MemoryAllocateInfo, vk::MemoryAllocateFlagsInfo> info(
+            {requirements.size, i}, {vk::MemoryAllocateFlagBits::eDeviceAddress});
+        if (!(use & vk::BufferUsageFlagBits::eShaderDeviceAddress))
+            info.unlink<vk::MemoryAllocateFlagsInfo>();
+        return guarded(activity,
+                       [&] { return vk::raii::DeviceMemory(device_, info.get<vk::MemoryAllocateInfo>()); });
     }
     throw Error(gpu::describe(activity, vk::Result::eErrorOutOfDeviceMemory));
 }

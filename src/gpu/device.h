@@ -26,6 +26,12 @@ struct DeviceDescription {
     std::string api_version; ///< of Vulkan
 };
 
+/// What a device can do beyond Vulkan 1.1. All of it is switched on.
+struct DeviceFeatures {
+    bool buffer_addresses = false; ///< buffers that shaders and builders reach by address
+    bool ray_queries = false;      ///< with acceleration structures, see acceleration_structure.h
+};
+
 /// The devices that can be chosen. Empty without a loader or driver.
 /// \throws Error if a driver does not start.
 std::vector<DeviceDescription> list_devices();
@@ -54,6 +60,9 @@ public:
 
     const DeviceDescription& description() const { return description_; }
     const vk::PhysicalDeviceLimits& limits() const { return limits_; }
+    const DeviceFeatures& features() const { return features_; }
+    /// What the scratch memory for building acceleration structures is aligned to [bytes]; 1 without them.
+    std::uint32_t scratch_alignment() const { return scratch_alignment_; }
     const vk::raii::Device& handle() const { return device_; }
     Clock clock() const { return clock_; }
     /// Whether the validation layer watches: it was asked for and is installed.
@@ -70,15 +79,18 @@ public:
     double time(const Record& record) const;
 
     /// \param wanted properties that the memory must have.
+    /// \param use    of buffers in it.
     /// \throws Error if there is no such memory, or not enough.
     vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& requirements,
-                                    vk::MemoryPropertyFlags wanted) const;
+                                    vk::MemoryPropertyFlags wanted, vk::BufferUsageFlags use = {}) const;
 
 private:
     Instance instance_;
     vk::raii::PhysicalDevice physical_;
     DeviceDescription description_;
     vk::PhysicalDeviceLimits limits_;
+    DeviceFeatures features_;
+    std::uint32_t scratch_alignment_;
     std::uint32_t queue_family_;
     Clock clock_;
     vk::raii::Device device_;

@@ -35,8 +35,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL note(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDe
     return VK_FALSE;
 }
 
-vk::raii::Instance make_instance(const vk::raii::Context& context, bool validates) {
-    const vk::ApplicationInfo application("nusselt", 1, "nusselt", 1, VK_API_VERSION_1_1);
+vk::raii::Instance make_instance(const vk::raii::Context& context, std::uint32_t version, bool validates) {
+    const vk::ApplicationInfo application("nusselt", 1, "nusselt", 1, version);
     std::vector<const char*> layers, extensions;
     if (validates) {
         layers.push_back(kValidationLayer);
@@ -80,7 +80,8 @@ Instance::Instance(Validation validation)
     : log_(std::make_unique<ValidationLog>()),
       context_(load()),
       validates_(validation == Validation::on && has_validation_layer(context_)),
-      instance_(make_instance(context_, validates_)),
+      version_(std::clamp(context_.enumerateInstanceVersion(), VK_API_VERSION_1_1, VK_API_VERSION_1_2)),
+      instance_(make_instance(context_, version_, validates_)),
       messenger_(make_messenger(instance_, validates_, *log_)) {}
 
 std::vector<vk::raii::PhysicalDevice> Instance::devices() const {

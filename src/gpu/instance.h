@@ -25,7 +25,7 @@ private:
     std::vector<std::string> messages_;
 };
 
-/// A Vulkan 1.1 instance without any window system.
+/// An instance of Vulkan 1.2, or 1.1 where the loader knows no more, without any window system.
 class Instance {
 public:
     /// \throws NoDevice if there is no Vulkan loader or no driver.
@@ -33,6 +33,7 @@ public:
     explicit Instance(Validation validation);
 
     bool validates() const { return validates_; }
+    std::uint32_t version() const { return version_; } ///< of Vulkan
     ValidationLog& log() const { return *log_; }
 
     /// All devices with Vulkan 1.1 and a queue for compute shaders, in the order of the loader.
@@ -43,6 +44,7 @@ private:
     std::unique_ptr<ValidationLog> log_; ///< the messenger keeps its address
     vk::raii::Context context_;
     bool validates_;
+    std::uint32_t version_;
     vk::raii::Instance instance_;
     vk::raii::DebugUtilsMessengerEXT messenger_;
 };

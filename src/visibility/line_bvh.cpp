@@ -1,12 +1,11 @@
 #include "visibility/line_bvh.h"
 
 #include "visibility/alpha.h"
-#include "visibility/embree_device.h"
+#include "visibility/embree_builder.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -16,94 +15,6 @@ namespace nusselt::visibility {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-struct BvhDeleter {
-    void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
-};
-using BuiltBvh = std::unique_ptr<RTCBVHTy, BvhDeleter>;
-
-/// What Embree's builder makes, in memory of its own.
-struct BuiltNode {
-    bool is_leaf;
-    std::uint32_t count; ///< of children or primitives
-};
-struct BuiltInner : BuiltNode {
-    const BuiltNode* child[kBvhWidth];
-    RTCBounds bounds[kBvhWidth];
-};
-struct BuiltLeaf : BuiltNode {
-    std::uint32_t primitive[kBvhWidth];
-};
-
-void* create_inner(RTCThreadLocalAllocator allocator, unsigned count, void*) {
-    return new (rtcThreadLocalAlloc(allocator, sizeof(BuiltInner), 16)) BuiltInner{{false, count}, {}, {}};
-}
-
-void set_children(void* node, void** children, unsigned count, void*) {
-    for (unsigned i = 0; i < count; ++i)
-        static_cast<BuiltInner*>(node)->child[i] = static_cast<const BuiltNode*>(children[i]);
-}
-
-void set_bounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
-    for (unsigned i = 0; i < count; ++i) static_cast<BuiltInner*>(node)->bounds[i] = *bounds[i];
-}
-
-void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count,
-                  void*) {
-    auto* leaf = new (rtcThreadLocalAlloc(allocator, sizeof(BuiltLeaf), 16))
-        BuiltLeaf{{true, static_cast<std::uint32_t>(count)}, {}};
-    for (std::size_t i = 0; i < count; ++i) leaf->primitive[i] = primitives[i].primID;
-    return leaf;
-}
-
-/// \param leaf_size largest number of primitives in a leaf
-const BuiltNode* build(RTCDevice device, RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives,
-                       unsigned leaf_size) {
-    RTCBuildArguments arguments = rtcDefaultBuildArguments();
-    arguments.maxBranchingFactor = kBvhWidth;
-    arguments.maxDepth = kLargestBvhDepth;
-    arguments.sahBlockSize = leaf_size;
-    // Nodes with fewer children, but fuller blocks: a block costs the same whether it is full or not.
-    arguments.minLeafSize = leaf_size;
-    arguments.maxLeafSize = leaf_size;
-    arguments.bvh = bvh;
-    arguments.primitives = primitives.data();
-    arguments.primitiveCount = primitives.size();
-    arguments.primitiveArrayCapacity = primitives.capacity();
-    arguments.createNode = create_inner;
-    arguments.setNodeChildren = set_children;
-    arguments.setNodeBounds = set_bounds;
-    arguments.createLeaf = create_leaf;
-    const void* root = rtcBuildBVH(&arguments);
-    check_for_error(device);
-    return static_cast<const BuiltNode*>(root);
-}
-
-struct Box {
-    std::array<float, 3> lower = {kInfinity, kInfinity, kInfinity};
-    std::array<float, 3> upper = {-kInfinity, -kInfinity, -kInfinity};
-
-    void add(const std::array<float, 3>& p) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            lower[axis] = std::min(lower[axis], p[axis]);
-            upper[axis] = std::max(upper[axis], p[axis]);
-        }
-    }
-    void add_bounds(const RTCBuildPrimitive& primitive) {
-        add({{primitive.lower_x, primitive.lower_y, primitive.lower_z}});
-        add({{primitive.upper_x, primitive.upper_y, primitive.upper_z}});
-    }
-};
-
-RTCBuildPrimitive make_primitive(const Box& box, std::uint32_t index) {
-    return {box.lower[0], box.lower[1], box.lower[2], 0, box.upper[0], box.upper[1], box.upper[2], index};
-}
-
-Box bounds_of(const std::vector<RTCBuildPrimitive>& primitives) {
-    Box box;
-    for (const RTCBuildPrimitive& primitive : primitives) box.add_bounds(primitive);
-    return box;
-}
 
 using Corners = std::array<std::array<float, 3>, 3>;
 
@@ -116,59 +27,6 @@ Corners corners_of(const scene::Scene& scene, std::uint32_t triangle) {
     }
     std::sort(corners.begin(), corners.end());
     return corners;
-}
-
-/// Whether Embree's builder can sort the box, and its scenes have it: squares of coordinates must be in the range of float.
-bool is_usable(const Box& box) {
-    constexpr float kLargest = 1.844e18f;
-    const auto is_usable_point = [](const std::array<float, 3>& p) {
-        return std::all_of(p.begin(), p.end(), [](float x) { return std::fabs(x) < kLargest; });
-    };
-    return is_usable_point(box.lower) && is_usable_point(box.upper);
-}
-
-/// World space to object space.
-std::array<float, 12> inverse_of(const std::array<float, 12>& m) {
-    const auto at = [&](std::size_t row, std::size_t column) { return double{m[4 * row + column]}; };
-    double inverse[3][3];
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) {
-            const std::size_t r0 = (j + 1) % 3, r1 = (j + 2) % 3, c0 = (i + 1) % 3, c1 = (i + 2) % 3;
-            inverse[i][j] = at(r0, c0) * at(r1, c1) - at(r0, c1) * at(r1, c0);
-        }
-    const double determinant = at(0, 0) * inverse[0][0] + at(0, 1) * inverse[1][0] + at(0, 2) * inverse[2][0];
-    std::array<float, 12> result;
-    for (std::size_t i = 0; i < 3; ++i) {
-        double translation = 0;
-        for (std::size_t j = 0; j < 3; ++j) {
-            inverse[i][j] /= determinant;
-            translation -= inverse[i][j] * at(j, 3);
-            result[4 * i + j] = static_cast<float>(inverse[i][j]);
-        }
-        result[4 * i + 3] = static_cast<float>(translation);
-    }
-    return result;
-}
-
-/// Rounding errors included: those of instances far from the origin of their object are not those of their box.
-/// \param m as Instance::world_from_object
-Box transformed(const std::array<float, 12>& m, const Box& box) {
-    Box result;
-    for (std::size_t row = 0; row < 3; ++row) {
-        result.lower[row] = result.upper[row] = m[4 * row + 3];
-        float size = std::fabs(m[4 * row + 3]);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const float a = m[4 * row + axis] * box.lower[axis];
-            const float b = m[4 * row + axis] * box.upper[axis];
-            result.lower[row] += std::min(a, b);
-            result.upper[row] += std::max(a, b);
-            size += std::max(std::fabs(a), std::fabs(b));
-        }
-        const float rounding = 4 * std::numeric_limits<float>::epsilon() * size;
-        result.lower[row] -= rounding;
-        result.upper[row] += rounding;
-    }
-    return result;
 }
 
 } // namespace
@@ -226,9 +84,11 @@ LineBvh::State::Root LineBvh::State::add_triangles(const scene::Scene& scene, Pr
     std::vector<RTCBuildPrimitive> primitives;
     for (std::uint32_t triangle = first; triangle < first + count; ++triangle) {
         if (presence_of(scene.materials[scene.triangle_material[triangle]]) != presence) continue;
+        const Corners corners = corners_of(scene, triangle);
+        if (!std::all_of(corners.begin(), corners.end(), is_usable)) continue;
         Box box;
-        for (const auto& corner : corners_of(scene, triangle)) box.add(corner);
-        if (is_usable(box)) primitives.push_back(make_primitive(box, triangle));
+        for (const auto& corner : corners) box.add(corner);
+        primitives.push_back(make_primitive(box, triangle));
     }
     const std::size_t blocks_before = blocks.size();
     const auto leaf = [&](const BuiltLeaf& of) { return add_block(scene, of); };
@@ -246,7 +106,7 @@ LineBvh::State::Root LineBvh::State::add_instances(const scene::Scene& scene,
         if (object.reference == kEmptyBvh) continue;
         const auto& m = instance.world_from_object;
         const Box box = transformed(m, object.bounds);
-        if (!is_usable(box)) continue;
+        if (!is_usable(box.lower) || !is_usable(box.upper)) continue;
         block_count += object.block_count;
         primitives.push_back(make_primitive(box, static_cast<std::uint32_t>(instances.size())));
         LineBvhInstance& target = instances.emplace_back();
@@ -265,13 +125,16 @@ template <class Leaf>
 LineBvh::State::Root LineBvh::State::add(std::vector<RTCBuildPrimitive> primitives, unsigned leaf_size,
                                          const Leaf& leaf) {
     if (primitives.empty()) return {};
-    const Box bounds = bounds_of(primitives);
-    const BuiltBvh bvh(rtcNewBVH(device.get()));
-    check_for_error(device.get());
-    const BuiltNode* built = build(device.get(), bvh.get(), primitives, leaf_size);
-    // Large scenes need the memory for what follows.
-    primitives = {};
-    return {flatten(built, 0, leaf), bounds, 0};
+    const BuiltTree built(
+        device.get(), std::move(primitives),
+        {.width = kBvhWidth,
+         .depth = kLargestBvhDepth,
+         // Nodes with fewer children, but fuller blocks: a block costs the same whether it is full or
+         // not.
+         .min_leaf_size = leaf_size,
+         .max_leaf_size = leaf_size,
+         .block_size = leaf_size});
+    return {flatten(&built.root(), 0, leaf), built.bounds(), 0};
 }
 
 template <class Leaf>

@@ -1,0 +1,59 @@
+#pragma once
+/// Scenes for ray queries. Only on devices with DeviceFeatures::ray_queries.
+
+#include "gpu/buffer.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nusselt::gpu {
+
+/// Triangles that instances share: three indices of vertices for each. Either may be empty.
+struct RayTriangles {
+    std::span<const std::uint32_t> opaque;  ///< geometry 0: rays end there
+    std::span<const std::uint32_t> partial; ///< geometry 1: shaders decide, once or more often for each
+};
+
+struct RayInstance {
+    std::uint32_t triangles;                 ///< index of a RayTriangles
+    std::array<float, 12> world_from_object; ///< rows of four: the linear part, then the translation
+};
+
+/// A scene of instances, immutable.
+class AccelerationStructure {
+public:
+    /// Builds it on the device.
+    /// \param positions three coordinates for each vertex of all triangles.
+    /// \param triangles what instances are made of.
+    /// \param instances their index is what shaders read as their custom index: fewer than 2^24. Those without triangles
+    ///        are left out.
+    /// \throws Error if there are more instances, or the device has no memory for it.
+    AccelerationStructure(const Device& device, std::span<const float> positions,
+                          std::span<const RayTriangles> triangles, std::span<const RayInstance> instances);
+
+    vk::AccelerationStructureKHR handle() const { return *top_.handle; }
+
+private:
+    /// One of its parts, in memory of its own.
+    struct Level {
+        Buffer memory;
+        vk::raii::AccelerationStructureKHR handle;
+    };
+
+    static Level build(const Device& device, vk::AccelerationStructureTypeKHR type,
+                       const std::vector<vk::AccelerationStructureGeometryKHR>& geometries,
+                       const std::vector<std::uint32_t>& counts);
+    static Level build_triangles(const Device& device, const Buffer* positions, std::size_t position_count,
+                                 const RayTriangles& triangles);
+    static std::vector<Level> build_all(const Device& device, std::span<const float> positions,
+                                        std::span<const RayTriangles> triangles);
+    Level build_top(const Device& device, std::span<const RayTriangles> triangles,
+                    std::span<const RayInstance> instances) const;
+
+    std::vector<Level> bottom_;
+    Level top_;
+};
+
+} // namespace nusselt::gpu
