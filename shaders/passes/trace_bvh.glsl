@@ -110,52 +110,70 @@ BvhRay ray_in_space(ShadowRay ray, uint number) {
     return bvh_ray(linear * ray.origin + vec3(m[3], m[7], m[11]), linear * ray.direction, ray.t_far);
 }
 
-/// Whether something is in the way from the origin to origin + t_far * direction, both ends excluded. Blocked for rays with
-/// NaN, coordinates beyond 1e18, a direction of zero or a negative t_far.
+/// Goes on to the next leaf whose box the ray hits, which is where lanes wait for each other: those of a group then test
+/// triangles together.
+/// \param node where to begin; then what follows the leaf
+/// \returns the link of the leaf, kBvhInner if there are no more before the end
+uint next_leaf(BvhRay ray, inout uint node, uint end) {
+    uint leaf = kBvhInner;
+    while (node < end && leaf == kBvhInner) {
+        uint link = bvh_nodes[node].link;
+        bool is_inner = (link & kBvhKindMask) == kBvhInner;
+        bool hits = hits_box(ray, bvh_nodes[node]);
+        if (hits && !is_inner) leaf = link;
+        node = is_inner && !hits ? link : node + 1u;
+    }
+    return leaf;
+}
+
+// Flags and not returns leave the loops below: where drivers turn returns into flags, these guard all that follows, which
+// costs a quarter of the rays per second.
+
+/// \param local the ray where the leaf is
+/// \param index first triangle of a leaf
+bool hits_leaf(ShadowRay ray, BvhRay local, uint index, uint instance) {
+    bool hits = false;
+    uint number;
+    do {
+        number = bvh_triangles[index].number;
+        vec2 barycentrics;
+        if (hits_triangle(local, bvh_triangles[index], barycentrics)) {
+            uint triangle = number & kBvhNumberMask;
+            hits = (number & kBvhPartial) == 0u ||
+                   meets_surface(ray, triangle, instance, alpha_at(triangle, barycentrics, instance));
+        }
+        ++index;
+    } while (!hits && (number & kBvhLastOfLeaf) == 0u);
+    return hits;
+}
+
+/// Whether something is in the way from the origin to origin + t_far * direction, both ends excluded. Rays with NaN,
+/// coordinates beyond 1e18, a direction of zero or a negative t_far count as blocked.
 bool occluded(vec3 origin, vec3 direction, float t_far) {
     ShadowRay ray = ShadowRay(origin, direction, t_far);
     if (!is_valid(ray)) return true;
-    uint space = 0u;
-    BvhRay local = ray_in_space(ray, space);
+    uint space = 0u; // number of an instance
     uint node = bvh_instances[0].first_node;
-    uint end = bvh_instances[0].end_node;
-    uint node_of_world = 0u; // where to go on after an instance
+    uint node_of_world = node; // where to go on after an instance
     for (;;) {
-        if (node >= end) {
+        BvhRay local = ray_in_space(ray, space);
+        uint end = bvh_instances[space].end_node;
+        uint leaf;
+        bool hits = false;
+        do {
+            leaf = next_leaf(local, node, end);
+            if ((leaf & kBvhKindMask) != kBvhTriangles) break;
+            hits = hits_leaf(ray, local, leaf & ~kBvhKindMask, space - 1u);
+        } while (!hits);
+        if (hits) return true;
+        if (leaf != kBvhInner) {
+            node_of_world = node;
+            space = leaf & ~kBvhKindMask;
+            node = bvh_instances[space].first_node;
+        } else {
             if (space == 0u) return false;
             space = 0u;
-            local = ray_in_space(ray, space);
             node = node_of_world;
-            end = bvh_instances[0].end_node;
-            continue;
-        }
-        uint link = bvh_nodes[node].link;
-        uint kind = link & kBvhKindMask;
-        uint index = link & ~kBvhKindMask;
-        if (!hits_box(local, bvh_nodes[node])) {
-            node = kind == kBvhInner ? index : node + 1u;
-            continue;
-        }
-        ++node;
-        if (kind == kBvhTriangles) {
-            uint number;
-            do {
-                number = bvh_triangles[index].number;
-                vec2 barycentrics;
-                if (hits_triangle(local, bvh_triangles[index], barycentrics)) {
-                    if ((number & kBvhPartial) == 0u) return true;
-                    uint triangle = number & kBvhNumberMask;
-                    float alpha = alpha_at(triangle, barycentrics, space - 1u);
-                    if (meets_surface(ray, triangle, space - 1u, alpha)) return true;
-                }
-                ++index;
-            } while ((number & kBvhLastOfLeaf) == 0u);
-        } else if (kind == kBvhInstance) {
-            space = index;
-            local = ray_in_space(ray, space);
-            node_of_world = node;
-            node = bvh_instances[index].first_node;
-            end = bvh_instances[index].end_node;
         }
     }
 }
