@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <string>
 
 namespace nusselt::gpu {
@@ -12,6 +13,12 @@ using Use = vk::BufferUsageFlagBits;
 
 constexpr vk::BufferUsageFlags kInputUse =
     Use::eAccelerationStructureBuildInputReadOnlyKHR | Use::eShaderDeviceAddress | Use::eTransferDst;
+/// What Vulkan aligns acceleration structures in buffers to [bytes].
+constexpr std::size_t kAlignment = 256;
+
+std::uint64_t aligned(std::uint64_t x, std::uint64_t alignment) {
+    return (x + alignment - 1) / alignment * alignment;
+}
 
 template <class T>
 Buffer make_input(const Device& device, std::span<const T> values) {
@@ -20,83 +27,101 @@ Buffer make_input(const Device& device, std::span<const T> values) {
     return buffer;
 }
 
-/// Scratch memory, with room to align it.
-vk::DeviceAddress aligned(const Device& device, const Buffer& scratch) {
-    const vk::DeviceAddress alignment = device.scratch_alignment();
-    return (scratch.address() + alignment - 1) / alignment * alignment;
-}
-
-vk::AccelerationStructureGeometryKHR triangle_geometry(const Buffer& positions, std::size_t position_count,
-                                                       const Buffer& indices, vk::GeometryFlagsKHR flags) {
-    vk::AccelerationStructureGeometryTrianglesDataKHR data(
-        vk::Format::eR32G32B32Sfloat, vk::DeviceOrHostAddressConstKHR(positions.address()), 3 * sizeof(float),
-        static_cast<std::uint32_t>(position_count - 1), vk::IndexType::eUint32,
-        vk::DeviceOrHostAddressConstKHR(indices.address()));
-    return {vk::GeometryTypeKHR::eTriangles, data, flags};
-}
-
 } // namespace
 
-AccelerationStructure::Level
-AccelerationStructure::build(const Device& device, vk::AccelerationStructureTypeKHR type,
-                             const std::vector<vk::AccelerationStructureGeometryKHR>& geometries,
-                             const std::vector<std::uint32_t>& counts) {
-    vk::AccelerationStructureBuildGeometryInfoKHR info(
-        type, vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace);
-    info.setGeometries(geometries);
-    const vk::AccelerationStructureBuildSizesInfoKHR sizes =
-        device.handle().getAccelerationStructureBuildSizesKHR(vk::AccelerationStructureBuildTypeKHR::eDevice,
-                                                              info, counts);
-    Buffer memory(device, sizes.accelerationStructureSize, Residence::device_local,
-                  Use::eAccelerationStructureStorageKHR | Use::eShaderDeviceAddress);
-    vk::raii::AccelerationStructureKHR handle(
-        device.handle(), vk::AccelerationStructureCreateInfoKHR({}, memory.handle(), 0,
-                                                                sizes.accelerationStructureSize, type));
-    const Buffer scratch(device,
-                         std::max<std::size_t>(sizes.buildScratchSize, 1) + device.scratch_alignment(),
-                         Residence::device_local, Use::eStorageBuffer | Use::eShaderDeviceAddress);
-    info.dstAccelerationStructure = *handle;
-    info.scratchData.deviceAddress = aligned(device, scratch);
-    std::vector<vk::AccelerationStructureBuildRangeInfoKHR> ranges;
-    for (const std::uint32_t count : counts) ranges.emplace_back(count, 0, 0, 0);
+/// What one structure is made of.
+struct AccelerationStructure::Input {
+    std::vector<vk::AccelerationStructureGeometryKHR> geometries;
+    std::vector<std::uint32_t> counts;       ///< of primitives
+    std::vector<std::uint32_t> byte_offsets; ///< of their indices
+
+    vk::AccelerationStructureBuildGeometryInfoKHR info(vk::AccelerationStructureTypeKHR type) const {
+        vk::AccelerationStructureBuildGeometryInfoKHR result(
+            type, vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace);
+        result.setGeometries(geometries);
+        return result;
+    }
+};
+
+AccelerationStructure::Levels AccelerationStructure::build(const Device& device,
+                                                           vk::AccelerationStructureTypeKHR type,
+                                                           const std::vector<Input>& inputs) {
+    // Scenes have more objects than drivers allow allocations: they share memory, and scratch memory in turn.
+    std::vector<std::uint64_t> offsets = {0}, sizes;
+    std::uint64_t scratch_size = 0;
+    for (const Input& input : inputs) {
+        const vk::AccelerationStructureBuildSizesInfoKHR needed =
+            device.handle().getAccelerationStructureBuildSizesKHR(
+                vk::AccelerationStructureBuildTypeKHR::eDevice, input.info(type), input.counts);
+        sizes.push_back(needed.accelerationStructureSize);
+        offsets.push_back(aligned(offsets.back() + needed.accelerationStructureSize, kAlignment));
+        scratch_size = std::max(scratch_size, needed.buildScratchSize);
+    }
+    Levels levels{Buffer(device, offsets.back(), Residence::device_local,
+                         Use::eAccelerationStructureStorageKHR | Use::eShaderDeviceAddress),
+                  {}};
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+        levels.handles.emplace_back(
+            device.handle(),
+            vk::AccelerationStructureCreateInfoKHR({}, levels.memory.handle(), offsets[i], sizes[i], type));
+    const std::uint64_t alignment = device.scratch_alignment();
+    const Buffer scratch(device, scratch_size + alignment, Residence::device_local,
+                         Use::eStorageBuffer | Use::eShaderDeviceAddress);
     device.run([&](const Device::Commands& commands) {
-        commands.buildAccelerationStructuresKHR(info, ranges.data());
+        for (std::size_t i = 0; i < inputs.size(); ++i) {
+            auto info = inputs[i].info(type);
+            info.dstAccelerationStructure = *levels.handles[i];
+            info.scratchData.deviceAddress = aligned(scratch.address(), alignment);
+            std::vector<vk::AccelerationStructureBuildRangeInfoKHR> ranges;
+            for (std::size_t k = 0; k < inputs[i].counts.size(); ++k)
+                ranges.emplace_back(inputs[i].counts[k], inputs[i].byte_offsets[k], 0, 0);
+            commands.buildAccelerationStructuresKHR(info, ranges.data());
+            full_barrier(commands);
+        }
     });
-    return {std::move(memory), std::move(handle)};
-}
-
-AccelerationStructure::Level AccelerationStructure::build_triangles(const Device& device,
-                                                                    const Buffer* positions,
-                                                                    std::size_t position_count,
-                                                                    const RayTriangles& triangles) {
-    const Buffer opaque = make_input(device, triangles.opaque);
-    const Buffer partial = make_input(device, triangles.partial);
-    using Flag = vk::GeometryFlagBitsKHR;
-    return build(device, vk::AccelerationStructureTypeKHR::eBottomLevel,
-                 {triangle_geometry(*positions, position_count, opaque, Flag::eOpaque),
-                  triangle_geometry(*positions, position_count, partial, Flag::eNoDuplicateAnyHitInvocation)},
-                 {static_cast<std::uint32_t>(triangles.opaque.size() / 3),
-                  static_cast<std::uint32_t>(triangles.partial.size() / 3)});
-}
-
-std::vector<AccelerationStructure::Level>
-AccelerationStructure::build_all(const Device& device, std::span<const float> positions,
-                                 std::span<const RayTriangles> triangles) {
-    const Buffer vertices = make_input(device, positions);
-    const std::size_t count = std::max<std::size_t>(positions.size() / 3, 1);
-    std::vector<Level> levels;
-    for (const RayTriangles& of_level : triangles)
-        levels.push_back(build_triangles(device, &vertices, count, of_level));
     return levels;
 }
 
-AccelerationStructure::Level AccelerationStructure::build_top(const Device& device,
-                                                              std::span<const RayTriangles> triangles,
-                                                              std::span<const RayInstance> instances) const {
+AccelerationStructure::Levels AccelerationStructure::build_bottom(const Device& device,
+                                                                  std::span<const float> positions,
+                                                                  std::span<const RayTriangles> triangles) {
+    std::vector<std::uint32_t> all_indices;
+    for (const RayTriangles& part : triangles)
+        for (const auto& indices : {part.opaque, part.partial})
+            all_indices.insert(all_indices.end(), indices.begin(), indices.end());
+    if (all_indices.size() > std::numeric_limits<std::uint32_t>::max() / sizeof(std::uint32_t))
+        throw Error(device.description().name + ": ray queries know at most 357 million triangles, not " +
+                    std::to_string(all_indices.size() / 3) + "; trace shadow rays without them");
+    const Buffer vertex_buffer = make_input(device, positions);
+    const Buffer index_buffer = make_input(device, std::span<const std::uint32_t>(all_indices));
+    const auto vertex_count = static_cast<std::uint32_t>(std::max<std::size_t>(positions.size() / 3, 1));
+    const vk::AccelerationStructureGeometryTrianglesDataKHR data(
+        vk::Format::eR32G32B32Sfloat, vk::DeviceOrHostAddressConstKHR(vertex_buffer.address()),
+        3 * sizeof(float), vertex_count - 1, vk::IndexType::eUint32,
+        vk::DeviceOrHostAddressConstKHR(index_buffer.address()));
+    std::vector<Input> inputs;
+    std::size_t first_index = 0;
+    for (const RayTriangles& part : triangles) {
+        Input& input = inputs.emplace_back();
+        const auto add = [&](std::span<const std::uint32_t> indices, vk::GeometryFlagsKHR flags) {
+            input.geometries.emplace_back(vk::GeometryTypeKHR::eTriangles, data, flags);
+            input.counts.push_back(static_cast<std::uint32_t>(indices.size() / 3));
+            input.byte_offsets.push_back(static_cast<std::uint32_t>(first_index * sizeof(std::uint32_t)));
+            first_index += indices.size();
+        };
+        add(part.opaque, vk::GeometryFlagBitsKHR::eOpaque);
+        add(part.partial, {});
+    }
+    return build(device, vk::AccelerationStructureTypeKHR::eBottomLevel, inputs);
+}
+
+AccelerationStructure::Levels AccelerationStructure::build_top(const Device& device,
+                                                               std::span<const RayTriangles> triangles,
+                                                               std::span<const RayInstance> instances) const {
     if (instances.size() >= 1u << 24)
         throw Error(device.description().name + ": ray queries know fewer than 2^24 instances, not " +
-                    std::to_string(instances.size()));
-    std::vector<vk::AccelerationStructureInstanceKHR> inputs;
+                    std::to_string(instances.size()) + "; trace shadow rays without them");
+    std::vector<vk::AccelerationStructureInstanceKHR> records;
     for (std::uint32_t i = 0; i < instances.size(); ++i) {
         const RayInstance& instance = instances[i];
         const RayTriangles& content = triangles[instance.triangles];
@@ -104,22 +129,23 @@ AccelerationStructure::Level AccelerationStructure::build_top(const Device& devi
         vk::TransformMatrixKHR transform;
         for (std::size_t k = 0; k < 12; ++k) transform.matrix[k / 4][k % 4] = instance.world_from_object[k];
         const vk::DeviceAddress address =
-            device.handle().getAccelerationStructureAddressKHR({*bottom_[instance.triangles].handle});
-        inputs.emplace_back(transform, i, 0xffu, 0u,
-                            vk::GeometryInstanceFlagBitsKHR::eTriangleFacingCullDisable, address);
+            device.handle().getAccelerationStructureAddressKHR({*bottom_.handles[instance.triangles]});
+        records.emplace_back(transform, i, 0xffu, 0u,
+                             vk::GeometryInstanceFlagBitsKHR::eTriangleFacingCullDisable, address);
     }
-    const Buffer buffer = make_input(device, std::span<const vk::AccelerationStructureInstanceKHR>(inputs));
+    const Buffer buffer = make_input(device, std::span<const vk::AccelerationStructureInstanceKHR>(records));
     const vk::AccelerationStructureGeometryInstancesDataKHR data(
         false, vk::DeviceOrHostAddressConstKHR(buffer.address()));
     return build(device, vk::AccelerationStructureTypeKHR::eTopLevel,
-                 {vk::AccelerationStructureGeometryKHR(vk::GeometryTypeKHR::eInstances, data)},
-                 {static_cast<std::uint32_t>(inputs.size())});
+                 {{{vk::AccelerationStructureGeometryKHR(vk::GeometryTypeKHR::eInstances, data)},
+                   {static_cast<std::uint32_t>(records.size())},
+                   {0}}});
 }
 
 AccelerationStructure::AccelerationStructure(const Device& device, std::span<const float> positions,
                                              std::span<const RayTriangles> triangles,
                                              std::span<const RayInstance> instances) try
-    : bottom_(build_all(device, positions, triangles)), top_(build_top(device, triangles, instances)) {
+    : bottom_(build_bottom(device, positions, triangles)), top_(build_top(device, triangles, instances)) {
     assert(device.features().ray_queries);
 } catch (const vk::SystemError& error) {
     rethrow(device.description().name + ": building an acceleration structure", error);

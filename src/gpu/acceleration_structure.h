@@ -26,34 +26,31 @@ class AccelerationStructure {
 public:
     /// Builds it on the device.
     /// \param positions three coordinates for each vertex of all triangles.
-    /// \param triangles what instances are made of.
+    /// \param triangles what instances are made of, at least one.
     /// \param instances their index is what shaders read as their custom index: fewer than 2^24. Those without triangles
     ///        are left out.
     /// \throws Error if there are more instances, or the device has no memory for it.
     AccelerationStructure(const Device& device, std::span<const float> positions,
                           std::span<const RayTriangles> triangles, std::span<const RayInstance> instances);
 
-    vk::AccelerationStructureKHR handle() const { return *top_.handle; }
+    vk::AccelerationStructureKHR handle() const { return *top_.handles.front(); }
 
 private:
-    /// One of its parts, in memory of its own.
-    struct Level {
+    /// Structures of one kind, in memory of their own.
+    struct Levels {
         Buffer memory;
-        vk::raii::AccelerationStructureKHR handle;
+        std::vector<vk::raii::AccelerationStructureKHR> handles;
     };
+    struct Input;
 
-    static Level build(const Device& device, vk::AccelerationStructureTypeKHR type,
-                       const std::vector<vk::AccelerationStructureGeometryKHR>& geometries,
-                       const std::vector<std::uint32_t>& counts);
-    static Level build_triangles(const Device& device, const Buffer* positions, std::size_t position_count,
-                                 const RayTriangles& triangles);
-    static std::vector<Level> build_all(const Device& device, std::span<const float> positions,
-                                        std::span<const RayTriangles> triangles);
-    Level build_top(const Device& device, std::span<const RayTriangles> triangles,
-                    std::span<const RayInstance> instances) const;
+    static Levels build(const Device& device, vk::AccelerationStructureTypeKHR type,
+                        const std::vector<Input>& inputs);
+    static Levels build_bottom(const Device& device, std::span<const float> positions,
+                               std::span<const RayTriangles> triangles);
+    Levels build_top(const Device& device, std::span<const RayTriangles> triangles,
+                     std::span<const RayInstance> instances) const;
 
-    std::vector<Level> bottom_;
-    Level top_;
+    Levels bottom_, top_;
 };
 
 } // namespace nusselt::gpu

@@ -14,7 +14,9 @@ std::string name_of(const Device& device, std::size_t bytes) {
 
 vk::raii::Buffer make_buffer(const Device& device, std::size_t bytes, vk::BufferUsageFlags use) {
     assert(bytes > 0);
-    if (bytes > device.limits().maxStorageBufferRange && use & vk::BufferUsageFlagBits::eStorageBuffer)
+    // What shaders and builders reach by address knows no limit.
+    const bool is_bound = !(use & vk::BufferUsageFlagBits::eShaderDeviceAddress);
+    if (is_bound && bytes > device.limits().maxStorageBufferRange)
         throw Error(name_of(device, bytes) + " is too large, the limit is " +
                     size_text(device.limits().maxStorageBufferRange) + "; ask for less");
     const vk::BufferCreateInfo info({}, bytes, use);
