@@ -54,8 +54,8 @@ BvhRay bvh_ray(vec3 origin, vec3 direction, float t_far) {
     return ray;
 }
 
-/// Which share of the distance the rounding errors of a box test are at most, and then some.
-const float kBvhSlack = 1.0 + 8.0 * kNusseltEpsilon;
+/// More than the rounding errors of the box test and of shearing, relative to the distance; division may err by 2.5 ulp.
+const float kBvhSlack = 1.0 + 16.0 * kNusseltEpsilon;
 
 bool hits_box(BvhRay ray, BvhNode node) {
     vec3 a = (vec3(node.lower[0], node.lower[1], node.lower[2]) - ray.origin) * ray.inverse;

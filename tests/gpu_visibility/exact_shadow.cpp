@@ -26,8 +26,8 @@ Sign sign_of(double x, double margin) {
 
 enum class Answer { no, maybe, yes };
 
-/// Whether signs are all alike. \param alike for others than none: whether they must be alike, or must differ
-Answer test(std::array<Sign, 3> signs) {
+/// Whether signs are all alike.
+Answer are_alike(std::array<Sign, 3> signs) {
     const auto has = [&](Sign sign) { return std::find(signs.begin(), signs.end(), sign) != signs.end(); };
     if (has(Sign::negative) && has(Sign::positive)) return Answer::no;
     return has(Sign::none) ? Answer::maybe : Answer::yes;
@@ -42,7 +42,7 @@ Answer hit(const std::array<Vec, 3>& corner, const Vec& origin, const Vec& direc
         const double distance = dot(cross(a, b), direction) / length(cross(minus(b, a), direction));
         return sign_of(distance, margin);
     };
-    const Answer inside = test({side(0), side(1), side(2)});
+    const Answer inside = are_alike({side(0), side(1), side(2)});
     if (inside == Answer::no) return inside;
     // The ends are on different sides of the plane.
     const Vec normal = cross(minus(corner[1], corner[0]), minus(corner[2], corner[0]));

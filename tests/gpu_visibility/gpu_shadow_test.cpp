@@ -4,7 +4,9 @@
 #include "gpu_tracer.h"
 #include "meshes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace nusselt::gpu_visibility_test {

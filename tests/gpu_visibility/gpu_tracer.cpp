@@ -51,26 +51,30 @@ const gpu::Buffer* GpuTracer::add(const std::vector<T>& values) {
     return buffers_.back().get();
 }
 
-GpuTracer::GpuTracer(const gpu::Device& device, const scene::Scene& scene, const visibility::TriangleBvh& bvh)
+GpuTracer::GpuTracer(const gpu::Device& device, Way way)
     : device_(&device),
-      pipeline_(device, shader_of(Way::bvh), interface_of(Way::bvh)),
+      pipeline_(device, shader_of(way), interface_of(way)),
       rays_(device, kBatch * sizeof(Ray), gpu::Residence::host_visible),
-      results_(device, kBatch * sizeof(std::uint32_t), gpu::Residence::host_visible) {
+      results_(device, kBatch * sizeof(std::uint32_t), gpu::Residence::host_visible) {}
+
+GpuTracer::GpuTracer(const gpu::Device& device, const scene::Scene& scene, const visibility::TriangleBvh& bvh)
+    : GpuTracer(device, Way::bvh) {
+    bind(scene, bvh);
+}
+
+GpuTracer::GpuTracer(const gpu::Device& device, const scene::Scene& scene, Way way) : GpuTracer(device, way) {
+    if (way == Way::bvh)
+        bind(scene, visibility::make_triangle_bvh(scene));
+    else
+        bind_query(scene);
+}
+
+void GpuTracer::bind(const scene::Scene& scene, const visibility::TriangleBvh& bvh) {
     pipeline_.bind(
         {&rays_, &results_, add(alphas_of(scene)), add(bvh.nodes), add(bvh.triangles), add(bvh.instances)});
 }
 
-GpuTracer::GpuTracer(const gpu::Device& device, const scene::Scene& scene, Way way)
-    : device_(&device),
-      pipeline_(device, shader_of(way), interface_of(way)),
-      rays_(device, kBatch * sizeof(Ray), gpu::Residence::host_visible),
-      results_(device, kBatch * sizeof(std::uint32_t), gpu::Residence::host_visible) {
-    if (way == Way::bvh) {
-        const visibility::TriangleBvh bvh = visibility::make_triangle_bvh(scene);
-        pipeline_.bind({&rays_, &results_, add(alphas_of(scene)), add(bvh.nodes), add(bvh.triangles),
-                        add(bvh.instances)});
-        return;
-    }
+void GpuTracer::bind_query(const scene::Scene& scene) {
     const visibility::QueryGeometry geometry = visibility::make_query_geometry(scene);
     std::vector<gpu::RayTriangles> triangles;
     for (const visibility::QueryPart& part : geometry.parts) triangles.push_back({part.opaque, part.partial});
@@ -80,7 +84,7 @@ GpuTracer::GpuTracer(const gpu::Device& device, const scene::Scene& scene, Way w
                                                                 : scene.instances[i - 1].world_from_object});
     const auto* positions = scene.positions.empty() ? nullptr : &scene.positions[0].x;
     structure_ = std::make_unique<gpu::AccelerationStructure>(
-        device, std::span(positions, 3 * scene.positions.size()), triangles, instances);
+        *device_, std::span(positions, 3 * scene.positions.size()), triangles, instances);
     pipeline_.bind(
         {&rays_, &results_, add(alphas_of(scene)), add(geometry.instances), add(geometry.partial_triangles)});
     pipeline_.bind(*structure_);

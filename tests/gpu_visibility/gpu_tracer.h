@@ -31,6 +31,9 @@ public:
     std::vector<std::uint32_t> trace(const std::vector<Ray>& rays);
 
 private:
+    GpuTracer(const gpu::Device& device, Way way);
+    void bind(const scene::Scene& scene, const visibility::TriangleBvh& bvh);
+    void bind_query(const scene::Scene& scene);
     template <class T>
     const gpu::Buffer* add(const std::vector<T>& values);
 
