@@ -16,6 +16,8 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+static_assert(kBvhWidth <= int{kLargestTreeWidth} && kBvhWidth <= int{kLargestLeafSize});
+
 using Corners = std::array<std::array<float, 3>, 3>;
 
 Corners corners_of(const scene::Scene& scene, std::uint32_t triangle) {

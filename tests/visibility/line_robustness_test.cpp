@@ -146,6 +146,15 @@ TEST(HostileTriangles, InOnePlaceGiveNoDeepHierarchy) {
     EXPECT_LE(difference(trace<16>(scene, LineBvh(scene), query), cut_by_all(one, query)), 1e-6);
 }
 
+TEST(HostileTriangles, WithNanInOneCornerAreLeftOut) {
+    scene::Scene scene = make_empty_scene();
+    for (int corner = 0; corner < 3; ++corner) {
+        add_triangle(scene, {0, -4, 1}, {4, -4, 1}, {2, 4, 1});
+        scene.positions[static_cast<std::size_t>(4 * corner)].y = kNan;
+    }
+    EXPECT_EQ(LineBvh(scene).view().full_block_count, 0u);
+}
+
 TEST(HostileTriangles, ScenesWithoutAnyAreFine) {
     scene::Scene scene = make_empty_scene();
     add_ceiling_light(scene);
