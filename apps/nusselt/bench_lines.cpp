@@ -148,7 +148,8 @@ void setup_bench_lines(CLI::App& bench, int& exit_code) {
         "alone\n"
         "for a shadow ray to a point of the same light from the same shading point, in packets; and of the\n"
         "whole render phase for each line, over that for each point. Then, for each shading point and\n"
-        "light: boxes and triangles tested, and shadows of triangles that packs of lines were cut with; and\n"
+        "light: boxes and triangles tested, and shadows of triangles that were compared with packs of lines; "
+        "and\n"
         "visible parts for each line. Medians of runs in turn.");
     add_frame_options(*command, *options, "pixel and light, of the rendering with points");
     command->add_option("--lines", options->counts, "Lines per shading point and light, separated by commas")

@@ -7,12 +7,12 @@ namespace nusselt::render_cpu {
 
 namespace {
 
-// Calibrated with `nusselt bench line-efficiency`. The time for lines grows with the number of blocks that each pack of
-// them is cut with, that for points in their place with the number of points.
+// Measured by `nusselt bench line-efficiency`, not derived (docs/performance.md, entry 37): the more lines there are, the
+// fewer blocks concern each pack, since neighbours share one.
 constexpr double kBlocksPerSquaredLine = 24.0 / (16 * 16);
 constexpr double kPointsExponent = 1.4;
 
-/// Fewer lines take as long as a whole pack of them.
+/// With AVX-512, fewer lines take as long as this many. The same everywhere, so that images take points in the same places.
 constexpr int kFewestLines = 16;
 
 /// Of a pixel and light: what stratified samples are made for.

@@ -37,7 +37,7 @@ struct LineStatistics {
     std::uint64_t lines = 0;
     std::uint64_t parts = 0;       ///< visible ones of all lines
     std::uint64_t line_lights = 0; ///< pairs of a shading point and a light with lines
-    /// Pairs that got points: there are many occluders, or partly present ones.
+    /// Pairs that got points: there are many occluders, or partly present ones, or too few lines.
     std::uint64_t point_lights = 0;
     std::uint64_t box_tests = 0;      ///< of boxes against what lines span with their shading point
     std::uint64_t triangle_tests = 0; ///< of triangles against that

@@ -20,6 +20,8 @@ Float3 read_vector_or_zero(const JsonNode& camera, std::string_view field) {
     return node ? node->triple(-kMaxCoordinate, kMaxCoordinate) : Float3{0, 0, 0};
 }
 
+bool is_zero(const Float3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
 /// Whether rays through different pixels differ.
 bool spans_an_image(const Float3& right, const Float3& down) {
     return length(cross(to_double(right), to_double(down))) > 0;
@@ -41,7 +43,7 @@ std::string to_camera_text(const FilmedCamera& view) {
     add("corner", triple_text(c.corner));
     add("right", across(c.right));
     add("down", along(c.down));
-    if (spans_an_image(c.origin_right, c.origin_down)) {
+    if (!is_zero(c.origin_right) || !is_zero(c.origin_down)) {
         add("origin_right", across(c.origin_right));
         add("origin_down", along(c.origin_down));
     }
@@ -70,6 +72,8 @@ FilmedCamera read_camera_file(const std::filesystem::path& path) {
     if (!spans_an_image(view.camera.right, view.camera.down) &&
         !spans_an_image(view.camera.origin_right, view.camera.origin_down))
         node.fail("right and down (or origin_right and origin_down) must not be parallel");
+    if (is_zero(view.camera.corner) && !spans_an_image(view.camera.right, view.camera.down))
+        node.at("corner").fail("must not be zero where rays are parallel");
     return view;
 }
 

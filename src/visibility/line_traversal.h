@@ -26,26 +26,34 @@ public:
     template <class Shadow>
     NUSSELT_INLINE void add(TracedLines<Real>& lines, const Shadow& shadow,
                             visibility::LineCounters& counters) noexcept {
+        join(lines, hidden_interval(shadow, lines.offset), counters);
+    }
+    NUSSELT_INLINE void add(TracedLines<Real>& lines, const TriangleShadow<float>& shadow,
+                            visibility::LineCounters& counters) noexcept {
+        const auto crosses = (Real(shadow.first) <= lines.offset) & (lines.offset < Real(shadow.last));
+        if (any(crosses & lines.parts.lit()))
+            join(lines, hidden_interval(broadcast<Real>(shadow), lines.offset), counters);
+    }
+
+    NUSSELT_INLINE void cut(TracedLines<Real>& lines) const noexcept { lines.parts.cut(joined_); }
+
+private:
+    NUSSELT_INLINE void join(TracedLines<Real>& lines, const Interval<Real>& interval,
+                             visibility::LineCounters& counters) noexcept {
         ++counters.line_tests;
-        const Interval<Real> hidden = hidden_interval(shadow, lines.offset);
-        const auto joins = (hidden.begin > hidden.end) | (joined_.begin > joined_.end) |
-                           ((hidden.begin <= joined_.end) & (hidden.end >= joined_.begin));
-        if (all(joins)) {
+        const auto hides = interval.begin < interval.end; // nothing if NaN
+        const Interval<Real> none = empty_interval<Real>();
+        const Interval<Real> hidden{select(hides, interval.begin, none.begin),
+                                    select(hides, interval.end, none.end)};
+        const auto touches = (hidden.begin <= joined_.end) & (hidden.end >= joined_.begin);
+        if (all(touches | !hides | (joined_.begin > joined_.end) | !lines.parts.lit())) {
             joined_ = {min(joined_.begin, hidden.begin), max(joined_.end, hidden.end)};
         } else {
             lines.parts.cut(joined_);
             joined_ = hidden;
         }
     }
-    NUSSELT_INLINE void add(TracedLines<Real>& lines, const TriangleShadow<float>& shadow,
-                            visibility::LineCounters& counters) noexcept {
-        const auto crosses = (Real(shadow.first) <= lines.offset) & (lines.offset < Real(shadow.last));
-        if (any(crosses & lines.parts.lit())) add(lines, broadcast<Real>(shadow), counters);
-    }
 
-    NUSSELT_INLINE void cut(TracedLines<Real>& lines) const noexcept { lines.parts.cut(joined_); }
-
-private:
     Interval<Real> joined_ = empty_interval<Real>();
 };
 
@@ -121,8 +129,15 @@ private:
                 stack[size] = node.child[__builtin_ctz(bits)];
                 prefetch(stack[size++]);
             }
-            return true;
+        } else {
+            push_closest_last(node, bits, space, stack, size);
         }
+        return true;
+    }
+
+    NUSSELT_INLINE void push_closest_last(const visibility::LineBvhNode& node, std::uint32_t bits,
+                                          const TracedSpace& space, std::uint32_t* stack,
+                                          int& size) const noexcept {
         float depth[visibility::kBvhWidth];
         depths(node, space).store(depth);
         float depth_of[visibility::kBvhWidth];
@@ -138,7 +153,6 @@ private:
             stack[k] = node.child[child];
             depth_of[k - first] = depth[child];
         }
-        return true;
     }
 
     /// Memory is what takes most of the time in large scenes.

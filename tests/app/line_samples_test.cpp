@@ -72,7 +72,8 @@ TEST_F(CommandLine, RefusesOptionsThatLinesHaveNoUseFor) {
 }
 
 TEST_F(CommandLine, PartsOfLineSamplesMergeToTheWholeImage) {
-    const std::string lines = kRender + "--integrator lines --lines 2 --layers all --spp 2 ";
+    const std::string lines =
+        kRender + "--integrator lines --lines 2 --many-occluders lines --layers all --spp 2 ";
     ASSERT_EQ(run(lines + "-o whole.exr").exit_code, 0);
     ASSERT_EQ(run(lines + "--part 1/2 -o 1.exr").exit_code, 0);
     ASSERT_EQ(run(lines + "--part 2/2 -o 2.exr").exit_code, 0);

@@ -39,6 +39,8 @@ protected:
             settings.seed = static_cast<std::uint32_t>(first_seed + i);
             const auto result = renderer.render(settings, render_cpu::choose_isa());
             EXPECT_EQ(result.statistics.rejected_samples, 0u);
+            if (settings.integrator == render::Integrator::lines)
+                EXPECT_GT(result.statistics.lines.lines, 0u);
             statistics.add(result.image);
         }
         return statistics;
@@ -47,7 +49,7 @@ protected:
     render::RenderSettings line_settings() const {
         render::RenderSettings settings = settings_;
         settings.integrator = render::Integrator::lines;
-        settings.lines.count = 4;
+        settings.lines.count = 16;
         return settings;
     }
 
@@ -85,9 +87,10 @@ TEST_P(LineSamplesOfScene, ThatAreTooDarkAreRejected) {
     for (scene::PolygonLight& light : dark.polygon_lights)
         for (float* channel : {&light.radiance.x, &light.radiance.y, &light.radiance.z}) *channel *= 0.98f;
     const render_cpu::Renderer mutant(dark, render_cpu::default_thread_count());
-    EXPECT_FALSE(statistics_of(mutant, line_settings(), 1000)
-                     .compare(statistics_of(renderer_, settings_, 0))
-                     .passes());
+    render::RenderSettings settings = line_settings();
+    settings.lines.many_occluders = render::ManyOccluders::lines;
+    EXPECT_FALSE(
+        statistics_of(mutant, settings, 1000).compare(statistics_of(renderer_, settings_, 0)).passes());
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, LineSamplesOfScene,

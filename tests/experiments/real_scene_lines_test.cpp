@@ -42,7 +42,7 @@ RenderSettings line_settings(LineShading shading, ManyOccluders many_occluders) 
     RenderSettings settings = point_settings();
     settings.samples = 1;
     settings.integrator = Integrator::lines;
-    settings.lines.count = 8;
+    settings.lines.count = 16;
     settings.lines.shading = shading;
     settings.lines.many_occluders = many_occluders;
     settings.seed = 1000; // other numbers than those of points
@@ -64,6 +64,11 @@ protected:
         for (int i = 0; i < kFrames; ++i, ++settings.seed) {
             const render_cpu::RenderResult result = renderer.render(settings, render_cpu::choose_isa());
             EXPECT_EQ(result.statistics.rejected_samples, 0u);
+            if (settings.integrator == Integrator::lines) {
+                EXPECT_GT(result.statistics.lines.lines, 0u);
+                if (settings.lines.many_occluders == ManyOccluders::points)
+                    EXPECT_GT(result.statistics.lines.point_lights, 0u);
+            }
             statistics.add(result.image);
         }
         return statistics;

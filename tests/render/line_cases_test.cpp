@@ -85,20 +85,21 @@ void make_gauze(scene::Scene& scene) {
 /// Random orientations in particular.
 TEST(LineOrPoints, DoesNotDependOnRandomNumbers) {
     for (const bool is_gauze : {false, true}) {
-        scene::Scene scene = make_soup(is_gauze ? 40 : 300);
+        scene::Scene scene = make_soup(is_gauze ? 40 : 900);
         if (is_gauze) make_gauze(scene);
         const render_cpu::Renderer renderer(scene, 2);
         for (const auto orientation : render::kLineOrientations) {
-            RenderSettings settings = line_settings(4);
+            RenderSettings settings = line_settings(16);
             settings.lines.orientation = orientation;
             settings.lines.many_occluders = is_gauze ? ManyOccluders::lines : ManyOccluders::points;
             settings.seed = 1;
-            const auto count_points = [&] {
-                return renderer.render(settings, render_cpu::choose_isa()).statistics.lines.point_lights;
+            const auto count = [&] {
+                return renderer.render(settings, render_cpu::choose_isa()).statistics.lines;
             };
+            const auto count_points = [&] { return count().point_lights; };
             const std::uint64_t expected = count_points();
-            EXPECT_GT(expected, 0u);
-            EXPECT_LT(expected, std::uint64_t(kSize * kSize));
+            EXPECT_GT(expected, 0u) << "points somewhere";
+            EXPECT_GT(count().lines, 0u) << "lines elsewhere";
             for (settings.seed = 2; settings.seed <= 8; ++settings.seed)
                 EXPECT_EQ(count_points(), expected) << name_of(orientation) << ", " << settings.seed;
         }
@@ -126,6 +127,12 @@ TEST(LineOrPoints, HaveTheMeanOfPointsWithManyCameraRays) {
                       kLargestT)
                 << name_of(order) << ", " << name_of(orientation);
         }
+}
+
+TEST(LineOrPoints, TakesMoreOccludersForMoreLines) {
+    EXPECT_EQ(render_cpu::most_occluders_for_lines(15), -1);
+    EXPECT_EQ(render_cpu::most_occluders_for_lines(16), 24);
+    EXPECT_EQ(render_cpu::most_occluders_for_lines(32), 96);
 }
 
 /// Stratified samples are made for 2^22 of a pixel.

@@ -114,6 +114,7 @@ std::vector<RenderSettings> varied_settings() {
     all[2].lines.shading = LineShading::analytic;
     all[2].lines.count = 100;
     all[3].lines.many_occluders = ManyOccluders::points;
+    all[3].lines.count = 16;
     for (RenderSettings& settings : all) {
         settings.pixel_position = render::PixelPosition::jittered;
         settings.samples = 2;

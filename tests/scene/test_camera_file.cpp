@@ -82,6 +82,13 @@ TEST(CameraFile, SaysWhatIsWrong) {
               std::string::npos);
 }
 
+TEST(CameraFile, RefusesRaysWithoutADirection) {
+    const std::string message = message_of(
+        R"({"version": 1, "film": [64, 48], "camera": {"origin": [0, 0, 0], "corner": [0, 0, 0],
+            "right": [0, 0, 0], "down": [0, 0, 0], "origin_right": [1, 0, 0], "origin_down": [0, 1, 0]}})");
+    EXPECT_EQ(message, ": camera.corner: must not be zero where rays are parallel");
+}
+
 } // namespace
 
 } // namespace nusselt::scene

@@ -43,12 +43,10 @@ TEST_F(LightEditsTest, MoveAndResizeOneLight) {
     for (std::size_t i = 0; i < before.vertices.size(); ++i)
         shift = shift + (1.0 / static_cast<double>(before.vertices.size())) *
                             (to_double(after.vertices[i]) - to_double(before.vertices[i]));
-    // Of a rectangle the centroid is the mean of the vertices.
-    if (before.vertices.size() == 4) {
-        EXPECT_NEAR(shift.x, 0.25, 1e-4);
-        EXPECT_NEAR(shift.y, -0.5, 1e-4);
-        EXPECT_NEAR(shift.z, 1, 1e-4);
-    }
+    ASSERT_EQ(before.vertices.size(), 4u) << "of a rectangle the centroid is the mean of the vertices";
+    EXPECT_NEAR(shift.x, 0.25, 1e-4);
+    EXPECT_NEAR(shift.y, -0.5, 1e-4);
+    EXPECT_NEAR(shift.z, 1, 1e-4);
 }
 
 TEST_F(LightEditsTest, SwitchedOffLightsEmitNothing) {
@@ -70,7 +68,10 @@ TEST_F(LightEditsTest, TheRigDoesTheSame) {
     const scene::Scene edited = edits.applied_to(scene_);
     ASSERT_EQ(by_rig.polygon_lights.size(), edited.polygon_lights.size());
     ASSERT_EQ(by_rig.line_lights.size(), edited.line_lights.size());
-    for (std::size_t i = 0; i < edited.polygon_lights.size(); ++i)
+    for (std::size_t i = 0; i < edited.line_lights.size(); ++i)
+        EXPECT_EQ(by_rig.line_lights[i].radiance.y, edited.line_lights[i].radiance.y);
+    for (std::size_t i = 0; i < edited.polygon_lights.size(); ++i) {
+        EXPECT_EQ(by_rig.polygon_lights[i].radiance.y, edited.polygon_lights[i].radiance.y);
         for (std::size_t k = 0; k < edited.polygon_lights[i].vertices.size(); ++k) {
             const scene::Float3& a = edited.polygon_lights[i].vertices[k];
             const scene::Float3& b = by_rig.polygon_lights[i].vertices[k];
@@ -78,6 +79,7 @@ TEST_F(LightEditsTest, TheRigDoesTheSame) {
             EXPECT_EQ(a.y, b.y);
             EXPECT_EQ(a.z, b.z);
         }
+    }
 }
 
 } // namespace

@@ -11,11 +11,11 @@ NUSSELT_NAMESPACE_BEGIN
 
 /// \tparam Real  float, double, long double or a pack: a line per lane, of one light and surface point.
 /// \tparam N     bound on the number of vertices of the light.
-/// \tparam Nodes of the table, a power of two, even ones; half as many are added around highlights that are narrower than the distance of
-///               two. Each costs as much as a line without shadows.
+/// \tparam Nodes of the table, a power of two, even ones; half as many are added around highlights that are narrower than
+///               the distance of two. Each costs as much as a line without shadows.
 template <class Real, int N, int Nodes = 32>
 class ReflectedOffsets {
-    static_assert(Nodes >= 4 && (Nodes & (Nodes - 1)) == 0, "for the search by halves");
+    static_assert(Nodes >= 4 && (Nodes & (Nodes - 1)) == 0, "for the search by halves and the roots of place_nodes()");
     using Scalar = scalar_t<Real>;
     static constexpr int kLanes = RealTraits<Real>::kLanes;
     static constexpr int kPeakNodes = Nodes / 2; ///< the same on both sides
@@ -79,7 +79,10 @@ private:
     NUSSELT_HD void place_nodes(const LinePeak<Real>& peak) noexcept {
         constexpr Scalar kSpacing = Scalar(1) / Scalar(Nodes - 1);
         const Scalar centre = first_lane(family_.invert_by_length(peak.offset));
-        const Scalar width = first_lane(peak.width * family_.pdf_by_length(peak.offset));
+        // Not by the density, which is 0 at the tips of lights.
+        const Scalar width =
+            first_lane(Real(Scalar(0.5)) * (family_.invert_by_length(peak.offset + peak.width) -
+                                            family_.invert_by_length(peak.offset - peak.width)));
         Scalar around[kPeakNodes];
         // False for NaN.
         const bool has_peak = width < kSpacing && centre >= 0;

@@ -140,7 +140,8 @@ public:
                 scale_ * (factor_ * inverse)};
     }
 
-    /// Whose planes through the origin are closest to the pole of the lobe, among those with offsets in the interval.
+    /// The offset, among those in the interval, whose plane through the origin is closest to the pole of the lobe, and by
+    /// how much the offset changes until that plane has turned away from it.
     NUSSELT_INLINE LinePeak<Real> peak(const Interval<Real>& offsets) const noexcept {
         const Vec3<Real> moment = cross(origin_, along_);
         const Vec3<Real> slope = cross(across_, along_);

@@ -193,7 +193,7 @@ private:
     template <class SampleOffset>
     void add_lines(const ShadingPoint& point, const ParallelLines& lines, const SampleOffset& sample_offset,
                    const Range& range, LineSum& sum) noexcept {
-        constexpr std::uint32_t kBatch = kLanes * kLargestLinePackCount;
+        constexpr std::uint32_t kBatch = LineNumbers::kMost;
         for (std::uint32_t done = 0; done < range.count; done += kBatch) {
             const std::uint32_t rest = range.count - done;
             ChosenLines chosen[kLargestLinePackCount];

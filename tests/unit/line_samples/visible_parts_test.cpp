@@ -208,7 +208,7 @@ TEST(AboveHorizon, KeepsWhatFacesTheSurface) {
     const Vec3<float> normal{0, 0, 1};
     const Interval<float> whole{2, 4};
     const auto part = [&](float begin, float end) {
-        return above_horizon<float>({1, 0, begin}, {3, 0, end}, normal, whole);
+        return part_above_horizon<float>({1, 0, begin}, {3, 0, end}, normal, whole);
     };
     EXPECT_EQ(part(1, 3).begin, 2);
     EXPECT_EQ(part(1, 3).end, 4);
