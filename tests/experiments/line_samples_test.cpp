@@ -39,8 +39,9 @@ protected:
             settings.seed = static_cast<std::uint32_t>(first_seed + i);
             const auto result = renderer.render(settings, render_cpu::choose_isa());
             EXPECT_EQ(result.statistics.rejected_samples, 0u);
-            if (settings.integrator == render::Integrator::lines)
+            if (settings.integrator == render::Integrator::lines) {
                 EXPECT_GT(result.statistics.lines.lines, 0u);
+            }
             statistics.add(result.image);
         }
         return statistics;

@@ -66,8 +66,9 @@ protected:
             EXPECT_EQ(result.statistics.rejected_samples, 0u);
             if (settings.integrator == Integrator::lines) {
                 EXPECT_GT(result.statistics.lines.lines, 0u);
-                if (settings.lines.many_occluders == ManyOccluders::points)
+                if (settings.lines.many_occluders == ManyOccluders::points) {
                     EXPECT_GT(result.statistics.lines.point_lights, 0u);
+                }
             }
             statistics.add(result.image);
         }
