@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -65,9 +66,11 @@ void print_table(const ThreadsResult& result) {
                    row.choice_seconds / row.points_seconds, row.choice_is_extrapolated ? '*' : ' ',
                    row.loss());
     const auto first = crossover(rows);
-    fmt::print("{}; the choice takes up to {:.2f} times as long as the better of both\n\n",
-               first ? fmt::format("lines win from {} points", *first) : "lines do not win",
-               largest_loss(rows));
+    const double loss = largest_loss(rows);
+    fmt::print("{}; {}\n\n", first ? fmt::format("lines win from {} points", *first) : "lines do not win",
+               loss > 0
+                   ? fmt::format("the choice takes up to {:.2f} times as long as the better of both", loss)
+                   : "the choice cannot be judged: all its times are extrapolated");
 }
 
 std::string to_json(const std::vector<ThreadsResult>& results, const BenchLineEfficiencyOptions& options,
@@ -173,6 +176,8 @@ int run_bench_line_efficiency(const BenchLineEfficiencyOptions& options) {
     std::vector<int> threads = {1, render_cpu::default_thread_count()};
     if (options.threads) threads = {*options.threads};
 
+    if (scene.polygon_lights.empty()) throw std::runtime_error("the scene has no polygonal lights");
+
     std::vector<ThreadsResult> results;
     for (const int count : threads) {
         const render_cpu::Renderer renderer(scene, count);
@@ -181,6 +186,8 @@ int run_bench_line_efficiency(const BenchLineEfficiencyOptions& options) {
                                fmt::print(stderr, "threads {}, round {} of {}\n", count, round + 1,
                                           settings.rounds);
                            })});
+        if (!(results.back().efficiency.mean > 0))
+            throw std::runtime_error("the image is black: no surface faces a light");
     }
     write_results(options.json, to_json(results, options, settings, scene, isa), [&] {
         for (const ThreadsResult& result : results) print_table(result);

@@ -5,11 +5,21 @@
 #include "scene/number_text.h"
 #include "scene/vector_math.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace nusselt::scene {
 
 namespace {
 
 Float3 scaled(double factor, const Float3& v) { return to_float(factor * to_double(v)); }
+
+/// Directions are normalised in single precision, which squares them.
+constexpr float kLongestDirection = 1e9f;
+
+float largest_component(const Float3& v) {
+    return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+}
 
 Float3 read_vector(const JsonNode& camera, std::string_view field) {
     return camera.at(field).triple(-kMaxCoordinate, kMaxCoordinate);
@@ -74,6 +84,11 @@ FilmedCamera read_camera_file(const std::filesystem::path& path) {
         node.fail("right and down (or origin_right and origin_down) must not be parallel");
     if (is_zero(view.camera.corner) && !spans_an_image(view.camera.right, view.camera.down))
         node.at("corner").fail("must not be zero where rays are parallel");
+    const float longest =
+        std::max({largest_component(view.camera.corner), largest_component(view.camera.right),
+                  largest_component(view.camera.down)});
+    if (!(longest >= 1 / kLongestDirection && longest <= kLongestDirection))
+        node.fail("the largest component of corner, right and down must lie between 1e-9 and 1e9");
     return view;
 }
 

@@ -82,6 +82,17 @@ TEST(CameraFile, SaysWhatIsWrong) {
               std::string::npos);
 }
 
+TEST(CameraFile, RefusesDirectionsWhoseSquaresAreNoNumbers) {
+    for (const std::string size : {"1e-12", "1e12"})
+        EXPECT_NE(
+            message_of(
+                "{\"version\": 1, \"film\": [1, 1], \"camera\": {\"origin\": [0, 0, 0], \"corner\": [0, 0, " +
+                size + "], \"right\": [" + size + ", 0, 0], \"down\": [0, " + size + ", 0]}}")
+                .find("between 1e-9 and 1e9"),
+            std::string::npos)
+            << size;
+}
+
 TEST(CameraFile, RefusesRaysWithoutADirection) {
     const std::string message = message_of(
         R"({"version": 1, "film": [64, 48], "camera": {"origin": [0, 0, 0], "corner": [0, 0, 0],
