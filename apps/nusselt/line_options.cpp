@@ -48,18 +48,20 @@ void add_line_options(CLI::App& command, LineOptions& options) {
         ->capture_default_str()
         ->group(kGroup);
     command
-        .add_option("--lines", options.count,
-                    fmt::format("Lines per shading point and light, 1 to {}. Default: {}", render::kMaxLines,
-                                render::LineSettings().count))
+        .add_option(
+            "--lines", options.count,
+            fmt::format(
+                "Lines per shading point and polygon of a light, 1 to {}; 16 or more pay. Default: {}",
+                render::kMaxLines, render::LineSettings().count))
         ->check(CLI::Range(1, render::kMaxLines))
         ->group(kGroup);
     add_line_kind_options(command, options);
     command
         .add_option(
             "--many-occluders", options.many_occluders,
-            "What shading points take where many triangles may hide a light: about N^1.4 points in place of\n"
-            "N lines, of the technique and strategies of the other options, which are faster there (with\n"
-            "fewer than 16 lines everywhere); or lines all the same. Default: points")
+            "What shading points take where many triangles may hide a light: the power of two next to N^1.4\n"
+            "points in place of N lines, of the technique and strategies of the other options, which are\n"
+            "faster there (with fewer than 16 lines everywhere); or lines all the same. Default: points")
         ->transform(to_name_of(render::kManyOccludersChoices))
         ->group(kGroup);
 }

@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
     app.footer(
         "Exit codes: 0 success, 1 error, 2 wrong usage, 3 broken limit of compare, 130 stopped by Ctrl-C.");
     app.require_subcommand(1);
+    app.set_version_flag("--version", "nusselt " NUSSELT_VERSION);
     app.set_help_all_flag("--help-all", "Print the help of all commands and exit");
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
         return fmt::format("nusselt: {}; see --help\n", error.what());

@@ -14,6 +14,7 @@
 #include "image/layers.h"
 #include "render_cpu/checkpoint.h"
 #include "render_cpu/frame.h"
+#include "render_cpu/line_choice.h"
 #include "render_cpu/renderer.h"
 #include "scene/camera_file.h"
 
@@ -89,6 +90,14 @@ void print_warnings(const RenderOptions& options, const render::RenderSettings& 
             "warning: {} tubes and lines are sampled by {} alone: visible normals are for polygons, no "
             "sample ever hits a line\n",
             scene.line_lights.size(), name_of(settings.technique));
+    if (settings.integrator == render::Integrator::lines &&
+        settings.lines.many_occluders == render::ManyOccluders::points &&
+        render_cpu::most_occluders_for_lines(settings.lines.count) < 0)
+        fmt::print(
+            stderr,
+            "warning: --lines {}: points are faster than fewer than 16 lines and are taken in their place; "
+            "--many-occluders lines keeps lines\n",
+            settings.lines.count);
     const auto wants_variance =
         std::count(settings.layers.begin(), settings.layers.end(), render::LayerKind::variance) > 0;
     if (wants_variance && !has_variance(settings))

@@ -71,6 +71,22 @@ TEST_F(CommandLine, RefusesOptionsThatLinesHaveNoUseFor) {
     }
 }
 
+TEST_F(CommandLine, WarnsThatFewLinesAreReplacedByPoints) {
+    const std::string render = "render '" + kScenes + "/cornell-panel.pbrt' --resolution 8x8 -o few.exr ";
+    const std::string few = render + "--integrator lines --lines 8";
+    const Outcome warned = run(few);
+    EXPECT_EQ(warned.exit_code, 0);
+    EXPECT_NE(warned.err.find("--many-occluders lines keeps lines"), std::string::npos) << warned.err;
+    EXPECT_EQ(run(few + " --many-occluders lines").err.find("warning"), std::string::npos);
+    EXPECT_EQ(run(render + "--integrator lines --lines 16").err.find("warning"), std::string::npos);
+}
+
+TEST_F(CommandLine, PrintsItsVersion) {
+    const Outcome version = run("--version");
+    EXPECT_EQ(version.exit_code, 0);
+    EXPECT_EQ(version.out.rfind("nusselt ", 0), 0u) << version.out;
+}
+
 TEST_F(CommandLine, PartsOfLineSamplesMergeToTheWholeImage) {
     const std::string lines =
         kRender + "--integrator lines --lines 2 --many-occluders lines --layers all --spp 2 ";
