@@ -1,4 +1,4 @@
-#include "viewer/fly_camera.h"
+#include "fly_camera.h"
 
 #include <algorithm>
 #include <cmath>

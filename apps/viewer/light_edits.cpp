@@ -1,4 +1,4 @@
-#include "viewer/light_edits.h"
+#include "light_edits.h"
 
 #include <nlohmann/json.hpp>
 

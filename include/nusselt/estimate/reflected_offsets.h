@@ -15,7 +15,8 @@ NUSSELT_NAMESPACE_BEGIN
 ///               the distance of two. Each costs as much as a line without shadows.
 template <class Real, int N, int Nodes = 32>
 class ReflectedOffsets {
-    static_assert(Nodes >= 4 && (Nodes & (Nodes - 1)) == 0, "for the search by halves and the roots of place_nodes()");
+    static_assert(Nodes >= 4 && (Nodes & (Nodes - 1)) == 0,
+                  "for the search by halves and the roots of place_nodes()");
     using Scalar = scalar_t<Real>;
     static constexpr int kLanes = RealTraits<Real>::kLanes;
     static constexpr int kPeakNodes = Nodes / 2; ///< the same on both sides
