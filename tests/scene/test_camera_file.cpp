@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -54,7 +55,7 @@ TEST(CameraFile, ReadsWhatItWrites) {
 }
 
 TEST(CameraFile, ReplacesTheCropToo) {
-    Scene scene = load_scene(NUSSELT_SOURCE_DIR "/scenes/room.pbrt");
+    Scene scene = load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes/room.pbrt");
     scene.film.crop = PixelBounds{1, 2, 3, 4};
     apply_camera({scene.camera, 32, 16}, scene);
     EXPECT_EQ(scene.film.width, 32);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 namespace nusselt::viewer {
@@ -13,7 +14,7 @@ namespace {
 
 class LightEditsTest : public testing::Test {
 protected:
-    scene::Scene scene_ = scene::load_scene(NUSSELT_SOURCE_DIR "/scenes/room.pbrt");
+    scene::Scene scene_ = scene::load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes/room.pbrt");
 };
 
 TEST_F(LightEditsTest, DoNothingByDefault) {
