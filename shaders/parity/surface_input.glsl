@@ -13,17 +13,8 @@ SpecularFit fit_at(SurfacePoint point) {
     const ivec3 samples = ivec3(words[6], words[5], words[4]);
     const float cos_o = dot(point.normal, point.wo);
     const LtcTableCell cell = ltc_table_cell(point.roughness, cos_o, mean_f0(point.f0), samples);
-    LtcTableEntry sum = LtcTableEntry(vec3(0.0), vec3(0.0));
-    float of_black = 0.0;
-    float of_white = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const ivec3 at = ltc_table_corner(cell, corner);
-        const float weight = ltc_table_weight(cell, corner);
-        ltc_table_add(sum, weight, sample_at(at, samples));
-        of_black += weight * sample_at(ivec3(0, at.yz), samples).last.z;
-        of_white += weight * sample_at(ivec3(samples.x - 1, at.yz), samples).last.z;
-    }
-    return fit_of(sum, of_black, of_white, point.f0);
+    const TableSums sums = table_sums(cell, samples);
+    return fit_of(sums.entry, sums.of_black, sums.of_white, point.f0);
 }
 
 // Direction and distance mean nothing where the sample does not count.

@@ -13,4 +13,22 @@ LtcTableEntry sample_at(ivec3 corner, ivec3 samples) {
     return ltc_table_entry(uvec3(words[at], words[at + 1u], words[at + 2u]), index);
 }
 
+// What the table has at a cell: interpolated between its corners, and the albedos of a black and of a white f0.
+struct TableSums {
+    LtcTableEntry entry;
+    float of_black, of_white;
+};
+
+TableSums table_sums(LtcTableCell cell, ivec3 samples) {
+    TableSums sums = TableSums(LtcTableEntry(vec3(0.0), vec3(0.0)), 0.0, 0.0);
+    for (int corner = 0; corner < 8; ++corner) {
+        const ivec3 at = ltc_table_corner(cell, corner);
+        const float weight = ltc_table_weight(cell, corner);
+        ltc_table_add(sums.entry, weight, sample_at(at, samples));
+        sums.of_black += weight * sample_at(ivec3(0, at.yz), samples).last.z;
+        sums.of_white += weight * sample_at(ivec3(samples.x - 1, at.yz), samples).last.z;
+    }
+    return sums;
+}
+
 #endif
