@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "${1:-$(dirname "$0")/..}"
 
-find include src apps shaders -name '*.h' -o -name '*.cpp' -o -name '*.glsl' -o -name '*.comp' | LC_ALL=C sort | xargs awk '
+find include src apps shaders -name '*.h' -o -name '*.cpp' -o -name '*.glsl' -o -name '*.comp' -o -name '*.vert' -o -name '*.frag' | LC_ALL=C sort | xargs awk '
 BEGIN {
     # Layer, then the layers that it may include besides itself. "library" is all of include/nusselt.
     # simd is a leaf: templates see packs through the operations that core names.
@@ -30,14 +30,15 @@ BEGIN {
     allow("src/visibility", "library src/scene src/interface")
     allow("src/tables", "library")
     allow("src/fit", "library src/image")
-    allow("src/render", "src/scene")
+    allow("src/render", "src/image src/scene")
     allow("src/render_cpu", "library src/image src/scene src/visibility src/tables src/render")
     # SPIR-V as arrays, which the build makes. The two renderers never see each other.
     allow("src/shaders", "")
     # Structures that C++ and shaders share: shaders/interface.
     allow("src/interface", "")
     allow("src/gpu", "library src/shaders")
-    below = "library src/image src/scene src/visibility src/render src/render_cpu src/gpu src/shaders"
+    allow("src/render_vulkan", "library src/image src/scene src/visibility src/tables src/render src/gpu src/shaders src/interface")
+    below = "library src/image src/scene src/visibility src/render src/render_cpu src/render_vulkan src/gpu src/shaders"
     below = below " src/tables"
     allow("src/experiments", below)
     allow("apps/viewer", below " src/experiments")

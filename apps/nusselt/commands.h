@@ -55,6 +55,9 @@ struct RenderOptions {
     std::optional<std::filesystem::path> checkpoint;
     double checkpoint_interval = 60; ///< [s]
     std::optional<std::string> display_server;
+    std::string backend = "cpu";
+    std::optional<std::string> device;      ///< of the GPU: index, or part of a name
+    std::optional<std::string> shadow_rays; ///< on the GPU; default: what suits the device
 };
 
 struct CameraOptions {

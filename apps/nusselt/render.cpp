@@ -5,6 +5,8 @@
 #include "lights.h"
 #include "line_options.h"
 #include "progress.h"
+#include "render_backend.h"
+#include "render_files.h"
 #include "render_report.h"
 #include "render_settings.h"
 #include "render_setup.h"
@@ -14,7 +16,6 @@
 #include "image/layers.h"
 #include "render_cpu/checkpoint.h"
 #include "render_cpu/frame.h"
-#include "render_cpu/line_choice.h"
 #include "render_cpu/renderer.h"
 #include "scene/camera_file.h"
 
@@ -40,73 +41,6 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-std::vector<std::filesystem::path> output_paths(const RenderOptions& options, const scene::Film& film) {
-    if (!options.outputs.empty()) return options.outputs;
-    const bool is_named = !film.filename.empty();
-    const std::filesystem::path name = is_named ? std::filesystem::path(film.filename) : options.scene;
-    std::string stem = name.filename().stem().string();
-    if (const auto part = options.part ? parse_part(*options.part) : std::nullopt)
-        stem += fmt::format("-{}of{}", part->number, part->count);
-    return {stem + ".exr"};
-}
-
-/// Throws std::runtime_error if something could not be written after the work is done.
-void check_outputs(const RenderOptions& options) {
-    // The name that the scene may give to the default image is unknown yet, its folder is not.
-    for (const std::filesystem::path& path : output_paths(options, scene::Film()))
-        image::check_writable_image(path);
-    if (options.json && options.json != "-") image::check_writable(*options.json);
-    if (options.checkpoint) image::check_writable(*options.checkpoint);
-}
-
-/// Throws std::runtime_error if files would overwrite each other, or what is read.
-void check_names(const RenderOptions& options, const scene::Film& film) {
-    std::vector<std::filesystem::path> files = output_paths(options, film);
-    if (options.json && options.json != "-") files.emplace_back(*options.json);
-    if (options.checkpoint) files.push_back(*options.checkpoint);
-    const std::size_t written = files.size();
-    files.push_back(options.scene);
-    if (options.camera) files.push_back(*options.camera);
-    files.insert(files.end(), options.rigs.begin(), options.rigs.end());
-    std::vector<std::filesystem::path> places;
-    for (const std::filesystem::path& file : files)
-        places.push_back(std::filesystem::weakly_canonical(absolute(file)));
-    for (std::size_t i = 0; i < written; ++i)
-        for (std::size_t j = i + 1; j < files.size(); ++j)
-            if (places[i] == places[j])
-                throw std::runtime_error("'" + files[i].string() + "' would be written and is also " +
-                                         (j < written ? "another output" : "read") +
-                                         "; give one another name");
-}
-
-void print_warnings(const RenderOptions& options, const render::RenderSettings& settings,
-                    const scene::Scene& scene) {
-    for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
-    if (scene.emitters.empty())
-        fmt::print(stderr, "warning: there are no area lights, the image is black; --lights adds some\n");
-    if (samples_visible_normals(settings.strategies) && !scene.line_lights.empty())
-        fmt::print(
-            stderr,
-            "warning: {} tubes and lines are sampled by {} alone: visible normals are for polygons, no "
-            "sample ever hits a line\n",
-            scene.line_lights.size(), name_of(settings.technique));
-    if (settings.integrator == render::Integrator::lines &&
-        settings.lines.many_occluders == render::ManyOccluders::points &&
-        render_cpu::most_occluders_for_lines(settings.lines.count) < 0)
-        fmt::print(
-            stderr,
-            "warning: --lines {}: points are faster than fewer than 16 lines and are taken in their place; "
-            "--many-occluders lines keeps lines\n",
-            settings.lines.count);
-    const auto wants_variance =
-        std::count(settings.layers.begin(), settings.layers.end(), render::LayerKind::variance) > 0;
-    if (wants_variance && !has_variance(settings))
-        fmt::print(stderr,
-                   "warning: there is no layer of the variance: it needs two or more camera rays per "
-                   "pixel; raise --spp{}\n",
-                   options.camera_rays ? " and --camera-rays" : "");
-}
-
 /// Writes the frame to all files. EXR files get all that is known, others the image.
 void write_outputs(const RenderOptions& options, const render::RenderSettings& settings,
                    const scene::Film& film, render_cpu::Frame&& frame, const image::Metadata& metadata) {
@@ -116,8 +50,7 @@ void write_outputs(const RenderOptions& options, const render::RenderSettings& s
     const image::LayeredImage layered = to_layered_image(std::move(frame), film, settings, metadata);
     for (const std::filesystem::path& path : paths)
         if (image::is_exr(path)) image::write_layers(path, layered);
-    if (!options.quiet && options.json != "-")
-        for (const std::filesystem::path& path : paths) fmt::print("{}\n", path.string());
+    print_outputs(options, film);
 }
 
 std::string check_display_address(const std::string& text) {
@@ -208,6 +141,7 @@ void setup_render(CLI::App& app, int& exit_code) {
     command->add_option("--camera", options->camera,
                         "Camera and image size in place of those of the scene: a JSON file as `nusselt "
                         "camera`\nprints it. Default: the camera of the scene");
+    add_backend_options(*command, *options);
     add_machine_options(*command, options->threads, options->isa);
     add_resolution_option(*command, options->resolution);
     command->add_option("--exposure", options->exposure, "Brightens PNG images by this many stops, -64 to 64")
@@ -247,6 +181,8 @@ int run_render(const RenderOptions& options) {
     const render_cpu::Isa isa = render_cpu::choose_isa(options.isa);
     check_outputs(options);
 
+    const bool on_gpu = renders_on_gpu(options, settings);
+
     const InterruptGuard guard;
     scene::Scene scene = load_scene(options.scene, options.rigs);
     if (options.camera) apply_camera(scene::read_camera_file(*options.camera), scene);
@@ -255,6 +191,7 @@ int run_render(const RenderOptions& options) {
     Times times;
     times.load = seconds_since(begin);
     if (!options.quiet) print_warnings(options, settings, scene);
+    if (on_gpu) return render_on_gpu(options, settings, scene, times, begin);
 
     render_cpu::Frame frame = render_cpu::make_frame(scene, settings);
     image::Metadata metadata = make_metadata(scene, settings, isa);

@@ -3,10 +3,12 @@
 #include "json_output.h"
 #include "line_options.h"
 
+#include "render_cpu/line_choice.h"
 #include "scene/scene_size.h"
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace nusselt::app {
@@ -38,16 +40,38 @@ nlohmann::ordered_json line_samples_json(const render::RenderSettings& settings,
 
 } // namespace
 
-nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,
-                                   render_cpu::Isa isa, const scene::Scene& scene,
-                                   const render_cpu::RenderStatistics& statistics, const Times& times) {
+void print_warnings(const RenderOptions& options, const render::RenderSettings& settings,
+                    const scene::Scene& scene) {
+    for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    if (scene.emitters.empty())
+        fmt::print(stderr, "warning: there are no area lights, the image is black; --lights adds some\n");
+    if (samples_visible_normals(settings.strategies) && !scene.line_lights.empty())
+        fmt::print(
+            stderr,
+            "warning: {} tubes and lines are sampled by {} alone: visible normals are for polygons, no "
+            "sample ever hits a line\n",
+            scene.line_lights.size(), name_of(settings.technique));
+    if (settings.integrator == render::Integrator::lines &&
+        settings.lines.many_occluders == render::ManyOccluders::points &&
+        render_cpu::most_occluders_for_lines(settings.lines.count) < 0)
+        fmt::print(
+            stderr,
+            "warning: --lines {}: points are faster than fewer than 16 lines and are taken in their place; "
+            "--many-occluders lines keeps lines\n",
+            settings.lines.count);
+    const auto wants_variance =
+        std::count(settings.layers.begin(), settings.layers.end(), render::LayerKind::variance) > 0;
+    if (wants_variance && !has_variance(settings))
+        fmt::print(stderr,
+                   "warning: there is no layer of the variance: it needs two or more camera rays per "
+                   "pixel; raise --spp{}\n",
+                   options.camera_rays ? " and --camera-rays" : "");
+}
+
+nlohmann::ordered_json settings_json(const RenderOptions& options, const render::RenderSettings& settings,
+                                     const scene::Scene& scene) {
     nlohmann::ordered_json rigs = nlohmann::ordered_json::array();
     for (const std::filesystem::path& rig : options.rigs) rigs.push_back(rig.string());
-    const auto rate = [](std::uint64_t rays, double seconds) {
-        return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
-    };
-    // Most time goes into lines then.
-    const bool has_lines = settings.integrator == render::Integrator::lines;
     const bool is_combined = settings.strategies != render::Strategies::diffuse;
     return {
         {"scene", options.scene.string()},
@@ -67,7 +91,20 @@ nlohmann::ordered_json report_json(const RenderOptions& options, const render::R
         {"sampler", render::name_of(settings.sample_order)},
         {"brdf", render::name_of(settings.brdf)},
         {"seed", settings.seed},
-        {"part", fmt::format("{}/{}", settings.part.number, settings.part.count)},
+        {"part", fmt::format("{}/{}", settings.part.number, settings.part.count)}};
+}
+
+nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,
+                                   render_cpu::Isa isa, const scene::Scene& scene,
+                                   const render_cpu::RenderStatistics& statistics, const Times& times) {
+    const auto rate = [](std::uint64_t rays, double seconds) {
+        return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
+    };
+    // Most time goes into lines then.
+    const bool has_lines = settings.integrator == render::Integrator::lines;
+    nlohmann::ordered_json json = settings_json(options, settings, scene);
+    json.update({
+        {"backend", "cpu"},
         {"isa", name_of(isa)},
         {"threads", statistics.threads},
         {"seconds",
@@ -90,7 +127,8 @@ nlohmann::ordered_json report_json(const RenderOptions& options, const render::R
          has_lines ? nullptr
                    : nlohmann::ordered_json(
                          rate(statistics.primary_rays + statistics.shadow_rays, statistics.render_seconds))},
-    };
+    });
+    return json;
 }
 
 void write_report(const std::string& target, const nlohmann::ordered_json& report) {

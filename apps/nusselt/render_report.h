@@ -19,6 +19,14 @@ struct Times {
     double total = 0;
 };
 
+/// Tells what may surprise a user about the image, on the standard error.
+void print_warnings(const RenderOptions& options, const render::RenderSettings& settings,
+                    const scene::Scene& scene);
+
+/// What both backends have in common: scene and settings.
+nlohmann::ordered_json settings_json(const RenderOptions& options, const render::RenderSettings& settings,
+                                     const scene::Scene& scene);
+
 nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,
                                    render_cpu::Isa isa, const scene::Scene& scene,
                                    const render_cpu::RenderStatistics& statistics, const Times& times);

@@ -1,5 +1,6 @@
 #include "render_settings.h"
 #include "line_options.h"
+#include "render_backend.h"
 #include "render_setup.h"
 
 #include "image/io.h"
@@ -98,6 +99,7 @@ void check_combination(const RenderOptions& options) {
         throw CLI::ValidationError("--camera-rays", fmt::format("{} does not divide --spp, which is {}",
                                                                 *options.camera_rays, options.samples));
     check_line_options(options, technique);
+    check_backend_options(options);
     check_exr_only(options);
 }
 

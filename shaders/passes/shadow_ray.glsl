@@ -2,7 +2,7 @@
 #define NUSSELT_PASSES_SHADOW_RAY_GLSL
 /// What both ways to trace shadow rays share: which rays are valid, and which surfaces with partial alpha they meet.
 
-#include "nusselt/core/real.glsl"
+#include "nusselt/core/vec.glsl"
 #include "nusselt/random/pcg.glsl"
 #include "nusselt/random/unit_interval.glsl"
 
@@ -23,8 +23,6 @@ struct ShadowRay {
 
 /// Of a vector without NaN; false for others.
 bool is_in_ray_range(vec3 v) { return all(lessThanEqual(abs(v), vec3(kLargestRayCoordinate))); }
-
-float largest_component(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
 /// Rays that are not valid count as blocked, as on the CPU: no light comes from nowhere.
 bool is_valid(ShadowRay ray) {

@@ -58,6 +58,11 @@ void Buffer::write_bytes(std::span<const std::byte> bytes) {
     });
 }
 
+void Buffer::fill_with_zeros() {
+    device_->run(
+        [&](const Device::Commands& commands) { commands.fillBuffer(handle(), 0, VK_WHOLE_SIZE, 0); });
+}
+
 void Buffer::read_bytes(std::span<std::byte> bytes) const {
     assert(bytes.size() <= size_);
     if (residence_ == Residence::device_local) {

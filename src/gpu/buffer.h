@@ -37,6 +37,8 @@ public:
     void write(std::span<const T> values) {
         write_bytes(std::as_bytes(values));
     }
+    /// Overwrites all of it.
+    void fill_with_zeros();
     /// Reads the beginning. \param values at most as large as the buffer.
     template <class T>
     void read(std::span<T> values) const {

@@ -1,8 +1,7 @@
 #pragma once
 /// Compute shaders with storage buffers.
 
-#include "gpu/acceleration_structure.h"
-#include "gpu/buffer.h"
+#include "gpu/shader_bindings.h"
 
 #include <cstdint>
 #include <initializer_list>
@@ -25,25 +24,27 @@ public:
     ComputePipeline(const Device& device, std::span<const std::uint32_t> spirv,
                     const ComputeInterface& interface);
 
-    /// The buffers that the next dispatches use, in the order of their bindings. Not while commands run.
-    void bind(std::initializer_list<const Buffer*> buffers);
-    /// \param scene what the only ray scene of the next dispatches is. Not while commands run.
-    void bind(const AccelerationStructure& scene);
+    /// \copydoc ShaderBindings::bind
+    void bind(std::initializer_list<const Buffer*> buffers) {
+        bind(std::span(buffers.begin(), buffers.size()));
+    }
+    /// \copydoc ShaderBindings::bind
+    void bind(std::span<const Buffer* const> buffers) { bindings_.bind(buffers); }
+    /// \copydoc ShaderBindings::bind
+    void bind(const AccelerationStructure& scene) { bindings_.bind(scene); }
 
     /// Records one dispatch.
-    /// \param push the push constants, exactly as large as the interface says.
-    /// \param groups number of work groups.
-    void dispatch(const Device::Commands& commands, std::span<const std::byte> push,
-                  std::uint32_t groups) const;
+    /// \param push     the push constants, exactly as large as the interface says.
+    /// \param groups   number of work groups, in the first dimension.
+    /// \param groups_y in the second one.
+    void dispatch(const Device::Commands& commands, std::span<const std::byte> push, std::uint32_t groups,
+                  std::uint32_t groups_y = 1) const;
 
 private:
-    ComputeInterface interface_;
-    const Device* device_;
-    vk::raii::DescriptorSetLayout set_layout_;
+    std::uint32_t push_constant_size_;
+    ShaderBindings bindings_;
     vk::raii::PipelineLayout layout_;
     vk::raii::Pipeline pipeline_;
-    vk::raii::DescriptorPool descriptor_pool_;
-    vk::DescriptorSet descriptors_; ///< freed with its pool
 };
 
 } // namespace nusselt::gpu

@@ -94,17 +94,17 @@ vk::raii::PhysicalDevice choose(const Instance& instance, const DeviceOptions& o
     throw NoDevice("no Vulkan device '" + *choice + "'; there are " + known);
 }
 
-/// A queue for compute shaders: with timestamps if there is one.
+/// A queue for compute shaders: one that also draws if there is any, with timestamps if there are any.
 std::uint32_t choose_queue_family(const vk::raii::PhysicalDevice& device) {
     const auto families = device.getQueueFamilyProperties();
-    const auto computes = [&](const vk::QueueFamilyProperties& family) {
-        return static_cast<bool>(family.queueFlags & vk::QueueFlagBits::eCompute);
+    const auto merit = [](const vk::QueueFamilyProperties& family) {
+        if (!(family.queueFlags & vk::QueueFlagBits::eCompute)) return 0;
+        const bool draws = static_cast<bool>(family.queueFlags & vk::QueueFlagBits::eGraphics);
+        return 1 + (draws ? 2 : 0) + (family.timestampValidBits > 0 ? 1 : 0);
     };
-    auto found = std::find_if(families.begin(), families.end(), [&](const auto& family) {
-        return computes(family) && family.timestampValidBits > 0;
-    });
-    if (found == families.end()) found = std::find_if(families.begin(), families.end(), computes);
-    return static_cast<std::uint32_t>(found - families.begin());
+    const auto best = std::max_element(families.begin(), families.end(),
+                                       [&](const auto& a, const auto& b) { return merit(a) < merit(b); });
+    return static_cast<std::uint32_t>(best - families.begin());
 }
 
 constexpr const char* kRayExtensions[] = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
@@ -196,8 +196,7 @@ Device::Device(const DeviceOptions& options) try
                                                                                         : Clock::wall),
       device_(make_device(physical_, queue_family_, features_)),
       queue_(device_, queue_family_, 0),
-      pool_(device_, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, queue_family_)),
-      timestamps_(device_, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2)) {
+      pool_(device_, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, queue_family_)) {
 } catch (const vk::SystemError& error) {
     rethrow("starting a Vulkan device", error);
 }
@@ -220,27 +219,49 @@ void Device::run(const Record& record) const {
     });
 }
 
-double Device::time(const Record& record) const {
-    if (clock_ == Clock::wall) {
-        const auto begin = std::chrono::steady_clock::now();
-        run(record);
-        return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
+bool Device::draws() const {
+    const auto families = physical_.getQueueFamilyProperties();
+    return static_cast<bool>(families[queue_family_].queueFlags & vk::QueueFlagBits::eGraphics);
+}
+
+double Device::time(const Record& record) const { return time_passes({&record, 1}).front(); }
+
+std::vector<double> Device::time_passes(std::span<const Record> passes) const {
+    std::vector<double> times;
+    // Software devices draw when the image is used: their timestamps tell nothing about one of several passes.
+    const bool is_lazy = passes.size() > 1 && description_.kind == "CPU";
+    if (clock_ == Clock::wall || is_lazy) {
+        for (const Record& pass : passes) {
+            const auto begin = std::chrono::steady_clock::now();
+            run(pass);
+            times.push_back(
+                std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count());
+        }
+        return times;
     }
-    run([&](const Commands& commands) {
-        commands.resetQueryPool(*timestamps_, 0, 2);
-        commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_, 0);
-        record(commands);
-        full_barrier(commands);
-        commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps_, 1);
-    });
-    return guarded(description_.name + ": reading timestamps", [&] {
-        const auto [result, ticks] = timestamps_.getResults<std::uint64_t>(
-            0, 2, 2 * sizeof(std::uint64_t), sizeof(std::uint64_t),
+    return guarded(description_.name + ": taking times", [&] {
+        const auto count = static_cast<std::uint32_t>(passes.size() + 1);
+        const vk::raii::QueryPool timestamps(device_,
+                                             vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, count));
+        run([&](const Commands& commands) {
+            commands.resetQueryPool(*timestamps, 0, count);
+            commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps, 0);
+            for (std::uint32_t i = 1; i < count; ++i) {
+                passes[i - 1](commands);
+                full_barrier(commands);
+                commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *timestamps, i);
+            }
+        });
+        const auto [result, ticks] = timestamps.getResults<std::uint64_t>(
+            0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
             vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
         // Of a counter with fewer bits, the difference is right if it lasts less than one period.
         const std::uint32_t bits = physical_.getQueueFamilyProperties()[queue_family_].timestampValidBits;
-        const std::uint64_t elapsed = (ticks[1] - ticks[0]) << (64 - bits) >> (64 - bits);
-        return static_cast<double>(elapsed) * static_cast<double>(limits_.timestampPeriod);
+        for (std::uint32_t i = 1; i < count; ++i) {
+            const std::uint64_t elapsed = (ticks[i] - ticks[i - 1]) << (64 - bits) >> (64 - bits);
+            times.push_back(static_cast<double>(elapsed) * static_cast<double>(limits_.timestampPeriod));
+        }
+        return times;
     });
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,8 @@ public:
     std::uint32_t scratch_alignment() const { return scratch_alignment_; }
     const vk::raii::Device& handle() const { return device_; }
     Clock clock() const { return clock_; }
+    /// Whether there is a queue for drawing, not for computing only.
+    bool draws() const;
     /// Whether the validation layer watches: it was asked for and is installed.
     bool validates() const { return instance_.validates(); }
     /// Warnings and errors of the validation layer since the last call.
@@ -77,6 +80,11 @@ public:
 
     /// Likewise. \return how long it took [ns].
     double time(const Record& record) const;
+
+    /// Runs passes in turn, each as run() does, but in one submission where the device has timestamps that tell them
+    /// apart.
+    /// \return how long each of them took [ns].
+    std::vector<double> time_passes(std::span<const Record> passes) const;
 
     /// \param wanted properties that the memory must have.
     /// \param use    of buffers in it.
@@ -96,7 +104,6 @@ private:
     vk::raii::Device device_;
     vk::raii::Queue queue_;
     vk::raii::CommandPool pool_;
-    vk::raii::QueryPool timestamps_;
 };
 
 /// All that was written before is visible to all that follows.

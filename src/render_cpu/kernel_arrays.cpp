@@ -1,12 +1,12 @@
 #include "render_cpu/kernel_arrays.h"
 
 #include "render/film.h"
+#include "render/instance_transform.h"
 
 #include <nusselt/geometry/convex_polygon.h>
 #include <nusselt/geometry/line_segment.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -93,38 +93,14 @@ LineLightRecord make_record(const scene::LineLight& light) {
 }
 
 InstanceRecord make_record(const scene::Scene& scene, const scene::Instance& instance) {
+    const InstanceTransform transform = make_instance_transform(scene, instance);
     InstanceRecord record{};
     const auto& m = instance.world_from_object;
     std::copy(m.begin(), m.end(), record.world_from_object);
-    const auto entry = [&](std::size_t row, std::size_t column) -> double {
-        return m[4 * (row % 3) + column % 3];
-    };
-    double cofactor[3][3];
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            cofactor[i][j] =
-                entry(i + 1, j + 1) * entry(i + 2, j + 2) - entry(i + 1, j + 2) * entry(i + 2, j + 1);
-    double determinant = 0;
-    double largest = 0;
-    for (std::size_t j = 0; j < 3; ++j) {
-        determinant += entry(0, j) * cofactor[0][j];
-        for (const auto& row : cofactor) largest = std::max(largest, std::fabs(row[j]));
-    }
-    if (determinant == 0 || !std::isfinite(determinant))
-        throw std::runtime_error("object " + scene.objects[instance.object].name +
-                                 ": the transform of an instance cannot be inverted");
-    const double handedness = determinant < 0 ? -1 : 1;
-    record.handedness = static_cast<float>(handedness);
-    for (std::size_t i = 0; i < 3; ++i) {
-        double growth = 0;
-        for (std::size_t j = 0; j < 3; ++j) {
-            // Cofactors over the determinant are the transposed inverse.
-            record.normal_from_object[3 * i + j] = static_cast<float>(cofactor[i][j] / largest * handedness);
-            for (std::size_t k = 0; k < 3; ++k)
-                growth += std::fabs(entry(i, k) * cofactor[j][k] / determinant);
-        }
-        record.rounding = std::max(record.rounding, static_cast<float>(growth));
-    }
+    const auto& normal = transform.normal_from_object;
+    std::copy(normal.begin(), normal.end(), record.normal_from_object);
+    record.handedness = transform.handedness;
+    record.rounding = transform.rounding;
     return record;
 }
 

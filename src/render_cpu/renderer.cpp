@@ -1,9 +1,9 @@
 #include "render_cpu/renderer.h"
 
 #include "render/film.h"
+#include "render/metadata.h"
 #include "render_cpu/flush_denormals.h"
 #include "render_cpu/line_choice.h"
-#include "scene/fingerprint.h"
 
 #include "tables/ltc_table.h"
 
@@ -227,31 +227,8 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
 }
 
 image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& settings, Isa isa) {
-    image::Metadata metadata = {{"version", NUSSELT_VERSION},
-                                {"scene_fingerprint", scene::fingerprint(scene)},
-                                {"technique", std::string(name_of(settings.technique))},
-                                {"strategies", std::string(name_of(settings.strategies))},
-                                {"samples", std::to_string(settings.samples)},
-                                {"camera_rays", std::to_string(camera_ray_count(settings))},
-                                {"pixel_position", std::string(name_of(settings.pixel_position))},
-                                {"sampler", std::string(name_of(settings.sample_order))},
-                                {"brdf", std::string(name_of(settings.brdf))},
-                                {"seed", std::to_string(settings.seed)},
-                                {"isa", std::string(name_of(isa))}};
-    if (settings.integrator == Integrator::lines) {
-        metadata["integrator"] = std::string(name_of(settings.integrator));
-        metadata["lines"] = std::to_string(settings.lines.count);
-        metadata["orientation"] = std::string(name_of(settings.lines.orientation));
-        metadata["offsets"] = std::string(name_of(settings.lines.offsets));
-        metadata["line_shading"] = std::string(name_of(settings.lines.shading));
-        metadata["many_occluders"] = std::string(name_of(settings.lines.many_occluders));
-    }
-    if (settings.part.count > 1)
-        metadata["part"] = std::to_string(settings.part.number) + "/" + std::to_string(settings.part.count);
-    if (settings.strategies != Strategies::diffuse) {
-        metadata["mis"] = std::string(name_of(settings.mis));
-        metadata["visibility_estimate"] = image::metadata_text(settings.visibility_estimate);
-    }
+    image::Metadata metadata = render::make_metadata(scene, settings);
+    metadata["isa"] = std::string(name_of(isa));
     return metadata;
 }
 

@@ -3,7 +3,8 @@
 /// What differs between GLSL 4.50 (Vulkan), GLSL ES 3.00 (WebGL 2) and devices. A program may define the macros below
 /// before it includes the library.
 
-/// Capacity of polygons: the largest number of vertices of a light, 3 to 8.
+/// Capacity of polygons: the largest number of vertices of a light, 3 to 9. Lights have at most 8; 9 is for those that are
+/// clipped twice.
 #ifndef NUSSELT_MAX_VERTICES
 #define NUSSELT_MAX_VERTICES 4
 #endif
@@ -20,8 +21,8 @@
 #define NUSSELT_UNROLL
 #endif
 
-#if NUSSELT_MAX_VERTICES < 3 || NUSSELT_MAX_VERTICES > 8
-#error NUSSELT_MAX_VERTICES must be 3 to 8
+#if NUSSELT_MAX_VERTICES < 3 || NUSSELT_MAX_VERTICES > 9
+#error NUSSELT_MAX_VERTICES must be 3 to 9
 #endif
 
 #ifdef GL_ES

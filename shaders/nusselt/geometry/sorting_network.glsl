@@ -21,10 +21,15 @@
 #define NUSSELT_SORT_BY_NETWORK(F) \
     F(0, 2) F(1, 3) F(4, 6) F(5, 7) F(0, 4) F(1, 5) F(2, 6) F(3, 7) F(0, 1) F(2, 3) F(4, 5) F(6, 7) F(2, 4) \
     F(3, 5) F(1, 4) F(3, 6) F(1, 2) F(3, 4) F(5, 6)
-#else
+#elif NUSSELT_MAX_VERTICES == 8
 #define NUSSELT_SORT_BY_NETWORK(F) \
     F(0, 3) F(1, 7) F(2, 5) F(4, 8) F(0, 7) F(2, 4) F(3, 8) F(5, 6) F(0, 2) F(1, 3) F(4, 5) F(7, 8) F(1, 4) \
     F(3, 6) F(5, 7) F(0, 1) F(2, 4) F(3, 5) F(6, 8) F(2, 3) F(4, 5) F(6, 7) F(1, 2) F(3, 4) F(5, 6)
+#else
+#define NUSSELT_SORT_BY_NETWORK(F) \
+    F(0, 8) F(1, 9) F(2, 7) F(3, 5) F(4, 6) F(0, 2) F(1, 4) F(5, 8) F(7, 9) F(0, 3) F(2, 4) F(5, 7) F(6, 9) F(0, 1) \
+    F(3, 6) F(8, 9) F(1, 5) F(2, 3) F(4, 8) F(6, 7) F(1, 2) F(3, 5) F(4, 6) F(7, 8) F(2, 3) F(4, 5) F(6, 7) F(3, 4) \
+    F(5, 6)
 #endif
 
 #endif

@@ -25,11 +25,12 @@ struct PolygonLtc {
     float inverse_measure; ///< 0 without light
 };
 
-/// \param part the part of the light that counts.
-PolygonLtc polygon_ltc_prepare_part(ScaledPolygon part, Ltc ltc) {
+/// \param part  the part of the light that counts.
+/// \param image of that part in cosine space.
+PolygonLtc polygon_ltc_prepare_image(ScaledPolygon part, Ltc ltc, PolygonProjectedSolidAngle image) {
     PolygonLtc self;
     self.ltc = ltc;
-    self.image = polygon_projected_solid_angle_prepare(to_cosine_space(part.polygon, ltc));
+    self.image = image;
     self.inverse_scale = part.inverse_scale;
     float farthest = 0.0; // squared
     self.low = part.polygon.vertex[0];
@@ -46,6 +47,12 @@ PolygonLtc polygon_ltc_prepare_part(ScaledPolygon part, Ltc ltc) {
     self.measure = lit ? (1.0 / kNusseltPi) * in_lobe : 0.0;
     self.inverse_measure = lit ? 1.0 / self.measure : 0.0;
     return self;
+}
+
+/// \param part the part of the light that counts.
+PolygonLtc polygon_ltc_prepare_part(ScaledPolygon part, Ltc ltc) {
+    return polygon_ltc_prepare_image(part, ltc,
+                                     polygon_projected_solid_angle_prepare(to_cosine_space(part.polygon, ltc)));
 }
 
 /// \param light in shading space, either winding [m].
@@ -68,14 +75,18 @@ float polygon_ltc_pdf(PolygonLtc self, vec3 wi) {
     return is_finite(density) ? density : 0.0;
 }
 
-/// \param u in [0, 1)^2; as continuous as that of polygon_projected_solid_angle_sample().
-LightSample polygon_ltc_sample(PolygonLtc self, vec2 u) {
+/// \param direction that was sampled of the image, in cosine space.
+LightSample polygon_ltc_sample_image(PolygonLtc self, vec3 direction) {
     vec3 wi = vec3(0.0, 0.0, 1.0);
-    if (self.inverse_measure > 0.0)
-        wi = nusselt_normalize(ltc_to_shading(self.ltc, polygon_projected_solid_angle_sample(self.image, u).wi));
+    if (self.inverse_measure > 0.0) wi = nusselt_normalize(ltc_to_shading(self.ltc, direction));
     // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
     vec3 p = nusselt_min(nusselt_max(light_plane_distance_along(self.plane, wi) * wi, self.low), self.high);
     return LightSample(wi, polygon_ltc_pdf(self, wi), self.inverse_scale * p);
+}
+
+/// \param u in [0, 1)^2; as continuous as that of polygon_projected_solid_angle_sample().
+LightSample polygon_ltc_sample(PolygonLtc self, vec2 u) {
+    return polygon_ltc_sample_image(self, polygon_projected_solid_angle_sample(self.image, u).wi);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light. See

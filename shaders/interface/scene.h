@@ -1,0 +1,154 @@
+#ifndef NUSSELT_INTERFACE_SCENE_H
+#define NUSSELT_INTERFACE_SCENE_H
+/// A scene in storage buffers, for C++ and GLSL alike. All members are words of 32 bits or arrays of them, so that both
+/// languages lay them out in the same way. Positions and radiance are as in src/scene/scene.h.
+
+#ifdef __cplusplus
+#include <cstdint>
+
+namespace nusselt::interface {
+
+using uint = std::uint32_t;
+#endif
+
+const uint kNoTexture = 0xffffffffu;
+
+// TextureRecord::wrap
+const uint kWrapRepeat = 0u;
+const uint kWrapClamp = 1u;
+const uint kWrapBlack = 2u;
+
+// MaterialRecord::texture_kinds
+const uint kDiffuseTexture = 1u;
+const uint kF0Texture = 2u;
+const uint kRoughnessTexture = 4u;
+const uint kNormalTexture = 8u;
+const uint kBumpTexture = 16u;
+const uint kAlphaTexture = 32u;
+
+struct VertexRecord {
+    float position[3];
+    float normal[3]; ///< zero: use the geometric normal
+    float uv[2];
+};
+
+struct TriangleRecord {
+    uint vertex[3];
+    uint material;
+    int light; ///< number of the polygonal light that the triangle belongs to, -1 for none
+};
+
+/// Triangles of instances are drawn after those of the world, in the order of instances.
+struct InstanceRecord {
+    uint first_drawn;    ///< number of its first triangle among all that are drawn
+    uint first_triangle; ///< the same triangle among all records
+    float world_from_object[12];
+    float normal_from_object[9]; ///< rows of three: inverse transpose of the linear part, times a number above 0
+    float handedness;            ///< -1 for mirror images, else 1
+    float rounding;              ///< how many times rounding errors grow on the way to the object and back
+};
+
+/// Where a material looks up a texture: at scale * uv + offset.
+struct TextureLookup {
+    uint texture; ///< or kNoTexture
+    float scale[2];
+    float offset[2];
+};
+
+struct MaterialRecord {
+    float diffuse[3];
+    float f0[3];
+    float roughness;
+    float alpha; ///< probability that the surface is there
+    uint is_frostbite; ///< or Lambert
+    uint texture_kinds;
+    TextureLookup diffuse_texture;
+    TextureLookup f0_texture;
+    TextureLookup roughness_texture;
+    TextureLookup normal_texture;
+    TextureLookup bump_texture;
+    TextureLookup alpha_texture;
+    float bump_height;
+    uint is_bump_in_uv; ///< whether heights have the unit of texture coordinates, not metres
+};
+
+struct TextureRecord {
+    uint first_texel; ///< float of the buffer of texels
+    int width;
+    int height;
+    int channels; ///< 3 or 1
+    uint wrap;
+    uint is_nearest; ///< or bilinear
+};
+
+struct PolygonLightRecord {
+    float normal[3];
+    float radiance[3];
+    uint is_two_sided;
+};
+
+struct LineLightRecord {
+    float begin[3];
+    float direction[3];
+    float len; ///< GLSL has another use for `length`
+    float radius;
+    uint is_solid; ///< a cylinder, or a linear light
+    float radiance[3];
+};
+
+/// What is one number or vector per scene.
+struct SceneRecord {
+    // The camera, in pixels of the whole film; see scene::Camera.
+    float origin[3];
+    float origin_right[3];
+    float origin_down[3];
+    float corner[3];
+    float right[3];
+    float down[3];
+    /// Rows of four: x, y and w of clip coordinates are the rows times (position - origin, 1).
+    float clip_from_world[12];
+    float distance_from_world[4]; ///< likewise: how far along camera rays, in units of their directions
+    float inverse_depth_unit; ///< depth is 1 / (1 + t times this), t in units of the directions of camera rays
+    int x_begin; ///< the first pixel of the image, on the film
+    int y_begin;
+    int width; ///< of the image
+    int height;
+    float radius; ///< half the diagonal of all that there is [m]
+    uint world_triangles;
+    uint instances;
+    uint first_tube_drawn;    ///< number of the first triangle of tubes among all that are drawn
+    uint first_tube_triangle; ///< the same triangle among all records
+    uint triangles_per_tube;
+    uint polygon_lights;
+    uint line_lights;
+    int ltc_samples[3]; ///< of the table of lobes: f0, inclination, roughness
+};
+
+/// What changes from one camera ray per pixel to the next.
+struct FrameRecord {
+    float offset[2]; ///< of camera rays from the centres of their pixels [pixels]
+    float weight;    ///< of what they see
+    uint number;
+    uint count;         ///< of frames
+    uint light_samples; ///< per frame, light and technique
+    uint seed;
+    float visibility_estimate;
+};
+
+/// Sum over frames with the error of a single rounding (Kahan).
+struct PixelSum {
+    float sum[3];
+    float excess[3]; ///< what `sum` has too much
+};
+
+/// Counters with 64 bits: low and high words.
+struct WorkRecord {
+    uint shadow_rays[2];
+    uint rejected_samples[2];
+};
+
+#ifdef __cplusplus
+} // namespace nusselt::interface
+#endif
+
+#endif

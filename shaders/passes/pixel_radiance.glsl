@@ -1,0 +1,22 @@
+/// The entry point of shading passes: adds one frame to the pixels, what a camera ray per pixel sees. A pass has defined
+/// before:
+///
+///     vec3 reflected_light(Surface surface, ivec2 pixel, inout Counts counts): radiance that a surface reflects to the
+///     camera.
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (!has_pixel(pixel)) return;
+    uint number = drawn_numbers[pixel_index(pixel)];
+    if (number == 0u) return;
+    DrawnTriangle drawn = drawn_triangle(number - 1u);
+    Ray ray = camera_ray(pixel);
+    vec3 radiance = emission_of(drawn, ray);
+    if (drawn.tube < 0) {
+        Surface surface = make_surface(drawn, ray);
+        Counts counts = Counts(0u, 0u);
+        if (surface.valid) radiance += reflected_light(surface, pixel, counts);
+        add_counts(counts);
+    }
+    add_to_pixel(pixel, frame.weight * radiance);
+}

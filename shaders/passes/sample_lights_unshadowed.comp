@@ -1,0 +1,8 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+/// sample_lights.glsl without shadow rays: nothing is in the way.
+
+bool occluded(vec3 origin, vec3 direction, float t_far) { return false; }
+
+#include "passes/sample_lights.glsl"

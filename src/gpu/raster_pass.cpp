@@ -1,0 +1,181 @@
+#include "gpu/raster_pass.h"
+
+#include "gpu/shader_stage.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <string>
+
+namespace nusselt::gpu {
+
+namespace {
+
+constexpr vk::Format kNumberFormat = vk::Format::eR32Uint;
+constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
+
+std::string size_name(const vk::Extent2D& size) {
+    return std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels";
+}
+
+vk::raii::Image make_image(const Device& device, vk::Format format, vk::ImageUsageFlags usage,
+                           const vk::Extent2D& size) {
+    const std::string name = device.description().name + ": an image of " + size_name(size);
+    const vk::PhysicalDeviceLimits& limits = device.limits();
+    const std::uint32_t width =
+        std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxViewportDimensions[0]});
+    const std::uint32_t height =
+        std::min({limits.maxImageDimension2D, limits.maxFramebufferHeight, limits.maxViewportDimensions[1]});
+    if (size.width > width || size.height > height)
+        throw Error(name + " is too large, the limit is " + size_name({width, height}) + "; ask for less");
+    const vk::ImageCreateInfo info({}, vk::ImageType::e2D, format, {size.width, size.height, 1}, 1, 1,
+                                   vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage);
+    return guarded(name, [&] { return vk::raii::Image(device.handle(), info); });
+}
+
+vk::raii::ImageView make_view(const Device& device, const vk::raii::Image& image,
+                              const vk::raii::DeviceMemory& memory, vk::Format format,
+                              vk::ImageAspectFlags aspect) {
+    image.bindMemory(*memory, 0);
+    return {device.handle(),
+            vk::ImageViewCreateInfo({}, *image, vk::ImageViewType::e2D, format, {}, {aspect, 0, 1, 0, 1})};
+}
+
+vk::AttachmentDescription cleared_attachment(vk::Format format, vk::AttachmentStoreOp store,
+                                             vk::ImageLayout final_layout) {
+    return {{},
+            format,
+            vk::SampleCountFlagBits::e1,
+            vk::AttachmentLoadOp::eClear,
+            store,
+            vk::AttachmentLoadOp::eDontCare,
+            vk::AttachmentStoreOp::eDontCare,
+            vk::ImageLayout::eUndefined,
+            final_layout};
+}
+
+vk::raii::RenderPass make_render_pass(const Device& device) {
+    using Layout = vk::ImageLayout;
+    const std::array attachments = {
+        cleared_attachment(kNumberFormat, vk::AttachmentStoreOp::eStore, Layout::eTransferSrcOptimal),
+        cleared_attachment(kDepthFormat, vk::AttachmentStoreOp::eDontCare,
+                           Layout::eDepthStencilAttachmentOptimal)};
+    const vk::AttachmentReference numbers(0, Layout::eColorAttachmentOptimal);
+    const vk::AttachmentReference depth(1, Layout::eDepthStencilAttachmentOptimal);
+    const vk::SubpassDescription subpass({}, vk::PipelineBindPoint::eGraphics, {}, numbers, {}, &depth);
+    using Stage = vk::PipelineStageFlagBits;
+    using Access = vk::AccessFlagBits;
+    const std::array dependencies = {
+        // The passes and copies of frames before.
+        vk::SubpassDependency(VK_SUBPASS_EXTERNAL, 0, Stage::eAllCommands,
+                              Stage::eColorAttachmentOutput | Stage::eEarlyFragmentTests,
+                              Access::eMemoryWrite,
+                              Access::eColorAttachmentWrite | Access::eDepthStencilAttachmentRead |
+                                  Access::eDepthStencilAttachmentWrite),
+        vk::SubpassDependency(0, VK_SUBPASS_EXTERNAL, Stage::eColorAttachmentOutput, Stage::eTransfer,
+                              Access::eColorAttachmentWrite, Access::eTransferRead)};
+    return {device.handle(), vk::RenderPassCreateInfo({}, attachments, subpass, dependencies)};
+}
+
+vk::raii::PipelineLayout make_layout(const Device& device, vk::DescriptorSetLayout set,
+                                     std::uint32_t push_constant_size) {
+    const vk::PushConstantRange push(vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0,
+                                     push_constant_size);
+    vk::PipelineLayoutCreateInfo info({}, set);
+    if (push_constant_size > 0) info.setPushConstantRanges(push);
+    return {device.handle(), info};
+}
+
+vk::raii::Pipeline make_pipeline(const Device& device, std::span<const std::uint32_t> vertex,
+                                 std::span<const std::uint32_t> fragment, const RasterInterface& interface,
+                                 const vk::Extent2D& size, vk::PipelineLayout layout,
+                                 vk::RenderPass render_pass) {
+    const ShaderStage stages[] = {
+        {device, vk::ShaderStageFlagBits::eVertex, vertex, interface.constants},
+        {device, vk::ShaderStageFlagBits::eFragment, fragment, interface.constants}};
+    const std::array descriptions = {stages[0].description(), stages[1].description()};
+    const vk::PipelineVertexInputStateCreateInfo no_input;
+    const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
+    const vk::Viewport viewport(0, 0, static_cast<float>(size.width), static_cast<float>(size.height), 0, 1);
+    const vk::Rect2D scissor({}, size);
+    const vk::PipelineViewportStateCreateInfo viewports({}, viewport, scissor);
+    vk::PipelineRasterizationStateCreateInfo rasterization;
+    rasterization.cullMode = vk::CullModeFlagBits::eNone;
+    rasterization.lineWidth = 1;
+    const vk::PipelineMultisampleStateCreateInfo one_sample;
+    const vk::PipelineDepthStencilStateCreateInfo depth({}, true, true, vk::CompareOp::eGreater);
+    vk::PipelineColorBlendAttachmentState replaced;
+    replaced.colorWriteMask = vk::ColorComponentFlagBits::eR;
+    const vk::PipelineColorBlendStateCreateInfo blend({}, false, vk::LogicOp::eCopy, replaced);
+    const vk::GraphicsPipelineCreateInfo info({}, descriptions, &no_input, &assembly, nullptr, &viewports,
+                                              &rasterization, &one_sample, &depth, &blend, nullptr, layout,
+                                              render_pass);
+    return {device.handle(), nullptr, info};
+}
+
+vk::raii::Framebuffer make_framebuffer(const Device& device, vk::RenderPass render_pass,
+                                       vk::ImageView numbers, vk::ImageView depth, const vk::Extent2D& size) {
+    const std::array views = {numbers, depth};
+    return {device.handle(), vk::FramebufferCreateInfo({}, render_pass, views, size.width, size.height, 1)};
+}
+
+/// Throws Error if there is no way to draw.
+const Device& checked(const Device& device) {
+    if (!device.draws())
+        throw Error(device.description().name +
+                    ": the device computes but does not draw; choose another one with NUSSELT_DEVICE");
+    return device;
+}
+
+} // namespace
+
+RasterPass::Target::Target(const Device& device, vk::Format format, vk::ImageUsageFlags usage,
+                           vk::ImageAspectFlags aspect, vk::Extent2D size)
+    : image(make_image(device, format, usage, size)),
+      memory(device.allocate(image.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal)),
+      view(make_view(device, image, memory, format, aspect)) {}
+
+RasterPass::RasterPass(const Device& device, std::span<const std::uint32_t> vertex,
+                       std::span<const std::uint32_t> fragment, const RasterInterface& interface,
+                       std::uint32_t width, std::uint32_t height) try
+    : push_constant_size_(interface.push_constant_size),
+      size_{width, height},
+      numbers_(checked(device), kNumberFormat,
+               vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc,
+               vk::ImageAspectFlagBits::eColor, size_),
+      depth_(device, kDepthFormat, vk::ImageUsageFlagBits::eDepthStencilAttachment,
+             vk::ImageAspectFlagBits::eDepth, size_),
+      render_pass_(make_render_pass(device)),
+      framebuffer_(make_framebuffer(device, *render_pass_, *numbers_.view, *depth_.view, size_)),
+      bindings_(device, interface.storage_buffers, 0,
+                vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment),
+      layout_(make_layout(device, bindings_.layout(), interface.push_constant_size)),
+      pipeline_(make_pipeline(device, vertex, fragment, interface, size_, *layout_, *render_pass_)) {
+} catch (const vk::SystemError& error) {
+    rethrow(device.description().name + ": preparing to draw " + size_name({width, height}), error);
+}
+
+void RasterPass::draw(const Device::Commands& commands, std::span<const std::byte> push,
+                      std::uint32_t vertices, const Buffer& numbers) const {
+    assert(push.size() == push_constant_size_);
+    assert(numbers.size() >= sizeof(std::uint32_t) * size_.width * size_.height);
+    const std::array<vk::ClearValue, 2> clear = {
+        vk::ClearColorValue(std::array<std::uint32_t, 4>{0, 0, 0, 0}), vk::ClearDepthStencilValue(0, 0)};
+    commands.beginRenderPass(
+        vk::RenderPassBeginInfo(*render_pass_, *framebuffer_, vk::Rect2D({}, size_), clear),
+        vk::SubpassContents::eInline);
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline_);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, bindings_.handle(), {});
+    if (!push.empty())
+        commands.pushConstants<std::byte>(
+            *layout_, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0,
+            vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(push.size()), push.data()));
+    commands.draw(vertices, 1, 0, 0);
+    commands.endRenderPass();
+    const vk::BufferImageCopy whole(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {},
+                                    {size_.width, size_.height, 1});
+    commands.copyImageToBuffer(*numbers_.image, vk::ImageLayout::eTransferSrcOptimal, numbers.handle(),
+                               whole);
+}
+
+} // namespace nusselt::gpu

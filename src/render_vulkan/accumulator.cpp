@@ -1,0 +1,102 @@
+#include "render_vulkan/accumulator.h"
+
+#include "render/film.h"
+#include "shaders/visibility_fragment.h"
+#include "shaders/visibility_vertex.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace nusselt::render_vulkan {
+
+namespace {
+
+const render::RenderSettings& checked(const render::RenderSettings& settings) {
+    validate(settings);
+    check_supported(settings);
+    return settings;
+}
+
+PixelBuffers make_pixels(const DeviceScene& scene) {
+    const scene::PixelBounds bounds = render::rendered_pixels(scene.film());
+    return {scene.device(), static_cast<std::uint32_t>(bounds.x_end - bounds.x_begin),
+            static_cast<std::uint32_t>(bounds.y_end - bounds.y_begin)};
+}
+
+gpu::RasterPass make_visibility_pass(const DeviceScene& scene, const PixelBuffers& pixels) {
+    const SceneBuffers& data = scene.buffers();
+    const std::array buffers = {&data.scene,     &data.vertices, &data.triangles, &data.instances,
+                                &data.materials, &data.textures, &data.texels};
+    gpu::RasterPass pass(scene.device(), shaders::kVisibilityVertex, shaders::kVisibilityFragment,
+                         {.storage_buffers = buffers.size(),
+                          .push_constant_size = sizeof(interface::FrameRecord),
+                          .constants = {scene.has_alpha() ? 1u : 0u}},
+                         pixels.width, pixels.height);
+    pass.bind(buffers);
+    return pass;
+}
+
+} // namespace
+
+Accumulator::Accumulator(const DeviceScene& scene, const render::RenderSettings& settings)
+    : scene_(scene),
+      constants_(shading_constants(checked(settings), scene.lights())),
+      pixels_(make_pixels(scene)),
+      visibility_(make_visibility_pass(scene, pixels_)),
+      shading_(scene, constants_, pixels_) {}
+
+void Accumulator::restart(const render::RenderSettings& settings) {
+    const std::vector<std::uint32_t> constants = shading_constants(checked(settings), scene_.lights());
+    if (constants != constants_) {
+        shading_ = ShadingPass(scene_, constants, pixels_);
+        constants_ = constants;
+    }
+    pixels_.clear();
+    frames_ = 0;
+}
+
+FrameTimes Accumulator::add(const interface::FrameRecord& frame) {
+    const std::array<gpu::Device::Record, 2> passes = {
+        [&](const gpu::Device::Commands& commands) {
+            visibility_.draw(commands, std::as_bytes(std::span(&frame, 1)), 3 * scene_.drawn_triangles(),
+                             pixels_.numbers);
+        },
+        [&](const gpu::Device::Commands& commands) { shading_.record(commands, frame); }};
+    const std::vector<double> nanoseconds = scene_.device().time_passes(passes);
+    ++frames_;
+    return {1e-9 * nanoseconds[0], 1e-9 * nanoseconds[1]};
+}
+
+image::Image Accumulator::mean() const {
+    image::Image image = image::make_image(static_cast<int>(width()), static_cast<int>(height()));
+    std::vector<interface::PixelSum> sums(image.pixels.size() / 3);
+    pixels_.sums.read(std::span(sums));
+    const float scale = 1.0f / static_cast<float>(std::max(frames_, 1u));
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) image.pixels[3 * i + k] = scale * sums[i].sum[k];
+    return image;
+}
+
+FrameWork Accumulator::work() const {
+    const auto joined = [](const std::uint32_t(&words)[2]) {
+        return std::uint64_t{words[1]} << 32 | words[0];
+    };
+    interface::WorkRecord work {};
+    pixels_.work.read(std::span(&work, 1));
+    return {joined(work.shadow_rays), joined(work.rejected_samples)};
+}
+
+void check_supported(const render::RenderSettings& settings) {
+    const auto refuse = [](const std::string& what) {
+        throw std::invalid_argument("there is no " + what + " on GPUs; take --backend cpu");
+    };
+    if (settings.integrator != render::Integrator::points)
+        refuse("integrator " + std::string(name_of(settings.integrator)));
+    if (!settings.layers.empty()) refuse("layer " + std::string(name_of(settings.layers.front())));
+    if (settings.part.count > 1) refuse("rendering of parts");
+}
+
+} // namespace nusselt::render_vulkan

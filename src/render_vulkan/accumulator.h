@@ -1,0 +1,67 @@
+#pragma once
+/// Images on a device that frames are added to.
+
+#include "gpu/raster_pass.h"
+#include "image/image.h"
+#include "render/settings.h"
+#include "render_vulkan/device_scene.h"
+#include "render_vulkan/shading_pass.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace nusselt::render_vulkan {
+
+/// What the passes of one or more frames took [s].
+struct FrameTimes {
+    double visibility = 0; ///< drawing of what camera rays hit
+    double shading = 0;    ///< with shadow rays
+};
+
+/// What was done for all frames of an image.
+struct FrameWork {
+    std::uint64_t shadow_rays = 0; ///< with ShadowRays::none those that were left out
+    /// Light samples that count as black because their direction, density or reflected radiance is NaN or infinite: 0
+    /// unless there is NaN or overflow in the scene, or a bug.
+    std::uint64_t rejected_samples = 0;
+};
+
+/// An image of a scene: the mean over frames.
+class Accumulator {
+public:
+    /// \param scene must outlive this.
+    /// \throws std::invalid_argument see validate() and check_supported()
+    /// \throws gpu::Error if memory runs out or the driver cannot compile the shaders
+    Accumulator(const DeviceScene& scene, const render::RenderSettings& settings);
+
+    /// Black pixels, for other settings. Shaders are compiled if these ask for others.
+    /// \throws std::invalid_argument and gpu::Error as the constructor does
+    void restart(const render::RenderSettings& settings);
+
+    /// Adds a frame and waits until it is done.
+    /// \param frame of the settings, see FrameRecords
+    /// \throws gpu::Error if the device is lost
+    FrameTimes add(const interface::FrameRecord& frame);
+
+    std::uint32_t frames() const { return frames_; }
+    std::uint32_t width() const { return pixels_.width; }
+    std::uint32_t height() const { return pixels_.height; }
+    /// Black without a frame.
+    image::Image mean() const;
+    FrameWork work() const;
+    /// One interface::PixelSum per pixel: divided by frames() they are the image.
+    const gpu::Buffer& sums() const { return pixels_.sums; }
+
+private:
+    const DeviceScene& scene_;
+    std::vector<std::uint32_t> constants_; ///< of the shading pass
+    PixelBuffers pixels_;
+    gpu::RasterPass visibility_;
+    ShadingPass shading_;
+    std::uint32_t frames_ = 0;
+};
+
+/// \throws std::invalid_argument naming the first setting that a GPU does not know.
+void check_supported(const render::RenderSettings& settings);
+
+} // namespace nusselt::render_vulkan

@@ -1,0 +1,45 @@
+#include "render_vulkan/device_scene.h"
+
+#include "tables/ltc_table.h"
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+
+namespace nusselt::render_vulkan {
+
+namespace {
+
+SceneRecords make_records(const scene::Scene& scene) {
+    SceneRecords records = make_scene_records(scene);
+    const tables::LtcTable& table = tables::frostbite_ltc_table();
+    const int samples[] = {table.f0s, table.inclinations, table.roughnesses};
+    std::copy(std::begin(samples), std::end(samples), records.scene.ltc_samples);
+    return records;
+}
+
+} // namespace
+
+DeviceScene::DeviceScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays)
+    : DeviceScene(device, scene, shadow_rays, make_records(scene)) {}
+
+DeviceScene::DeviceScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays,
+                         const SceneRecords& records)
+    : device_(device),
+      film_(scene.film),
+      radius_(scene.radius),
+      record_(records.scene),
+      drawn_triangles_(records.drawn_triangles),
+      polygon_slots_(records.polygon_slots),
+      has_alpha_(records.has_alpha),
+      lights_{!records.polygon_lights.empty(), records.has_lines, records.has_tubes},
+      buffers_(device, records),
+      ltc_table_(upload(device, std::span(tables::frostbite_ltc_table().entries), "lobes")),
+      shadows_(device, scene, shadow_rays) {}
+
+void DeviceScene::set_camera(const scene::Camera& camera) {
+    render_vulkan::set_camera(camera, film_, radius_, record_);
+    buffers_.scene.write(std::span<const interface::SceneRecord>(&record_, 1));
+}
+
+} // namespace nusselt::render_vulkan

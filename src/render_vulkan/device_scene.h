@@ -1,0 +1,54 @@
+#pragma once
+/// A scene on a device, and what kinds of things it has.
+
+#include "render_vulkan/scene_buffers.h"
+#include "render_vulkan/shadow_scene.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+
+namespace nusselt::render_vulkan {
+
+/// Which lights a scene has.
+struct LightKinds {
+    bool polygons, lines, tubes;
+};
+
+/// A scene in the memory of a device, as passes need it. It does not refer to the scene that it was made from.
+class DeviceScene {
+public:
+    /// \param device must outlive this.
+    /// \throws std::runtime_error if the scene does not fit the device: see make_scene_records(), ShadowScene, upload().
+    DeviceScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays);
+
+    /// Another camera for the next frames, with the same film. Not while commands run.
+    void set_camera(const scene::Camera& camera);
+
+    const gpu::Device& device() const { return device_; }
+    const scene::Film& film() const { return film_; }
+    std::uint32_t drawn_triangles() const { return drawn_triangles_; }
+    int polygon_slots() const { return polygon_slots_; } ///< see SceneRecords
+    bool has_alpha() const { return has_alpha_; }
+    const LightKinds& lights() const { return lights_; }
+    const SceneBuffers& buffers() const { return buffers_; }
+    const gpu::Buffer& ltc_table() const { return ltc_table_; } ///< decoded samples
+    const ShadowScene& shadows() const { return shadows_; }
+
+private:
+    DeviceScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays,
+                const SceneRecords& records);
+
+    const gpu::Device& device_;
+    scene::Film film_;
+    double radius_; ///< of the scene [m]
+    interface::SceneRecord record_;
+    std::uint32_t drawn_triangles_;
+    int polygon_slots_;
+    bool has_alpha_;
+    LightKinds lights_;
+    SceneBuffers buffers_;
+    gpu::Buffer ltc_table_;
+    ShadowScene shadows_;
+};
+
+} // namespace nusselt::render_vulkan

@@ -1,0 +1,63 @@
+#include "render_vulkan/frame_records.h"
+
+#include <nusselt/random/light_random.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace nusselt::render_vulkan {
+
+namespace {
+
+Sampler sampler_of(render::SampleOrder order) {
+    switch (order) {
+    case render::SampleOrder::independent:
+        return Sampler::independent;
+    case render::SampleOrder::jittered:
+        return Sampler::jittered;
+    case render::SampleOrder::stratified:
+        return Sampler::stratified;
+    case render::SampleOrder::sobol:
+        break;
+    }
+    return Sampler::sobol;
+}
+
+/// The offset along one axis for a random number. Multiplies the weight.
+float filtered_offset(const render::PixelFilterTable& table, float radius, float u, float& weight) {
+    if (table.cumulative.empty()) return radius * (2 * u - 1);
+    const auto next = std::upper_bound(table.cumulative.begin() + 1, table.cumulative.end() - 1, u);
+    const auto cell = static_cast<std::size_t>(next - table.cumulative.begin()) - 1;
+    const float below = table.cumulative[cell];
+    const float part = (u - below) / (table.cumulative[cell + 1] - below);
+    weight *= table.weights[cell];
+    const float position = (static_cast<float>(cell) + part) / render::kFilterCells;
+    return table.reach * (2 * position - 1);
+}
+
+} // namespace
+
+FrameRecords::FrameRecords(const scene::Film& film, const render::RenderSettings& settings)
+    : settings_(settings),
+      count_(static_cast<std::uint32_t>(camera_ray_count(settings))),
+      filter_(film.filter),
+      table_x_(render::make_filter_table(filter_, filter_.radius_x)),
+      table_y_(render::make_filter_table(filter_, filter_.radius_y)) {}
+
+interface::FrameRecord FrameRecords::make(std::uint32_t number) const {
+    interface::FrameRecord record {};
+    record.weight = 1;
+    if (settings_.pixel_position != render::PixelPosition::center) {
+        const auto u = camera_random(sampler_of(settings_.sample_order), settings_.seed, 0, 0, number);
+        record.offset[0] = filtered_offset(table_x_, filter_.radius_x, u.x, record.weight);
+        record.offset[1] = filtered_offset(table_y_, filter_.radius_y, u.y, record.weight);
+    }
+    record.number = number;
+    record.count = count_;
+    record.light_samples = static_cast<std::uint32_t>(settings_.samples) / count_;
+    record.seed = settings_.seed;
+    record.visibility_estimate = settings_.visibility_estimate;
+    return record;
+}
+
+} // namespace nusselt::render_vulkan

@@ -1,0 +1,30 @@
+#pragma once
+/// Camera rays: one per pixel and frame.
+
+#include "interface/scene.h"
+#include "render/pixel_filter.h"
+#include "render/settings.h"
+#include "scene/scene.h"
+
+namespace nusselt::render_vulkan {
+
+/// Makes the parameters of one frame after the other.
+class FrameRecords {
+public:
+    /// \throws std::runtime_error see make_filter_table()
+    FrameRecords(const scene::Film& film, const render::RenderSettings& settings);
+
+    std::uint32_t count() const { return count_; }
+
+    /// All pixels have the same offset from their centres: it is random, as the pixel filter distributes it.
+    /// \param number below count().
+    interface::FrameRecord make(std::uint32_t number) const;
+
+private:
+    render::RenderSettings settings_;
+    std::uint32_t count_;
+    scene::PixelFilter filter_;
+    render::PixelFilterTable table_x_, table_y_;
+};
+
+} // namespace nusselt::render_vulkan

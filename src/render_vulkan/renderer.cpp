@@ -1,0 +1,68 @@
+#include "render_vulkan/renderer.h"
+
+#include "render_vulkan/accumulator.h"
+#include "render_vulkan/frame_records.h"
+
+#include <chrono>
+#include <optional>
+
+namespace nusselt::render_vulkan {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+} // namespace
+
+struct VulkanRenderer::State {
+    State(const gpu::Device& device, const scene::Scene& scene_to_render, ShadowRays shadow_rays,
+          Clock::time_point begin)
+        : scene(device, scene_to_render, shadow_rays), build_seconds(seconds_since(begin)) {}
+
+    DeviceScene scene;
+    double build_seconds;
+    std::optional<Accumulator> image; ///< the last one
+};
+
+VulkanRenderer::VulkanRenderer(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays)
+    : state_(std::make_unique<State>(device, scene, shadow_rays, Clock::now())) {}
+
+VulkanRenderer::~VulkanRenderer() = default;
+
+const gpu::Device& VulkanRenderer::device() const { return state_->scene.device(); }
+ShadowRays VulkanRenderer::shadow_rays() const { return state_->scene.shadows().way(); }
+
+RenderResult VulkanRenderer::render(const render::RenderSettings& settings,
+                                    const RenderMonitor& monitor) const {
+    RenderResult result;
+    RenderStatistics& statistics = result.statistics;
+    statistics.build_seconds = state_->build_seconds;
+    const auto compile_begin = Clock::now();
+    std::optional<Accumulator>& image = state_->image;
+    if (image)
+        image->restart(settings);
+    else
+        image.emplace(state_->scene, settings);
+    statistics.compile_seconds = seconds_since(compile_begin);
+
+    const FrameRecords frames(state_->scene.film(), settings);
+    const auto render_begin = Clock::now();
+    while (image->frames() < frames.count() && !(monitor.cancel != nullptr && *monitor.cancel)) {
+        const FrameTimes times = image->add(frames.make(image->frames()));
+        statistics.visibility_seconds += times.visibility;
+        statistics.shading_seconds += times.shading;
+        if (monitor.progress) monitor.progress(static_cast<double>(image->frames()) / frames.count());
+    }
+    statistics.render_seconds = seconds_since(render_begin);
+    statistics.primary_rays = std::uint64_t{image->frames()} * image->width() * image->height();
+    statistics.work = image->work();
+    result.finished_fraction = static_cast<double>(image->frames()) / frames.count();
+    result.image = image->mean();
+    return result;
+}
+
+} // namespace nusselt::render_vulkan

@@ -1,0 +1,40 @@
+#pragma once
+/// A scene in the memory of a device.
+
+#include "gpu/buffer.h"
+#include "render_vulkan/scene_records.h"
+
+#include <algorithm>
+#include <span>
+
+namespace nusselt::render_vulkan {
+
+/// A buffer with these values, and one value's worth of nothing if there are none.
+/// \param what they are, for messages.
+/// \throws gpu::Error if the device has no memory for them or no buffers as large.
+template <class T>
+gpu::Buffer upload(const gpu::Device& device, std::span<const T> values, const char* what);
+
+/// The buffers of shaders/passes/scene.glsl and lights.glsl.
+struct SceneBuffers {
+    /// \throws gpu::Error as upload() does.
+    SceneBuffers(const gpu::Device& device, const SceneRecords& records);
+
+    gpu::Buffer scene, vertices, triangles, instances, materials, textures, texels;
+    gpu::Buffer polygon_lights, polygon_corners, line_lights;
+};
+
+template <class T>
+gpu::Buffer upload(const gpu::Device& device, std::span<const T> values, const char* what) {
+    const std::size_t bytes = std::max(values.size_bytes(), sizeof(T));
+    if (bytes > device.limits().maxStorageBufferRange)
+        throw gpu::Error(device.description().name + ": the " + what + " of the scene take " +
+                         gpu::size_text(bytes) + ", more than a buffer of this device may have (" +
+                         gpu::size_text(device.limits().maxStorageBufferRange) +
+                         "); take another device or --backend cpu");
+    gpu::Buffer buffer(device, bytes, gpu::Residence::device_local);
+    if (!values.empty()) buffer.write(values);
+    return buffer;
+}
+
+} // namespace nusselt::render_vulkan

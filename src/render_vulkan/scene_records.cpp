@@ -1,0 +1,275 @@
+#include "render_vulkan/scene_records.h"
+
+#include "render/film.h"
+#include "render/instance_transform.h"
+#include "scene/scene_size.h"
+#include "scene/vector_math.h"
+#include "visibility/alpha.h"
+#include "visibility/tube_mesh.h"
+
+#include <nusselt/geometry/convex_polygon.h>
+#include <nusselt/geometry/line_segment.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace nusselt::render_vulkan {
+
+namespace {
+
+using scene::Double3;
+
+constexpr std::uint64_t kMostNumbers = std::numeric_limits<std::uint32_t>::max();
+
+/// Throws std::runtime_error if 32 bits cannot number that many things.
+std::uint32_t checked_count(std::uint64_t count, const std::string& what) {
+    if (count > kMostNumbers)
+        throw std::runtime_error(std::to_string(count) + " " + what + " are more than the " +
+                                 std::to_string(kMostNumbers) +
+                                 " that a GPU can address; take --backend cpu");
+    return static_cast<std::uint32_t>(count);
+}
+
+void copy(const scene::Float3& from, float (&to)[3]) {
+    to[0] = from.x;
+    to[1] = from.y;
+    to[2] = from.z;
+}
+
+Vec3<float> to_vec(const scene::Float3& v) { return {v.x, v.y, v.z}; }
+scene::Float3 to_float3(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
+
+void add_vertices(const scene::Scene& scene, const visibility::TubeMesh& tubes, SceneRecords& records) {
+    records.vertices.reserve(scene.positions.size() + tubes.positions.size());
+    const auto add = [&](const scene::Float3& position, const scene::Float3& normal,
+                         const scene::Float2& uv) {
+        interface::VertexRecord& record = records.vertices.emplace_back();
+        copy(position, record.position);
+        copy(normal, record.normal);
+        record.uv[0] = uv.x;
+        record.uv[1] = uv.y;
+    };
+    for (std::size_t i = 0; i < scene.positions.size(); ++i)
+        add(scene.positions[i], scene.normals[i], scene.uvs[i]);
+    for (const scene::Float3& position : tubes.positions) add(position, {0, 0, 0}, {0, 0});
+}
+
+void add_triangles(const scene::Scene& scene, const visibility::TubeMesh& tubes, SceneRecords& records) {
+    records.triangles.reserve(scene.triangles.size() + tubes.triangles.size());
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const auto& vertex = scene.triangles[i].vertex;
+        records.triangles.push_back(
+            {{vertex[0], vertex[1], vertex[2]}, scene.triangle_material[i], scene.triangle_light[i]});
+    }
+    const auto first = static_cast<std::uint32_t>(scene.positions.size());
+    for (const scene::Triangle& triangle : tubes.triangles) {
+        const auto& vertex = triangle.vertex;
+        records.triangles.push_back({{first + vertex[0], first + vertex[1], first + vertex[2]}, 0, -1});
+    }
+}
+
+/// \returns the number of triangles of the world and of instances
+std::uint64_t add_instances(const scene::Scene& scene, SceneRecords& records) {
+    std::uint64_t drawn = world_triangle_count(scene);
+    for (const scene::Instance& instance : scene.instances) {
+        const scene::Object& object = scene.objects[instance.object];
+        const render::InstanceTransform transform = render::make_instance_transform(scene, instance);
+        interface::InstanceRecord& record = records.instances.emplace_back();
+        record.first_drawn = checked_count(3 * drawn, "corners of triangles") / 3;
+        record.first_triangle = object.first_triangle;
+        std::copy(instance.world_from_object.begin(), instance.world_from_object.end(),
+                  record.world_from_object);
+        std::copy(transform.normal_from_object.begin(), transform.normal_from_object.end(),
+                  record.normal_from_object);
+        record.handedness = transform.handedness;
+        record.rounding = transform.rounding;
+        drawn += object.triangle_count;
+    }
+    return drawn;
+}
+
+interface::TextureLookup make_lookup(const scene::TextureUse& use, std::uint32_t kind, std::uint32_t& kinds) {
+    if (use.texture < 0) return {interface::kNoTexture, {}, {}};
+    kinds |= kind;
+    return {
+        static_cast<std::uint32_t>(use.texture), {use.scale.x, use.scale.y}, {use.offset.x, use.offset.y}};
+}
+
+interface::MaterialRecord make_record(const scene::Material& material) {
+    interface::MaterialRecord record {};
+    copy(material.diffuse, record.diffuse);
+    copy(material.f0, record.f0);
+    record.roughness = material.roughness;
+    record.alpha = material.alpha;
+    record.is_frostbite = material.model == scene::BrdfModel::frostbite ? 1 : 0;
+    std::uint32_t& kinds = record.texture_kinds;
+    record.diffuse_texture = make_lookup(material.diffuse_texture, interface::kDiffuseTexture, kinds);
+    record.f0_texture = make_lookup(material.f0_texture, interface::kF0Texture, kinds);
+    record.roughness_texture = make_lookup(material.roughness_texture, interface::kRoughnessTexture, kinds);
+    record.normal_texture = make_lookup(material.normal_texture, interface::kNormalTexture, kinds);
+    record.bump_texture = make_lookup(material.bump_texture, interface::kBumpTexture, kinds);
+    record.alpha_texture = make_lookup(material.alpha_texture, interface::kAlphaTexture, kinds);
+    record.bump_height = material.bump;
+    record.is_bump_in_uv = material.bump_unit == scene::BumpUnit::texture_coordinate ? 1 : 0;
+    return record;
+}
+
+std::uint32_t wrap_of(scene::TextureWrap wrap) {
+    switch (wrap) {
+    case scene::TextureWrap::clamp:
+        return interface::kWrapClamp;
+    case scene::TextureWrap::black:
+        return interface::kWrapBlack;
+    case scene::TextureWrap::repeat:
+        break;
+    }
+    return interface::kWrapRepeat;
+}
+
+void add_textures(const scene::Scene& scene, SceneRecords& records) {
+    std::uint64_t texels = 0;
+    for (const scene::Texture& texture : scene.textures) texels += texture.texels.size();
+    records.texels.reserve(checked_count(texels, "numbers of textures"));
+    for (const scene::Texture& texture : scene.textures) {
+        const auto first = static_cast<std::uint32_t>(records.texels.size());
+        records.textures.push_back({first, texture.width, texture.height, texture.channels,
+                                    wrap_of(texture.wrap),
+                                    texture.filter == scene::TextureFilter::nearest ? 1u : 0u});
+        records.texels.insert(records.texels.end(), texture.texels.begin(), texture.texels.end());
+    }
+}
+
+template <int N>
+void add_polygon(const scene::PolygonLight& light, SceneRecords& records) {
+    Vec3<float> corners[N] = {};
+    for (std::size_t j = 0; j < light.vertices.size(); ++j) corners[j] = to_vec(light.vertices[j]);
+    const auto polygon = make_polygon<N>(corners, static_cast<int>(light.vertices.size()));
+    for (const Vec3<float>& vertex : polygon.vertex) records.polygon_corners.push_back(to_float3(vertex));
+    for (const Vec3<float>& edge : polygon.edge) records.polygon_corners.push_back(to_float3(edge));
+    interface::PolygonLightRecord& record = records.polygon_lights.emplace_back();
+    copy(to_float3(polygon.normal), record.normal);
+    copy(light.radiance, record.radiance);
+    record.is_two_sided = light.two_sided ? 1 : 0;
+}
+
+void add_lights(const scene::Scene& scene, SceneRecords& records) {
+    const bool are_small = std::all_of(scene.polygon_lights.begin(), scene.polygon_lights.end(),
+                                       [](const auto& light) { return light.vertices.size() <= 4; });
+    records.polygon_slots = are_small ? 4 : 8;
+    checked_count(6 * scene.polygon_lights.size() * 8, "coordinates of lights");
+    for (const scene::PolygonLight& light : scene.polygon_lights) {
+        if (are_small)
+            add_polygon<4>(light, records);
+        else
+            add_polygon<8>(light, records);
+    }
+    for (const scene::LineLight& light : scene.line_lights) {
+        const auto line = make_line(to_vec(light.begin), to_vec(light.end));
+        interface::LineLightRecord& record = records.line_lights.emplace_back();
+        copy(to_float3(line.p0), record.begin);
+        copy(to_float3(line.s), record.direction);
+        record.len = line.length;
+        record.radius = light.radius;
+        const bool is_solid = light.model == scene::TubeModel::solid;
+        record.is_solid = is_solid ? 1 : 0;
+        (is_solid ? records.has_tubes : records.has_lines) = true;
+        copy(light.radiance, record.radiance);
+    }
+}
+
+/// A function of three coordinates that is linear but for a constant.
+struct Row {
+    Double3 linear;
+    double constant = 0;
+};
+
+Row times(double factor, const Row& row) { return {factor * row.linear, factor * row.constant}; }
+Row operator-(const Row& a, const Row& b) { return {a.linear - b.linear, a.constant - b.constant}; }
+
+void copy(const Row& row, float* to) {
+    const scene::Float3 linear = to_float(row.linear);
+    to[0] = linear.x;
+    to[1] = linear.y;
+    to[2] = linear.z;
+    to[3] = static_cast<float>(row.constant);
+}
+
+/// The rows of the inverse of the matrix with these columns.
+std::array<Row, 3> inverse_rows(const Double3& a, const Double3& b, const Double3& c) {
+    const double inverse = 1 / dot(a, cross(b, c));
+    return {Row{inverse * cross(b, c)}, Row{inverse * cross(c, a)}, Row{inverse * cross(a, b)}};
+}
+
+} // namespace
+
+void set_camera(const scene::Camera& camera, const scene::Film& film, double radius,
+                interface::SceneRecord& record) {
+    copy(camera.origin, record.origin);
+    copy(camera.origin_right, record.origin_right);
+    copy(camera.origin_down, record.origin_down);
+    copy(camera.corner, record.corner);
+    copy(camera.right, record.right);
+    copy(camera.down, record.down);
+    const scene::PixelBounds pixels = render::rendered_pixels(film);
+    record.x_begin = pixels.x_begin;
+    record.y_begin = pixels.y_begin;
+    record.width = pixels.x_end - pixels.x_begin;
+    record.height = pixels.y_end - pixels.y_begin;
+
+    // A point is t (corner + x right + y down) from the origin of a perspective camera, and
+    // x origin_right + y origin_down + t corner from that of an orthographic one.
+    const bool is_perspective = length(to_double(camera.origin_right)) == 0;
+    std::array<Row, 3> raster =
+        is_perspective
+            ? inverse_rows(to_double(camera.right), to_double(camera.down), to_double(camera.corner))
+            : inverse_rows(to_double(camera.origin_right), to_double(camera.origin_down),
+                           to_double(camera.corner));
+    const Row w = is_perspective ? raster[2] : Row{{}, 1};
+    // From pixels of the film to the square from -1 to 1.
+    const Row x = times(2.0 / record.width, raster[0] - times(record.x_begin, w)) - w;
+    const Row y = times(2.0 / record.height, raster[1] - times(record.y_begin, w)) - w;
+    copy(x, record.clip_from_world);
+    copy(y, record.clip_from_world + 4);
+    copy(w, record.clip_from_world + 8);
+    copy(raster[2], record.distance_from_world);
+    // Beyond this share of the scene's size, depth is as accurate relative to the distance as single precision is.
+    constexpr double kDepthUnit = 1e-2;
+    const double unit = kDepthUnit * radius / length(to_double(camera.corner));
+    record.inverse_depth_unit = unit > 0 ? static_cast<float>(1 / unit) : 1;
+}
+
+SceneRecords make_scene_records(const scene::Scene& scene) {
+    const visibility::TubeMesh tubes = visibility::make_tube_mesh(scene.line_lights);
+    checked_count(scene.positions.size() + tubes.positions.size(), "vertices");
+    checked_count(3 * (scene.triangles.size() + tubes.triangles.size()), "corners of triangles");
+    SceneRecords records{};
+    add_vertices(scene, tubes, records);
+    add_triangles(scene, tubes, records);
+    const std::uint64_t first_tube = add_instances(scene, records);
+    const std::uint64_t drawn = first_tube + tubes.triangles.size();
+    records.drawn_triangles = checked_count(3 * drawn, "corners of triangles") / 3;
+    for (const scene::Material& material : scene.materials) {
+        records.materials.push_back(make_record(material));
+        records.has_alpha |= visibility::presence_of(material) != visibility::Presence::full;
+    }
+    add_textures(scene, records);
+    add_lights(scene, records);
+
+    interface::SceneRecord& record = records.scene;
+    set_camera(scene.camera, scene.film, scene.radius, record);
+    record.radius = static_cast<float>(scene.radius);
+    record.world_triangles = static_cast<std::uint32_t>(world_triangle_count(scene));
+    record.instances = static_cast<std::uint32_t>(scene.instances.size());
+    record.first_tube_drawn = static_cast<std::uint32_t>(first_tube);
+    record.first_tube_triangle = static_cast<std::uint32_t>(scene.triangles.size());
+    record.triangles_per_tube = visibility::kTrianglesPerTube;
+    record.polygon_lights = static_cast<std::uint32_t>(scene.polygon_lights.size());
+    record.line_lights = static_cast<std::uint32_t>(scene.line_lights.size());
+    return records;
+}
+
+} // namespace nusselt::render_vulkan

@@ -1,0 +1,86 @@
+#include "render_vulkan/shading_pass.h"
+
+#include "gpu/fused_fma.h"
+#include "render_vulkan/shading_shaders.h"
+
+#include <vector>
+
+namespace nusselt::render_vulkan {
+
+namespace {
+
+// As in shaders/passes.
+constexpr std::uint32_t kWorkGroupSide = 8;
+constexpr std::uint32_t kShadingBuffers = 14; ///< all but those for shadow rays
+
+std::uint32_t groups_for(std::uint32_t pixels) { return (pixels - 1) / kWorkGroupSide + 1; }
+
+/// Whether no light is sampled.
+bool is_analytic(const std::vector<std::uint32_t>& constants) {
+    return constants.front() == static_cast<std::uint32_t>(render::Technique::ltc_analytic);
+}
+
+gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<std::uint32_t>& constants) {
+    const gpu::Device& device = scene.device();
+    const ShadowScene& shadows = scene.shadows();
+    const ShaderVariant variant{scene.polygon_slots(), has_fused_fma(device)};
+    gpu::ComputeInterface interface {
+        .storage_buffers = kShadingBuffers, .push_constant_size = sizeof(interface::FrameRecord),
+        .constants = constants
+    };
+    if (is_analytic(constants)) return {device, integration_shader(variant), interface};
+    interface.storage_buffers += static_cast<std::uint32_t>(shadows.buffers().size());
+    interface.ray_scenes = shadows.structure() == nullptr ? 0 : 1;
+    return {device, sampling_shader(variant, shadows.way()), interface};
+}
+
+std::size_t pixel_count(std::uint32_t width, std::uint32_t height) { return std::size_t{width} * height; }
+
+} // namespace
+
+PixelBuffers::PixelBuffers(const gpu::Device& device, std::uint32_t image_width, std::uint32_t image_height)
+    : width(image_width),
+      height(image_height),
+      numbers(device, pixel_count(width, height) * sizeof(std::uint32_t), gpu::Residence::device_local),
+      sums(device, pixel_count(width, height) * sizeof(interface::PixelSum), gpu::Residence::device_local),
+      work(device, sizeof(interface::WorkRecord), gpu::Residence::device_local) {
+    clear();
+}
+
+void PixelBuffers::clear() {
+    sums.fill_with_zeros();
+    work.fill_with_zeros();
+}
+
+std::vector<std::uint32_t> shading_constants(const render::RenderSettings& settings,
+                                             const LightKinds& lights) {
+    // As in shaders/passes/settings.glsl.
+    const auto number_of = [](auto value) { return static_cast<std::uint32_t>(value); };
+    return {number_of(settings.technique),    number_of(settings.strategies), number_of(settings.mis),
+            number_of(settings.sample_order), number_of(settings.brdf),       number_of(lights.polygons),
+            number_of(lights.lines),          number_of(lights.tubes)};
+}
+
+ShadingPass::ShadingPass(const DeviceScene& scene, const std::vector<std::uint32_t>& constants,
+                         const PixelBuffers& pixels)
+    : groups_x_(groups_for(pixels.width)),
+      groups_y_(groups_for(pixels.height)),
+      pipeline_(make_pipeline(scene, constants)) {
+    const SceneBuffers& data = scene.buffers();
+    const ShadowScene& shadows = scene.shadows();
+    std::vector<const gpu::Buffer*> buffers = {
+        &data.scene,        &data.vertices,  &data.triangles,      &data.instances,       &data.materials,
+        &data.textures,     &data.texels,    &data.polygon_lights, &data.polygon_corners, &data.line_lights,
+        &scene.ltc_table(), &pixels.numbers, &pixels.sums,         &pixels.work};
+    if (!is_analytic(constants)) {
+        for (const gpu::Buffer* buffer : shadows.buffers()) buffers.push_back(buffer);
+        if (shadows.structure() != nullptr) pipeline_.bind(*shadows.structure());
+    }
+    pipeline_.bind(buffers);
+}
+
+void ShadingPass::record(const gpu::Device::Commands& commands, const interface::FrameRecord& frame) const {
+    pipeline_.dispatch(commands, std::as_bytes(std::span(&frame, 1)), groups_x_, groups_y_);
+}
+
+} // namespace nusselt::render_vulkan

@@ -1,0 +1,45 @@
+#pragma once
+/// Shading of what a visibility pass has drawn.
+
+#include "gpu/compute_pipeline.h"
+#include "render/settings.h"
+#include "render_vulkan/device_scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace nusselt::render_vulkan {
+
+/// The buffers of shaders/passes/shading.glsl, for an image.
+struct PixelBuffers {
+    /// All pixels are zero, and nothing was done.
+    PixelBuffers(const gpu::Device& device, std::uint32_t width, std::uint32_t height);
+
+    /// The same as at first.
+    void clear();
+
+    std::uint32_t width, height;
+    gpu::Buffer numbers; ///< what was drawn
+    gpu::Buffer sums;    ///< one interface::PixelSum per pixel
+    gpu::Buffer work;    ///< an interface::WorkRecord
+};
+
+/// What chooses the pipeline for these settings: all but numbers of samples and seeds.
+std::vector<std::uint32_t> shading_constants(const render::RenderSettings& settings,
+                                             const LightKinds& lights);
+
+/// Adds frames to pixels.
+class ShadingPass {
+public:
+    /// \param constants see shading_constants()
+    ShadingPass(const DeviceScene& scene, const std::vector<std::uint32_t>& constants,
+                const PixelBuffers& pixels);
+
+    void record(const gpu::Device::Commands& commands, const interface::FrameRecord& frame) const;
+
+private:
+    std::uint32_t groups_x_, groups_y_;
+    gpu::ComputePipeline pipeline_;
+};
+
+} // namespace nusselt::render_vulkan

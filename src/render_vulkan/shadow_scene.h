@@ -1,0 +1,46 @@
+#pragma once
+/// What shaders trace shadow rays in.
+
+#include "gpu/acceleration_structure.h"
+#include "gpu/buffer.h"
+#include "scene/scene.h"
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace nusselt::render_vulkan {
+
+/// How shadow rays are traced.
+enum class ShadowRays {
+    query, ///< by the device, with VK_KHR_ray_query
+    bvh,   ///< by shaders, in a hierarchy of their own
+    none,  ///< not at all: nothing is in the way, for the cost of all else
+};
+
+inline constexpr std::array kShadowRays = {ShadowRays::query, ShadowRays::bvh, ShadowRays::none};
+std::string_view name_of(ShadowRays way);
+
+/// Queries where the device has them.
+ShadowRays default_shadow_rays(const gpu::Device& device);
+
+class ShadowScene {
+public:
+    /// \throws gpu::Error if the device has no ray queries but is asked for them, or not enough memory.
+    /// \throws std::runtime_error see make_triangle_bvh()
+    ShadowScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays way);
+
+    ShadowRays way() const { return way_; }
+    /// For the bindings of shaders/passes/sample_lights_*.comp.
+    std::vector<const gpu::Buffer*> buffers() const;
+    /// The binding after those; null if there is none.
+    const gpu::AccelerationStructure* structure() const { return structure_ ? &*structure_ : nullptr; }
+
+private:
+    ShadowRays way_;
+    std::vector<gpu::Buffer> buffers_;
+    std::optional<gpu::AccelerationStructure> structure_;
+};
+
+} // namespace nusselt::render_vulkan

@@ -1,0 +1,160 @@
+/// With pixel centres and the same random numbers, the GPU renders the image of the CPU.
+
+#include "comparison.h"
+#include "gpu_test.h"
+#include "render/film.h"
+#include "rich_scene.h"
+#include "scene/load.h"
+
+#include <filesystem>
+#include <tuple>
+#include <vector>
+
+namespace nusselt::render_vulkan_test {
+namespace {
+
+using render::Strategies;
+using render::Technique;
+using render_vulkan::ShadowRays;
+using render_vulkan::VulkanRenderer;
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+
+/// Of pixels along edges. Measured: up to 1.5 % on shipped scenes at this size.
+constexpr double kLargestShare = 0.03;
+
+render::RenderSettings centred(int samples) {
+    render::RenderSettings settings;
+    settings.pixel_position = render::PixelPosition::center;
+    settings.samples = samples;
+    return settings;
+}
+
+class Agreement : public parity::GpuTest {
+protected:
+    void expect_agreement(const scene::Scene& scene, const VulkanRenderer& renderer,
+                          const render::RenderSettings& settings) {
+        const render_vulkan::RenderResult result = renderer.render(settings);
+        EXPECT_LT(differing_share(result.image, render_on_cpu(scene, settings)), kLargestShare);
+        EXPECT_EQ(result.statistics.work.rejected_samples, 0u);
+        EXPECT_EQ(result.finished_fraction, 1);
+    }
+};
+
+TEST_F(Agreement, OfTextures_Instances_AndAllKindsOfLights) {
+    const scene::Scene scene = make_opaque_scene(kWidth, kHeight);
+    for (const ShadowRays way : {ShadowRays::query, ShadowRays::bvh}) {
+        if (way == ShadowRays::query && !device().features().ray_queries) continue;
+        SCOPED_TRACE(name_of(way));
+        const VulkanRenderer renderer(device(), scene, way);
+        render::RenderSettings settings = centred(4);
+        settings.strategies = Strategies::diffuse_ltc;
+        expect_agreement(scene, renderer, settings);
+    }
+}
+
+/// Camera rays have the same bits.
+TEST_F(Agreement, OfSurfacesThatArePartlyThere_SeenByTheCamera) {
+    const scene::Scene scene = make_rich_scene(kWidth, kHeight);
+    render::RenderSettings settings = centred(1);
+    settings.technique = Technique::ltc_analytic;
+    expect_agreement(scene, VulkanRenderer(device(), scene, ShadowRays::bvh), settings);
+}
+
+TEST_F(Agreement, OfACrop) {
+    scene::Scene scene = make_opaque_scene(kWidth, kHeight);
+    scene.film.crop = scene::PixelBounds{13, 7, 50, 41};
+    const VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    const auto settings = centred(2);
+    const image::Image image = renderer.render(settings).image;
+    EXPECT_EQ(image.width, 37);
+    EXPECT_EQ(image.height, 34);
+    expect_agreement(scene, renderer, settings);
+}
+
+TEST_F(Agreement, OfAnOrthographicCamera) {
+    scene::Scene scene = make_opaque_scene(kWidth, kHeight);
+    scene.camera = {.origin = {-2.4f, -4, 2.6f},
+                    .origin_right = {4.8f / kWidth, 0, 0},
+                    .origin_down = {0, 0, -3.2f / kHeight},
+                    .corner = {0.05f, 1, -0.1f},
+                    .right = {0, 0, 0},
+                    .down = {0, 0, 0}};
+    expect_agreement(scene, VulkanRenderer(device(), scene, ShadowRays::bvh), centred(2));
+}
+
+TEST_F(Agreement, OfEveryTechnique) {
+    const scene::Scene scene = make_opaque_scene(kWidth / 2, kHeight / 2);
+    const VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
+    for (const Technique technique : render::kTechniques) {
+        SCOPED_TRACE(name_of(technique));
+        render::RenderSettings settings = centred(2);
+        settings.technique = technique;
+        expect_agreement(scene, renderer, settings);
+    }
+}
+
+TEST_F(Agreement, OfEveryHeuristic_Strategy_AndSampler) {
+    scene::Scene scene = make_opaque_scene(kWidth / 2, kHeight / 2);
+    // All kinds of lights share what is tested, and drivers take the longer for each.
+    scene.line_lights.clear();
+    const VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
+    std::vector<render::RenderSettings> all;
+    for (const render::Mis mis : render::kMisHeuristics) {
+        render::RenderSettings& settings = all.emplace_back(centred(2));
+        settings.strategies = Strategies::diffuse_ltc;
+        settings.mis = mis;
+        settings.visibility_estimate = 0.8f;
+    }
+    for (const auto& [technique, strategies, mis] :
+         {std::tuple(Technique::projected_solid_angle_biased, Strategies::diffuse_ltc, render::Mis::balance),
+          std::tuple(Technique::projected_solid_angle, Strategies::diffuse_ggx, render::Mis::balance),
+          std::tuple(Technique::solid_angle, Strategies::diffuse_ggx_bounded, render::Mis::power)}) {
+        render::RenderSettings& settings = all.emplace_back(centred(2));
+        settings.technique = technique;
+        settings.strategies = strategies;
+        settings.mis = mis;
+    }
+    for (const render::SampleOrder order : render::kSampleOrders) {
+        render::RenderSettings& settings = all.emplace_back(centred(6));
+        settings.sample_order = order;
+        settings.brdf = render::BrdfChoice::lambert;
+        settings.seed = 7;
+    }
+    for (const render::RenderSettings& settings : all) {
+        SCOPED_TRACE(testing::Message()
+                     << name_of(settings.technique) << ", " << name_of(settings.strategies) << ", "
+                     << name_of(settings.mis) << ", " << name_of(settings.sample_order));
+        expect_agreement(scene, renderer, settings);
+    }
+}
+
+TEST_F(Agreement, OfShippedScenes) {
+    for (const auto& entry : std::filesystem::directory_iterator(NUSSELT_SOURCE_DIR "/scenes")) {
+        if (entry.path().extension() != ".pbrt") continue;
+        SCOPED_TRACE(entry.path().filename());
+        scene::Scene scene = scene::load_scene(entry.path());
+        render::resize_film(scene, kWidth, kHeight);
+        render::RenderSettings settings = centred(1);
+        settings.strategies = Strategies::diffuse_ltc;
+        expect_agreement(scene, VulkanRenderer(device(), scene, ShadowRays::bvh), settings);
+    }
+}
+
+/// The test of the test.
+TEST_F(Agreement, RejectsOtherRandomNumbers_AndALightThatIsALittleBrighter) {
+    scene::Scene scene = make_opaque_scene(kWidth, kHeight);
+    render::RenderSettings settings = centred(1);
+    const image::Image reference = render_on_cpu(scene, settings);
+    settings.seed = 1;
+    const VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    EXPECT_GT(differing_share(renderer.render(settings).image, reference), 2 * kLargestShare);
+    settings.seed = 0;
+    for (scene::PolygonLight& light : scene.polygon_lights) light.radiance.y *= 1.01f;
+    const VulkanRenderer brighter(device(), scene, ShadowRays::bvh);
+    EXPECT_GT(differing_share(brighter.render(settings).image, reference), 2 * kLargestShare);
+}
+
+} // namespace
+} // namespace nusselt::render_vulkan_test

@@ -1,0 +1,99 @@
+/// With random positions in pixels, images of both renderers have the same mean.
+
+#include "comparison.h"
+#include "experiments/bias_statistics.h"
+#include "gpu_test.h"
+#include "render/film.h"
+#include "rich_scene.h"
+#include "scene/load.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace nusselt::render_vulkan_test {
+namespace {
+
+using experiments::BiasStatistics;
+using render_vulkan::VulkanRenderer;
+
+constexpr int kFrames = 16;
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+
+render::RenderSettings settings_for(std::uint32_t seed) {
+    render::RenderSettings settings;
+    settings.strategies = render::Strategies::diffuse_ltc;
+    // All pixels of a frame share their offset: with few frames, edges would not be independent of each other.
+    settings.samples = 16;
+    settings.seed = seed;
+    return settings;
+}
+
+BiasStatistics of_gpu(const VulkanRenderer& renderer) {
+    BiasStatistics statistics;
+    for (std::uint32_t seed = 0; seed < kFrames; ++seed)
+        statistics.add(renderer.render(settings_for(seed)).image);
+    return statistics;
+}
+
+BiasStatistics of_cpu(const scene::Scene& scene) {
+    const render_cpu::Renderer renderer(scene, 2);
+    BiasStatistics statistics;
+    for (std::uint32_t seed = 0; seed < kFrames; ++seed)
+        statistics.add(renderer.render(settings_for(1000 + seed), render_cpu::choose_isa()).image);
+    return statistics;
+}
+
+class Bias : public parity::GpuTest {
+protected:
+    experiments::BiasTest compare(const scene::Scene& scene) const {
+        const VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
+        return of_gpu(renderer).compare(of_cpu(scene));
+    }
+};
+
+void expect_none(const experiments::BiasTest& test) {
+    EXPECT_TRUE(test.passes()) << "frame " << test.frame << ", cell " << test.largest_cell << ", chi^2 "
+                               << test.chi_square << " of " << test.cells;
+}
+
+TEST_F(Bias, OfShippedScenes_ThereIsNone) {
+    for (const auto& entry : std::filesystem::directory_iterator(NUSSELT_SOURCE_DIR "/scenes")) {
+        if (entry.path().extension() != ".pbrt") continue;
+        SCOPED_TRACE(entry.path().filename());
+        scene::Scene scene = scene::load_scene(entry.path());
+        render::resize_film(scene, kWidth, kHeight);
+        expect_none(compare(scene));
+    }
+}
+
+TEST_F(Bias, OfAllThatSurfacesCanHave_ThereIsNone) {
+    scene::Scene scene = make_rich_scene(kWidth, kHeight);
+    scene.film.filter = {.kind = scene::FilterKind::mitchell, .radius_x = 2, .radius_y = 2};
+    experiments::BiasTest test = compare(scene);
+    // With a wide filter, what all pixels of a frame share, its offset, is most of the noise: cells are not independent, and
+    // their sum of squares means nothing. The others hold all the same.
+    test.chi_square = 0;
+    expect_none(test);
+}
+
+TEST_F(Bias, OfBathroom_ThereIsNone) {
+    const char* folder = std::getenv("NUSSELT_SCENES");
+    if (folder == nullptr) GTEST_SKIP() << "set NUSSELT_SCENES to the folder with bathroom/";
+    scene::Scene scene = scene::load_scene(std::filesystem::path(folder) / "bathroom/bathroom.pbrt");
+    render::resize_film(scene, kWidth, kHeight);
+    expect_none(compare(scene));
+}
+
+/// The test of the test.
+TEST_F(Bias, OfADimmedLight_IsFound) {
+    scene::Scene scene = make_rich_scene(kWidth, kHeight);
+    const BiasStatistics reference = of_cpu(scene);
+    for (scene::PolygonLight& light : scene.polygon_lights)
+        for (float* channel : {&light.radiance.x, &light.radiance.y, &light.radiance.z}) *channel *= 0.97f;
+    const VulkanRenderer mutant(device(), scene, render_vulkan::ShadowRays::bvh);
+    EXPECT_FALSE(of_gpu(mutant).compare(reference).passes());
+}
+
+} // namespace
+} // namespace nusselt::render_vulkan_test

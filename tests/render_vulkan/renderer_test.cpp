@@ -1,0 +1,110 @@
+/// How the renderer behaves, whatever the image.
+
+#include "comparison.h"
+#include "gpu_test.h"
+#include "rich_scene.h"
+#include "scenes.h"
+
+#include <fstream>
+#include <stdexcept>
+
+#include <unistd.h>
+
+namespace nusselt::render_vulkan_test {
+namespace {
+
+using render_vulkan::ShadowRays;
+using render_vulkan::VulkanRenderer;
+
+class Renderer : public parity::GpuTest {};
+
+/// Memory of this process, which is also that of a software device [bytes].
+std::size_t resident_bytes() {
+    std::size_t all = 0;
+    std::size_t resident = 0;
+    std::ifstream("/proc/self/statm") >> all >> resident;
+    return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+TEST_F(Renderer, GivesTheSameImageAgain) {
+    const scene::Scene scene = make_rich_scene(32, 24);
+    const VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    render::RenderSettings settings;
+    settings.samples = 4;
+    const auto first = renderer.render(settings);
+    EXPECT_GT(first.statistics.work.shadow_rays, 0u);
+    EXPECT_EQ(first.statistics.primary_rays, 4u * 32 * 24);
+    const auto second = renderer.render(settings);
+    EXPECT_EQ(first.image.pixels, second.image.pixels);
+    EXPECT_EQ(first.statistics.work.shadow_rays, second.statistics.work.shadow_rays);
+}
+
+TEST_F(Renderer, TakesNoMoreMemoryOverFrames) {
+    const scene::Scene scene = make_rich_scene(32, 24);
+    const VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    render::RenderSettings settings;
+    settings.samples = 64;
+    static_cast<void>(renderer.render(settings));
+    const std::size_t before = resident_bytes();
+    settings.samples = 1024;
+    static_cast<void>(renderer.render(settings));
+    EXPECT_LT(resident_bytes(), before + (std::size_t{4} << 20));
+}
+
+TEST_F(Renderer, ScalesSumsByFramesThatWereFinished) {
+    scene::Scene scene = render_test::make_floor(8);
+    render_test::add_polygon_light(scene, {scene::Float3{-9, -9, 5}, {-9, 9, 5}, {9, 9, 5}, {9, -9, 5}},
+                                   {1, 1, 1}, true, 0);
+    render_test::set_radius(scene);
+    const VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    render::RenderSettings settings;
+    settings.samples = 8;
+    std::atomic<bool> stop = false;
+    render_vulkan::RenderMonitor monitor;
+    monitor.cancel = &stop;
+    monitor.progress = [&](double fraction) { stop = fraction >= 0.25; };
+    const auto part = renderer.render(settings, monitor);
+    EXPECT_EQ(part.finished_fraction, 0.25);
+    const auto whole = renderer.render(settings);
+    const auto mean = [](const image::Image& image) {
+        double sum = 0;
+        for (const float value : image.pixels) sum += value;
+        return sum / static_cast<double>(image.pixels.size());
+    };
+    EXPECT_NEAR(mean(part.image) / mean(whole.image), 1, 0.05);
+    EXPECT_GT(mean(whole.image), 0);
+}
+
+TEST_F(Renderer, RendersScenesWithoutAnything) {
+    scene::Scene empty;
+    empty.film.width = empty.film.height = 8;
+    const auto result = VulkanRenderer(device(), empty, ShadowRays::bvh).render({});
+    for (const float value : result.image.pixels) EXPECT_EQ(value, 0);
+    scene::Scene unlit = render_test::make_floor(8);
+    render_test::set_radius(unlit);
+    for (const float value : VulkanRenderer(device(), unlit, ShadowRays::bvh).render({}).image.pixels)
+        EXPECT_EQ(value, 0);
+}
+
+TEST_F(Renderer, RefusesSettingsOfTheCpuAlone) {
+    const scene::Scene scene = make_rich_scene(8, 8);
+    const VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    render::RenderSettings lines;
+    lines.integrator = render::Integrator::lines;
+    EXPECT_THROW(static_cast<void>(renderer.render(lines)), std::invalid_argument);
+    render::RenderSettings layers;
+    layers.layers = {render::LayerKind::normal};
+    EXPECT_THROW(static_cast<void>(renderer.render(layers)), std::invalid_argument);
+    render::RenderSettings part;
+    part.part = {1, 2};
+    EXPECT_THROW(static_cast<void>(renderer.render(part)), std::invalid_argument);
+}
+
+TEST_F(Renderer, NamesRayQueriesThatTheDeviceDoesNotHave) {
+    if (device().features().ray_queries) GTEST_SKIP() << "the device has them";
+    const scene::Scene scene = make_rich_scene(8, 8);
+    EXPECT_THROW(VulkanRenderer(device(), scene, ShadowRays::query), gpu::Error);
+}
+
+} // namespace
+} // namespace nusselt::render_vulkan_test

@@ -1,0 +1,16 @@
+#pragma once
+/// A scene with all that surfaces can have.
+
+#include "scene/scene.h"
+
+namespace nusselt::render_vulkan_test {
+
+/// A room with panels, a tube and a line, textures of all wraps and filters, a bump map, a normal map, surfaces that are
+/// partly there, and copies of an object, one of them mirrored.
+scene::Scene make_rich_scene(int width, int height);
+
+/// The same with all surfaces wholly there. Whether a shadow ray meets one that is not depends on all bits of the ray, which
+/// both renderers round differently.
+scene::Scene make_opaque_scene(int width, int height);
+
+} // namespace nusselt::render_vulkan_test
