@@ -60,6 +60,11 @@ struct RenderOptions {
     std::optional<std::string> shadow_rays; ///< on the GPU; default: what suits the device
 };
 
+struct ViewOptions {
+    RenderOptions render; ///< those of the image at first
+    std::optional<std::filesystem::path> script;
+};
+
 struct CameraOptions {
     std::filesystem::path scene;
     std::optional<std::string> resolution;
@@ -203,6 +208,7 @@ struct ReproduceOptions {
 };
 
 void setup_render(CLI::App& app, int& exit_code);
+void setup_view(CLI::App& app, int& exit_code);
 void setup_merge(CLI::App& app, int& exit_code);
 void setup_camera(CLI::App& app, int& exit_code);
 void setup_techniques(CLI::App& app, int& exit_code);
@@ -230,6 +236,9 @@ void setup_bench_phong_lines(CLI::App& bench, int& exit_code);
 /// Renders and writes the images.
 /// \returns 0, or 130 if it was interrupted
 int run_render(const RenderOptions& options);
+
+/// Shows a scene in a window until that is closed.
+int run_view(const ViewOptions& options);
 
 /// Puts images of parts or seeds together.
 int run_merge(const MergeOptions& options);

@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
     });
     int exit_code = 0;
     setup_render(app, exit_code);
+    setup_view(app, exit_code);
     setup_merge(app, exit_code);
     setup_info(app, exit_code);
     setup_lights(app, exit_code);

@@ -89,37 +89,7 @@ void setup_render(CLI::App& app, int& exit_code) {
                      fmt::format("Samples per pixel, light and technique, 1 to {}", render::kMaxSamples))
         ->check(CLI::Range(1, render::kMaxSamples))
         ->capture_default_str();
-    command->add_option("--technique", options->technique, "How lights are sampled; see `nusselt techniques`")
-        ->transform(to_name_of(render::kTechniques))
-        ->capture_default_str();
-    command
-        ->add_option(
-            "--strategies", options->strategies,
-            "Which techniques take samples: diffuse, only that of --technique; diffuse+ltc, that one for\n"
-            "the diffuse component of materials and linearly transformed cosines for the specular one; or\n"
-            "the same with GGX visible normals, for polygons only. Default: diffuse+ltc with techniques of\n"
-            "projected solid angles and --brdf material, else diffuse")
-        ->transform(to_name_of(render::kStrategies));
-    command
-        ->add_option(
-            "--mis", options->mis,
-            "How the samples of two techniques are combined: a heuristic of multiple importance\n"
-            "sampling, one sample of either technique, or each component estimated separately. Default:\n"
-            "clamped_optimal, but balance with GGX visible normals")
-        ->transform(to_name_of(render::kMisHeuristics));
-    command
-        ->add_option(
-            "--visibility-estimate", options->visibility_estimate,
-            "Share of lights that is visible, roughly, for --mis clamped_optimal and optimal; only noise\n"
-            "depends on it. Default: 0.5")
-        ->check(number(0, 1));
-    command
-        ->add_option("--sampler", options->sampler,
-                     "Random numbers: independent, Owen-scrambled Sobol' points, uniform jittered (best for\n"
-                     "linear lights), or stratified (multi-jittered: as many strata in each dimension as\n"
-                     "samples; best for line samples)")
-        ->transform(to_name_of(render::kSampleOrders))
-        ->capture_default_str();
+    add_sampling_options(*command, *options);
     command
         ->add_option(
             "--camera-rays", options->camera_rays,
@@ -130,12 +100,6 @@ void setup_render(CLI::App& app, int& exit_code) {
         [options] { options->pixel_position = render::name_of(render::PixelPosition::center); },
         "Send all camera rays through pixel centres, to measure noise. Default: random positions in\n"
         "the pixel");
-    command
-        ->add_option("--brdf", options->brdf, "BRDFs of the materials, or Lambertian ones with their albedo")
-        ->transform(to_name_of(render::kBrdfChoices))
-        ->capture_default_str();
-    command->add_option("--seed", options->seed, "Chooses the random numbers, 0 to 2^32 - 1")
-        ->capture_default_str();
     add_line_options(*command, options->lines);
     add_rigs_option(*command, options->rigs);
     command->add_option("--camera", options->camera,

@@ -14,6 +14,10 @@ void add_backend_options(CLI::App& command, RenderOptions& options) {
                     "What renders: cpu; vulkan, a GPU; or auto, a GPU if there is one, else the CPU")
         ->check(CLI::IsMember({"cpu", "vulkan", "auto"}))
         ->capture_default_str();
+    add_device_options(command, options);
+}
+
+void add_device_options(CLI::App& command, RenderOptions& options) {
     command.add_option("--device", options.device,
                        "GPU, by its index or a part of its name. Default: the environment variable\n"
                        "NUSSELT_DEVICE, else the fastest kind");

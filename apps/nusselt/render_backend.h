@@ -16,6 +16,9 @@ namespace nusselt::app {
 /// Adds --backend, --device and --shadow-rays.
 void add_backend_options(CLI::App& command, RenderOptions& options);
 
+/// Adds --device and --shadow-rays.
+void add_device_options(CLI::App& command, RenderOptions& options);
+
 /// \throws CLI::ValidationError if an option is for the other backend
 void check_backend_options(const RenderOptions& options);
 

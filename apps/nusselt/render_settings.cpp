@@ -2,6 +2,7 @@
 #include "line_options.h"
 #include "render_backend.h"
 #include "render_setup.h"
+#include "validators.h"
 
 #include "image/io.h"
 
@@ -48,6 +49,46 @@ void check_exr_only(const RenderOptions& options) {
 }
 
 } // namespace
+
+void add_sampling_options(CLI::App& command, RenderOptions& options) {
+    command.add_option("--technique", options.technique, "How lights are sampled; see `nusselt techniques`")
+        ->transform(to_name_of(render::kTechniques))
+        ->capture_default_str();
+    command
+        .add_option(
+            "--strategies", options.strategies,
+            "Which techniques take samples: diffuse, only that of --technique; diffuse+ltc, that one for\n"
+            "the diffuse component of materials and linearly transformed cosines for the specular one; or\n"
+            "the same with GGX visible normals, for polygons only. Default: diffuse+ltc with techniques of\n"
+            "projected solid angles and --brdf material, else diffuse")
+        ->transform(to_name_of(render::kStrategies));
+    command
+        .add_option(
+            "--mis", options.mis,
+            "How the samples of two techniques are combined: a heuristic of multiple importance\n"
+            "sampling, one sample of either technique, or each component estimated separately. Default:\n"
+            "clamped_optimal, but balance with GGX visible normals")
+        ->transform(to_name_of(render::kMisHeuristics));
+    command
+        .add_option(
+            "--visibility-estimate", options.visibility_estimate,
+            "Share of lights that is visible, roughly, for --mis clamped_optimal and optimal; only noise\n"
+            "depends on it. Default: 0.5")
+        ->check(number(0, 1));
+    command
+        .add_option("--sampler", options.sampler,
+                    "Random numbers: independent, Owen-scrambled Sobol' points, uniform jittered (best for\n"
+                    "linear lights), or stratified (multi-jittered: as many strata in each dimension as\n"
+                    "samples; best for line samples)")
+        ->transform(to_name_of(render::kSampleOrders))
+        ->capture_default_str();
+    command
+        .add_option("--brdf", options.brdf, "BRDFs of the materials, or Lambertian ones with their albedo")
+        ->transform(to_name_of(render::kBrdfChoices))
+        ->capture_default_str();
+    command.add_option("--seed", options.seed, "Chooses the random numbers, 0 to 2^32 - 1")
+        ->capture_default_str();
+}
 
 render::RenderSettings make_settings(const RenderOptions& options) {
     render::RenderSettings settings;

@@ -1,6 +1,7 @@
 #pragma once
 /// Options that several commands share.
 
+#include "render/names.h"
 #include "render/settings.h"
 #include "scene/scene.h"
 
@@ -8,19 +9,13 @@
 
 #include <algorithm>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace nusselt::app {
 
-/// Names of the values of an enumeration, see render/settings.h.
-template <class Values>
-std::vector<std::string> names_of(const Values& values) {
-    std::vector<std::string> names;
-    for (const auto value : values) names.emplace_back(name_of(value));
-    return names;
-}
+using render::from_name;
+using render::names_of;
 
 inline std::string with_underscores(std::string name) {
     std::replace(name.begin(), name.end(), '-', '_');
@@ -31,14 +26,6 @@ inline std::string with_underscores(std::string name) {
 template <class Values>
 CLI::Validator to_name_of(const Values& values) {
     return CLI::IsMember(names_of(values), with_underscores);
-}
-
-/// The value of that name. \throws std::invalid_argument if there is none
-template <class Values>
-auto from_name(const Values& values, const std::string& name) {
-    for (const auto value : values)
-        if (name_of(value) == name) return value;
-    throw std::invalid_argument("unknown setting '" + name + "'");
 }
 
 /// Adds --threads and --isa.

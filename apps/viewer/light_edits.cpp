@@ -4,11 +4,6 @@
 
 namespace nusselt::viewer {
 
-bool LightEdit::operator==(const LightEdit& other) const {
-    return move.x == other.move.x && move.y == other.move.y && move.z == other.move.z && size == other.size &&
-           brightness == other.brightness && is_enabled == other.is_enabled;
-}
-
 LightEdit LightEdits::get(std::size_t light) const {
     const auto found = edits_.find(light);
     return found == edits_.end() ? LightEdit() : found->second;

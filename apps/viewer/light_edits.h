@@ -17,7 +17,7 @@ struct LightEdit {
     double brightness = 1;           ///< factor on the radiance
     bool is_enabled = true;
 
-    bool operator==(const LightEdit& other) const;
+    bool operator==(const LightEdit&) const = default;
 };
 
 /// Edits by the index of the light in Scene::emitters, as the scene was loaded.
@@ -34,6 +34,8 @@ public:
 
     /// The light rig that does the same, see docs/lights.md.
     std::string rig_text() const;
+
+    bool operator==(const LightEdits&) const = default;
 
 private:
     std::map<std::size_t, LightEdit> edits_; ///< without those that change nothing

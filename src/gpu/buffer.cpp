@@ -23,10 +23,12 @@ vk::raii::Buffer make_buffer(const Device& device, std::size_t bytes, vk::Buffer
     return guarded(name_of(device, bytes), [&] { return vk::raii::Buffer(device.handle(), info); });
 }
 
-vk::MemoryPropertyFlags properties_of(Residence residence) {
+vk::MemoryPropertyFlags properties_of(const Device& device, Residence residence) {
     using Property = vk::MemoryPropertyFlagBits;
     if (residence == Residence::device_local) return Property::eDeviceLocal;
-    return Property::eHostVisible | Property::eHostCoherent;
+    const vk::MemoryPropertyFlags visible = Property::eHostVisible | Property::eHostCoherent;
+    const vk::MemoryPropertyFlags cached = visible | Property::eHostCached;
+    return residence == Residence::read_back && device.has_memory(cached) ? cached : visible;
 }
 
 } // namespace
@@ -36,7 +38,7 @@ Buffer::Buffer(const Device& device, std::size_t bytes, Residence residence, vk:
       size_(bytes),
       residence_(residence),
       buffer_(make_buffer(device, bytes, use)),
-      memory_(device.allocate(buffer_.getMemoryRequirements(), properties_of(residence), use)) {
+      memory_(device.allocate(buffer_.getMemoryRequirements(), properties_of(device, residence), use)) {
     guarded(name_of(device, bytes), [&] { buffer_.bindMemory(*memory_, 0); });
 }
 

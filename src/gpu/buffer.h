@@ -16,6 +16,7 @@ inline constexpr vk::BufferUsageFlags kStorageUse = vk::BufferUsageFlagBits::eSt
 /// Where a buffer lives.
 enum class Residence {
     host_visible, ///< memory that both sides see: for what is written or read once
+    read_back,    ///< likewise, for what the host reads often: in its caches if the device has such memory
     device_local, ///< the fastest memory of the device; read() and write() copy through a buffer in between
 };
 

@@ -265,6 +265,12 @@ std::vector<double> Device::time_passes(std::span<const Record> passes) const {
     });
 }
 
+bool Device::has_memory(vk::MemoryPropertyFlags wanted) const {
+    const vk::PhysicalDeviceMemoryProperties memory = physical_.getMemoryProperties();
+    return std::any_of(memory.memoryTypes.begin(), memory.memoryTypes.begin() + memory.memoryTypeCount,
+                       [&](const vk::MemoryType& type) { return (type.propertyFlags & wanted) == wanted; });
+}
+
 vk::raii::DeviceMemory Device::allocate(const vk::MemoryRequirements& requirements,
                                         vk::MemoryPropertyFlags wanted, vk::BufferUsageFlags use) const {
     const std::string activity =

@@ -86,6 +86,9 @@ public:
     /// \return how long each of them took [ns].
     std::vector<double> time_passes(std::span<const Record> passes) const;
 
+    /// Whether there is memory with these properties.
+    bool has_memory(vk::MemoryPropertyFlags wanted) const;
+
     /// \param wanted properties that the memory must have.
     /// \param use    of buffers in it.
     /// \throws Error if there is no such memory, or not enough.

@@ -69,6 +69,7 @@ enum class LayerKind : std::uint32_t {
 struct Part {
     int number = 1; ///< 1 to count
     int count = 1;  ///< 1 to kMaxParts
+    bool operator==(const Part&) const = default;
 };
 
 /// What is sampled of polygonal lights. Linear lights always get points.
@@ -109,6 +110,7 @@ struct LineSettings {
     LineOffsets offsets = LineOffsets::reflected;
     LineShading shading = LineShading::unbiased;
     ManyOccluders many_occluders = ManyOccluders::points;
+    bool operator==(const LineSettings&) const = default;
 };
 
 inline constexpr int kMaxLines = 1 << 16;
@@ -132,6 +134,7 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     std::vector<LayerKind> layers; ///< beside the image; in any order
     Part part;
+    bool operator==(const RenderSettings&) const = default;
 };
 
 /// Whether there are samples of these strategies with the technique for the diffuse component.

@@ -19,6 +19,7 @@ struct Float2 {
 
 struct Float3 {
     float x, y, z;
+    bool operator==(const Float3&) const = default;
 };
 
 /// What a texture is outside of the unit square.
@@ -158,6 +159,7 @@ struct Camera {
     Float3 corner = {0, 0, 1};
     Float3 right = {1, 0, 0};
     Float3 down = {0, 1, 0};
+    bool operator==(const Camera&) const = default;
 };
 
 enum class FilterKind : std::uint32_t { box, triangle, gaussian, mitchell };

@@ -9,6 +9,7 @@ namespace nusselt::scene {
 
 struct Double3 {
     double x = 0, y = 0, z = 0;
+    bool operator==(const Double3&) const = default;
 };
 
 inline Double3 to_double(const Float3& v) { return {v.x, v.y, v.z}; }

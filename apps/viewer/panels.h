@@ -1,0 +1,29 @@
+#pragma once
+/// The panels of the viewer.
+
+#include "viewer.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace nusselt::viewer {
+
+class Panels {
+public:
+    /// Describes the panels to Dear ImGui, and does what the person asks for there.
+    void draw(Viewer& viewer);
+
+private:
+    void draw_settings(Viewer& viewer);
+    void draw_lights(Viewer& viewer);
+    void draw_files(Viewer& viewer);
+
+    std::string file_ = "view.png";
+    // Of the selected light, while it is changed.
+    std::optional<std::size_t> edited_light_;
+    LightEdit edit_;
+    std::string command_; ///< that renders the last screenshot
+};
+
+} // namespace nusselt::viewer

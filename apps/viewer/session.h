@@ -1,0 +1,85 @@
+#pragma once
+/// Rendering for the viewer, without a window.
+
+#include "view_state.h"
+
+#include "gpu/device.h"
+#include "image/image.h"
+#include "render_vulkan/accumulator.h"
+#include "render_vulkan/display_pass.h"
+#include "scene/rig.h"
+#include "scene/scene.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+namespace nusselt::viewer {
+
+/// Times of the last frame [s].
+struct SessionTimes {
+    std::array<render_vulkan::FrameTimes, 2>
+        frames; ///< by Side; 0 for the right one unless the screen is split
+    render_vulkan::FrameTimes reference;
+    double display = 0; ///< of the device, to make the picture
+    double build = 0;   ///< to bring the scene to the device when its lights were changed last
+};
+
+/// Images of one scene: left, right and the reference, which all begin again whenever what they show changes.
+class Session {
+public:
+    /// \param device must outlive this.
+    /// \param loaded as it was loaded, with the rigs that were given.
+    /// \throws std::runtime_error if the scene does not fit the device
+    Session(const gpu::Device& device, scene::Scene loaded, render_vulkan::ShadowRays shadow_rays);
+    ~Session();
+
+    /// Adds a frame to what the state shows.
+    /// \throws std::invalid_argument for settings that do not fit together; the next state may mend that
+    /// \throws std::runtime_error if a light cannot be changed in that way, or if the device fails
+    void render(const ViewState& state);
+
+    /// Adds a frame to the reference. \throws std::runtime_error likewise
+    void render_reference(const ViewState& state);
+
+    /// Makes the picture of what was rendered.
+    void show(const ViewState& state);
+
+    /// The scene with the rigs, without the edits of a state.
+    const scene::Scene& loaded() const { return loaded_; }
+    /// Makes the changes of a rig for good. Edits of lights refer to the result.
+    /// \throws std::runtime_error as scene::apply_rig() does; the scene is as before then
+    void apply(const scene::Rig& rig);
+
+    // Of the last show(), after the first frame.
+    const render_vulkan::DisplayPass& picture() const;
+    const render_vulkan::DisplayErrors& errors() const { return errors_; }
+
+    // Since something changed. Nothing before the first frame.
+    image::Image image(Side side) const; ///< mean over frames
+    std::uint32_t frames(Side side) const;
+    std::uint32_t reference_frames() const;
+    std::uint32_t seed(Side side) const; ///< of the last frame
+
+    const SessionTimes& times() const { return times_; }
+    const gpu::Device& device() const { return device_; }
+    render_vulkan::ShadowRays shadow_rays() const { return shadow_rays_; }
+
+private:
+    class Images;
+
+    /// Brings the images up to date.
+    void follow(const ViewState& state);
+
+    const gpu::Device& device_;
+    render_vulkan::ShadowRays shadow_rays_;
+    scene::Scene loaded_;
+    std::unique_ptr<Images> images_; ///< none until the first frame
+    render_vulkan::DisplayErrors errors_;
+    SessionTimes times_;
+};
+
+/// The settings of a reference for images with these.
+render::RenderSettings reference_settings(const render::RenderSettings& settings);
+
+} // namespace nusselt::viewer

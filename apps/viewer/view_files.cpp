@@ -1,0 +1,131 @@
+#include "view_files.h"
+
+#include "image/atomic_file.h"
+#include "image/io.h"
+#include "image/srgb.h"
+#include "render/film.h"
+#include "scene/camera_file.h"
+#include "scene/rig_json.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+
+namespace nusselt::viewer {
+
+namespace {
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    image::write_atomically(path, [&](std::ofstream& stream) { stream << text; });
+}
+
+/// A word of a shell command.
+std::string quoted(const std::string& text) {
+    const bool is_plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 ||
+               std::string_view("/._-+:=,").find(static_cast<char>(c)) != std::string_view::npos;
+    });
+    if (is_plain) return text;
+    std::string word = "'";
+    for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+    return word + "'";
+}
+
+/// The picture of a window as radiance that becomes the same bytes in a PNG file.
+image::Image to_linear(const render_vulkan::DisplayPass& picture) {
+    std::array<float, 256> linear{};
+    for (std::size_t i = 0; i < linear.size(); ++i)
+        linear[i] = static_cast<float>(image::linear_from_srgb(static_cast<double>(i) / 255));
+    image::Image image =
+        image::make_image(static_cast<int>(picture.width()), static_cast<int>(picture.height()));
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = linear[picture.pixels()[i / 3] >> (8 * (i % 3)) & 0xff];
+    return image;
+}
+
+std::filesystem::path with_suffix(const std::filesystem::path& path, const std::string& suffix) {
+    return path.parent_path() / (path.stem().string() + suffix);
+}
+
+} // namespace
+
+std::string command_of(const Session& session, const ViewState& state, const SceneFiles& files,
+                       const std::filesystem::path& camera,
+                       const std::optional<std::filesystem::path>& lights,
+                       const std::filesystem::path& output) {
+    const render::RenderSettings& settings = state.of(Side::left);
+    std::string command = "nusselt render " + quoted(files.scene.string());
+    for (const std::filesystem::path& rig : files.rigs) command += " --lights " + quoted(rig.string());
+    if (lights) command += " --lights " + quoted(lights->string());
+    command += " --camera " + quoted(camera.string()) + " --backend vulkan";
+    if (files.device) command += " --device " + quoted(*files.device);
+    command += fmt::format(" --shadow-rays {} --technique {} --strategies {}", name_of(session.shadow_rays()),
+                           name_of(settings.technique), name_of(settings.strategies));
+    if (settings.strategies != render::Strategies::diffuse)
+        command += fmt::format(" --mis {} --visibility-estimate {}", name_of(settings.mis),
+                               settings.visibility_estimate);
+    command += fmt::format(" --sampler {} --brdf {}", name_of(settings.sample_order), name_of(settings.brdf));
+    if (settings.pixel_position == render::PixelPosition::center) command += " --pixel-center";
+    // Of a single frame the very same image; of several the same but for noise.
+    const std::int64_t frames = std::max<std::int64_t>(session.frames(Side::left), 1);
+    const std::int64_t samples = std::min<std::int64_t>(frames * settings.samples, render::kMaxSamples);
+    command += fmt::format(" --spp {}", samples);
+    if (frames == 1) command += fmt::format(" --camera-rays 1 --seed {}", session.seed(Side::left));
+    if (state.exposure != 0) command += fmt::format(" --exposure {}", state.exposure);
+    return command + " -o " + quoted(output.string());
+}
+
+std::string write_screenshot(const std::filesystem::path& path, const Session& session,
+                             const ViewState& state, const SceneFiles& files) {
+    if (session.frames(Side::left) == 0)
+        throw std::runtime_error(path.string() + ": no frame was rendered yet, there is nothing to write");
+    if (image::lower_case_extension(path) == ".png") {
+        image::write_image(path, to_linear(session.picture()));
+    } else {
+        image::write_image(path, session.image(Side::left));
+        if (state.is_split)
+            image::write_image(with_suffix(path, "-right" + path.extension().string()),
+                               session.image(Side::right));
+    }
+    const std::filesystem::path camera = with_suffix(path, ".camera.json");
+    save_camera(camera, session, state);
+    std::optional<std::filesystem::path> lights;
+    if (!state.edits.empty()) {
+        lights = with_suffix(path, ".lights.json");
+        save_lights(*lights, state);
+    }
+    return command_of(session, state, files, camera, lights,
+                      with_suffix(path, "-again" + path.extension().string()));
+}
+
+void save_camera(const std::filesystem::path& path, const Session& session, const ViewState& state) {
+    const scene::Film& film = session.loaded().film;
+    write_text(path, scene::to_camera_text({state.camera.camera(), film.width, film.height}));
+}
+
+void load_camera(const std::filesystem::path& path, const Session& session, ViewState& state) {
+    const scene::Film& film = session.loaded().film;
+    scene::Scene view;
+    apply_camera(scene::read_camera_file(path), view);
+    render::resize_film(view, film.width, film.height);
+    state.camera = FlyCamera(view.camera, film.width, film.height);
+}
+
+void save_lights(const std::filesystem::path& path, const ViewState& state) {
+    write_text(path, state.edits.rig_text());
+}
+
+void load_lights(const std::filesystem::path& path, Session& session, ViewState& state, SceneFiles& files) {
+    session.apply(scene::read_rig(path));
+    files.rigs.push_back(path);
+    state.edits = {};
+    state.selected_light.reset();
+}
+
+} // namespace nusselt::viewer

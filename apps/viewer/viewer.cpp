@@ -1,0 +1,40 @@
+#include "viewer.h"
+
+#include <exception>
+
+namespace nusselt::viewer {
+
+namespace {
+
+scene::Scene without_crop(scene::Scene scene) {
+    scene.film.crop.reset();
+    return scene;
+}
+
+} // namespace
+
+Viewer::Viewer(const gpu::Device& device, const scene::Scene& loaded, render_vulkan::ShadowRays shadow_rays,
+               const render::RenderSettings& settings, const SceneFiles& scene_files)
+    : session(device, without_crop(loaded), shadow_rays),
+      state{.camera = FlyCamera(loaded.camera, loaded.film.width, loaded.film.height),
+            .settings = {settings, settings}},
+      files(scene_files),
+      last_state_(state) {}
+
+void Viewer::next_frame() {
+    try {
+        session.render(state);
+        if (state.renders_reference) session.render_reference(state);
+        session.show(state);
+    } catch (const gpu::Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        message = error.what();
+        state = last_state_;
+        session.render(state);
+        session.show(state);
+    }
+    last_state_ = state;
+}
+
+} // namespace nusselt::viewer

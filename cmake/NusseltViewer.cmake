@@ -1,0 +1,20 @@
+# Finds what the viewer needs beside the GPU side. NUSSELT_BUILD_VIEWER tells whether it can be built; everything else
+# can without it.
+
+find_package(glfw3 3.3 CONFIG QUIET)
+find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui)
+find_library(IMGUI_LIBRARY imgui)
+set(missing_viewer_packages)
+if(NOT glfw3_FOUND)
+    list(APPEND missing_viewer_packages libglfw3-dev)
+endif()
+if(NOT IMGUI_INCLUDE_DIR OR NOT IMGUI_LIBRARY)
+    list(APPEND missing_viewer_packages libimgui-dev)
+endif()
+if(missing_viewer_packages)
+    set(NUSSELT_BUILD_VIEWER OFF)
+    list(JOIN missing_viewer_packages " " missing_viewer_packages)
+    message(WARNING "Without the viewer: these Debian packages are missing: ${missing_viewer_packages}")
+else()
+    set(NUSSELT_BUILD_VIEWER ${NUSSELT_BUILD_GPU})
+endif()

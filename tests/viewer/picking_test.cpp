@@ -1,0 +1,98 @@
+#include "viewer/picking.h"
+
+#include "scene/light_edit.h"
+#include "scene/load.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace nusselt::viewer {
+namespace {
+
+using scene::Double3;
+
+scene::Scene load(const char* name) {
+    return scene::load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes" / name);
+}
+
+/// Where a perspective camera sees a point.
+FilmPosition seen_at(const scene::Camera& camera, const Double3& point) {
+    const Double3 corner = to_double(camera.corner);
+    const Double3 right = to_double(camera.right);
+    const Double3 down = to_double(camera.down);
+    const Double3 way = point - to_double(camera.origin);
+    const Double3 normal = cross(right, down);
+    const Double3 on_film = (dot(corner, normal) / dot(way, normal)) * way - corner;
+    return {dot(on_film, right) / dot(right, right), dot(on_film, down) / dot(down, down)};
+}
+
+Double3 center_of(const scene::Scene& scene, std::size_t light) {
+    return centroid(editable_lights(scene)[light]);
+}
+
+TEST(Picking, FindsPanelsAndTubes) {
+    for (const char* name : {"cornell-panel.pbrt", "cornell-tube.pbrt"}) {
+        SCOPED_TRACE(name);
+        const scene::Scene scene = load(name);
+        const FilmPosition middle = seen_at(scene.camera, center_of(scene, 0));
+        EXPECT_EQ(light_at(scene, {}, scene.camera, middle), std::size_t{0});
+        EXPECT_EQ(light_at(scene, {}, scene.camera, {middle.x, middle.y + 200}), std::nullopt);
+        EXPECT_EQ(light_at(scene, {}, scene.camera, {1, 1}), std::nullopt);
+    }
+}
+
+TEST(Picking, FollowsEdits) {
+    const scene::Scene scene = load("cornell-panel.pbrt");
+    const FilmPosition before = seen_at(scene.camera, center_of(scene, 0));
+    LightEdits edits;
+    edits.set(0, {{0, -1, 0}, 1, 1, true});
+    const FilmPosition after = seen_at(scene.camera, center_of(scene, 0) + Double3{0, -1, 0});
+    EXPECT_EQ(light_at(scene, edits, scene.camera, after), std::size_t{0});
+    EXPECT_EQ(light_at(scene, edits, scene.camera, before), std::nullopt);
+    edits.set(0, {{0, 0, 0}, 1e-3, 1, true});
+    EXPECT_EQ(light_at(scene, edits, scene.camera, {before.x + 20, before.y}), std::nullopt)
+        << "it is tiny now";
+    edits.set(0, {{0, 0, 0}, 1, 1, false});
+    EXPECT_EQ(light_at(scene, edits, scene.camera, before), std::nullopt) << "it is switched off";
+}
+
+TEST(Picking, TakesTheNearerLight) {
+    scene::Scene scene = load("cornell-panel.pbrt");
+    scene::PolygonLight nearer = scene.polygon_lights.front();
+    nearer.emitter = 1;
+    for (scene::Float3& p : nearer.vertices) p.y -= 0.3f;
+    scene.polygon_lights.push_back(nearer);
+    scene.emitters.push_back({"nearer"});
+    // Seen from below, straight up, beside the centroid.
+    const scene::Float3 below = to_float(center_of(scene, 0) + Double3{0.02, -1, 0.01});
+    scene.camera = {.origin = below, .corner = {0, 1, 0}, .right = {1e-3f, 0, 0}, .down = {0, 0, 1e-3f}};
+    EXPECT_EQ(light_at(scene, {}, scene.camera, {0, 0}), std::size_t{1});
+    LightEdits edits;
+    edits.set(1, {{0, 2, 0}, 1, 1, true});
+    EXPECT_EQ(light_at(scene, edits, scene.camera, {0, 0}), std::size_t{0});
+}
+
+TEST(Picking, DragsLightsWithTheMouse) {
+    const scene::Scene scene = load("cornell-panel.pbrt");
+    LightEdits edits;
+    edits.set(0, {{0.1, -0.4, 0.2}, 1, 1, true});
+    const Double3 center = center_of(scene, 0) + edits.get(0).move;
+    const FilmPosition from = seen_at(scene.camera, center);
+    const FilmPosition to = {from.x + 37, from.y - 21};
+    const Double3 way = drag_of(scene, edits, 0, scene.camera, from, to);
+    const FilmPosition arrived = seen_at(scene.camera, center + way);
+    EXPECT_NEAR(arrived.x, to.x, 1e-6);
+    EXPECT_NEAR(arrived.y, to.y, 1e-6);
+    EXPECT_NEAR(dot(way, cross(to_double(scene.camera.right), to_double(scene.camera.down))), 0, 1e-12);
+}
+
+TEST(Picking, LeavesLightsBehindTheCameraAlone) {
+    scene::Scene scene = load("cornell-panel.pbrt");
+    scene.camera.corner = to_float(-1 * to_double(scene.camera.corner));
+    const Double3 way = drag_of(scene, {}, 0, scene.camera, {10, 10}, {20, 20});
+    EXPECT_EQ(way, Double3{});
+}
+
+} // namespace
+} // namespace nusselt::viewer

@@ -1,0 +1,199 @@
+#include "viewer/script.h"
+
+#include "gpu_test.h"
+
+#include "image/io.h"
+#include "render/film.h"
+#include "scene/camera_file.h"
+#include "scene/load.h"
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include <unistd.h>
+
+namespace nusselt::viewer {
+namespace {
+
+class ScriptTest : public parity::GpuTest {
+protected:
+    void SetUp() override {
+        std::string name = (std::filesystem::temp_directory_path() / "nusselt_script_XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder_ = name;
+        parity::GpuTest::SetUp();
+    }
+    void TearDown() override {
+        parity::GpuTest::TearDown();
+        std::filesystem::remove_all(folder_);
+    }
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+    std::string write(const std::string& text) const {
+        std::ofstream(folder_ / "script.txt") << text;
+        return path("script.txt");
+    }
+
+    Viewer make_viewer() const {
+        scene::Scene scene =
+            scene::load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes/cornell-panel.pbrt");
+        render::resize_film(scene, 24, 20);
+        return {device(), scene, render_vulkan::ShadowRays::bvh, {}, {"cornell-panel.pbrt", {}, {}}};
+    }
+
+    /// As the loop of the window does. \returns the number of frames
+    static int play(const std::string& script_path, Viewer& viewer) {
+        Script script{std::filesystem::path(script_path)};
+        int frames = 0;
+        while (!viewer.is_closing && frames < 1000) {
+            viewer.next_frame();
+            ++frames;
+            script.advance(viewer);
+        }
+        return frames;
+    }
+
+    /// What a script that fails says.
+    std::string error_of(const std::string& text, Viewer& viewer) const {
+        try {
+            play(write(text), viewer);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "none";
+    }
+
+private:
+    std::filesystem::path folder_;
+};
+
+TEST_F(ScriptTest, SetsWhatAPersonSets) {
+    Viewer viewer = make_viewer();
+    const int frames = play(write("# a comment\n"
+                                  "technique area  # and another\n"
+                                  "right-technique solid_angle\n"
+                                  "right-samples 3\n"
+                                  "split 0.25\n\n"
+                                  "exposure -1.5\n"
+                                  "show error\n"
+                                  "reference on\n"
+                                  "frames 5\n"
+                                  "quit\n"
+                                  "exposure 2\n"),
+                            viewer);
+    EXPECT_EQ(frames, 6);
+    EXPECT_EQ(viewer.state.of(Side::left).technique, render::Technique::area);
+    EXPECT_EQ(viewer.state.of(Side::right).technique, render::Technique::solid_angle);
+    EXPECT_EQ(viewer.state.of(Side::right).samples, 3);
+    EXPECT_TRUE(viewer.state.is_split);
+    EXPECT_EQ(viewer.state.wipe, 0.25);
+    EXPECT_EQ(viewer.state.exposure, -1.5);
+    EXPECT_EQ(viewer.state.shown, render_vulkan::Shown::error);
+    EXPECT_EQ(viewer.session.frames(Side::left), 5u);
+    EXPECT_EQ(viewer.session.reference_frames(), 5u);
+}
+
+TEST_F(ScriptTest, EditsLights_AndWritesWhatRendersTheSame) {
+    Viewer viewer = make_viewer();
+    play(write("light 0\nlight-move 0 -0.25 0\nlight-size 0.5\nlight-brightness 3\n"
+               "turn 5 -3\nmove 0.1 0 0.2\nframes 2\n"
+               "screenshot " +
+               path("a.png") + "\nscreenshot " + path("a.exr") + "\nquit\n"),
+         viewer);
+    const LightEdit edit = viewer.state.edits.get(0);
+    EXPECT_EQ(edit, (LightEdit{{0, -0.25, 0}, 0.5, 3, true}));
+    EXPECT_EQ(image::read_image(path("a.exr")).pixels, viewer.session.image(Side::left).pixels);
+    EXPECT_EQ(image::read_image(path("a.png")).width, 24);
+
+    Viewer other = make_viewer();
+    const std::string load =
+        "load-camera " + path("a.camera.json") + "\nload-lights " + path("a.lights.json") + "\n";
+    play(write(load + "frames 2\nquit\n"), other);
+    const auto distance = [&](const scene::Float3& a, const scene::Float3& b) {
+        return length(to_double(a) - to_double(b));
+    };
+    EXPECT_LT(distance(other.state.camera.camera().origin, viewer.state.camera.camera().origin), 1e-5);
+    ASSERT_EQ(other.files.rigs.size(), 1u);
+    const scene::Scene edited = viewer.state.edits.applied_to(viewer.session.loaded());
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_LT(distance(other.session.loaded().polygon_lights[0].vertices[i],
+                           edited.polygon_lights[0].vertices[i]),
+                  1e-6);
+}
+
+TEST_F(ScriptTest, WritesBothImages) {
+    Viewer viewer = make_viewer();
+    play(write("split 0.5\nright-technique area\nframes 1\nscreenshot " + path("b.exr") + "\nquit\n"),
+         viewer);
+    EXPECT_EQ(image::read_image(path("b.exr")).pixels, viewer.session.image(Side::left).pixels);
+    EXPECT_EQ(image::read_image(path("b-right.exr")).pixels, viewer.session.image(Side::right).pixels);
+}
+
+TEST_F(ScriptTest, CommandsNameTheirSettings) {
+    Viewer viewer = make_viewer();
+    viewer.state.of(Side::left).sample_order = render::SampleOrder::jittered;
+    choose_strategies(render::Strategies::diffuse_ltc, viewer.state.of(Side::left));
+    viewer.next_frame();
+    const std::string command =
+        command_of(viewer.session, viewer.state, viewer.files, "it's here.json", "rig.json", "out.exr");
+    EXPECT_EQ(
+        command,
+        "nusselt render cornell-panel.pbrt --lights rig.json --camera 'it'\\''s here.json' --backend vulkan "
+        "--shadow-rays bvh --technique projected_solid_angle --strategies diffuse+ltc --mis clamped_optimal "
+        "--visibility-estimate 0.5 --sampler jittered --brdf material --spp 1 --camera-rays 1 --seed 0 "
+        "-o out.exr");
+    viewer.next_frame();
+    viewer.next_frame();
+    EXPECT_NE(
+        command_of(viewer.session, viewer.state, viewer.files, "c.json", {}, "o.exr").find("--spp 3 -o"),
+        std::string::npos);
+}
+
+TEST_F(ScriptTest, NamesTheLineOfAMistake) {
+    Viewer viewer = make_viewer();
+    const auto expect = [&](const std::string& text, const std::string& place, const std::string& part) {
+        const std::string error = error_of(text, viewer);
+        EXPECT_NE(error.find("script.txt:" + place + ": "), std::string::npos) << error;
+        EXPECT_NE(error.find(part), std::string::npos) << error;
+    };
+    expect("frames 1\nfly 3\n", "2", "unknown command 'fly'");
+    expect("frames\n", "1", "takes 1 value");
+    expect("frames 0\n", "1", "'0' is not a number from 1 to");
+    expect("technique magic\n", "1", "unknown setting 'magic'; there are area,");
+    expect("samples 65\n", "1", "'65' is not a number from 1 to 64");
+    expect("exposure nan\n", "1", "'nan' is not a number");
+    expect("light 7\n", "1", "'7' is not a number from 0 to 0");
+    expect("light-size 2\n", "1", "no light is selected");
+    expect("reference maybe\n", "1", "neither on nor off");
+    expect("screenshot nowhere.txt\n", "1", "nowhere.txt");
+    expect("screenshot /nowhere/at/all.png\n", "1", "/nowhere/at/all.png");
+    expect("load-camera missing.json\n", "1", "missing.json");
+    expect("load-lights missing.json\n", "1", "missing.json");
+    try {
+        const Script script(std::filesystem::path(path("no-script.txt")));
+        FAIL() << "there is no such file";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("no-script.txt"), std::string::npos);
+    }
+}
+
+TEST_F(ScriptTest, SettingsThatDoNotFitGiveWay) {
+    render::RenderSettings settings;
+    choose_strategies(render::Strategies::diffuse_ltc, settings);
+    choose_mis(render::Mis::optimal, settings);
+    choose_strategies(render::Strategies::diffuse_ggx, settings);
+    EXPECT_EQ(settings.mis, render::Mis::balance);
+    choose_technique(render::Technique::area, settings);
+    EXPECT_EQ(settings.strategies, render::Strategies::diffuse);
+    choose_strategies(render::Strategies::diffuse_ggx, settings);
+    EXPECT_EQ(settings.technique, render::Technique::projected_solid_angle);
+    choose_mis(render::Mis::clamped_optimal, settings);
+    EXPECT_EQ(settings.strategies, render::Strategies::diffuse_ltc);
+    validate(settings);
+}
+
+} // namespace
+} // namespace nusselt::viewer

@@ -1,0 +1,186 @@
+/// What the viewer renders, without its window.
+
+#include "viewer/session.h"
+
+#include "gpu_test.h"
+
+#include "image/metrics.h"
+#include "image/srgb.h"
+#include "render/film.h"
+#include "render_vulkan/frame_records.h"
+#include "render_vulkan/renderer.h"
+#include "scene/load.h"
+#include "viewer/viewer.h"
+
+#include <cmath>
+#include <filesystem>
+
+namespace nusselt::viewer {
+namespace {
+
+using render_vulkan::ShadowRays;
+
+constexpr int kWidth = 48;
+constexpr int kHeight = 40;
+
+scene::Scene load(const char* name) {
+    scene::Scene scene = scene::load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes" / name);
+    render::resize_film(scene, kWidth, kHeight);
+    return scene;
+}
+
+class SessionTest : public parity::GpuTest {
+protected:
+    Viewer make_viewer(const char* scene_name = "cornell-panel.pbrt", int samples = 2) const {
+        render::RenderSettings settings;
+        settings.samples = samples;
+        return {device(), load(scene_name), ShadowRays::bvh, settings, {scene_name, {}, {}}};
+    }
+};
+
+TEST_F(SessionTest, OneFrameIsTheImageOfTheRenderer) {
+    Viewer viewer = make_viewer();
+    viewer.next_frame();
+    viewer.next_frame();
+    viewer.state.accumulates = false;
+    viewer.next_frame();
+    EXPECT_EQ(viewer.session.frames(Side::left), 1u);
+    EXPECT_EQ(viewer.session.seed(Side::left), 2u);
+    render::RenderSettings settings = viewer.state.of(Side::left);
+    settings.camera_rays = 1;
+    settings.seed = viewer.session.seed(Side::left);
+    const render_vulkan::VulkanRenderer renderer(device(), viewer.session.loaded(), ShadowRays::bvh);
+    EXPECT_EQ(viewer.session.image(Side::left).pixels, renderer.render(settings).image.pixels);
+}
+
+TEST_F(SessionTest, BeginsAgainWheneverTheImageChanges) {
+    Viewer viewer = make_viewer();
+    const auto frames_after = [&](const auto& change) {
+        for (int i = 0; i < 3; ++i) viewer.next_frame();
+        EXPECT_GE(viewer.session.frames(Side::left), 3u);
+        change();
+        viewer.next_frame();
+        EXPECT_EQ(viewer.message, "");
+        return viewer.session.frames(Side::left);
+    };
+    EXPECT_GE(frames_after([&] { viewer.state.exposure = 1; }), 4u);
+    EXPECT_EQ(frames_after([&] { viewer.state.camera.turn(0.1, 0); }), 1u);
+    EXPECT_EQ(frames_after([&] { viewer.state.of(Side::left).samples = 1; }), 1u);
+    EXPECT_EQ(frames_after([&] { choose_technique(render::Technique::area, viewer.state.of(Side::left)); }),
+              1u);
+    LightEdit brighter;
+    brighter.brightness = 2;
+    EXPECT_EQ(frames_after([&] { viewer.state.edits.set(0, brighter); }), 1u);
+    EXPECT_GE(frames_after([&] { viewer.state.of(Side::right).samples = 1; }), 4u)
+        << "the other image does not matter";
+}
+
+TEST_F(SessionTest, ShowsLightsThatWereSwitchedOff_AndMoved) {
+    Viewer viewer = make_viewer();
+    viewer.next_frame();
+    const image::Image before = viewer.session.image(Side::left);
+    LightEdit off;
+    off.is_enabled = false;
+    viewer.state.edits.set(0, off);
+    viewer.next_frame();
+    for (const float value : viewer.session.image(Side::left).pixels) EXPECT_EQ(value, 0);
+    LightEdit moved;
+    moved.move = {0, -0.5, 0};
+    viewer.state.edits.set(0, moved);
+    viewer.next_frame();
+    EXPECT_GT(image::compare(viewer.session.image(Side::left), before).relative_rmse, 0.1);
+    viewer.state.edits.set(0, {});
+    viewer.next_frame();
+    EXPECT_EQ(viewer.session.image(Side::left).pixels, before.pixels);
+}
+
+TEST_F(SessionTest, RefusesWhatCannotBeDone_AndGoesOnAsBefore) {
+    Viewer viewer = make_viewer();
+    viewer.next_frame();
+    LightEdit far;
+    far.move = {1e300, 0, 0};
+    viewer.state.edits.set(0, far);
+    viewer.next_frame();
+    EXPECT_NE(viewer.message, "");
+    EXPECT_TRUE(viewer.state.edits.empty());
+    EXPECT_GE(viewer.session.frames(Side::left), 1u);
+}
+
+/// Red, green or blue of a picture, 0 to 255.
+int code_at(const render_vulkan::DisplayPass& picture, std::size_t pixel, std::size_t channel) {
+    return static_cast<int>(picture.pixels()[pixel] >> (8 * channel) & 0xff);
+}
+
+TEST_F(SessionTest, ShowsBothImagesBesideEachOther) {
+    Viewer viewer = make_viewer();
+    viewer.state.is_split = true;
+    viewer.state.wipe = 0.25;
+    viewer.state.exposure = -1;
+    choose_technique(render::Technique::area, viewer.state.of(Side::right));
+    viewer.next_frame();
+    const image::Image images[] = {viewer.session.image(Side::left), viewer.session.image(Side::right)};
+    ASSERT_NE(images[0].pixels, images[1].pixels);
+    for (std::size_t pixel = 0; pixel < std::size_t{kWidth} * kHeight; ++pixel) {
+        const image::Image& image = images[pixel % kWidth < kWidth / 4 ? 0 : 1];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double expected = 255 * image::srgb_from_linear(std::min(
+                                              0.5 * static_cast<double>(image.pixels[3 * pixel + k]), 1.0));
+            ASSERT_NEAR(code_at(viewer.session.picture(), pixel, k), expected, 0.51)
+                << "pixel " << pixel << ", channel " << k;
+        }
+    }
+}
+
+TEST_F(SessionTest, MeasuresErrorsAsMetricsDo) {
+    Viewer viewer = make_viewer();
+    viewer.state.is_split = true;
+    choose_technique(render::Technique::area, viewer.state.of(Side::right));
+    viewer.next_frame();
+    EXPECT_EQ(viewer.session.errors().left, 0) << "without a reference there are none";
+    viewer.state.renders_reference = true;
+    for (int i = 0; i < 64; ++i) viewer.next_frame();
+    EXPECT_EQ(viewer.session.reference_frames(), 64u);
+
+    // The same reference once more.
+    render_vulkan::DeviceScene scene(device(), viewer.session.loaded(), ShadowRays::bvh);
+    const render::RenderSettings settings = reference_settings(viewer.state.of(Side::left));
+    render_vulkan::Accumulator reference(scene, settings);
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        render::RenderSettings frame = settings;
+        frame.camera_rays = 1;
+        frame.seed += i;
+        reference.add(render_vulkan::FrameRecords(scene.film(), frame).make(0));
+    }
+    for (const Side side : kSides) {
+        const double expected = image::compare(viewer.session.image(side), reference.mean()).rmse;
+        const double measured =
+            side == Side::left ? viewer.session.errors().left : viewer.session.errors().right;
+        EXPECT_NEAR(measured, expected, 1e-4 * expected);
+    }
+
+    // 65 frames of one, 1 frame of the other.
+    viewer.state.of(Side::right).seed = 1000;
+    viewer.next_frame();
+    EXPECT_LT(2 * viewer.session.errors().left, viewer.session.errors().right);
+}
+
+TEST_F(SessionTest, ErrorsAreBlackWhereThereAreNone_AndWhiteWhereAllIsWrong) {
+    Viewer viewer = make_viewer();
+    viewer.state.shown = render_vulkan::Shown::error;
+    viewer.state.renders_reference = true;
+    for (int i = 0; i < 256; ++i) viewer.next_frame();
+    const auto mean_code = [&] {
+        double sum = 0;
+        for (std::size_t i = 0; i < std::size_t{kWidth} * kHeight; ++i)
+            for (std::size_t k = 0; k < 3; ++k) sum += code_at(viewer.session.picture(), i, k);
+        return sum / (3.0 * kWidth * kHeight);
+    };
+    const double converged = mean_code();
+    viewer.state.accumulates = false;
+    viewer.next_frame();
+    EXPECT_GT(mean_code(), 1.5 * converged);
+    EXPECT_LT(converged, 128);
+}
+
+} // namespace
+} // namespace nusselt::viewer
