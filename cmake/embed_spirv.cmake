@@ -11,5 +11,8 @@ endforeach()
 
 file(READ ${INPUT} bytes HEX)
 # Words are stored with the least significant byte first.
-string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1,\n" words "${bytes}")
-file(WRITE ${OUTPUT} "#pragma once\n#include <cstdint>\n\nnamespace nusselt::shaders {\n\ninline constexpr std::uint32_t ${array}[] = {\n${words}};\n\n} // namespace nusselt::shaders\n")
+string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${bytes}")
+# Compilers keep less track of files with very many lines.
+string(REPEAT "[^,]+," 8 line)
+string(REGEX REPLACE "(${line})" "\\1\n" words "${words}")
+file(WRITE ${OUTPUT} "#pragma once\n#include <cstdint>\n\nnamespace nusselt::shaders {\n\ninline constexpr std::uint32_t ${array}[] = {\n${words}\n};\n\n} // namespace nusselt::shaders\n")

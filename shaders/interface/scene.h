@@ -72,8 +72,12 @@ struct MaterialRecord {
     uint is_bump_in_uv; ///< whether heights have the unit of texture coordinates, not metres
 };
 
+/// Texels are rows of codes, one per channel: the bits of a float, or with fewer bits the place of a float among the
+/// values of the texture.
 struct TextureRecord {
-    uint first_texel; ///< float of the buffer of texels
+    uint first_code;  ///< word that its codes begin with; unused where they are in an image
+    uint first_value; ///< word that its values begin with
+    uint packing;     ///< words have 2 to the power of this codes: 1, 2 or 4; with 1 codes are floats
     int width;
     int height;
     int channels; ///< 3 or 1

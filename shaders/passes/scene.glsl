@@ -10,7 +10,7 @@ layout(set = 0, binding = 2, std430) readonly buffer Triangles { TriangleRecord 
 layout(set = 0, binding = 3, std430) readonly buffer Instances { InstanceRecord instances[]; };
 layout(set = 0, binding = 4, std430) readonly buffer Materials { MaterialRecord materials[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Textures { TextureRecord textures[]; };
-layout(set = 0, binding = 6, std430) readonly buffer Texels { float texels[]; };
+layout(set = 0, binding = 6, std430) readonly buffer TextureWords { uint texture_words[]; };
 layout(push_constant, std430) uniform Frame_ { FrameRecord frame; };
 
 vec3 to_vec(float v[3]) { return vec3(v[0], v[1], v[2]); }

@@ -3,8 +3,17 @@
 /// Texture lookups. Filtered here, not by samplers: their weights have eight bits, and images shall agree with those of
 /// the CPU (src/render_cpu/kernel/texture.h).
 
+#ifndef TEXTURE_IMAGES
+#error TEXTURE_IMAGES must be 1 where the device indexes images in shaders, else 0
+#endif
+
 #include "nusselt/core/real.glsl"
 #include "passes/scene.glsl"
+#if TEXTURE_IMAGES
+#include "passes/texels_in_images.glsl"
+#else
+#include "passes/texels_in_buffer.glsl"
+#endif
 
 /// The two texels next to a texture coordinate along one axis.
 struct TexelPair {
@@ -31,11 +40,16 @@ TexelPair texel_pair(float coordinate, int size, TextureRecord texture_record) {
                      max(min(min(position + 1.0, count - position), 1.0), 0.0));
 }
 
-vec3 texel_at(TextureRecord texture_record, int column, int row) {
-    uint index = uint(row) * uint(texture_record.width) + uint(column);
-    uint at = texture_record.first_texel + uint(texture_record.channels) * index;
-    if (texture_record.channels == 1) return vec3(texels[at]);
-    return vec3(texels[at], texels[at + 1u], texels[at + 2u]);
+/// One number of a texel.
+float decoded(TextureRecord texture_record, uint code) {
+    return uintBitsToFloat(texture_record.packing == 0u ? code : texture_words[texture_record.first_value + code]);
+}
+
+vec3 texel_at(uint number, TextureRecord texture_record, int column, int row) {
+    uvec3 codes = texel_codes(number, texture_record, column, row);
+    float red = decoded(texture_record, codes.x);
+    if (texture_record.channels == 1) return vec3(red);
+    return vec3(red, decoded(texture_record, codes.y), decoded(texture_record, codes.z));
 }
 
 /// \param uv times the scale of the lookup, plus its offset.
@@ -43,10 +57,10 @@ vec3 look_up_texture(uint number, vec2 uv) {
     TextureRecord texture_record = textures[number];
     TexelPair x = texel_pair(uv.x, texture_record.width, texture_record);
     TexelPair y = texel_pair(uv.y, texture_record.height, texture_record);
-    vec3 bottom_left = texel_at(texture_record, x.first, y.first);
-    vec3 bottom = bottom_left + x.weight * (texel_at(texture_record, x.second, y.first) - bottom_left);
-    vec3 top_left = texel_at(texture_record, x.first, y.second);
-    vec3 top = top_left + x.weight * (texel_at(texture_record, x.second, y.second) - top_left);
+    vec3 bottom_left = texel_at(number, texture_record, x.first, y.first);
+    vec3 bottom = bottom_left + x.weight * (texel_at(number, texture_record, x.second, y.first) - bottom_left);
+    vec3 top_left = texel_at(number, texture_record, x.first, y.second);
+    vec3 top = top_left + x.weight * (texel_at(number, texture_record, x.second, y.second) - top_left);
     vec3 value = bottom + y.weight * (top - bottom);
     return texture_record.wrap == kWrapBlack ? (x.coverage * y.coverage) * value : value;
 }

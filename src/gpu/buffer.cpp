@@ -15,7 +15,8 @@ std::string name_of(const Device& device, std::size_t bytes) {
 vk::raii::Buffer make_buffer(const Device& device, std::size_t bytes, vk::BufferUsageFlags use) {
     assert(bytes > 0);
     // What shaders and builders reach by address knows no limit.
-    const bool is_bound = !(use & vk::BufferUsageFlagBits::eShaderDeviceAddress);
+    const bool is_bound = (use & vk::BufferUsageFlagBits::eStorageBuffer) &&
+                          !(use & vk::BufferUsageFlagBits::eShaderDeviceAddress);
     if (is_bound && bytes > device.limits().maxStorageBufferRange)
         throw Error(name_of(device, bytes) + " is too large, the limit is " +
                     size_text(device.limits().maxStorageBufferRange) + "; ask for less");
@@ -47,7 +48,8 @@ vk::DeviceAddress Buffer::address() const { return device_->handle().getBufferAd
 void Buffer::write_bytes(std::span<const std::byte> bytes) {
     assert(bytes.size() <= size_);
     if (residence_ == Residence::device_local) {
-        Buffer staging(*device_, bytes.size(), Residence::host_visible);
+        Buffer staging(*device_, bytes.size(), Residence::host_visible,
+                       vk::BufferUsageFlagBits::eTransferSrc);
         staging.write_bytes(bytes);
         device_->run([&](const Device::Commands& commands) {
             commands.copyBuffer(staging.handle(), handle(), vk::BufferCopy(0, 0, bytes.size()));
@@ -68,7 +70,8 @@ void Buffer::fill_with_zeros() {
 void Buffer::read_bytes(std::span<std::byte> bytes) const {
     assert(bytes.size() <= size_);
     if (residence_ == Residence::device_local) {
-        const Buffer staging(*device_, bytes.size(), Residence::host_visible);
+        const Buffer staging(*device_, bytes.size(), Residence::host_visible,
+                             vk::BufferUsageFlagBits::eTransferDst);
         device_->run([&](const Device::Commands& commands) {
             commands.copyBuffer(handle(), staging.handle(), vk::BufferCopy(0, 0, bytes.size()));
         });

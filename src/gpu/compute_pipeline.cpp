@@ -9,9 +9,10 @@ namespace nusselt::gpu {
 namespace {
 
 vk::raii::PipelineLayout make_layout(const Device& device, const ComputeInterface& interface,
-                                     vk::DescriptorSetLayout bindings) {
+                                     const ShaderBindings& bindings) {
     const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, interface.push_constant_size);
-    vk::PipelineLayoutCreateInfo info({}, bindings);
+    const std::vector<vk::DescriptorSetLayout> sets = bindings.layouts();
+    vk::PipelineLayoutCreateInfo info({}, sets);
     if (interface.push_constant_size > 0) info.setPushConstantRanges(push);
     return {device.handle(), info};
 }
@@ -27,8 +28,9 @@ vk::raii::Pipeline make_pipeline(const Device& device, std::span<const std::uint
 ComputePipeline::ComputePipeline(const Device& device, std::span<const std::uint32_t> spirv,
                                  const ComputeInterface& interface) try
     : push_constant_size_(interface.push_constant_size),
-      bindings_(device, interface.storage_buffers, interface.ray_scenes, vk::ShaderStageFlagBits::eCompute),
-      layout_(make_layout(device, interface, bindings_.layout())),
+      bindings_(device, interface.storage_buffers, interface.ray_scenes, interface.images,
+                vk::ShaderStageFlagBits::eCompute),
+      layout_(make_layout(device, interface, bindings_)),
       pipeline_(make_pipeline(device, spirv, interface, *layout_)) {
 } catch (const vk::SystemError& error) {
     rethrow(device.description().name + ": compiling a shader", error);
@@ -38,7 +40,7 @@ void ComputePipeline::dispatch(const Device::Commands& commands, std::span<const
                                std::uint32_t groups, std::uint32_t groups_y) const {
     assert(push.size() == push_constant_size_);
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, bindings_.handle(), {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, bindings_.handles(), {});
     if (!push.empty())
         commands.pushConstants<std::byte>(
             *layout_, vk::ShaderStageFlagBits::eCompute, 0,

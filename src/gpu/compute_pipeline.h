@@ -13,6 +13,7 @@ namespace nusselt::gpu {
 struct ComputeInterface {
     std::uint32_t storage_buffers = 0;         ///< bindings 0 to this, exclusive, of set 0
     std::uint32_t ray_scenes = 0;              ///< acceleration structures: the bindings after those
+    const ImageArray* images = nullptr;        ///< set 1, or none; must outlive the pipeline
     std::uint32_t push_constant_size = 0;      ///< [bytes]
     std::vector<std::uint32_t> constants = {}; ///< specialisation constants 0, 1, ...: the bits of each
 };

@@ -111,12 +111,31 @@ constexpr const char* kRayExtensions[] = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSIO
                                           VK_KHR_RAY_QUERY_EXTENSION_NAME,
                                           VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
 
+/// The number of images that shaders choose from; 0 if they cannot.
+std::uint32_t indexed_images_of(const vk::raii::PhysicalDevice& device) {
+    const auto features =
+        device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceDescriptorIndexingFeatures>()
+            .get<vk::PhysicalDeviceDescriptorIndexingFeatures>();
+    if (!features.shaderSampledImageArrayNonUniformIndexing || !features.runtimeDescriptorArray ||
+        !features.descriptorBindingSampledImageUpdateAfterBind)
+        return 0;
+    const auto limits =
+        device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDescriptorIndexingProperties>()
+            .get<vk::PhysicalDeviceDescriptorIndexingProperties>();
+    // With more buffers beside them than any shader has.
+    constexpr std::uint32_t kOtherResources = 64;
+    return std::min({limits.maxPerStageDescriptorUpdateAfterBindSampledImages,
+                     limits.maxDescriptorSetUpdateAfterBindSampledImages,
+                     limits.maxPerStageUpdateAfterBindResources - kOtherResources});
+}
+
 DeviceFeatures features_of(const Instance& instance, const vk::raii::PhysicalDevice& device) {
     const std::uint32_t version = std::min(instance.version(), device.getProperties().apiVersion);
     if (version < VK_API_VERSION_1_2) return {};
     const auto basic =
         device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceBufferDeviceAddressFeatures>();
     DeviceFeatures features;
+    features.indexed_images = indexed_images_of(device);
     features.buffer_addresses =
         basic.get<vk::PhysicalDeviceBufferDeviceAddressFeatures>().bufferDeviceAddress != 0;
     const bool has_extensions = std::all_of(std::begin(kRayExtensions), std::end(kRayExtensions),
@@ -144,12 +163,17 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue({}, queue_family, 1, &priority);
     vk::StructureChain<vk::DeviceCreateInfo, vk::PhysicalDeviceBufferDeviceAddressFeatures,
+                       vk::PhysicalDeviceDescriptorIndexingFeatures,
                        vk::PhysicalDeviceAccelerationStructureFeaturesKHR,
                        vk::PhysicalDeviceRayQueryFeaturesKHR>
         chain;
     auto& info = chain.get<vk::DeviceCreateInfo>();
     info.setQueueCreateInfos(queue);
     chain.get<vk::PhysicalDeviceBufferDeviceAddressFeatures>().bufferDeviceAddress = true;
+    auto& indexing = chain.get<vk::PhysicalDeviceDescriptorIndexingFeatures>();
+    indexing.shaderSampledImageArrayNonUniformIndexing = true;
+    indexing.runtimeDescriptorArray = true;
+    indexing.descriptorBindingSampledImageUpdateAfterBind = true;
     chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure = true;
     chain.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery = true;
     if (features.ray_queries) {
@@ -158,6 +182,7 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint
         chain.unlink<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>();
         chain.unlink<vk::PhysicalDeviceRayQueryFeaturesKHR>();
     }
+    if (features.indexed_images == 0) chain.unlink<vk::PhysicalDeviceDescriptorIndexingFeatures>();
     if (!features.buffer_addresses) chain.unlink<vk::PhysicalDeviceBufferDeviceAddressFeatures>();
     return {physical, info};
 }

@@ -29,8 +29,9 @@ struct DeviceDescription {
 
 /// What a device can do beyond Vulkan 1.1. All of it is switched on.
 struct DeviceFeatures {
-    bool buffer_addresses = false; ///< buffers that shaders and builders reach by address
-    bool ray_queries = false;      ///< with acceleration structures, see acceleration_structure.h
+    bool buffer_addresses = false;    ///< buffers that shaders and builders reach by address
+    bool ray_queries = false;         ///< with acceleration structures, see acceleration_structure.h
+    std::uint32_t indexed_images = 0; ///< of how many shaders choose one per invocation, see image_array.h
 };
 
 /// The devices that can be chosen. Empty without a loader or driver.

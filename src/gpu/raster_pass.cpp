@@ -77,11 +77,12 @@ vk::raii::RenderPass make_render_pass(const Device& device) {
     return {device.handle(), vk::RenderPassCreateInfo({}, attachments, subpass, dependencies)};
 }
 
-vk::raii::PipelineLayout make_layout(const Device& device, vk::DescriptorSetLayout set,
+vk::raii::PipelineLayout make_layout(const Device& device, const ShaderBindings& bindings,
                                      std::uint32_t push_constant_size) {
     const vk::PushConstantRange push(vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0,
                                      push_constant_size);
-    vk::PipelineLayoutCreateInfo info({}, set);
+    const std::vector<vk::DescriptorSetLayout> sets = bindings.layouts();
+    vk::PipelineLayoutCreateInfo info({}, sets);
     if (push_constant_size > 0) info.setPushConstantRanges(push);
     return {device.handle(), info};
 }
@@ -147,9 +148,9 @@ RasterPass::RasterPass(const Device& device, std::span<const std::uint32_t> vert
              vk::ImageAspectFlagBits::eDepth, size_),
       render_pass_(make_render_pass(device)),
       framebuffer_(make_framebuffer(device, *render_pass_, *numbers_.view, *depth_.view, size_)),
-      bindings_(device, interface.storage_buffers, 0,
+      bindings_(device, interface.storage_buffers, 0, interface.images,
                 vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment),
-      layout_(make_layout(device, bindings_.layout(), interface.push_constant_size)),
+      layout_(make_layout(device, bindings_, interface.push_constant_size)),
       pipeline_(make_pipeline(device, vertex, fragment, interface, size_, *layout_, *render_pass_)) {
 } catch (const vk::SystemError& error) {
     rethrow(device.description().name + ": preparing to draw " + size_name({width, height}), error);
@@ -165,7 +166,7 @@ void RasterPass::draw(const Device::Commands& commands, std::span<const std::byt
         vk::RenderPassBeginInfo(*render_pass_, *framebuffer_, vk::Rect2D({}, size_), clear),
         vk::SubpassContents::eInline);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline_);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, bindings_.handle(), {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, bindings_.handles(), {});
     if (!push.empty())
         commands.pushConstants<std::byte>(
             *layout_, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0,

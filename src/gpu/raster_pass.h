@@ -13,6 +13,7 @@ namespace nusselt::gpu {
 /// What the shaders of a RasterPass expect from outside.
 struct RasterInterface {
     std::uint32_t storage_buffers = 0;    ///< bindings 0 to this, exclusive, of set 0, in both stages
+    const ImageArray* images = nullptr;   ///< set 1, or none; must outlive the pass
     std::uint32_t push_constant_size = 0; ///< [bytes], in both stages
     std::vector<std::uint32_t> constants =
         {}; ///< specialisation constants 0, 1, ... of both stages: the bits of each

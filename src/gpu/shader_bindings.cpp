@@ -29,14 +29,25 @@ vk::raii::DescriptorPool make_pool(const Device& device, std::uint32_t storage_b
 } // namespace
 
 ShaderBindings::ShaderBindings(const Device& device, std::uint32_t storage_buffers, std::uint32_t ray_scenes,
-                               vk::ShaderStageFlags stages)
+                               const ImageArray* images, vk::ShaderStageFlags stages)
     : device_(&device),
       storage_buffers_(storage_buffers),
       ray_scenes_(ray_scenes),
+      images_(images),
       layout_(make_layout(device, storage_buffers, ray_scenes, stages)),
       pool_(make_pool(device, storage_buffers, ray_scenes)) {
     const vk::DescriptorSetAllocateInfo info(*pool_, *layout_);
     set_ = vk::raii::DescriptorSets(device.handle(), info).front().release();
+}
+
+std::vector<vk::DescriptorSetLayout> ShaderBindings::layouts() const {
+    if (images_ == nullptr) return {*layout_};
+    return {*layout_, images_->layout()};
+}
+
+std::vector<vk::DescriptorSet> ShaderBindings::handles() const {
+    if (images_ == nullptr) return {set_};
+    return {set_, images_->handle()};
 }
 
 void ShaderBindings::bind(std::span<const Buffer* const> buffers) {

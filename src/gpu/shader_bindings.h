@@ -3,23 +3,27 @@
 
 #include "gpu/acceleration_structure.h"
 #include "gpu/buffer.h"
+#include "gpu/image_array.h"
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace nusselt::gpu {
 
-/// Set 0 of shaders: storage buffers, then acceleration structures.
+/// Set 0 of shaders: storage buffers, then acceleration structures. Set 1, if any: images.
 class ShaderBindings {
 public:
     /// \param storage_buffers how many: bindings 0 to this, exclusive.
     /// \param ray_scenes      how many acceleration structures: the bindings after those.
-    /// \param stages          that see them.
+    /// \param images          null: none. Must outlive this.
+    /// \param stages          that see set 0.
     ShaderBindings(const Device& device, std::uint32_t storage_buffers, std::uint32_t ray_scenes,
-                   vk::ShaderStageFlags stages);
+                   const ImageArray* images, vk::ShaderStageFlags stages);
 
-    vk::DescriptorSetLayout layout() const { return *layout_; }
-    vk::DescriptorSet handle() const { return set_; }
+    /// Of all sets, in order.
+    std::vector<vk::DescriptorSetLayout> layouts() const;
+    std::vector<vk::DescriptorSet> handles() const;
 
     /// The buffers that the next commands use, in the order of their bindings. Not while commands run.
     void bind(std::span<const Buffer* const> buffers);
@@ -29,6 +33,7 @@ public:
 private:
     const Device* device_;
     std::uint32_t storage_buffers_, ray_scenes_;
+    const ImageArray* images_;
     vk::raii::DescriptorSetLayout layout_;
     vk::raii::DescriptorPool pool_;
     vk::DescriptorSet set_; ///< freed with its pool

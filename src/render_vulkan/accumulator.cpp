@@ -1,7 +1,8 @@
 #include "render_vulkan/accumulator.h"
 
 #include "render/film.h"
-#include "shaders/visibility_fragment.h"
+#include "shaders/visibility_fragment_buffer.h"
+#include "shaders/visibility_fragment_images.h"
 #include "shaders/visibility_vertex.h"
 
 #include <algorithm>
@@ -28,10 +29,15 @@ PixelBuffers make_pixels(const DeviceScene& scene) {
 
 gpu::RasterPass make_visibility_pass(const DeviceScene& scene, const PixelBuffers& pixels) {
     const SceneBuffers& data = scene.buffers();
-    const std::array buffers = {&data.scene,     &data.vertices, &data.triangles, &data.instances,
-                                &data.materials, &data.textures, &data.texels};
-    gpu::RasterPass pass(scene.device(), shaders::kVisibilityVertex, shaders::kVisibilityFragment,
+    const SceneTextures& textures = scene.textures();
+    const std::array buffers = {&data.scene,     &data.vertices,      &data.triangles,  &data.instances,
+                                &data.materials, &textures.records(), &textures.words()};
+    const bool has_images = textures.images() != nullptr;
+    gpu::RasterPass pass(scene.device(), shaders::kVisibilityVertex,
+                         has_images ? std::span<const std::uint32_t>(shaders::kVisibilityFragmentImages)
+                                    : shaders::kVisibilityFragmentBuffer,
                          {.storage_buffers = buffers.size(),
+                          .images = textures.images(),
                           .push_constant_size = sizeof(interface::FrameRecord),
                           .constants = {scene.has_alpha() ? 1u : 0u}},
                          pixels.width, pixels.height);

@@ -20,11 +20,12 @@ SceneRecords make_records(const scene::Scene& scene) {
 
 } // namespace
 
-DeviceScene::DeviceScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays)
-    : DeviceScene(device, scene, shadow_rays, make_records(scene)) {}
+DeviceScene::DeviceScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays,
+                         std::optional<TextureAccess> textures)
+    : DeviceScene(device, scene, shadow_rays, textures, make_records(scene)) {}
 
 DeviceScene::DeviceScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays,
-                         const SceneRecords& records)
+                         std::optional<TextureAccess> textures, const SceneRecords& records)
     : device_(device),
       film_(scene.film),
       radius_(scene.radius),
@@ -34,6 +35,7 @@ DeviceScene::DeviceScene(const gpu::Device& device, const scene::Scene& scene, S
       has_alpha_(records.has_alpha),
       lights_{!records.polygon_lights.empty(), records.has_lines, records.has_tubes},
       buffers_(device, records),
+      textures_(device, scene.textures, textures),
       ltc_table_(upload(device, std::span(tables::frostbite_ltc_table().entries), "lobes")),
       shadows_(device, scene, shadow_rays) {}
 

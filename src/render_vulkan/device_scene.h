@@ -2,10 +2,12 @@
 /// A scene on a device, and what kinds of things it has.
 
 #include "render_vulkan/scene_buffers.h"
+#include "render_vulkan/scene_textures.h"
 #include "render_vulkan/shadow_scene.h"
 #include "scene/scene.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace nusselt::render_vulkan {
 
@@ -18,8 +20,11 @@ struct LightKinds {
 class DeviceScene {
 public:
     /// \param device must outlive this.
-    /// \throws std::runtime_error if the scene does not fit the device: see make_scene_records(), ShadowScene, upload().
-    DeviceScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays);
+    /// \param textures see SceneTextures
+    /// \throws std::runtime_error if the scene does not fit the device: see make_scene_records(), SceneTextures,
+    ///         ShadowScene, upload().
+    DeviceScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays,
+                std::optional<TextureAccess> textures = {});
 
     /// Another camera for the next frames, with the same film. Not while commands run.
     void set_camera(const scene::Camera& camera);
@@ -31,12 +36,13 @@ public:
     bool has_alpha() const { return has_alpha_; }
     const LightKinds& lights() const { return lights_; }
     const SceneBuffers& buffers() const { return buffers_; }
+    const SceneTextures& textures() const { return textures_; }
     const gpu::Buffer& ltc_table() const { return ltc_table_; } ///< decoded samples
     const ShadowScene& shadows() const { return shadows_; }
 
 private:
     DeviceScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays,
-                const SceneRecords& records);
+                std::optional<TextureAccess> textures, const SceneRecords& records);
 
     const gpu::Device& device_;
     scene::Film film_;
@@ -47,6 +53,7 @@ private:
     bool has_alpha_;
     LightKinds lights_;
     SceneBuffers buffers_;
+    SceneTextures textures_;
     gpu::Buffer ltc_table_;
     ShadowScene shadows_;
 };

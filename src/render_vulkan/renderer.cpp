@@ -20,21 +20,23 @@ double seconds_since(Clock::time_point begin) {
 
 struct VulkanRenderer::State {
     State(const gpu::Device& device, const scene::Scene& scene_to_render, ShadowRays shadow_rays,
-          Clock::time_point begin)
-        : scene(device, scene_to_render, shadow_rays), build_seconds(seconds_since(begin)) {}
+          std::optional<TextureAccess> textures, Clock::time_point begin)
+        : scene(device, scene_to_render, shadow_rays, textures), build_seconds(seconds_since(begin)) {}
 
     DeviceScene scene;
     double build_seconds;
     std::optional<Accumulator> image; ///< the last one
 };
 
-VulkanRenderer::VulkanRenderer(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays)
-    : state_(std::make_unique<State>(device, scene, shadow_rays, Clock::now())) {}
+VulkanRenderer::VulkanRenderer(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays,
+                               std::optional<TextureAccess> textures)
+    : state_(std::make_unique<State>(device, scene, shadow_rays, textures, Clock::now())) {}
 
 VulkanRenderer::~VulkanRenderer() = default;
 
 const gpu::Device& VulkanRenderer::device() const { return state_->scene.device(); }
 ShadowRays VulkanRenderer::shadow_rays() const { return state_->scene.shadows().way(); }
+TextureAccess VulkanRenderer::texture_access() const { return state_->scene.textures().access(); }
 
 RenderResult VulkanRenderer::render(const render::RenderSettings& settings,
                                     const RenderMonitor& monitor) const {

@@ -5,6 +5,7 @@
 #include "image/image.h"
 #include "render/settings.h"
 #include "render_vulkan/accumulator.h"
+#include "render_vulkan/scene_textures.h"
 #include "render_vulkan/shadow_scene.h"
 #include "scene/scene.h"
 
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace nusselt::render_vulkan {
 
@@ -45,8 +47,10 @@ class VulkanRenderer {
 public:
     /// \param device must outlive the renderer.
     /// \param scene  its film gives the size of images.
-    /// \throws std::runtime_error if the scene does not fit the device: see make_scene_records(), ShadowScene, upload().
-    VulkanRenderer(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays);
+    /// \param textures see SceneTextures
+    /// \throws std::runtime_error if the scene does not fit the device: see DeviceScene
+    VulkanRenderer(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays,
+                   std::optional<TextureAccess> textures = {});
     ~VulkanRenderer();
 
     /// Camera rays are frames: in each of them, all pixels have the same place in their pixel.
@@ -56,6 +60,7 @@ public:
 
     const gpu::Device& device() const;
     ShadowRays shadow_rays() const;
+    TextureAccess texture_access() const;
 
 private:
     struct State;

@@ -17,8 +17,6 @@ SceneBuffers::SceneBuffers(const gpu::Device& device, const SceneRecords& record
       triangles(upload_all(device, records.triangles, "triangles")),
       instances(upload_all(device, records.instances, "instances")),
       materials(upload_all(device, records.materials, "materials")),
-      textures(upload_all(device, records.textures, "records of textures")),
-      texels(upload_all(device, records.texels, "texels")),
       polygon_lights(upload_all(device, records.polygon_lights, "polygonal lights")),
       polygon_corners(upload_all(device, records.polygon_corners, "corners of lights")),
       line_lights(upload_all(device, records.line_lights, "linear lights")) {}

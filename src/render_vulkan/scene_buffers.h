@@ -15,12 +15,12 @@ namespace nusselt::render_vulkan {
 template <class T>
 gpu::Buffer upload(const gpu::Device& device, std::span<const T> values, const char* what);
 
-/// The buffers of shaders/passes/scene.glsl and lights.glsl.
+/// The buffers of shaders/passes/scene.glsl and lights.glsl, but for textures.
 struct SceneBuffers {
     /// \throws gpu::Error as upload() does.
     SceneBuffers(const gpu::Device& device, const SceneRecords& records);
 
-    gpu::Buffer scene, vertices, triangles, instances, materials, textures, texels;
+    gpu::Buffer scene, vertices, triangles, instances, materials;
     gpu::Buffer polygon_lights, polygon_corners, line_lights;
 };
 

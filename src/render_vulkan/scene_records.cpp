@@ -118,31 +118,6 @@ interface::MaterialRecord make_record(const scene::Material& material) {
     return record;
 }
 
-std::uint32_t wrap_of(scene::TextureWrap wrap) {
-    switch (wrap) {
-    case scene::TextureWrap::clamp:
-        return interface::kWrapClamp;
-    case scene::TextureWrap::black:
-        return interface::kWrapBlack;
-    case scene::TextureWrap::repeat:
-        break;
-    }
-    return interface::kWrapRepeat;
-}
-
-void add_textures(const scene::Scene& scene, SceneRecords& records) {
-    std::uint64_t texels = 0;
-    for (const scene::Texture& texture : scene.textures) texels += texture.texels.size();
-    records.texels.reserve(checked_count(texels, "numbers of textures"));
-    for (const scene::Texture& texture : scene.textures) {
-        const auto first = static_cast<std::uint32_t>(records.texels.size());
-        records.textures.push_back({first, texture.width, texture.height, texture.channels,
-                                    wrap_of(texture.wrap),
-                                    texture.filter == scene::TextureFilter::nearest ? 1u : 0u});
-        records.texels.insert(records.texels.end(), texture.texels.begin(), texture.texels.end());
-    }
-}
-
 template <int N>
 void add_polygon(const scene::PolygonLight& light, SceneRecords& records) {
     Vec3<float> corners[N] = {};
@@ -256,7 +231,6 @@ SceneRecords make_scene_records(const scene::Scene& scene) {
         records.materials.push_back(make_record(material));
         records.has_alpha |= visibility::presence_of(material) != visibility::Presence::full;
     }
-    add_textures(scene, records);
     add_lights(scene, records);
 
     interface::SceneRecord& record = records.scene;

@@ -9,15 +9,13 @@
 
 namespace nusselt::render_vulkan {
 
-/// The arrays of shaders/interface/scene.h.
+/// The arrays of shaders/interface/scene.h, but for textures.
 struct SceneRecords {
     interface::SceneRecord scene;
     std::vector<interface::VertexRecord> vertices;    ///< of the scene, then of tubes
     std::vector<interface::TriangleRecord> triangles; ///< likewise
     std::vector<interface::InstanceRecord> instances;
     std::vector<interface::MaterialRecord> materials;
-    std::vector<interface::TextureRecord> textures;
-    std::vector<float> texels;
     std::vector<interface::PolygonLightRecord> polygon_lights;
     std::vector<scene::Float3> polygon_corners; ///< see shaders/passes/lights.glsl
     std::vector<interface::LineLightRecord> line_lights;

@@ -23,10 +23,11 @@ bool is_analytic(const std::vector<std::uint32_t>& constants) {
 gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<std::uint32_t>& constants) {
     const gpu::Device& device = scene.device();
     const ShadowScene& shadows = scene.shadows();
-    const ShaderVariant variant{scene.polygon_slots(), has_fused_fma(device)};
+    const SceneTextures& textures = scene.textures();
+    const ShaderVariant variant{scene.polygon_slots(), has_fused_fma(device), textures.access()};
     gpu::ComputeInterface interface {
-        .storage_buffers = kShadingBuffers, .push_constant_size = sizeof(interface::FrameRecord),
-        .constants = constants
+        .storage_buffers = kShadingBuffers, .images = textures.images(),
+        .push_constant_size = sizeof(interface::FrameRecord), .constants = constants
     };
     if (is_analytic(constants)) return {device, integration_shader(variant), interface};
     interface.storage_buffers += static_cast<std::uint32_t>(shadows.buffers().size());
@@ -67,11 +68,13 @@ ShadingPass::ShadingPass(const DeviceScene& scene, const std::vector<std::uint32
       groups_y_(groups_for(pixels.height)),
       pipeline_(make_pipeline(scene, constants)) {
     const SceneBuffers& data = scene.buffers();
+    const SceneTextures& textures = scene.textures();
     const ShadowScene& shadows = scene.shadows();
-    std::vector<const gpu::Buffer*> buffers = {
-        &data.scene,        &data.vertices,  &data.triangles,      &data.instances,       &data.materials,
-        &data.textures,     &data.texels,    &data.polygon_lights, &data.polygon_corners, &data.line_lights,
-        &scene.ltc_table(), &pixels.numbers, &pixels.sums,         &pixels.work};
+    std::vector<const gpu::Buffer*> buffers = {&data.scene,       &data.vertices,       &data.triangles,
+                                               &data.instances,   &data.materials,      &textures.records(),
+                                               &textures.words(), &data.polygon_lights, &data.polygon_corners,
+                                               &data.line_lights, &scene.ltc_table(),   &pixels.numbers,
+                                               &pixels.sums,      &pixels.work};
     if (!is_analytic(constants)) {
         for (const gpu::Buffer* buffer : shadows.buffers()) buffers.push_back(buffer);
         if (shadows.structure() != nullptr) pipeline_.bind(*shadows.structure());

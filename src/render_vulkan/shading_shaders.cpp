@@ -1,21 +1,37 @@
 #include "render_vulkan/shading_shaders.h"
 
-#include "shaders/integrate_lights_4_fused.h"
-#include "shaders/integrate_lights_4_split.h"
-#include "shaders/integrate_lights_8_fused.h"
-#include "shaders/integrate_lights_8_split.h"
-#include "shaders/sample_lights_bvh_4_fused.h"
-#include "shaders/sample_lights_bvh_4_split.h"
-#include "shaders/sample_lights_bvh_8_fused.h"
-#include "shaders/sample_lights_bvh_8_split.h"
-#include "shaders/sample_lights_query_4_fused.h"
-#include "shaders/sample_lights_query_4_split.h"
-#include "shaders/sample_lights_query_8_fused.h"
-#include "shaders/sample_lights_query_8_split.h"
-#include "shaders/sample_lights_unshadowed_4_fused.h"
-#include "shaders/sample_lights_unshadowed_4_split.h"
-#include "shaders/sample_lights_unshadowed_8_fused.h"
-#include "shaders/sample_lights_unshadowed_8_split.h"
+#include "shaders/integrate_lights_buffer_fused_4.h"
+#include "shaders/integrate_lights_buffer_fused_8.h"
+#include "shaders/integrate_lights_buffer_split_4.h"
+#include "shaders/integrate_lights_buffer_split_8.h"
+#include "shaders/integrate_lights_images_fused_4.h"
+#include "shaders/integrate_lights_images_fused_8.h"
+#include "shaders/integrate_lights_images_split_4.h"
+#include "shaders/integrate_lights_images_split_8.h"
+#include "shaders/sample_lights_bvh_buffer_fused_4.h"
+#include "shaders/sample_lights_bvh_buffer_fused_8.h"
+#include "shaders/sample_lights_bvh_buffer_split_4.h"
+#include "shaders/sample_lights_bvh_buffer_split_8.h"
+#include "shaders/sample_lights_bvh_images_fused_4.h"
+#include "shaders/sample_lights_bvh_images_fused_8.h"
+#include "shaders/sample_lights_bvh_images_split_4.h"
+#include "shaders/sample_lights_bvh_images_split_8.h"
+#include "shaders/sample_lights_query_buffer_fused_4.h"
+#include "shaders/sample_lights_query_buffer_fused_8.h"
+#include "shaders/sample_lights_query_buffer_split_4.h"
+#include "shaders/sample_lights_query_buffer_split_8.h"
+#include "shaders/sample_lights_query_images_fused_4.h"
+#include "shaders/sample_lights_query_images_fused_8.h"
+#include "shaders/sample_lights_query_images_split_4.h"
+#include "shaders/sample_lights_query_images_split_8.h"
+#include "shaders/sample_lights_unshadowed_buffer_fused_4.h"
+#include "shaders/sample_lights_unshadowed_buffer_fused_8.h"
+#include "shaders/sample_lights_unshadowed_buffer_split_4.h"
+#include "shaders/sample_lights_unshadowed_buffer_split_8.h"
+#include "shaders/sample_lights_unshadowed_images_fused_4.h"
+#include "shaders/sample_lights_unshadowed_images_fused_8.h"
+#include "shaders/sample_lights_unshadowed_images_split_4.h"
+#include "shaders/sample_lights_unshadowed_images_split_8.h"
 
 namespace nusselt::render_vulkan {
 
@@ -23,25 +39,43 @@ namespace {
 
 using Words = std::span<const std::uint32_t>;
 
-/// One shader in all variants.
+/// One shader in all variants: for fma that rounds twice or once, with 4 or 8 vertices.
 struct Variants {
-    Words split4, fused4, split8, fused8;
+    struct Access {
+        Words split4, split8, fused4, fused8;
+
+        Words get(const ShaderVariant& variant) const {
+            const bool is_small = variant.polygon_slots == 4;
+            if (variant.fused_fma) return is_small ? fused4 : fused8;
+            return is_small ? split4 : split8;
+        }
+    };
+    Access images, buffer;
 
     Words get(const ShaderVariant& variant) const {
-        if (variant.polygon_slots == 4) return variant.fused_fma ? fused4 : split4;
-        return variant.fused_fma ? fused8 : split8;
+        return (variant.textures == TextureAccess::images ? images : buffer).get(variant);
     }
 };
 
-constexpr Variants kByBvh = {shaders::kSampleLightsBvh4Split, shaders::kSampleLightsBvh4Fused,
-                             shaders::kSampleLightsBvh8Split, shaders::kSampleLightsBvh8Fused};
-constexpr Variants kByQuery = {shaders::kSampleLightsQuery4Split, shaders::kSampleLightsQuery4Fused,
-                               shaders::kSampleLightsQuery8Split, shaders::kSampleLightsQuery8Fused};
+constexpr Variants kByBvh = {{shaders::kSampleLightsBvhImagesSplit4, shaders::kSampleLightsBvhImagesSplit8,
+                              shaders::kSampleLightsBvhImagesFused4, shaders::kSampleLightsBvhImagesFused8},
+                             {shaders::kSampleLightsBvhBufferSplit4, shaders::kSampleLightsBvhBufferSplit8,
+                              shaders::kSampleLightsBvhBufferFused4, shaders::kSampleLightsBvhBufferFused8}};
+constexpr Variants kByQuery = {
+    {shaders::kSampleLightsQueryImagesSplit4, shaders::kSampleLightsQueryImagesSplit8,
+     shaders::kSampleLightsQueryImagesFused4, shaders::kSampleLightsQueryImagesFused8},
+    {shaders::kSampleLightsQueryBufferSplit4, shaders::kSampleLightsQueryBufferSplit8,
+     shaders::kSampleLightsQueryBufferFused4, shaders::kSampleLightsQueryBufferFused8}};
 constexpr Variants kUnshadowed = {
-    shaders::kSampleLightsUnshadowed4Split, shaders::kSampleLightsUnshadowed4Fused,
-    shaders::kSampleLightsUnshadowed8Split, shaders::kSampleLightsUnshadowed8Fused};
-constexpr Variants kIntegration = {shaders::kIntegrateLights4Split, shaders::kIntegrateLights4Fused,
-                                   shaders::kIntegrateLights8Split, shaders::kIntegrateLights8Fused};
+    {shaders::kSampleLightsUnshadowedImagesSplit4, shaders::kSampleLightsUnshadowedImagesSplit8,
+     shaders::kSampleLightsUnshadowedImagesFused4, shaders::kSampleLightsUnshadowedImagesFused8},
+    {shaders::kSampleLightsUnshadowedBufferSplit4, shaders::kSampleLightsUnshadowedBufferSplit8,
+     shaders::kSampleLightsUnshadowedBufferFused4, shaders::kSampleLightsUnshadowedBufferFused8}};
+constexpr Variants kIntegration = {
+    {shaders::kIntegrateLightsImagesSplit4, shaders::kIntegrateLightsImagesSplit8,
+     shaders::kIntegrateLightsImagesFused4, shaders::kIntegrateLightsImagesFused8},
+    {shaders::kIntegrateLightsBufferSplit4, shaders::kIntegrateLightsBufferSplit8,
+     shaders::kIntegrateLightsBufferFused4, shaders::kIntegrateLightsBufferFused8}};
 
 } // namespace
 

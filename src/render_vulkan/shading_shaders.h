@@ -1,6 +1,7 @@
 #pragma once
 /// The variants of the shading pass.
 
+#include "render_vulkan/scene_textures.h"
 #include "render_vulkan/shadow_scene.h"
 
 #include <cstdint>
@@ -12,6 +13,7 @@ namespace nusselt::render_vulkan {
 struct ShaderVariant {
     int polygon_slots; ///< 4 or 8, see SceneRecords
     bool fused_fma;    ///< see gpu::has_fused_fma()
+    TextureAccess textures;
 };
 
 /// shaders/passes/sample_lights_*.comp.

@@ -1,0 +1,31 @@
+#pragma once
+/// Textures in fewer bits, without loss.
+
+#include "scene/scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nusselt::render_vulkan {
+
+/// A code for each number of a texture. Images of eight bits per channel have at most 256 different numbers after
+/// decoding, half floats 65536: then codes are places in a list of them.
+struct TextureCodes {
+    std::uint32_t packing = 0;         ///< words have 2 to the power of this codes: 1, 2 or 4
+    std::vector<std::uint32_t> values; ///< the bits of floats that codes stand for
+    std::vector<std::uint16_t>
+        codes; ///< nothing with packing 0: there, codes are the bits of the numbers themselves
+};
+
+/// The codes that take the least memory, with their values.
+/// \param texels fewer than 2^32
+TextureCodes encode_texels(std::span<const float> texels);
+
+/// Codes as shaders read them, 1, 2 or 4 bytes each: row by row, and one after the other in each texel.
+/// \param codes    of this texture
+/// \param channels per texel, at least those of the texture; others are 0
+std::vector<std::byte> packed_codes(const scene::Texture& texture, const TextureCodes& codes, int channels);
+
+} // namespace nusselt::render_vulkan
