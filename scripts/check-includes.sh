@@ -73,6 +73,9 @@ function layer_of(path,    parts, count) {
     return parts[1] "/" parts[2]
 }
 
+# The layer of "name/...": modules of src, else folders of apps.
+function folder_of(name) { return ("apps/" name) in known && !(("src/" name) in known) ? "apps/" name : "src/" name }
+
 function check(from, to,    layer) {
     if (!(to in known)) return report("no layer " to "; new layers are entered in scripts/check-includes.sh")
     layer = from !~ /^include/ && to ~ /^include/ ? "library" : to
@@ -108,7 +111,7 @@ FNR == 1 {
         if (quoted) report("write <" name ">")
         check(from, layer_of("include/" name))
     } else if (quoted && in_library) report("the library includes itself as <nusselt/...>")
-    else if (quoted && name ~ /\//) check(from, "src/" substr(name, 1, index(name, "/") - 1))
+    else if (quoted && name ~ /\//) check(from, folder_of(substr(name, 1, index(name, "/") - 1)))
     else if (quoted && from !~ /^apps/) report("write \"module/" name "\"")
     else if (!quoted && in_library && name ~ /[.\/]/ && !(from == "include/simd" && name ~ /^(immintrin|arm_neon)\.h$/))
         report("the library uses the standard library only, not <" name ">")

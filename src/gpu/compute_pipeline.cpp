@@ -3,6 +3,10 @@
 #include "gpu/shader_stage.h"
 
 #include <cassert>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
 
 namespace nusselt::gpu {
 
@@ -23,6 +27,20 @@ vk::raii::Pipeline make_pipeline(const Device& device, std::span<const std::uint
     return {device.handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage.description(), layout)};
 }
 
+/// Of all that a compiled shader depends on.
+std::string key_of(std::span<const std::uint32_t> spirv, const ComputeInterface& interface) {
+    const std::string_view bytes(reinterpret_cast<const char*>(spirv.data()), spirv.size_bytes());
+    std::string key;
+    for (const std::uint64_t number :
+         {std::uint64_t{spirv.size()}, std::uint64_t{std::hash<std::string_view>()(bytes)},
+          std::uint64_t{interface.storage_buffers}, std::uint64_t{interface.ray_scenes},
+          std::uint64_t{interface.images == nullptr ? 0 : interface.images->count() + 1},
+          std::uint64_t{interface.push_constant_size}})
+        append_to_key(key, number);
+    for (const std::uint32_t constant : interface.constants) append_to_key(key, constant);
+    return key;
+}
+
 } // namespace
 
 ComputePipeline::ComputePipeline(const Device& device, std::span<const std::uint32_t> spirv,
@@ -30,8 +48,11 @@ ComputePipeline::ComputePipeline(const Device& device, std::span<const std::uint
     : push_constant_size_(interface.push_constant_size),
       bindings_(device, interface.storage_buffers, interface.ray_scenes, interface.images,
                 vk::ShaderStageFlagBits::eCompute),
-      layout_(make_layout(device, interface, bindings_)),
-      pipeline_(make_pipeline(device, spirv, interface, *layout_)) {
+      shader_(&device.shaders().get(key_of(spirv, interface), [&] {
+          vk::raii::PipelineLayout layout = make_layout(device, interface, bindings_);
+          vk::raii::Pipeline pipeline = make_pipeline(device, spirv, interface, *layout);
+          return CompiledShader{std::move(layout), std::move(pipeline)};
+      })) {
 } catch (const vk::SystemError& error) {
     rethrow(device.description().name + ": compiling a shader", error);
 }
@@ -39,11 +60,12 @@ ComputePipeline::ComputePipeline(const Device& device, std::span<const std::uint
 void ComputePipeline::dispatch(const Device::Commands& commands, std::span<const std::byte> push,
                                std::uint32_t groups, std::uint32_t groups_y) const {
     assert(push.size() == push_constant_size_);
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, bindings_.handles(), {});
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *shader_->pipeline);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *shader_->layout, 0, bindings_.handles(),
+                                {});
     if (!push.empty())
         commands.pushConstants<std::byte>(
-            *layout_, vk::ShaderStageFlagBits::eCompute, 0,
+            *shader_->layout, vk::ShaderStageFlagBits::eCompute, 0,
             vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(push.size()), push.data()));
     commands.dispatch(groups, groups_y, 1);
 }

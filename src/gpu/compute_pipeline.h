@@ -2,6 +2,7 @@
 /// Compute shaders with storage buffers.
 
 #include "gpu/shader_bindings.h"
+#include "gpu/shader_cache.h"
 
 #include <cstdint>
 #include <initializer_list>
@@ -18,6 +19,7 @@ struct ComputeInterface {
     std::vector<std::uint32_t> constants = {}; ///< specialisation constants 0, 1, ...: the bits of each
 };
 
+/// A shader with what it is bound to. The shader is compiled once per device, whichever pipelines ask for it.
 class ComputePipeline {
 public:
     /// \param spirv a shader with the entry point `main`, as nusselt_add_shader() embeds it.
@@ -44,8 +46,7 @@ public:
 private:
     std::uint32_t push_constant_size_;
     ShaderBindings bindings_;
-    vk::raii::PipelineLayout layout_;
-    vk::raii::Pipeline pipeline_;
+    const CompiledShader* shader_; ///< lives as long as the device
 };
 
 } // namespace nusselt::gpu

@@ -2,6 +2,7 @@
 /// A headless Vulkan device: commands are recorded, submitted and waited for. One thread at a time.
 
 #include "gpu/instance.h"
+#include "gpu/shader_cache.h"
 
 #include <cstdint>
 #include <functional>
@@ -66,6 +67,7 @@ public:
     /// What the scratch memory for building acceleration structures is aligned to [bytes]; 1 without them.
     std::uint32_t scratch_alignment() const { return scratch_alignment_; }
     const vk::raii::Device& handle() const { return device_; }
+    ShaderCache& shaders() const { return shaders_; }
     Clock clock() const { return clock_; }
     /// Whether there is a queue for drawing, not for computing only.
     bool draws() const;
@@ -108,6 +110,7 @@ private:
     vk::raii::Device device_;
     vk::raii::Queue queue_;
     vk::raii::CommandPool pool_;
+    mutable ShaderCache shaders_; ///< does not change what the device does
 };
 
 /// All that was written before is visible to all that follows.

@@ -34,6 +34,7 @@ public:
     ImageArray(const Device& device, std::span<const ImageDescription> images,
                const std::function<std::vector<std::byte>(std::size_t)>& texels);
 
+    std::size_t count() const { return images_.size(); }
     vk::DescriptorSetLayout layout() const { return *layout_; }
     vk::DescriptorSet handle() const { return set_; }
 

@@ -51,26 +51,30 @@ Accumulator::Accumulator(const DeviceScene& scene, const render::RenderSettings&
     : scene_(scene),
       constants_(shading_constants(checked(settings), scene.lights())),
       pixels_(make_pixels(scene)),
-      visibility_(make_visibility_pass(scene, pixels_)),
-      shading_(scene, constants_, pixels_) {}
+      visibility_(make_visibility_pass(scene, pixels_)) {}
 
 void Accumulator::restart(const render::RenderSettings& settings) {
     const std::vector<std::uint32_t> constants = shading_constants(checked(settings), scene_.lights());
     if (constants != constants_) {
-        shading_ = ShadingPass(scene_, constants, pixels_);
+        shading_.reset();
         constants_ = constants;
     }
     pixels_.clear();
     frames_ = 0;
 }
 
+void Accumulator::compile() {
+    if (!shading_) shading_.emplace(scene_, constants_, pixels_);
+}
+
 FrameTimes Accumulator::add(const interface::FrameRecord& frame) {
+    compile();
     const std::array<gpu::Device::Record, 2> passes = {
         [&](const gpu::Device::Commands& commands) {
             visibility_.draw(commands, std::as_bytes(std::span(&frame, 1)), 3 * scene_.drawn_triangles(),
                              pixels_.numbers);
         },
-        [&](const gpu::Device::Commands& commands) { shading_.record(commands, frame); }};
+        [&](const gpu::Device::Commands& commands) { shading_->record(commands, frame); }};
     const std::vector<double> nanoseconds = scene_.device().time_passes(passes);
     ++frames_;
     return {1e-9 * nanoseconds[0], 1e-9 * nanoseconds[1]};

@@ -8,6 +8,7 @@
 #include "render_vulkan/shading_pass.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace nusselt::render_vulkan {
@@ -31,16 +32,19 @@ class Accumulator {
 public:
     /// \param scene must outlive this.
     /// \throws std::invalid_argument see validate() and check_supported()
-    /// \throws gpu::Error if memory runs out or the driver cannot compile the shaders
+    /// \throws gpu::Error if memory runs out
     Accumulator(const DeviceScene& scene, const render::RenderSettings& settings);
 
-    /// Black pixels, for other settings. Shaders are compiled if these ask for others.
-    /// \throws std::invalid_argument and gpu::Error as the constructor does
+    /// Black pixels, for other settings. \throws std::invalid_argument as the constructor does
     void restart(const render::RenderSettings& settings);
+
+    /// Compiles the shaders for the settings unless that is done. The next frame does it otherwise.
+    /// \throws gpu::Error if the driver cannot compile them
+    void compile();
 
     /// Adds a frame and waits until it is done.
     /// \param frame of the settings, see FrameRecords
-    /// \throws gpu::Error if the device is lost
+    /// \throws gpu::Error if the device is lost, or as compile() does
     FrameTimes add(const interface::FrameRecord& frame);
 
     std::uint32_t frames() const { return frames_; }
@@ -57,7 +61,7 @@ private:
     std::vector<std::uint32_t> constants_; ///< of the shading pass
     PixelBuffers pixels_;
     gpu::RasterPass visibility_;
-    ShadingPass shading_;
+    std::optional<ShadingPass> shading_; ///< none until it is compiled
     std::uint32_t frames_ = 0;
 };
 

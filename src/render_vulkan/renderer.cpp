@@ -49,6 +49,7 @@ RenderResult VulkanRenderer::render(const render::RenderSettings& settings,
         image->restart(settings);
     else
         image.emplace(state_->scene, settings);
+    image->compile();
     statistics.compile_seconds = seconds_since(compile_begin);
 
     const FrameRecords frames(state_->scene.film(), settings);
