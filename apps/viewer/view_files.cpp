@@ -72,7 +72,7 @@ std::string command_of(const Session& session, const ViewState& state, const Sce
                                settings.visibility_estimate);
     command += fmt::format(" --sampler {} --brdf {}", name_of(settings.sample_order), name_of(settings.brdf));
     if (settings.pixel_position == render::PixelPosition::center) command += " --pixel-center";
-    // Of a single frame the very same image; of several the same but for noise.
+    // Of a single frame the same image but for rounding; of several but for noise.
     const std::int64_t frames = std::max<std::int64_t>(session.frames(Side::left), 1);
     const std::int64_t samples = std::min<std::int64_t>(frames * settings.samples, render::kMaxSamples);
     command += fmt::format(" --spp {}", samples);
