@@ -24,7 +24,8 @@ void add_device_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option("--shadow-rays", options.shadow_rays,
                     "How a GPU traces shadow rays: query, by its driver; bvh, by a hierarchy of our own;\n"
-                    "or none, for an image without shadows. Default: query where the device has that")
+                    "or none, for an image without shadows. Default: query where the device has that\n"
+                    "in hardware")
         ->check(CLI::IsMember({"query", "bvh", "none"}));
 }
 

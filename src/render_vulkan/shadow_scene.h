@@ -22,7 +22,7 @@ enum class ShadowRays {
 inline constexpr std::array kShadowRays = {ShadowRays::query, ShadowRays::bvh, ShadowRays::none};
 std::string_view name_of(ShadowRays way);
 
-/// Queries where the device has them.
+/// Queries where the device has them, unless it is a software device.
 ShadowRays default_shadow_rays(const gpu::Device& device);
 
 class ShadowScene {
