@@ -15,6 +15,7 @@ void setup_bench(CLI::App& app, int& exit_code) {
     setup_bench_line_efficiency(*command, exit_code);
     setup_bench_samplers(*command, exit_code);
     setup_bench_gpu_samplers(*command, exit_code);
+    setup_bench_gpu_frames(*command, exit_code);
     setup_bench_accuracy(*command, exit_code);
     setup_bench_worst_case(*command, exit_code);
     setup_bench_fuzz(*command, exit_code);

@@ -1,3 +1,4 @@
+#include "bench_device.h"
 #include "bench_output.h"
 #include "commands.h"
 
@@ -13,17 +14,6 @@ namespace nusselt::app {
 
 namespace {
 
-/// What llvmpipe runs on; empty for others.
-std::string threads_of(const experiments::GpuSamplerTable& table) {
-    if (!table.llvmpipe_threads) return "";
-    return table.llvmpipe_threads->empty() ? "a thread per core (LP_NUM_THREADS=1 times one)"
-                                           : "LP_NUM_THREADS=" + *table.llvmpipe_threads;
-}
-
-std::string clock_of(const experiments::GpuSamplerTable& table) {
-    return table.clock == gpu::Clock::timestamps ? "timestamps of the device" : "wall clock";
-}
-
 std::string text_of(const std::optional<double>& ratio) {
     return ratio ? fmt::format("{:.2f}", *ratio) : "-";
 }
@@ -33,11 +23,9 @@ nlohmann::json json_of(const std::optional<double>& ratio) {
 }
 
 void print_table(const experiments::GpuSamplerTable& table) {
-    fmt::print("{} ({}), {}, Vulkan {}\n", table.device.name, table.device.kind, table.device.driver,
-               table.device.api_version);
-    fmt::print("{}; fma rounds {}", clock_of(table), table.fused_fma ? "once" : "twice");
-    if (const std::string threads = threads_of(table); !threads.empty()) fmt::print("; {}", threads);
-    fmt::print("\nns, medians with the baseline subtracted. light: per light that is prepared and sampled "
+    print_device(table.device, table.clock, table.fused_fma ? "; fma rounds once" : "; fma rounds twice",
+                 text_of_threads(table.llvmpipe_threads));
+    fmt::print("ns, medians with the baseline subtracted. light: per light that is prepared and sampled "
                "once, 128 per\n"
                "thread. sample: per sample of a light, prepared once for 128. x Peters: both over the "
                "published formulas.\n\n");
@@ -61,10 +49,14 @@ std::string to_json(const experiments::GpuSamplerTable& table) {
                         {"sample_spread", row.sample_spread},
                         {"light_ratio", json_of(row.light_ratio)},
                         {"sample_ratio", json_of(row.sample_ratio)}});
-    const nlohmann::json json = {{"device", table.device.name},   {"kind", table.device.kind},
-                                 {"driver", table.device.driver}, {"vulkan", table.device.api_version},
-                                 {"clock", clock_of(table)},      {"fused_fma", table.fused_fma},
-                                 {"threads", threads_of(table)},  {"rows", rows}};
+    const nlohmann::json json = {{"device", table.device.name},
+                                 {"kind", table.device.kind},
+                                 {"driver", table.device.driver},
+                                 {"vulkan", table.device.api_version},
+                                 {"clock", text_of_clock(table.clock)},
+                                 {"fused_fma", table.fused_fma},
+                                 {"threads", text_of_threads(table.llvmpipe_threads)},
+                                 {"rows", rows}};
     return json.dump(2) + "\n";
 }
 
@@ -80,9 +72,7 @@ void setup_bench_gpu_samplers(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchGpuSamplersOptions>();
     CLI::App* command = bench.add_subcommand("gpu-samplers", "Cost of each technique on a GPU");
     add_repetitions_option(*command, options->repetitions);
-    command->add_option("--device", options->device,
-                        "Vulkan device: its index, or part of its name. Default: the environment variable\n"
-                        "NUSSELT_DEVICE, else a discrete GPU before others");
+    add_device_option(*command, options->device);
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_gpu_samplers(*options); });
 }

@@ -133,6 +133,18 @@ struct BenchGpuSamplersOptions {
     std::optional<std::string> json;   ///< "-" is the standard output, instead of the table
 };
 
+struct BenchGpuFramesOptions {
+    std::vector<std::filesystem::path> scenes; ///< empty: all of the folder
+    std::filesystem::path scene_folder = "scenes";
+    std::optional<std::string> resolution = "1920x1080";
+    std::vector<std::string> techniques;  ///< empty: all
+    std::vector<std::string> shadow_rays; ///< ways to trace them; empty: what suits the device, and none
+    int frames = 15;                      ///< of each kind
+    int warm_up = 3;                      ///< frames of each kind before those
+    std::optional<std::string> device;    ///< index, or part of a name
+    std::optional<std::string> json;      ///< "-" is the standard output, instead of the table
+};
+
 struct BenchAccuracyOptions {
     int count = 5000; ///< of docs/accuracy.json: the test that compares with it takes a quarter of a minute
     std::optional<std::string> isa;
@@ -225,6 +237,7 @@ void setup_bench_lines(CLI::App& bench, int& exit_code);
 void setup_bench_line_efficiency(CLI::App& bench, int& exit_code);
 void setup_bench_samplers(CLI::App& bench, int& exit_code);
 void setup_bench_gpu_samplers(CLI::App& bench, int& exit_code);
+void setup_bench_gpu_frames(CLI::App& bench, int& exit_code);
 void setup_bench_accuracy(CLI::App& bench, int& exit_code);
 void setup_bench_worst_case(CLI::App& bench, int& exit_code);
 void setup_bench_fuzz(CLI::App& bench, int& exit_code);
@@ -269,6 +282,10 @@ int run_bench_samplers(const BenchSamplersOptions& options);
 
 /// Measures the cost of each technique on a GPU and prints or writes the table.
 int run_bench_gpu_samplers(const BenchGpuSamplersOptions& options);
+
+/// Measures frames of scenes with each technique on a GPU and prints or writes the table.
+/// \returns 0, or 1 if a scene could not be measured
+int run_bench_gpu_frames(const BenchGpuFramesOptions& options);
 
 /// Measures the accuracy of each technique and prints or writes the tables.
 int run_bench_accuracy(const BenchAccuracyOptions& options);

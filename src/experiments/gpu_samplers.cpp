@@ -1,12 +1,12 @@
 #include "experiments/gpu_samplers.h"
 
 #include <cassert>
-#include <cstdlib>
 #include <memory>
 
 #include <nusselt/geometry/convex_polygon.h>
 #include <nusselt/geometry/line_segment.h>
 
+#include "experiments/llvmpipe_threads.h"
 #include "experiments/sampler_timing_lights.h"
 #include "gpu/compute_pipeline.h"
 #include "gpu/fused_fma.h"
@@ -124,13 +124,6 @@ void add_ratios(std::vector<GpuSamplerTiming>& rows) {
             row.light_ratio = ratio(row.light_ns, other.light_ns);
             row.sample_ratio = ratio(row.sample_ns, other.sample_ns);
         }
-}
-
-/// Mesa's software device runs on as many threads as it is told to.
-std::optional<std::string> llvmpipe_threads(const gpu::DeviceDescription& device) {
-    if (device.name.find("llvmpipe") == std::string::npos) return std::nullopt;
-    const char* threads = std::getenv("LP_NUM_THREADS");
-    return threads == nullptr ? "" : threads;
 }
 
 } // namespace

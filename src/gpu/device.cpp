@@ -159,7 +159,7 @@ std::uint32_t scratch_alignment_of(const vk::raii::PhysicalDevice& device, const
 }
 
 vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint32_t queue_family,
-                             const DeviceFeatures& features) {
+                             const DeviceFeatures& features, const vk::AllocationCallbacks* allocator) {
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue({}, queue_family, 1, &priority);
     vk::StructureChain<vk::DeviceCreateInfo, vk::PhysicalDeviceBufferDeviceAddressFeatures,
@@ -184,7 +184,7 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint
     }
     if (features.indexed_images == 0) chain.unlink<vk::PhysicalDeviceDescriptorIndexingFeatures>();
     if (!features.buffer_addresses) chain.unlink<vk::PhysicalDeviceBufferDeviceAddressFeatures>();
-    return {physical, info};
+    return {physical, info, allocator};
 }
 
 } // namespace
@@ -210,7 +210,7 @@ std::optional<std::string> why_no_device(const DeviceOptions& options) {
 }
 
 Device::Device(const DeviceOptions& options) try
-    : instance_(options.validation),
+    : instance_(options.validation, options.allocator),
       physical_(choose(instance_, options)),
       description_(describe(physical_)),
       limits_(physical_.getProperties().limits),
@@ -219,7 +219,7 @@ Device::Device(const DeviceOptions& options) try
       queue_family_(choose_queue_family(physical_)),
       clock_(physical_.getQueueFamilyProperties()[queue_family_].timestampValidBits > 0 ? Clock::timestamps
                                                                                         : Clock::wall),
-      device_(make_device(physical_, queue_family_, features_)),
+      device_(make_device(physical_, queue_family_, features_, options.allocator)),
       queue_(device_, queue_family_, 0),
       pool_(device_, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, queue_family_)) {
 } catch (const vk::SystemError& error) {
@@ -249,13 +249,16 @@ bool Device::draws() const {
     return static_cast<bool>(families[queue_family_].queueFlags & vk::QueueFlagBits::eGraphics);
 }
 
+Clock Device::pass_clock() const {
+    // Software devices draw when the image is used: their timestamps tell nothing about one of several passes.
+    return description_.kind == "CPU" ? Clock::wall : clock_;
+}
+
 double Device::time(const Record& record) const { return time_passes({&record, 1}).front(); }
 
 std::vector<double> Device::time_passes(std::span<const Record> passes) const {
     std::vector<double> times;
-    // Software devices draw when the image is used: their timestamps tell nothing about one of several passes.
-    const bool is_lazy = passes.size() > 1 && description_.kind == "CPU";
-    if (clock_ == Clock::wall || is_lazy) {
+    if ((passes.size() > 1 ? pass_clock() : clock_) == Clock::wall) {
         for (const Record& pass : passes) {
             const auto begin = std::chrono::steady_clock::now();
             run(pass);

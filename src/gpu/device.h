@@ -19,6 +19,8 @@ struct DeviceOptions {
     /// software device last.
     std::optional<std::string> choice = {};
     Validation validation = Validation::off;
+    /// What the driver shall keep its objects in, on the host; it must outlive the device. Null: its own allocator.
+    const vk::AllocationCallbacks* allocator = nullptr;
 };
 
 struct DeviceDescription {
@@ -64,6 +66,8 @@ public:
     const DeviceDescription& description() const { return description_; }
     const vk::PhysicalDeviceLimits& limits() const { return limits_; }
     const DeviceFeatures& features() const { return features_; }
+    /// What time_passes() measures several passes with.
+    Clock pass_clock() const;
     /// What the scratch memory for building acceleration structures is aligned to [bytes]; 1 without them.
     std::uint32_t scratch_alignment() const { return scratch_alignment_; }
     const vk::raii::Device& handle() const { return device_; }

@@ -35,7 +35,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL note(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDe
     return VK_FALSE;
 }
 
-vk::raii::Instance make_instance(const vk::raii::Context& context, std::uint32_t version, bool validates) {
+vk::raii::Instance make_instance(const vk::raii::Context& context, std::uint32_t version, bool validates,
+                                 const vk::AllocationCallbacks* allocator) {
     const vk::ApplicationInfo application("nusselt", 1, "nusselt", 1, version);
     std::vector<const char*> layers, extensions;
     if (validates) {
@@ -43,7 +44,7 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, std::uint32_t
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
     try {
-        return {context, vk::InstanceCreateInfo({}, &application, layers, extensions)};
+        return {context, vk::InstanceCreateInfo({}, &application, layers, extensions), allocator};
     } catch (const vk::IncompatibleDriverError&) {
         throw NoDevice(kNoDriver);
     } catch (const vk::SystemError& error) {
@@ -76,12 +77,12 @@ std::vector<std::string> ValidationLog::take() {
     return std::exchange(messages_, {});
 }
 
-Instance::Instance(Validation validation)
+Instance::Instance(Validation validation, const vk::AllocationCallbacks* allocator)
     : log_(std::make_unique<ValidationLog>()),
       context_(load()),
       validates_(validation == Validation::on && has_validation_layer(context_)),
       version_(std::clamp(context_.enumerateInstanceVersion(), VK_API_VERSION_1_1, VK_API_VERSION_1_2)),
-      instance_(make_instance(context_, version_, validates_)),
+      instance_(make_instance(context_, version_, validates_, allocator)),
       messenger_(make_messenger(instance_, validates_, *log_)) {}
 
 std::vector<vk::raii::PhysicalDevice> Instance::devices() const {

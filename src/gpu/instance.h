@@ -28,9 +28,10 @@ private:
 /// An instance of Vulkan 1.2, or 1.1 where the loader knows no more, without any window system.
 class Instance {
 public:
+    /// \param allocator see DeviceOptions
     /// \throws NoDevice if there is no Vulkan loader or no driver.
     /// \throws Error if a driver does not start.
-    explicit Instance(Validation validation);
+    explicit Instance(Validation validation, const vk::AllocationCallbacks* allocator = nullptr);
 
     bool validates() const { return validates_; }
     std::uint32_t version() const { return version_; } ///< of Vulkan

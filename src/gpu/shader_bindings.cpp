@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <string>
 #include <vector>
 
 namespace nusselt::gpu {
@@ -10,6 +11,12 @@ namespace {
 
 vk::raii::DescriptorSetLayout make_layout(const Device& device, std::uint32_t storage_buffers,
                                           std::uint32_t ray_scenes, vk::ShaderStageFlags stages) {
+    const std::uint32_t limit = std::min(device.limits().maxPerStageDescriptorStorageBuffers,
+                                         device.limits().maxDescriptorSetStorageBuffers);
+    if (storage_buffers > limit)
+        throw Error(device.description().name + ": the device binds at most " + std::to_string(limit) +
+                    " storage buffers to a shader, not " + std::to_string(storage_buffers) +
+                    "; choose another one with NUSSELT_DEVICE");
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (std::uint32_t i = 0; i < storage_buffers; ++i)
         bindings.emplace_back(i, vk::DescriptorType::eStorageBuffer, 1, stages);

@@ -18,6 +18,7 @@ public:
     /// \param ray_scenes      how many acceleration structures: the bindings after those.
     /// \param images          null: none. Must outlive this.
     /// \param stages          that see set 0.
+    /// \throws Error if the device does not bind as many buffers.
     ShaderBindings(const Device& device, std::uint32_t storage_buffers, std::uint32_t ray_scenes,
                    const ImageArray* images, vk::ShaderStageFlags stages);
 

@@ -1,0 +1,28 @@
+#include "bench_device.h"
+
+#include <fmt/core.h>
+
+namespace nusselt::app {
+
+void add_device_option(CLI::App& command, std::optional<std::string>& device) {
+    command.add_option("--device", device,
+                       "Vulkan device: its index, or part of its name. Default: the environment variable\n"
+                       "NUSSELT_DEVICE, else a discrete GPU before others");
+}
+
+std::string text_of_clock(gpu::Clock clock) {
+    return clock == gpu::Clock::timestamps ? "timestamps of the device" : "wall clock";
+}
+
+std::string text_of_threads(const std::optional<std::string>& threads) {
+    if (!threads) return "";
+    return threads->empty() ? "a thread per core (LP_NUM_THREADS=1 times one)" : "LP_NUM_THREADS=" + *threads;
+}
+
+void print_device(const gpu::DeviceDescription& device, gpu::Clock clock, const std::string& remark,
+                  const std::string& threads) {
+    fmt::print("{} ({}), {}, Vulkan {}\n{}{}{}{}\n", device.name, device.kind, device.driver,
+               device.api_version, text_of_clock(clock), remark, threads.empty() ? "" : "; ", threads);
+}
+
+} // namespace nusselt::app
