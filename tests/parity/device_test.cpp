@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 
 namespace nusselt::parity {
 
@@ -133,6 +134,34 @@ TEST_F(DevicesTest, MemoryBeyondTheDeviceIsAnError) {
                                     ": allocating 1073741824 MiB of memory: out of memory on the "
                                     "device; close other programs or ask for less");
     }
+}
+
+TEST_F(DevicesTest, MoreBindingsThanTheDeviceHasAreAnError) {
+    const std::uint32_t limit = std::min(device().limits().maxPerStageDescriptorStorageBuffers,
+                                         device().limits().maxDescriptorSetStorageBuffers);
+    try {
+        const gpu::ComputePipeline pipeline(device(), shaders::kScaledSums, {.storage_buffers = limit + 1});
+        FAIL() << "no error";
+    } catch (const gpu::Error& error) {
+        const std::string text = error.what();
+        EXPECT_NE(text.find("binds at most " + std::to_string(limit)), std::string::npos) << text;
+        EXPECT_NE(text.find("NUSSELT_DEVICE"), std::string::npos) << text;
+    }
+}
+
+TEST_F(DevicesTest, LossIsAnErrorThatNamesTheDevice) {
+    const auto lose = [](const gpu::Device::Commands&) { throw vk::DeviceLostError("vkQueueSubmit"); };
+    const gpu::Device::Record passes[] = {lose, lose};
+    for (const std::function<void()>& use :
+         {std::function([&] { device().run(lose); }), std::function([&] { device().time_passes(passes); })})
+        try {
+            use();
+            FAIL() << "no error";
+        } catch (const gpu::Error& error) {
+            EXPECT_EQ(std::string(error.what()).rfind(device().description().name + ": ", 0), 0u);
+            EXPECT_NE(std::string(error.what()).find("the device was lost"), std::string::npos);
+        }
+    const gpu::Buffer buffer(device(), 64, gpu::Residence::device_local);
 }
 
 TEST_F(DevicesTest, ValidationReportsWrongUse) {
