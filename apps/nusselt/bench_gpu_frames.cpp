@@ -14,7 +14,9 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <deque>
 #include <memory>
+#include <span>
 #include <stdexcept>
 
 namespace nusselt::app {
@@ -58,27 +60,36 @@ public:
     }
 
     void add(const std::string& name, const scene::Scene& scene) {
-        for (const ShadowRays way : ways_) {
-            fmt::print(stderr, "{}, shadow rays: {}\n", name, name_of(way));
-            add(name, DeviceScene(device_, scene, way));
-        }
+        fmt::print(stderr, "{}\n", name);
+        add_techniques(name, scene);
         add_line_and_quad(name, scene);
     }
 
 private:
-    void add(const std::string& name, const DeviceScene& scene) {
+    /// All ways to trace in the same rounds.
+    void add_techniques(const std::string& name, const scene::Scene& scene) {
+        std::deque<DeviceScene> scenes;
         std::vector<GpuFrame> frames;
-        for (const render::RenderSettings& settings : settings_) frames.push_back({&scene, settings});
+        for (const ShadowRays way : ways_) {
+            const DeviceScene& device_scene = scenes.emplace_back(device_, scene, way);
+            for (const render::RenderSettings& settings : settings_)
+                frames.push_back({&device_scene, settings});
+        }
         const std::vector<GpuFrameTimes> times = experiments::time_gpu_frames(frames, table_.rounds);
         for (std::size_t i = 0; i < frames.size(); ++i) add_row(name, frames[i], times[i]);
+        for (std::size_t i = 0; i < ways_.size(); ++i)
+            compare_strategies(name, ways_[i],
+                               std::span(times).subspan(i * settings_.size(), settings_.size()));
+    }
 
+    /// \param times one for each of the settings
+    void compare_strategies(const std::string& name, ShadowRays way, std::span<const GpuFrameTimes> times) {
         const experiments::SettingsPair pair = experiments::strategies_pair();
         const GpuFrameTimes* const ours = find(pair.ours, times);
         const GpuFrameTimes* const baseline = find(pair.baseline, times);
-        if (ours != nullptr && baseline != nullptr)
-            table_.comparisons.push_back({name, scene.shadows().way(), text_of(pair.ours),
-                                          text_of(pair.baseline), ratio_of(*ours, *baseline),
-                                          experiments::kPublishedStrategiesRatio});
+        if (ours == nullptr || baseline == nullptr) return;
+        table_.comparisons.push_back({name, way, text_of(pair.ours), text_of(pair.baseline),
+                                      ratio_of(*ours, *baseline), experiments::kPublishedStrategiesRatio});
     }
 
     /// Without samples, hence without shadow rays.
@@ -106,7 +117,7 @@ private:
 
     /// Null if these settings are not measured.
     const GpuFrameTimes* find(const render::RenderSettings& wanted,
-                              const std::vector<GpuFrameTimes>& times) const {
+                              std::span<const GpuFrameTimes> times) const {
         for (std::size_t i = 0; i < settings_.size(); ++i)
             if (experiments::is_same(settings_[i], wanted)) return &times[i];
         return nullptr;
