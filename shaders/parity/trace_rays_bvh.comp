@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Shadow rays by the hierarchy in buffers.
 #include "parity/trace_rays.glsl"
+#include "passes/scene_kinds.glsl"
 #include "interface/bvh.h"
 
 layout(set = 0, binding = 3, std430) readonly buffer Nodes { BvhNode bvh_nodes[]; };

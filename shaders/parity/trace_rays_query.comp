@@ -3,6 +3,7 @@
 #extension GL_EXT_ray_query : require
 // Shadow rays by ray queries.
 #include "parity/trace_rays.glsl"
+#include "passes/scene_kinds.glsl"
 #include "interface/query.h"
 
 layout(set = 0, binding = 3, std430) readonly buffer Instances { QueryInstance query_instances[]; };

@@ -51,7 +51,7 @@ SpecularFit look_up_fit(float roughness, float cos_o, vec3 f0) {
 
 Reflection make_reflection(Surface surface) {
     Reflection self;
-    self.is_frostbite = kBrdf != kBrdfLambert && surface.is_frostbite;
+    self.is_frostbite = kHasFrostbite && kBrdf != kBrdfLambert && surface.is_frostbite;
     self.lambert = Lambert(surface.diffuse);
     self.glossy.wo = surface.wo;
     self.glossy.alpha = ggx_alpha(surface.roughness);

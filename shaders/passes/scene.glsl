@@ -3,6 +3,7 @@
 /// The buffers of a scene that all passes see, and what is drawn of it.
 
 #include "interface/scene.h"
+#include "passes/scene_kinds.glsl"
 
 layout(set = 0, binding = 0, std430) readonly buffer Scene { SceneRecord scene; };
 layout(set = 0, binding = 1, std430) readonly buffer Vertices { VertexRecord vertices[]; };
@@ -24,11 +25,11 @@ struct DrawnTriangle {
 
 /// \param number among all that are drawn.
 DrawnTriangle drawn_triangle(uint number) {
-    if (number < scene.world_triangles) return DrawnTriangle(number, -1, -1);
-    if (number >= scene.first_tube_drawn) {
+    if ((kHasLines || kHasTubes) && number >= scene.first_tube_drawn) {
         uint behind = number - scene.first_tube_drawn;
         return DrawnTriangle(scene.first_tube_triangle + behind, -1, int(behind / scene.triangles_per_tube));
     }
+    if (!kHasInstances || number < scene.world_triangles) return DrawnTriangle(number, -1, -1);
     // The last instance that begins at this number or before.
     uint first = 0u;
     uint end = scene.instances;

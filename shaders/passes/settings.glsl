@@ -3,15 +3,12 @@
 /// What is chosen when a pipeline is made: the numbers of the enumerations in src/render/settings.h. Those of samplers and
 /// heuristics are in shaders/nusselt.
 
-layout(constant_id = 0) const int kTechnique = 0;
-layout(constant_id = 1) const int kStrategies = 0;
-layout(constant_id = 2) const int kMis = 0;
-layout(constant_id = 3) const int kSampler = 0;
-layout(constant_id = 4) const int kBrdf = 0;
-// Kinds of lights that the scene has: without the others, drivers compile much faster.
-layout(constant_id = 5) const bool kHasPolygons = true;
-layout(constant_id = 6) const bool kHasLines = true;
-layout(constant_id = 7) const bool kHasTubes = true;
+// After those of scene_kinds.glsl.
+layout(constant_id = 7) const int kTechnique = 0;
+layout(constant_id = 8) const int kStrategies = 0;
+layout(constant_id = 9) const int kMis = 0;
+layout(constant_id = 10) const int kSampler = 0;
+layout(constant_id = 11) const int kBrdf = 0;
 
 const int kTechniqueArea = 0;
 const int kTechniqueSolidAngle = 1;

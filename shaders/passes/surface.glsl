@@ -96,7 +96,7 @@ vec3 perturbed_normal(DrawnTriangle drawn, TriangleEdges edges, TriangleEdges wo
     float determinant = du.x * dv.y - dv.x * du.y;
     Tangents metric = position_derivatives(du, dv, world.e1, world.e2, n);
     vec3 perturbed;
-    if ((material.texture_kinds & kNormalTexture) != 0u) {
+    if ((kTextureKinds & material.texture_kinds & kNormalTexture) != 0u) {
         vec3 tangent = copysign(1.0, determinant) * nusselt_normalize(metric.u - dot(n, metric.u) * n);
         vec3 bitangent = cross(n, tangent);
         vec3 local =
@@ -132,7 +132,7 @@ void look_up_material(inout Surface surface, MaterialRecord material, vec2 uv) {
     surface.diffuse = to_vec(material.diffuse);
     surface.f0 = to_vec(material.f0);
     surface.roughness = material.roughness;
-    uint kinds = material.texture_kinds;
+    uint kinds = kTextureKinds & material.texture_kinds;
     if ((kinds & kDiffuseTexture) != 0u)
         surface.diffuse = times_texture(surface.diffuse, material.diffuse_texture, uv);
     if ((kinds & kF0Texture) != 0u) surface.f0 = times_texture(surface.f0, material.f0_texture, uv);
@@ -162,11 +162,12 @@ Surface make_surface(DrawnTriangle drawn, Ray ray) {
 
     MaterialRecord material = materials[triangles[drawn.triangle].material];
     vec2 uv = vec2(0.0);
-    if (material.texture_kinds != 0u) uv = interpolated_uv(drawn.triangle, at);
+    uint kinds = kTextureKinds & material.texture_kinds;
+    if (kinds != 0u) uv = interpolated_uv(drawn.triangle, at);
     vec3 interpolated = nusselt_normalize(world_normal(drawn.instance, mesh_normal(drawn.triangle, at)));
     vec3 n = dot(interpolated, interpolated) > 0.5 ? interpolated : normal;
     float eye_side = copysign(1.0, dot(n, surface.geometric_normal));
-    if ((material.texture_kinds & (kNormalTexture | kBumpTexture)) != 0u)
+    if ((kinds & (kNormalTexture | kBumpTexture)) != 0u)
         n = perturbed_normal(drawn, edges, world, material, at, uv, n);
     surface.shading = shading_frame(visible_normal(eye_side * n, wo), wo);
     surface.wo = frame_to_local(surface.shading, wo);

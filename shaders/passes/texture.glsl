@@ -83,7 +83,7 @@ vec2 height_derivatives(uint number, vec2 uv) {
 
 /// The probability that a surface is there.
 float alpha_of(MaterialRecord material, vec2 uv) {
-    if ((material.texture_kinds & kAlphaTexture) == 0u) return material.alpha;
+    if ((kTextureKinds & material.texture_kinds & kAlphaTexture) == 0u) return material.alpha;
     vec2 at = lookup_place(material.alpha_texture, uv);
     return material.alpha * look_up_texture(material.alpha_texture.texture, at).x;
 }

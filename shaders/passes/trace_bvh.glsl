@@ -4,6 +4,7 @@
 /// (interface/bvh.h has the structs):
 ///
 ///     buffers with arrays `BvhNode bvh_nodes[]`, `BvhTriangle bvh_triangles[]`, `BvhInstance bvh_instances[]`;
+///     constants `bool kHasInstances` and `bool kHasPartial`: what there is in the scene;
 ///     `float alpha_at(uint triangle, vec2 barycentrics, uint instance)`: alpha of Scene::triangles[triangle] at
 ///     v0 + x (v1 - v0) + y (v2 - v0), as part of Scene::instances[instance] or with ~0u for those of the world.
 
@@ -139,7 +140,7 @@ bool hits_leaf(ShadowRay ray, BvhRay local, uint index, uint instance) {
         vec2 barycentrics;
         if (hits_triangle(local, bvh_triangles[index], barycentrics)) {
             uint triangle = number & kBvhNumberMask;
-            hits = (number & kBvhPartial) == 0u ||
+            hits = !kHasPartial || (number & kBvhPartial) == 0u ||
                    meets_surface(ray, triangle, instance, alpha_at(triangle, barycentrics, instance));
         }
         ++index;
@@ -166,12 +167,12 @@ bool occluded(vec3 origin, vec3 direction, float t_far) {
             hits = hits_leaf(ray, local, leaf & ~kBvhKindMask, space - 1u);
         } while (!hits);
         if (hits) return true;
-        if (leaf != kBvhInner) {
+        if (kHasInstances && leaf != kBvhInner) {
             node_of_world = node;
             space = leaf & ~kBvhKindMask;
             node = bvh_instances[space].first_node;
         } else {
-            if (space == 0u) return false;
+            if (!kHasInstances || space == 0u) return false;
             space = 0u;
             node = node_of_world;
         }

@@ -6,6 +6,7 @@
 ///     `accelerationStructureEXT query_scene`: of bottom levels with opaque triangles as geometry 0 and partial ones as
 ///     geometry 1, custom indices being the numbers of instances;
 ///     buffers with arrays `QueryInstance query_instances[]` and `uint query_partial_triangles[]`;
+///     a constant `bool kHasPartial`: whether there are such triangles;
 ///     `float alpha_at(uint triangle, vec2 barycentrics, uint instance)` as in trace_bvh.glsl.
 
 #include "interface/query.h"
@@ -18,6 +19,7 @@ bool occluded(vec3 origin, vec3 direction, float t_far) {
     rayQueryEXT query;
     rayQueryInitializeEXT(query, query_scene, gl_RayFlagsTerminateOnFirstHitEXT, 0xffu, origin, 0.0, direction, t_far);
     while (rayQueryProceedEXT(query)) {
+        if (!kHasPartial) continue;
         // Only surfaces that are partly there ask.
         uint number = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false));
         uint primitive = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));

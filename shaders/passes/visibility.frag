@@ -5,9 +5,6 @@
 #include "passes/shadow_ray.glsl"
 #include "passes/texture.glsl"
 
-/// Whether any surface is only partly there.
-layout(constant_id = 0) const bool kHasAlpha = false;
-
 layout(location = 0) flat in uint drawn_number;
 layout(location = 1) flat in vec4 plane;
 layout(location = 2) flat in vec2 distances;
@@ -28,7 +25,7 @@ void main() {
     // Triangles that are seen edge-on.
     t = clamp(t, distances.x, distances.y);
     if (!(t > 0.0)) discard;
-    if (kHasAlpha && !is_there(ray)) discard;
+    if (kHasPartial && !is_there(ray)) discard;
     gl_FragDepth = 1.0 / (1.0 + t * scene.inverse_depth_unit);
     number = drawn_number + 1u;
 }

@@ -39,7 +39,7 @@ gpu::RasterPass make_visibility_pass(const DeviceScene& scene, const PixelBuffer
                          {.storage_buffers = buffers.size(),
                           .images = textures.images(),
                           .push_constant_size = sizeof(interface::FrameRecord),
-                          .constants = {scene.has_alpha() ? 1u : 0u}},
+                          .constants = constants_of(scene.kinds())},
                          pixels.width, pixels.height);
     pass.bind(buffers);
     return pass;
@@ -49,12 +49,12 @@ gpu::RasterPass make_visibility_pass(const DeviceScene& scene, const PixelBuffer
 
 Accumulator::Accumulator(const DeviceScene& scene, const render::RenderSettings& settings)
     : scene_(scene),
-      constants_(shading_constants(checked(settings), scene.lights())),
+      constants_(shading_constants(checked(settings), scene.kinds())),
       pixels_(make_pixels(scene)),
       visibility_(make_visibility_pass(scene, pixels_)) {}
 
 void Accumulator::restart(const render::RenderSettings& settings) {
-    const std::vector<std::uint32_t> constants = shading_constants(checked(settings), scene_.lights());
+    const std::vector<std::uint32_t> constants = shading_constants(checked(settings), scene_.kinds());
     if (constants != constants_) {
         shading_.reset();
         constants_ = constants;

@@ -11,11 +11,6 @@
 
 namespace nusselt::render_vulkan {
 
-/// Which lights a scene has.
-struct LightKinds {
-    bool polygons, lines, tubes;
-};
-
 /// A scene in the memory of a device, as passes need it. It does not refer to the scene that it was made from.
 class DeviceScene {
 public:
@@ -33,8 +28,7 @@ public:
     const scene::Film& film() const { return film_; }
     std::uint32_t drawn_triangles() const { return drawn_triangles_; }
     int polygon_slots() const { return polygon_slots_; } ///< see SceneRecords
-    bool has_alpha() const { return has_alpha_; }
-    const LightKinds& lights() const { return lights_; }
+    const SceneKinds& kinds() const { return kinds_; }
     const SceneBuffers& buffers() const { return buffers_; }
     const SceneTextures& textures() const { return textures_; }
     const gpu::Buffer& ltc_table() const { return ltc_table_; } ///< decoded samples
@@ -50,8 +44,7 @@ private:
     interface::SceneRecord record_;
     std::uint32_t drawn_triangles_;
     int polygon_slots_;
-    bool has_alpha_;
-    LightKinds lights_;
+    SceneKinds kinds_;
     SceneBuffers buffers_;
     SceneTextures textures_;
     gpu::Buffer ltc_table_;

@@ -151,7 +151,7 @@ void add_lights(const scene::Scene& scene, SceneRecords& records) {
         record.radius = light.radius;
         const bool is_solid = light.model == scene::TubeModel::solid;
         record.is_solid = is_solid ? 1 : 0;
-        (is_solid ? records.has_tubes : records.has_lines) = true;
+        (is_solid ? records.kinds.tubes : records.kinds.lines) = true;
         copy(light.radiance, record.radiance);
     }
 }
@@ -217,6 +217,17 @@ void set_camera(const scene::Camera& camera, const scene::Film& film, double rad
     record.inverse_depth_unit = unit > 0 ? static_cast<float>(1 / unit) : 1;
 }
 
+std::vector<std::uint32_t> constants_of(const SceneKinds& kinds) {
+    const auto number_of = [](bool value) { return value ? 1u : 0u; };
+    return {number_of(kinds.polygons),
+            number_of(kinds.lines),
+            number_of(kinds.tubes),
+            number_of(kinds.instances),
+            number_of(kinds.partial),
+            number_of(kinds.frostbite),
+            kinds.textures};
+}
+
 SceneRecords make_scene_records(const scene::Scene& scene) {
     const visibility::TubeMesh tubes = visibility::make_tube_mesh(scene.line_lights);
     checked_count(scene.positions.size() + tubes.positions.size(), "vertices");
@@ -229,9 +240,13 @@ SceneRecords make_scene_records(const scene::Scene& scene) {
     records.drawn_triangles = checked_count(3 * drawn, "corners of triangles") / 3;
     for (const scene::Material& material : scene.materials) {
         records.materials.push_back(make_record(material));
-        records.has_alpha |= visibility::presence_of(material) != visibility::Presence::full;
+        records.kinds.partial |= visibility::presence_of(material) != visibility::Presence::full;
+        records.kinds.frostbite |= material.model == scene::BrdfModel::frostbite;
+        records.kinds.textures |= records.materials.back().texture_kinds;
     }
     add_lights(scene, records);
+    records.kinds.polygons = !scene.polygon_lights.empty();
+    records.kinds.instances = !scene.instances.empty();
 
     interface::SceneRecord& record = records.scene;
     set_camera(scene.camera, scene.film, scene.radius, record);

@@ -9,6 +9,20 @@
 
 namespace nusselt::render_vulkan {
 
+/// What a scene has: the constants of shaders/passes/scene_kinds.glsl.
+struct SceneKinds {
+    bool polygons = false; ///< lights
+    bool lines = false;    ///< linear lights without extent
+    bool tubes = false;
+    bool instances = false;
+    bool partial = false;   ///< surfaces that are only partly there
+    bool frostbite = false; ///< materials with a specular component
+    std::uint32_t textures = 0;
+};
+
+/// Specialisation constants in their order.
+std::vector<std::uint32_t> constants_of(const SceneKinds& kinds);
+
 /// The arrays of shaders/interface/scene.h, but for textures.
 struct SceneRecords {
     interface::SceneRecord scene;
@@ -20,10 +34,8 @@ struct SceneRecords {
     std::vector<scene::Float3> polygon_corners; ///< see shaders/passes/lights.glsl
     std::vector<interface::LineLightRecord> line_lights;
     std::uint32_t drawn_triangles = 0;
-    int polygon_slots = 0;  ///< vertices that each polygonal light has room for, 4 or 8
-    bool has_lines = false; ///< whether any light is linear, without extent
-    bool has_tubes = false;
-    bool has_alpha = false; ///< whether any surface is only partly there
+    int polygon_slots = 0; ///< vertices that each polygonal light has room for, 4 or 8
+    SceneKinds kinds;
 };
 
 /// \throws std::runtime_error if the scene has more data than 32-bit numbers reach, or an instance whose transform cannot

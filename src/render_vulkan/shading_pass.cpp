@@ -3,6 +3,7 @@
 #include "gpu/fused_fma.h"
 #include "render_vulkan/shading_shaders.h"
 
+#include <cassert>
 #include <vector>
 
 namespace nusselt::render_vulkan {
@@ -13,11 +14,14 @@ namespace {
 constexpr std::uint32_t kWorkGroupSide = 8;
 constexpr std::uint32_t kShadingBuffers = 14; ///< all but those for shadow rays
 
+/// After those of the scene.
+constexpr std::size_t kTechniqueConstant = 7;
+
 std::uint32_t groups_for(std::uint32_t pixels) { return (pixels - 1) / kWorkGroupSide + 1; }
 
 /// Whether no light is sampled.
 bool is_analytic(const std::vector<std::uint32_t>& constants) {
-    return constants.front() == static_cast<std::uint32_t>(render::Technique::ltc_analytic);
+    return constants[kTechniqueConstant] == static_cast<std::uint32_t>(render::Technique::ltc_analytic);
 }
 
 gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<std::uint32_t>& constants) {
@@ -54,12 +58,17 @@ void PixelBuffers::clear() {
 }
 
 std::vector<std::uint32_t> shading_constants(const render::RenderSettings& settings,
-                                             const LightKinds& lights) {
+                                             const SceneKinds& kinds) {
+    std::vector<std::uint32_t> constants = constants_of(kinds);
+    const auto add = [&](auto value) { constants.push_back(static_cast<std::uint32_t>(value)); };
     // As in shaders/passes/settings.glsl.
-    const auto number_of = [](auto value) { return static_cast<std::uint32_t>(value); };
-    return {number_of(settings.technique),    number_of(settings.strategies), number_of(settings.mis),
-            number_of(settings.sample_order), number_of(settings.brdf),       number_of(lights.polygons),
-            number_of(lights.lines),          number_of(lights.tubes)};
+    assert(constants.size() == kTechniqueConstant);
+    add(settings.technique);
+    add(settings.strategies);
+    add(settings.mis);
+    add(settings.sample_order);
+    add(settings.brdf);
+    return constants;
 }
 
 ShadingPass::ShadingPass(const DeviceScene& scene, const std::vector<std::uint32_t>& constants,

@@ -25,8 +25,7 @@ struct PixelBuffers {
 };
 
 /// What chooses the pipeline for these settings: all but numbers of samples and seeds.
-std::vector<std::uint32_t> shading_constants(const render::RenderSettings& settings,
-                                             const LightKinds& lights);
+std::vector<std::uint32_t> shading_constants(const render::RenderSettings& settings, const SceneKinds& kinds);
 
 /// Adds frames to pixels.
 class ShadingPass {

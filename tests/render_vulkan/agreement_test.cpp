@@ -85,7 +85,7 @@ TEST_F(Agreement, OfAnOrthographicCamera) {
 }
 
 TEST_F(Agreement, OfEveryTechnique) {
-    const scene::Scene scene = make_opaque_scene(kWidth / 2, kHeight / 2);
+    const scene::Scene scene = make_plain_scene(kWidth / 2, kHeight / 2);
     const VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
     for (const Technique technique : render::kTechniques) {
         SCOPED_TRACE(name_of(technique));
@@ -96,7 +96,7 @@ TEST_F(Agreement, OfEveryTechnique) {
 }
 
 TEST_F(Agreement, OfEveryHeuristic_Strategy_AndSampler) {
-    scene::Scene scene = make_opaque_scene(kWidth / 2, kHeight / 2);
+    scene::Scene scene = make_plain_scene(kWidth / 2, kHeight / 2);
     // All kinds of lights share what is tested, and drivers take the longer for each.
     scene.line_lights.clear();
     const VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));

@@ -9,11 +9,13 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <vector>
 
 namespace nusselt::render_vulkan_test {
 namespace {
 
 using experiments::BiasStatistics;
+using render_vulkan::ShadowRays;
 using render_vulkan::VulkanRenderer;
 
 constexpr int kFrames = 16;
@@ -46,15 +48,24 @@ BiasStatistics of_cpu(const scene::Scene& scene) {
 
 class Bias : public parity::GpuTest {
 protected:
-    experiments::BiasTest compare(const scene::Scene& scene) const {
-        const VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
-        return of_gpu(renderer).compare(of_cpu(scene));
+    /// With each way to trace shadow rays that the device has.
+    std::vector<experiments::BiasTest> compare(const scene::Scene& scene) const {
+        std::vector<experiments::BiasTest> tests;
+        const BiasStatistics expected = of_cpu(scene);
+        for (const ShadowRays way : {ShadowRays::bvh, ShadowRays::query})
+            if (way != ShadowRays::query || device().features().ray_queries)
+                tests.push_back(of_gpu(VulkanRenderer(device(), scene, way)).compare(expected));
+        return tests;
     }
 };
 
 void expect_none(const experiments::BiasTest& test) {
     EXPECT_TRUE(test.passes()) << "frame " << test.frame << ", cell " << test.largest_cell << ", chi^2 "
                                << test.chi_square << " of " << test.cells;
+}
+
+void expect_none(const std::vector<experiments::BiasTest>& tests) {
+    for (const experiments::BiasTest& test : tests) expect_none(test);
 }
 
 TEST_F(Bias, OfShippedScenes_ThereIsNone) {
@@ -70,11 +81,11 @@ TEST_F(Bias, OfShippedScenes_ThereIsNone) {
 TEST_F(Bias, OfAllThatSurfacesCanHave_ThereIsNone) {
     scene::Scene scene = make_rich_scene(kWidth, kHeight);
     scene.film.filter = {.kind = scene::FilterKind::mitchell, .radius_x = 2, .radius_y = 2};
-    experiments::BiasTest test = compare(scene);
+    std::vector<experiments::BiasTest> tests = compare(scene);
     // With a wide filter, what all pixels of a frame share, its offset, is most of the noise: cells are not independent, and
     // their sum of squares means nothing. The others hold all the same.
-    test.chi_square = 0;
-    expect_none(test);
+    for (experiments::BiasTest& test : tests) test.chi_square = 0;
+    expect_none(tests);
 }
 
 TEST_F(Bias, OfBathroom_ThereIsNone) {
@@ -91,7 +102,7 @@ TEST_F(Bias, OfADimmedLight_IsFound) {
     const BiasStatistics reference = of_cpu(scene);
     for (scene::PolygonLight& light : scene.polygon_lights)
         for (float* channel : {&light.radiance.x, &light.radiance.y, &light.radiance.z}) *channel *= 0.97f;
-    const VulkanRenderer mutant(device(), scene, render_vulkan::ShadowRays::bvh);
+    const VulkanRenderer mutant(device(), scene, ShadowRays::bvh);
     EXPECT_FALSE(of_gpu(mutant).compare(reference).passes());
 }
 

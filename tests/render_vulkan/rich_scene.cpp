@@ -125,4 +125,15 @@ scene::Scene make_opaque_scene(int width, int height) {
     return scene;
 }
 
+scene::Scene make_plain_scene(int width, int height) {
+    scene::Scene scene = make_opaque_scene(width, height);
+    scene.instances.clear();
+    for (scene::Material& material : scene.materials)
+        for (scene::TextureUse* use :
+             {&material.diffuse_texture, &material.f0_texture, &material.roughness_texture,
+              &material.alpha_texture, &material.bump_texture, &material.normal_texture})
+            *use = {};
+    return scene;
+}
+
 } // namespace nusselt::render_vulkan_test

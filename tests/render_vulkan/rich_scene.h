@@ -13,4 +13,7 @@ scene::Scene make_rich_scene(int width, int height);
 /// both renderers round differently.
 scene::Scene make_opaque_scene(int width, int height);
 
+/// The opaque scene without textures and copies, for which drivers compile much faster.
+scene::Scene make_plain_scene(int width, int height);
+
 } // namespace nusselt::render_vulkan_test
