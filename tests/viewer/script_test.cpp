@@ -169,7 +169,7 @@ TEST_F(ScriptTest, NamesTheLineOfAMistake) {
     expect("light-size 2\n", "1", "no light is selected");
     expect("reference maybe\n", "1", "neither on nor off");
     expect("screenshot nowhere.txt\n", "1", "nowhere.txt");
-    expect("screenshot /nowhere/at/all.png\n", "1", "/nowhere/at/all.png");
+    expect("screenshot " + path("missing/all.png") + "\n", "1", "missing/all.png");
     expect("load-camera missing.json\n", "1", "missing.json");
     expect("load-lights missing.json\n", "1", "missing.json");
     try {
