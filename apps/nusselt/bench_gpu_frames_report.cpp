@@ -25,7 +25,7 @@ std::string heuristic_of(const render::RenderSettings& settings) {
     return std::string(name_of(settings.mis));
 }
 
-bool is_software(const GpuFrameTable& table) { return table.device.kind == "CPU"; }
+bool is_software(const GpuFrameTable& table) { return table.device.is_software; }
 
 /// What the reader of the numbers has to know about the device; empty if there is nothing.
 std::string remark_of(const GpuFrameTable& table) {

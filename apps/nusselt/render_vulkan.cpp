@@ -12,7 +12,7 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -26,21 +26,23 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-bool is_supported(const RenderOptions& options, const render::RenderSettings& settings) {
-    if (options.checkpoint || options.display_server || options.isa) return false;
+/// Why --backend auto takes the CPU; nothing if it does not. A device that was asked for by name is taken in any case.
+std::optional<std::string> why_cpu(const RenderOptions& options, const render::RenderSettings& settings) {
+    if (options.checkpoint || options.display_server || options.isa)
+        return "--checkpoint, --display-server and --isa need it";
     try {
         render_vulkan::check_supported(settings);
-        return true;
-    } catch (const std::invalid_argument&) {
-        return false;
+    } catch (const std::invalid_argument& error) {
+        return error.what();
     }
-}
-
-/// Whether a device by default would be faster than the CPU backend: software devices are not.
-bool has_fast_device() {
-    const auto devices = gpu::list_devices();
-    return std::any_of(devices.begin(), devices.end(),
-                       [](const auto& device) { return device.kind != "CPU"; });
+    if (options.device) return std::nullopt;
+    try {
+        const gpu::DeviceDescription device = gpu::chosen_device();
+        if (device.is_software) return "the only device is " + device.name + ", a software one";
+    } catch (const gpu::Error& error) {
+        return error.what();
+    }
+    return std::nullopt;
 }
 
 nlohmann::ordered_json gpu_report(const RenderOptions& options, const render::RenderSettings& settings,
@@ -70,10 +72,13 @@ nlohmann::ordered_json gpu_report(const RenderOptions& options, const render::Re
 
 bool renders_on_gpu(const RenderOptions& options, const render::RenderSettings& settings) {
     if (options.backend == "cpu") return false;
-    const auto reason = gpu::why_no_device({.choice = options.device});
-    if (options.backend == "auto")
-        return !reason && is_supported(options, settings) && (options.device || has_fast_device());
-    if (reason) throw gpu::NoDevice(*reason);
+    if (options.backend == "auto") {
+        if (const auto reason = why_cpu(options, settings)) {
+            if (!options.quiet) fmt::print(stderr, "rendering on the CPU: {}\n", *reason);
+            return false;
+        }
+    }
+    if (const auto reason = gpu::why_no_device({.choice = options.device})) throw gpu::NoDevice(*reason);
     render_vulkan::check_supported(settings);
     return true;
 }
@@ -84,7 +89,7 @@ int render_on_gpu(const RenderOptions& options, const render::RenderSettings& se
     if (!options.quiet) fmt::print(stderr, "rendering on {}\n", device.description().name);
     const auto shadow_rays = options.shadow_rays ? from_name(render_vulkan::kShadowRays, *options.shadow_rays)
                                                  : render_vulkan::default_shadow_rays(device);
-    const render_vulkan::VulkanRenderer renderer(device, scene, shadow_rays);
+    render_vulkan::VulkanRenderer renderer(device, scene, shadow_rays);
     Progress progress;
     render_vulkan::RenderMonitor monitor;
     monitor.cancel = &interrupted;

@@ -15,6 +15,7 @@ constexpr double kTurnPerPixel = 0.004;   ///< [rad]
 constexpr double kSpeed = 0.25;           ///< scene radii per second
 constexpr double kSpeedOfWheel = 1.2;     ///< factor per notch
 constexpr float kWipeTolerance = 6;       ///< [pixels of the window]
+constexpr float kDragTolerance = 4;       ///< clicks move by less [pixels of the window]
 constexpr double kLongestTimeStep = 0.25; ///< [s], where frames take longer
 
 FilmPosition film_position(const PicturePlace& place, const ImVec2& mouse, const scene::Film& film) {
@@ -69,12 +70,14 @@ void Controls::drag(const PicturePlace& place, Viewer& viewer) {
             drag_ = Drag::wipe;
         } else {
             state.selected_light = light_at(viewer.session.loaded(), state.edits, state.camera.camera(), at);
-            if (state.selected_light) drag_ = Drag::light;
+            if (state.selected_light) drag_ = Drag::pressed_light;
             drag_begin_ = at;
         }
     }
     if (drag_ == Drag::wipe)
         state.wipe = std::clamp(static_cast<double>((io.MousePos.x - place.x) / place.width), 0.0, 1.0);
+    if (drag_ == Drag::pressed_light && ImGui::IsMouseDragging(ImGuiMouseButton_Left, kDragTolerance))
+        drag_ = Drag::light;
     const bool is_released = ImGui::IsMouseReleased(ImGuiMouseButton_Left);
     if (drag_ == Drag::light && (at.x != drag_begin_.x || at.y != drag_begin_.y))
         move_light(at, is_released, viewer);

@@ -22,7 +22,7 @@ private:
     void drag(const PicturePlace& place, Viewer& viewer);
     void move_light(FilmPosition to, bool is_final, Viewer& viewer);
 
-    enum class Drag { none, wipe, light };
+    enum class Drag { none, wipe, pressed_light, light };
 
     Drag drag_ = Drag::none;
     FilmPosition drag_begin_; ///< where the light was last

@@ -93,7 +93,7 @@ void Panels::draw_settings(Viewer& viewer) {
     ViewState& state = viewer.state;
     ImGui::Checkbox("split", &state.is_split);
     ImGui::SameLine();
-    if (ImGui::Checkbox("accumulate", &state.accumulates)) viewer.message.clear();
+    ImGui::Checkbox("accumulate", &state.accumulates);
     ImGui::SameLine();
     ImGui::Checkbox("reference", &state.renders_reference);
     slider("exposure", state.exposure, -kLargestExposure / 4, kLargestExposure / 4, "%.1f stops");
@@ -181,7 +181,7 @@ void Panels::draw_files(Viewer& viewer) {
     button("load camera", "read", [&] { load_camera(file_, viewer.session, viewer.state); });
     button("save lights", "wrote", [&] { save_lights(file_, viewer.state); });
     ImGui::SameLine();
-    button("load lights", "read", [&] { load_lights(file_, viewer.session, viewer.state, viewer.files); });
+    button("load lights", "read", [&] { viewer.load_lights(file_); });
     if (!viewer.message.empty()) ImGui::TextWrapped("%s", viewer.message.c_str());
 }
 

@@ -24,13 +24,14 @@ void run_viewer(Viewer& viewer, const std::optional<std::filesystem::path>& scri
                   std::max(film.height, kSmallestHeight));
     Panels panels;
     Controls controls;
-    while (!viewer.is_closing && !window.is_closing()) {
+    while (!window.is_closing()) {
+        script.advance(viewer);
+        if (viewer.is_closing) break;
         viewer.next_frame();
         window.show(viewer.session.picture(), [&](const PicturePlace& place) {
             controls.apply(window, place, viewer);
             if (controls.shows_panels()) panels.draw(viewer);
         });
-        script.advance(viewer);
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -168,17 +169,14 @@ std::map<std::string, Command> make_commands() {
                 const Arguments& words) { load_camera(words[0], viewer.session, viewer.state); }}},
         {"save-lights",
          {1, [](Viewer& viewer, const Arguments& words) { save_lights(words[0], viewer.state); }}},
-        {"load-lights",
-         {1,
-          [](Viewer& viewer, const Arguments& words) {
-              load_lights(words[0], viewer.session, viewer.state, viewer.files);
-          }}},
+        {"load-lights", {1, [](Viewer& viewer, const Arguments& words) { viewer.load_lights(words[0]); }}},
         {"print-errors",
          {0,
           [](Viewer& viewer, const Arguments&) {
               const render_vulkan::DisplayErrors& errors = viewer.session.errors();
-              fmt::print("left {} right {} of {} reference frames\n", errors.left, errors.right,
-                         viewer.session.reference_frames());
+              fmt::print("left {}", errors.left);
+              if (viewer.state.is_split) fmt::print(", right {}", errors.right);
+              fmt::print(", of {} reference frames\n", viewer.session.reference_frames());
           }}},
         {"quit", {0, [](Viewer& viewer, const Arguments&) { viewer.is_closing = true; }}},
     };
@@ -198,6 +196,15 @@ const std::map<std::string, Command>& commands() {
     return all;
 }
 
+/// What follows the first word, without spaces at either end and comments.
+std::string rest_of(const std::string& text) {
+    constexpr const char* kSpaces = " \t\r";
+    const std::size_t end = text.find_last_not_of(kSpaces, text.find('#') - 1) + 1;
+    const std::size_t word = text.find_first_not_of(kSpaces);
+    const std::size_t begin = text.find_first_not_of(kSpaces, text.find_first_of(kSpaces, word));
+    return text.substr(begin, end - begin);
+}
+
 /// The only command that takes time.
 constexpr const char* kFrames = "frames";
 constexpr long kMostFrames = 1'000'000;
@@ -206,7 +213,8 @@ constexpr long kMostFrames = 1'000'000;
 
 Script::Script(const std::filesystem::path& path) : path_(path) {
     std::ifstream stream(path);
-    if (!stream) throw std::runtime_error(path.string() + ": the file cannot be read; check its name");
+    if (!stream || !std::filesystem::is_regular_file(path))
+        throw std::runtime_error(path.string() + ": the file cannot be read; check its name");
     std::string text;
     for (int number = 1; std::getline(stream, text); ++number) {
         std::istringstream words(text.substr(0, text.find('#')));
@@ -217,9 +225,11 @@ Script::Script(const std::filesystem::path& path) : path_(path) {
         const auto command = commands().find(name);
         if (name != kFrames && command == commands().end()) fail(number, "unknown command '" + name + "'");
         const std::size_t arguments = name == kFrames ? 1 : command->second.arguments;
+        // File names may have spaces.
+        if (arguments == 1 && line.words.size() > 1) line.words = {name, rest_of(text)};
         if (line.words.size() - 1 != arguments)
-            fail(number,
-                 fmt::format("'{}' takes {} values, found {}", name, arguments, line.words.size() - 1));
+            fail(number, fmt::format("'{}' needs {} value{}, found {}", name, arguments,
+                                     arguments == 1 ? "" : "s", line.words.size() - 1));
         lines_.push_back(line);
     }
 }

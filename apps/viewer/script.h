@@ -19,7 +19,7 @@ public:
     /// \throws std::runtime_error "file:line: message" if it cannot be read or has an unknown command
     explicit Script(const std::filesystem::path& path);
 
-    /// Runs commands up to the next one that waits for frames. To be called before each frame.
+    /// Runs commands up to the next one that waits for frames. To be called before each frame, and after the last.
     /// \throws std::runtime_error "file:line: message" for a command that fails
     void advance(Viewer& viewer);
 

@@ -15,8 +15,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kReferenceSamples = 4; ///< of a frame
 
-/// The reference has other random numbers than the images that are compared with it.
-constexpr std::uint32_t kFirstReferenceSeed = 1u << 31;
+/// Far from the seeds of the images that are compared with the reference.
+constexpr std::uint32_t kReferenceSeedBit = 1u << 31;
 
 } // namespace
 
@@ -27,7 +27,7 @@ render::RenderSettings reference_settings(const render::RenderSettings& settings
     reference.brdf = settings.brdf;
     reference.pixel_position = settings.pixel_position;
     reference.samples = kReferenceSamples;
-    reference.seed = kFirstReferenceSeed;
+    reference.seed = settings.seed ^ kReferenceSeedBit;
     return reference;
 }
 

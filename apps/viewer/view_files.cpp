@@ -5,7 +5,6 @@
 #include "image/srgb.h"
 #include "render/film.h"
 #include "scene/camera_file.h"
-#include "scene/rig_json.h"
 
 #include <fmt/core.h>
 
@@ -71,7 +70,6 @@ std::string command_of(const Session& session, const ViewState& state, const Sce
         command += fmt::format(" --mis {} --visibility-estimate {}", name_of(settings.mis),
                                settings.visibility_estimate);
     command += fmt::format(" --sampler {} --brdf {}", name_of(settings.sample_order), name_of(settings.brdf));
-    if (settings.pixel_position == render::PixelPosition::center) command += " --pixel-center";
     // Of a single frame the same image but for rounding; of several but for noise.
     const std::int64_t frames = std::max<std::int64_t>(session.frames(Side::left), 1);
     const std::int64_t samples = std::min<std::int64_t>(frames * settings.samples, render::kMaxSamples);
@@ -119,13 +117,6 @@ void load_camera(const std::filesystem::path& path, const Session& session, View
 
 void save_lights(const std::filesystem::path& path, const ViewState& state) {
     write_text(path, state.edits.rig_text());
-}
-
-void load_lights(const std::filesystem::path& path, Session& session, ViewState& state, SceneFiles& files) {
-    session.apply(scene::read_rig(path));
-    files.rigs.push_back(path);
-    state.edits = {};
-    state.selected_light.reset();
 }
 
 } // namespace nusselt::viewer

@@ -32,8 +32,6 @@ void load_camera(const std::filesystem::path& path, const Session& session, View
 
 /// Only the edits: the file is for use after the rigs that were loaded.
 void save_lights(const std::filesystem::path& path, const ViewState& state);
-/// Applies a rig for good; what was edited before is gone. \throws std::runtime_error see scene::read_rig(), apply_rig()
-void load_lights(const std::filesystem::path& path, Session& session, ViewState& state, SceneFiles& files);
 
 /// The command of the shell that renders an image of the session.
 /// \param camera, lights files of save_camera() and save_lights(); no lights if none were edited

@@ -1,5 +1,7 @@
 #include "viewer.h"
 
+#include "scene/rig_json.h"
+
 #include <exception>
 
 namespace nusselt::viewer {
@@ -33,7 +35,17 @@ void Viewer::next_frame() {
         state = last_state_;
         session.render(state);
         session.show(state);
+        return;
     }
+    if (state.edits != last_state_.edits) message.clear();
+    last_state_ = state;
+}
+
+void Viewer::load_lights(const std::filesystem::path& path) {
+    session.apply(scene::read_rig(path));
+    files.rigs.push_back(path);
+    state.edits = {};
+    state.selected_light.reset();
     last_state_ = state;
 }
 

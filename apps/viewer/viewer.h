@@ -21,6 +21,10 @@ struct Viewer {
     /// \throws gpu::Error if the device fails
     void next_frame();
 
+    /// Applies a rig for good; what was edited before is gone.
+    /// \throws std::runtime_error see scene::read_rig(), scene::apply_rig()
+    void load_lights(const std::filesystem::path& path);
+
     Session session;
     ViewState state;
     SceneFiles files;

@@ -137,6 +137,13 @@ struct FrameRecord {
     uint light_samples; ///< per frame, light and technique
     uint seed;
     float visibility_estimate;
+    // What of it is shaded at once; the rest follows.
+    uint first_row; ///< of pixels
+    uint first_light;
+    uint light_end;
+    uint first_sample; ///< of each light
+    uint sample_end;
+    uint loop_probe; ///< 2: shaders count to this in the end, to see whether loops still run
 };
 
 /// Sum over frames with the error of a single rounding (Kahan).
@@ -149,6 +156,7 @@ struct PixelSum {
 struct WorkRecord {
     uint shadow_rays[2];
     uint rejected_samples[2];
+    uint unfinished; ///< shadings whose loops were ended by the driver
 };
 
 #ifdef __cplusplus

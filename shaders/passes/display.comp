@@ -28,15 +28,17 @@ vec3 to_srgb(vec3 linear) {
     return mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, greaterThan(linear, vec3(0.0031308)));
 }
 
-/// Black for a thousandth or less of what the reference shows, then blue, magenta, orange, and white for all of it.
+/// Black for a thousandth or less of what the reference shows, then blue, magenta, orange, and white for all of it and for
+/// what is no number.
 vec3 error_colour(vec3 value, vec3 reference) {
     // What a display cannot show to be black counts like the darkest grey.
     const float kDarkest = 0.005;
     vec3 difference = abs(value - reference);
     float relative = dot(difference, vec3(1.0)) / (dot(abs(reference), vec3(1.0)) + 3.0 * kDarkest);
     const vec3 kRamp[5] = vec3[5](vec3(0.0), vec3(0.1, 0.1, 0.6), vec3(0.75, 0.15, 0.6), vec3(1.0, 0.6, 0.1), vec3(1.0));
-    float at = 4.0 * clamp(1.0 + log2(max(relative, 1e-6)) / log2(1000.0), 0.0, 1.0);
-    int cell = min(int(at), 3);
+    bool is_small = relative < 1.0; // NaN is not
+    float at = is_small ? 4.0 * clamp(1.0 + log2(max(relative, 1e-6)) / log2(1000.0), 0.0, 1.0) : 4.0;
+    int cell = clamp(int(at), 0, 3);
     return mix(kRamp[cell], kRamp[cell + 1], at - float(cell));
 }
 

@@ -22,17 +22,17 @@ vec3 reflected_share(GlossySurface surface, vec2 integrals, inout Counts counts)
 vec3 reflected_light(Surface surface, ivec2 pixel, inout Counts counts) {
     GlossySurface glossy = make_reflection(surface).glossy;
     vec3 radiance = vec3(0.0);
-    for (uint i = 0u; i < scene.polygon_lights; ++i) {
+    for (uint i = frame.first_light; kHasPolygons && i < polygons_end(); ++i) {
         LocalPolygon light = local_polygon(surface, i);
         if (!light.role.is_lit) continue;
         vec2 integrals = vec2(diffuse_integral(light.shape), clipped_lobe_integral(light.shape, glossy.lobe));
         radiance += light.role.emission * reflected_share(glossy, integrals, counts);
     }
-    for (uint i = 0u; i < scene.line_lights; ++i) {
+    for (uint i = first_line(); (kHasLines || kHasTubes) && i < lines_end(); ++i) {
         LocalLine light = local_line(surface, i);
         if (!light.role.is_lit) continue;
         vec2 integrals = vec2(diffuse_integral(light.shape), clipped_lobe_integral(light.shape, glossy.lobe));
-        if (light.is_solid)
+        if (kHasTubes && light.is_solid)
             integrals = vec2(tube_integral(integrals.x, light.radius), tube_integral(integrals.y, light.radius));
         radiance += light.role.emission * reflected_share(glossy, integrals, counts);
     }

@@ -16,6 +16,11 @@ layout(set = 0, binding = 7, std430) readonly buffer PolygonLights { PolygonLigh
 layout(set = 0, binding = 8, std430) readonly buffer PolygonCorners { float polygon_corners[]; };
 layout(set = 0, binding = 9, std430) readonly buffer LineLights { LineLightRecord line_lights[]; };
 
+// The lights that are shaded at once: polygons come before lines and tubes.
+uint polygons_end() { return min(scene.polygon_lights, frame.light_end); }
+uint first_line() { return max(frame.first_light, scene.polygon_lights) - scene.polygon_lights; }
+uint lines_end() { return max(frame.light_end, scene.polygon_lights) - scene.polygon_lights; }
+
 /// What all kinds of lights have in common.
 struct LightRole {
     bool is_lit;   ///< whether it may light the point

@@ -5,13 +5,14 @@
 ///     camera.
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, int(frame.first_row));
     if (!has_pixel(pixel)) return;
     uint number = drawn_numbers[pixel_index(pixel)];
     if (number == 0u) return;
     DrawnTriangle drawn = drawn_triangle(number - 1u);
     Ray ray = camera_ray(pixel);
-    vec3 radiance = emission_of(drawn, ray);
+    bool is_first = frame.first_light == 0u && frame.first_sample == 0u;
+    vec3 radiance = is_first ? emission_of(drawn, ray) : vec3(0.0);
     if (drawn.tube < 0) {
         Surface surface = make_surface(drawn, ray);
         Counts counts = Counts(0u, 0u);
@@ -19,4 +20,5 @@ void main() {
         add_counts(counts);
     }
     add_to_pixel(pixel, frame.weight * radiance);
+    note_unfinished();
 }

@@ -104,7 +104,7 @@ void sample_polygon(inout Estimate estimate, LocalPolygon light) {
     PolygonTechniques techniques = polygon_techniques_prepare(light.shape, glossy, is_paired);
     TechniquePair pair;
     if (is_paired) pair = make_technique_pair(glossy, polygon_techniques_integrals(techniques));
-    for (uint i = 0u; i < frame.light_samples; ++i) {
+    for (uint i = frame.first_sample; i < frame.sample_end; ++i) {
         for (int k = 0; k < samples_per_number(is_paired); ++k) {
             vec2 u = random_for_light(estimate.pixel, i, light.role.number, k);
             Draw draw = choose_technique(is_paired, pair, k, u);
@@ -130,7 +130,7 @@ void sample_line(inout Estimate estimate, LocalLine light) {
     LineTechniques techniques = line_techniques_prepare(light.shape, glossy, is_paired);
     TechniquePair pair;
     if (is_paired) pair = make_technique_pair(glossy, line_techniques_integrals(techniques));
-    for (uint i = 0u; i < frame.light_samples; ++i) {
+    for (uint i = frame.first_sample; i < frame.sample_end; ++i) {
         for (int k = 0; k < samples_per_number(is_paired); ++k) {
             vec2 u = random_for_light(estimate.pixel, i, light.role.number, k);
             Draw draw = choose_technique(is_paired, pair, k, u);
@@ -151,7 +151,7 @@ void sample_tube(inout Estimate estimate, LocalLine light) {
     TubeTechniques techniques = tube_techniques_prepare(Cylinder(light.shape, light.radius), glossy, is_paired);
     TechniquePair pair;
     if (is_paired) pair = make_technique_pair(glossy, tube_techniques_integrals(techniques));
-    for (uint i = 0u; i < frame.light_samples; ++i) {
+    for (uint i = frame.first_sample; i < frame.sample_end; ++i) {
         for (int k = 0; k < samples_per_number(is_paired); ++k) {
             vec2 u = random_for_light(estimate.pixel, i, light.role.number, k);
             Draw draw = choose_technique(is_paired, pair, k, u);
@@ -174,14 +174,14 @@ vec3 reflected_light(Surface surface, ivec2 pixel, inout Counts counts) {
     estimate.counts = counts;
     float scale = 1.0 / float(frame.light_samples);
     vec3 radiance = vec3(0.0);
-    for (uint i = 0u; kHasPolygons && i < scene.polygon_lights; ++i) {
+    for (uint i = frame.first_light; kHasPolygons && i < polygons_end(); ++i) {
         LocalPolygon light = local_polygon(surface, i);
         if (!light.role.is_lit) continue;
         estimate.sum = CompensatedSum(vec3(0.0), vec3(0.0));
         sample_polygon(estimate, light);
         radiance += (scale * light.role.emission) * estimate.sum.sum;
     }
-    for (uint i = 0u; (kHasLines || kHasTubes) && i < scene.line_lights; ++i) {
+    for (uint i = first_line(); (kHasLines || kHasTubes) && i < lines_end(); ++i) {
         LocalLine light = local_line(surface, i);
         if (!light.role.is_lit) continue;
         estimate.sum = CompensatedSum(vec3(0.0), vec3(0.0));

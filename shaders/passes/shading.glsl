@@ -59,4 +59,12 @@ void add_counts(Counts counts) {
     }
 }
 
+/// Mesa's software device leaves all loops of a shader together after 65535 rounds, and goes on as if they were done: counts
+/// pixels where that was the case.
+void note_unfinished() {
+    uint rounds = 0u;
+    while (rounds < frame.loop_probe) ++rounds;
+    if (rounds != frame.loop_probe) atomicAdd(work.unfinished, 1u);
+}
+
 #endif

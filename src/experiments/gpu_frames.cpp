@@ -25,7 +25,9 @@ constexpr int kSamples = 2;
 struct Running {
     explicit Running(const GpuFrame& frame)
         : image(*frame.scene, frame.settings),
-          record(render_vulkan::FrameRecords(frame.scene->film(), frame.settings).make(0)) {}
+          record(render_vulkan::FrameRecords(frame.scene->film(), frame.settings).make(0)) {
+        image.compile();
+    }
 
     render_vulkan::Accumulator image;
     interface::FrameRecord record;

@@ -24,12 +24,13 @@ vk::raii::Buffer make_buffer(const Device& device, std::size_t bytes, vk::Buffer
     return guarded(name_of(device, bytes), [&] { return vk::raii::Buffer(device.handle(), info); });
 }
 
-vk::MemoryPropertyFlags properties_of(const Device& device, Residence residence) {
+vk::MemoryPropertyFlags properties_of(const Device& device, const vk::MemoryRequirements& requirements,
+                                      Residence residence) {
     using Property = vk::MemoryPropertyFlagBits;
     if (residence == Residence::device_local) return Property::eDeviceLocal;
     const vk::MemoryPropertyFlags visible = Property::eHostVisible | Property::eHostCoherent;
     const vk::MemoryPropertyFlags cached = visible | Property::eHostCached;
-    return residence == Residence::read_back && device.has_memory(cached) ? cached : visible;
+    return residence == Residence::read_back && device.has_memory(requirements, cached) ? cached : visible;
 }
 
 } // namespace
@@ -39,7 +40,8 @@ Buffer::Buffer(const Device& device, std::size_t bytes, Residence residence, vk:
       size_(bytes),
       residence_(residence),
       buffer_(make_buffer(device, bytes, use)),
-      memory_(device.allocate(buffer_.getMemoryRequirements(), properties_of(device, residence), use)) {
+      memory_(device.allocate(buffer_.getMemoryRequirements(),
+                              properties_of(device, buffer_.getMemoryRequirements(), residence), use)) {
     guarded(name_of(device, bytes), [&] { buffer_.bindMemory(*memory_, 0); });
 }
 
@@ -70,7 +72,7 @@ void Buffer::fill_with_zeros() {
 void Buffer::read_bytes(std::span<std::byte> bytes) const {
     assert(bytes.size() <= size_);
     if (residence_ == Residence::device_local) {
-        const Buffer staging(*device_, bytes.size(), Residence::host_visible,
+        const Buffer staging(*device_, bytes.size(), Residence::read_back,
                              vk::BufferUsageFlagBits::eTransferDst);
         device_->run([&](const Device::Commands& commands) {
             commands.copyBuffer(handle(), staging.handle(), vk::BufferCopy(0, 0, bytes.size()));

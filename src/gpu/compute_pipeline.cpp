@@ -3,9 +3,7 @@
 #include "gpu/shader_stage.h"
 
 #include <cassert>
-#include <functional>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace nusselt::gpu {
@@ -29,11 +27,9 @@ vk::raii::Pipeline make_pipeline(const Device& device, std::span<const std::uint
 
 /// Of all that a compiled shader depends on.
 std::string key_of(std::span<const std::uint32_t> spirv, const ComputeInterface& interface) {
-    const std::string_view bytes(reinterpret_cast<const char*>(spirv.data()), spirv.size_bytes());
-    std::string key;
+    std::string key(reinterpret_cast<const char*>(spirv.data()), spirv.size_bytes());
     for (const std::uint64_t number :
-         {std::uint64_t{spirv.size()}, std::uint64_t{std::hash<std::string_view>()(bytes)},
-          std::uint64_t{interface.storage_buffers}, std::uint64_t{interface.ray_scenes},
+         {std::uint64_t{interface.storage_buffers}, std::uint64_t{interface.ray_scenes},
           std::uint64_t{interface.images == nullptr ? 0 : interface.images->count() + 1},
           std::uint64_t{interface.push_constant_size}})
         append_to_key(key, number);

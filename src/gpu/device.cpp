@@ -48,7 +48,8 @@ DeviceDescription describe(const vk::raii::PhysicalDevice& device) {
     const auto version = std::to_string(VK_API_VERSION_MAJOR(basic.apiVersion)) + "." +
                          std::to_string(VK_API_VERSION_MINOR(basic.apiVersion)) + "." +
                          std::to_string(VK_API_VERSION_PATCH(basic.apiVersion));
-    return {basic.deviceName, driver_of(device), kind(), version};
+    const bool is_software = basic.deviceType == vk::PhysicalDeviceType::eCpu;
+    return {basic.deviceName, driver_of(device), kind(), is_software, version};
 }
 
 /// The lower the better.
@@ -91,7 +92,7 @@ vk::raii::PhysicalDevice choose(const Instance& instance, const DeviceOptions& o
     std::string known;
     for (std::size_t i = 0; i < devices.size(); ++i)
         known += (i > 0 ? "; " : "") + std::to_string(i) + ": " + describe(devices[i]).name;
-    throw NoDevice("no Vulkan device '" + *choice + "'; there are " + known);
+    throw NoDevice("no Vulkan device '" + *choice + "'; the devices are " + known);
 }
 
 /// A queue for compute shaders: one that also draws if there is any, with timestamps if there are any.
@@ -200,9 +201,13 @@ std::vector<DeviceDescription> list_devices() {
     return descriptions;
 }
 
+DeviceDescription chosen_device(const DeviceOptions& options) {
+    return describe(choose(Instance(Validation::off), options));
+}
+
 std::optional<std::string> why_no_device(const DeviceOptions& options) {
     try {
-        choose(Instance(Validation::off), options);
+        static_cast<void>(chosen_device(options));
     } catch (const NoDevice& error) {
         return error.what();
     }
@@ -251,7 +256,7 @@ bool Device::draws() const {
 
 Clock Device::pass_clock() const {
     // Software devices draw when the image is used: their timestamps tell nothing about one of several passes.
-    return description_.kind == "CPU" ? Clock::wall : clock_;
+    return description_.is_software ? Clock::wall : clock_;
 }
 
 double Device::time(const Record& record) const { return time_passes({&record, 1}).front(); }
@@ -293,30 +298,33 @@ std::vector<double> Device::time_passes(std::span<const Record> passes) const {
     });
 }
 
-bool Device::has_memory(vk::MemoryPropertyFlags wanted) const {
+std::optional<std::uint32_t> Device::memory_type_for(const vk::MemoryRequirements& requirements,
+                                                     vk::MemoryPropertyFlags wanted) const {
     const vk::PhysicalDeviceMemoryProperties memory = physical_.getMemoryProperties();
-    return std::any_of(memory.memoryTypes.begin(), memory.memoryTypes.begin() + memory.memoryTypeCount,
-                       [&](const vk::MemoryType& type) { return (type.propertyFlags & wanted) == wanted; });
+    for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+        const bool fits = (requirements.memoryTypeBits >> i & 1) != 0 &&
+                          (memory.memoryTypes[i].propertyFlags & wanted) == wanted &&
+                          memory.memoryHeaps[memory.memoryTypes[i].heapIndex].size >= requirements.size;
+        if (fits) return i;
+    }
+    return std::nullopt;
+}
+
+bool Device::has_memory(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags wanted) const {
+    return memory_type_for(requirements, wanted).has_value();
 }
 
 vk::raii::DeviceMemory Device::allocate(const vk::MemoryRequirements& requirements,
                                         vk::MemoryPropertyFlags wanted, vk::BufferUsageFlags use) const {
     const std::string activity =
         description_.name + ": allocating " + size_text(requirements.size) + " of memory";
-    const vk::PhysicalDeviceMemoryProperties memory = physical_.getMemoryProperties();
-    for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
-        const bool fits = (requirements.memoryTypeBits >> i & 1) != 0 &&
-                          (memory.memoryTypes[i].propertyFlags & wanted) == wanted &&
-                          memory.memoryHeaps[memory.memoryTypes[i].heapIndex].size >= requirements.size;
-        if (!fits) continue;
-        vk::StructureChain<vk::MemoryAllocateInfo, vk::MemoryAllocateFlagsInfo> info(
-            {requirements.size, i}, {vk::MemoryAllocateFlagBits::eDeviceAddress});
-        if (!(use & vk::BufferUsageFlagBits::eShaderDeviceAddress))
-            info.unlink<vk::MemoryAllocateFlagsInfo>();
-        return guarded(activity,
-                       [&] { return vk::raii::DeviceMemory(device_, info.get<vk::MemoryAllocateInfo>()); });
-    }
-    throw Error(gpu::describe(activity, vk::Result::eErrorOutOfDeviceMemory));
+    const std::optional<std::uint32_t> type = memory_type_for(requirements, wanted);
+    if (!type) throw Error(gpu::describe(activity, vk::Result::eErrorOutOfDeviceMemory));
+    vk::StructureChain<vk::MemoryAllocateInfo, vk::MemoryAllocateFlagsInfo> info(
+        {requirements.size, *type}, {vk::MemoryAllocateFlagBits::eDeviceAddress});
+    if (!(use & vk::BufferUsageFlagBits::eShaderDeviceAddress)) info.unlink<vk::MemoryAllocateFlagsInfo>();
+    return guarded(activity,
+                   [&] { return vk::raii::DeviceMemory(device_, info.get<vk::MemoryAllocateInfo>()); });
 }
 
 void full_barrier(const Device::Commands& commands) {

@@ -27,6 +27,7 @@ struct DeviceDescription {
     std::string name;
     std::string driver;      ///< name and version
     std::string kind;        ///< "discrete GPU", "CPU", ...
+    bool is_software;        ///< runs on the processor
     std::string api_version; ///< of Vulkan
 };
 
@@ -40,6 +41,10 @@ struct DeviceFeatures {
 /// The devices that can be chosen. Empty without a loader or driver.
 /// \throws Error if a driver does not start.
 std::vector<DeviceDescription> list_devices();
+
+/// What Device(options) would run on.
+/// \throws NoDevice, Error as that does.
+DeviceDescription chosen_device(const DeviceOptions& options = {});
 
 /// Why Device(options) would throw NoDevice; nothing if it would not.
 /// \throws Error if a driver does not start.
@@ -93,16 +98,19 @@ public:
     /// \return how long each of them took [ns].
     std::vector<double> time_passes(std::span<const Record> passes) const;
 
-    /// Whether there is memory with these properties.
-    bool has_memory(vk::MemoryPropertyFlags wanted) const;
-
     /// \param wanted properties that the memory must have.
     /// \param use    of buffers in it.
     /// \throws Error if there is no such memory, or not enough.
     vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& requirements,
                                     vk::MemoryPropertyFlags wanted, vk::BufferUsageFlags use = {}) const;
 
+    /// Whether there is memory with these properties for these requirements.
+    bool has_memory(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags wanted) const;
+
 private:
+    std::optional<std::uint32_t> memory_type_for(const vk::MemoryRequirements& requirements,
+                                                 vk::MemoryPropertyFlags wanted) const;
+
     Instance instance_;
     vk::raii::PhysicalDevice physical_;
     DeviceDescription description_;

@@ -69,15 +69,61 @@ void Accumulator::compile() {
 
 FrameTimes Accumulator::add(const interface::FrameRecord& frame) {
     compile();
-    const std::array<gpu::Device::Record, 2> passes = {
-        [&](const gpu::Device::Commands& commands) {
-            visibility_.draw(commands, std::as_bytes(std::span(&frame, 1)), 3 * scene_.drawn_triangles(),
-                             pixels_.numbers);
-        },
-        [&](const gpu::Device::Commands& commands) { shading_->record(commands, frame); }};
-    const std::vector<double> nanoseconds = scene_.device().time_passes(passes);
+    FrameTimes times;
+    const std::vector<interface::FrameRecord> parts = parts_of(frame);
+    for (const interface::FrameRecord& part : parts) {
+        std::vector<gpu::Device::Record> passes;
+        if (&part == &parts.front())
+            passes.push_back([&](const gpu::Device::Commands& commands) {
+                visibility_.draw(commands, std::as_bytes(std::span(&part, 1)), 3 * scene_.drawn_triangles(),
+                                 pixels_.numbers);
+            });
+        passes.push_back([&](const gpu::Device::Commands& commands) {
+            shading_->record(commands, part, std::min(rows_at_once(frame), height() - part.first_row));
+        });
+        const std::vector<double> nanoseconds = scene_.device().time_passes(passes);
+        if (passes.size() > 1) times.visibility = 1e-9 * nanoseconds.front();
+        times.shading += 1e-9 * nanoseconds.back();
+    }
     ++frames_;
-    return {1e-9 * nanoseconds[0], 1e-9 * nanoseconds[1]};
+    return times;
+}
+
+std::uint32_t Accumulator::samples_at_once(const interface::FrameRecord& frame) const {
+    // Mesa's software device bounds the rounds of all loops of a shader together, those through the hierarchy included, by
+    // 65535: that is a thousand for each of 32 pairs of samples.
+    const std::uint32_t most = scene_.device().description().is_software ? 32 : 4096;
+    return std::min(frame.light_samples, most);
+}
+
+std::uint32_t Accumulator::lights_at_once(const interface::FrameRecord& frame) const {
+    const std::uint32_t most = scene_.device().description().is_software ? 32 : 4096;
+    return std::max(most / frame.light_samples, 1u);
+}
+
+std::uint32_t Accumulator::rows_at_once(const interface::FrameRecord& frame) const {
+    // A tenth of a second or so of a GPU: drivers stop what takes seconds, since displays wait for it.
+    constexpr double kMostSamples = 1e8;
+    const std::uint32_t lights = std::clamp(scene_.light_count(), 1u, lights_at_once(frame));
+    const double rows = kMostSamples / (static_cast<double>(lights) * samples_at_once(frame) * width());
+    const auto together = static_cast<std::uint32_t>(std::clamp<double>(rows, 1, height())) / kRowsTogether;
+    return (together + 1) * kRowsTogether;
+}
+
+std::vector<interface::FrameRecord> Accumulator::parts_of(const interface::FrameRecord& frame) const {
+    std::vector<interface::FrameRecord> parts;
+    const std::uint32_t lights = std::max(scene_.light_count(), 1u);
+    for (std::uint32_t row = 0; row < height(); row += rows_at_once(frame))
+        for (std::uint32_t light = 0; light < lights; light += lights_at_once(frame))
+            for (std::uint32_t sample = 0; sample < frame.light_samples; sample += samples_at_once(frame)) {
+                interface::FrameRecord& part = parts.emplace_back(frame);
+                part.first_row = row;
+                part.first_light = light;
+                part.light_end = std::min(light + lights_at_once(frame), scene_.light_count());
+                part.first_sample = sample;
+                part.sample_end = std::min(sample + samples_at_once(frame), frame.light_samples);
+            }
+    return parts;
 }
 
 image::Image Accumulator::mean() const {
@@ -96,6 +142,10 @@ FrameWork Accumulator::work() const {
     };
     interface::WorkRecord work {};
     pixels_.work.read(std::span(&work, 1));
+    if (work.unfinished > 0)
+        throw gpu::Error(
+            scene_.device().description().name +
+            ": the driver ended a shader before it was done; take another device or --backend cpu");
     return {joined(work.shadow_rays), joined(work.rejected_samples)};
 }
 

@@ -52,11 +52,19 @@ public:
     std::uint32_t height() const { return pixels_.height; }
     /// Black without a frame.
     image::Image mean() const;
+    /// \throws gpu::Error if shaders were not done, so that the image is wrong
     FrameWork work() const;
     /// One interface::PixelSum per pixel: divided by frames() they are the image.
     const gpu::Buffer& sums() const { return pixels_.sums; }
 
 private:
+    // How much is shaded in one submission.
+    std::uint32_t samples_at_once(const interface::FrameRecord& frame) const; ///< of each light
+    std::uint32_t lights_at_once(const interface::FrameRecord& frame) const;
+    std::uint32_t rows_at_once(const interface::FrameRecord& frame) const;
+    /// The frame in pieces of that size.
+    std::vector<interface::FrameRecord> parts_of(const interface::FrameRecord& frame) const;
+
     const DeviceScene& scene_;
     std::vector<std::uint32_t> constants_; ///< of the shading pass
     PixelBuffers pixels_;

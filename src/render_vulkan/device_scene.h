@@ -29,6 +29,7 @@ public:
     std::uint32_t drawn_triangles() const { return drawn_triangles_; }
     int polygon_slots() const { return polygon_slots_; } ///< see SceneRecords
     const SceneKinds& kinds() const { return kinds_; }
+    std::uint32_t light_count() const { return record_.polygon_lights + record_.line_lights; }
     const SceneBuffers& buffers() const { return buffers_; }
     const SceneTextures& textures() const { return textures_; }
     const gpu::Buffer& ltc_table() const { return ltc_table_; } ///< decoded samples

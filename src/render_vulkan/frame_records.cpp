@@ -57,6 +57,7 @@ interface::FrameRecord FrameRecords::make(std::uint32_t number) const {
     record.light_samples = static_cast<std::uint32_t>(settings_.samples) / count_;
     record.seed = settings_.seed;
     record.visibility_estimate = settings_.visibility_estimate;
+    record.loop_probe = 2;
     return record;
 }
 

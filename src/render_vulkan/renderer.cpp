@@ -38,8 +38,7 @@ const gpu::Device& VulkanRenderer::device() const { return state_->scene.device(
 ShadowRays VulkanRenderer::shadow_rays() const { return state_->scene.shadows().way(); }
 TextureAccess VulkanRenderer::texture_access() const { return state_->scene.textures().access(); }
 
-RenderResult VulkanRenderer::render(const render::RenderSettings& settings,
-                                    const RenderMonitor& monitor) const {
+RenderResult VulkanRenderer::render(const render::RenderSettings& settings, const RenderMonitor& monitor) {
     RenderResult result;
     RenderStatistics& statistics = result.statistics;
     statistics.build_seconds = state_->build_seconds;

@@ -56,7 +56,7 @@ public:
     /// Camera rays are frames: in each of them, all pixels have the same place in their pixel.
     /// \throws std::invalid_argument see validate(), and for settings that only the CPU has.
     /// \throws std::runtime_error if the device runs out of memory or is lost.
-    RenderResult render(const render::RenderSettings& settings, const RenderMonitor& monitor = {}) const;
+    RenderResult render(const render::RenderSettings& settings, const RenderMonitor& monitor = {});
 
     const gpu::Device& device() const;
     ShadowRays shadow_rays() const;

@@ -12,6 +12,7 @@ namespace {
 
 // As in shaders/passes.
 constexpr std::uint32_t kWorkGroupSide = 8;
+static_assert(kRowsTogether == kWorkGroupSide);
 constexpr std::uint32_t kShadingBuffers = 14; ///< all but those for shadow rays
 
 /// After those of the scene.
@@ -73,9 +74,7 @@ std::vector<std::uint32_t> shading_constants(const render::RenderSettings& setti
 
 ShadingPass::ShadingPass(const DeviceScene& scene, const std::vector<std::uint32_t>& constants,
                          const PixelBuffers& pixels)
-    : groups_x_(groups_for(pixels.width)),
-      groups_y_(groups_for(pixels.height)),
-      pipeline_(make_pipeline(scene, constants)) {
+    : groups_x_(groups_for(pixels.width)), pipeline_(make_pipeline(scene, constants)) {
     const SceneBuffers& data = scene.buffers();
     const SceneTextures& textures = scene.textures();
     const ShadowScene& shadows = scene.shadows();
@@ -91,8 +90,9 @@ ShadingPass::ShadingPass(const DeviceScene& scene, const std::vector<std::uint32
     pipeline_.bind(buffers);
 }
 
-void ShadingPass::record(const gpu::Device::Commands& commands, const interface::FrameRecord& frame) const {
-    pipeline_.dispatch(commands, std::as_bytes(std::span(&frame, 1)), groups_x_, groups_y_);
+void ShadingPass::record(const gpu::Device::Commands& commands, const interface::FrameRecord& frame,
+                         std::uint32_t rows) const {
+    pipeline_.dispatch(commands, std::as_bytes(std::span(&frame, 1)), groups_x_, groups_for(rows));
 }
 
 } // namespace nusselt::render_vulkan

@@ -27,6 +27,9 @@ struct PixelBuffers {
 /// What chooses the pipeline for these settings: all but numbers of samples and seeds.
 std::vector<std::uint32_t> shading_constants(const render::RenderSettings& settings, const SceneKinds& kinds);
 
+/// Rows of pixels that are shaded together.
+inline constexpr std::uint32_t kRowsTogether = 8;
+
 /// Adds frames to pixels.
 class ShadingPass {
 public:
@@ -34,10 +37,14 @@ public:
     ShadingPass(const DeviceScene& scene, const std::vector<std::uint32_t>& constants,
                 const PixelBuffers& pixels);
 
-    void record(const gpu::Device::Commands& commands, const interface::FrameRecord& frame) const;
+    /// Adds the frame to some rows.
+    /// \param frame its `first_row` is where they begin, a multiple of kRowsTogether
+    /// \param rows how many, at least one; those beyond the image are left out
+    void record(const gpu::Device::Commands& commands, const interface::FrameRecord& frame,
+                std::uint32_t rows) const;
 
 private:
-    std::uint32_t groups_x_, groups_y_;
+    std::uint32_t groups_x_;
     gpu::ComputePipeline pipeline_;
 };
 

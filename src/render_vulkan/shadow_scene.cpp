@@ -39,8 +39,8 @@ std::string_view name_of(ShadowRays way) {
 
 ShadowRays default_shadow_rays(const gpu::Device& device) {
     // Mesa's software device takes up to ten times as long for its own ray queries (docs/performance.md).
-    const bool is_software = device.description().kind == "CPU";
-    return device.features().ray_queries && !is_software ? ShadowRays::query : ShadowRays::bvh;
+    return device.features().ray_queries && !device.description().is_software ? ShadowRays::query
+                                                                              : ShadowRays::bvh;
 }
 
 ShadowScene::ShadowScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays way) : way_(way) {

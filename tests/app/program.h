@@ -61,4 +61,12 @@ inline void expect_message(const std::string& text, const std::string& part) {
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
 }
 
+/// Whether the program had no device to run on, or has no GPU side. Machines of CI have a software device.
+inline bool lacks_device(const Outcome& outcome) {
+    const bool lacks = outcome.exit_code == 1 && outcome.err.find("install") != std::string::npos;
+    const char* const ci = std::getenv("CI");
+    EXPECT_FALSE(lacks && ci != nullptr && std::string(ci) == "true") << outcome.err;
+    return lacks;
+}
+
 } // namespace nusselt

@@ -5,6 +5,7 @@
 #include "render/film.h"
 #include "rich_scene.h"
 #include "scene/load.h"
+#include "scenes.h"
 
 #include <filesystem>
 #include <tuple>
@@ -33,7 +34,7 @@ render::RenderSettings centred(int samples) {
 
 class Agreement : public parity::GpuTest {
 protected:
-    void expect_agreement(const scene::Scene& scene, const VulkanRenderer& renderer,
+    void expect_agreement(const scene::Scene& scene, VulkanRenderer& renderer,
                           const render::RenderSettings& settings) {
         const render_vulkan::RenderResult result = renderer.render(settings);
         EXPECT_LT(differing_share(result.image, render_on_cpu(scene, settings)), kLargestShare);
@@ -47,7 +48,7 @@ TEST_F(Agreement, OfTextures_Instances_AndAllKindsOfLights) {
     for (const ShadowRays way : {ShadowRays::query, ShadowRays::bvh}) {
         if (way == ShadowRays::query && !device().features().ray_queries) continue;
         SCOPED_TRACE(name_of(way));
-        const VulkanRenderer renderer(device(), scene, way);
+        VulkanRenderer renderer(device(), scene, way);
         render::RenderSettings settings = centred(4);
         settings.strategies = Strategies::diffuse_ltc;
         expect_agreement(scene, renderer, settings);
@@ -59,13 +60,14 @@ TEST_F(Agreement, OfSurfacesThatArePartlyThere_SeenByTheCamera) {
     const scene::Scene scene = make_rich_scene(kWidth, kHeight);
     render::RenderSettings settings = centred(1);
     settings.technique = Technique::ltc_analytic;
-    expect_agreement(scene, VulkanRenderer(device(), scene, ShadowRays::bvh), settings);
+    VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    expect_agreement(scene, renderer, settings);
 }
 
 TEST_F(Agreement, OfACrop) {
     scene::Scene scene = make_opaque_scene(kWidth, kHeight);
     scene.film.crop = scene::PixelBounds{13, 7, 50, 41};
-    const VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
     const auto settings = centred(2);
     const image::Image image = renderer.render(settings).image;
     EXPECT_EQ(image.width, 37);
@@ -81,12 +83,13 @@ TEST_F(Agreement, OfAnOrthographicCamera) {
                     .corner = {0.05f, 1, -0.1f},
                     .right = {0, 0, 0},
                     .down = {0, 0, 0}};
-    expect_agreement(scene, VulkanRenderer(device(), scene, ShadowRays::bvh), centred(2));
+    VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    expect_agreement(scene, renderer, centred(2));
 }
 
 TEST_F(Agreement, OfEveryTechnique) {
     const scene::Scene scene = make_plain_scene(kWidth / 2, kHeight / 2);
-    const VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
+    VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
     for (const Technique technique : render::kTechniques) {
         SCOPED_TRACE(name_of(technique));
         render::RenderSettings settings = centred(2);
@@ -99,7 +102,7 @@ TEST_F(Agreement, OfEveryHeuristic_Strategy_AndSampler) {
     scene::Scene scene = make_plain_scene(kWidth / 2, kHeight / 2);
     // All kinds of lights share what is tested, and drivers take the longer for each.
     scene.line_lights.clear();
-    const VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
+    VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
     std::vector<render::RenderSettings> all;
     for (const render::Mis mis : render::kMisHeuristics) {
         render::RenderSettings& settings = all.emplace_back(centred(2));
@@ -138,8 +141,29 @@ TEST_F(Agreement, OfShippedScenes) {
         render::resize_film(scene, kWidth, kHeight);
         render::RenderSettings settings = centred(1);
         settings.strategies = Strategies::diffuse_ltc;
-        expect_agreement(scene, VulkanRenderer(device(), scene, ShadowRays::bvh), settings);
+        VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+        expect_agreement(scene, renderer, settings);
     }
+}
+
+/// Drivers end what takes long: the renderer takes such frames in pieces.
+TEST_F(Agreement, OfManySamplesAndLightsInAFrame) {
+    scene::Scene scene = render_test::make_floor(8);
+    for (int i = 0; i < 700; ++i) {
+        const float x = 0.1f * static_cast<float>(i % 30) - 1.5f;
+        const float y = 0.1f * static_cast<float>(i / 30) - 1.2f;
+        render_test::add_polygon_light(
+            scene, {scene::Float3{x, y, 2}, {x, y + 0.05f, 2}, {x + 0.05f, y + 0.05f, 2}, {x + 0.05f, y, 2}},
+            {1, 1, 1}, false, 0);
+    }
+    render_test::add_line_light(scene, "line",
+                                {0, {-1, 0, 1}, {1, 0, 1}, 0.01f, {1, 1, 1}, scene::TubeModel::linear});
+    render_test::set_radius(scene);
+    VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    expect_agreement(scene, renderer, centred(1));
+    scene.polygon_lights.resize(1);
+    VulkanRenderer with_few(device(), scene, ShadowRays::bvh);
+    expect_agreement(scene, with_few, centred(16384));
 }
 
 /// The test of the test.
@@ -148,11 +172,11 @@ TEST_F(Agreement, RejectsOtherRandomNumbers_AndALightThatIsALittleBrighter) {
     render::RenderSettings settings = centred(1);
     const image::Image reference = render_on_cpu(scene, settings);
     settings.seed = 1;
-    const VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
     EXPECT_GT(differing_share(renderer.render(settings).image, reference), 2 * kLargestShare);
     settings.seed = 0;
     for (scene::PolygonLight& light : scene.polygon_lights) light.radiance.y *= 1.01f;
-    const VulkanRenderer brighter(device(), scene, ShadowRays::bvh);
+    VulkanRenderer brighter(device(), scene, ShadowRays::bvh);
     EXPECT_GT(differing_share(brighter.render(settings).image, reference), 2 * kLargestShare);
 }
 

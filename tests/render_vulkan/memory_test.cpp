@@ -79,7 +79,7 @@ TEST_F(Memory, IsGivenBackByRenderers) {
     if (counted().features().ray_queries) ways.push_back(ShadowRays::query);
     const auto render = [&](ShadowRays way) {
         const std::size_t before = settled();
-        const VulkanRenderer renderer(counted(), scene, way);
+        VulkanRenderer renderer(counted(), scene, way);
         render::RenderSettings settings;
         settings.technique = render::Technique::area;
         static_cast<void>(renderer.render(settings));

@@ -28,7 +28,7 @@ std::size_t resident_bytes() {
 
 TEST_F(Renderer, GivesTheSameImageAgain) {
     const scene::Scene scene = make_rich_scene(32, 24);
-    const VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
     render::RenderSettings settings;
     settings.samples = 4;
     const auto first = renderer.render(settings);
@@ -41,7 +41,7 @@ TEST_F(Renderer, GivesTheSameImageAgain) {
 
 TEST_F(Renderer, TakesNoMoreMemoryOverFrames) {
     const scene::Scene scene = make_rich_scene(32, 24);
-    const VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
     render::RenderSettings settings;
     settings.samples = 64;
     static_cast<void>(renderer.render(settings));
@@ -56,7 +56,7 @@ TEST_F(Renderer, ScalesSumsByFramesThatWereFinished) {
     render_test::add_polygon_light(scene, {scene::Float3{-9, -9, 5}, {-9, 9, 5}, {9, 9, 5}, {9, -9, 5}},
                                    {1, 1, 1}, true, 0);
     render_test::set_radius(scene);
-    const VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
     render::RenderSettings settings;
     settings.samples = 8;
     std::atomic<bool> stop = false;
@@ -88,7 +88,7 @@ TEST_F(Renderer, RendersScenesWithoutAnything) {
 
 TEST_F(Renderer, RefusesSettingsOfTheCpuAlone) {
     const scene::Scene scene = make_rich_scene(8, 8);
-    const VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
     render::RenderSettings lines;
     lines.integrator = render::Integrator::lines;
     EXPECT_THROW(static_cast<void>(renderer.render(lines)), std::invalid_argument);

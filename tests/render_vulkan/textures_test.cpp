@@ -40,7 +40,7 @@ protected:
     }
 
     image::Image render(const scene::Scene& scene, const render::RenderSettings& settings) const {
-        const VulkanRenderer renderer(device(), scene, ShadowRays::none, GetParam());
+        VulkanRenderer renderer(device(), scene, ShadowRays::none, GetParam());
         EXPECT_EQ(renderer.texture_access(), GetParam());
         return renderer.render(settings).image;
     }
@@ -176,7 +176,7 @@ class TextureChoice : public parity::GpuTest {};
 TEST_F(TextureChoice, TakesImagesWhereTheDeviceHasThem) {
     const bool has_images = device().features().indexed_images > 0;
     const scene::Scene scene = make_rich_scene(8, 8);
-    const VulkanRenderer renderer(device(), scene, ShadowRays::none);
+    VulkanRenderer renderer(device(), scene, ShadowRays::none);
     EXPECT_EQ(renderer.texture_access(), has_images ? TextureAccess::images : TextureAccess::buffer);
     if (!has_images) {
         EXPECT_THROW(VulkanRenderer(device(), scene, ShadowRays::none, TextureAccess::images), gpu::Error);
@@ -195,8 +195,8 @@ TEST_F(TextureChoice, ChangesNothing) {
     for (const ShadowRays way : {ShadowRays::query, ShadowRays::bvh}) {
         if (way == ShadowRays::query && !device().features().ray_queries) continue;
         SCOPED_TRACE(name_of(way));
-        const VulkanRenderer by_images(device(), scene, way, TextureAccess::images);
-        const VulkanRenderer by_buffer(device(), scene, way, TextureAccess::buffer);
+        VulkanRenderer by_images(device(), scene, way, TextureAccess::images);
+        VulkanRenderer by_buffer(device(), scene, way, TextureAccess::buffer);
         EXPECT_LT(differing_share(by_images.render(settings).image, by_buffer.render(settings).image), 0.001);
     }
 }
@@ -209,7 +209,7 @@ TEST_F(TextureChoice, TakesTheBufferForWhatImagesCannotHold) {
     texture.height = 1;
     texture.texels.assign(static_cast<std::size_t>(texture.width * texture.channels), 0.5f);
     texture.texels.front() = 0.25f;
-    const VulkanRenderer renderer(device(), scene, ShadowRays::none);
+    VulkanRenderer renderer(device(), scene, ShadowRays::none);
     EXPECT_EQ(renderer.texture_access(), TextureAccess::buffer);
     EXPECT_LT(differing_share(renderer.render(unshadowed()).image, render_on_cpu(scene, unshadowed())),
               kLargestShare);

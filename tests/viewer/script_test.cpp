@@ -48,10 +48,9 @@ protected:
     static int play(const std::string& script_path, Viewer& viewer) {
         Script script{std::filesystem::path(script_path)};
         int frames = 0;
-        while (!viewer.is_closing && frames < 1000) {
+        for (script.advance(viewer); !viewer.is_closing && frames < 1000; script.advance(viewer)) {
             viewer.next_frame();
             ++frames;
-            script.advance(viewer);
         }
         return frames;
     }
@@ -84,7 +83,7 @@ TEST_F(ScriptTest, SetsWhatAPersonSets) {
                                   "quit\n"
                                   "exposure 2\n"),
                             viewer);
-    EXPECT_EQ(frames, 6);
+    EXPECT_EQ(frames, 5);
     EXPECT_EQ(viewer.state.of(Side::left).technique, render::Technique::area);
     EXPECT_EQ(viewer.state.of(Side::right).technique, render::Technique::solid_angle);
     EXPECT_EQ(viewer.state.of(Side::right).samples, 3);
@@ -154,13 +153,14 @@ TEST_F(ScriptTest, CommandsNameTheirSettings) {
 
 TEST_F(ScriptTest, NamesTheLineOfAMistake) {
     Viewer viewer = make_viewer();
+    viewer.next_frame();
     const auto expect = [&](const std::string& text, const std::string& place, const std::string& part) {
         const std::string error = error_of(text, viewer);
         EXPECT_NE(error.find("script.txt:" + place + ": "), std::string::npos) << error;
         EXPECT_NE(error.find(part), std::string::npos) << error;
     };
     expect("frames 1\nfly 3\n", "2", "unknown command 'fly'");
-    expect("frames\n", "1", "takes 1 value");
+    expect("frames\n", "1", "needs 1 value, found 0");
     expect("frames 0\n", "1", "'0' is not a number from 1 to");
     expect("technique magic\n", "1", "unknown setting 'magic'; there are area,");
     expect("samples 65\n", "1", "'65' is not a number from 1 to 64");
