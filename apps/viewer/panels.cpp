@@ -9,7 +9,9 @@
 #include <imgui_stdlib.h>
 
 #include <exception>
+#include <filesystem>
 #include <functional>
+#include <utility>
 
 namespace nusselt::viewer {
 
@@ -79,12 +81,19 @@ void draw_times(const Viewer& viewer) {
 }
 
 void draw_errors(const Viewer& viewer) {
-    if (viewer.session.reference_frames() == 0) return;
     const render_vulkan::DisplayErrors& errors = viewer.session.errors();
-    ImGui::Text("reference of %u frames", viewer.session.reference_frames());
-    ImGui::Text("RMSE, %u frames: %.5g", viewer.session.frames(Side::left), errors.left);
-    if (viewer.state.is_split)
-        ImGui::Text("right, %u frames: %.5g", viewer.session.frames(Side::right), errors.right);
+    const bool has_reference = viewer.session.reference_frames() > 0;
+    for (const Side side : kSides) {
+        if (side == Side::right && !viewer.state.is_split) continue;
+        const std::uint32_t frames = viewer.session.frames(side);
+        const std::string error =
+            has_reference ? fmt::format(", RMSE {:.4g}", side == Side::left ? errors.left : errors.right)
+                          : "";
+        ImGui::Text("%s", fmt::format("{}: {} frame{}{}", side == Side::left ? "image" : "right", frames,
+                                      frames == 1 ? "" : "s", error)
+                              .c_str());
+    }
+    if (has_reference) ImGui::Text("reference: %u frames", viewer.session.reference_frames());
 }
 
 } // namespace
@@ -159,16 +168,17 @@ void Panels::draw_lights(Viewer& viewer) {
 
 void Panels::draw_files(Viewer& viewer) {
     ImGui::InputText("file", &file_);
-    const auto button = [&](const char* label, const char* done, const std::function<void()>& act) {
+    const auto button = [&](const char* label, const char* done, const std::filesystem::path& file,
+                            const std::function<void()>& act) {
         if (!ImGui::Button(label)) return;
         try {
             act();
-            viewer.message = fmt::format("{} {}", done, file_);
+            viewer.message = fmt::format("{} {}", done, file.string());
         } catch (const std::exception& error) {
             viewer.message = error.what();
         }
     };
-    button("screenshot", "wrote", [&] {
+    button("screenshot", "wrote", file_, [&] {
         command_ = write_screenshot(file_, viewer.session, viewer.state, viewer.files);
         fmt::print("{}\n", command_);
     });
@@ -176,24 +186,31 @@ void Panels::draw_files(Viewer& viewer) {
         ImGui::SameLine();
         if (ImGui::Button("copy its command")) ImGui::SetClipboardText(command_.c_str());
     }
-    button("save camera", "wrote", [&] { save_camera(file_, viewer.session, viewer.state); });
+    // A JSON file that was typed, else those beside the screenshot.
+    const bool is_json = std::filesystem::path(file_).extension() == ".json";
+    const std::filesystem::path camera = is_json ? std::filesystem::path(file_) : camera_file_of(file_);
+    const std::filesystem::path lights = is_json ? std::filesystem::path(file_) : lights_file_of(file_);
+    button("save camera", "wrote", camera, [&] { save_camera(camera, viewer.session, viewer.state); });
     ImGui::SameLine();
-    button("load camera", "read", [&] { load_camera(file_, viewer.session, viewer.state); });
-    button("save lights", "wrote", [&] { save_lights(file_, viewer.state); });
+    button("load camera", "read", camera, [&] { load_camera(camera, viewer.session, viewer.state); });
+    button("save lights", "wrote", lights, [&] { save_lights(lights, viewer.state); });
     ImGui::SameLine();
-    button("load lights", "read", [&] { viewer.load_lights(file_); });
+    button("load lights", "read", lights, [&] { viewer.load_lights(lights); });
     if (!viewer.message.empty()) ImGui::TextWrapped("%s", viewer.message.c_str());
 }
 
 void Panels::draw(Viewer& viewer) {
     ImGui::SetNextWindowPos({10, 10}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({330, 0}, ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Nusselt")) {
+    ImGui::SetNextWindowSizeConstraints({330, 0}, {600, ImGui::GetIO().DisplaySize.y - 20});
+    if (ImGui::Begin("Nusselt (F1 hides this)", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
         ImGui::PushItemWidth(200);
         draw_times(viewer);
         draw_errors(viewer);
         ImGui::Separator();
         draw_settings(viewer);
+        // What was clicked is there to be edited.
+        if (std::exchange(last_light_, viewer.state.selected_light) != viewer.state.selected_light)
+            ImGui::SetNextItemOpen(true);
         if (ImGui::CollapsingHeader("lights")) draw_lights(viewer);
         if (ImGui::CollapsingHeader("files")) draw_files(viewer);
         if (ImGui::CollapsingHeader("keys"))

@@ -20,6 +20,7 @@ private:
     void draw_files(Viewer& viewer);
 
     std::string file_ = "view.png";
+    std::optional<std::size_t> last_light_; ///< selected in the last frame
     // Of the selected light, while it is changed.
     std::optional<std::size_t> edited_light_;
     LightEdit edit_;

@@ -20,7 +20,8 @@ constexpr int kSmallestHeight = 720;
 void run_viewer(Viewer& viewer, const std::optional<std::filesystem::path>& script_path) {
     Script script = script_path ? Script(*script_path) : Script();
     const scene::Film& film = viewer.session.loaded().film;
-    Window window("Nusselt: " + viewer.files.scene.filename().string(), std::max(film.width, kSmallestWidth),
+    Window window("Nusselt: " + viewer.files.scene.filename().string(),
+                  std::max(film.width + static_cast<int>(kPanelWidth), kSmallestWidth),
                   std::max(film.height, kSmallestHeight));
     Panels panels;
     Controls controls;

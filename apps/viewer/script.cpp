@@ -174,9 +174,11 @@ std::map<std::string, Command> make_commands() {
          {0,
           [](Viewer& viewer, const Arguments&) {
               const render_vulkan::DisplayErrors& errors = viewer.session.errors();
-              fmt::print("left {}", errors.left);
-              if (viewer.state.is_split) fmt::print(", right {}", errors.right);
-              fmt::print(", of {} reference frames\n", viewer.session.reference_frames());
+              if (viewer.session.reference_frames() == 0)
+                  throw std::invalid_argument("there is no reference; `reference on` renders one");
+              fmt::print("RMSE {}", errors.left);
+              if (viewer.state.is_split) fmt::print(" left, {} right", errors.right);
+              fmt::print(" against {} reference frames\n", viewer.session.reference_frames());
           }}},
         {"quit", {0, [](Viewer& viewer, const Arguments&) { viewer.is_closing = true; }}},
     };

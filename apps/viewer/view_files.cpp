@@ -74,7 +74,8 @@ std::string command_of(const Session& session, const ViewState& state, const Sce
     const std::int64_t frames = std::max<std::int64_t>(session.frames(Side::left), 1);
     const std::int64_t samples = std::min<std::int64_t>(frames * settings.samples, render::kMaxSamples);
     command += fmt::format(" --spp {}", samples);
-    if (frames == 1) command += fmt::format(" --camera-rays 1 --seed {}", session.seed(Side::left));
+    if (frames == 1) command += " --camera-rays 1";
+    command += fmt::format(" --seed {}", frames == 1 ? session.seed(Side::left) : settings.seed);
     if (state.exposure != 0) command += fmt::format(" --exposure {}", state.exposure);
     return command + " -o " + quoted(output.string());
 }
@@ -91,15 +92,23 @@ std::string write_screenshot(const std::filesystem::path& path, const Session& s
             image::write_image(with_suffix(path, "-right" + path.extension().string()),
                                session.image(Side::right));
     }
-    const std::filesystem::path camera = with_suffix(path, ".camera.json");
+    const std::filesystem::path camera = camera_file_of(path);
     save_camera(camera, session, state);
     std::optional<std::filesystem::path> lights;
     if (!state.edits.empty()) {
-        lights = with_suffix(path, ".lights.json");
+        lights = lights_file_of(path);
         save_lights(*lights, state);
     }
     return command_of(session, state, files, camera, lights,
                       with_suffix(path, "-again" + path.extension().string()));
+}
+
+std::filesystem::path camera_file_of(const std::filesystem::path& screenshot) {
+    return with_suffix(screenshot, ".camera.json");
+}
+
+std::filesystem::path lights_file_of(const std::filesystem::path& screenshot) {
+    return with_suffix(screenshot, ".lights.json");
 }
 
 void save_camera(const std::filesystem::path& path, const Session& session, const ViewState& state) {

@@ -26,6 +26,10 @@ struct SceneFiles {
 std::string write_screenshot(const std::filesystem::path& path, const Session& session,
                              const ViewState& state, const SceneFiles& files);
 
+/// The names of files that go with a screenshot.
+std::filesystem::path camera_file_of(const std::filesystem::path& screenshot);
+std::filesystem::path lights_file_of(const std::filesystem::path& screenshot);
+
 void save_camera(const std::filesystem::path& path, const Session& session, const ViewState& state);
 /// The film keeps its size; what is seen along the shorter side stays. \throws std::runtime_error if it cannot be read
 void load_camera(const std::filesystem::path& path, const Session& session, ViewState& state);

@@ -67,12 +67,14 @@ GLFWwindow* make_window(const std::string& title, int width, int height) {
     return window;
 }
 
-/// As large as fits into the window, in its middle.
+/// As large as fits into the window, beside the panels if there is room, else in its middle.
 PicturePlace place_of(float width, float height, const ImVec2& window) {
     float scale = std::min(window.x / width, window.y / height);
     // Enlarged by a whole number, all pixels have the same size.
     if (scale > 1) scale = std::floor(scale);
-    return {(window.x - scale * width) / 2, (window.y - scale * height) / 2, scale * width, scale * height};
+    const float panels = window.x >= scale * width + kPanelWidth ? kPanelWidth : 0;
+    return {panels + (window.x - panels - scale * width) / 2, (window.y - scale * height) / 2, scale * width,
+            scale * height};
 }
 
 } // namespace

@@ -11,6 +11,9 @@ struct GLFWwindow;
 
 namespace nusselt::viewer {
 
+/// What panels take of the window, at the left [pixels].
+inline constexpr float kPanelWidth = 350;
+
 /// Where the picture is in the window [pixels of the window].
 struct PicturePlace {
     float x = 0, y = 0, width = 1, height = 1;

@@ -102,18 +102,20 @@ TEST_F(Bias, OfBathroom_ThereIsNone) {
 }
 
 /// The test of the test.
-TEST_F(Bias, OfADimmedLight_IsFound_WithAWideFilterToo) {
-    for (const scene::PixelFilter& filter : {scene::PixelFilter(), kWideFilter}) {
+TEST_F(Bias, OfADimmedLight_IsFound) {
+    // With a wide filter and without the sum of squares less is found.
+    for (const auto& [filter, factor] :
+         {std::pair(scene::PixelFilter(), 0.97f), std::pair(kWideFilter, 0.8f)}) {
         scene::Scene scene = make_rich_scene(kWidth, kHeight);
         scene.film.filter = filter;
         const BiasStatistics reference = of_cpu(scene);
         for (scene::PolygonLight& light : scene.polygon_lights)
             for (float* channel : {&light.radiance.x, &light.radiance.y, &light.radiance.z})
-                *channel *= 0.97f;
-        VulkanRenderer mutant(device(), scene, ShadowRays::bvh);
-        experiments::BiasTest test = of_gpu(std::move(mutant)).compare(reference);
+                *channel *= factor;
+        experiments::BiasTest test =
+            of_gpu(VulkanRenderer(device(), scene, ShadowRays::bvh)).compare(reference);
         if (filter.kind != scene::FilterKind::box) leave_out_sum_of_squares(test);
-        EXPECT_FALSE(test.passes());
+        EXPECT_FALSE(test.passes()) << factor;
     }
 }
 

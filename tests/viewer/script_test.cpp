@@ -146,9 +146,9 @@ TEST_F(ScriptTest, CommandsNameTheirSettings) {
         "-o out.exr");
     viewer.next_frame();
     viewer.next_frame();
-    EXPECT_NE(
-        command_of(viewer.session, viewer.state, viewer.files, "c.json", {}, "o.exr").find("--spp 3 -o"),
-        std::string::npos);
+    EXPECT_NE(command_of(viewer.session, viewer.state, viewer.files, "c.json", {}, "o.exr")
+                  .find("--spp 3 --seed 0 -o"),
+              std::string::npos);
 }
 
 TEST_F(ScriptTest, NamesTheLineOfAMistake) {
