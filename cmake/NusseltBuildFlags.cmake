@@ -5,13 +5,16 @@ if(PROJECT_IS_TOP_LEVEL)
     endif()
     find_program(CCACHE ccache)
     if(CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
-        set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+        # Without these ccache leaves units with precompiled headers alone.
+        set(CMAKE_CXX_COMPILER_LAUNCHER
+            ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
     endif()
 endif()
 
 add_library(nusselt_build_flags INTERFACE)
 target_compile_features(nusselt_build_flags INTERFACE cxx_std_20)
-target_include_directories(nusselt_build_flags INTERFACE ${PROJECT_SOURCE_DIR}/src)
+# Modules of src/ are included as "module/file.h", all else by its path from the root, such as "proof/hostile/lights.h".
+target_include_directories(nusselt_build_flags INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
 target_compile_options(nusselt_build_flags INTERFACE
     # The baseline. The packet kernels add AVX2 and AVX-512 units of their own, chosen at run time.
     -march=x86-64-v2
@@ -21,6 +24,8 @@ target_compile_options(nusselt_build_flags INTERFACE
     -fno-math-errno
     # It packs neighbouring scalars of long chains, which costs more than it saves (docs/performance.md, entry 16).
     $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
+    # ccache needs it for units with precompiled headers.
+    $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
     -Wall -Wextra -Wpedantic -Wshadow
     # GCC 12 warns of every `"text" + std::string` (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>

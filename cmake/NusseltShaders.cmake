@@ -60,3 +60,9 @@ function(nusselt_add_technique_shader target name entry file struct)
     configure_file(${PROJECT_SOURCE_DIR}/cmake/technique_shader.comp.in ${source} @ONLY)
     nusselt_add_shader(${target} ${name} ${source} DEFINES ${arg_DEFINES})
 endfunction()
+
+# nusselt_use_vulkan_headers(target): compiles the target with the precompiled vulkan_raii.hpp of nusselt_gpu, which takes
+# longer to read than most units take otherwise. Both have to have the same flags.
+function(nusselt_use_vulkan_headers target)
+    target_precompile_headers(${target} REUSE_FROM nusselt_gpu)
+endfunction()

@@ -8,7 +8,7 @@ trap 'rm -rf "$tree"' EXIT
 # Whether the check passes on a tree whose only source file is $1 with the line `#include $2`.
 passes() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/{include,src,apps,shaders} "$tree/$(dirname "$1")"
+    mkdir -p "$tree"/{include,src,proof,lab,apps,shaders} "$tree/$(dirname "$1")"
     printf '#pragma once\n#include %s\n' "$2" >"$tree/$1"
     "$check" "$tree" >"$tree/report"
 }
@@ -32,8 +32,15 @@ right src/visibility/a.cpp "scene/scene.h"
 right src/render_cpu/a.cpp <nusselt/simd/pack.h>
 right src/render_cpu/a.cpp <embree3/rtcore.h>
 right src/gpu/a.cpp "shaders/b.h"
-right src/experiments/a.cpp "gpu/b.h"
-right apps/nusselt/a.cpp "experiments/b.h"
+right lab/timing/a.cpp "gpu/b.h"
+right lab/timing/a.cpp "proof/hostile/b.h"
+right apps/nusselt-lab/bench/a.cpp "lab/timing/b.h"
+right apps/nusselt/render/a.cpp "apps/common/b.h"
+wrong apps/nusselt/render/a.cpp "lab/timing/b.h"
+wrong apps/nusselt/render/a.cpp "proof/b.h"
+wrong apps/nusselt/render/a.cpp "apps/nusselt-lab/bench/b.h"
+wrong proof/a.h "lab/timing/b.h"
+wrong src/render_cpu/a.cpp "proof/b.h"
 wrong src/gpu/a.cpp "render_cpu/b.h"
 wrong src/render_cpu/a.cpp "gpu/b.h"
 right apps/nusselt/a.cpp "commands.h"
@@ -65,10 +72,10 @@ wrong include/nusselt/core/a.h "../geometry/b.h"
 wrong src/image/a.cpp "scene/scene.h"
 wrong src/scene/a.cpp "visibility/b.h"
 wrong src/visibility/a.cpp "render_cpu/b.h"
-wrong src/render_cpu/a.cpp "experiments/b.h"
+wrong src/render_cpu/a.cpp "lab/timing/b.h"
 wrong src/render_cpu/a.cpp "local.h"
 wrong src/render_cpu/a.cpp "nusselt/core/vec.h"
-wrong src/experiments/a.cpp "nusselt_app/commands.h"
+wrong lab/timing/a.cpp "apps/nusselt/b.h"
 wrong src/scene/a.cpp "tests/b.h"
 CASES
 exit $failed

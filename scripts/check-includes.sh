@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "${1:-$(dirname "$0")/..}"
 
-find include src apps shaders -name '*.h' -o -name '*.cpp' -o -name '*.glsl' -o -name '*.comp' -o -name '*.vert' -o -name '*.frag' | LC_ALL=C sort | xargs awk '
+find include src proof lab apps shaders -name '*.h' -o -name '*.cpp' -o -name '*.glsl' -o -name '*.comp' -o -name '*.vert' -o -name '*.frag' | LC_ALL=C sort | xargs awk '
 BEGIN {
     # Layer, then the layers that it may include besides itself. "library" is all of include/nusselt.
     # simd is a leaf: templates see packs through the operations that core names.
@@ -25,24 +25,30 @@ BEGIN {
     allow("include/estimate", below)
     allow("include/all", below " include/estimate")
 
-    allow("src/image", "library")
-    allow("src/scene", "library src/image")
+    # What proves: right above the library; tests, fuzzers and the laboratory share it.
+    allow("proof", "library src/visibility")
+    allow("src/base", "")
+    allow("src/image", "library src/base")
+    allow("src/scene", "library src/base src/image")
     allow("src/visibility", "library src/scene src/interface")
     allow("src/tables", "library")
-    allow("src/fit", "library src/image")
+    allow("src/fit", "library src/base src/image")
     allow("src/render", "src/image src/scene")
-    allow("src/render_cpu", "library src/image src/scene src/visibility src/tables src/render")
+    allow("src/render_cpu", "library src/base src/image src/scene src/visibility src/tables src/render")
     # SPIR-V as arrays, which the build makes. The two renderers never see each other.
     allow("src/shaders", "")
     # Structures that C++ and shaders share: shaders/interface.
     allow("src/interface", "")
     allow("src/gpu", "library src/shaders")
     allow("src/render_vulkan", "library src/image src/scene src/visibility src/tables src/render src/gpu src/shaders src/interface")
-    below = "library src/image src/scene src/visibility src/render src/render_cpu src/render_vulkan src/gpu src/shaders"
-    below = below " src/tables"
-    allow("src/experiments", below)
-    allow("apps/viewer", below " src/experiments")
-    allow("apps/nusselt", below " src/experiments src/fit apps/viewer")
+    below = "library src/base src/image src/scene src/visibility src/render src/render_cpu src/render_vulkan src/gpu"
+    below = below " src/shaders src/tables"
+    allow("apps/common", below)
+    allow("apps/viewer", below)
+    # The product links nothing of the laboratory.
+    allow("apps/nusselt", below " apps/common apps/viewer")
+    allow("lab", below " proof")
+    allow("apps/nusselt-lab", below " proof lab src/fit apps/common")
 
     allow("shaders/interface", "shaders/nusselt")
     below = "shaders/nusselt shaders/interface"
@@ -66,15 +72,20 @@ function report(message) {
 
 # The layer of a file, from its path: include/nusselt/core/vec.h is in include/core, the headers directly
 # in include/nusselt are in include/all; shaders/nusselt/core/vec.glsl is in include/core, too.
-function layer_of(path,    parts, count) {
+function layer_of(path,    parts, count, folder) {
     count = split(path, parts, "/")
     if (path ~ /^shaders\/nusselt\//) return "include/" parts[3]
     if (parts[1] == "include") return count == 3 ? "include/all" : "include/" parts[3]
+    folder = path
+    while (sub(/\/[^\/]*$/, "", folder)) if (folder in known) return folder
     return parts[1] "/" parts[2]
 }
 
-# The layer of "name/...": modules of src, else folders of apps.
-function folder_of(name) { return ("apps/" name) in known && !(("src/" name) in known) ? "apps/" name : "src/" name }
+# The layer of "name/...": a path from the root for proof, lab and apps, else a module of src or apps/viewer.
+function included_layer(name) {
+    if (name ~ /^(proof|lab|apps)\//) return layer_of(name)
+    return name ~ /^viewer\// ? "apps/viewer" : layer_of("src/" name)
+}
 
 function check(from, to,    layer) {
     if (!(to in known)) return report("no layer " to "; new layers are entered in scripts/check-includes.sh")
@@ -111,7 +122,7 @@ FNR == 1 {
         if (quoted) report("write <" name ">")
         check(from, layer_of("include/" name))
     } else if (quoted && in_library) report("the library includes itself as <nusselt/...>")
-    else if (quoted && name ~ /\//) check(from, folder_of(substr(name, 1, index(name, "/") - 1)))
+    else if (quoted && name ~ /\//) check(from, included_layer(name))
     else if (quoted && from !~ /^apps/) report("write \"module/" name "\"")
     else if (!quoted && in_library && name ~ /[.\/]/ && !(from == "include/simd" && name ~ /^(immintrin|arm_neon)\.h$/))
         report("the library uses the standard library only, not <" name ">")

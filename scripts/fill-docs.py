@@ -6,7 +6,7 @@
     <!-- end -->
 
 Usage: scripts/fill-docs.py ACCURACY.json SAMPLERS.json CPU [ROOT]
-ACCURACY.json is from `nusselt bench accuracy --json`, SAMPLERS.json from `nusselt bench samplers --json`, CPU the name of
+ACCURACY.json is from `nusselt-lab bench accuracy --json`, SAMPLERS.json from `nusselt-lab bench samplers --json`, CPU the name of
 the processor that the latter ran on. Members and rows that are not known here are ignored.
 """
 import json

@@ -6,7 +6,7 @@
     <!-- end -->
 
 Usage: scripts/fill-line-samples.py REPORTS CPU [ROOT]
-REPORTS is the folder that `nusselt reproduce -o REPORTS` wrote, CPU the name of the processor that it ran on.
+REPORTS is the folder that `nusselt-lab reproduce -o REPORTS` wrote, CPU the name of the processor that it ran on.
 """
 import json
 import math

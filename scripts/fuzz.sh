@@ -24,9 +24,9 @@ for harness in "${harnesses[@]}"; do
 done
 [ "$count" -gt 0 ] || exit $status
 
-cmake --build --preset release --target nusselt_app
+cmake --build --preset release --target nusselt_lab_app
 for scalar in float double; do
     echo "== hostile lights: $scalar, seed $seed"
-    build/release/apps/nusselt/nusselt bench fuzz --scalar "$scalar" --seed "$seed" --count "$count" || status=1
+    build/release/apps/nusselt-lab/nusselt-lab fuzz --scalar "$scalar" --seed "$seed" --count "$count" || status=1
 done
 exit $status

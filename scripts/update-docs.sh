@@ -4,10 +4,10 @@
 #   pictures  only the pictures, which are the same on every machine; the tables take some minutes
 #   lines     only the tables and plots of docs/line-samples.md, which take half an hour and a machine that is idle;
 #             NUSSELT_SCENES must name the folder with sponza/
-# NUSSELT names the program; default: build/release/apps/nusselt/nusselt
+# NUSSELT names the program; default: build/release/apps/nusselt-lab/nusselt-lab
 set -euo pipefail
 cd "$(dirname "$0")/.."
-program=${NUSSELT:-build/release/apps/nusselt/nusselt}
+program=${NUSSELT:-build/release/apps/nusselt-lab/nusselt-lab}
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -1,6 +1,6 @@
 #include "view_files.h"
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "image/io.h"
 #include "image/srgb.h"
 #include "render/film.h"
@@ -21,7 +21,7 @@ namespace nusselt::viewer {
 namespace {
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
-    image::write_atomically(path, [&](std::ofstream& stream) { stream << text; });
+    base::write_atomically(path, [&](std::ofstream& stream) { stream << text; });
 }
 
 /// A word of a shell command.

@@ -1,6 +1,6 @@
 #include "fit/table_fit.h"
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
@@ -59,7 +59,7 @@ void TableFit::resume(const std::filesystem::path& checkpoint) {
 }
 
 void TableFit::save(const std::filesystem::path& checkpoint) const {
-    image::write_atomically(checkpoint, [&](std::ofstream& file) {
+    base::write_atomically(checkpoint, [&](std::ofstream& file) {
         const auto count = static_cast<std::size_t>(finished_ * size_.inclination);
         file << title_of(*brdf_, size_) << '\n' << finished_ << '\n';
         file.write(reinterpret_cast<const char*>(entries_.data()),

@@ -22,7 +22,7 @@ public:
     /// Continues where the file says that an earlier run got to. Does nothing if there is no such file.
     /// \throws std::runtime_error naming the file if it is not a checkpoint, damaged or of another table
     void resume(const std::filesystem::path& checkpoint);
-    /// Writes a checkpoint. \throws std::runtime_error as image::write_atomically
+    /// Writes a checkpoint. \throws std::runtime_error as base::write_atomically
     void save(const std::filesystem::path& checkpoint) const;
 
     /// Columns, of a roughness and f0 each.

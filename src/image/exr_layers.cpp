@@ -1,4 +1,4 @@
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "image/codecs.h"
 #include "image/exr_part.h"
 #include "image/layers.h"
@@ -167,7 +167,7 @@ LayeredImage decode_exr_layers(std::ifstream& stream, const std::string& name) {
 
 void write_layers(const std::filesystem::path& path, const LayeredImage& image) {
     check_before_writing(image);
-    write_atomically(path, [&](std::ofstream& stream) { encode(stream, path.string(), image); });
+    base::write_atomically(path, [&](std::ofstream& stream) { encode(stream, path.string(), image); });
 }
 
 const Layer* find_layer(const LayeredImage& image, std::string_view name) {

@@ -1,6 +1,6 @@
 #include "image/io.h"
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "image/codecs.h"
 
 #include <algorithm>
@@ -110,14 +110,14 @@ void write_image(const std::filesystem::path& path, const Image& image, const Me
         break;
     }
     case OutputFormat::png:
-        write_atomically(path,
-                         [&](std::ofstream& stream) { encode_png(stream, image, std::exp2(exposure)); });
+        base::write_atomically(
+            path, [&](std::ofstream& stream) { encode_png(stream, image, std::exp2(exposure)); });
         break;
     case OutputFormat::hdr:
-        write_atomically(path, [&](std::ofstream& stream) { encode_hdr(stream, image); });
+        base::write_atomically(path, [&](std::ofstream& stream) { encode_hdr(stream, image); });
         break;
     case OutputFormat::pfm:
-        write_atomically(path, [&](std::ofstream& stream) { encode_pfm(stream, image); });
+        base::write_atomically(path, [&](std::ofstream& stream) { encode_pfm(stream, image); });
         break;
     }
 }
@@ -125,7 +125,7 @@ void write_image(const std::filesystem::path& path, const Image& image, const Me
 void check_writable(const std::filesystem::path& path) {
     struct Abandoned {};
     try {
-        write_atomically(path, [](std::ofstream&) { throw Abandoned(); });
+        base::write_atomically(path, [](std::ofstream&) { throw Abandoned(); });
     } catch (const Abandoned&) {
         // As it should be: a temporary file could be created and is gone again.
     }

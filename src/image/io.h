@@ -23,7 +23,7 @@ namespace nusselt::image {
 ///   become 0, values above 2^127 become the largest that the format holds.
 /// - `.pfm`: three 32-bit floats, little endian, bit exact.
 ///
-/// The file appears under its name only when it is complete, see write_atomically().
+/// The file appears under its name only when it is complete, see base::write_atomically().
 /// \param metadata  stored by EXR only; keys of 1 to 200 bytes
 /// \param exposure  in stops, used by PNG only
 /// \throws std::invalid_argument  if the image is empty or its size does not fit its number of floats, or if a key is too
@@ -31,7 +31,7 @@ namespace nusselt::image {
 void write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata = {},
                  double exposure = 0);
 
-/// Tells before a long computation whether write_atomically() could create this file. An existing file stays as it is.
+/// Tells before a long computation whether base::write_atomically() could create this file. An existing file stays as it is.
 /// \throws std::runtime_error see there
 void check_writable(const std::filesystem::path& path);
 

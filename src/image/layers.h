@@ -40,7 +40,7 @@ struct LayeredImage {
 
 /// Writes all layers as 32-bit floats into one EXR file without compression. The channel of a layer is called
 /// `layer.channel`, as other programs expect it, and just `channel` in the layer without name. The file
-/// appears under its name only when it is complete, see write_atomically().
+/// appears under its name only when it is complete, see base::write_atomically().
 /// \throws std::invalid_argument  if a window is empty, a layer has another number of floats than its channels
 ///                                and the data window need, names repeat, are too long (200 bytes) or, in
 ///                                channels, empty or with a dot, or a metadata key is too short or too long

@@ -1,6 +1,6 @@
 #include "render_cpu/checkpoint.h"
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "scene/content_hash.h"
 
 #include <array>
@@ -173,7 +173,7 @@ image::Metadata describe_run(image::Metadata settings, const Frame& frame) {
 
 void save_checkpoint(const std::filesystem::path& path, const image::Metadata& run, const Frame& frame,
                      const std::vector<std::size_t>& tiles) {
-    image::write_atomically(path, [&](std::ofstream& stream) { write_file(stream, run, frame, tiles); });
+    base::write_atomically(path, [&](std::ofstream& stream) { write_file(stream, run, frame, tiles); });
 }
 
 void load_checkpoint(const std::filesystem::path& path, const image::Metadata& run, Frame& frame) {

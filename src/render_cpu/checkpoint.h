@@ -15,7 +15,7 @@ namespace nusselt::render_cpu {
 image::Metadata describe_run(image::Metadata settings, const Frame& frame);
 
 /// Stores finished tiles. The file replaces an older one at once when it is complete: whenever the program is killed,
-/// one of both is there, see image::write_atomically().
+/// one of both is there, see base::write_atomically().
 /// \param run   from describe_run()
 /// \param tiles numbers of those tiles of the frame; no thread may change their pixels
 /// \throws std::runtime_error naming the path, if it cannot be written

@@ -2,6 +2,7 @@
 /// What the renderer hands to the kernels: plain data only, so that code compiled for different instruction
 /// sets agrees on it. No type of the library appears here, nor any inline function.
 
+#include "base/isa.h"
 #include "render/pixel_filter.h"
 #include "render/settings.h"
 #include "scene/scene.h"
@@ -199,11 +200,8 @@ struct TileMemory {
 using RenderTile = void (*)(const RenderJob& job, const Tile& tile, const TileMemory& memory,
                             TileStatistics& statistics);
 
-void render_tile_sse42(const RenderJob& job, const Tile& tile, const TileMemory& memory,
-                       TileStatistics& statistics);
-void render_tile_avx2(const RenderJob& job, const Tile& tile, const TileMemory& memory,
-                      TileStatistics& statistics);
-void render_tile_avx512(const RenderJob& job, const Tile& tile, const TileMemory& memory,
-                        TileStatistics& statistics);
+template <base::Isa>
+void render_tile(const RenderJob& job, const Tile& tile, const TileMemory& memory,
+                 TileStatistics& statistics);
 
 } // namespace nusselt::render_cpu

@@ -7,7 +7,7 @@ namespace nusselt::render_cpu {
 
 namespace {
 
-// Measured by `nusselt bench line-efficiency`, not derived (docs/performance.md, entry 37): the more lines there are, the
+// Measured by `nusselt-lab bench line-efficiency`, not derived (docs/performance.md, entry 37): the more lines there are, the
 // fewer blocks concern each pack, since neighbours share one.
 constexpr double kBlocksPerSquaredLine = 24.0 / (16 * 16);
 constexpr double kPointsExponent = 1.4;

@@ -1,5 +1,5 @@
 #pragma once
-/// Lines or points: what is faster depends on how many triangles may hide a light from a shading point. `nusselt bench
+/// Lines or points: what is faster depends on how many triangles may hide a light from a shading point. `nusselt-lab bench
 /// line-efficiency` measures both, and what the choice between them loses.
 
 #include "render/settings.h"

@@ -1,8 +1,8 @@
 #include "render_cpu/renderer.h"
 
+#include "base/flush_denormals.h"
 #include "render/film.h"
 #include "render/metadata.h"
-#include "render_cpu/flush_denormals.h"
 #include "render_cpu/line_choice.h"
 
 #include "tables/ltc_table.h"
@@ -133,12 +133,13 @@ visibility::LineBvhView Renderer::Lines::get(const scene::Scene& scene, tbb::tas
     return bvh_->view();
 }
 
-RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const RenderMonitor& monitor) const {
+RenderResult Renderer::render(const RenderSettings& settings, base::Isa isa,
+                              const RenderMonitor& monitor) const {
     return render(settings, isa, embree_.tracer(), monitor);
 }
 
-RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const visibility::RayTracer& tracer,
-                              const RenderMonitor& monitor) const {
+RenderResult Renderer::render(const RenderSettings& settings, base::Isa isa,
+                              const visibility::RayTracer& tracer, const RenderMonitor& monitor) const {
     validate(settings);
     Frame frame = make_frame(scene_, settings);
     RenderResult result;
@@ -149,7 +150,7 @@ RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const vis
     return result;
 }
 
-RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& settings, Isa isa,
+RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& settings, base::Isa isa,
                                        const visibility::RayTracer& tracer,
                                        const RenderMonitor& monitor) const {
     const FrameTargets targets(frame);
@@ -186,7 +187,8 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.has_layers = !frame.layers.empty();
     job.layers = targets.layers();
 
-    const RenderTile render_tile = kernel_for(isa);
+    const auto render_tile_here =
+        base::dispatch(isa, []<base::Isa chosen>() -> RenderTile { return render_tile<chosen>; });
     const std::size_t summed_emitters = job.layers.lights == nullptr ? 0 : scene_.emitters.size();
     const std::size_t line_bytes = settings.integrator == Integrator::lines ? kLineMemoryBytes : 0;
     tbb::enumerable_thread_specific<ThreadMemory> memory(summed_emitters, line_bytes);
@@ -195,9 +197,9 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     arena_.execute([&] {
         tbb::parallel_for(std::size_t(0), frame.tiles.size(), [&](std::size_t i) {
             if (frame.is_finished[i] != 0 || (monitor.cancel != nullptr && *monitor.cancel)) return;
-            const FlushDenormals flush_denormals;
+            const base::FlushDenormals flush_denormals;
             TileStatistics work{};
-            render_tile(job, frame.tiles[i], memory.local().view(), work);
+            render_tile_here(job, frame.tiles[i], memory.local().view(), work);
             tally.add(i, work);
         });
     });
@@ -226,7 +228,7 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     return statistics;
 }
 
-image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& settings, Isa isa) {
+image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& settings, base::Isa isa) {
     image::Metadata metadata = render::make_metadata(scene, settings);
     metadata["isa"] = std::string(name_of(isa));
     return metadata;

@@ -1,10 +1,10 @@
 #pragma once
 /// Renders direct light of a scene with all cores.
 
+#include "base/isa.h"
 #include "image/image.h"
 #include "render/settings.h"
 #include "render_cpu/frame.h"
-#include "render_cpu/isa.h"
 #include "render_cpu/kernel_arrays.h"
 #include "scene/scene.h"
 #include "visibility/embree_scene.h"
@@ -78,17 +78,18 @@ public:
 
     /// \throws std::invalid_argument see validate()
     /// \throws std::runtime_error see make_frame(), and LineBvh for line samples
-    RenderResult render(const RenderSettings& settings, Isa isa, const RenderMonitor& monitor = {}) const;
+    RenderResult render(const RenderSettings& settings, base::Isa isa,
+                        const RenderMonitor& monitor = {}) const;
 
     /// As above with another way to trace rays, which must behave like that of the scene.
-    RenderResult render(const RenderSettings& settings, Isa isa, const visibility::RayTracer& tracer,
+    RenderResult render(const RenderSettings& settings, base::Isa isa, const visibility::RayTracer& tracer,
                         const RenderMonitor& monitor = {}) const;
 
     /// Renders the tiles of a frame that are not finished.
     /// \param frame    from make_frame() with this scene and these settings
     /// \param settings valid
     /// \throws std::runtime_error see LineBvh, for line samples
-    RenderStatistics render_into(Frame& frame, const RenderSettings& settings, Isa isa,
+    RenderStatistics render_into(Frame& frame, const RenderSettings& settings, base::Isa isa,
                                  const visibility::RayTracer& tracer, const RenderMonitor& monitor) const;
 
     const visibility::EmbreeScene& visibility() const { return embree_; }
@@ -120,6 +121,6 @@ private:
 int default_thread_count();
 
 /// Settings, program version and a fingerprint of the scene, for the metadata of image files.
-image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& settings, Isa isa);
+image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& settings, base::Isa isa);
 
 } // namespace nusselt::render_cpu

@@ -27,72 +27,52 @@ namespace nusselt {
 
 namespace {
 
+void expect_help(const Outcome& help, const char* command) {
+    EXPECT_EQ(help.exit_code, 0) << command;
+    EXPECT_NE(help.out.find("Usage:"), std::string::npos) << command;
+}
+
 TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
-    for (const char* command : {"",
-                                "render",
-                                "merge",
-                                "info",
-                                "lights",
-                                "techniques",
-                                "compare",
-                                "convert",
-                                "bench",
-                                "bench rays",
-                                "bench strategies",
-                                "bench samplers",
-                                "bench accuracy",
-                                "bench worst-case",
-                                "bench fuzz",
-                                "bench tubes",
-                                "bench phong-lines",
-                                "bench shadows",
-                                "bench lines",
-                                "bench line-efficiency",
-                                "map",
-                                "reproduce",
-                                "fit-ltc"}) {
-        const Outcome help = run(std::string(command) + " --help");
-        EXPECT_EQ(help.exit_code, 0) << command;
-        EXPECT_NE(help.out.find("Usage:"), std::string::npos) << command;
-    }
+    for (const char* command :
+         {"", "render", "view", "merge", "info", "lights", "camera", "techniques", "compare", "convert"})
+        expect_help(run(std::string(command) + " --help"), command);
+    for (const char* command :
+         {"", "bench", "bench rays", "bench strategies", "bench samplers", "bench accuracy",
+          "bench worst-case", "bench tubes", "bench phong-lines", "bench scale", "bench shadows",
+          "bench lines", "bench line-efficiency", "fuzz", "map", "reproduce", "fit-ltc"})
+        expect_help(run_lab(std::string(command) + " --help"), command);
+}
+
+/// Users of the renderer get no commands of the laboratory, and the other way round.
+TEST_F(CommandLine, ProgramsKeepToTheirOwnCommands) {
+    for (const char* command : {"bench", "fuzz", "map", "reproduce", "fit-ltc"})
+        EXPECT_EQ(run(std::string(command) + " --help").exit_code, 2) << command;
+    for (const char* command : {"render", "merge", "info", "compare"})
+        EXPECT_EQ(run_lab(std::string(command) + " --help").exit_code, 2) << command;
 }
 
 TEST_F(CommandLine, WrongUsageExitsWithTwo) {
     expect_message(run("").err, "subcommand");
-    for (const char* arguments : {"",
-                                  "polish",
-                                  "render",
-                                  "render a.pbrt --spp 0",
-                                  "render a.pbrt --technique magic",
-                                  "render a.pbrt --spp",
-                                  "render a.pbrt --exposure nan",
-                                  "compare a.exr",
-                                  "compare a.exr b.exr --max mse",
-                                  "compare a.exr b.exr --metrics beauty",
-                                  "convert a.exr",
-                                  "convert a.exr b.png --exposure nan",
-                                  "bench samplers --isa mmx",
-                                  "reproduce no-such-experiment",
-                                  "bench worst-case --target spheres",
-                                  "bench worst-case --time 0",
-                                  "bench worst-case --time nan",
-                                  "bench worst-case --starts -1",
-                                  "bench accuracy --count 0",
-                                  "bench tubes --repetitions 0",
-                                  "bench phong-lines --repetitions 0",
-                                  "bench fuzz --count -1",
-                                  "bench shadows --count 0",
-                                  "bench shadows --seed -3",
-                                  "bench fuzz --count 18446744073709551616",
-                                  "bench fuzz --seed -3",
-                                  "bench fuzz --count 1e3",
-                                  "render a.pbrt --frobnicate",
-                                  "render a.pbrt --spp 4 --camera-rays 3",
-                                  "render a.pbrt --resolution 0x9",
-                                  "render a.pbrt --resolution 9x65537"}) {
+    for (const char* arguments :
+         {"", "polish", "render", "render a.pbrt --spp 0", "render a.pbrt --technique magic",
+          "render a.pbrt --spp", "render a.pbrt --exposure nan", "compare a.exr",
+          "compare a.exr b.exr --max mse", "compare a.exr b.exr --metrics beauty", "convert a.exr",
+          "convert a.exr b.png --exposure nan", "render a.pbrt --frobnicate",
+          "render a.pbrt --spp 4 --camera-rays 3", "render a.pbrt --resolution 0x9",
+          "render a.pbrt --resolution 9x65537"}) {
         const Outcome wrong = run(arguments);
         EXPECT_EQ(wrong.exit_code, 2) << arguments;
         expect_message(wrong.err, "--help");
+    }
+    for (const char* arguments :
+         {"bench samplers --isa mmx", "reproduce no-such-experiment", "bench worst-case --target spheres",
+          "bench worst-case --time 0", "bench worst-case --time nan", "bench worst-case --starts -1",
+          "bench accuracy --count 0", "bench tubes --repetitions 0", "bench phong-lines --repetitions 0",
+          "fuzz --count -1", "bench shadows --count 0", "bench shadows --seed -3",
+          "fuzz --count 18446744073709551616", "fuzz --seed -3", "fuzz --count 1e3"}) {
+        const Outcome wrong = run_lab(arguments);
+        EXPECT_EQ(wrong.exit_code, 2) << arguments;
+        expect_lab_message(wrong.err, "--help");
     }
 }
 
@@ -126,21 +106,24 @@ TEST_F(CommandLine, ErrorsExitWithOneAndOneLine) {
     }
     for (const char* command :
          {"bench accuracy --markdown", "bench samplers --json", "bench worst-case --json"}) {
-        const Outcome early = run(std::string(command) + " no/such/folder/a");
+        const Outcome early = run_lab(std::string(command) + " no/such/folder/a");
         EXPECT_EQ(early.exit_code, 1) << command;
-        expect_message(early.err, "cannot write");
+        expect_lab_message(early.err, "cannot write");
     }
-    const Outcome same = run("bench accuracy --json a --markdown a");
+    const Outcome same = run_lab("bench accuracy --json a --markdown a");
     EXPECT_EQ(same.exit_code, 1);
-    expect_message(same.err, "same file");
+    expect_lab_message(same.err, "same file");
 }
 
 TEST_F(CommandLine, LostOutputIsAnError) {
-    for (const char* command :
-         {"techniques", "--help", "bench fuzz --count 1", "bench worst-case --starts 1 --convergence 0"}) {
-        const Outcome lost = run(std::string(command) + " >/dev/full 2>lost.txt #");
-        EXPECT_EQ(lost.exit_code, 1) << command;
+    const std::string lose = " >/dev/full 2>lost.txt #";
+    for (const char* command : {"techniques", "--help"}) {
+        EXPECT_EQ(run(command + lose).exit_code, 1) << command;
         expect_message(read("lost.txt"), "cannot be written");
+    }
+    for (const char* command : {"--help", "fuzz --count 1", "bench worst-case --starts 1 --convergence 0"}) {
+        EXPECT_EQ(run_lab(command + lose).exit_code, 1) << command;
+        expect_lab_message(read("lost.txt"), "cannot be written");
     }
 }
 
@@ -228,7 +211,7 @@ TEST_F(CommandLine, TellsWhatASceneAndTheProgramContain) {
     for (const char* name : {"area", "solid_angle", "clipped_solid_angle", "projected_solid_angle",
                              "projected_solid_angle_biased"})
         EXPECT_NE(techniques.out.find(name), std::string::npos) << name;
-    const Outcome list = run("reproduce --list");
+    const Outcome list = run_lab("reproduce --list");
     EXPECT_EQ(list.exit_code, 0);
     for (const char* name : {"line-diffuse", "planes"})
         EXPECT_NE(list.out.find(name), std::string::npos) << list.out;
@@ -236,7 +219,7 @@ TEST_F(CommandLine, TellsWhatASceneAndTheProgramContain) {
 
 TEST_F(CommandLine, ReproduceWritesAPage) {
     const Outcome reproduce =
-        run("reproduce line-diffuse --width 48 --reference-spp 64 --scenes '" + kScenes + "' -o pages");
+        run_lab("reproduce line-diffuse --width 48 --reference-spp 64 --scenes '" + kScenes + "' -o pages");
     EXPECT_EQ(reproduce.exit_code, 0) << reproduce.out << reproduce.err;
     EXPECT_NE(read("pages/index.html").find("line-diffuse/index.html"), std::string::npos);
     EXPECT_NE(read("pages/line-diffuse/index.html").find("reference.png"), std::string::npos);
@@ -244,15 +227,15 @@ TEST_F(CommandLine, ReproduceWritesAPage) {
 
 TEST_F(CommandLine, TimesASecondTechnique) {
     const Outcome bench =
-        run("bench strategies '" + kScenes + "/planes.pbrt' --resolution 64x48 --repetitions 3");
+        run_lab("bench strategies '" + kScenes + "/planes.pbrt' --resolution 64x48 --repetitions 3");
     EXPECT_EQ(bench.exit_code, 0) << bench.err;
     EXPECT_NE(bench.out.find("diffuse+ltc"), std::string::npos) << bench.out;
 }
 
 TEST_F(CommandLine, MeasuresWhatLinesCost) {
-    const Outcome bench =
-        run("bench lines '" + kScenes +
-            "/cornell-panel.pbrt' --resolution 32x32 --repetitions 1 --lines 4,16 --offsets length --json -");
+    const Outcome bench = run_lab(
+        "bench lines '" + kScenes +
+        "/cornell-panel.pbrt' --resolution 32x32 --repetitions 1 --lines 4,16 --offsets length --json -");
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
     const nlohmann::json json = nlohmann::json::parse(bench.out);
     EXPECT_GT(json["shadow_rays"], 0);
@@ -263,14 +246,14 @@ TEST_F(CommandLine, MeasuresWhatLinesCost) {
     EXPECT_EQ(json["rows"][1]["traced_lines"].get<int>(), 4 * json["rows"][0]["traced_lines"].get<int>());
     for (const char* key : {"visibility_over_shadow_ray", "line_over_point", "triangles_per_light"})
         EXPECT_GT(json["rows"][0][key], 0.0) << key;
-    EXPECT_EQ(run("bench lines a.pbrt --lines 0").exit_code, 2);
+    EXPECT_EQ(run_lab("bench lines a.pbrt --lines 0").exit_code, 2);
 }
 
 TEST_F(CommandLine, MeasuresHowLongLinesTakeToTheErrorOfPoints) {
     const Outcome bench =
-        run("bench line-efficiency '" + kScenes +
-            "/cornell-panel.pbrt' --resolution 16x16 --repetitions 2 --most-points 16 --most-lines 4 "
-            "--roughness 0.5 --strategies diffuse+ltc --orientation fixed --threads 2 --json -");
+        run_lab("bench line-efficiency '" + kScenes +
+                "/cornell-panel.pbrt' --resolution 16x16 --repetitions 2 --most-points 16 --most-lines 4 "
+                "--roughness 0.5 --strategies diffuse+ltc --orientation fixed --threads 2 --json -");
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
     const nlohmann::json json = nlohmann::json::parse(bench.out);
     EXPECT_EQ(json["roughness"], 0.5);
@@ -284,18 +267,18 @@ TEST_F(CommandLine, MeasuresHowLongLinesTakeToTheErrorOfPoints) {
     EXPECT_EQ(result["equal_error"].size(), 3u);
     EXPECT_LT(result["points"][2]["variance"], result["points"][0]["variance"]);
     EXPECT_LT(result["lines"][2]["variance"], result["lines"][0]["variance"]);
-    EXPECT_EQ(run("bench line-efficiency a.pbrt --roughness 2").exit_code, 2);
+    EXPECT_EQ(run_lab("bench line-efficiency a.pbrt --roughness 2").exit_code, 2);
 }
 
 TEST_F(CommandLine, PrintsTheNoiseOfTubes) {
-    const Outcome bench = run("bench tubes --repetitions 1");
+    const Outcome bench = run_lab("bench tubes --repetitions 1");
     EXPECT_EQ(bench.exit_code, 0) << bench.err;
     for (const char* text : {"rejection", "before a wide cap", "long and close"})
         EXPECT_NE(bench.out.find(text), std::string::npos) << bench.out;
 }
 
 TEST_F(CommandLine, ComparesPhongLobesAlongLines) {
-    const Outcome bench = run("bench phong-lines --repetitions 1 --isa sse42");
+    const Outcome bench = run_lab("bench phong-lines --repetitions 1 --isa sse42");
     EXPECT_EQ(bench.exit_code, 0) << bench.err;
     for (const char* text : {"packs of 4, sse42", "recursion", "table", "100000"})
         EXPECT_NE(bench.out.find(text), std::string::npos) << bench.out;
@@ -307,32 +290,33 @@ TEST_F(CommandLine, WorstCaseSearchGoesOnWhereItStopped) {
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         return nlohmann::json::parse(outcome.out).at("targets").at(0);
     };
-    const auto at_once = found(run(search + "--starts 30 --seed 5"));
-    EXPECT_EQ(found(run(search + "--starts 10 --seed 5 --state search.json")).at("starts"), 10);
+    const auto at_once = found(run_lab(search + "--starts 30 --seed 5"));
+    EXPECT_EQ(found(run_lab(search + "--starts 10 --seed 5 --state search.json")).at("starts"), 10);
     const std::string first = read("search.json");
     // Another target leaves it alone; fewer starts than were made change nothing.
     EXPECT_EQ(
-        run("bench worst-case --target biased --starts 1 --convergence 0 --state search.json").exit_code, 0);
-    EXPECT_EQ(found(run(search + "--starts 3 --state search.json")).at("starts"), 10);
-    const auto continued = found(run(search + "--starts 30 --threads 2 --state search.json"));
+        run_lab("bench worst-case --target biased --starts 1 --convergence 0 --state search.json").exit_code,
+        0);
+    EXPECT_EQ(found(run_lab(search + "--starts 3 --state search.json")).at("starts"), 10);
+    const auto continued = found(run_lab(search + "--starts 30 --threads 2 --state search.json"));
     EXPECT_EQ(continued, at_once);
     EXPECT_NE(read("search.json"), first);
 
-    const Outcome other_seed = run(search + "--starts 40 --seed 6 --state search.json");
+    const Outcome other_seed = run_lab(search + "--starts 40 --seed 6 --state search.json");
     EXPECT_EQ(other_seed.exit_code, 1);
-    expect_message(other_seed.err, "--seed");
+    expect_lab_message(other_seed.err, "--seed");
     std::ofstream(path("broken.json"))
         << R"({"seed": 1, "targets": {"lines": {"starts": 1, "parameters": ["0xg"]}}})";
-    const Outcome broken = run(search + "--starts 40 --state broken.json");
+    const Outcome broken = run_lab(search + "--starts 40 --state broken.json");
     EXPECT_EQ(broken.exit_code, 1);
-    expect_message(broken.err, "broken.json");
-    const Outcome no_folder = run(search + "--starts 40 --state missing/search.json");
+    expect_lab_message(broken.err, "broken.json");
+    const Outcome no_folder = run_lab(search + "--starts 40 --state missing/search.json");
     EXPECT_EQ(no_folder.exit_code, 1);
-    expect_message(no_folder.err, "missing");
+    expect_lab_message(no_folder.err, "missing");
 }
 
 TEST_F(CommandLine, WorstCaseSearchPrintsTables) {
-    const Outcome outcome = run("bench worst-case --target lines --starts 3 --convergence 100");
+    const Outcome outcome = run_lab("bench worst-case --target lines --starts 3 --convergence 100");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     for (const char* text : {"lines", "tilt", "0x", "bound", "order"})
         EXPECT_NE(outcome.out.find(text), std::string::npos) << text;
@@ -346,10 +330,10 @@ bool wait_for_line(std::FILE* stream, const char* text) {
     return false;
 }
 
-/// Starts the program and interrupts it once it has reported progress.
+/// Starts a program and interrupts it once it has reported progress.
 /// \returns its exit code
-int run_until_interrupted(std::vector<const char*> arguments) {
-    arguments.insert(arguments.begin(), "nusselt");
+int run_until_interrupted(const char* program, std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), program);
     arguments.push_back(nullptr);
     int errors[2];
     if (::pipe(errors) != 0) return -1;
@@ -358,7 +342,7 @@ int run_until_interrupted(std::vector<const char*> arguments) {
         ::dup2(errors[1], STDERR_FILENO);
         ::close(errors[0]);
         ::close(errors[1]);
-        ::execv(NUSSELT_PROGRAM, const_cast<char**>(arguments.data()));
+        ::execv(program, const_cast<char**>(arguments.data()));
         std::_Exit(127);
     }
     ::close(errors[1]);
@@ -374,14 +358,18 @@ int run_until_interrupted(std::vector<const char*> arguments) {
 TEST_F(CommandLine, CtrlCWritesWhatIsThere) {
     const std::string output = path("stopped.exr");
     const std::string scene = kScenes + "/room.pbrt";
-    EXPECT_EQ(run_until_interrupted({"render", scene.c_str(), "--spp", "64", "-o", output.c_str()}), 130);
+    EXPECT_EQ(run_until_interrupted(NUSSELT_PROGRAM,
+                                    {"render", scene.c_str(), "--spp", "64", "-o", output.c_str()}),
+              130);
     EXPECT_EQ(image::read_image(output).width, 1280);
     EXPECT_LT(std::stod(image::read_exr_metadata(output).at("finished_fraction")), 1.0);
 }
 
 TEST_F(CommandLine, CtrlCKeepsWorstCases) {
     const std::string state = path("stopped.json");
-    EXPECT_EQ(run_until_interrupted({"bench", "worst-case", "--time", "15", "--state", state.c_str()}), 130);
+    EXPECT_EQ(run_until_interrupted(NUSSELT_LAB_PROGRAM,
+                                    {"bench", "worst-case", "--time", "15", "--state", state.c_str()}),
+              130);
     const auto targets = nlohmann::json::parse(read("stopped.json")).at("targets");
     EXPECT_GT(targets.at("lines").at("starts"), 0);
     EXPECT_EQ(targets.at("lines").at("parameters").size(), 4u);
@@ -389,19 +377,19 @@ TEST_F(CommandLine, CtrlCKeepsWorstCases) {
 
 TEST_F(CommandLine, FitGoesOnWhereItStoppedAndWritesTheSameTable) {
     const std::string fit = "fit-ltc --size 4x3x2 --commit abc ";
-    const Outcome whole = run(fit + "-o whole --threads 1");
+    const Outcome whole = run_lab(fit + "-o whole --threads 1");
     EXPECT_EQ(whole.exit_code, 0) << whole.err;
     EXPECT_NE(whole.out.find("all samples"), std::string::npos) << whole.out;
     EXPECT_EQ(read("whole.bin").size(), 40u + 4 * 3 * 2 * 10);
     EXPECT_EQ(read("whole-engine.bin").size(), 4u * 3 * 12);
     const auto json = nlohmann::json::parse(read("whole.json"));
     EXPECT_EQ(json.at("commit"), "abc");
-    EXPECT_EQ(json.at("command"), "nusselt fit-ltc --brdf frostbite-specular --size 4x3x2 -o whole");
+    EXPECT_EQ(json.at("command"), "nusselt-lab fit-ltc --brdf frostbite-specular --size 4x3x2 -o whole");
 
-    EXPECT_EQ(run(fit + "-o again --threads 3 --checkpoint state").exit_code, 0);
+    EXPECT_EQ(run_lab(fit + "-o again --threads 3 --checkpoint state").exit_code, 0);
     EXPECT_EQ(read("again.bin"), read("whole.bin"));
     // All columns are in the checkpoint by now.
-    EXPECT_EQ(run(fit + "-o resumed --checkpoint state").exit_code, 0);
+    EXPECT_EQ(run_lab(fit + "-o resumed --checkpoint state").exit_code, 0);
     EXPECT_EQ(read("resumed.bin"), read("whole.bin"));
     auto resumed = nlohmann::json::parse(read("resumed.json"));
     resumed["command"] = json.at("command");
@@ -409,23 +397,23 @@ TEST_F(CommandLine, FitGoesOnWhereItStoppedAndWritesTheSameTable) {
 
     for (const char* arguments : {"--size 4x3x3 --checkpoint state", "--size 4x3", "--size 1x2x3",
                                   "--size 4x3x257", "--brdf velvet", "--checkpoint no/such/folder"}) {
-        const Outcome wrong = run(std::string("fit-ltc -o wrong ") + arguments);
+        const Outcome wrong = run_lab(std::string("fit-ltc -o wrong ") + arguments);
         EXPECT_EQ(wrong.exit_code, 1) << arguments;
-        expect_message(wrong.err, "nusselt: error: ");
+        expect_lab_message(wrong.err, "error: ");
     }
 }
 
 TEST_F(CommandLine, FitFindsOutEarlyThatItCannotWrite) {
     // The whole table would take minutes.
-    const Outcome wrong = run("fit-ltc -o no/such/folder/table");
+    const Outcome wrong = run_lab("fit-ltc -o no/such/folder/table");
     EXPECT_EQ(wrong.exit_code, 1);
-    expect_message(wrong.err, "nusselt: error: ");
+    expect_lab_message(wrong.err, "error: ");
 }
 
 TEST_F(CommandLine, CtrlCKeepsFittedColumns) {
     const std::string output = path("table"), state = path("state");
-    EXPECT_EQ(run_until_interrupted(
-                  {"fit-ltc", "--size", "64x4x51", "-o", output.c_str(), "--checkpoint", state.c_str()}),
+    EXPECT_EQ(run_until_interrupted(NUSSELT_LAB_PROGRAM, {"fit-ltc", "--size", "64x4x51", "-o",
+                                                          output.c_str(), "--checkpoint", state.c_str()}),
               130);
     EXPECT_FALSE(std::filesystem::exists(output + ".bin"));
     const std::string title = "nusselt ltc fit, version 1, frostbite-specular, 64x4x51\n";
@@ -435,7 +423,7 @@ TEST_F(CommandLine, CtrlCKeepsFittedColumns) {
 
 TEST_F(CommandLine, WithoutAGpuTheBenchmarkSaysInOneLineWhatIsMissing) {
     const auto without_driver =
-        run("bench gpu-samplers", "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent");
+        run_lab("bench gpu-samplers", "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent");
     EXPECT_EQ(without_driver.exit_code, 1);
     EXPECT_NE(without_driver.err.find("install"), std::string::npos) << without_driver.err;
     EXPECT_EQ(std::count(without_driver.err.begin(), without_driver.err.end(), '\n'), 1)
@@ -443,7 +431,7 @@ TEST_F(CommandLine, WithoutAGpuTheBenchmarkSaysInOneLineWhatIsMissing) {
 
     // A loader that is no library, in place of the one of the system.
     for (const char* name : {"libvulkan.so", "libvulkan.so.1"}) std::ofstream(path(name)) << "not a library";
-    const auto without_loader = run("bench gpu-samplers", "LD_LIBRARY_PATH=.");
+    const auto without_loader = run_lab("bench gpu-samplers", "LD_LIBRARY_PATH=.");
     EXPECT_EQ(without_loader.exit_code, 1);
     EXPECT_NE(without_loader.err.find("install"), std::string::npos) << without_loader.err;
     EXPECT_EQ(std::count(without_loader.err.begin(), without_loader.err.end(), '\n'), 1)

@@ -17,9 +17,9 @@ constexpr const char* kNoDriver = "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES
 class Gpu : public CommandLine {};
 
 TEST_F(Gpu, BenchmarkWritesATableAsJson) {
-    const Outcome bench = run("bench gpu '" + kScenes +
-                              "/cornell-tube.pbrt' --resolution 24x16 --frames 3 --warm-up 1 "
-                              "--techniques ltc_analytic --json -");
+    const Outcome bench = run_lab("bench gpu '" + kScenes +
+                                  "/cornell-tube.pbrt' --resolution 24x16 --frames 3 --warm-up 1 "
+                                  "--techniques ltc_analytic --json -");
     if (lacks_device(bench)) GTEST_SKIP() << bench.err;
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
     const auto json = nlohmann::json::parse(bench.out);
@@ -49,9 +49,10 @@ TEST_F(Gpu, BenchmarkWritesATableAsJson) {
 }
 
 TEST_F(Gpu, BenchmarkNamesTheDeviceAndWhatItCannotMeasure) {
-    const Outcome bench = run("bench gpu no-such-scene.pbrt '" + kScenes +
-                              "/cornell-panel.pbrt' --resolution 24x16 --frames 1 --warm-up 0 --techniques "
-                              "ltc_analytic --shadow-rays none --json table.json");
+    const Outcome bench =
+        run_lab("bench gpu no-such-scene.pbrt '" + kScenes +
+                "/cornell-panel.pbrt' --resolution 24x16 --frames 1 --warm-up 0 --techniques "
+                "ltc_analytic --shadow-rays none --json table.json");
     if (lacks_device(bench)) GTEST_SKIP() << bench.err;
     EXPECT_EQ(bench.exit_code, 1) << "one of two scenes";
     EXPECT_NE(bench.err.find("no-such-scene.pbrt"), std::string::npos) << bench.err;
@@ -69,17 +70,17 @@ TEST_F(Gpu, BenchmarkNamesTheDeviceAndWhatItCannotMeasure) {
 TEST_F(Gpu, BenchmarkRefusesWrongUse) {
     for (const char* arguments :
          {"--frames 0", "--resolution 0x4", "--techniques magic", "--shadow-rays some"}) {
-        const Outcome wrong = run(std::string("bench gpu ") + arguments);
+        const Outcome wrong = run_lab(std::string("bench gpu ") + arguments);
         if (lacks_device(wrong)) GTEST_SKIP() << wrong.err;
         EXPECT_EQ(wrong.exit_code, 2) << arguments;
-        expect_message(wrong.err, "--help");
+        expect_lab_message(wrong.err, "--help");
     }
 }
 
 TEST_F(Gpu, BenchmarkWithoutADriverSaysWhatIsMissing) {
-    const Outcome bench = run("bench gpu '" + kScenes + "/room.pbrt'", kNoDriver);
+    const Outcome bench = run_lab("bench gpu '" + kScenes + "/room.pbrt'", kNoDriver);
     EXPECT_EQ(bench.exit_code, 1);
-    expect_message(bench.err, "install");
+    expect_lab_message(bench.err, "install");
 }
 
 TEST_F(Gpu, WithoutADriverAutoRendersOnTheCpu) {

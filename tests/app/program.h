@@ -44,21 +44,36 @@ protected:
     /// \param arguments as typed in a shell, after the name of the program.
     /// \param prefix    such as an environment variable.
     Outcome run(const std::string& arguments, const std::string& prefix = "") const {
-        const std::string command = "cd '" + folder_.string() + "' && " + prefix + " '" NUSSELT_PROGRAM "' " +
+        return run_program(NUSSELT_PROGRAM, arguments, prefix);
+    }
+
+    /// The same with the program of the laboratory.
+    Outcome run_lab(const std::string& arguments, const std::string& prefix = "") const {
+        return run_program(NUSSELT_LAB_PROGRAM, arguments, prefix);
+    }
+
+private:
+    Outcome run_program(const std::string& program, const std::string& arguments,
+                        const std::string& prefix) const {
+        const std::string command = "cd '" + folder_.string() + "' && " + prefix + " '" + program + "' " +
                                     arguments + " >out.txt 2>err.txt </dev/null";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
     }
 
-private:
     std::filesystem::path folder_;
 };
 
-/// One line, from the program, that has this text.
-inline void expect_message(const std::string& text, const std::string& part) {
+/// One line, from the program of that name, that has this text.
+inline void expect_message(const std::string& text, const std::string& part,
+                           const std::string& program = "nusselt") {
     EXPECT_NE(text.find(part), std::string::npos) << text;
-    EXPECT_EQ(text.rfind("nusselt: ", 0), 0u) << text;
+    EXPECT_EQ(text.rfind(program + ": ", 0), 0u) << text;
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+}
+
+inline void expect_lab_message(const std::string& text, const std::string& part) {
+    expect_message(text, part, "nusselt-lab");
 }
 
 /// Whether the program had no device to run on, or has no GPU side. Machines of CI have a software device.

@@ -2,7 +2,7 @@
 
 #include "program.h"
 
-#include "experiments/scale.h"
+#include "lab/timing/scale.h"
 
 #include <nlohmann/json.hpp>
 
@@ -11,15 +11,15 @@
 namespace nusselt {
 namespace {
 
-using experiments::memory_exponent;
-using experiments::ScaleRow;
-using experiments::ScaleScene;
-using experiments::time_exponent;
+using lab::memory_exponent;
+using lab::ScaleRow;
+using lab::ScaleScene;
+using lab::time_exponent;
 
 class Scale : public CommandLine {};
 
 TEST_F(Scale, BenchmarkMeasuresGrowingScenes) {
-    const Outcome bench = run("bench scale --triangles 80000 --emissive 2000 --json -");
+    const Outcome bench = run_lab("bench scale --triangles 80000 --emissive 2000 --json -");
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
     const nlohmann::json rows = nlohmann::json::parse(bench.out);
     ASSERT_EQ(rows.size(), 8u);
@@ -38,7 +38,7 @@ TEST_F(Scale, BenchmarkMeasuresGrowingScenes) {
 }
 
 TEST_F(Scale, MemoryHoldsTheArraysAndGrowsLinearly) {
-    const Outcome bench = run("bench scale --triangles 800000 --emissive 0 --json -");
+    const Outcome bench = run_lab("bench scale --triangles 800000 --emissive 0 --json -");
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
     const nlohmann::json rows = nlohmann::json::parse(bench.out);
     ASSERT_EQ(rows.size(), 4u);
@@ -83,16 +83,16 @@ TEST(ScaleExponents, AreNothingWhereRowsDoNotTell) {
 }
 
 TEST_F(Scale, BenchmarkPrintsTables) {
-    const Outcome bench = run("bench scale --triangles 4000 --emissive 0");
+    const Outcome bench = run_lab("bench scale --triangles 4000 --emissive 0");
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
     EXPECT_NE(bench.out.find("Terrains"), std::string::npos) << bench.out;
     EXPECT_EQ(bench.out.find("Lights"), std::string::npos) << bench.out;
     EXPECT_NE(bench.out.find("time grows like n^"), std::string::npos) << bench.out;
-    EXPECT_EQ(run("bench scale --help").exit_code, 0);
+    EXPECT_EQ(run_lab("bench scale --help").exit_code, 0);
     for (const char* count : {"many", "-1", "1e4", "1000000001"})
-        EXPECT_EQ(run(std::string("bench scale --triangles ") + count).exit_code, 2) << count;
-    EXPECT_EQ(run("bench scale --emissive -1").exit_code, 2);
-    const Outcome tiny = run("bench scale --triangles 8 --emissive 0");
+        EXPECT_EQ(run_lab(std::string("bench scale --triangles ") + count).exit_code, 2) << count;
+    EXPECT_EQ(run_lab("bench scale --emissive -1").exit_code, 2);
+    const Outcome tiny = run_lab("bench scale --triangles 8 --emissive 0");
     EXPECT_EQ(tiny.exit_code, 0) << tiny.err;
     EXPECT_NE(tiny.out.find("too few triangles"), std::string::npos) << tiny.out;
 }

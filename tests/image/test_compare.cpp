@@ -1,6 +1,6 @@
 /// The subcommand `nusselt compare`, from the command line to its outputs.
 
-#include "compare.h"
+#include "apps/nusselt/image/compare.h"
 
 #include "image/difference.h"
 #include "image/flip.h"

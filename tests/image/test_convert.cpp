@@ -1,6 +1,6 @@
 /// The subcommand `nusselt convert`, from the command line to its outputs.
 
-#include "commands.h"
+#include "apps/nusselt/image/convert.h"
 
 #include "image/io.h"
 #include "image/layers.h"

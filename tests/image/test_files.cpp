@@ -1,6 +1,6 @@
 /// What happens to files: complete or absent, and clear errors for whatever is no image.
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "image/io.h"
 #include "temporary_folder.h"
 

@@ -1,6 +1,6 @@
 #include "cylinder_lights.h"
 
-#include "experiments/tube_lights.h"
+#include "proof/tube_lights.h"
 
 #include <cmath>
 #include <random>
@@ -9,8 +9,8 @@ namespace nusselt::parity {
 
 namespace {
 
-using experiments::Engine;
-using experiments::Visibility;
+using proof::Engine;
+using proof::Visibility;
 using Vec = Vec3<double>;
 
 double uniform(Engine& engine, double low, double high) {
@@ -33,7 +33,7 @@ Cylinder<float> around(Engine& engine, const Vec& middle, double half_length, do
     return cylinder(middle - half, middle + half, radius);
 }
 
-Cylinder<float> moved(Engine& engine, const experiments::TubeLight& light) {
+Cylinder<float> moved(Engine& engine, const proof::TubeLight& light) {
     const double angle = uniform(engine, 0, 2 * kPi<double>);
     const double c = std::cos(angle), s = std::sin(angle);
     const auto turned = [&](const Vec& v) { return Vec{c * v.x - s * v.y, s * v.x + c * v.y, v.z}; };
@@ -52,7 +52,7 @@ Vec above(Engine& engine) {
 const std::vector<CylinderClass>& cylinder_classes() {
     static const std::vector<CylinderClass> classes = [] {
         std::vector<CylinderClass> result;
-        static const auto tubes = experiments::tube_lights();
+        static const auto tubes = proof::tube_lights();
         for (const auto& light : tubes)
             result.push_back(
                 {light.name.c_str(), Visibility::everyone, [&light](Engine& e) { return moved(e, light); }});

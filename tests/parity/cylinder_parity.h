@@ -15,7 +15,7 @@ inline bool is_judged_with_bound(const OnLobes<CylinderClass>&, int) { return tr
 
 /// Cylinders as techniques take them.
 struct CylinderInput {
-    using Exact = experiments::Exact;
+    using Exact = proof::Exact;
     using Class = CylinderClass;
     static constexpr int kVertexBound = 2;
     template <class Real>
@@ -25,11 +25,11 @@ struct CylinderInput {
 
     template <class Real>
     static Light<Real> make(const Cylinder<float>& source) {
-        return {experiments::LineInput::make<Real>(source.axis), source.radius};
+        return {proof::LineInput::make<Real>(source.axis), source.radius};
     }
     template <class Real>
     static Light<Exact> exact(const Light<Real>& rounded) {
-        return {experiments::LineInput::exact<Real>(rounded.axis), rounded.radius};
+        return {proof::LineInput::exact<Real>(rounded.axis), rounded.radius};
     }
     /// Angle by which a unit direction misses a light, 0 on it.
     static Exact miss(const Light<Exact>& light, const Vec3<Exact>& wi) {
@@ -75,7 +75,7 @@ private:
 };
 
 template <class AnyKind>
-struct CylinderTraits : experiments::CommonTraits, CylinderInput {
+struct CylinderTraits : proof::CommonTraits, CylinderInput {
     static constexpr const char* kName = AnyKind::kName;
     static constexpr bool kClips = AnyKind::kHorizon == hostile::Horizon::kClipped;
     static constexpr bool kCyclic = true;
@@ -114,10 +114,10 @@ using CylinderLtcPair = TechniquePair<CylinderLtcTraits, hostile::CylinderLtcKin
 
 /// Half of the samples or more are no samples: those on the side that faces away.
 struct CylinderAreaPair : TechniquePair<CylinderAreaTraits, hostile::CylinderAreaKind> {
-    using Case = experiments::Case<CylinderAreaTraits, float>;
+    using Case = proof::Case<CylinderAreaTraits, float>;
 
     /// Where rounding decides which side a point is on, nothing is asked.
-    static constexpr experiments::Exact kGrazing = 1e-3L;
+    static constexpr proof::Exact kGrazing = 1e-3L;
 
     static void judge(const Case& c, bool dark, const Outputs& out, Errors& errors) {
         const auto facing = cosine_of(c);
@@ -127,9 +127,9 @@ struct CylinderAreaPair : TechniquePair<CylinderAreaTraits, hostile::CylinderAre
 
 private:
     /// Between the ray to the sample, backwards, and the normal there.
-    static experiments::Exact cosine_of(const Case& c) {
+    static proof::Exact cosine_of(const Case& c) {
         const auto& [axis, radius] = c.exact_light;
-        const auto p = c.exact.sample(CylinderInput::widened<experiments::Exact>(c.u)).p;
+        const auto p = c.exact.sample(CylinderInput::widened<proof::Exact>(c.u)).p;
         const auto from_begin = p - axis.p0;
         const auto along = dot(from_begin, axis.s);
         const auto across = from_begin - along * axis.s;

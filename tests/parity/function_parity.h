@@ -1,10 +1,10 @@
 #pragma once
 /// Functions below the techniques: on the device, in C++ with float, and in C++ with long double.
 
-#include "experiments/hostile/lights.h"
 #include "gpu/fused_fma.h"
 #include "gpu_test.h"
 #include "parity_check.h"
+#include "proof/hostile/lights.h"
 #include "shader_runner.h"
 
 #include <fmt/core.h>
@@ -100,7 +100,7 @@ inline double error(const Output& output, long double value, long double exact) 
     case Error::absolute:
         return static_cast<double>(off);
     case Error::measure:
-        return static_cast<double>(off / std::max(std::fabs(exact), experiments::kSmallestMeasure));
+        return static_cast<double>(off / std::max(std::fabs(exact), proof::kSmallestMeasure));
     case Error::relative:
         break;
     }

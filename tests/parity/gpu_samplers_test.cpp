@@ -1,5 +1,5 @@
-#include "experiments/gpu_samplers.h"
 #include "gpu_test.h"
+#include "lab/timing/gpu_samplers.h"
 
 #include <cmath>
 #include <map>
@@ -10,10 +10,10 @@ namespace nusselt::parity {
 namespace {
 
 TEST(GpuSamplerRows, AreMediansLessTheBaseline) {
-    const auto rows = experiments::rows_of({{"Baseline", "lines", {1, 3, 2}, {4, 5, 6}},
-                                            {"LineArea", "lines", {10, 12, 14}, {8, 8, 8}},
-                                            {"Baseline", "polygons", {0, 0, 0}, {0, 0, 0}},
-                                            {"PolygonArea", "polygons", {7, 7, 7}, {1, 1, 1}}});
+    const auto rows = lab::rows_of({{"Baseline", "lines", {1, 3, 2}, {4, 5, 6}},
+                                    {"LineArea", "lines", {10, 12, 14}, {8, 8, 8}},
+                                    {"Baseline", "polygons", {0, 0, 0}, {0, 0, 0}},
+                                    {"PolygonArea", "polygons", {7, 7, 7}, {1, 1, 1}}});
     ASSERT_EQ(rows.size(), 2u);
     EXPECT_EQ(rows[0].technique, "LineArea");
     EXPECT_EQ(rows[0].configuration, "lines");
@@ -26,12 +26,12 @@ TEST(GpuSamplerRows, AreMediansLessTheBaseline) {
 }
 
 TEST(GpuSamplerRows, HaveRatiosOfTimesAboveTheBaseline) {
-    const auto rows = experiments::rows_of({{"Baseline", "any", {2}, {2}},
-                                            {"LineProjectedSolidAnglePeters", "any", {6}, {2}},
-                                            {"LineProjectedSolidAngle", "any", {4}, {3}},
-                                            {"LineArea", "any", {3}, {3}},
-                                            {"Baseline", "other", {2}, {2}},
-                                            {"LineProjectedSolidAngle", "other", {4}, {3}}});
+    const auto rows = lab::rows_of({{"Baseline", "any", {2}, {2}},
+                                    {"LineProjectedSolidAnglePeters", "any", {6}, {2}},
+                                    {"LineProjectedSolidAngle", "any", {4}, {3}},
+                                    {"LineArea", "any", {3}, {3}},
+                                    {"Baseline", "other", {2}, {2}},
+                                    {"LineProjectedSolidAngle", "other", {4}, {3}}});
     ASSERT_EQ(rows.size(), 4u);
     EXPECT_EQ(rows[1].light_ratio, 0.5);
     EXPECT_EQ(rows[1].sample_ratio, std::nullopt) << "of nothing";
@@ -42,7 +42,7 @@ TEST(GpuSamplerRows, HaveRatiosOfTimesAboveTheBaseline) {
 class GpuSamplers : public GpuTest {};
 
 TEST_F(GpuSamplers, HaveARowForEachTechniqueAndClassOfLights) {
-    const auto table = experiments::time_gpu_samplers({.repetitions = 1});
+    const auto table = lab::time_gpu_samplers({.repetitions = 1});
     EXPECT_EQ(table.device.name, device().description().name);
     EXPECT_EQ(table.llvmpipe_threads.has_value(), table.device.name.find("llvmpipe") != std::string::npos);
     std::map<std::string, std::set<std::string>> lights;
@@ -60,8 +60,7 @@ TEST_F(GpuSamplers, HaveARowForEachTechniqueAndClassOfLights) {
 }
 
 TEST_F(GpuSamplers, NameAnUnknownDevice) {
-    EXPECT_THROW(experiments::time_gpu_samplers({.repetitions = 1, .device = "no such device"}),
-                 gpu::NoDevice);
+    EXPECT_THROW(lab::time_gpu_samplers({.repetitions = 1, .device = "no such device"}), gpu::NoDevice);
 }
 
 } // namespace

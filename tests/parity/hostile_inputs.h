@@ -1,8 +1,8 @@
 #pragma once
 /// Hostile lights and random numbers for each kind of technique.
 
-#include "experiments/hostile/lights.h"
-#include "experiments/hostile/techniques.h"
+#include "proof/hostile/lights.h"
+#include "proof/hostile/techniques.h"
 
 namespace nusselt::parity {
 

@@ -1,8 +1,8 @@
 // The random numbers of a renderer, bit by bit.
 
-#include "experiments/hostile/lights.h"
 #include "gpu/fused_fma.h"
 #include "gpu_test.h"
+#include "proof/hostile/lights.h"
 #include "shader_runner.h"
 #include "shaders/light_random_fused.h"
 #include "shaders/light_random_split.h"

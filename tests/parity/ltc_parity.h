@@ -10,14 +10,14 @@
 namespace nusselt::parity {
 
 /// A class of lights, on lobes.
-/// \tparam Base of src/experiments/accuracy_lights.h.
+/// \tparam Base of proof/accuracy/lights.h.
 template <class Base>
 struct OnLobes {
     const Base* base;
     const char* name = base->name;
-    experiments::Visibility visibility = base->visibility;
+    proof::Visibility visibility = base->visibility;
 
-    auto make(experiments::Engine& engine) const {
+    auto make(proof::Engine& engine) const {
         struct Light {
             decltype(base->make(engine)) light;
             LtcCoefficients<float> lobe;
@@ -36,7 +36,7 @@ const std::vector<OnLobes<Base>>& classes_of(const OnLobes<Base>*) {
             result.push_back({&base});
             // These lie in front of the eye, from where lobes lean.
             if (base.name == std::string_view("in the horizon plane"))
-                result.back().visibility = experiments::Visibility::no_one;
+                result.back().visibility = proof::Visibility::no_one;
         }
         return result;
     }();
@@ -44,17 +44,17 @@ const std::vector<OnLobes<Base>>& classes_of(const OnLobes<Base>*) {
 }
 
 /// Polygons with more vertices need the larger bound.
-inline bool is_judged_with_bound(const OnLobes<experiments::PolygonClass>& lights, int bound) {
+inline bool is_judged_with_bound(const OnLobes<proof::PolygonClass>& lights, int bound) {
     const int vertices = lights.base->vertex_count;
     return bound == 4 ? vertices <= 4 : 4 < vertices && vertices <= bound;
 }
-inline bool is_judged_with_bound(const OnLobes<experiments::LineClass>&, int) { return true; }
+inline bool is_judged_with_bound(const OnLobes<proof::LineClass>&, int) { return true; }
 
-/// \tparam Input of src/experiments/accuracy_techniques.h, of the geometry.
-/// \tparam Kind  of src/experiments/hostile/techniques.h.
+/// \tparam Input of proof/accuracy/references.h, of the geometry.
+/// \tparam Kind  of proof/hostile/techniques.h.
 template <class Input, class Kind>
-struct OnLobeTraits : experiments::CommonTraits {
-    using Exact = experiments::Exact;
+struct OnLobeTraits : proof::CommonTraits {
+    using Exact = proof::Exact;
     using Class = OnLobes<typename Input::Class>;
     static constexpr int kVertexBound = Input::kVertexBound;
     static constexpr const char* kName = Kind::kName;
@@ -96,15 +96,14 @@ struct OnLobeTraits : experiments::CommonTraits {
 };
 
 template <int N>
-using PolygonLtcPair = TechniquePair<OnLobeTraits<experiments::PolygonInput<N>, hostile::PolygonLtcKindOf<N>>,
+using PolygonLtcPair = TechniquePair<OnLobeTraits<proof::PolygonInput<N>, hostile::PolygonLtcKindOf<N>>,
                                      hostile::PolygonLtcKindOf<N>>;
 template <int N>
 using PolygonClippedLtcPair =
-    TechniquePair<OnLobeTraits<experiments::PolygonInput<N>, hostile::PolygonClippedLtcKindOf<N>>,
+    TechniquePair<OnLobeTraits<proof::PolygonInput<N>, hostile::PolygonClippedLtcKindOf<N>>,
                   hostile::PolygonClippedLtcKindOf<N>>;
-using LineLtcPair =
-    TechniquePair<OnLobeTraits<experiments::LineInput, hostile::LineLtcKind>, hostile::LineLtcKind>;
-using LineClippedLtcPair = TechniquePair<OnLobeTraits<experiments::LineInput, hostile::LineClippedLtcKind>,
-                                         hostile::LineClippedLtcKind>;
+using LineLtcPair = TechniquePair<OnLobeTraits<proof::LineInput, hostile::LineLtcKind>, hostile::LineLtcKind>;
+using LineClippedLtcPair =
+    TechniquePair<OnLobeTraits<proof::LineInput, hostile::LineClippedLtcKind>, hostile::LineClippedLtcKind>;
 
 } // namespace nusselt::parity

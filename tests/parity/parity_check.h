@@ -1,8 +1,8 @@
 #pragma once
 /// Budgets of the twins: errors on the device may be at most three times those of C++ in float.
 
-#include "experiments/accuracy_cases.h"
-#include "experiments/hostile/contract.h"
+#include "proof/accuracy/cases.h"
+#include "proof/hostile/contract.h"
 
 #include <algorithm>
 #include <array>
@@ -98,42 +98,37 @@ inline constexpr bool kIsPolygonal = !std::is_same_v<typename Traits::template R
 
 /// Where a ray from the origin meets the plane of a light.
 template <int N>
-Vec3<experiments::Exact> hit_point(const ConvexPolygon<experiments::Exact, N>& light,
-                                   const Vec3<experiments::Exact>& wi) {
+Vec3<proof::Exact> hit_point(const ConvexPolygon<proof::Exact, N>& light, const Vec3<proof::Exact>& wi) {
     return dot(light.normal, light.vertex[0]) / dot(light.normal, wi) * wi;
 }
 /// Where a ray from the origin comes closest to a light, seen from the origin.
-inline Vec3<experiments::Exact> hit_point(const LineSegment<experiments::Exact>& light,
-                                          const Vec3<experiments::Exact>& wi) {
+inline Vec3<proof::Exact> hit_point(const LineSegment<proof::Exact>& light, const Vec3<proof::Exact>& wi) {
     const auto across = cross(wi, light.s);
     return light.p0 - dot(cross(wi, light.p0), across) / dot(across, across) * light.s;
 }
 
 /// Where a ray from the origin meets a cylinder, or would if rounding did not let it miss.
-inline Vec3<experiments::Exact> hit_point(const Cylinder<experiments::Exact>& light,
-                                          const Vec3<experiments::Exact>& wi) {
+inline Vec3<proof::Exact> hit_point(const Cylinder<proof::Exact>& light, const Vec3<proof::Exact>& wi) {
     return intersect(light, wi).distance * wi;
 }
 
 template <int N>
-experiments::Exact size_of(const ConvexPolygon<experiments::Exact, N>& light) {
-    experiments::Exact size = 0;
+proof::Exact size_of(const ConvexPolygon<proof::Exact, N>& light) {
+    proof::Exact size = 0;
     for (const auto& v : light.vertex) size = std::max(size, length(v - light.vertex[0]));
     return size;
 }
-inline experiments::Exact size_of(const LineSegment<experiments::Exact>& light) { return light.length; }
-inline experiments::Exact size_of(const Cylinder<experiments::Exact>& light) {
-    return light.axis.length + light.radius;
-}
+inline proof::Exact size_of(const LineSegment<proof::Exact>& light) { return light.length; }
+inline proof::Exact size_of(const Cylinder<proof::Exact>& light) { return light.axis.length + light.radius; }
 
 /// Judges measure and sample of a method, which may have no more.
-/// \tparam Traits of src/experiments/accuracy_techniques.h.
+/// \tparam Traits of proof/accuracy/references.h.
 /// \return the random numbers that explain the sample, if there is one of a light.
 template <class Traits>
-std::optional<typename Traits::template Random<experiments::Exact>>
-judge_sample(const experiments::Case<Traits, float>& c, bool dark, const LightSample<float>& sample,
-             float measure, Errors& errors) {
-    using experiments::Exact;
+std::optional<typename Traits::template Random<proof::Exact>>
+judge_sample(const proof::Case<Traits, float>& c, bool dark, const LightSample<float>& sample, float measure,
+             Errors& errors) {
+    using proof::Exact;
     if (!hostile::all_finite(sample.wi) || !is_finite(sample.pdf) || !is_finite(measure) || sample.pdf < 0 ||
         measure < 0) {
         ++errors.invalid;
@@ -151,7 +146,7 @@ judge_sample(const experiments::Case<Traits, float>& c, bool dark, const LightSa
     const auto direction = broadcast<Exact>(sample.wi);
     errors.add(Quantity::unit_length, std::fabs(length(direction) - 1));
     const Vec3<Exact> wi = normalize(direction);
-    errors.off_the_light += c.missed_by(wi) > experiments::kTolerance<float>;
+    errors.off_the_light += c.missed_by(wi) > proof::kTolerance<float>;
     const auto explained = c.exact.invert(wi);
     errors.add(Quantity::first_random, c.difference(Traits::first(explained), Traits::first(c.u)));
     if constexpr (kIsPolygonal<Traits>) errors.add(Quantity::second_random, std::fabs(explained.y - c.u.y));
@@ -164,8 +159,8 @@ judge_sample(const experiments::Case<Traits, float>& c, bool dark, const LightSa
 
 /// Judges all that a method returns for a light.
 template <class Traits, class Outputs>
-void judge(const experiments::Case<Traits, float>& c, bool dark, const Outputs& out, Errors& errors) {
-    using experiments::Exact;
+void judge(const proof::Case<Traits, float>& c, bool dark, const Outputs& out, Errors& errors) {
+    using proof::Exact;
     if (!is_finite(out.pdf) || out.pdf < 0 || !hostile::in_unit_interval(out.inverse)) {
         ++errors.invalid;
         return;
@@ -182,8 +177,8 @@ void judge(const experiments::Case<Traits, float>& c, bool dark, const Outputs& 
 /// Exact results, each rounded to float: density and inverse are those of the rounded direction.
 template <class Traits>
 hostile::Outputs<float, typename Traits::template Random<float>>
-rounded_outputs(const experiments::Case<Traits, float>& c) {
-    using experiments::Exact;
+rounded_outputs(const proof::Case<Traits, float>& c) {
+    using proof::Exact;
     const auto s = c.exact.sample(Traits::template widened<Exact>(c.u));
     const auto direction = broadcast<float>(s.wi);
     const Vec3<Exact> wi = normalize(broadcast<Exact>(direction));

@@ -20,22 +20,21 @@ struct RelatedPair {
         const LightSample<float> sample = technique.sample(in.u);
         return {sample, sample.pdf, {}, technique.measure()};
     }
-    static void judge(const experiments::Case<Traits, float>& c, bool dark, const Outputs& out,
-                      Errors& errors) {
+    static void judge(const proof::Case<Traits, float>& c, bool dark, const Outputs& out, Errors& errors) {
         judge_sample(c, dark, out.sample, out.measure, errors);
     }
 };
 
 // Named types, for the names of tests.
-struct PolygonSolidAnglePeters : RelatedPair<experiments::PolygonSolidAngleTraits<4>> {
+struct PolygonSolidAnglePeters : RelatedPair<proof::PolygonSolidAngleTraits<4>> {
     static constexpr const char* kName = "PolygonSolidAnglePeters";
 };
 /// The one in C++ follows chains of edges where the twin sorts: they may take sums in different order, so that only
 /// errors can be compared.
-struct PolygonProjectedSolidAnglePeters : RelatedPair<experiments::PolygonProjectedSolidAngleTraits<4>> {
+struct PolygonProjectedSolidAnglePeters : RelatedPair<proof::PolygonProjectedSolidAngleTraits<4>> {
     static constexpr const char* kName = "PolygonProjectedSolidAnglePeters";
 };
-struct LineProjectedSolidAnglePeters : RelatedPair<experiments::LineProjectedSolidAngleTraits> {
+struct LineProjectedSolidAnglePeters : RelatedPair<proof::LineProjectedSolidAngleTraits> {
     static constexpr const char* kName = "LineProjectedSolidAnglePeters";
 };
 

@@ -1,12 +1,12 @@
 #pragma once
 /// Runs a technique in GLSL and in C++ on the classes of lights of the accuracy tables, and compares their errors.
 
-#include "experiments/accuracy_cases.h"
-#include "experiments/hostile/techniques.h"
 #include "gpu/fused_fma.h"
 #include "gpu_test.h"
 #include "hostile_inputs.h"
 #include "parity_check.h"
+#include "proof/accuracy/cases.h"
+#include "proof/hostile/techniques.h"
 #include "shaders/twins.h"
 #include "twin.h"
 
@@ -23,8 +23,8 @@
 namespace nusselt::parity {
 
 /// A technique of ours.
-/// \tparam AnyTraits of src/experiments/accuracy_techniques.h.
-/// \tparam AnyKind   of src/experiments/hostile/techniques.h, the same technique.
+/// \tparam AnyTraits of proof/accuracy/references.h.
+/// \tparam AnyKind   of proof/hostile/techniques.h, the same technique.
 template <class AnyTraits, class AnyKind>
 struct TechniquePair {
     using Traits = AnyTraits;
@@ -36,26 +36,25 @@ struct TechniquePair {
     static Outputs outputs_of(const typename Twin<Traits>::Input& in) {
         return hostile::outputs_of<Kind, float>(in.light, in.u);
     }
-    static void judge(const experiments::Case<Traits, float>& c, bool dark, const Outputs& out,
-                      Errors& errors) {
+    static void judge(const proof::Case<Traits, float>& c, bool dark, const Outputs& out, Errors& errors) {
         parity::judge(c, dark, out, errors);
     }
 };
 
 template <int N>
-using PolygonAreaPair = TechniquePair<experiments::PolygonAreaTraits<N>, hostile::PolygonAreaKindOf<N>>;
+using PolygonAreaPair = TechniquePair<proof::PolygonAreaTraits<N>, hostile::PolygonAreaKindOf<N>>;
 template <int N>
 using PolygonSolidAnglePair =
-    TechniquePair<experiments::PolygonSolidAngleTraits<N>, hostile::PolygonSolidAngleKindOf<N>>;
+    TechniquePair<proof::PolygonSolidAngleTraits<N>, hostile::PolygonSolidAngleKindOf<N>>;
 template <int N>
 using PolygonClippedSolidAnglePair =
-    TechniquePair<experiments::PolygonClippedSolidAngleTraits<N>, hostile::PolygonClippedSolidAngleKindOf<N>>;
+    TechniquePair<proof::PolygonClippedSolidAngleTraits<N>, hostile::PolygonClippedSolidAngleKindOf<N>>;
 template <int N>
-using PolygonProjectedSolidAnglePair = TechniquePair<experiments::PolygonProjectedSolidAngleTraits<N>,
-                                                     hostile::PolygonProjectedSolidAngleKindOf<N>>;
+using PolygonProjectedSolidAnglePair =
+    TechniquePair<proof::PolygonProjectedSolidAngleTraits<N>, hostile::PolygonProjectedSolidAngleKindOf<N>>;
 template <int N>
 using PolygonProjectedSolidAngleBiasedPair =
-    TechniquePair<experiments::PolygonProjectedSolidAngleBiasedTraits<N>, hostile::PolygonBiasedKindOf<N>>;
+    TechniquePair<proof::PolygonProjectedSolidAngleBiasedTraits<N>, hostile::PolygonBiasedKindOf<N>>;
 
 /// The shader of a technique.
 template <class Pair>
@@ -73,8 +72,8 @@ inline std::vector<Variant> variants_for(const gpu::Device& device) {
     return {Variant::split};
 }
 
-inline const auto& classes_of(const experiments::PolygonClass*) { return experiments::polygon_classes(); }
-inline const auto& classes_of(const experiments::LineClass*) { return experiments::line_classes(); }
+inline const auto& classes_of(const proof::PolygonClass*) { return proof::polygon_classes(); }
+inline const auto& classes_of(const proof::LineClass*) { return proof::line_classes(); }
 
 /// Judges the twin on at least `count` lights of a class.
 template <class Pair>
@@ -82,11 +81,11 @@ Verdict judge_class(const typename Pair::Traits::Class& lights, int count,
                     Twin<typename Pair::Traits>& twin) {
     using Traits = typename Pair::Traits;
     constexpr int kBlock = 4096;
-    const bool dark = experiments::is_dark<Traits>(lights);
+    const bool dark = proof::is_dark<Traits>(lights);
     Errors device, cpp, floor;
     std::mutex mutex;
     const auto judge_lights = [&](int begin, int end) {
-        const auto cases = experiments::make_cases<Traits, float>(lights, begin, end);
+        const auto cases = proof::make_cases<Traits, float>(lights, begin, end);
         std::vector<typename Twin<Traits>::Input> inputs;
         for (const auto& c : cases) inputs.push_back({c.light, c.u});
         std::vector<typename Twin<Traits>::Outputs> outputs;
@@ -140,10 +139,10 @@ Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> sha
 }
 
 /// Polygons with more vertices need the larger bound; all fit into it.
-inline bool is_judged_with_bound(const experiments::PolygonClass& lights, int bound) {
+inline bool is_judged_with_bound(const proof::PolygonClass& lights, int bound) {
     return bound == (lights.vertex_count <= 4 ? 4 : 8);
 }
-inline bool is_judged_with_bound(const experiments::LineClass&, int) { return true; }
+inline bool is_judged_with_bound(const proof::LineClass&, int) { return true; }
 
 /// Likewise, on the classes for the bound of the technique: 4 or 8 vertices, or lines.
 template <class Pair>

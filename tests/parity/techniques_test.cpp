@@ -15,12 +15,12 @@ struct PolygonProjectedSolidAngle4 : PolygonProjectedSolidAnglePair<4> {};
 struct PolygonProjectedSolidAngle8 : PolygonProjectedSolidAnglePair<8> {};
 struct PolygonProjectedSolidAngleBiased4 : PolygonProjectedSolidAngleBiasedPair<4> {};
 struct PolygonProjectedSolidAngleBiased8 : PolygonProjectedSolidAngleBiasedPair<8> {};
-struct LineArea : TechniquePair<experiments::LineAreaTraits, hostile::LineAreaKind> {};
-struct LineSolidAngle : TechniquePair<experiments::LineSolidAngleTraits, hostile::LineSolidAngleKind> {};
+struct LineArea : TechniquePair<proof::LineAreaTraits, hostile::LineAreaKind> {};
+struct LineSolidAngle : TechniquePair<proof::LineSolidAngleTraits, hostile::LineSolidAngleKind> {};
 struct LineClippedSolidAngle
-    : TechniquePair<experiments::LineClippedSolidAngleTraits, hostile::LineClippedSolidAngleKind> {};
+    : TechniquePair<proof::LineClippedSolidAngleTraits, hostile::LineClippedSolidAngleKind> {};
 struct LineProjectedSolidAngle
-    : TechniquePair<experiments::LineProjectedSolidAngleTraits, hostile::LineProjectedSolidAngleKind> {};
+    : TechniquePair<proof::LineProjectedSolidAngleTraits, hostile::LineProjectedSolidAngleKind> {};
 
 template <class Pair>
 class TechniqueParity : public GpuTest {};

@@ -1,7 +1,7 @@
 #pragma once
 /// A technique in GLSL, run on many lights.
 
-#include "experiments/hostile/contract.h"
+#include "proof/hostile/contract.h"
 #include "shader_runner.h"
 
 #include <bit>
@@ -20,7 +20,7 @@ struct DeviceOutputs {
     float unused;
 };
 
-/// \tparam Traits of src/experiments/accuracy_techniques.h.
+/// \tparam Traits of proof/accuracy/references.h.
 template <class Traits>
 class Twin {
 public:

@@ -41,11 +41,11 @@ protected:
         using Pair = typename Technique::template Pair<N>;
         for (const Variant variant : variants_for(device())) {
             const auto shader = shader_of<Pair>(variant);
-            const auto is_judged = [](const experiments::PolygonClass& lights) {
+            const auto is_judged = [](const proof::PolygonClass& lights) {
                 return lights.vertex_count == N ||
                        (N > 4 && lights.name == std::string_view("crossing the horizon"));
             };
-            const auto& classes = experiments::polygon_classes();
+            const auto& classes = proof::polygon_classes();
             const auto judged = std::count_if(classes.begin(), classes.end(), is_judged);
             expect_parity(
                 judge_twin<Pair>(device(), shader, kLightsPerClass * static_cast<int>(judged), is_judged));

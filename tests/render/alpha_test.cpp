@@ -313,7 +313,7 @@ TEST(Alpha, LightsWithoutSurfacesShine) {
     render::RenderSettings settings;
     settings.pixel_position = render::PixelPosition::center;
     const auto render = [&](const scene::Scene& scene) {
-        return render_cpu::Renderer(scene, 2).render(settings, render_cpu::choose_isa()).image;
+        return render_cpu::Renderer(scene, 2).render(settings, base::choose_isa()).image;
     };
     const image::Image reference = render(with_surface);
     const image::Image image = render(invisible);
@@ -335,7 +335,7 @@ TEST(Alpha, TwoSidedLightsShineUpwardsToo) {
             {Float3{-0.4f, -0.3f, 1}, Float3{0.6f, -0.3f, 1}, Float3{0.6f, 0.5f, 1}, Float3{-0.4f, 0.5f, 1}},
             {5, 5, 5}, two_sided, 1);
         const auto image =
-            render_cpu::Renderer(scene, 2).render(render::RenderSettings(), render_cpu::choose_isa()).image;
+            render_cpu::Renderer(scene, 2).render(render::RenderSettings(), base::choose_isa()).image;
         double sum = 0;
         for (const float value : image.pixels) sum += value;
         EXPECT_EQ(sum > 0, two_sided);

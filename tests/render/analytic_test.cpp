@@ -52,7 +52,7 @@ scene::Scene glossy(scene::Scene scene, float roughness) {
 
 image::Image rendered(const scene::Scene& scene, RenderSettings settings) {
     settings.pixel_position = render::PixelPosition::center;
-    const auto result = render_cpu::Renderer(scene, 2).render(settings, render_cpu::choose_isa());
+    const auto result = render_cpu::Renderer(scene, 2).render(settings, base::choose_isa());
     EXPECT_EQ(result.statistics.rejected_samples, 0u);
     return result.image;
 }

@@ -45,7 +45,7 @@ scene::Scene make_cells(int width, int height, double pixel) {
 }
 
 image::Image render(const scene::Scene& scene, render::PixelPosition position,
-                    render_cpu::Isa isa = render_cpu::choose_isa()) {
+                    base::Isa isa = base::choose_isa()) {
     render::RenderSettings settings;
     settings.samples = 2;
     settings.pixel_position = position;
@@ -114,7 +114,7 @@ TEST(ResizedCrop, KeepsItsShareOfTheFilm) {
     EXPECT_THROW(resized({0, 0, 1, 1}, 0, 1), std::invalid_argument);
 }
 
-class Crops : public testing::TestWithParam<render_cpu::Isa> {};
+class Crops : public testing::TestWithParam<base::Isa> {};
 
 TEST_P(Crops, AreBitIdenticalToTheSamePixelsOfTheWholeFilm) {
     if (!is_supported(GetParam())) GTEST_SKIP() << "this processor does not support it";
@@ -141,8 +141,7 @@ TEST_P(Crops, AreBitIdenticalToTheSamePixelsOfTheWholeFilm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllIsas, Crops,
-                         testing::Values(render_cpu::Isa::sse42, render_cpu::Isa::avx2,
-                                         render_cpu::Isa::avx512),
+                         testing::Values(base::Isa::sse42, base::Isa::avx2, base::Isa::avx512),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
 } // namespace

@@ -35,14 +35,14 @@ protected:
     ~Checkpoint() override { std::filesystem::remove(path_); }
 
     image::Metadata run_of(const Frame& frame) const {
-        return describe_run(make_metadata(scene_, settings_, render_cpu::choose_isa()), frame);
+        return describe_run(make_metadata(scene_, settings_, base::choose_isa()), frame);
     }
 
     /// A finished frame.
     Frame rendered() const {
         Frame frame = render_cpu::make_frame(scene_, settings_);
         const render_cpu::Renderer renderer(scene_, 2);
-        renderer.render_into(frame, settings_, render_cpu::choose_isa(), renderer.visibility().tracer(), {});
+        renderer.render_into(frame, settings_, base::choose_isa(), renderer.visibility().tracer(), {});
         return frame;
     }
 
@@ -85,7 +85,7 @@ TEST_F(Checkpoint, GoesOnWithTheTilesItHas) {
                       x >= 16 ? whole.image.pixels[3 * (24 * y + x)] : 0.0f);
     const render_cpu::Renderer renderer(scene_, 1);
     const auto rest =
-        renderer.render_into(frame, settings_, render_cpu::choose_isa(), renderer.visibility().tracer(), {});
+        renderer.render_into(frame, settings_, base::choose_isa(), renderer.visibility().tracer(), {});
     EXPECT_EQ(rest.primary_rays, 2u * 16 * 24);
     EXPECT_EQ(frame.image.pixels, whole.image.pixels);
     ASSERT_EQ(frame.layers.size(), whole.layers.size());

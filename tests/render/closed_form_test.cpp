@@ -110,7 +110,7 @@ protected:
     image::Image lights_only() const {
         scene::Scene black = scene_;
         for (scene::Material& material : black.materials) material.diffuse = {0, 0, 0};
-        return render_cpu::Renderer(black, 2).render(settings_, render_cpu::choose_isa()).image;
+        return render_cpu::Renderer(black, 2).render(settings_, base::choose_isa()).image;
     }
 
     /// Ratios of pixels to their closed forms, averaged over groups of neighbours, for each seed.
@@ -119,7 +119,7 @@ protected:
         settings_.technique = technique;
         for (int seed = 0; seed < kSeeds; ++seed) {
             settings_.seed = static_cast<std::uint32_t>(seed);
-            const auto result = renderer_.render(settings_, render_cpu::choose_isa(), tracer);
+            const auto result = renderer_.render(settings_, base::choose_isa(), tracer);
             EXPECT_EQ(result.statistics.rejected_samples, 0u) << render::name_of(technique);
             rows.push_back(mean_ratios(result.image));
         }
@@ -164,7 +164,7 @@ TEST_P(ClosedForm, EachTechniqueConverges) {
 TEST_P(ClosedForm, ProjectedSolidAngleHasNoVariance) {
     settings_.samples = 1;
     settings_.technique = Technique::projected_solid_angle;
-    const image::Image image = renderer_.render(settings_, render_cpu::choose_isa()).image;
+    const image::Image image = renderer_.render(settings_, base::choose_isa()).image;
     double squares = 0;
     double sum = 0;
     double count = 0;
@@ -189,7 +189,7 @@ TEST_P(ClosedForm, ManyLinesHaveNextToNoVariance) {
     settings_.lines.count = 1024;
     for (const auto offsets : render::kLineOffsets) {
         settings_.lines.offsets = offsets;
-        const image::Image image = renderer_.render(settings_, render_cpu::choose_isa()).image;
+        const image::Image image = renderer_.render(settings_, base::choose_isa()).image;
         for (std::size_t i = 0; i < expected_.size(); ++i) {
             if (std::isnan(expected_[i])) continue;
             ASSERT_NEAR(image.pixels[3 * i], expected_[i], 1e-3 * expected_[i]) << name_of(offsets);

@@ -218,7 +218,7 @@ protected:
         settings.samples = samples;
         settings.pixel_position = render::PixelPosition::center;
         settings.brdf = render::BrdfChoice::lambert;
-        return render_cpu::Renderer(scene_, 2).render(settings, render_cpu::choose_isa()).image;
+        return render_cpu::Renderer(scene_, 2).render(settings, base::choose_isa()).image;
     }
 
     /// RMSE over the chosen pixels, divided by their mean. \param expected of a pixel and channel

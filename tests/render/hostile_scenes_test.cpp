@@ -58,8 +58,7 @@ std::string description_of(const RenderSettings& settings) {
 
 void expect_sane_images(const scene::Scene& scene) {
     const render_cpu::Renderer renderer(scene, 2);
-    for (const render_cpu::Isa isa :
-         {render_cpu::Isa::sse42, render_cpu::Isa::avx2, render_cpu::Isa::avx512}) {
+    for (const base::Isa isa : {base::Isa::sse42, base::Isa::avx2, base::Isa::avx512}) {
         if (!is_supported(isa)) continue;
         for (RenderSettings settings : all_settings()) {
             settings.samples = 4;
@@ -226,7 +225,7 @@ TEST(HostileScenes, SizesThatFillNoTile) {
 /// Expects that a spoiled scene has pixels without NaN and infinity, and that some samples were rejected for that.
 void expect_rejections(const scene::Scene& spoiled, const RenderSettings& settings, const std::string& what) {
     const render_cpu::Renderer renderer(spoiled, 2);
-    const auto result = renderer.render(settings, render_cpu::choose_isa());
+    const auto result = renderer.render(settings, base::choose_isa());
     EXPECT_GT(result.statistics.rejected_samples, 0u) << what << ", " << description_of(settings);
     for (const float value : result.image.pixels) ASSERT_TRUE(std::isfinite(value)) << what;
 }

@@ -141,7 +141,7 @@ scene::Scene flattened(const scene::Scene& scene, NormalTransform transform_norm
     return flat;
 }
 
-image::Image render(const scene::Scene& scene, render_cpu::Isa isa) {
+image::Image render(const scene::Scene& scene, base::Isa isa) {
     render::RenderSettings settings;
     settings.samples = 4;
     const auto result = render_cpu::Renderer(scene, 2).render(settings, isa);
@@ -182,7 +182,7 @@ constexpr double kLargestShare = 2e-3;
 TEST_P(Instances, LookLikeCopiesOfTheirTriangles) {
     const scene::Scene scene = make_instanced_scene(GetParam().instances, {0, 0, 0});
     const scene::Scene flat = flattened(scene, transformed_normal);
-    for (const auto isa : {render_cpu::Isa::sse42, render_cpu::Isa::avx2, render_cpu::Isa::avx512}) {
+    for (const auto isa : {base::Isa::sse42, base::Isa::avx2, base::Isa::avx512}) {
         if (!is_supported(isa)) continue;
         const image::Image expected = render(flat, isa);
         EXPECT_LE(differing_share(render(scene, isa), expected, kTolerance), kLargestShare) << name_of(isa);
@@ -197,7 +197,7 @@ TEST_P(Instances, TheTestTellsWrongNormals) {
     const std::string name = GetParam().name;
     if (name != "stretched" && name != "sheared") return;
     const scene::Scene scene = make_instanced_scene(GetParam().instances, {0, 0, 0});
-    const auto isa = render_cpu::choose_isa();
+    const auto isa = base::choose_isa();
     EXPECT_GT(differing_share(render(scene, isa), render(flattened(scene, linear), isa), kTolerance),
               10 * kLargestShare);
 }
@@ -216,7 +216,7 @@ TEST(InstanceOffsets, CoverTheRoundingOfLargeObjectCoordinates) {
         m[11] = 1.1f - moved.z;
         return make_instanced_scene({{0, m}}, center);
     };
-    const auto isa = render_cpu::choose_isa();
+    const auto isa = base::choose_isa();
     const image::Image reference = render(at({0, 0, 0}), isa);
     const image::Image moved = render(at({4000, -6000, 8000}), isa);
     // A tenth of all pixels with offsets for the coordinates in the world.

@@ -9,8 +9,7 @@ namespace {
 
 constexpr int kSize = 64;
 
-image::Image render(const scene::Scene& scene, int threads, render_cpu::Isa isa,
-                    render::Technique technique) {
+image::Image render(const scene::Scene& scene, int threads, base::Isa isa, render::Technique technique) {
     render::RenderSettings settings;
     settings.technique = technique;
     settings.samples = 4;
@@ -19,7 +18,7 @@ image::Image render(const scene::Scene& scene, int threads, render_cpu::Isa isa,
 
 TEST(Invariance, ThreadCountChangesNoBit) {
     const scene::Scene scene = make_box_scene(kSize);
-    const render_cpu::Isa isa = render_cpu::choose_isa();
+    const base::Isa isa = base::choose_isa();
     for (const auto technique : render::kTechniques) {
         const image::Image one = render(scene, 1, isa, technique);
         for (const int threads : {2, 5})
@@ -28,26 +27,25 @@ TEST(Invariance, ThreadCountChangesNoBit) {
     }
 }
 
-class IsaInvariance : public testing::TestWithParam<render_cpu::Isa> {};
+class IsaInvariance : public testing::TestWithParam<base::Isa> {};
 
 TEST_P(IsaInvariance, HardlyAnyPixelDiffers) {
     if (!is_supported(GetParam())) GTEST_SKIP() << "this processor does not support it";
     const scene::Scene scene = make_box_scene(4 * kSize);
     for (const auto technique : render::kTechniques) {
-        const image::Image baseline = render(scene, 2, render_cpu::Isa::sse42, technique);
+        const image::Image baseline = render(scene, 2, base::Isa::sse42, technique);
         const image::Image other = render(scene, 2, GetParam(), technique);
         EXPECT_LE(differing_share(baseline, other, 1e-4), 1e-4) << render::name_of(technique);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllIsas, IsaInvariance,
-                         testing::Values(render_cpu::Isa::avx2, render_cpu::Isa::avx512),
+INSTANTIATE_TEST_SUITE_P(AllIsas, IsaInvariance, testing::Values(base::Isa::avx2, base::Isa::avx512),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
 /// Multiplication by powers of two rounds nothing.
 TEST(Invariance, PowersOfTwoAsUnitOfLengthChangeNoBit) {
     const scene::Scene scene = make_box_scene(kSize);
-    const render_cpu::Isa isa = render_cpu::choose_isa();
+    const base::Isa isa = base::choose_isa();
     for (const auto technique : render::kTechniques) {
         const image::Image reference = render(scene, 2, isa, technique);
         for (const float factor : {0x1p-10f, 0x1p10f})
@@ -59,7 +57,7 @@ TEST(Invariance, PowersOfTwoAsUnitOfLengthChangeNoBit) {
 /// Other factors round coordinates: shadow rays that graze an edge may fall on its other side.
 TEST(Invariance, UnitOfLengthChangesNextToNothing) {
     const scene::Scene scene = make_box_scene(kSize);
-    const render_cpu::Isa isa = render_cpu::choose_isa();
+    const base::Isa isa = base::choose_isa();
     for (const auto technique : render::kTechniques) {
         const image::Image reference = render(scene, 2, isa, technique);
         for (const float factor : {1e-3f, 1e3f})

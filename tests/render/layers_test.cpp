@@ -31,7 +31,7 @@ const std::vector<float>& data_of(const RenderResult& result, const std::string&
 }
 
 RenderResult render(const scene::Scene& scene, const RenderSettings& settings) {
-    return render_cpu::Renderer(scene, 2).render(settings, render_cpu::choose_isa());
+    return render_cpu::Renderer(scene, 2).render(settings, base::choose_isa());
 }
 
 /// Ways to estimate light, each with another split into components.
@@ -165,7 +165,7 @@ std::vector<std::vector<double>> layer_means(const render_cpu::Renderer& rendere
     std::vector<std::vector<double>> rows;
     for (int seed = 0; seed < kSeeds; ++seed) {
         settings.seed = static_cast<std::uint32_t>(first_seed + seed);
-        const RenderResult result = renderer.render(settings, render_cpu::choose_isa());
+        const RenderResult result = renderer.render(settings, base::choose_isa());
         rows.push_back(region_means({kSize, kSize, data_of(result, name)}, kRegionsPerAxis));
     }
     return rows;
@@ -211,7 +211,7 @@ TEST(LayersStatistics, VarianceIsThatBetweenSeeds) {
     std::vector<double> sum(floats), squares(floats), estimates(floats);
     for (int seed = 0; seed < kManySeeds; ++seed) {
         settings.seed = static_cast<std::uint32_t>(seed);
-        const RenderResult result = renderer.render(settings, render_cpu::choose_isa());
+        const RenderResult result = renderer.render(settings, base::choose_isa());
         const std::vector<float>& variance = data_of(result, "variance");
         for (std::size_t i = 0; i < floats; ++i) {
             const double value = result.image.pixels[i];

@@ -37,8 +37,7 @@ scene::Scene make_slats(int count, int size) {
 /// Between slats as many parts are visible, however few there is room for.
 TEST(LineParts, NoneIsLost) {
     constexpr int kImage = 4;
-    for (const render_cpu::Isa isa :
-         {render_cpu::Isa::sse42, render_cpu::Isa::avx2, render_cpu::Isa::avx512}) {
+    for (const base::Isa isa : {base::Isa::sse42, base::Isa::avx2, base::Isa::avx512}) {
         if (!is_supported(isa)) continue;
         RenderSettings settings = line_settings(16);
         settings.lines.orientation = LineOrientation::fixed;
@@ -93,9 +92,7 @@ TEST(LineOrPoints, DoesNotDependOnRandomNumbers) {
             settings.lines.orientation = orientation;
             settings.lines.many_occluders = is_gauze ? ManyOccluders::lines : ManyOccluders::points;
             settings.seed = 1;
-            const auto count = [&] {
-                return renderer.render(settings, render_cpu::choose_isa()).statistics.lines;
-            };
+            const auto count = [&] { return renderer.render(settings, base::choose_isa()).statistics.lines; };
             const auto count_points = [&] { return count().point_lights; };
             const std::uint64_t expected = count_points();
             EXPECT_GT(expected, 0u) << "points somewhere";
@@ -191,7 +188,7 @@ TEST(LineRejections, AreCounted) {
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
     const auto rejected = [&](const scene::Scene& scene) {
         return render_cpu::Renderer(scene, 2)
-            .render(line_settings(4), render_cpu::choose_isa())
+            .render(line_settings(4), base::choose_isa())
             .statistics.rejected_samples;
     };
     EXPECT_EQ(rejected(make_soup(4)), 0u);

@@ -37,7 +37,7 @@ std::string description_of(const RenderSettings& settings) {
 }
 
 RenderResult render(const scene::Scene& scene, const RenderSettings& settings, int threads = 2) {
-    return render_cpu::Renderer(scene, threads).render(settings, render_cpu::choose_isa());
+    return render_cpu::Renderer(scene, threads).render(settings, base::choose_isa());
 }
 
 class LineSamples : public testing::Test {
@@ -176,21 +176,20 @@ TEST(LineInvariance, UnitOfLengthChangesNextToNothing) {
     }
 }
 
-class LineIsaInvariance : public testing::TestWithParam<render_cpu::Isa> {};
+class LineIsaInvariance : public testing::TestWithParam<base::Isa> {};
 
 TEST_P(LineIsaInvariance, HardlyAnyPixelDiffers) {
     if (!is_supported(GetParam())) GTEST_SKIP() << "this processor does not support it";
     const scene::Scene scene = make_box(4 * kSize);
     const render_cpu::Renderer renderer(scene, 2);
     for (const RenderSettings& settings : varied_settings()) {
-        const image::Image baseline = renderer.render(settings, render_cpu::Isa::sse42).image;
+        const image::Image baseline = renderer.render(settings, base::Isa::sse42).image;
         EXPECT_LE(differing_share(baseline, renderer.render(settings, GetParam()).image, 1e-3), 1e-3)
             << description_of(settings);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllIsas, LineIsaInvariance,
-                         testing::Values(render_cpu::Isa::avx2, render_cpu::Isa::avx512),
+INSTANTIATE_TEST_SUITE_P(AllIsas, LineIsaInvariance, testing::Values(base::Isa::avx2, base::Isa::avx512),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
 /// The choice does not depend on random numbers, and it does not change the mean.
@@ -199,9 +198,7 @@ TEST(LineChoice, TakesPointsBehindManyOccluders) {
     const render_cpu::Renderer renderer(scene, 2);
     const auto tracer = renderer.visibility().tracer();
     RenderSettings settings = line_settings(16);
-    const auto statistics_of = [&] {
-        return renderer.render(settings, render_cpu::choose_isa()).statistics.lines;
-    };
+    const auto statistics_of = [&] { return renderer.render(settings, base::choose_isa()).statistics.lines; };
     const render_cpu::LineStatistics lines_only = statistics_of();
     EXPECT_EQ(lines_only.point_lights, 0u);
     EXPECT_EQ(lines_only.lines, 16 * lines_only.line_lights);
@@ -277,7 +274,7 @@ TEST(LineSurfaces, PointsGoThroughPartlyPresentOnes) {
     const render_cpu::Renderer renderer(scene, 2);
     const auto tracer = renderer.visibility().tracer();
     const RenderSettings settings = line_settings(4);
-    const auto lines = renderer.render(settings, render_cpu::choose_isa()).statistics.lines;
+    const auto lines = renderer.render(settings, base::choose_isa()).statistics.lines;
     EXPECT_GT(lines.point_lights, 0u);
     EXPECT_GT(lines.line_lights, 0u);
     EXPECT_LT(largest_t(render_region_means(renderer, settings, kSeeds, tracer),
@@ -344,7 +341,7 @@ TEST(LineSettings, OutOfRangeAreRefused) {
 TEST(LineSettings, AreInTheMetadata) {
     const scene::Scene scene = make_floor(2);
     const auto metadata_of = [&](const RenderSettings& settings) {
-        return make_metadata(scene, settings, render_cpu::choose_isa());
+        return make_metadata(scene, settings, base::choose_isa());
     };
     const RenderSettings settings = line_settings(4);
     std::vector<RenderSettings> others(6, settings);

@@ -117,7 +117,7 @@ std::vector<std::vector<double>> rows_of(const scene::Scene& scene, render::Rend
     std::vector<std::vector<double>> rows;
     for (int seed = 0; seed < seeds; ++seed) {
         settings.seed = static_cast<std::uint32_t>(seed);
-        const image::Image image = renderer.render(settings, render_cpu::choose_isa()).image;
+        const image::Image image = renderer.render(settings, base::choose_isa()).image;
         std::vector<double>& row = rows.emplace_back();
         for (std::size_t i = 0; i < image.pixels.size(); i += 3) row.push_back(image.pixels[i]);
     }

@@ -201,7 +201,7 @@ std::vector<std::vector<double>> render_region_means(const render_cpu::Renderer&
     for (int seed = 0; seed < seed_count; ++seed) {
         // Techniques that are compared must not share random numbers.
         settings.seed = static_cast<std::uint32_t>(1000 * static_cast<int>(settings.technique) + seed);
-        const auto result = renderer.render(settings, render_cpu::choose_isa(), tracer);
+        const auto result = renderer.render(settings, base::choose_isa(), tracer);
         rows.push_back(region_means(result.image, kRegionsPerAxis));
     }
     return rows;

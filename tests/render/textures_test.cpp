@@ -56,7 +56,7 @@ image::Image render(const scene::Scene& scene) {
     settings.technique = render::Technique::ltc_analytic;
     settings.pixel_position = render::PixelPosition::center;
     settings.samples = 1;
-    return render_cpu::Renderer(scene, 2).render(settings, render_cpu::choose_isa()).image;
+    return render_cpu::Renderer(scene, 2).render(settings, base::choose_isa()).image;
 }
 
 Point to_vec(const Float3& v) { return {v.x, v.y, v.z}; }

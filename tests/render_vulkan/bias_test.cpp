@@ -1,8 +1,8 @@
 /// With random positions in pixels, images of both renderers have the same mean.
 
 #include "comparison.h"
-#include "experiments/bias_statistics.h"
 #include "gpu_test.h"
+#include "lab/errors/bias_statistics.h"
 #include "render/film.h"
 #include "rich_scene.h"
 #include "scene/load.h"
@@ -15,7 +15,7 @@
 namespace nusselt::render_vulkan_test {
 namespace {
 
-using experiments::BiasStatistics;
+using lab::BiasStatistics;
 using render_vulkan::ShadowRays;
 using render_vulkan::VulkanRenderer;
 
@@ -43,15 +43,15 @@ BiasStatistics of_cpu(const scene::Scene& scene) {
     const render_cpu::Renderer renderer(scene, 2);
     BiasStatistics statistics;
     for (std::uint32_t seed = 0; seed < kFrames; ++seed)
-        statistics.add(renderer.render(settings_for(1000 + seed), render_cpu::choose_isa()).image);
+        statistics.add(renderer.render(settings_for(1000 + seed), base::choose_isa()).image);
     return statistics;
 }
 
 class Bias : public parity::GpuTest {
 protected:
     /// With each way to trace shadow rays that the device has.
-    std::vector<experiments::BiasTest> compare(const scene::Scene& scene) const {
-        std::vector<experiments::BiasTest> tests;
+    std::vector<lab::BiasTest> compare(const scene::Scene& scene) const {
+        std::vector<lab::BiasTest> tests;
         const BiasStatistics expected = of_cpu(scene);
         for (const ShadowRays way : {ShadowRays::bvh, ShadowRays::query})
             if (way != ShadowRays::query || device().features().ray_queries)
@@ -60,20 +60,20 @@ protected:
     }
 };
 
-void expect_none(const experiments::BiasTest& test) {
+void expect_none(const lab::BiasTest& test) {
     EXPECT_TRUE(test.passes()) << "frame " << test.frame << ", cell " << test.largest_cell << ", chi^2 "
                                << test.chi_square << " of " << test.cells;
 }
 
-void expect_none(const std::vector<experiments::BiasTest>& tests) {
-    for (const experiments::BiasTest& test : tests) expect_none(test);
+void expect_none(const std::vector<lab::BiasTest>& tests) {
+    for (const lab::BiasTest& test : tests) expect_none(test);
 }
 
 const scene::PixelFilter kWideFilter = {.kind = scene::FilterKind::mitchell, .radius_x = 2, .radius_y = 2};
 
 /// With a wide filter, what all pixels of a frame share, its offset, is most of the noise: cells are not independent, and
 /// their sum of squares means nothing. The others hold all the same.
-void leave_out_sum_of_squares(experiments::BiasTest& test) { test.chi_square = 0; }
+void leave_out_sum_of_squares(lab::BiasTest& test) { test.chi_square = 0; }
 
 TEST_F(Bias, OfShippedScenes_ThereIsNone) {
     for (const auto& entry : std::filesystem::directory_iterator(NUSSELT_SOURCE_DIR "/scenes")) {
@@ -88,8 +88,8 @@ TEST_F(Bias, OfShippedScenes_ThereIsNone) {
 TEST_F(Bias, OfAllThatSurfacesCanHave_ThereIsNone) {
     scene::Scene scene = make_rich_scene(kWidth, kHeight);
     scene.film.filter = kWideFilter;
-    std::vector<experiments::BiasTest> tests = compare(scene);
-    for (experiments::BiasTest& test : tests) leave_out_sum_of_squares(test);
+    std::vector<lab::BiasTest> tests = compare(scene);
+    for (lab::BiasTest& test : tests) leave_out_sum_of_squares(test);
     expect_none(tests);
 }
 
@@ -112,8 +112,7 @@ TEST_F(Bias, OfADimmedLight_IsFound) {
         for (scene::PolygonLight& light : scene.polygon_lights)
             for (float* channel : {&light.radiance.x, &light.radiance.y, &light.radiance.z})
                 *channel *= factor;
-        experiments::BiasTest test =
-            of_gpu(VulkanRenderer(device(), scene, ShadowRays::bvh)).compare(reference);
+        lab::BiasTest test = of_gpu(VulkanRenderer(device(), scene, ShadowRays::bvh)).compare(reference);
         if (filter.kind != scene::FilterKind::box) leave_out_sum_of_squares(test);
         EXPECT_FALSE(test.passes()) << factor;
     }

@@ -31,7 +31,7 @@ inline double differing_share(const image::Image& a, const image::Image& b) {
 }
 
 inline image::Image render_on_cpu(const scene::Scene& scene, const render::RenderSettings& settings) {
-    return render_cpu::Renderer(scene, 2).render(settings, render_cpu::choose_isa()).image;
+    return render_cpu::Renderer(scene, 2).render(settings, base::choose_isa()).image;
 }
 
 } // namespace nusselt::render_vulkan_test

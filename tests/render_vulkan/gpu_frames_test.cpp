@@ -1,6 +1,6 @@
-/// What `nusselt bench gpu` measures.
+/// What `nusselt-lab bench gpu` measures.
 
-#include "experiments/gpu_frames.h"
+#include "lab/timing/gpu_frames.h"
 
 #include "gpu_test.h"
 
@@ -15,10 +15,10 @@
 namespace nusselt::render_vulkan_test {
 namespace {
 
-using experiments::GpuFrame;
-using experiments::GpuFrameTimes;
-using experiments::is_same;
-using experiments::ratio_of;
+using lab::GpuFrame;
+using lab::GpuFrameTimes;
+using lab::is_same;
+using lab::ratio_of;
 using render_vulkan::DeviceScene;
 using render_vulkan::ShadowRays;
 
@@ -30,7 +30,7 @@ scene::Scene load_small(const std::string& name) {
 
 TEST(GpuFrameRatios, AreMediansOfRounds) {
     const GpuFrameTimes a{{1, 1, 1}, {5, 3, 7}, 30}, b{{1, 1, 3}, {1, 1, 1}, 20};
-    const experiments::GpuFrameRatio ratio = ratio_of(a, b);
+    const lab::GpuFrameRatio ratio = ratio_of(a, b);
     EXPECT_EQ(ratio.shading, 5);
     EXPECT_EQ(ratio.whole, 2) << "of 3, 2 and 2";
     EXPECT_EQ(ratio.shadow_rays, 1.5);
@@ -38,9 +38,9 @@ TEST(GpuFrameRatios, AreMediansOfRounds) {
 }
 
 TEST(TimedSettings, AreAllThatFitAndHoldThePair) {
-    const auto all = experiments::timed_settings();
+    const auto all = lab::timed_settings();
     EXPECT_EQ(all.size(), 10u) << "six alone, two with lobes, two with visible normals";
-    const auto pair = experiments::strategies_pair();
+    const auto pair = lab::strategies_pair();
     int ours = 0, baseline = 0;
     for (const render::RenderSettings& settings : all) {
         EXPECT_NO_THROW(validate(settings));
@@ -56,7 +56,7 @@ TEST(TimedSettings, AreAllThatFitAndHoldThePair) {
 TEST(LineAndQuad, HaveTheSamePlaceAndSize) {
     for (const char* name : {"room.pbrt", "cornell-tube.pbrt"}) {
         const scene::Scene scene = load_small(name);
-        const auto both = experiments::line_and_quad(scene);
+        const auto both = lab::line_and_quad(scene);
         ASSERT_TRUE(both) << name;
         ASSERT_EQ(both->line.line_lights.size(), 1u);
         EXPECT_TRUE(both->line.polygon_lights.empty());
@@ -78,14 +78,14 @@ TEST(LineAndQuad, HaveTheSamePlaceAndSize) {
         EXPECT_EQ(quad.radiance.y, line.radiance.y);
         EXPECT_EQ(line.radiance.y, scene.line_lights[0].radiance.y);
     }
-    EXPECT_FALSE(experiments::line_and_quad(load_small("cornell-panel.pbrt")));
+    EXPECT_FALSE(lab::line_and_quad(load_small("cornell-panel.pbrt")));
 }
 
 TEST(LineAndQuad, TurnsQuadsOfUprightTubes) {
     scene::Scene scene = load_small("cornell-tube.pbrt");
     scene.line_lights[0].begin = {0, 0.5f, 0};
     scene.line_lights[0].end = {0, 1.5f, 0};
-    const auto both = experiments::line_and_quad(scene);
+    const auto both = lab::line_and_quad(scene);
     ASSERT_TRUE(both);
     for (const scene::Float3& vertex : both->quad.polygon_lights[0].vertices) {
         EXPECT_EQ(vertex.x, 0);
@@ -97,19 +97,19 @@ class GpuFrames : public parity::GpuTest {};
 
 /// Shadow rays of both members of the pair, for a surface that reflects diffusely and specularly everywhere: each sample of
 /// a light takes one ray, one of visible normals only if it hits the light.
-bool has_rays_of_equal_samples(const experiments::GpuFrameRatio& ratio) {
+bool has_rays_of_equal_samples(const lab::GpuFrameRatio& ratio) {
     return ratio.shadow_rays && *ratio.shadow_rays >= 1 && *ratio.shadow_rays <= 2.05;
 }
 
 TEST_F(GpuFrames, ComparesStrategiesAtEqualSamples) {
     const scene::Scene scene = load_small("cornell-panel.pbrt");
-    const auto pair = experiments::strategies_pair();
+    const auto pair = lab::strategies_pair();
     const DeviceScene device_scene(device(), scene, ShadowRays::bvh);
     render::RenderSettings more = pair.baseline;
     more.samples *= 4;
     const GpuFrame frames[] = {
         {&device_scene, pair.ours}, {&device_scene, pair.baseline}, {&device_scene, more}};
-    const auto times = experiments::time_gpu_frames(frames, {.repetitions = 3, .warm_up = 1});
+    const auto times = lab::time_gpu_frames(frames, {.repetitions = 3, .warm_up = 1});
     ASSERT_EQ(times.size(), 3u);
     for (const GpuFrameTimes& t : times) {
         ASSERT_EQ(t.visibility.size(), 3u);
@@ -119,7 +119,7 @@ TEST_F(GpuFrames, ComparesStrategiesAtEqualSamples) {
             EXPECT_GT(t.shading[i], 0);
         }
     }
-    const experiments::GpuFrameRatio ratio = ratio_of(times[0], times[1]);
+    const lab::GpuFrameRatio ratio = ratio_of(times[0], times[1]);
     RecordProperty("shadow_ray_ratio", std::to_string(ratio.shadow_rays.value_or(0)));
     EXPECT_TRUE(has_rays_of_equal_samples(ratio));
     EXPECT_LE(times[0].shadow_rays, 2 * 2 * 32 * 24u) << "two techniques, two samples, one light";
@@ -134,7 +134,7 @@ TEST_F(GpuFrames, CountsTheSameRaysWithoutTracingThem) {
     settings.samples = 2;
     settings.camera_rays = 1;
     const GpuFrame frames[] = {{&traced, settings}, {&untraced, settings}};
-    const auto times = experiments::time_gpu_frames(frames, {.repetitions = 1, .warm_up = 0});
+    const auto times = lab::time_gpu_frames(frames, {.repetitions = 1, .warm_up = 0});
     EXPECT_EQ(times[0].shadow_rays, times[1].shadow_rays);
     EXPECT_GT(times[0].shadow_rays, 0u);
 }

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "experiments/hostile/contract.h"
+#include "proof/hostile/contract.h"
 
 namespace nusselt::fuzz {
 

@@ -7,7 +7,7 @@
 
 #include <nusselt/core/frame.h>
 
-#include "experiments/hostile/lights.h"
+#include "proof/hostile/lights.h"
 
 namespace nusselt_test {
 

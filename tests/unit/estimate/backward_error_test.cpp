@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/hostile/lights.h"
 #include "geometry/reference.h"
+#include "proof/hostile/lights.h"
 #include "sampling/techniques.h"
 
 namespace nusselt_test {
@@ -209,7 +209,7 @@ PolygonLight wall(Real azimuth_range, Real inner_begin, Real inner_end, Real out
     return nusselt::make_polygon<4>(corners, 4);
 }
 
-// The largest errors that `nusselt bench worst-case` has found, and their lights. They are properties of the methods:
+// The largest errors that `nusselt-lab bench worst-case` has found, and their lights. They are properties of the methods:
 // double precision gives the same first ten digits as the 64 bits of x87 (rounding is 1e-16 relative to the random
 // number, 1e-11 relative to the error), so that the five digits below hold for any long double.
 constexpr Real kRelativeTolerance = 1e-5L;

@@ -7,8 +7,8 @@
 
 #include <nusselt/geometry/clip_line.h>
 
-#include "experiments/hostile/lights.h"
 #include "geometry/reference.h"
+#include "proof/hostile/lights.h"
 #include "sampling/lights.h"
 
 namespace nusselt_test {

@@ -9,7 +9,7 @@
 
 #include <nusselt/line_samples/phong.h>
 
-#include "experiments/hostile/lights.h"
+#include "proof/hostile/lights.h"
 #include "sampling/flush_denormals.h"
 
 namespace nusselt_test {

@@ -9,8 +9,8 @@
 
 #include <nusselt/line_samples/shading.h>
 
-#include "experiments/hostile/lights.h"
 #include "geometry/reference.h"
+#include "proof/hostile/lights.h"
 
 namespace nusselt_test {
 

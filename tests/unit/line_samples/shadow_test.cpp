@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/shadows/shadow_cases.h"
-#include "experiments/shadows/shadow_checks.h"
+#include "proof/shadows/shadow_cases.h"
+#include "proof/shadows/shadow_checks.h"
 #include "sampling/flush_denormals.h"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <nusselt/line_samples/visible_parts.h>
 #include <nusselt/simd/pack.h>
 
-#include "experiments/hostile/lights.h"
+#include "proof/hostile/lights.h"
 
 namespace {
 

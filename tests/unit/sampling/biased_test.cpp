@@ -9,8 +9,8 @@
 
 #include <nusselt/estimate/backward_error.h>
 
-#include "experiments/hostile/lights.h"
 #include "lights.h"
+#include "proof/hostile/lights.h"
 
 namespace nusselt_test {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-/// The contract of a technique (src/experiments/hostile/contract.h) for tests.
+/// The contract of a technique (proof/hostile/contract.h) for tests.
 
 #include <cstdio>
 #include <cstring>
@@ -7,8 +7,8 @@
 
 #include <nusselt/simd/pack.h>
 
-#include "experiments/hostile/contract.h"
-#include "experiments/hostile/lights.h"
+#include "proof/hostile/contract.h"
+#include "proof/hostile/lights.h"
 #include "techniques.h"
 
 namespace nusselt_test {

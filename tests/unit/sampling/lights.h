@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/tube_lights.h"
+#include "proof/tube_lights.h"
 #include "techniques.h"
 
 namespace nusselt_test {
@@ -23,7 +23,7 @@ struct LineCase {
     nusselt::Vec3<double> begin, end;
 };
 
-using CylinderCase = nusselt::experiments::TubeLight;
+using CylinderCase = nusselt::proof::TubeLight;
 
 /// Spanned by two vectors about a center; exact in every precision for short binary coordinates.
 inline std::vector<nusselt::Vec3<double>>
@@ -98,7 +98,7 @@ inline std::vector<LineCase> line_cases() {
     };
 }
 
-inline std::vector<CylinderCase> cylinder_cases() { return nusselt::experiments::tube_lights(); }
+inline std::vector<CylinderCase> cylinder_cases() { return nusselt::proof::tube_lights(); }
 
 struct LobeCase {
     std::string name;
@@ -110,7 +110,7 @@ struct LobeCase {
 inline std::vector<LobeCase> lobe_cases() {
     return {
         {"rough", {1, 0.25, 1.25, -0.1875, 0.875, 1}},
-        {"glossy", nusselt::experiments::kGlossyLobe},
+        {"glossy", nusselt::proof::kGlossyLobe},
     };
 }
 

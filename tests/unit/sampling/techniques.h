@@ -4,7 +4,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "experiments/hostile/techniques.h"
+#include "proof/hostile/techniques.h"
 
 namespace nusselt_test {
 

@@ -1,0 +1,91 @@
+#include "line_options.h"
+
+#include "render_setup.h"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace nusselt::app {
+
+namespace {
+
+constexpr const char* kGroup = "Line samples";
+
+} // namespace
+
+void add_line_kind_options(CLI::App& command, LineKindOptions& options) {
+    command
+        .add_option(
+            "--orientation", options.orientation,
+            "Directions of lines: parallel, random but the same for all lines of a shading point and\n"
+            "light; fixed, along the longest edge of the light; independent. Default: parallel")
+        ->transform(to_name_of(render::kLineOrientations))
+        ->group(kGroup);
+    command
+        .add_option("--offsets", options.offsets,
+                    "Density of lines: by their length on the light, uniform, or by what the surface would\n"
+                    "reflect of them without shadows. Default: reflected")
+        ->transform(to_name_of(render::kLineOffsets))
+        ->group(kGroup);
+    command
+        .add_option("--line-shading", options.shading,
+                    "unbiased: the integral of a linearly transformed cosine over what is visible of a\n"
+                    "line, and one point for the difference to the BRDF; analytic: without that.\n"
+                    "Default: unbiased")
+        ->transform(to_name_of(render::kLineShadings))
+        ->group(kGroup);
+}
+
+void add_line_options(CLI::App& command, LineOptions& options) {
+    command
+        .add_option("--integrator", options.integrator,
+                    "What is sampled of polygonal lights: points, or lines with exact visibility. Tubes and\n"
+                    "linear lights always get --spp points")
+        ->transform(to_name_of(render::kIntegrators))
+        ->capture_default_str()
+        ->group(kGroup);
+    command
+        .add_option(
+            "--lines", options.count,
+            fmt::format(
+                "Lines per shading point and polygon of a light, 1 to {}; 16 or more pay. Default: {}",
+                render::kMaxLines, render::LineSettings().count))
+        ->check(CLI::Range(1, render::kMaxLines))
+        ->group(kGroup);
+    add_line_kind_options(command, options);
+    command
+        .add_option(
+            "--many-occluders", options.many_occluders,
+            "What shading points take where many triangles may hide a light: the power of two next to N^1.4\n"
+            "points in place of N lines, of the technique and strategies of the other options, which are\n"
+            "faster there (with fewer than 16 lines everywhere); or lines all the same. Default: points")
+        ->transform(to_name_of(render::kManyOccludersChoices))
+        ->group(kGroup);
+}
+
+void apply_line_kind_options(const LineKindOptions& options, render::LineSettings& settings) {
+    if (options.orientation)
+        settings.orientation = from_name(render::kLineOrientations, *options.orientation);
+    if (options.offsets) settings.offsets = from_name(render::kLineOffsets, *options.offsets);
+    if (options.shading) settings.shading = from_name(render::kLineShadings, *options.shading);
+}
+
+void apply_line_options(const LineOptions& options, render::RenderSettings& settings) {
+    settings.integrator = from_name(render::kIntegrators, options.integrator);
+    render::LineSettings& lines = settings.lines;
+    if (options.count) lines.count = *options.count;
+    apply_line_kind_options(options, lines);
+    if (options.many_occluders)
+        lines.many_occluders = from_name(render::kManyOccludersChoices, *options.many_occluders);
+}
+
+nlohmann::ordered_json line_kind_json(const render::LineSettings& settings) {
+    return {{"orientation", render::name_of(settings.orientation)},
+            {"offsets", render::name_of(settings.offsets)},
+            {"line_shading", render::name_of(settings.shading)}};
+}
+
+} // namespace nusselt::app

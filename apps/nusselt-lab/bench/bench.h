@@ -1,0 +1,14 @@
+#pragma once
+/// `nusselt-lab bench`: what costs, accuracy and noise are.
+
+namespace CLI {
+class App;
+}
+
+namespace nusselt::app {
+
+/// Adds the subcommand with one of its own for each benchmark. Their callbacks store their results in exit_code, which
+/// must live until the command line was parsed.
+void setup_bench(CLI::App& app, int& exit_code);
+
+} // namespace nusselt::app

@@ -1,0 +1,140 @@
+#include "reproduce.h"
+#include "apps/common/render_setup.h"
+
+#include "base/atomic_file.h"
+#include "lab/figures/noise_table.h"
+#include "lab/figures/run.h"
+#include "lab/lines/line_convergence.h"
+#include "lab/lines/line_visibility.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+
+namespace nusselt::app {
+
+namespace {
+
+using lab::Experiment;
+using lab::LineConvergence;
+using lab::LineVisibility;
+using lab::NoiseTable;
+
+/// What all kinds of experiments have.
+struct Heading {
+    std::string name;
+    std::string source;
+    std::string description;
+};
+
+std::vector<Heading> all_headings() {
+    std::vector<Heading> headings;
+    for (const Experiment& e : lab::all_experiments()) headings.push_back({e.name, e.source, e.description});
+    for (const NoiseTable& t : lab::all_noise_tables()) headings.push_back({t.name, t.source, t.description});
+    for (const LineConvergence& c : lab::all_line_convergences())
+        headings.push_back({c.name, c.source, c.description});
+    for (const LineVisibility& v : lab::all_line_visibilities())
+        headings.push_back({v.name, v.source, v.description});
+    return headings;
+}
+
+void print_list() {
+    for (const Heading& h : all_headings())
+        fmt::print("{:<18}{}\n{:<18}{}\n", h.name, h.source, "", h.description);
+}
+
+bool is_chosen(const ReproduceOptions& options, const std::string& name) {
+    const std::vector<std::string>& names = options.experiments;
+    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Prints and writes the result of one experiment. \returns whether all expectations hold
+template <class Result>
+bool report(const Result& result, const std::filesystem::path& folder) {
+    fmt::print("\n{}", lab::to_text(result));
+    lab::write_report(result, folder);
+    return std::all_of(result.expectations.begin(), result.expectations.end(),
+                       [](const lab::ExpectationResult& e) { return e.holds; });
+}
+
+void write_index(const ReproduceOptions& options) {
+    base::write_atomically(options.output / "index.html", [&](std::ofstream& file) {
+        file << "<!DOCTYPE html>\n<meta charset=\"utf-8\"><title>Nusselt: experiments</title>\n<ul>\n";
+        for (const Heading& h : all_headings())
+            if (is_chosen(options, h.name))
+                file << fmt::format("<li><a href=\"{0}/index.html\">{0}</a>: {1}\n", h.name, h.source);
+        file << "</ul>\n";
+    });
+}
+
+} // namespace
+
+void setup_reproduce(CLI::App& app, int& exit_code) {
+    const auto options = std::make_shared<ReproduceOptions>();
+    CLI::App* command = app.add_subcommand(
+        "reproduce",
+        "Render the comparisons of the papers and check what they claim. Prints a table and writes a\n"
+        "page with all images for each experiment. The exit code is 1 if an expectation fails.");
+    std::vector<std::string> names;
+    for (const Heading& h : all_headings()) names.push_back(h.name);
+    command->add_option("EXPERIMENT", options->experiments, "Names of experiments, see --list. Default: all")
+        ->check(CLI::IsMember(names));
+    command->add_flag_callback(
+        "--list",
+        [] {
+            print_list();
+            throw CLI::Success();
+        },
+        "List the experiments and exit");
+    command->add_option("-o,--output", options->output, "Folder for the pages, created if missing")
+        ->capture_default_str();
+    command->add_option("--scenes", options->scenes, "Folder with the shipped scenes")->capture_default_str();
+    command
+        ->add_option("--reference-spp", options->reference_samples,
+                     "Samples per pixel and light of references, 1 to 2^20. Default: as each experiment says")
+        ->check(CLI::Range(1, render::kMaxSamples));
+    command
+        ->add_option("--width", options->width,
+                     "Width of the images in pixels, 1 to 16384. Default: as each scene says")
+        ->check(CLI::Range(1, 16384));
+    command->add_option("--threads", options->threads, "Number of threads, 1 to 1024. Default: all cores")
+        ->check(CLI::Range(1, 1024));
+    command->callback([options, &exit_code] { exit_code = run_reproduce(*options); });
+}
+
+int run_reproduce(const ReproduceOptions& options) {
+    if (!std::filesystem::is_directory(options.scenes))
+        throw std::runtime_error(
+            "no folder '" + options.scenes.string() +
+            "': run in the repository or give the folder of the shipped scenes with --scenes");
+    lab::RunSettings settings;
+    settings.scenes = options.scenes;
+    settings.reference_samples = options.reference_samples;
+    settings.width = options.width;
+    settings.threads = options.threads.value_or(0);
+    bool all_hold = true;
+    const auto run_all = [&](const auto& all, const auto& run) {
+        for (const auto& experiment : all) {
+            if (!is_chosen(options, experiment.name)) continue;
+            const auto result = run(experiment, settings, [&](std::string_view step) {
+                fmt::print(stderr, "{}: {}\n", experiment.name, step);
+            });
+            all_hold = report(result, options.output / experiment.name) && all_hold;
+        }
+    };
+    run_all(lab::all_experiments(), lab::run_experiment);
+    run_all(lab::all_line_convergences(), lab::run_line_convergence);
+    run_all(lab::all_line_visibilities(), lab::run_line_visibility);
+    for (const NoiseTable& table : lab::all_noise_tables())
+        if (is_chosen(options, table.name))
+            all_hold = report(lab::measure_noise(table), options.output / table.name) && all_hold;
+    write_index(options);
+    fmt::print("\n{}\n", (options.output / "index.html").string());
+    return all_hold ? 0 : 1;
+}
+
+} // namespace nusselt::app

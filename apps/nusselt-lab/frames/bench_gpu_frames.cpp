@@ -1,0 +1,204 @@
+#include "bench_gpu_frames.h"
+#include "apps/common/render_setup.h"
+#include "apps/nusselt-lab/bench/bench_device.h"
+#include "apps/nusselt-lab/bench/bench_output.h"
+#include "bench_gpu_frames_report.h"
+
+#include "image/io.h"
+#include "lab/timing/llvmpipe_threads.h"
+#include "scene/load.h"
+#include "scene/message.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <deque>
+#include <memory>
+#include <span>
+#include <stdexcept>
+
+namespace nusselt::app {
+
+namespace {
+
+using lab::GpuFrame;
+using lab::GpuFrameTimes;
+using render_vulkan::DeviceScene;
+using render_vulkan::ShadowRays;
+
+/// The shipped scenes, and the bathroom where it is at hand.
+std::vector<std::filesystem::path> all_scenes(const std::filesystem::path& folder) {
+    if (!std::filesystem::is_directory(folder))
+        throw std::runtime_error(
+            "no folder '" + folder.string() +
+            "': run in the repository, give the folder of the shipped scenes with --scenes, or name scenes");
+    std::vector<std::filesystem::path> scenes;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".pbrt") scenes.push_back(entry.path());
+    std::sort(scenes.begin(), scenes.end());
+    if (const char* published = std::getenv("NUSSELT_SCENES"))
+        scenes.push_back(std::filesystem::path(published) / "bathroom" / "bathroom.pbrt");
+    return scenes;
+}
+
+/// Fills a table, scene by scene.
+class Measurement {
+public:
+    Measurement(const gpu::Device& device, const BenchGpuFramesOptions& options, GpuFrameTable& table)
+        : device_(device), table_(table) {
+        for (const std::string& name : options.shadow_rays)
+            ways_.push_back(from_name(render_vulkan::kShadowRays, name));
+        if (ways_.empty()) ways_ = {render_vulkan::default_shadow_rays(device), ShadowRays::none};
+        for (const render::RenderSettings& settings : lab::timed_settings()) {
+            const std::string name(name_of(settings.technique));
+            if (options.techniques.empty() || std::find(options.techniques.begin(), options.techniques.end(),
+                                                        name) != options.techniques.end())
+                settings_.push_back(settings);
+        }
+    }
+
+    void add(const std::string& name, const scene::Scene& scene) {
+        fmt::print(stderr, "{}\n", name);
+        add_techniques(name, scene);
+        add_line_and_quad(name, scene);
+    }
+
+private:
+    /// All ways to trace in the same rounds.
+    void add_techniques(const std::string& name, const scene::Scene& scene) {
+        std::deque<DeviceScene> scenes;
+        std::vector<GpuFrame> frames;
+        for (const ShadowRays way : ways_) {
+            const DeviceScene& device_scene = scenes.emplace_back(device_, scene, way);
+            for (const render::RenderSettings& settings : settings_)
+                frames.push_back({&device_scene, settings});
+        }
+        const std::vector<GpuFrameTimes> times = lab::time_gpu_frames(frames, table_.rounds);
+        for (std::size_t i = 0; i < frames.size(); ++i) add_row(name, frames[i], times[i]);
+        for (std::size_t i = 0; i < ways_.size(); ++i)
+            compare_strategies(name, ways_[i],
+                               std::span(times).subspan(i * settings_.size(), settings_.size()));
+    }
+
+    /// \param times one for each of the settings
+    void compare_strategies(const std::string& name, ShadowRays way, std::span<const GpuFrameTimes> times) {
+        const lab::SettingsPair pair = lab::strategies_pair();
+        const GpuFrameTimes* const ours = find(pair.ours, times);
+        const GpuFrameTimes* const baseline = find(pair.baseline, times);
+        if (ours == nullptr || baseline == nullptr) return;
+        table_.comparisons.push_back({name, way, text_of(pair.ours), text_of(pair.baseline),
+                                      ratio_of(*ours, *baseline), lab::kPublishedStrategiesRatio});
+    }
+
+    /// Without samples, hence without shadow rays.
+    void add_line_and_quad(const std::string& name, const scene::Scene& scene) {
+        const auto analytic = std::find_if(settings_.begin(), settings_.end(), [](const auto& settings) {
+            return settings.technique == render::Technique::ltc_analytic;
+        });
+        const auto both = lab::line_and_quad(scene);
+        if (analytic == settings_.end() || !both) return;
+        const DeviceScene line(device_, both->line, ShadowRays::none);
+        const DeviceScene quad(device_, both->quad, ShadowRays::none);
+        const GpuFrame frames[] = {{&line, *analytic}, {&quad, *analytic}};
+        const std::vector<GpuFrameTimes> times = lab::time_gpu_frames(frames, table_.rounds);
+        add_row(name + ", a line as light", frames[0], times[0]);
+        add_row(name + ", a quad as light", frames[1], times[1]);
+        table_.comparisons.push_back({name, ShadowRays::none, "ltc_analytic, a line", "the same, a quad",
+                                      ratio_of(times[0], times[1]), lab::kPublishedLineRatio});
+    }
+
+    void add_row(const std::string& name, const GpuFrame& frame, const GpuFrameTimes& times) {
+        const scene::Film& film = frame.scene->film();
+        table_.rows.push_back(
+            {name, film.width, film.height, frame.scene->shadows().way(), frame.settings, times});
+    }
+
+    /// Null if these settings are not measured.
+    const GpuFrameTimes* find(const render::RenderSettings& wanted,
+                              std::span<const GpuFrameTimes> times) const {
+        for (std::size_t i = 0; i < settings_.size(); ++i)
+            if (lab::is_same(settings_[i], wanted)) return &times[i];
+        return nullptr;
+    }
+
+    const gpu::Device& device_;
+    GpuFrameTable& table_;
+    std::vector<ShadowRays> ways_;
+    std::vector<render::RenderSettings> settings_;
+};
+
+} // namespace
+
+int run_bench_gpu_frames(const BenchGpuFramesOptions& options) {
+    if (options.json && *options.json != "-") image::check_writable(*options.json);
+    const std::vector<std::filesystem::path> scenes =
+        options.scenes.empty() ? all_scenes(options.scene_folder) : options.scenes;
+    const gpu::Device device({.choice = options.device});
+    GpuFrameTable table;
+    table.device = device.description();
+    table.clock = device.pass_clock();
+    table.llvmpipe_threads = lab::llvmpipe_threads(device.description());
+    table.rounds = {options.frames, options.warm_up};
+    Measurement measurement(device, options, table);
+    for (const std::filesystem::path& path : scenes) {
+        const std::string name = path.stem().string();
+        try {
+            scene::Scene scene = scene::load_scene(path);
+            apply_resolution(options.resolution, scene);
+            measurement.add(name, scene);
+        } catch (const std::runtime_error& error) {
+            // What the others took long to measure is not lost.
+            table.failures.push_back({name, error.what()});
+            fmt::print(stderr, "nusselt: error: {}\n", scene::message_line(error.what()));
+        }
+    }
+    write_results(options.json, to_json(table), [&] { print_table(table); });
+    return table.failures.empty() ? 0 : 1;
+}
+
+void setup_bench_gpu_frames(CLI::App& bench, int& exit_code) {
+    const auto options = std::make_shared<BenchGpuFramesOptions>();
+    CLI::App* command = bench.add_subcommand(
+        "gpu",
+        "Cost of frames on a GPU: times of the visibility and the shading pass with each technique and\n"
+        "strategies, two samples of each per pixel in one frame; ratios of the two ways to sample\n"
+        "materials that Peters (2021, polygonal lights, Fig. 1) compares; and where a scene has a tube,\n"
+        "analytic shading of a line over that of a quad in its place (Heitz and Hill 2017, Sec. 1.7).");
+    command->add_option(
+        "SCENES", options->scenes,
+        "Scene files. Default: all of --scenes, and bathroom/bathroom.pbrt in the folder that\n"
+        "the environment variable NUSSELT_SCENES names");
+    command->add_option("--scenes", options->scene_folder, "Folder with the shipped scenes")
+        ->capture_default_str();
+    add_resolution_option(*command, options->resolution);
+    command->get_option("--resolution")
+        ->description("Image size WIDTHxHEIGHT in pixels, each 1 to 65536")
+        ->capture_default_str();
+    command->add_option("--frames", options->frames, "Frames of each kind, of which the median counts")
+        ->check(CLI::Range(1, 10001))
+        ->capture_default_str();
+    command->add_option("--warm-up", options->warm_up, "Frames of each kind before those")
+        ->check(CLI::Range(0, 10000))
+        ->capture_default_str();
+    command
+        ->add_option("--techniques", options->techniques,
+                     "Only these techniques, separated by commas. Default: all")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(to_name_of(render::kTechniques));
+    command
+        ->add_option("--shadow-rays", options->shadow_rays,
+                     "Ways to trace shadow rays, separated by commas: query, by the driver; bvh, by a\n"
+                     "hierarchy of our own; none. Default: query where the device has that, else bvh; and\n"
+                     "none")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember(names_of(render_vulkan::kShadowRays)));
+    add_device_option(*command, options->device);
+    add_json_option(*command, options->json);
+    command->callback([options, &exit_code] { exit_code = run_bench_gpu_frames(*options); });
+}
+
+} // namespace nusselt::app

@@ -1,0 +1,53 @@
+#pragma once
+/// The results of `nusselt-lab bench gpu`.
+
+#include "gpu/device.h"
+#include "lab/timing/gpu_frames.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nusselt::app {
+
+/// Frames of one kind.
+struct GpuFrameRow {
+    std::string scene;
+    int width, height;
+    render_vulkan::ShadowRays shadow_rays;
+    render::RenderSettings settings;
+    lab::GpuFrameTimes times;
+};
+
+/// Two kinds of frames of the same rounds.
+struct GpuFrameComparison {
+    std::string scene;
+    render_vulkan::ShadowRays shadow_rays;
+    std::string ours, baseline;
+    lab::GpuFrameRatio ratio;
+    double published; ///< the ratio of the paper
+};
+
+/// A scene that could not be measured.
+struct GpuFrameFailure {
+    std::string scene, message;
+};
+
+struct GpuFrameTable {
+    gpu::DeviceDescription device;
+    gpu::Clock clock; ///< of passes
+    std::optional<std::string> llvmpipe_threads;
+    lab::GpuFrameRounds rounds;
+    std::vector<GpuFrameRow> rows;
+    std::vector<GpuFrameComparison> comparisons;
+    std::vector<GpuFrameFailure> failures;
+};
+
+/// Technique, strategies and heuristic.
+std::string text_of(const render::RenderSettings& settings);
+
+void print_table(const GpuFrameTable& table);
+
+std::string to_json(const GpuFrameTable& table);
+
+} // namespace nusselt::app

@@ -1,0 +1,17 @@
+#include "apps/common/program.h"
+#include "apps/nusselt-lab/bench/bench.h"
+#include "apps/nusselt-lab/evidence/fit_ltc.h"
+#include "apps/nusselt-lab/evidence/fuzz.h"
+#include "apps/nusselt-lab/evidence/map.h"
+#include "apps/nusselt-lab/evidence/reproduce.h"
+
+int main(int argc, char** argv) {
+    using namespace nusselt::app;
+    return run_program(
+        {"nusselt-lab",
+         "Nusselt's laboratory: measures, proves and reproduces what the library and the renderer claim.\n"
+         "`nusselt-lab COMMAND --help` explains a command.",
+         "Exit codes: 0 success, 1 error or broken expectation, 2 wrong usage, 130 stopped by Ctrl-C.",
+         {setup_reproduce, setup_bench, setup_map, setup_fuzz, setup_fit_ltc}},
+        argc, argv);
+}

@@ -1,0 +1,69 @@
+#include "bench_shadows.h"
+#include "apps/common/progress.h"
+#include "apps/common/render_setup.h"
+#include "apps/common/validators.h"
+
+#include "base/isa.h"
+#include "lab/fuzzing/shadow_fuzz.h"
+#include "render_cpu/renderer.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <chrono>
+#include <memory>
+
+namespace nusselt::app {
+
+int run_bench_shadows(const BenchShadowsOptions& options) {
+    const std::string isa(name_of(base::choose_isa(options.isa)));
+    const lab::ShadowFuzzSettings settings{options.seed, options.first, options.count,
+                                           options.threads.value_or(render_cpu::default_thread_count())};
+    const auto begin = std::chrono::steady_clock::now();
+    Progress progress;
+    const auto rows = lab::fuzz_shadows(lab::choose_shadow_checks(isa), settings,
+                                        [&](double fraction) { progress.update(fraction); });
+    progress.finish();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+    std::uint64_t violations = 0;
+    fmt::print("{:<26}{:>14}{:>16}{:>12}\n", "cases", "segments", "triangles", "violations");
+    for (const auto& row : rows) {
+        violations += row.violations;
+        fmt::print("{:<26}{:>14}{:>16}{:>12}\n", row.kind, options.count * proof::kLinesPerCase,
+                   row.triangles, row.violations);
+    }
+    fmt::print("\n{}, seed {}: {} cases of each kind from index {}, each with denormal numbers and with\n"
+               "denormals flushed to zero, {:.1f} s\n",
+               isa, options.seed, options.count, options.first, seconds);
+    for (const auto& row : rows)
+        for (const lab::ShadowReport& report : row.reports)
+            fmt::print("\n{}, index {}: {}\n", row.kind, report.index, report.text);
+    if (violations > 0)
+        fmt::print("\nTo run one of these alone: nusselt-lab bench shadows --isa {} --seed {} --first INDEX "
+                   "--count 1\n",
+                   isa, options.seed);
+    return violations > 0 ? 1 : 0;
+}
+
+void setup_bench_shadows(CLI::App& bench, int& exit_code) {
+    const auto options = std::make_shared<BenchShadowsOptions>();
+    CLI::App* command = bench.add_subcommand(
+        "shadows", "Look for lines that see through closed meshes, and for lights, points "
+                   "and occluders that break\n"
+                   "visible parts of lines. Exits with 1 if there is any. A case depends "
+                   "on its index and the seed only");
+    command->add_option("--count", options->count, "Cases of each kind, with 16 segments each")
+        ->check(whole_number(1, 1'000'000'000'000))
+        ->capture_default_str();
+    command->add_option("--first", options->first, "Index of the first case")
+        ->check(whole_number(0, UINT64_MAX))
+        ->capture_default_str();
+    command->add_option("--seed", options->seed, "Seed of the cases")
+        ->check(whole_number(0, UINT64_MAX))
+        ->capture_default_str();
+    add_machine_options(*command, options->threads, options->isa);
+    command->callback([options, &exit_code] { exit_code = run_bench_shadows(*options); });
+}
+
+} // namespace nusselt::app

@@ -1,0 +1,247 @@
+#include "bench_worst_case.h"
+#include "apps/common/interrupt.h"
+#include "apps/common/progress.h"
+#include "apps/common/validators.h"
+
+#include "base/atomic_file.h"
+#include "image/io.h"
+#include "lab/fuzzing/convergence.h"
+#include "lab/fuzzing/worst_case.h"
+#include "lab/fuzzing/worst_case_state.h"
+#include "render_cpu/renderer.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+namespace nusselt::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using lab::ConvergenceRow;
+using lab::WorstCaseSearch;
+
+constexpr double kDefaultSeconds = 60;
+constexpr double kSecondsBetweenSaves = 30;
+/// Some tenths of a second, which is how long Ctrl-C waits.
+constexpr std::uint64_t kStartsPerThread = 32;
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// The searches that were asked for, and the file that remembers them.
+class Session {
+public:
+    explicit Session(const BenchWorstCaseOptions& options) : path_(options.state) {
+        state_.seed = options.seed.value_or(1);
+        if (path_) load(options.seed);
+        for (const auto& target : lab::worst_case_targets()) {
+            const auto& names = options.targets;
+            if (!names.empty() && std::find(names.begin(), names.end(), target.name) == names.end()) continue;
+            searches_.emplace_back(target, state_.seed);
+            const lab::SearchProgress& progress = state_.targets[target.name];
+            searches_.back().resume(progress.starts, progress.parameters);
+        }
+    }
+
+    void save() {
+        if (!path_) return;
+        for (const WorstCaseSearch& search : searches_)
+            state_.targets[search.target().name] = {search.starts(), search.worst().parameters};
+        lab::save_search_state(*path_, state_);
+    }
+
+    std::uint64_t seed() const { return state_.seed; }
+    std::vector<WorstCaseSearch>& searches() { return searches_; }
+
+private:
+    void load(const std::optional<std::uint64_t>& seed) {
+        const auto loaded = lab::load_search_state(*path_);
+        if (!loaded) return;
+        if (seed && *seed != loaded->seed)
+            throw std::runtime_error(fmt::format(
+                "{}: belongs to a search with seed {}, not {}; leave out --seed or choose another file",
+                path_->string(), loaded->seed, *seed));
+        state_ = *loaded;
+    }
+
+    std::optional<std::filesystem::path> path_;
+    lab::SearchState state_;
+    std::vector<WorstCaseSearch> searches_;
+};
+
+/// Searches for all targets in turn until time or starts are used up, or Ctrl-C.
+void search(const BenchWorstCaseOptions& options, Session& session) {
+    const int threads = options.threads.value_or(render_cpu::default_thread_count());
+    tbb::task_arena arena(threads);
+    const std::uint64_t block = kStartsPerThread * static_cast<std::uint64_t>(threads);
+    constexpr auto kUnlimited = std::numeric_limits<std::uint64_t>::max();
+    const std::uint64_t starts = options.starts.value_or(kUnlimited);
+    const double unlimited = std::numeric_limits<double>::infinity();
+    const double seconds = options.seconds.value_or(options.starts ? unlimited : kDefaultSeconds);
+
+    const auto begin = Clock::now();
+    auto saved = begin;
+    Progress progress;
+    double fraction = 0;
+    while (fraction < 1 && !interrupted) {
+        std::uint64_t least = kUnlimited;
+        for (WorstCaseSearch& one : session.searches()) {
+            if (interrupted) break;
+            const std::uint64_t left = starts - std::min(starts, one.starts());
+            arena.execute([&] { one.run(std::min(block, left)); });
+            least = std::min(least, one.starts());
+        }
+        fraction = std::max(seconds_since(begin) / seconds,
+                            static_cast<double>(least) / static_cast<double>(starts));
+        progress.update(std::min(fraction, 1.0));
+        if (seconds_since(saved) > kSecondsBetweenSaves) {
+            session.save();
+            saved = Clock::now();
+        }
+    }
+    progress.finish();
+    session.save();
+}
+
+struct Convergence {
+    const char* lights;
+    std::vector<ConvergenceRow> rows;
+};
+
+std::vector<Convergence> measure_convergence(int count, std::uint64_t seed) {
+    if (count == 0) return {};
+    return {{"lines", lab::convergence_of(lab::line_errors(count, seed))},
+            {"sectors", lab::convergence_of(lab::sector_errors(count, seed))}};
+}
+
+void print_tables(Session& session, const std::vector<Convergence>& convergence) {
+    fmt::print("{:<16}{:<38}{:>12}{:>14}{:>12}\n", "target", "lights", "starts", "worst error", "bound");
+    for (const WorstCaseSearch& one : session.searches()) {
+        fmt::print("{:<16}{:<38}{:>12}{:>14.5e}{:>12.2e}\n", one.target().name, one.target().description,
+                   one.starts(), one.worst().error, one.target().bound);
+        for (std::size_t i = 0; i < one.worst().parameters.size(); ++i)
+            fmt::print("    {:<14}{:<30}{:.9g}\n", one.target().parameter_names[i],
+                       lab::hexadecimal(one.worst().parameters[i]), one.worst().parameters[i]);
+    }
+    const auto cell = [](double value, std::size_t cases) {
+        return cases == 0 ? fmt::format("{:>24}", "-") : fmt::format("{:>12.3f} ({:>8})", value, cases);
+    };
+    if (convergence.empty()) return;
+    fmt::print(
+        "\nMedians over random lights; (cases that tell). digits: log(e_k) / log(e_k-1); order: the same\n"
+        "without the constant factor, log(e_k / e_k-1) / log(e_k-1 / e_k-2).\n\n"
+        "{:<10}{:>6}{:>12}{:>24}{:>24}\n",
+        "lights", "steps", "error", "digits", "order");
+    for (const Convergence& c : convergence)
+        for (const ConvergenceRow& row : c.rows)
+            fmt::print("{:<10}{:>6}{:>12.1e}{}{}\n", c.lights, row.steps, row.median_error,
+                       cell(row.digit_factor, row.digit_cases), cell(row.order, row.order_cases));
+}
+
+std::string to_json(Session& session, const std::vector<Convergence>& convergence) {
+    auto targets = nlohmann::ordered_json::array();
+    for (const WorstCaseSearch& one : session.searches()) {
+        auto parameters = nlohmann::ordered_json::object();
+        for (std::size_t i = 0; i < one.worst().parameters.size(); ++i)
+            parameters[one.target().parameter_names[i]] = lab::hexadecimal(one.worst().parameters[i]);
+        targets.push_back({{"target", one.target().name},
+                           {"lights", one.target().description},
+                           {"starts", one.starts()},
+                           {"error", static_cast<double>(one.worst().error)},
+                           {"bound", static_cast<double>(one.target().bound)},
+                           {"parameters", parameters}});
+    }
+    auto orders = nlohmann::ordered_json::array();
+    for (const Convergence& c : convergence)
+        for (const ConvergenceRow& row : c.rows)
+            orders.push_back({{"lights", c.lights},
+                              {"steps", row.steps},
+                              {"median_error", row.median_error},
+                              {"digit_factor", row.digit_factor},
+                              {"digit_cases", row.digit_cases},
+                              {"order", row.order},
+                              {"order_cases", row.order_cases}});
+    const nlohmann::ordered_json json = {{"seed", session.seed()},
+                                         {"mantissa_bits", std::numeric_limits<long double>::digits},
+                                         {"targets", targets},
+                                         {"convergence", orders}};
+    return json.dump(2) + "\n";
+}
+
+} // namespace
+
+int run_bench_worst_case(const BenchWorstCaseOptions& options) {
+    if (options.json && *options.json != "-") image::check_writable(*options.json);
+    Session session(options);
+    const InterruptGuard guard;
+    // Fails now, not after hours, if the file cannot be written.
+    session.save();
+    search(options, session);
+
+    const auto convergence = measure_convergence(interrupted ? 0 : options.convergence, session.seed());
+    if (options.json != "-") print_tables(session, convergence);
+    if (options.json == "-")
+        fmt::print("{}", to_json(session, convergence));
+    else if (options.json)
+        base::write_atomically(*options.json,
+                               [&](std::ofstream& file) { file << to_json(session, convergence); });
+    const bool holds = std::all_of(session.searches().begin(), session.searches().end(),
+                                   [](const auto& one) { return one.worst().error <= one.target().bound; });
+    if (interrupted) return kInterruptedExitCode;
+    if (!holds) fmt::print(stderr, "nusselt: a worst case is above the documented bound\n");
+    return holds ? 0 : 1;
+}
+
+void setup_bench_worst_case(CLI::App& bench, int& exit_code) {
+    const auto options = std::make_shared<BenchWorstCaseOptions>();
+    CLI::App* command = bench.add_subcommand(
+        "worst-case",
+        "Search for the largest backward errors of the iterations by Nelder-Mead in double and long double,\n"
+        "and measure their order of convergence. Exit code 1 if an error is above the documented bound.");
+    std::vector<std::string> names;
+    for (const auto& target : lab::worst_case_targets()) names.push_back(target.name);
+    command->add_option("--target", options->targets, "What to search, may be repeated. Default: all")
+        ->check(CLI::IsMember(names));
+    command
+        ->add_option(
+            "--time", options->seconds,
+            "Seconds to search, shared by the targets. Default: 60, without limit if --starts is given")
+        ->check(seconds());
+    command
+        ->add_option(
+            "--starts", options->starts,
+            "Starts per target, those in the state file included; the result then depends on nothing "
+            "but the\nseed. Default: as many as the time allows")
+        ->check(whole_number(1, 1'000'000'000'000));
+    command->add_option("--seed", options->seed, "Default: that of the state file, else 1")
+        ->check(whole_number(0, UINT64_MAX));
+    command
+        ->add_option("--threads", options->threads,
+                     "Threads, 1 to 1024. Default: as many as the machine runs at once")
+        ->check(CLI::Range(1, 1024));
+    command->add_option(
+        "--state", options->state,
+        "File that the search continues from, if it exists, and that is updated, also upon Ctrl-C");
+    command
+        ->add_option("--convergence", options->convergence,
+                     "Random lights for the order of convergence, 0 to 10^6; 0 leaves it out")
+        ->check(CLI::Range(0, 1000000))
+        ->capture_default_str();
+    command->add_option(
+        "--json", options->json,
+        "Write the tables as JSON to this file; - for the standard output, instead of the table");
+    command->callback([options, &exit_code] { exit_code = run_bench_worst_case(*options); });
+}
+
+} // namespace nusselt::app

@@ -1,0 +1,224 @@
+#include "compare.h"
+
+#include "apps/common/validators.h"
+#include "base/json_output.h"
+#include "compare_metrics.h"
+#include "image/difference.h"
+#include "image/io.h"
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace nusselt::app {
+
+namespace {
+
+void check_outputs(const CompareOptions& options) {
+    for (const auto& picture :
+         {options.difference, options.absolute_difference, options.flip_map, options.hdr_flip_map})
+        if (picture) image::check_writable_image(*picture);
+    if (options.json && options.json != "-") image::check_writable(*options.json);
+}
+
+void check_size(const std::filesystem::path& path, const image::Image& a, const image::Image& reference,
+                const CompareOptions& options) {
+    if (a.width == reference.width && a.height == reference.height) return;
+    throw std::runtime_error(fmt::format(
+        "'{}' has {} x {} pixels, the reference '{}' {} x {}; render both at one size", path.string(),
+        a.width, a.height, options.reference.string(), reference.width, reference.height));
+}
+
+/// \returns the scale of the pictures
+double write_differences(const image::Image& a, const image::Image& reference,
+                         const CompareOptions& options) {
+    const double scale =
+        options.difference_scale ? *options.difference_scale : image::difference_scale(a, reference);
+    if (options.difference)
+        image::write_image(*options.difference, image::signed_difference_image(a, reference, scale));
+    if (options.absolute_difference) {
+        image::write_image(*options.absolute_difference,
+                           image::absolute_difference_image(a, reference, scale));
+    }
+    return scale;
+}
+
+/// \returns whether all limits are kept
+bool compare_images(const CompareOptions& options) {
+    check_outputs(options);
+    const image::Image reference = image::read_image(options.reference);
+    std::vector<ComparedImage> compared;
+    std::string scale_text;
+    for (const std::filesystem::path& path : options.images) {
+        const image::Image a = image::read_image(path);
+        check_size(path, a, reference, options);
+        compared.push_back(measure(path, a, reference, options));
+        if (options.difference || options.absolute_difference) {
+            scale_text = fmt::format("{:<19}{:.9g} in full colour\n", "difference scale",
+                                     write_differences(a, reference, options));
+        }
+    }
+    const std::vector<BrokenLimit> broken = broken_limits(compared, options);
+    // Paths may hold bytes that are not UTF-8.
+    const std::string json = json_of(compared, broken, reference, options)
+                                 .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+                             "\n";
+    if (options.json != "-") {
+        print_metrics(compared);
+        fmt::print("{}", scale_text);
+    }
+    if (options.json) base::write_json(*options.json, json);
+    for (const BrokenLimit& limit : broken) {
+        fmt::print(stderr, "nusselt compare: '{}': {} is {:.9g}, {} the limit of {:.9g}\n", limit.image,
+                   limit.metric, limit.value, limit.relation, limit.limit);
+    }
+    return broken.empty();
+}
+
+/// \throws CLI::ValidationError
+MetricLimit parsed_limit(const std::string& option, const std::string& text) {
+    const std::size_t equals = text.find('=');
+    const std::string metric = text.substr(0, equals);
+    const auto& names = metric_names();
+    if (equals == std::string::npos || std::find(names.begin(), names.end(), metric) == names.end()) {
+        throw CLI::ValidationError(option, fmt::format("'{}' must be METRIC=VALUE with one of the metrics {}",
+                                                       text, fmt::join(names, ", ")));
+    }
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [parsed_end, error] = std::from_chars(text.data() + equals + 1, end, value);
+    if (error != std::errc() || parsed_end != end || !std::isfinite(value))
+        throw CLI::ValidationError(option, fmt::format("'{}' needs a finite number after '='", text));
+    return {metric, value};
+}
+
+/// What the command line gives, before it is checked as a whole.
+struct Arguments {
+    CompareOptions options;
+    std::vector<std::filesystem::path> paths; ///< the last one is the reference
+    std::string metrics;
+    std::vector<std::string> at_most, at_least;
+};
+
+/// \throws CLI::ValidationError
+CompareOptions checked_options(const Arguments& arguments) {
+    CompareOptions options = arguments.options;
+    options.images = {arguments.paths.begin(), arguments.paths.end() - 1};
+    options.reference = arguments.paths.back();
+    for (const std::string& text : arguments.at_most) options.at_most.push_back(parsed_limit("--max", text));
+    for (const std::string& text : arguments.at_least)
+        options.at_least.push_back(parsed_limit("--min", text));
+    if (arguments.metrics.empty()) {
+        options.metrics = default_metric_names();
+    } else if (arguments.metrics == "all") {
+        options.metrics = metric_names();
+    } else {
+        options.metrics = CLI::detail::split(arguments.metrics, ',');
+    }
+    for (const std::string& name : options.metrics) {
+        if (std::find(metric_names().begin(), metric_names().end(), name) != metric_names().end()) continue;
+        throw CLI::ValidationError("--metrics", fmt::format("'{}' is no metric; known are {}, or all", name,
+                                                            fmt::join(metric_names(), ", ")));
+    }
+    const bool has_picture =
+        options.difference || options.absolute_difference || options.flip_map || options.hdr_flip_map;
+    if (options.difference_scale && !options.difference && !options.absolute_difference)
+        throw CLI::ValidationError("--diff-scale needs --diff or --abs-diff");
+    if (options.images.size() > 1 && has_picture)
+        throw CLI::ValidationError("pictures can be written for one IMAGE at a time, not for several");
+    return options;
+}
+
+constexpr const char* kDescription =
+    "Compare images with a reference of the same size, the last argument: one image as a list, several as\n"
+    "a table. Pixels that are NaN or infinite in either image are listed and left out of all averages.\n"
+    "Metrics (docs/images.md has the formulas):\n"
+    "  mse, rmse       mean squared error and its root\n"
+    "  relative_rmse   rmse / mean of the reference\n"
+    "  mae             mean absolute error\n"
+    "  rel_mse         mean of (A - B)^2 / (B^2 + 0.01) over channels\n"
+    "  mrse            mean of |A - B|^2 / (|B|^2 + 0.01) over pixels\n"
+    "  psnr, ssim      of the images as displayed: times 2^exposure, in [0, 1], sRGB\n"
+    "  flip            mean of FLIP of the displayed images\n"
+    "  hdr_flip        mean of HDR-FLIP, over all exposures that show something of the reference\n"
+    "  invalid         number of pixels of the image that are NaN or infinite\n"
+    "Exits with 0; with 1 if a file cannot be read or written or sizes differ; with 3 if a limit of --max\n"
+    "or --min is not kept, after one line for each on the standard error output.";
+
+constexpr const char* kJsonDescription =
+    "Write the numbers as JSON to a file, or with - to the standard output instead of the plain text:\n"
+    "reference, width, height, exposure, pixels_per_degree, rel_mse_epsilon, invalid_reference, images\n"
+    "(an array of image, each metric by its name, mean_image, mean_reference, compared_pixels,\n"
+    "invalid_image) and broken_limits (image, metric, value, limit). Invalid pixels are count, nan_count\n"
+    "and the first ten (x, y, rgb). NaN and infinities are strings. Default: none";
+
+void add_picture_options(CLI::App& command, CompareOptions& options) {
+    command.add_option(
+        "--diff", options.difference,
+        "Write the signed difference IMAGE - REFERENCE in false colours (blue: too dark, white: equal,\n"
+        "red: too bright, black: NaN or infinite): .png, .exr, .hdr or .pfm. Default: none");
+    command.add_option("--abs-diff", options.absolute_difference,
+                       "Write the absolute difference of each channel. Default: none");
+    command
+        .add_option("--diff-scale", options.difference_scale,
+                    "Difference that gets the full colour, above 0.\n"
+                    "Default: 99th percentile of the difference over the pixels, largest channel each")
+        ->check(number_above_zero(std::numeric_limits<double>::max()));
+    command.add_option("--flip-map", options.flip_map,
+                       "Write FLIP of each pixel, from black (0) over purple, red and orange to yellow (1).\n"
+                       "Default: none");
+    command.add_option("--hdr-flip-map", options.hdr_flip_map, "The same for HDR-FLIP. Default: none");
+}
+
+} // namespace
+
+void setup_compare(CLI::App& app, int& exit_code) {
+    const auto arguments = std::make_shared<Arguments>();
+    CompareOptions& options = arguments->options;
+    CLI::App* command = app.add_subcommand("compare", kDescription);
+    command
+        ->add_option("IMAGES", arguments->paths,
+                     "IMAGE... REFERENCE: .exr, .hdr, .pfm, or .png, .jpg, .tga (made linear); at most\n"
+                     "2^28 pixels each")
+        ->required()
+        ->expected(2, 10000);
+    command->add_option(
+        "--metrics", arguments->metrics,
+        "Metrics, separated by commas, or all. Default: all but flip and hdr_flip, which are\n"
+        "slow for large images");
+    command
+        ->add_option("--exposure", options.exposure,
+                     "Stops by which images are made brighter for psnr, ssim and flip. Default: 0")
+        ->check(exposure());
+    command
+        ->add_option("--ppd", options.pixels_per_degree,
+                     "Pixels per degree of the field of vision, for flip and hdr_flip, in (0, 1000].\n"
+                     "Default: 67.02, a screen of 3840 pixels seen at a distance of its width")
+        ->check(number_above_zero(image::kFlipMaxPixelsPerDegree));
+    command
+        ->add_option("--max", arguments->at_most,
+                     "METRIC=VALUE, any number of times: exit with 3 if it is above (or undefined) for an\n"
+                     "image. Default: none")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--min", arguments->at_least,
+                     "METRIC=VALUE: exit with 3 if it is below (or undefined). Default: none")
+        ->allow_extra_args(false);
+    add_picture_options(*command, options);
+    command->add_option("--json", options.json, kJsonDescription);
+    command->callback([arguments, &exit_code] { exit_code = run_compare(checked_options(*arguments)); });
+}
+
+int run_compare(const CompareOptions& options) {
+    constexpr int kBrokenLimit = 3;
+    return compare_images(options) ? 0 : kBrokenLimit;
+}
+
+} // namespace nusselt::app

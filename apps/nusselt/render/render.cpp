@@ -1,0 +1,219 @@
+#include "render.h"
+#include "apps/common/interrupt.h"
+#include "apps/common/line_options.h"
+#include "apps/common/progress.h"
+#include "apps/common/render_setup.h"
+#include "apps/common/validators.h"
+#include "apps/nusselt/scene/lights.h"
+#include "checkpointer.h"
+#include "frame_display.h"
+#include "render_backend.h"
+#include "render_files.h"
+#include "render_report.h"
+#include "render_settings.h"
+
+#include "image/io.h"
+#include "image/layers.h"
+#include "render_cpu/checkpoint.h"
+#include "render_cpu/frame.h"
+#include "render_cpu/renderer.h"
+#include "scene/camera_file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace nusselt::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Writes the frame to all files. EXR files get all that is known, others the image.
+void write_outputs(const RenderOptions& options, const render::RenderSettings& settings,
+                   const scene::Film& film, render_cpu::Frame&& frame, const image::Metadata& metadata) {
+    const std::vector<std::filesystem::path> paths = output_paths(options, film);
+    for (const std::filesystem::path& path : paths)
+        if (!image::is_exr(path)) image::write_image(path, frame.image, metadata, options.exposure);
+    const image::LayeredImage layered = to_layered_image(std::move(frame), film, settings, metadata);
+    for (const std::filesystem::path& path : paths)
+        if (image::is_exr(path)) image::write_layers(path, layered);
+    print_outputs(options, film);
+}
+
+std::string check_display_address(const std::string& text) {
+    try {
+        static_cast<void>(image::parse_display_address(text));
+        return "";
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+}
+
+/// Tells that the image is incomplete.
+void print_stop(const RenderOptions& options, double finished) {
+    fmt::print(stderr, "stopped after {:.1f} % of the pixels", 100 * finished);
+    if (options.checkpoint)
+        fmt::print(stderr, "; the same command goes on from '{}'", options.checkpoint->string());
+    fmt::print(stderr, "\n");
+}
+
+} // namespace
+
+void setup_render(CLI::App& app, int& exit_code) {
+    const auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = app.add_subcommand(
+        "render", "Render direct light of a scene. Ctrl-C stops early and writes what is finished, the rest\n"
+                  "black; the exit code is then 130.");
+    command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
+    command
+        ->add_option(
+            "-o,--output", options->outputs,
+            "Image to write: .exr (all settings in its metadata), .png, .hdr or .pfm. May be repeated.\n"
+            "Default: the file name of the film, else of the scene, with .exr, in the current folder")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--spp", options->samples,
+                     fmt::format("Samples per pixel, light and technique, 1 to {}", render::kMaxSamples))
+        ->check(CLI::Range(1, render::kMaxSamples))
+        ->capture_default_str();
+    add_sampling_options(*command, *options);
+    command
+        ->add_option(
+            "--camera-rays", options->camera_rays,
+            "Camera rays per pixel, a divisor of --spp. Default: as --spp, but 1 with --pixel-center")
+        ->check(CLI::Range(1, render::kMaxSamples));
+    command->add_flag_callback(
+        "--pixel-center",
+        [options] { options->pixel_position = render::name_of(render::PixelPosition::center); },
+        "Send all camera rays through pixel centres, to measure noise. Default: random positions in\n"
+        "the pixel");
+    add_line_options(*command, options->lines);
+    add_rigs_option(*command, options->rigs);
+    command->add_option("--camera", options->camera,
+                        "Camera and image size in place of those of the scene: a JSON file as `nusselt "
+                        "camera`\nprints it. Default: the camera of the scene");
+    add_backend_options(*command, *options);
+    add_machine_options(*command, options->threads, options->isa);
+    add_resolution_option(*command, options->resolution);
+    command->add_option("--exposure", options->exposure, "Brightens PNG images by this many stops, -64 to 64")
+        ->check(exposure())
+        ->capture_default_str();
+    add_layers_option(*command, options->layers);
+    add_part_option(*command, options->part);
+    command->add_option(
+        "--checkpoint", options->checkpoint,
+        "Store finished tiles in this file while rendering. The same command goes on from it, whatever\n"
+        "ended the program; once the image is written, the file is removed. Default: none");
+    command
+        ->add_option("--checkpoint-interval", options->checkpoint_interval,
+                     "Seconds between two checkpoints, 0.01 to 1e6")
+        ->check(number(0.01, 1e6))
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--display-server", options->display_server,
+            "Show tiles when they are finished in the viewer tev, or another one with its protocol, at\n"
+            "HOST, HOST:PORT or [IPV6]:PORT. Default: none")
+        ->check(check_display_address, "HOST[:PORT]");
+    command->add_flag("-q,--quiet", options->quiet, "Print errors only, no warnings and no progress");
+    command->add_option(
+        "--json", options->json,
+        "Write settings, times and numbers of rays as JSON to a file, or with - to the standard output.\n"
+        "Default: none");
+    command->callback([options, &exit_code] {
+        check_combination(*options);
+        exit_code = run_render(*options);
+    });
+}
+
+int run_render(const RenderOptions& options) {
+    const auto begin = Clock::now();
+    const render::RenderSettings settings = make_settings(options);
+    const base::Isa isa = base::choose_isa(options.isa);
+    check_outputs(options);
+
+    const bool on_gpu = renders_on_gpu(options, settings);
+
+    const InterruptGuard guard;
+    scene::Scene scene = load_scene(options.scene, options.rigs);
+    if (options.camera) apply_camera(scene::read_camera_file(*options.camera), scene);
+    check_names(options, scene.film);
+    apply_resolution(options.resolution, scene);
+    Times times;
+    times.load = seconds_since(begin);
+    if (!options.quiet) print_warnings(options, settings, scene);
+    if (on_gpu) return render_on_gpu(options, settings, scene, times, begin);
+
+    render_cpu::Frame frame = render_cpu::make_frame(scene, settings);
+    image::Metadata metadata = make_metadata(scene, settings, isa);
+    if (!options.rigs.empty()) metadata["light_rigs"] = rig_names(options.rigs);
+    std::optional<Checkpointer> checkpointer;
+    if (options.checkpoint) {
+        const image::Metadata run = describe_run(metadata, frame);
+        load_checkpoint(*options.checkpoint, run, frame);
+        checkpointer.emplace(*options.checkpoint, run, frame,
+                             std::chrono::duration<double>(options.checkpoint_interval));
+    }
+
+    const int threads = options.threads.value_or(render_cpu::default_thread_count());
+    const render_cpu::Renderer renderer(scene, threads);
+    if (interrupted) {
+        if (!options.quiet) fmt::print(stderr, "stopped before the first pixel; no image is written\n");
+        return kInterruptedExitCode;
+    }
+
+    Progress progress(finished_fraction(frame));
+    render_cpu::RenderMonitor monitor;
+    monitor.cancel = &interrupted;
+    if (!options.quiet) monitor.progress = [&](double fraction) { progress.update(fraction); };
+    std::optional<FrameDisplay> display;
+    if (options.display_server)
+        display.emplace(*options.display_server,
+                        output_paths(options, scene.film).front().filename().string(), frame,
+                        [&](const std::string& warning) {
+                            if (!options.quiet) fmt::print(stderr, "warning: {}\n", warning);
+                        });
+    monitor.tile_finished = [&](std::size_t tile) {
+        if (checkpointer) checkpointer->add(tile);
+        if (display) display->show(tile);
+    };
+    const render_cpu::RenderStatistics statistics =
+        renderer.render_into(frame, settings, isa, renderer.visibility().tracer(), monitor);
+    progress.finish();
+
+    const auto write_begin = Clock::now();
+    // Also where the image is finished: it may fail to be written.
+    const std::optional<std::string> unsaved = checkpointer ? checkpointer->save_all() : std::nullopt;
+    const double finished = finished_fraction(frame);
+    metadata["scene"] = options.scene.filename().string();
+    metadata["render_seconds"] = image::metadata_text(statistics.render_seconds);
+    metadata["finished_fraction"] = image::metadata_text(finished);
+    write_outputs(options, settings, scene.film, std::move(frame), metadata);
+    if (unsaved && finished < 1) throw std::runtime_error(*unsaved);
+    if (options.checkpoint && finished == 1) {
+        std::error_code ignored;
+        std::filesystem::remove(*options.checkpoint, ignored);
+    }
+    times.write = seconds_since(write_begin);
+    times.total = seconds_since(begin);
+    if (options.json)
+        write_report(*options.json, report_json(options, settings, isa, scene, statistics, times));
+    if (finished == 1) return 0;
+    if (!options.quiet) print_stop(options, finished);
+    return kInterruptedExitCode;
+}
+
+} // namespace nusselt::app

@@ -1,0 +1,25 @@
+#pragma once
+/// The files that `nusselt render` writes.
+
+#include "render.h"
+
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace nusselt::app {
+
+/// Images, as asked for or named after the film or the scene.
+std::vector<std::filesystem::path> output_paths(const RenderOptions& options, const scene::Film& film);
+
+/// \throws std::runtime_error if something could not be written after the work is done
+void check_outputs(const RenderOptions& options);
+
+/// \throws std::runtime_error if files would overwrite each other, or what is read
+void check_names(const RenderOptions& options, const scene::Film& film);
+
+/// Names what was written on the standard output, unless that is for something else.
+void print_outputs(const RenderOptions& options, const scene::Film& film);
+
+} // namespace nusselt::app

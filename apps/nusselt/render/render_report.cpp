@@ -1,0 +1,140 @@
+#include "render_report.h"
+
+#include "apps/common/line_options.h"
+#include "base/json_output.h"
+
+#include "render_cpu/line_choice.h"
+#include "scene/scene_size.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace nusselt::app {
+
+namespace {
+
+/// Null without line samples.
+nlohmann::ordered_json line_samples_json(const render::RenderSettings& settings,
+                                         const render_cpu::LineStatistics& work) {
+    if (settings.integrator != render::Integrator::lines) return nullptr;
+    const render::LineSettings& lines = settings.lines;
+    const auto per_line = [&](std::uint64_t count) {
+        return work.lines > 0 ? static_cast<double>(count) / static_cast<double>(work.lines) : 0.0;
+    };
+    nlohmann::ordered_json json = {{"lines", lines.count}};
+    json.update(line_kind_json(lines));
+    json.update({{"many_occluders", render::name_of(lines.many_occluders)},
+                 {"bvh_seconds", work.build_seconds},
+                 {"visibility_thread_seconds", work.visibility_seconds},
+                 {"traced_lines", work.lines},
+                 {"lights_with_lines", work.line_lights},
+                 {"lights_with_points", work.point_lights},
+                 {"box_tests", work.box_tests},
+                 {"triangle_tests", work.triangle_tests},
+                 {"shadow_tests", work.shadow_tests},
+                 {"parts_per_line", per_line(work.parts)}});
+    return json;
+}
+
+} // namespace
+
+void print_warnings(const RenderOptions& options, const render::RenderSettings& settings,
+                    const scene::Scene& scene) {
+    for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    if (scene.emitters.empty())
+        fmt::print(stderr, "warning: there are no area lights, the image is black; --lights adds some\n");
+    if (samples_visible_normals(settings.strategies) && !scene.line_lights.empty())
+        fmt::print(
+            stderr,
+            "warning: {} tubes and lines are sampled by {} alone: visible normals are for polygons, no "
+            "sample ever hits a line\n",
+            scene.line_lights.size(), name_of(settings.technique));
+    if (settings.integrator == render::Integrator::lines &&
+        settings.lines.many_occluders == render::ManyOccluders::points &&
+        render_cpu::most_occluders_for_lines(settings.lines.count) < 0)
+        fmt::print(
+            stderr,
+            "warning: --lines {}: points are faster than fewer than 16 lines and are taken in their place; "
+            "--many-occluders lines keeps lines\n",
+            settings.lines.count);
+    const auto wants_variance =
+        std::count(settings.layers.begin(), settings.layers.end(), render::LayerKind::variance) > 0;
+    if (wants_variance && !has_variance(settings))
+        fmt::print(stderr,
+                   "warning: there is no layer of the variance: it needs two or more camera rays per "
+                   "pixel; raise --spp{}\n",
+                   options.camera_rays ? " and --camera-rays" : "");
+}
+
+nlohmann::ordered_json settings_json(const RenderOptions& options, const render::RenderSettings& settings,
+                                     const scene::Scene& scene) {
+    nlohmann::ordered_json rigs = nlohmann::ordered_json::array();
+    for (const std::filesystem::path& rig : options.rigs) rigs.push_back(rig.string());
+    const bool is_combined = settings.strategies != render::Strategies::diffuse;
+    return {
+        {"scene", options.scene.string()},
+        {"light_rigs", rigs},
+        {"triangles", scene.triangles.size()},
+        {"scene_bytes", scene::array_bytes(scene)},
+        {"width", scene.film.width},
+        {"height", scene.film.height},
+        {"integrator", render::name_of(settings.integrator)},
+        {"technique", render::name_of(settings.technique)},
+        {"strategies", render::name_of(settings.strategies)},
+        {"mis", is_combined ? nlohmann::ordered_json(render::name_of(settings.mis)) : nullptr},
+        {"visibility_estimate", is_combined ? nlohmann::ordered_json(settings.visibility_estimate) : nullptr},
+        {"samples", settings.samples},
+        {"camera_rays", render::camera_ray_count(settings)},
+        {"pixel_position", render::name_of(settings.pixel_position)},
+        {"sampler", render::name_of(settings.sample_order)},
+        {"brdf", render::name_of(settings.brdf)},
+        {"seed", settings.seed},
+        {"part", fmt::format("{}/{}", settings.part.number, settings.part.count)}};
+}
+
+nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,
+                                   base::Isa isa, const scene::Scene& scene,
+                                   const render_cpu::RenderStatistics& statistics, const Times& times) {
+    const auto rate = [](std::uint64_t rays, double seconds) {
+        return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
+    };
+    // Most time goes into lines then.
+    const bool has_lines = settings.integrator == render::Integrator::lines;
+    nlohmann::ordered_json json = settings_json(options, settings, scene);
+    json.update({
+        {"backend", "cpu"},
+        {"isa", name_of(isa)},
+        {"threads", statistics.threads},
+        {"seconds",
+         {{"load", times.load},
+          {"bvh", statistics.build_seconds},
+          {"render", statistics.render_seconds},
+          {"write", times.write},
+          {"total", times.total}}},
+        {"thread_seconds",
+         {{"primary_rays", statistics.primary_seconds},
+          {"shading", statistics.shading_seconds},
+          {"shadow_rays", statistics.shadow_seconds}}},
+        {"rays", {{"primary", statistics.primary_rays}, {"shadow", statistics.shadow_rays}}},
+        {"line_samples", line_samples_json(settings, statistics.lines)},
+        {"rejected_samples", statistics.rejected_samples},
+        {"rays_per_thread_second",
+         {{"primary", rate(statistics.primary_rays, statistics.primary_seconds)},
+          {"shadow", rate(statistics.shadow_rays, statistics.shadow_seconds)}}},
+        {"rays_per_second",
+         has_lines ? nullptr
+                   : nlohmann::ordered_json(
+                         rate(statistics.primary_rays + statistics.shadow_rays, statistics.render_seconds))},
+    });
+    return json;
+}
+
+void write_report(const std::string& target, const nlohmann::ordered_json& report) {
+    // Paths may hold bytes that are not UTF-8.
+    base::write_json(target,
+                     report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+} // namespace nusselt::app

@@ -1,0 +1,37 @@
+#pragma once
+/// What `nusselt render` tells about its work.
+
+#include "render.h"
+
+#include "render_cpu/renderer.h"
+#include "scene/scene.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace nusselt::app {
+
+/// Of the phases of a rendering [s].
+struct Times {
+    double load = 0;
+    double write = 0;
+    double total = 0;
+};
+
+/// Tells what may surprise a user about the image, on the standard error.
+void print_warnings(const RenderOptions& options, const render::RenderSettings& settings,
+                    const scene::Scene& scene);
+
+/// What both backends have in common: scene and settings.
+nlohmann::ordered_json settings_json(const RenderOptions& options, const render::RenderSettings& settings,
+                                     const scene::Scene& scene);
+
+nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,
+                                   base::Isa isa, const scene::Scene& scene,
+                                   const render_cpu::RenderStatistics& statistics, const Times& times);
+
+/// \param target a file, or "-" for the standard output. \throws std::runtime_error if it cannot be written
+void write_report(const std::string& target, const nlohmann::ordered_json& report);
+
+} // namespace nusselt::app

@@ -1,0 +1,167 @@
+#include "render_settings.h"
+#include "apps/common/line_options.h"
+#include "apps/common/render_setup.h"
+#include "apps/common/validators.h"
+#include "render_backend.h"
+
+#include "image/io.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace nusselt::app {
+
+namespace {
+
+/// As asked for. By default a technique for each component of the BRDF, if there are two and techniques for them.
+render::Strategies strategies_of(const RenderOptions& options, render::Technique technique,
+                                 render::BrdfChoice brdf) {
+    if (options.strategies) return from_name(render::kStrategies, *options.strategies);
+    const auto both = render::Strategies::diffuse_ltc;
+    const bool useful = brdf == render::BrdfChoice::material;
+    return useful && allows(technique, both) ? both : render::Strategies::diffuse;
+}
+
+std::vector<render::LayerKind> layers_of(const std::vector<std::string>& names) {
+    std::vector<render::LayerKind> kinds;
+    for (const std::string& name : names) {
+        if (name == kAllLayers) return {render::kLayerKinds.begin(), render::kLayerKinds.end()};
+        kinds.push_back(from_name(render::kLayerKinds, name));
+    }
+    return kinds;
+}
+
+/// Throws CLI::ValidationError if something was asked for that only EXR files can store, and none is written.
+void check_exr_only(const RenderOptions& options) {
+    const bool has_exr =
+        options.outputs.empty() || std::any_of(options.outputs.begin(), options.outputs.end(), image::is_exr);
+    if (has_exr) return;
+    for (const auto& [name, is_used] :
+         {std::pair("--layers", !options.layers.empty()), std::pair("--part", options.part.has_value())})
+        if (is_used) throw CLI::ValidationError(name, "only EXR files store that; add -o NAME.exr");
+}
+
+/// Throws CLI::ValidationError if options for line samples are given without these, or for what these cannot be.
+void check_line_options(const RenderOptions& options, render::Technique technique) {
+    const LineOptions& lines = options.lines;
+    if (from_name(render::kIntegrators, lines.integrator) == render::Integrator::lines) {
+        if (technique == render::Technique::ltc_analytic)
+            throw CLI::ValidationError(
+                "--integrator", "lines have shadows, --technique ltc_analytic has none; take another one");
+        return;
+    }
+    const auto wants_pieces =
+        std::count(options.layers.begin(), options.layers.end(), name_of(render::LayerKind::pieces)) > 0;
+    for (const auto& [name, is_given] : {std::pair("--lines", lines.count.has_value()),
+                                         std::pair("--orientation", lines.orientation.has_value()),
+                                         std::pair("--offsets", lines.offsets.has_value()),
+                                         std::pair("--line-shading", lines.shading.has_value()),
+                                         std::pair("--many-occluders", lines.many_occluders.has_value()),
+                                         std::pair("--layers pieces", wants_pieces)})
+        if (is_given) throw CLI::ValidationError(name, "is for --integrator lines, which is not given");
+}
+
+} // namespace
+
+void add_sampling_options(CLI::App& command, RenderOptions& options) {
+    command.add_option("--technique", options.technique, "How lights are sampled; see `nusselt techniques`")
+        ->transform(to_name_of(render::kTechniques))
+        ->capture_default_str();
+    command
+        .add_option(
+            "--strategies", options.strategies,
+            "Which techniques take samples: diffuse, only that of --technique; diffuse+ltc, that one for\n"
+            "the diffuse component of materials and linearly transformed cosines for the specular one; or\n"
+            "the same with GGX visible normals, for polygons only. Default: diffuse+ltc with techniques of\n"
+            "projected solid angles and --brdf material, else diffuse")
+        ->transform(to_name_of(render::kStrategies));
+    command
+        .add_option(
+            "--mis", options.mis,
+            "How the samples of two techniques are combined: a heuristic of multiple importance\n"
+            "sampling, one sample of either technique, or each component estimated separately. Default:\n"
+            "clamped_optimal, but balance with GGX visible normals")
+        ->transform(to_name_of(render::kMisHeuristics));
+    command
+        .add_option(
+            "--visibility-estimate", options.visibility_estimate,
+            "Share of lights that is visible, roughly, for --mis clamped_optimal and optimal; only noise\n"
+            "depends on it. Default: 0.5")
+        ->check(number(0, 1));
+    command
+        .add_option("--sampler", options.sampler,
+                    "Random numbers: independent, Owen-scrambled Sobol' points, uniform jittered (best for\n"
+                    "linear lights), or stratified (multi-jittered: as many strata in each dimension as\n"
+                    "samples; best for line samples)")
+        ->transform(to_name_of(render::kSampleOrders))
+        ->capture_default_str();
+    command
+        .add_option("--brdf", options.brdf, "BRDFs of the materials, or Lambertian ones with their albedo")
+        ->transform(to_name_of(render::kBrdfChoices))
+        ->capture_default_str();
+    command.add_option("--seed", options.seed, "Chooses the random numbers, 0 to 2^32 - 1")
+        ->capture_default_str();
+}
+
+render::RenderSettings make_settings(const RenderOptions& options) {
+    render::RenderSettings settings;
+    settings.technique = from_name(render::kTechniques, options.technique);
+    settings.brdf = from_name(render::kBrdfChoices, options.brdf);
+    settings.strategies = strategies_of(options, settings.technique, settings.brdf);
+    if (options.mis)
+        settings.mis = from_name(render::kMisHeuristics, *options.mis);
+    else if (!allows(settings.strategies, settings.mis))
+        settings.mis = render::Mis::balance;
+    if (options.visibility_estimate) settings.visibility_estimate = *options.visibility_estimate;
+    settings.sample_order = from_name(render::kSampleOrders, options.sampler);
+    settings.pixel_position = from_name(render::kPixelPositions, options.pixel_position);
+    settings.samples = options.samples;
+    settings.camera_rays = options.camera_rays;
+    settings.seed = options.seed;
+    apply_line_options(options.lines, settings);
+    settings.layers = layers_of(options.layers);
+    if (options.part) settings.part = parse_part(*options.part).value();
+    render::validate(settings);
+    return settings;
+}
+
+void check_combination(const RenderOptions& options) {
+    const auto technique = from_name(render::kTechniques, options.technique);
+    const auto brdf = from_name(render::kBrdfChoices, options.brdf);
+    const auto strategies = strategies_of(options, technique, brdf);
+    if (!allows(technique, strategies)) {
+        std::vector<std::string_view> others;
+        for (const auto other : render::kTechniques)
+            if (allows(other, strategies)) others.push_back(name_of(other));
+        throw CLI::ValidationError("--strategies",
+                                   fmt::format("{} needs --technique {}, not {}", name_of(strategies),
+                                               fmt::join(others, " or "), options.technique));
+    }
+    if (strategies == render::Strategies::diffuse && (options.mis || options.visibility_estimate))
+        throw CLI::ValidationError(options.mis ? "--mis" : "--visibility-estimate",
+                                   "there is nothing to combine with --strategies diffuse");
+    if (options.mis && !allows(strategies, from_name(render::kMisHeuristics, *options.mis))) {
+        std::vector<std::string_view> others;
+        for (const auto other : render::kMisHeuristics)
+            if (allows(strategies, other)) others.push_back(name_of(other));
+        throw CLI::ValidationError(
+            "--mis", fmt::format("{} weighs techniques by what they contribute without shadows, "
+                                 "which is not known for {}; take {}",
+                                 *options.mis, name_of(strategies), fmt::join(others, " or ")));
+    }
+    if (options.camera_rays && options.samples % *options.camera_rays != 0)
+        throw CLI::ValidationError("--camera-rays", fmt::format("{} does not divide --spp, which is {}",
+                                                                *options.camera_rays, options.samples));
+    check_line_options(options, technique);
+    check_backend_options(options);
+    check_exr_only(options);
+}
+
+} // namespace nusselt::app

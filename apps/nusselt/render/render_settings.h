@@ -1,0 +1,19 @@
+#pragma once
+/// From the options of `nusselt render` to settings of the renderer.
+
+#include "render.h"
+
+#include "render/settings.h"
+
+namespace nusselt::app {
+
+/// Adds --technique, --strategies, --mis, --visibility-estimate, --sampler, --brdf and --seed.
+void add_sampling_options(CLI::App& command, RenderOptions& options);
+
+/// \throws std::invalid_argument for values that the command line does not let through
+render::RenderSettings make_settings(const RenderOptions& options);
+
+/// \throws CLI::ValidationError if choices that are possible by themselves do not fit together
+void check_combination(const RenderOptions& options);
+
+} // namespace nusselt::app

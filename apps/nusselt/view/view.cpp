@@ -1,0 +1,73 @@
+#include "view.h"
+#include "apps/common/render_setup.h"
+#include "apps/common/validators.h"
+#include "apps/nusselt/render/render_backend.h"
+#include "apps/nusselt/render/render_settings.h"
+#include "apps/nusselt/scene/lights.h"
+
+#include "gpu/device.h"
+#include "render_vulkan/shadow_scene.h"
+#include "scene/camera_file.h"
+#include "viewer/run_viewer.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <memory>
+
+namespace nusselt::app {
+
+void setup_view(CLI::App& app, int& exit_code) {
+    const auto options = std::make_shared<ViewOptions>();
+    options->render.backend = "vulkan";
+    CLI::App* const command = app.add_subcommand(
+        "view", "Show a scene in a window, rendered by a GPU: fly through it, change techniques and lights,\n"
+                "compare images with each other and with a reference (docs/viewer.md)");
+    RenderOptions& render = options->render;
+    command->add_option("SCENE", render.scene, "Scene file in pbrt syntax, version 3 or 4")->required();
+    command
+        ->add_option("--spp", render.samples,
+                     fmt::format("Samples per pixel, light and technique in a frame, 1 to {}",
+                                 viewer::kMostFrameSamples))
+        ->check(CLI::Range(1, viewer::kMostFrameSamples))
+        ->capture_default_str();
+    add_sampling_options(*command, render);
+    add_rigs_option(*command, render.rigs);
+    command->add_option("--camera", render.camera,
+                        "Camera and image size in place of those of the scene: a JSON file as `nusselt "
+                        "camera`\nprints it. Default: the camera of the scene");
+    add_device_options(*command, render);
+    add_resolution_option(*command, render.resolution);
+    command
+        ->add_option("--exposure", render.exposure, "Brightens what is shown by this many stops, -32 to 32")
+        ->check(number(-viewer::kLargestExposure, viewer::kLargestExposure))
+        ->capture_default_str();
+    command->add_option("--script", options->script,
+                        "File with commands that are run one after the other, such as `frames 16` and\n"
+                        "`screenshot a.png`; `quit` closes the window. Default: none");
+    command->add_flag("-q,--quiet", render.quiet, "Print errors only, no warnings");
+    command->callback([options, &exit_code] {
+        check_combination(options->render);
+        exit_code = run_view(*options);
+    });
+}
+
+int run_view(const ViewOptions& options) {
+    const RenderOptions& render = options.render;
+    const render::RenderSettings settings = make_settings(render);
+    scene::Scene scene = load_scene(render.scene, render.rigs);
+    if (render.camera) apply_camera(scene::read_camera_file(*render.camera), scene);
+    apply_resolution(render.resolution, scene);
+    if (!render.quiet)
+        for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+
+    const gpu::Device device({.choice = render.device});
+    const auto shadow_rays = render.shadow_rays ? from_name(render_vulkan::kShadowRays, *render.shadow_rays)
+                                                : render_vulkan::default_shadow_rays(device);
+    viewer::Viewer viewer(device, scene, shadow_rays, settings, {render.scene, render.rigs, render.device});
+    viewer.state.exposure = render.exposure;
+    run_viewer(viewer, options.script);
+    return 0;
+}
+
+} // namespace nusselt::app

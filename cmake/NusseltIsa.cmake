@@ -1,0 +1,23 @@
+# Units that are compiled once for each instruction set. base/isa.h chooses between them at run time.
+
+set(nusselt_isas sse42 avx2 avx512)
+set(nusselt_level_sse42 x86-64-v2)
+set(nusselt_level_avx2 x86-64-v3)
+set(nusselt_level_avx512 x86-64-v4)
+
+# nusselt_add_isa_units(name source...): object libraries <name>_sse42, <name>_avx2 and <name>_avx512. Sources see the
+# instruction set as NUSSELT_UNIT_ISA, the name of a member of base::Isa. They throw nothing: if they could, clang would add
+# handlers that the linker shares between instruction sets.
+function(nusselt_add_isa_units name)
+    foreach(isa IN LISTS nusselt_isas)
+        add_library(${name}_${isa} OBJECT ${ARGN})
+        # The last -march wins: it comes after the build flags.
+        target_link_libraries(${name}_${isa} PRIVATE nusselt_build_flags nusselt::nusselt nusselt_level_${isa})
+        target_compile_definitions(${name}_${isa} PRIVATE NUSSELT_UNIT_ISA=${isa})
+    endforeach()
+endfunction()
+
+foreach(isa IN LISTS nusselt_isas)
+    add_library(nusselt_level_${isa} INTERFACE)
+    target_compile_options(nusselt_level_${isa} INTERFACE -march=${nusselt_level_${isa}} -fno-exceptions)
+endforeach()

@@ -1,0 +1,33 @@
+#pragma once
+/// The accuracy tables as a file, and as the baseline that later measurements must not fall behind.
+
+#include "lab/accuracy/accuracy.h"
+
+#include <filesystem>
+
+namespace nusselt::lab {
+
+/// One row per line.
+std::string to_json(const AccuracyTable& table);
+
+/// \throws std::runtime_error naming the file if it cannot be read or is not such a table.
+AccuracyTable read_accuracy_json(const std::filesystem::path& path);
+
+/// How far a row may be above the baseline. g++ 12, clang 14 and all instruction sets agree on every number: the
+/// code has the same operations everywhere. Other versions need not: where there is no FMA, float goes through
+/// double and may round differently in one of 2^29 cases, and double and long double take arctangents from the
+/// standard library.
+struct AccuracyMargin {
+    double quantiles = 1.1; ///< factor on median, 99 % and 99.9 %
+    double max = 1.5;       ///< factor on the largest error, which hangs on a single light
+    /// Factor on the counts; it leaves 0 at 0.
+    double counts = 1.1;
+};
+
+/// Rows of the library's own methods that are worse than in the baseline, that are missing, or that the
+/// baseline lacks.
+/// \return a sentence for each; empty if all is well.
+std::vector<std::string> compare_with_baseline(const AccuracyTable& baseline, const AccuracyTable& measured,
+                                               const AccuracyMargin& margin = {});
+
+} // namespace nusselt::lab

@@ -1,0 +1,37 @@
+#pragma once
+/// What the units compiled per instruction set offer to accuracy.cpp: plain data and functions.
+
+#include "base/isa.h"
+
+namespace nusselt::lab {
+
+inline constexpr int kPackedLights = 256;
+
+/// A column per number of a light, in the order of declaration in ConvexPolygon<float, N> or LineSegment<float>.
+struct LightColumns {
+    static constexpr int kLargest = 3 * (2 * 8 + 1);
+    float light[kLargest][kPackedLights];
+    float u[2][kPackedLights];
+};
+
+struct SampleColumns {
+    float wi[3][kPackedLights];
+    float pdf[kPackedLights];
+    float measure[kPackedLights];
+};
+
+struct PackedTechnique {
+    const char* name;
+    int vertex_bound;                                 ///< 2 for lines
+    void (*run)(const LightColumns&, SampleColumns&); ///< prepares for each light and takes one sample
+};
+
+struct PackedTechniques {
+    const PackedTechnique* begin;
+    int count;
+};
+
+template <base::Isa>
+PackedTechniques packed_techniques();
+
+} // namespace nusselt::lab

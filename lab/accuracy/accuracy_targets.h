@@ -1,0 +1,44 @@
+#pragma once
+/// What the accuracy tables are measured against: fixed targets.
+
+#include "lab/accuracy/accuracy.h"
+
+namespace nusselt::lab {
+
+enum class AccuracyQuantity {
+    p99_over_floor,  ///< 99 % backward error over that of the floor
+    p999_over_floor, ///< likewise for 99.9 %
+    p99_over_other,  ///< 99 % backward error over that of another class of lights
+    p99,             ///< 99 % backward error
+    max,             ///< largest backward error
+    max_of_measure,  ///< largest relative error of the measure
+    off_the_light,   ///< count
+    invalid,         ///< count of lights with results that are NaN, infinite or negative
+    spurious,        ///< count of dark lights with a sample or measure
+};
+
+/// "at most 10 x the floor (99 %)" and the like.
+std::string describe(AccuracyQuantity quantity, const char* other, double limit);
+
+struct AccuracyTarget {
+    const char* technique;
+    const char* scalar; ///< "float": the larger value of both methods that are ours; "long double": two steps
+    const char* lights; ///< kEveryClass: the largest value of all classes
+    AccuracyQuantity quantity;
+    double limit;           ///< largest value allowed
+    const char* other = ""; ///< the class to compare with
+};
+
+inline constexpr const char* kEveryClass = "every class";
+
+struct AccuracyVerdict {
+    AccuracyTarget target;
+    double value = 0;   ///< NaN if there is no such row
+    std::string lights; ///< the class that has it
+    bool met = false;
+};
+
+/// Each target against the rows, in the order of their table.
+std::vector<AccuracyVerdict> check_targets(const std::vector<proof::AccuracyRow>& rows);
+
+} // namespace nusselt::lab

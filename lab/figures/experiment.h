@@ -1,0 +1,89 @@
+#pragma once
+/// Figures and tables of the papers as data: what to render with which settings, and what is expected.
+
+#include "render/settings.h"
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace nusselt::lab {
+
+/// One image of a comparison.
+struct Variant {
+    std::string label;
+    render::RenderSettings settings;
+};
+
+/// A part of the image that is also measured by itself, in shares of its width and height from the top left.
+struct Inset {
+    std::string name;
+    double left, top, right, bottom;
+};
+
+/// What is measured against the reference.
+enum class Measure {
+    rmse,                   ///< root mean square error [radiance]
+    rmse_clamped,           ///< of images with all values above 1 replaced by 1, as on a screen
+    relative_rmse,          ///< relative to the mean radiance of the reference
+    rmse_outside_penumbrae, ///< over pixels whose lights are all hidden entirely or not at all, relative to
+                            ///< the mean radiance of the reference; of whole images only
+};
+
+struct Metric {
+    Metric(Measure what, std::string where = {}) : measure(what), inset(std::move(where)) {}
+
+    Measure measure;
+    std::string inset; ///< empty: the whole image
+};
+
+/// The metric of a variant, at most a limit.
+struct AtMost {
+    Metric metric;
+    std::string variant;
+    double limit;
+};
+
+/// The metric of a variant, at most a multiple of the least that any of others has.
+struct AtMostTimes {
+    Metric metric;
+    std::string variant;
+    double factor;
+    std::vector<std::string> others;
+};
+
+/// The metric of some variants, strictly falling in the given order.
+struct Falling {
+    Metric metric;
+    std::vector<std::string> variants;
+};
+
+/// That the mean over all frames of each variant is that of the reference, see bias_statistics.h. Needs several frames of both.
+struct Unbiased {
+    std::vector<std::string> variants;
+};
+
+using Expectation = std::variant<AtMost, AtMostTimes, Falling, Unbiased>;
+
+struct Experiment {
+    std::string name;        ///< on the command line
+    std::string source;      ///< paper and figure
+    std::string description; ///< one sentence
+    std::string scene;       ///< below the folder of the shipped scenes
+    render::RenderSettings reference;
+    std::vector<Variant> variants;
+    std::vector<Expectation> expectations;
+    std::vector<Inset> insets = {};
+    /// How many images of each variant, with seeds of their own; errors are root mean squares over all of them.
+    int frames = 1;
+    int reference_frames = 1; ///< how many images the reference is the mean of
+};
+
+/// All experiments, in the order of the papers.
+const std::vector<Experiment>& all_experiments();
+
+std::string to_text(const Metric& metric);
+std::string to_text(const Expectation& expectation);
+
+} // namespace nusselt::lab

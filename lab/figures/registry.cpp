@@ -1,0 +1,241 @@
+#include "lab/figures/experiment.h"
+
+#include "lab/lines/line_registry.h"
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <initializer_list>
+#include <utility>
+
+namespace nusselt::lab {
+
+namespace {
+
+using render::Mis;
+using render::PixelPosition;
+using render::RenderSettings;
+using render::SampleOrder;
+using render::Strategies;
+using render::Technique;
+
+/// Camera rays through the centres of pixels, so that light sampling is the only source of noise.
+RenderSettings noise_measurement(Technique technique, int samples, SampleOrder order) {
+    RenderSettings settings;
+    settings.technique = technique;
+    settings.samples = samples;
+    settings.pixel_position = PixelPosition::center;
+    settings.sample_order = order;
+    return settings;
+}
+
+RenderSettings reference() {
+    return noise_measurement(Technique::projected_solid_angle, 1024, SampleOrder::sobol);
+}
+
+/// A technique for each component of the BRDF.
+RenderSettings both(Mis mis, int samples, SampleOrder order = SampleOrder::independent) {
+    RenderSettings settings = noise_measurement(Technique::projected_solid_angle, samples, order);
+    settings.strategies = Strategies::diffuse_ltc;
+    settings.mis = mis;
+    return settings;
+}
+
+std::vector<Variant> one_sample_each(std::initializer_list<Technique> techniques) {
+    std::vector<Variant> variants;
+    for (const Technique technique : techniques)
+        variants.push_back(
+            {std::string(name_of(technique)), noise_measurement(technique, 1, SampleOrder::independent)});
+    return variants;
+}
+
+/// Two rays per pixel: projected solid angle sampling alone, and with linearly transformed cosines by these heuristics.
+std::vector<Variant> two_rays_each(std::initializer_list<Mis> heuristics) {
+    std::vector<Variant> variants = {
+        {"projected_solid_angle",
+         noise_measurement(Technique::projected_solid_angle, 2, SampleOrder::independent)}};
+    for (const Mis mis : heuristics)
+        variants.push_back({std::string(name_of(mis)), both(mis, mis == Mis::one_sample ? 2 : 1)});
+    return variants;
+}
+
+/// One sample of the technique and one of visible normals, under the balance heuristic.
+Variant with_visible_normals(Technique technique) {
+    RenderSettings settings = noise_measurement(technique, 1, SampleOrder::independent);
+    settings.strategies = render::Strategies::diffuse_ggx;
+    settings.mis = Mis::balance;
+    return {std::string(name_of(technique)) + " + GGX", settings};
+}
+
+std::vector<std::string> labels_of(const std::vector<Variant>& variants) {
+    std::vector<std::string> labels;
+    for (const Variant& variant : variants) labels.push_back(variant.label);
+    return labels;
+}
+
+Experiment line_diffuse() {
+    const std::vector<std::string> order = {"area", "solid_angle", "clipped_solid_angle",
+                                            "projected_solid_angle"};
+    return {"line-diffuse",
+            "Peters 2021, linear lights, Fig. 6",
+            "A Lambertian Cornell box under a tube just below the ceiling, one sample per pixel.",
+            "cornell-tube.pbrt",
+            reference(),
+            one_sample_each({Technique::area, Technique::solid_angle, Technique::clipped_solid_angle,
+                             Technique::projected_solid_angle}),
+            {AtMost{{Measure::rmse_outside_penumbrae}, "projected_solid_angle", 1e-4},
+             Falling{{Measure::rmse_outside_penumbrae}, order}, Falling{{Measure::rmse}, order}}};
+}
+
+Experiment polygon_diffuse() {
+    const std::vector<std::string> order = {"area", "solid_angle", "clipped_solid_angle",
+                                            "projected_solid_angle"};
+    return {"polygon-diffuse",
+            "Peters 2021, polygonal lights, Fig. 12",
+            "A Cornell box of roughness one with a panel stretching through it, one sample per pixel.",
+            "cornell-panel.pbrt",
+            reference(),
+            one_sample_each({Technique::area, Technique::solid_angle, Technique::clipped_solid_angle,
+                             Technique::projected_solid_angle, Technique::projected_solid_angle_biased}),
+            {Falling{{Measure::rmse_outside_penumbrae}, order}, Falling{{Measure::rmse}, order}}};
+}
+
+Experiment planes_image() {
+    std::vector<Variant> variants =
+        two_rays_each({Mis::balance, Mis::clamped_optimal, Mis::weighted_balance});
+    variants.push_back(
+        {"ltc_analytic", noise_measurement(Technique::ltc_analytic, 1, SampleOrder::independent)});
+    Experiment experiment = {
+        "planes-image",
+        "Peters 2021, polygonal lights, Fig. 14",
+        "Three planes of roughness 0.2, 0.4, 0.6 under a square light, two samples per pixel.",
+        "planes.pbrt",
+        both(Mis::clamped_optimal, 1024, SampleOrder::sobol),
+        variants,
+        // Where nothing casts a shadow, analytic shading is off by what fits of lobes are.
+        {Falling{{Measure::rmse},
+                 {"projected_solid_angle", "balance", "clamped_optimal", "weighted_balance"}},
+         AtMost{{Measure::relative_rmse}, "ltc_analytic", 0.05}}};
+    experiment.frames = 16;
+    return experiment;
+}
+
+Experiment wall() {
+    Experiment experiment = {
+        "wall",
+        "Peters 2021, polygonal lights, Fig. 10",
+        "A blue diffuse and a white glossy plane beside a light that a wall hides in part, two rays per "
+        "pixel.",
+        "wall.pbrt",
+        both(Mis::clamped_optimal, 128, SampleOrder::sobol),
+        two_rays_each({Mis::balance, Mis::power, Mis::weighted_balance, Mis::clamped_optimal, Mis::optimal,
+                       Mis::one_sample, Mis::separate}),
+        {}};
+    for (const Technique technique : {Technique::solid_angle, Technique::projected_solid_angle})
+        experiment.variants.push_back(with_visible_normals(technique));
+    const std::vector<std::string> two_rays = labels_of(experiment.variants);
+    // One technique is unbiased without any weights; with many samples it says so of the reference.
+    experiment.variants.push_back(
+        {"projected_solid_angle_64",
+         noise_measurement(Technique::projected_solid_angle, 64, SampleOrder::sobol)});
+    const Inset lit[] = {{"diffuse, lit", 0.42, 0.10, 0.52, 0.35},
+                         {"highlight, lit", 0.285, 0.48, 0.36, 0.55}};
+    const Inset penumbrae[] = {{"diffuse penumbra", 0.82, 0.20, 0.98, 0.50},
+                               {"highlight penumbra", 0.27, 0.70, 0.37, 0.90}};
+    experiment.insets = {lit[0], lit[1], penumbrae[0], penumbrae[1]};
+    experiment.frames = 64;
+    experiment.reference_frames = 32;
+    // Where all of the light is visible, the balance heuristic's half of the estimate leaves half of its noise.
+    for (const Inset& inset : lit)
+        experiment.expectations.push_back(
+            AtMostTimes{{Measure::rmse, inset.name}, "clamped_optimal", 0.75, {"balance"}});
+    for (const Inset& inset : penumbrae)
+        experiment.expectations.push_back(AtMostTimes{
+            {Measure::rmse, inset.name}, "clamped_optimal", 1.25, {"balance", "weighted_balance"}});
+    experiment.expectations.push_back(AtMostTimes{{Measure::rmse_clamped}, "clamped_optimal", 1, two_rays});
+    experiment.expectations.push_back(AtMostTimes{{Measure::rmse}, "weighted_balance", 1, two_rays});
+    experiment.expectations.push_back(Unbiased{labels_of(experiment.variants)});
+    return experiment;
+}
+
+Experiment biased() {
+    constexpr int kSamples = 4096;
+    Variant exact = {"projected_solid_angle", both(Mis::clamped_optimal, kSamples, SampleOrder::sobol)};
+    Variant fast = {"projected_solid_angle_biased", exact.settings};
+    fast.settings.technique = Technique::projected_solid_angle_biased;
+    return {
+        "biased",
+        "Peters 2021, polygonal lights, Fig. 15",
+        "A plane of low roughness under a large light that is hidden in part, converged, with and without "
+        "iteration.",
+        "biased.pbrt",
+        both(Mis::clamped_optimal, kSamples, SampleOrder::sobol),
+        {fast, exact},
+        {Falling{{Measure::rmse, "plane"}, {fast.label, exact.label}},
+         AtMost{{Measure::relative_rmse, "plane"}, fast.label, 0.01}},
+        {{"plane", 0, 0.47, 1, 1}}};
+}
+
+Experiment tube() {
+    return {"tube",
+            "Peters 2021, linear lights, Fig. 1",
+            "A long tube over a pavement with bollards and a puddle, two rays per pixel.",
+            "bollards.pbrt",
+            both(Mis::clamped_optimal, 1024, SampleOrder::sobol),
+            two_rays_each({Mis::balance, Mis::weighted_balance, Mis::clamped_optimal}),
+            {AtMostTimes{{Measure::rmse}, "clamped_optimal", 1.0 / 3, {"projected_solid_angle"}}}};
+}
+
+} // namespace
+
+const std::vector<Experiment>& all_experiments() {
+    static const std::vector<Experiment> experiments = [] {
+        std::vector<Experiment> all = {line_diffuse(),    tube(),         wall(),
+                                       polygon_diffuse(), planes_image(), biased()};
+        for (Experiment& experiment : line_experiments()) all.push_back(std::move(experiment));
+        return all;
+    }();
+    return experiments;
+}
+
+std::string to_text(const Metric& metric) {
+    const std::string where = metric.inset.empty() ? "" : fmt::format(" in '{}'", metric.inset);
+    switch (metric.measure) {
+    case Measure::rmse:
+        return "RMSE" + where;
+    case Measure::rmse_clamped:
+        return "RMSE clamped at 1" + where;
+    case Measure::relative_rmse:
+        return "RMSE / mean" + where;
+    case Measure::rmse_outside_penumbrae:
+        break;
+    }
+    return "RMSE outside penumbrae / mean";
+}
+
+namespace {
+
+std::string to_text(const AtMost& e) {
+    return fmt::format("{} of {} at most {:g}", to_text(e.metric), e.variant, e.limit);
+}
+
+std::string to_text(const AtMostTimes& e) {
+    return fmt::format("{} of {} at most {:.3g} times that of {}", to_text(e.metric), e.variant, e.factor,
+                       fmt::join(e.others, ", "));
+}
+
+std::string to_text(const Falling& e) {
+    return fmt::format("{} falls in the order {}", to_text(e.metric), fmt::join(e.variants, ", "));
+}
+
+std::string to_text(const Unbiased& e) {
+    return fmt::format("the mean is that of the reference: {}", fmt::join(e.variants, ", "));
+}
+
+} // namespace
+
+std::string to_text(const Expectation& expectation) {
+    return std::visit([](const auto& e) { return to_text(e); }, expectation);
+}
+
+} // namespace nusselt::lab

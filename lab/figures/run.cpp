@@ -1,0 +1,207 @@
+#include "lab/figures/run.h"
+
+#include "render/film.h"
+#include "render_cpu/renderer.h"
+#include "scene/load.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+namespace nusselt::lab {
+
+namespace {
+
+/// Traces rays like that of a scene, but nothing blocks shadow rays.
+visibility::RayTracer without_shadows(visibility::RayTracer tracer) {
+    const auto nothing = []<int N>(const void*, std::uint32_t, const visibility::RayPacket<N>&) {
+        return 0u;
+    };
+    tracer.visibility::PacketTracer<4>::occluded = nothing;
+    tracer.visibility::PacketTracer<8>::occluded = nothing;
+    tracer.visibility::PacketTracer<16>::occluded = nothing;
+    return tracer;
+}
+
+/// Shares of a light below a thousandth may go unnoticed.
+constexpr int kPenumbraSamples = 1024;
+
+/// Which pixels see each light entirely or not at all. Uniform samples of the area of the lights decide, with
+/// and without shadows: outside of penumbrae both images agree to the bit, or that with shadows is black.
+/// Independent of the techniques under test except area sampling.
+std::vector<bool> outside_penumbrae(const render_cpu::Renderer& renderer, base::Isa isa,
+                                    const render::RenderSettings& reference) {
+    render::RenderSettings settings = reference;
+    settings.samples = std::min(settings.samples, kPenumbraSamples);
+    settings.technique = render::Technique::area;
+    settings.strategies = render::Strategies::diffuse;
+    const image::Image traced = renderer.render(settings, isa).image;
+    const auto open = without_shadows(renderer.visibility().tracer());
+    const image::Image unshadowed = renderer.render(settings, isa, open).image;
+    std::vector<bool> mask(traced.pixels.size() / 3);
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        const float* a = &traced.pixels[3 * i];
+        const float* b = &unshadowed.pixels[3 * i];
+        mask[i] = std::equal(a, a + 3, b) || (a[0] == 0 && a[1] == 0 && a[2] == 0);
+    }
+    return mask;
+}
+
+const VariantResult& variant_of(const ExperimentResult& result, const std::string& label) {
+    const auto found = std::find_if(result.variants.begin(), result.variants.end(),
+                                    [&](const VariantResult& v) { return v.label == label; });
+    if (found == result.variants.end())
+        throw std::logic_error("experiment " + result.experiment->name + " expects something of " + label +
+                               ", which it does not render");
+    return *found;
+}
+
+const RegionErrors& errors_in(const ExperimentResult& result, const ImageErrors& errors,
+                              const std::string& inset) {
+    if (inset.empty()) return errors.frame;
+    const std::vector<Inset>& insets = result.experiment->insets;
+    for (std::size_t i = 0; i < insets.size(); ++i)
+        if (insets[i].name == inset) return errors.insets[i];
+    throw std::logic_error("experiment " + result.experiment->name + " has no inset " + inset);
+}
+
+double measured(const ExperimentResult& result, const std::string& variant, const Metric& metric) {
+    const ImageErrors& errors = variant_of(result, variant).errors;
+    const RegionErrors& region = errors_in(result, errors, metric.inset);
+    switch (metric.measure) {
+    case Measure::rmse:
+        return region.rmse;
+    case Measure::rmse_clamped:
+        return region.rmse_clamped;
+    case Measure::relative_rmse:
+        return region.relative_rmse;
+    case Measure::rmse_outside_penumbrae:
+        break;
+    }
+    return errors.rmse_outside_penumbrae;
+}
+
+bool holds(const ExperimentResult& result, const AtMost& expected) {
+    return measured(result, expected.variant, expected.metric) <= expected.limit;
+}
+
+bool holds(const ExperimentResult& result, const AtMostTimes& expected) {
+    const double value = measured(result, expected.variant, expected.metric);
+    return std::all_of(expected.others.begin(), expected.others.end(), [&](const std::string& other) {
+        return value <= expected.factor * measured(result, other, expected.metric);
+    });
+}
+
+bool holds(const ExperimentResult& result, const Falling& expected) {
+    for (std::size_t i = 1; i < expected.variants.size(); ++i)
+        if (!(measured(result, expected.variants[i], expected.metric) <
+              measured(result, expected.variants[i - 1], expected.metric)))
+            return false;
+    return true;
+}
+
+bool holds(const ExperimentResult& result, const Unbiased& expected) {
+    return std::all_of(expected.variants.begin(), expected.variants.end(), [&](const std::string& label) {
+        const VariantResult& variant = variant_of(result, label);
+        if (!variant.bias)
+            throw std::logic_error("experiment " + result.experiment->name +
+                                   " needs several frames to find out about bias");
+        return variant.bias->passes();
+    });
+}
+
+/// Variants and reference have different random numbers: even and odd seeds.
+std::uint32_t seed_of_frame(int frame, bool is_reference) {
+    return 2 * static_cast<std::uint32_t>(frame) + (is_reference ? 1u : 0u);
+}
+
+/// What all frames of all variants are compared with.
+struct Reference {
+    image::Image image;
+    BiasStatistics statistics;
+};
+
+Reference render_reference(const render_cpu::Renderer& renderer, base::Isa isa,
+                           render::RenderSettings settings, int frames) {
+    Reference reference;
+    std::vector<double> sums;
+    for (int i = 0; i < frames; ++i) {
+        settings.seed = seed_of_frame(i, true);
+        image::Image frame = renderer.render(settings, isa).image;
+        reference.statistics.add(frame);
+        sums.resize(frame.pixels.size());
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += static_cast<double>(frame.pixels[k]);
+        reference.image = std::move(frame);
+    }
+    for (std::size_t k = 0; k < sums.size(); ++k)
+        reference.image.pixels[k] = static_cast<float>(sums[k] / frames);
+    return reference;
+}
+
+VariantResult render_variant(const render_cpu::Renderer& renderer, base::Isa isa, const Variant& variant,
+                             const Experiment& experiment, const Reference& reference,
+                             const std::vector<bool>& outside) {
+    ImageErrorSums errors(reference.image, outside, experiment.insets);
+    BiasStatistics statistics;
+    VariantResult result;
+    result.label = variant.label;
+    render::RenderSettings settings = variant.settings;
+    for (int i = 0; i < experiment.frames; ++i) {
+        settings.seed = seed_of_frame(i, false);
+        render_cpu::RenderResult rendered = renderer.render(settings, isa);
+        errors.add(rendered.image);
+        statistics.add(rendered.image);
+        result.seconds += rendered.statistics.render_seconds / experiment.frames;
+        if (i == 0) result.image = std::move(rendered.image);
+    }
+    result.errors = errors.errors();
+    if (experiment.frames > 1 && experiment.reference_frames > 1)
+        result.bias = statistics.compare(reference.statistics);
+    return result;
+}
+
+} // namespace
+
+ExperimentResult run_experiment(const Experiment& experiment, const RunSettings& settings,
+                                const std::function<void(std::string_view)>& progress) {
+    scene::Scene scene = scene::load_scene(settings.scenes / experiment.scene);
+    if (settings.width > 0) {
+        const double height = static_cast<double>(scene.film.height) * settings.width / scene.film.width;
+        render::resize_film(scene, settings.width, std::max(1, static_cast<int>(std::lround(height))));
+    }
+    const int threads = settings.threads > 0 ? settings.threads : render_cpu::default_thread_count();
+    const render_cpu::Renderer renderer(scene, threads);
+    const base::Isa isa = base::choose_isa();
+
+    ExperimentResult result;
+    result.experiment = &experiment;
+    result.reference_settings = experiment.reference;
+    if (settings.reference_samples > 0) result.reference_settings.samples = settings.reference_samples;
+    progress(fmt::format("reference, {} samples per pixel",
+                         experiment.reference_frames * result.reference_settings.samples));
+    Reference reference =
+        render_reference(renderer, isa, result.reference_settings, experiment.reference_frames);
+    result.mean = mean_radiance(reference.image);
+    progress("penumbrae");
+    const std::vector<bool> mask = outside_penumbrae(renderer, isa, result.reference_settings);
+    result.share_outside_penumbrae =
+        static_cast<double>(std::count(mask.begin(), mask.end(), true)) / static_cast<double>(mask.size());
+
+    for (const Variant& variant : experiment.variants) {
+        progress(variant.label);
+        result.variants.push_back(render_variant(renderer, isa, variant, experiment, reference, mask));
+    }
+    result.reference = std::move(reference.image);
+    for (const Expectation& expectation : experiment.expectations) {
+        const bool held = std::visit([&](const auto& e) { return holds(result, e); }, expectation);
+        result.expectations.push_back({to_text(expectation), held});
+    }
+    return result;
+}
+
+} // namespace nusselt::lab

@@ -1,0 +1,60 @@
+#pragma once
+/// What the units compiled per instruction set offer to fuzz.cpp: plain data and functions.
+
+#include "base/isa.h"
+
+#include <cstdint>
+
+namespace nusselt::lab {
+
+enum class FuzzLight { quadrilateral, octagon, line, cylinder };
+
+/// Hostile configurations, one column each. Polygons with fewer vertices repeat the last one.
+template <class T>
+struct FuzzBlock {
+    static constexpr int kSize = 512; ///< a multiple of all numbers of lanes
+    T coordinates[8][3][kSize];
+    T radius[kSize]; ///< of cylinders, whose axis has the first two vertices
+    T u[2][kSize];
+    T lobe[5][kSize]; ///< m00, m02, m11, m20, m22 of LtcCoefficients, for techniques that take a lobe
+};
+
+/// One configuration for which a technique broke the contract, and what it returned.
+template <class T>
+struct FuzzViolation {
+    std::uint64_t index;
+    const char* problem;
+    T wi[3], pdf, p[3];
+    T pdf_of_wi, inverse[2], measure;
+};
+
+/// Violations of a block; the first ones in detail.
+template <class T>
+struct FuzzBlockResult {
+    static constexpr int kKept = 3;
+    int count = 0;
+    FuzzViolation<T> first[kKept]; ///< index: column of the block
+};
+
+template <class T>
+struct FuzzTechnique {
+    const char* name; ///< of the class
+    FuzzLight light;
+    /// Checks the first columns of the block, their number rounded up to a whole number of packs.
+    void (*check)(const FuzzBlock<T>& block, int columns, FuzzBlockResult<T>& result);
+    bool takes_lobe = false;
+};
+
+template <class T>
+struct FuzzTable {
+    const FuzzTechnique<T>* begin;
+    int count;
+};
+
+/// Techniques in packs of float or double.
+template <base::Isa, class T>
+FuzzTable<T> fuzz_table();
+/// No instruction set has packs of long double.
+FuzzTable<long double> fuzz_table_long_double();
+
+} // namespace nusselt::lab

@@ -1,0 +1,34 @@
+#pragma once
+/// Files that remember how far a search for worst cases got.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nusselt::lab {
+
+/// What a search needs to continue.
+struct SearchProgress {
+    std::uint64_t starts = 0;
+    std::vector<long double> parameters; ///< of the worst case, empty: none yet
+};
+
+struct SearchState {
+    std::uint64_t seed = 0;
+    std::map<std::string, SearchProgress> targets; ///< by name
+};
+
+/// All digits of a number, in hexadecimal.
+std::string hexadecimal(long double x);
+
+/// The contents of a state file, nothing if there is none.
+/// \throws std::runtime_error naming the file if it cannot be read or has no such contents
+std::optional<SearchState> load_search_state(const std::filesystem::path& path);
+
+/// Replaces the file as a whole. \throws std::runtime_error as base::write_atomically
+void save_search_state(const std::filesystem::path& path, const SearchState& state);
+
+} // namespace nusselt::lab

@@ -1,0 +1,236 @@
+#include "lab/lines/line_convergence.h"
+
+#include "lab/errors/image_errors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace nusselt::lab {
+
+namespace {
+
+using render::Integrator;
+using render::LineOrientation;
+using render::LineShading;
+using render::SampleOrder;
+
+constexpr int kMostPoints = 1024;
+constexpr int kMostLines = 256;
+
+std::vector<int> powers_of_two(int last) {
+    std::vector<int> counts;
+    for (int n = 4; n <= last; n *= 2) counts.push_back(n);
+    return counts;
+}
+
+/// Uniform points of the area, as in the paper.
+ConvergenceSeries points(const std::string& label, SampleOrder order) {
+    ConvergenceSeries series = {label, {}, powers_of_two(kMostPoints), 16, kMostPoints};
+    series.settings.technique = render::Technique::area;
+    series.settings.sample_order = order;
+    series.settings.pixel_position = render::PixelPosition::center;
+    return series;
+}
+
+/// The best points that this renderer has.
+ConvergenceSeries importance_sampled_points(const std::string& label) {
+    ConvergenceSeries series = points(label, SampleOrder::stratified);
+    series.settings.technique = render::Technique::projected_solid_angle;
+    series.settings.strategies = render::Strategies::diffuse_ltc;
+    return series;
+}
+
+/// In parallel, by length, with closed forms alone, as in the paper.
+ConvergenceSeries lines(const std::string& label, SampleOrder order) {
+    ConvergenceSeries series = {label, {}, powers_of_two(kMostLines), 4, kMostLines};
+    series.settings.integrator = Integrator::lines;
+    series.settings.lines.shading = LineShading::analytic;
+    series.settings.lines.offsets = render::LineOffsets::length;
+    series.settings.lines.many_occluders = render::ManyOccluders::lines;
+    series.settings.sample_order = order;
+    series.settings.pixel_position = render::PixelPosition::center;
+    return series;
+}
+
+std::vector<ConvergenceSeries> all_series() {
+    ConvergenceSeries unbiased = lines("lines, unbiased, stratified", SampleOrder::stratified);
+    unbiased.settings.lines.shading = LineShading::unbiased;
+    ConvergenceSeries important = unbiased;
+    important.label = "lines, by importance, stratified";
+    important.settings.lines.offsets = render::LineOffsets::reflected;
+    ConvergenceSeries turned = lines("lines, each turned, stratified", SampleOrder::stratified);
+    turned.settings.lines.orientation = LineOrientation::independent;
+    return {points("points, independent", SampleOrder::independent),
+            points("points, stratified", SampleOrder::stratified),
+            points("points, Sobol'", SampleOrder::sobol),
+            importance_sampled_points("points, by importance, stratified"),
+            lines("lines, independent", SampleOrder::independent),
+            lines("lines, stratified", SampleOrder::stratified),
+            lines("lines, Sobol'", SampleOrder::sobol),
+            unbiased,
+            important,
+            turned};
+}
+
+std::vector<OrderBetween> expected_orders() {
+    constexpr double kAny = -std::numeric_limits<double>::infinity();
+    // The polished floor of the logo makes noise in few pixels. What is measured of it is rough.
+    return {{"points, independent", -0.55, -0.45},
+            {"lines, independent", -0.55, -0.45},
+            {"lines, each turned, stratified", -0.6, -0.45},
+            {"points, stratified", -0.9, -0.6, 1},
+            {"lines, stratified", kAny, -1.1, 1},
+            {"lines, unbiased, stratified", kAny, -0.9, 1},
+            {"lines, by importance, stratified", kAny, -0.9, 1}};
+}
+
+std::vector<LessNoise> expected_less_noise() {
+    return {{"lines, independent", "points, independent", kMostLines},
+            {"lines, stratified", "points, stratified", kMostLines},
+            // Points have the lobes of polished floors for themselves: these are narrow in both dimensions.
+            {"lines, by importance, stratified", "points, by importance, stratified", kMostLines, 1}};
+}
+
+LineConvergence convergence(const std::string& name, const std::string& figures, const std::string& lights,
+                            std::vector<LineScene> scenes) {
+    return {name,
+            "Billen and Dutre 2016, Figures " + figures,
+            "Mean squared error over the number of samples and over time, under " + lights + " lights.",
+            std::move(scenes),
+            all_series(),
+            "points, by importance, stratified",
+            expected_orders(),
+            expected_less_noise()};
+}
+
+/// The mean over all seeds with the largest number of samples.
+struct Converged {
+    image::Image image;
+    double variance; ///< of this mean
+};
+
+std::size_t index_of(const LineConvergence& experiment, const std::string& label) {
+    const auto found = std::find_if(experiment.series.begin(), experiment.series.end(),
+                                    [&](const ConvergenceSeries& series) { return series.label == label; });
+    if (found == experiment.series.end())
+        throw std::logic_error("experiment " + experiment.name + " has no series " + label);
+    return static_cast<std::size_t>(found - experiment.series.begin());
+}
+
+SceneResult run_scene(const LineConvergence& experiment, const LineScene& line_scene,
+                      const scene::Scene& scene, int threads,
+                      const std::function<void(std::string_view)>& progress) {
+    const render_cpu::Renderer renderer(scene, threads);
+    const base::Isa isa = base::choose_isa();
+    SceneResult result;
+    result.scene = line_scene.name;
+    std::vector<Converged> converged;
+    const std::size_t reference = index_of(experiment, experiment.reference);
+    for (const ConvergenceSeries& series : experiment.series) {
+        progress(fmt::format("{}: {}", line_scene.name, series.label));
+        SeriesResult measured;
+        SeedStatistics statistics;
+        int seeds = 0;
+        for (const int count : series.counts) {
+            seeds = seeds_for(experiment, count);
+            statistics = render_seeds(renderer, isa, with_count(series.settings, count), seeds);
+            measured.curve.push_back({count, statistics.variance, statistics.seconds, seeds});
+        }
+        measured.order = fitted_order(measured.curve, series.fit_first, series.fit_last);
+        converged.push_back({std::move(statistics.mean), statistics.variance / seeds});
+        result.series.push_back(std::move(measured));
+    }
+    result.mean = mean_radiance(converged[reference].image);
+    result.reference_error = std::sqrt(converged[reference].variance) / result.mean;
+    for (std::size_t i = 0; i < converged.size(); ++i) {
+        const double noise = converged[i].variance + converged[reference].variance;
+        const double square = mean_square_difference(converged[i].image, converged[reference].image);
+        result.series[i].bias = mean_radiance(converged[i].image) / result.mean - 1;
+        result.series[i].pixel_bias =
+            i == reference ? 0 : std::sqrt(std::max(square - noise, 0.0)) / result.mean;
+    }
+    return result;
+}
+
+double variance_at(const NoiseCurve& curve, int count) {
+    const auto found =
+        std::find_if(curve.begin(), curve.end(), [&](const CurvePoint& p) { return p.count == count; });
+    if (found == curve.end()) throw std::logic_error(fmt::format("no point with {} samples", count));
+    return found->variance;
+}
+
+std::string in_all_scenes_but(int exceptions) {
+    return exceptions > 0 ? fmt::format(" in all scenes but {}", exceptions) : " in all scenes";
+}
+
+std::string to_text(const OrderBetween& e) {
+    std::string text = fmt::format("order of '{}' ", e.series);
+    text += std::isinf(e.low) ? fmt::format("at most {:g}", e.high)
+                              : fmt::format("between {:g} and {:g}", e.low, e.high);
+    return text + in_all_scenes_but(e.exceptions);
+}
+
+} // namespace
+
+const std::vector<LineConvergence>& all_line_convergences() {
+    static const std::vector<LineConvergence> experiments = {
+        convergence("lines-large", "7, 8 and 9", "large", scenes_with_large_lights()),
+        convergence("lines-small", "11, 12 and 13", "small", scenes_with_small_lights())};
+    return experiments;
+}
+
+int seeds_for(const LineConvergence& experiment, int count) {
+    constexpr int kSamples = 1024;
+    return std::clamp(kSamples / count, experiment.seeds, std::max(experiment.seeds, experiment.most_seeds));
+}
+
+LineConvergenceResult run_line_convergence(const LineConvergence& experiment, const RunSettings& settings,
+                                           const std::function<void(std::string_view)>& progress) {
+    LineConvergenceResult result;
+    result.experiment = &experiment;
+    result.width = settings.width > 0 ? settings.width : experiment.width;
+    result.threads = thread_count(settings);
+    result.scenes = for_each_scene<SceneResult>(experiment.scenes, settings, result.width, progress,
+                                                [&](const LineScene& line_scene, const scene::Scene& scene) {
+                                                    return run_scene(experiment, line_scene, scene,
+                                                                     result.threads, progress);
+                                                });
+    result.expectations = check_expectations(experiment, result.scenes);
+    return result;
+}
+
+std::vector<ExpectationResult> check_expectations(const LineConvergence& experiment,
+                                                  const std::vector<SceneResult>& scenes) {
+    std::vector<ExpectationResult> results;
+    const auto measured = std::count_if(scenes.begin(), scenes.end(),
+                                        [](const SceneResult& scene) { return !scene.is_skipped; });
+    const auto says_little = [&](int exceptions) { return measured <= 2 * exceptions; };
+    for (const OrderBetween& e : experiment.orders) {
+        const std::size_t series = index_of(experiment, e.series);
+        if (says_little(e.exceptions)) continue;
+        const auto violations = std::count_if(scenes.begin(), scenes.end(), [&](const SceneResult& s) {
+            return !s.is_skipped && !(s.series[series].order >= e.low && s.series[series].order <= e.high);
+        });
+        results.push_back({to_text(e), violations <= e.exceptions});
+    }
+    for (const LessNoise& e : experiment.less_noise) {
+        const std::size_t less = index_of(experiment, e.series);
+        const std::size_t more = index_of(experiment, e.than);
+        if (says_little(e.exceptions)) continue;
+        const auto violations = std::count_if(scenes.begin(), scenes.end(), [&](const SceneResult& s) {
+            return !s.is_skipped &&
+                   !(variance_at(s.series[less].curve, e.count) < variance_at(s.series[more].curve, e.count));
+        });
+        results.push_back(
+            {fmt::format("{0} of '{1}' have less noise than {0} of '{2}'", e.count, e.series, e.than) +
+                 in_all_scenes_but(e.exceptions),
+             violations <= e.exceptions});
+    }
+    return results;
+}
+
+} // namespace nusselt::lab

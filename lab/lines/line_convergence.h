@@ -1,0 +1,106 @@
+#pragma once
+/// How fast the noise of point samples and of line samples falls: N. Billen and P. Dutre 2016, Line Sampling for Direct
+/// Illumination, Figures 7 to 9 and 11 to 13.
+
+#include "lab/errors/noise_curve.h"
+#include "lab/figures/report_table.h"
+#include "lab/lines/line_scenes.h"
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nusselt::lab {
+
+/// One kind of sample.
+struct ConvergenceSeries {
+    std::string label;
+    render::RenderSettings settings;
+    std::vector<int> counts; ///< of points or lines, growing
+    int fit_first, fit_last; ///< the order is fitted to these counts
+};
+
+/// That the order of a series is in a range, in all scenes but a few.
+struct OrderBetween {
+    std::string series;
+    double low = -std::numeric_limits<double>::infinity();
+    double high = 0;
+    int exceptions = 0;
+};
+
+/// That a series has less noise than another with as many samples, in all scenes but a few.
+struct LessNoise {
+    std::string series;
+    std::string than;
+    int count;
+    int exceptions = 0;
+};
+
+struct LineConvergence {
+    std::string name; ///< on the command line
+    std::string source;
+    std::string description; ///< one sentence
+    std::vector<LineScene> scenes;
+    std::vector<ConvergenceSeries> series;
+    std::string reference; ///< series against which biases are measured
+    std::vector<OrderBetween> orders;
+    std::vector<LessNoise> less_noise;
+    int seeds = 16; ///< at least; more for few samples, up to
+    int most_seeds = 128;
+    int width = 64; ///< of the images in pixels
+};
+
+const std::vector<LineConvergence>& all_line_convergences();
+
+struct SeriesResult {
+    NoiseCurve curve;
+    double order = 0;
+    /// Against the reference, both the mean over all seeds with the most samples; relative to the mean radiance.
+    double bias = 0;       ///< of the mean of the image
+    double pixel_bias = 0; ///< root mean square over pixels, beyond what noise explains
+};
+
+struct SceneResult {
+    std::string scene;
+    bool is_skipped = false; ///< it is not there
+    double mean = 0;         ///< radiance of the reference
+    double reference_error =
+        0; ///< standard error of its pixels, root mean square, relative to the mean radiance
+    std::vector<SeriesResult> series;
+};
+
+struct LineConvergenceResult {
+    const LineConvergence* experiment = nullptr;
+    int width = 0;
+    int threads = 0;
+    std::vector<SceneResult> scenes;
+    std::vector<ExpectationResult> expectations;
+};
+
+/// How many seeds the noise of so many samples is measured with: few samples are cheap, and have the heaviest tails.
+int seeds_for(const LineConvergence& experiment, int count);
+
+/// \param settings as for run_experiment(); references have no meaning
+/// \throws std::runtime_error if a scene cannot be loaded
+LineConvergenceResult run_line_convergence(const LineConvergence& experiment, const RunSettings& settings,
+                                           const std::function<void(std::string_view)>& progress);
+
+/// What became of the expectations; scenes that were skipped count neither way. Those are left out whose exceptions are
+/// half of the remaining scenes or more: nothing much would be expected.
+std::vector<ExpectationResult> check_expectations(const LineConvergence& experiment,
+                                                  const std::vector<SceneResult>& scenes);
+
+/// Tables of orders and errors.
+std::string to_text(const LineConvergenceResult& result);
+
+/// All numbers.
+std::string to_json(const LineConvergenceResult& result);
+
+/// Writes index.html with plots of the error over the number of samples and over time, and numbers.json into a folder,
+/// which is created.
+void write_report(const LineConvergenceResult& result, const std::filesystem::path& folder);
+
+} // namespace nusselt::lab

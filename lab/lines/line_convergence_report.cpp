@@ -1,0 +1,164 @@
+#include "lab/lines/line_convergence.h"
+
+#include "base/atomic_file.h"
+#include "lab/figures/plot.h"
+#include "lab/figures/report_json.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+
+namespace nusselt::lab {
+
+namespace {
+
+Table order_table(const LineConvergenceResult& result) {
+    Table table = {{"order of the standard deviation"}};
+    for (const SceneResult& scene : result.scenes) table[0].push_back(scene.scene);
+    const std::vector<ConvergenceSeries>& series = result.experiment->series;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+        table.push_back(
+            {fmt::format("{}, N = {} to {}", series[i].label, series[i].fit_first, series[i].fit_last)});
+        for (const SceneResult& scene : result.scenes)
+            table.back().push_back(scene.is_skipped ? "skipped"
+                                                    : fmt::format("{:.2f}", scene.series[i].order));
+    }
+    return table;
+}
+
+/// Of the series with the most counts.
+std::vector<int> every_other_count(const std::vector<ConvergenceSeries>& series) {
+    const auto longest = std::max_element(series.begin(), series.end(), [](const auto& a, const auto& b) {
+        return a.counts.size() < b.counts.size();
+    });
+    std::vector<int> counts;
+    for (std::size_t i = 0; i < longest->counts.size(); i += 2) counts.push_back(longest->counts[i]);
+    return counts;
+}
+
+/// Root mean squares relative to the mean, times in parentheses.
+Table error_table(const LineConvergenceResult& result, const SceneResult& scene) {
+    const std::vector<ConvergenceSeries>& series = result.experiment->series;
+    const std::vector<int> counts = every_other_count(series);
+    Table table = {{scene.scene + ": RMSE / mean (ms)"}};
+    for (const int count : counts) table[0].push_back(fmt::format("N = {}", count));
+    table[0].insert(table[0].end(), {"bias", "bias of pixels"});
+    for (std::size_t i = 0; i < series.size(); ++i) {
+        std::vector<std::string> row = {series[i].label};
+        for (const int count : counts) {
+            row.emplace_back();
+            for (const CurvePoint& p : scene.series[i].curve)
+                if (p.count == count)
+                    row.back() =
+                        fmt::format("{:.2e} ({:.3g})", std::sqrt(p.variance) / scene.mean, 1000 * p.seconds);
+        }
+        row.push_back(fmt::format("{:+.1e}", scene.series[i].bias));
+        row.push_back(fmt::format("{:.1e}", scene.series[i].pixel_bias));
+        table.push_back(std::move(row));
+    }
+    table.push_back({"standard error of the reference of the biases"});
+    table.back().resize(counts.size() + 2);
+    table.back().push_back(fmt::format("{:.1e}", scene.reference_error));
+    return table;
+}
+
+std::vector<Table> tables(const LineConvergenceResult& result) {
+    std::vector<Table> all = {order_table(result)};
+    for (const SceneResult& scene : result.scenes)
+        if (!scene.is_skipped) all.push_back(error_table(result, scene));
+    return all;
+}
+
+Plot error_plot(const LineConvergence& experiment, const SceneResult& scene, const std::string& x_label,
+                double (*x_of)(const CurvePoint&)) {
+    Plot plot = {scene.scene, x_label, "mean squared error / mean squared", {}};
+    for (std::size_t i = 0; i < experiment.series.size(); ++i) {
+        const auto integrator = experiment.series[i].settings.integrator;
+        PlotCurve curve = {experiment.series[i].label,
+                           {},
+                           integrator == render::Integrator::lines ? Stroke::solid : Stroke::dashed};
+        for (const CurvePoint& p : scene.series[i].curve)
+            curve.points.emplace_back(x_of(p), p.variance / (scene.mean * scene.mean));
+        plot.curves.push_back(std::move(curve));
+    }
+    return plot;
+}
+
+/// \returns the element of a page that shows it
+std::string write_plot(const std::filesystem::path& folder, const std::string& file, const Plot& plot) {
+    base::write_atomically(folder / file, [&](std::ofstream& stream) { stream << to_svg(plot); });
+    return fmt::format("<img src=\"{}\" alt=\"{}: error over {}\">\n", file, plot.title, plot.x_label);
+}
+
+std::string setting(const LineConvergenceResult& result) {
+    return fmt::format(
+        "Images are {} pixels wide, camera rays go through their centres. Errors are standard "
+        "deviations over {} seeds or more, "
+        "so that no reference is needed; times are medians over them, of {} threads. The "
+        "order is the slope of the "
+        "standard deviation over N in logarithmic axes, a least squares fit. Biases are against "
+        "'{}', the mean over all seeds with the most samples.",
+        result.width, result.experiment->seeds, result.threads, result.experiment->reference);
+}
+
+} // namespace
+
+std::string to_text(const LineConvergenceResult& result) {
+    std::string text = fmt::format("{}: {}\n{}\n{}\n", result.experiment->name, result.experiment->source,
+                                   result.experiment->description, setting(result));
+    for (const Table& table : tables(result)) text += "\n" + to_text(table);
+    return text + "\n" + to_text(result.expectations);
+}
+
+std::string to_json(const LineConvergenceResult& result) {
+    using Json = nlohmann::ordered_json;
+    const std::vector<ConvergenceSeries>& series = result.experiment->series;
+    Json scenes = Json::array();
+    for (const SceneResult& scene : result.scenes) {
+        Json all = Json::array();
+        for (std::size_t i = 0; i < scene.series.size(); ++i) {
+            all.push_back({{"series", series[i].label},
+                           {"order", scene.series[i].order},
+                           {"fit", {series[i].fit_first, series[i].fit_last}},
+                           {"bias", scene.series[i].bias},
+                           {"pixel_bias", scene.series[i].pixel_bias},
+                           {"curve", to_json(scene.series[i].curve)}});
+        }
+        scenes.push_back({{"scene", scene.scene},
+                          {"skipped", scene.is_skipped},
+                          {"mean", scene.mean},
+                          {"reference_error", scene.reference_error},
+                          {"series", std::move(all)}});
+    }
+    const Json document = {{"experiment", result.experiment->name},
+                           {"width", result.width},
+                           {"threads", result.threads},
+                           {"reference", result.experiment->reference},
+                           {"scenes", std::move(scenes)},
+                           {"expectations", to_json(result.expectations)}};
+    return document.dump(1) + "\n";
+}
+
+void write_report(const LineConvergenceResult& result, const std::filesystem::path& folder) {
+    std::filesystem::create_directories(folder);
+    const LineConvergence& experiment = *result.experiment;
+    std::string html = page_head(experiment.name) + fmt::format("<p>{}. {} {}</p>\n", experiment.source,
+                                                                experiment.description, setting(result));
+    for (const Table& table : tables(result)) html += to_html(table);
+    html += to_html(result.expectations);
+    for (const SceneResult& scene : result.scenes) {
+        if (scene.is_skipped) continue;
+        html += write_plot(folder, scene.scene + "-samples.svg",
+                           error_plot(experiment, scene, "points or lines per shading point",
+                                      [](const CurvePoint& p) { return static_cast<double>(p.count); }));
+        html += write_plot(folder, scene.scene + "-time.svg",
+                           error_plot(experiment, scene, "time of rendering [s]",
+                                      [](const CurvePoint& p) { return p.seconds; }));
+    }
+    base::write_atomically(folder / "index.html", [&](std::ofstream& file) { file << html; });
+    base::write_atomically(folder / "numbers.json", [&](std::ofstream& file) { file << to_json(result); });
+}
+
+} // namespace nusselt::lab

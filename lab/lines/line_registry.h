@@ -1,0 +1,13 @@
+#pragma once
+/// Experiments with line samples that render one scene: N. Billen and P. Dutre 2016, Line Sampling for Direct Illumination,
+/// Figures 2 and 3.
+
+#include "lab/figures/experiment.h"
+
+#include <vector>
+
+namespace nusselt::lab {
+
+std::vector<Experiment> line_experiments();
+
+} // namespace nusselt::lab

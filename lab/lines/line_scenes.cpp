@@ -1,0 +1,55 @@
+#include "lab/lines/line_scenes.h"
+
+#include "render/film.h"
+#include "render_cpu/renderer.h"
+#include "scene/load.h"
+#include "scene/rig_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace nusselt::lab {
+
+namespace {
+
+constexpr const char* kSmallLight = "small-light.json";
+
+std::vector<LineScene> scenes_with(const std::string& rig, const std::string& sponza) {
+    return {{"grid-planes", "grid-planes.pbrt", rig},
+            {"logo", "logo.pbrt", rig},
+            {"soup", "soup.pbrt", rig},
+            {"sponza", sponza, "", SceneOrigin::published}};
+}
+
+} // namespace
+
+int thread_count(const RunSettings& settings) {
+    return settings.threads > 0 ? settings.threads : render_cpu::default_thread_count();
+}
+
+std::vector<LineScene> scenes_with_large_lights() { return scenes_with("", "sponza/sponza.pbrt"); }
+
+std::vector<LineScene> scenes_with_small_lights() {
+    return scenes_with(kSmallLight, "sponza/sponza-small-light.pbrt");
+}
+
+std::optional<scene::Scene> load_line_scene(const LineScene& line_scene, const RunSettings& settings,
+                                            int width) {
+    std::filesystem::path folder = settings.scenes;
+    if (line_scene.origin == SceneOrigin::published) {
+        const char* const published = std::getenv("NUSSELT_SCENES");
+        if (published == nullptr) return std::nullopt;
+        folder = published;
+    }
+    scene::Scene scene = scene::load_scene(folder / line_scene.file);
+    if (!line_scene.rig.empty())
+        scene::apply_rig(scene::read_rig(settings.scenes / "rigs" / line_scene.rig), scene);
+    if (width > 0) {
+        const double height = static_cast<double>(scene.film.height) * width / scene.film.width;
+        render::resize_film(scene, width, std::max(1, static_cast<int>(std::lround(height))));
+    }
+    return scene;
+}
+
+} // namespace nusselt::lab

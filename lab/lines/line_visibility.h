@@ -1,0 +1,79 @@
+#pragma once
+/// What the visibility of line samples costs and into how many parts occluders cut them: N. Billen and P. Dutre 2016, Line
+/// Sampling for Direct Illumination, Figure 5 and Table 1.
+
+#include "image/planes.h"
+#include "lab/figures/report_table.h"
+#include "lab/lines/line_scenes.h"
+#include "render_cpu/renderer.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nusselt::lab {
+
+/// Work for one line, the mean over an image.
+struct WorkPerLine {
+    double parts = 0;     ///< visible ones
+    double box_tests = 0; ///< of boxes of the hierarchy
+    double triangle_tests = 0;
+};
+
+/// That lines are more work in one scene than in another.
+struct MoreWork {
+    double WorkPerLine::*work;
+    std::string scene;
+    std::string than;
+};
+
+struct LineVisibility {
+    std::string name; ///< on the command line
+    std::string source;
+    std::string description; ///< one sentence
+    std::vector<LineScene> scenes;
+    std::vector<MoreWork> expectations;
+    int lines; ///< per shading point and light
+    int width; ///< of the images in pixels
+};
+
+const std::vector<LineVisibility>& all_line_visibilities();
+
+struct LineVisibilityScene {
+    std::string scene;
+    bool is_skipped = false; ///< it is not there
+    image::Image image;
+    image::Plane parts; ///< visible ones of each line, means over pixels
+    render_cpu::RenderStatistics statistics;
+    WorkPerLine work;
+};
+
+struct LineVisibilityResult {
+    const LineVisibility* experiment = nullptr;
+    int width = 0;
+    std::vector<LineVisibilityScene> scenes;
+    std::vector<ExpectationResult> expectations;
+};
+
+/// \param settings as for run_experiment(); references have no meaning
+/// \throws std::runtime_error if a scene cannot be loaded
+LineVisibilityResult run_line_visibility(const LineVisibility& experiment, const RunSettings& settings,
+                                         const std::function<void(std::string_view)>& progress);
+
+/// What became of the expectations; those about scenes that were skipped are left out.
+std::vector<ExpectationResult> check_expectations(const LineVisibility& experiment,
+                                                  const std::vector<LineVisibilityScene>& scenes);
+
+/// The tables.
+std::string to_text(const LineVisibilityResult& result);
+
+/// All numbers.
+std::string to_json(const LineVisibilityResult& result);
+
+/// Writes index.html with the tables, the images and the parts in false colours, and numbers.json into a folder, which is
+/// created.
+void write_report(const LineVisibilityResult& result, const std::filesystem::path& folder);
+
+} // namespace nusselt::lab

@@ -1,0 +1,144 @@
+#include "lab/timing/gpu_frames.h"
+
+#include "proof/median.h"
+#include "render_vulkan/accumulator.h"
+#include "render_vulkan/frame_records.h"
+#include "scene/rig.h"
+#include "scene/vector_math.h"
+
+#include <cassert>
+#include <cmath>
+#include <deque>
+#include <utility>
+
+namespace nusselt::lab {
+
+namespace {
+
+using render::Mis;
+using render::Strategies;
+using render::Technique;
+
+constexpr int kSamples = 2;
+
+/// A frame with its pixels.
+struct Running {
+    explicit Running(const GpuFrame& frame)
+        : image(*frame.scene, frame.settings),
+          record(render_vulkan::FrameRecords(frame.scene->film(), frame.settings).make(0)) {
+        image.compile();
+    }
+
+    render_vulkan::Accumulator image;
+    interface::FrameRecord record;
+    GpuFrameTimes times;
+};
+
+render::RenderSettings settings_of(Technique technique, Strategies strategies, Mis mis) {
+    render::RenderSettings settings;
+    settings.technique = technique;
+    settings.strategies = strategies;
+    settings.mis = mis;
+    settings.samples = kSamples;
+    settings.camera_rays = 1;
+    return settings;
+}
+
+double median_ratio(const std::vector<double>& times, const std::vector<double>& others) {
+    assert(!times.empty() && times.size() == others.size());
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / others[i]);
+    return proof::median(std::move(ratios));
+}
+
+/// Removes all lights but one, which gets another shape.
+scene::Scene with_only_light(const scene::Scene& scene, std::uint32_t emitter, scene::LightShape shape) {
+    scene::Rig rig;
+    for (std::size_t i = 0; i < scene.emitters.size(); ++i) {
+        scene::RigLight& light =
+            rig.lights.emplace_back(scene::RigLight{"light in place of a tube", scene::Selector(i), {}});
+        light.changes.remove = i != emitter;
+    }
+    scene::LightChanges& changes = rig.lights[emitter].changes;
+    if (!std::holds_alternative<scene::TubeShape>(shape)) changes.two_sided = true;
+    changes.shape = std::move(shape);
+    scene::Scene changed = scene;
+    apply_rig(rig, changed);
+    return changed;
+}
+
+/// As wide as the tube.
+std::vector<scene::Float3> quad_in_place(const scene::LineLight& tube) {
+    const scene::Double3 begin = scene::to_double(tube.begin), end = scene::to_double(tube.end);
+    const scene::Double3 axis = normalized(end - begin);
+    const bool is_upright = std::fabs(axis.y) > 0.9;
+    const scene::Double3 front = is_upright ? scene::Double3{1, 0, 0} : scene::Double3{0, 1, 0};
+    const scene::Double3 half = static_cast<double>(tube.radius) * normalized(cross(axis, front));
+    std::vector<scene::Float3> corners;
+    for (const scene::Double3& corner : {begin - half, end - half, end + half, begin + half})
+        corners.push_back(scene::to_float(corner));
+    return corners;
+}
+
+} // namespace
+
+std::vector<double> GpuFrameTimes::whole() const {
+    std::vector<double> sums;
+    for (std::size_t i = 0; i < shading.size(); ++i) sums.push_back(visibility[i] + shading[i]);
+    return sums;
+}
+
+std::vector<GpuFrameTimes> time_gpu_frames(std::span<const GpuFrame> frames, const GpuFrameRounds& rounds) {
+    std::deque<Running> all;
+    for (const GpuFrame& frame : frames) all.emplace_back(frame);
+    for (int round = -rounds.warm_up; round < rounds.repetitions; ++round)
+        for (Running& running : all) {
+            const render_vulkan::FrameTimes times = running.image.add(running.record);
+            if (round < 0) continue;
+            running.times.visibility.push_back(times.visibility);
+            running.times.shading.push_back(times.shading);
+        }
+    std::vector<GpuFrameTimes> results;
+    for (Running& running : all) {
+        running.times.shadow_rays = running.image.work().shadow_rays / running.image.frames();
+        results.push_back(std::move(running.times));
+    }
+    return results;
+}
+
+GpuFrameRatio ratio_of(const GpuFrameTimes& times, const GpuFrameTimes& others) {
+    GpuFrameRatio ratio{
+        median_ratio(times.whole(), others.whole()), median_ratio(times.shading, others.shading), {}};
+    if (times.shadow_rays > 0 && others.shadow_rays > 0)
+        ratio.shadow_rays = static_cast<double>(times.shadow_rays) / static_cast<double>(others.shadow_rays);
+    return ratio;
+}
+
+std::vector<render::RenderSettings> timed_settings() {
+    std::vector<render::RenderSettings> all;
+    for (const auto& [strategies, mis] : {std::pair(Strategies::diffuse, Mis::clamped_optimal),
+                                          std::pair(Strategies::diffuse_ltc, Mis::clamped_optimal),
+                                          std::pair(Strategies::diffuse_ggx, Mis::balance)})
+        for (const Technique technique : render::kTechniques)
+            if (allows(technique, strategies)) all.push_back(settings_of(technique, strategies, mis));
+    return all;
+}
+
+SettingsPair strategies_pair() {
+    return {settings_of(Technique::projected_solid_angle, Strategies::diffuse_ltc, Mis::clamped_optimal),
+            settings_of(Technique::solid_angle, Strategies::diffuse_ggx, Mis::balance)};
+}
+
+bool is_same(const render::RenderSettings& a, const render::RenderSettings& b) {
+    return a.technique == b.technique && a.strategies == b.strategies && a.mis == b.mis;
+}
+
+std::optional<LineAndQuad> line_and_quad(const scene::Scene& scene) {
+    if (scene.line_lights.empty()) return std::nullopt;
+    const scene::LineLight& tube = scene.line_lights.front();
+    const scene::TubeShape line{tube.begin, tube.end, tube.radius, scene::TubeModel::linear};
+    return LineAndQuad{with_only_light(scene, tube.emitter, line),
+                       with_only_light(scene, tube.emitter, quad_in_place(tube))};
+}
+
+} // namespace nusselt::lab

@@ -1,0 +1,199 @@
+#include "lab/timing/gpu_samplers.h"
+
+#include <cassert>
+#include <memory>
+
+#include <nusselt/geometry/convex_polygon.h>
+#include <nusselt/geometry/line_segment.h>
+
+#include "gpu/compute_pipeline.h"
+#include "gpu/fused_fma.h"
+#include "lab/timing/llvmpipe_threads.h"
+#include "lab/timing/sampler_timing_lights.h"
+#include "shaders/gpu_samplers_table.h"
+
+namespace nusselt::lab {
+
+namespace {
+
+constexpr std::uint32_t kWorkGroup = 64; // as in shaders/bench/workload.glsl
+constexpr std::uint32_t kRepeats = 128;  // lights or samples of each thread
+constexpr std::uint32_t kMostGroups = 1 << 15;
+constexpr std::size_t kMostColumns = 6 * kLargestVertexCount + 3;
+
+/// The lights of a run, a column for each number of a light.
+using Columns = std::vector<float>;
+
+Vec3<float> position(const TimedLights& lights, int light, int j) {
+    const auto& v = lights.coordinates[j];
+    return {v[0][light], v[1][light], v[2][light]};
+}
+
+void add(Columns& columns, std::size_t index, int light, const Vec3<float>& v) {
+    const float components[] = {v.x, v.y, v.z};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        columns[(index + axis) * kTimedLights + static_cast<std::size_t>(light)] = components[axis];
+}
+
+Columns polygon_columns(const TimedLights& lights, int count) {
+    Columns columns(kMostColumns * kTimedLights);
+    const auto n = static_cast<std::size_t>(count);
+    for (int i = 0; i < kTimedLights; ++i) {
+        Vec3<float> v[kLargestVertexCount];
+        for (int j = 0; j < kLargestVertexCount; ++j) v[j] = position(lights, i, j);
+        const auto polygon = make_polygon<kLargestVertexCount>(v, count);
+        for (std::size_t j = 0; j < n; ++j) {
+            add(columns, 3 * j, i, polygon.vertex[j]);
+            add(columns, 3 * (n + j), i, polygon.edge[j + 1 < n ? j : kLargestVertexCount - 1]);
+        }
+        add(columns, 6 * n, i, polygon.normal);
+    }
+    return columns;
+}
+
+Columns line_columns(const TimedLights& lights) {
+    Columns columns(kMostColumns * kTimedLights);
+    for (int i = 0; i < kTimedLights; ++i) {
+        const auto line = make_line(position(lights, i, 0), position(lights, i, 1));
+        add(columns, 0, i, line.p0);
+        add(columns, 3, i, line.s);
+        columns[6 * kTimedLights + static_cast<std::size_t>(i)] = line.length;
+    }
+    return columns;
+}
+
+/// One shader with one workload.
+class Workload {
+public:
+    /// \param lights, samples of each light, in each thread.
+    Workload(const gpu::Device& device, const GpuSamplerShader& shader, std::uint32_t lights,
+             std::uint32_t samples, const gpu::Buffer& columns, const gpu::Buffer& sums)
+        : device_(&device),
+          pipeline_(device, shader.spirv, {.storage_buffers = 2, .constants = {lights, samples}}) {
+        pipeline_.bind({&columns, &sums});
+    }
+
+    /// \return time per light or sample [ns]
+    double run(std::uint32_t groups) const {
+        const double time = device_->time(
+            [&](const gpu::Device::Commands& commands) { pipeline_.dispatch(commands, {}, groups); });
+        return time / (static_cast<double>(groups) * kWorkGroup * kRepeats);
+    }
+
+    /// So many groups that start and end of a run do not matter. Warms up, too.
+    std::uint32_t calibrated_groups() const {
+        constexpr double kEnough = 4e6; // ns
+        std::uint32_t groups = 1;
+        while (groups < kMostGroups && run(groups) * groups * kWorkGroup * kRepeats < kEnough) groups *= 2;
+        return groups;
+    }
+
+private:
+    const gpu::Device* device_;
+    gpu::ComputePipeline pipeline_;
+};
+
+/// A shader with both workloads.
+struct Timed {
+    const GpuSamplerShader* shader;
+    Workload lights, samples;
+};
+
+/// One row in the making.
+struct Running {
+    const Timed* timed;
+    const TimedConfiguration* configuration;
+    std::uint32_t light_groups = 0, sample_groups = 0;
+    GpuSamplerSeries series;
+};
+
+double half_interquartile_range(const std::vector<double>& values) {
+    return (quantile(values, 0.75) - quantile(values, 0.25)) / 2;
+}
+
+std::optional<double> ratio(double time, double other) {
+    if (time > 0 && other > 0) return time / other;
+    return std::nullopt;
+}
+
+void add_ratios(std::vector<GpuSamplerTiming>& rows) {
+    for (GpuSamplerTiming& row : rows)
+        for (const GpuSamplerTiming& other : rows) {
+            if (other.technique != competitor_of(row.technique) || other.configuration != row.configuration)
+                continue;
+            row.light_ratio = ratio(row.light_ns, other.light_ns);
+            row.sample_ratio = ratio(row.sample_ns, other.sample_ns);
+        }
+}
+
+} // namespace
+
+std::vector<GpuSamplerTiming> rows_of(const std::vector<GpuSamplerSeries>& series) {
+    std::vector<GpuSamplerTiming> rows;
+    const GpuSamplerSeries* baseline = nullptr;
+    for (const GpuSamplerSeries& s : series) {
+        if (s.technique == "Baseline") {
+            baseline = &s;
+            continue;
+        }
+        assert(baseline != nullptr && baseline->configuration == s.configuration);
+        const double light = quantile(s.light_ns, 0.5), sample = quantile(s.sample_ns, 0.5);
+        GpuSamplerTiming row;
+        row.technique = s.technique;
+        row.configuration = s.configuration;
+        row.light_ns = light - quantile(baseline->light_ns, 0.5);
+        row.sample_ns = sample - quantile(baseline->sample_ns, 0.5);
+        row.light_spread = half_interquartile_range(s.light_ns) / light;
+        row.sample_spread = half_interquartile_range(s.sample_ns) / sample;
+        rows.push_back(row);
+    }
+    add_ratios(rows);
+    return rows;
+}
+
+GpuSamplerTable time_gpu_samplers(const GpuSamplerSettings& settings) {
+    const gpu::Device device({.choice = settings.device});
+    const bool fused = gpu::has_fused_fma(device);
+    gpu::Buffer columns(device, kMostColumns * kTimedLights * sizeof(float), gpu::Residence::device_local);
+    const gpu::Buffer sums(device, std::size_t{kMostGroups} * kWorkGroup * 4 * sizeof(float),
+                           gpu::Residence::device_local);
+
+    std::vector<std::unique_ptr<Timed>> all;
+    for (const GpuSamplerShader& shader : kGpuSamplerShaders)
+        if (shader.fused_fma == fused)
+            all.push_back(std::make_unique<Timed>(Timed{&shader,
+                                                        {device, shader, kRepeats, 1, columns, sums},
+                                                        {device, shader, 1, kRepeats, columns, sums}}));
+    const std::vector<TimedConfiguration> configurations = timed_configurations();
+    const auto lights = std::make_unique<TimedLights>();
+    std::vector<Running> all_running;
+    for (const TimedConfiguration& c : configurations)
+        for (const auto& timed : all)
+            if (timed->shader->kind == c.kind && timed->shader->vertex_count == c.vertex_count)
+                all_running.push_back({timed.get(), &c, 0, 0, {timed->shader->technique, c.name, {}, {}}});
+
+    const auto upload = [&](const TimedConfiguration& c) {
+        make_timed_lights(c, *lights);
+        columns.write<float>(c.kind == LightKind::line ? line_columns(*lights)
+                                                       : polygon_columns(*lights, c.vertex_count));
+    };
+    for (int repetition = 0; repetition < settings.repetitions; ++repetition) {
+        const TimedConfiguration* uploaded = nullptr;
+        for (Running& s : all_running) {
+            if (s.configuration != uploaded) upload(*s.configuration);
+            uploaded = s.configuration;
+            if (repetition == 0) {
+                s.light_groups = s.timed->lights.calibrated_groups();
+                s.sample_groups = s.timed->samples.calibrated_groups();
+            }
+            s.series.light_ns.push_back(s.timed->lights.run(s.light_groups));
+            s.series.sample_ns.push_back(s.timed->samples.run(s.sample_groups));
+        }
+    }
+    std::vector<GpuSamplerSeries> series;
+    for (const Running& s : all_running) series.push_back(s.series);
+    return {device.description(), device.clock(), fused, llvmpipe_threads(device.description()),
+            rows_of(series)};
+}
+
+} // namespace nusselt::lab

@@ -1,0 +1,40 @@
+#pragma once
+/// What the units compiled per instruction set offer to sampler_timing.cpp: plain data and functions.
+
+#include "base/isa.h"
+
+#include <vector>
+
+namespace nusselt::lab {
+
+inline constexpr int kTimedLights = 256;
+inline constexpr int kLargestVertexCount = 8;
+
+/// Lights in shading space and random numbers, one column per light. Polygons with fewer vertices repeat the
+/// last one; lines have two.
+struct TimedLights {
+    float coordinates[kLargestVertexCount][3][kTimedLights];
+    float u[2][kTimedLights];
+};
+
+enum class LightKind { polygon, line };
+
+struct TimedTechnique {
+    const char* name;
+    LightKind kind;
+    int lanes;
+    int vertex_bound; ///< largest vertex count, 2 for lines
+    void (*load)(
+        const TimedLights&); ///< to be called first: converts the lights to the type of the technique
+    /// Prepares every light. Returns a number that depends on the results, as the others.
+    float (*prepare)();
+    /// Takes a sample of each prepared light: lanes have lights of their own.
+    float (*sample)();
+    /// Takes kTimedLights samples of the first light: one light in all lanes.
+    float (*sample_one)();
+};
+
+template <base::Isa>
+std::vector<TimedTechnique> timed_techniques();
+
+} // namespace nusselt::lab

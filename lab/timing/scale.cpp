@@ -1,0 +1,110 @@
+#include "lab/timing/scale.h"
+
+#include "lab/timing/child_process.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace nusselt::lab {
+
+namespace {
+
+class TemporaryFolder {
+public:
+    TemporaryFolder() {
+        std::string pattern = (std::filesystem::temp_directory_path() / "nusselt_scale_XXXXXX").string();
+        if (::mkdtemp(pattern.data()) == nullptr)
+            throw std::runtime_error("cannot create a folder like " + pattern);
+        path_ = pattern;
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// Writes, loads and renders; memory with all that the program needs anyway.
+ScaleRow measure_row(ScaleScene scene, std::uint64_t triangles, const std::filesystem::path& program) {
+    const TemporaryFolder folder;
+    ScaleRow row{};
+    row.scene = scene;
+    row.triangles = write_scale_scene(scene, triangles, folder.path());
+    const std::string file = (folder.path() / "scene.pbrt").string();
+    row.load_bytes = run_child({program.string(), "info", file}).peak_bytes;
+    const ChildResult rendering = run_child({program.string(), "render", file, "--quiet", "--json", "-",
+                                             "--output", (folder.path() / "image.exr").string()});
+    row.render_bytes = rendering.peak_bytes;
+    const nlohmann::json report = nlohmann::json::parse(rendering.output);
+    row.array_bytes = report.at("scene_bytes");
+    row.load_seconds = report.at("seconds").at("load");
+    row.hierarchy_seconds = report.at("seconds").at("bvh");
+    row.render_seconds = report.at("seconds").at("render");
+    return row;
+}
+
+/// Of a quantity from the last row but one to the last.
+template <class Quantity>
+std::optional<double> exponent(const std::vector<ScaleRow>& rows, const Quantity& quantity) {
+    if (rows.size() < 2) return {};
+    const ScaleRow& before = rows[rows.size() - 2];
+    const ScaleRow& after = rows.back();
+    if (before.triangles == after.triangles || !(quantity(before) > 0 && quantity(after) > 0)) return {};
+    return std::log(quantity(after) / quantity(before)) /
+           std::log(static_cast<double>(after.triangles) / static_cast<double>(before.triangles));
+}
+
+std::string name_of(ScaleScene scene) { return scene == ScaleScene::terrain ? "terrain" : "light"; }
+
+} // namespace
+
+std::vector<ScaleRow> measure_scale(ScaleScene scene, std::uint64_t largest,
+                                    const std::filesystem::path& program) {
+    constexpr std::uint64_t kTiny = 8;
+    const ScaleRow tiny = measure_row(scene, kTiny, program);
+    std::vector<ScaleRow> rows;
+    for (const std::uint64_t divisor : {1000u, 100u, 10u, 1u}) {
+        ScaleRow row = measure_row(scene, std::max(largest / divisor, kTiny), program);
+        row.load_bytes -= std::min(row.load_bytes, tiny.load_bytes);
+        row.render_bytes -= std::min(row.render_bytes, tiny.render_bytes);
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+std::optional<double> time_exponent(const std::vector<ScaleRow>& rows) {
+    return exponent(rows, [](const ScaleRow& row) {
+        // Rendering of terrain costs time per pixel, above all.
+        const bool counts = row.scene == ScaleScene::light;
+        return row.load_seconds + row.hierarchy_seconds + (counts ? row.render_seconds : 0);
+    });
+}
+
+std::optional<double> memory_exponent(const std::vector<ScaleRow>& rows) {
+    return exponent(rows, [](const ScaleRow& row) { return static_cast<double>(row.render_bytes); });
+}
+
+std::string scale_json(const std::vector<ScaleRow>& rows) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const ScaleRow& row : rows)
+        json.push_back({{"scene", name_of(row.scene)},
+                        {"triangles", row.triangles},
+                        {"array_bytes", row.array_bytes},
+                        {"load_seconds", row.load_seconds},
+                        {"hierarchy_seconds", row.hierarchy_seconds},
+                        {"render_seconds", row.render_seconds},
+                        {"load_bytes", row.load_bytes},
+                        {"render_bytes", row.render_bytes}});
+    return json.dump(2);
+}
+
+} // namespace nusselt::lab

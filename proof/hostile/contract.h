@@ -1,0 +1,250 @@
+#pragma once
+/// The contract of a technique for any light and random number: it never fails. For scalars and packs alike.
+
+#include <limits>
+
+#include "proof/hostile/techniques.h"
+
+NUSSELT_NAMESPACE_BEGIN
+namespace hostile {
+
+/// Everything that a technique returns for one light and random number.
+template <class Real, class Random>
+struct Outputs {
+    LightSample<Real> sample;
+    Real pdf; ///< of the sampled direction, asked for again
+    Random inverse;
+    Real measure;
+};
+
+template <class Kind, class Real>
+Outputs<Real, typename Kind::template Random<Real>>
+outputs_of(const typename Kind::template Light<Real>& light,
+           const typename Kind::template Random<Real>& u) noexcept {
+    const typename Kind::template Technique<Real> technique(light);
+    const LightSample<Real> sample = technique.sample(u);
+    return {sample, technique.pdf(sample.wi), technique.invert(sample.wi), technique.measure()};
+}
+
+template <class Real>
+mask_t<Real> all_finite(const Vec3<Real>& v) noexcept {
+    // A sum of finite numbers may overflow; these products are 0 or NaN.
+    const Real zero = Real(0) * v.x + Real(0) * v.y + Real(0) * v.z;
+    return zero == Real(0);
+}
+
+template <class Real>
+auto in_unit_interval(const Real& u) noexcept {
+    return (u >= Real(0)) & (u < Real(1));
+}
+template <class Real>
+auto in_unit_interval(const Vec2<Real>& u) noexcept {
+    return in_unit_interval(u.x) & in_unit_interval(u.y);
+}
+
+template <class Real>
+Real largest_coordinate(const Vec3<Real>& v) noexcept {
+    return max(max(abs(v.x), abs(v.y)), abs(v.z));
+}
+
+/// Axis-aligned box of a light.
+template <class Real>
+struct Bounds {
+    Vec3<Real> low, high;
+    Real extent; ///< largest distance of a vertex from the origin, in the maximum norm
+
+    template <int N>
+    explicit Bounds(const ConvexPolygon<Real, N>& polygon) noexcept
+        : low(polygon.vertex[0]), high(low), extent(largest_coordinate(low)) {
+        for (int j = 1; j < N; ++j) include(polygon.vertex[j]);
+    }
+    explicit Bounds(const LineSegment<Real>& line) noexcept
+        : low(line.p0), high(low), extent(largest_coordinate(low)) {
+        include(line.p0 + line.length * line.s);
+    }
+
+    explicit Bounds(const Cylinder<Real>& cylinder) noexcept : Bounds(cylinder.axis) {
+        const Vec3<Real> half{cylinder.radius, cylinder.radius, cylinder.radius};
+        low = low - half;
+        high = high + half;
+        extent = extent + cylinder.radius;
+    }
+
+    mask_t<Real> contain(const Vec3<Real>& p, const Real& slack) const noexcept {
+        return (p.x >= low.x - slack) & (p.x <= high.x + slack) & (p.y >= low.y - slack) &
+               (p.y <= high.y + slack) & (p.z >= low.z - slack) & (p.z <= high.z + slack);
+    }
+
+private:
+    void include(const Vec3<Real>& v) noexcept {
+        low = min(low, v);
+        high = max(high, v);
+        extent = max(extent, largest_coordinate(v));
+    }
+};
+
+template <class Real, class Light>
+mask_t<Real> is_off(const Light&, const Bounds<Real>& bounds, const Vec3<Real>& p,
+                    const Real& slack) noexcept {
+    return !bounds.contain(p, slack);
+}
+/// A point of a cylinder is on its mantle or a cap.
+template <class Real>
+mask_t<Real> is_off(const Cylinder<Real>& light, const Bounds<Real>&, const Vec3<Real>& p,
+                    const Real& slack) noexcept {
+    const Vec3<Real> offset = p - light.axis.p0;
+    const Real along = dot(offset, light.axis.s);
+    const Real beyond = max(-along, along - light.axis.length);
+    const Real outwards = length(cross(offset, light.axis.s)) - light.radius;
+    const auto on_surface = abs(max(beyond, outwards)) <= slack;
+    return !on_surface;
+}
+
+/// Width of a polygon relative to its extent, at most 1. Rounding of vertices tilts its plane by its ratio to the width.
+template <class Real, int N>
+Real relative_width(const ConvexPolygon<Real, N>& light, const Real& extent) noexcept {
+    // Areas must not overflow.
+    const Real scale = reciprocal_power_of_two(extent);
+    ConvexPolygon<Real, N> scaled = light;
+    Real longest = Real(0);
+    for (Vec3<Real>& edge : scaled.edge) {
+        edge = scale * edge;
+        longest = max(longest, largest_coordinate(edge));
+    }
+    const Real area = largest_coordinate(doubled_area_normal(scaled));
+    return min(area / select(longest > Real(0), longest, Real(1)), Real(1));
+}
+
+/// What the angles of a technique are wrong by apart from rounding: the bound on the error of FastAngles.
+template <class Kind>
+inline constexpr double kAngleError = 0;
+template <int N>
+inline constexpr double kAngleError<PolygonBiasedKindOf<N>> = 1.3e-5;
+
+/// How far vertices are from the plane of a polygon [m]: rounding, in the precision in which they were made.
+template <class Real, int N>
+Real warp(const ConvexPolygon<Real, N>& light) noexcept {
+    const Real distance = plane_distance(light);
+    Real largest = Real(0);
+    for (const Vec3<Real>& v : light.vertex) largest = max(largest, abs(dot(light.normal, v) - distance));
+    return largest;
+}
+
+/// How far a hit point may be from the ray along wi [m]. A tilt of the plane turns the directions to a light seen
+/// edge-on; then the point where a ray meets the plane moves the more the flatter it does. Of wi and the way to p the
+/// flatter one counts: rounding may have turned wi away from the plane.
+template <class Real, int N>
+Real aim_slack(const ConvexPolygon<Real, N>& light, const Vec3<Real>& wi, const Vec3<Real>& p,
+               const Real& extent, const Real& slack) noexcept {
+    const Real width = relative_width(light, extent);
+    const Real distance = abs(plane_distance(light));
+    const Real reach = length(p);
+    const Real sturdiness =
+        width * min(abs(dot(light.normal, wi)), distance / select(reach > Real(0), reach, Real(1)));
+    const Real squared = sturdiness * sturdiness;
+    // No requirement for a point in the plane up to rounding.
+    const Real rounding = slack + Real(84) * warp(light);
+    const auto apart = (squared > Real(0)) & (width * distance > rounding);
+    return select(apart, rounding / squared, Real(std::numeric_limits<scalar_t<Real>>::max()));
+}
+template <class Real>
+Real aim_slack(const LineSegment<Real>&, const Vec3<Real>&, const Vec3<Real>&, const Real&,
+               const Real& slack) noexcept {
+    return slack;
+}
+template <class Real>
+Real aim_slack(const Cylinder<Real>&, const Vec3<Real>&, const Vec3<Real>&, const Real&,
+               const Real& slack) noexcept {
+    return slack;
+}
+
+/// By how much the density of a sample of the area of a light may differ from that of its direction, relative to the
+/// density: rounding moves the point where the direction meets the light, the more the flatter it does. Infinite where
+/// the density is nothing but rounding.
+template <class Real, int N>
+Real area_pdf_tolerance(const ConvexPolygon<Real, N>& light, const Vec3<Real>& p, const Real& extent,
+                        const Real& slack) noexcept {
+    const Real rounding = slack + Real(84) * warp(light);
+    return Real(4) * rounding / (relative_width(light, extent) * abs(dot(light.normal, p)));
+}
+template <class Real>
+Real area_pdf_tolerance(const LineSegment<Real>& light, const Vec3<Real>& p, const Real&,
+                        const Real& slack) noexcept {
+    return Real(4) * slack / length(cross(light.s, p));
+}
+
+/// On the mantle the cosine itself changes, the more the flatter the direction is. Next to a rim the direction may meet
+/// either side of it.
+template <class Real>
+Real area_pdf_tolerance(const Cylinder<Real>& light, const Vec3<Real>& p, const Real&,
+                        const Real& slack) noexcept {
+    using T = scalar_t<Real>;
+    const Vec3<Real> from_begin = p - light.axis.p0;
+    const Real along = dot(from_begin, light.axis.s);
+    const Vec3<Real> across = cross(light.axis.s, cross(from_begin, light.axis.s));
+    const Real rho = length(across);
+    const Real to_ends = min(abs(along), abs(light.axis.length - along));
+    const Real to_mantle = abs(light.radius - rho);
+    const auto on_mantle = to_mantle <= to_ends;
+    const Vec3<Real> normal = select(on_mantle, normalize(across), light.axis.s);
+    const Real cosine = abs(dot(normalize(p), normal));
+    const Real moved = slack / cosine;
+    const Real smallest = min(light.radius, length(p));
+    const auto inside_one_part = max(to_ends, to_mantle) > Real(4) * moved;
+    return select(inside_one_part, Real(4) * moved / (cosine * smallest),
+                  Real(std::numeric_limits<T>::max()));
+}
+
+/// Calls report(mask, text) for each rule of the contract: the lanes that break it, and what they do.
+template <class Kind, class Real, class Report>
+void check_contract(const typename Kind::template Light<Real>& light,
+                    const Outputs<Real, typename Kind::template Random<Real>>& out,
+                    const Report& report) noexcept {
+    using T = scalar_t<Real>;
+    // Rounding of a unit vector, and of a hit point relative to the farthest point of the light: 1e-5 in float, which
+    // is far below what an image shows, and enough for sums of up to nine weighted vertices.
+    constexpr T kTolerance = 84 * std::numeric_limits<T>::epsilon();
+    const auto& [wi, pdf, p] = out.sample;
+    report(!all_finite(wi), "wi is not finite");
+    report(!(is_finite(pdf) & (pdf >= Real(0))), "the density of the sample is negative or not finite");
+    report(!(is_finite(out.pdf) & (out.pdf >= Real(0))), "pdf(wi) is negative or not finite");
+    report(!(is_finite(out.measure) & (out.measure >= Real(0))), "measure is negative or not finite");
+    report(!in_unit_interval(out.inverse), "invert(wi) leaves [0, 1)");
+
+    const auto sampled = pdf > Real(0);
+    report(sampled & !(out.measure > Real(0)), "a density without measure");
+    report(sampled & !(abs(dot(wi, wi) - Real(1)) <= Real(kTolerance)), "wi is not a unit vector");
+    report(sampled & !all_finite(p), "p is not finite");
+    const Bounds<Real> bounds(light);
+    // Where numbers are denormal, rounding is absolute.
+    const Real slack = fma(Real(kTolerance), bounds.extent, Real(16 * std::numeric_limits<T>::min()));
+    report(sampled & is_off(light, bounds, p, slack), "p is off the light");
+    // The largest errors of 6e4 ordinary lights are 12 times that of the angles.
+    const Real turned = Real(static_cast<T>(32 * kAngleError<Kind>)) * bounds.extent;
+    const Real aim = aim_slack(light, wi, p, bounds.extent, slack + turned);
+    const auto on_line = largest_coordinate(cross(wi, p)) <= aim;
+    const auto ahead = dot(wi, p) >= -aim;
+    report(sampled & !(on_line & ahead), "wi does not lead to p");
+    if constexpr (Kind::kMeasure == Measure::kArea) {
+        // Larger tolerances mean that the density is noise.
+        const Real tolerance = area_pdf_tolerance(light, p, bounds.extent, slack);
+        report(sampled & (tolerance < Real(0.1)) & !(abs(out.pdf / pdf - Real(1)) <= tolerance),
+               "the density of the sample is not pdf(wi)");
+    } else {
+        report(sampled & (pdf != out.pdf), "the density of the sample is not pdf(wi)");
+    }
+}
+
+/// The first rule that a scalar technique breaks; nullptr if none.
+template <class Kind, class T>
+const char* violation(const typename Kind::template Light<T>& light,
+                      const Outputs<T, typename Kind::template Random<T>>& out) noexcept {
+    const char* first = nullptr;
+    check_contract<Kind, T>(light, out, [&](bool broken, const char* text) {
+        if (broken && first == nullptr) first = text;
+    });
+    return first;
+}
+
+} // namespace hostile
+NUSSELT_NAMESPACE_END

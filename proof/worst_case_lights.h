@@ -1,0 +1,136 @@
+#pragma once
+/// The smallest families of lights that have every sector and every line up to symmetry, for the search for
+/// the worst backward error.
+
+#include <nusselt/estimate/backward_error.h>
+#include <nusselt/random/pcg.h>
+#include <nusselt/sampling/line_projected_solid_angle.h>
+#include <nusselt/sampling/polygon_projected_solid_angle.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace nusselt::proof {
+
+/// Coordinates of the search are logits, from -kReach to kReach: steps are relative to the distance from
+/// whichever end is closer, because errors peak at 1e-5 of a range from its ends.
+inline constexpr int kReach = 16;
+
+/// Maps the coordinates of the search to [0, 1], ends included.
+template <class Real>
+Real share_of(Real coordinate) {
+    const auto logistic = [](Real x) { return 1 / (1 + std::exp(-x)); };
+    const Real rest = logistic(-Real(kReach));
+    return below_one((logistic(coordinate) - rest) / (1 - 2 * rest));
+}
+
+/// Random coordinates of the search.
+class RandomCoordinates {
+public:
+    /// \param index of the sequence.
+    RandomCoordinates(std::uint64_t seed, std::uint64_t index) : generator_(start_of(seed, index)) {}
+
+    /// Uniform in what the coordinate stands for.
+    double uniform() {
+        const double u = (generator_() + 0.5) * 0x1p-32;
+        return std::fmin(std::fmax(std::log(u / (1 - u)), -kReach), kReach);
+    }
+
+    /// Half of the time uniform in the coordinate, so that all distances from the ends are equally frequent.
+    double hard() {
+        if (generator_() % 2 == 0) return uniform();
+        return kReach * (generator_() * 0x1p-31 - 1);
+    }
+
+private:
+    static std::uint64_t start_of(std::uint64_t seed, std::uint64_t index) {
+        const auto low = [](std::uint64_t x) { return static_cast<std::uint32_t>(x); };
+        const UInt4 hash = pcg4d({low(index), low(index >> 32), low(seed), low(seed >> 32)});
+        return (static_cast<std::uint64_t>(hash.x) << 32) | hash.y;
+    }
+
+    Pcg32 generator_;
+};
+
+/// A sector between two great circles, which a decentral polygon is cut into, and a random number. Everything
+/// that the method knows of a sector: a trapezoid with two vertical edges has exactly one, and any azimuth of
+/// its begin is as good as another one.
+template <class Real>
+struct SectorCase {
+    static constexpr std::size_t kDimension = 6;
+    static constexpr std::array<const char*, kDimension> kNames = {
+        "azimuth_range", "inner_begin", "inner_end", "outer_begin", "outer_end", "u"};
+    /// The range of azimuths in radians, tangents of the elevations of both circles at its ends, random number.
+    std::array<Real, kDimension> parameters;
+
+    /// Ranges reach up to 179.999 degrees, as in the paper.
+    static SectorCase at(const std::array<Real, kDimension>& coordinates) {
+        const Real inner_begin = std::exp(coordinates[1]);
+        const Real inner_end = std::exp(coordinates[2]);
+        return {{kPi<Real> * Real(179.999L / 180) * share_of(coordinates[0]), inner_begin, inner_end,
+                 inner_begin * share_of(coordinates[3]), inner_end * share_of(coordinates[4]),
+                 share_of(coordinates[5])}};
+    }
+
+    ConvexPolygon<Real, 4> light() const {
+        const auto& [range, inner_begin, inner_end, outer_begin, outer_end, u] = parameters;
+        const Real x = std::cos(range);
+        const Real y = std::sin(range);
+        const Vec3<Real> corners[4] = {
+            {1, 0, outer_begin}, {x, y, outer_end}, {x, y, inner_end}, {1, 0, inner_begin}};
+        return make_polygon<4>(corners, 4);
+    }
+
+    template <int Iterations>
+    using Technique = PolygonProjectedSolidAngle<Real, 4, Iterations>;
+
+    template <class Sampler>
+    Real error(const Sampler& technique) const {
+        // The method error does not depend on the inclination.
+        const Vec2<Real> u{parameters[5], Real(0.5)};
+        return backward_error(technique, u, technique.sample(u).wi);
+    }
+};
+
+/// A line at distance 1, clipped to the horizon, and a random number.
+template <class Real>
+struct LineCase {
+    static constexpr std::size_t kDimension = 4;
+    static constexpr std::array<const char*, kDimension> kNames = {"tilt", "begin", "end", "u"};
+    /// The angle between the normal and the plane perpendicular to the line; angles from the direction of the
+    /// closest point to begin and end; random number. In radians.
+    std::array<Real, kDimension> parameters;
+
+    static LineCase at(const std::array<Real, kDimension>& coordinates) {
+        // Of lines that are shorter or closer to their own axis, one would see the rounding of directions.
+        const Real shortest = Real(1e-3L);
+        const Real steepest = kPi<Real> / 2 - Real(1e-6L);
+        const Real last_begin = steepest - shortest;
+        const Real tilt = (last_begin + kPi<Real> / 2) * share_of(coordinates[0]);
+        const Real low = std::fmax(-steepest, tilt - kPi<Real> / 2);
+        const Real begin = low + (last_begin - low) * share_of(coordinates[1]);
+        const Real first_end = begin + shortest;
+        const Real end = first_end + (steepest - first_end) * share_of(coordinates[2]);
+        return {{tilt, begin, end, share_of(coordinates[3])}};
+    }
+
+    LineSegment<Real> light() const {
+        const auto& [tilt, begin, end, u] = parameters;
+        const Vec3<Real> s{std::cos(tilt), 0, std::sin(tilt)};
+        const Vec3<Real> t{-s.z, 0, s.x};
+        return {std::tan(begin) * s + t, s, std::tan(end) - std::tan(begin)};
+    }
+
+    template <int Iterations>
+    using Technique = LineProjectedSolidAngle<Real, Iterations>;
+
+    template <class Sampler>
+    Real error(const Sampler& technique) const {
+        const Real u = parameters[3];
+        return backward_error(technique, u, technique.sample(u).wi);
+    }
+};
+
+} // namespace nusselt::proof

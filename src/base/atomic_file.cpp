@@ -1,0 +1,90 @@
+#include "base/atomic_file.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <stdexcept>
+#include <string>
+#include <unistd.h>
+
+namespace nusselt::base {
+
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& problem) {
+    throw std::runtime_error("cannot write '" + path.string() + "': " + problem);
+}
+
+/// Unique among the processes and threads that may write into one folder at the same time.
+std::filesystem::path temporary_path(const std::filesystem::path& path) {
+    static std::atomic<unsigned> counter = 0;
+    const std::string unique = std::to_string(::getpid()) + "-" + std::to_string(counter++);
+    return path.parent_path() / ("." + path.filename().string() + "." + unique + ".tmp");
+}
+
+/// Waits until the disk has all bytes of a file, or all names of a folder.
+/// \returns 0 or the number of an error
+int store(const std::filesystem::path& path) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return errno;
+    const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+    ::close(descriptor);
+    return error == EINVAL || error == EROFS ? 0 : error; // file systems without a disk
+}
+
+/// Removes the file at the end of the scope; without effect once the file was renamed.
+class RemoveAtExit {
+public:
+    explicit RemoveAtExit(const std::filesystem::path& path) : path_(path) {}
+    RemoveAtExit(const RemoveAtExit&) = delete;
+    RemoveAtExit& operator=(const RemoveAtExit&) = delete;
+    ~RemoveAtExit() {
+        std::error_code ignored;
+        std::filesystem::remove(path_, ignored);
+    }
+
+private:
+    const std::filesystem::path& path_;
+};
+
+} // namespace
+
+void write_atomically(const std::filesystem::path& path, const std::function<void(std::ofstream&)>& write) {
+    std::error_code error;
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    const std::filesystem::file_status folder_status = std::filesystem::status(folder, error);
+    if (!std::filesystem::status_known(folder_status)) {
+        fail(path, "the folder '" + folder.string() + "' cannot be reached (" + error.message() +
+                       "); check the permissions of the folders above it or choose another path");
+    }
+    if (!std::filesystem::is_directory(folder_status))
+        fail(path, "there is no folder '" + folder.string() + "'; create it or choose another path");
+    if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+        fail(path, "this is a folder or a device; give the name of a file");
+
+    const std::filesystem::path temporary = temporary_path(path);
+    std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+    if (!stream) {
+        fail(path, "no file can be created in '" + folder.string() + "' (" + std::strerror(errno) +
+                       "); check its permissions or choose another folder");
+    }
+    const RemoveAtExit remove_temporary(temporary);
+    try {
+        write(stream);
+    } catch (...) {
+        if (stream) throw; // what a failed stream made `write` throw is reported below
+    }
+    stream.close();
+    if (!stream) fail(path, "the data did not fit or could not be stored; check the free space of the disk");
+    // Without this, a crash of the machine could leave the new name with the bytes of neither file.
+    if (const int problem = store(temporary); problem != 0)
+        fail(path,
+             std::string("the data could not be stored (") + std::strerror(problem) + "); check the disk");
+    std::filesystem::rename(temporary, path, error);
+    if (error) fail(path, "the finished file could not be renamed (" + error.message() + ")");
+    // Where the folder lacks the permission to be read, the system decides when the name is stored.
+    store(folder);
+}
+
+} // namespace nusselt::base

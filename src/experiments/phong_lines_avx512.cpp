@@ -1,7 +1,0 @@
-#include "experiments/phong_lines_impl.h"
-
-namespace nusselt::experiments {
-
-PhongEvaluation phong_evaluation_avx512() { return phong_lines::evaluation(); }
-
-} // namespace nusselt::experiments

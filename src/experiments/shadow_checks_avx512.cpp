@@ -1,7 +1,0 @@
-#include "experiments/shadow_checks_impl.h"
-
-namespace nusselt::experiments {
-
-ShadowChecks shadow_checks_avx512() { return shadows::kChecks; }
-
-} // namespace nusselt::experiments

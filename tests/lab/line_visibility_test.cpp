@@ -1,0 +1,107 @@
+#include "lab/lines/line_visibility.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <stdexcept>
+
+namespace nusselt::lab {
+
+namespace {
+
+/// Without the published scenes.
+LineVisibility shipped_only(const LineVisibility& full) {
+    LineVisibility experiment = full;
+    const auto is_published = [](const LineScene& s) { return s.origin == SceneOrigin::published; };
+    experiment.scenes.erase(std::remove_if(experiment.scenes.begin(), experiment.scenes.end(), is_published),
+                            experiment.scenes.end());
+    const auto mentions_sponza = [](const MoreWork& e) {
+        return e.scene.find("sponza") != std::string::npos || e.than.find("sponza") != std::string::npos;
+    };
+    experiment.expectations.erase(
+        std::remove_if(experiment.expectations.begin(), experiment.expectations.end(), mentions_sponza),
+        experiment.expectations.end());
+    experiment.width = 48;
+    experiment.lines = 8;
+    return experiment;
+}
+
+LineVisibilityResult run(const LineVisibility& experiment) {
+    RunSettings settings;
+    settings.scenes = std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes";
+    return run_line_visibility(experiment, settings, [](std::string_view) {});
+}
+
+TEST(LineVisibility, NamesAreUniqueAndExpectationsAreAboutScenes) {
+    std::set<std::string> names;
+    for (const LineVisibility& experiment : all_line_visibilities()) {
+        EXPECT_TRUE(names.insert(experiment.name).second) << experiment.name;
+        EXPECT_FALSE(experiment.expectations.empty()) << experiment.name;
+        std::set<std::string> scenes;
+        for (const LineScene& s : experiment.scenes) EXPECT_TRUE(scenes.insert(s.name).second) << s.name;
+        for (const MoreWork& e : experiment.expectations) {
+            EXPECT_EQ(scenes.count(e.scene), 1u) << e.scene;
+            EXPECT_EQ(scenes.count(e.than), 1u) << e.than;
+        }
+    }
+}
+
+TEST(LineVisibility, LargeLightsAreMoreWork) {
+    for (const LineVisibility& full : all_line_visibilities()) {
+        const LineVisibilityResult result = run(shipped_only(full));
+        for (const ExpectationResult& e : result.expectations) EXPECT_TRUE(e.holds) << e.text;
+        for (const LineVisibilityScene& scene : result.scenes) {
+            EXPECT_GT(scene.work.box_tests, 0) << scene.scene;
+            // Means over pixels agree with the sum over all lines: each pixel with light has as many of these.
+            ASSERT_FALSE(scene.parts.values.empty()) << scene.scene;
+            const double largest = *std::max_element(scene.parts.values.begin(), scene.parts.values.end());
+            EXPECT_GE(largest, scene.work.parts) << scene.scene;
+            EXPECT_GE(largest, 1) << scene.scene;
+        }
+    }
+}
+
+TEST(LineVisibility, ExpectationsCanFailAndLeaveOutSkippedScenes) {
+    LineVisibility experiment = all_line_visibilities()[0];
+    experiment.expectations = {{&WorkPerLine::parts, "a", "b"}, {&WorkPerLine::parts, "b", "a"}};
+    std::vector<LineVisibilityScene> scenes(2);
+    scenes[0].scene = "a";
+    scenes[1].scene = "b";
+    scenes[0].work.parts = 2;
+    scenes[1].work.parts = 1;
+    const auto results = check_expectations(experiment, scenes);
+    ASSERT_EQ(results.size(), 2u);
+    EXPECT_TRUE(results[0].holds);
+    EXPECT_FALSE(results[1].holds);
+    scenes[1].is_skipped = true;
+    EXPECT_TRUE(check_expectations(experiment, scenes).empty());
+    scenes.pop_back();
+    EXPECT_THROW(check_expectations(experiment, scenes), std::logic_error);
+}
+
+TEST(LineVisibility, ReportHasAnImageOfPartsPerScene) {
+    LineVisibility experiment = shipped_only(all_line_visibilities()[0]);
+    experiment.scenes.push_back({"soup, small", "soup.pbrt", "small-light.json"});
+    const LineVisibilityResult result = run(experiment);
+    std::string name = (std::filesystem::temp_directory_path() / "nusselt_parts_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    const std::filesystem::path folder(name);
+    write_report(result, folder);
+    for (const char* file : {"index.html", "soup.png", "soup-parts.png", "soup-small-parts.png"})
+        EXPECT_GT(std::filesystem::file_size(folder / file), 100u) << file;
+    std::ifstream file(folder / "numbers.json");
+    const auto numbers = nlohmann::json::parse(file);
+    ASSERT_EQ(numbers["scenes"].size(), experiment.scenes.size());
+    EXPECT_GT(numbers["scenes"][0]["lines"], 0);
+    EXPECT_GT(numbers["scenes"][0]["parts_per_line"], numbers["scenes"][1]["parts_per_line"]);
+    std::filesystem::remove_all(folder);
+}
+
+} // namespace
+
+} // namespace nusselt::lab

@@ -1,0 +1,55 @@
+#include "lab/timing/sampler_timing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace nusselt::lab {
+
+namespace {
+
+TEST(SamplerTiming, HasARowForEachTechniqueInScalarAndPackCode) {
+    const auto rows = time_samplers({3, "sse42"});
+    for (const char* technique :
+         {"PolygonArea", "PolygonSolidAngle", "PolygonClippedSolidAngle", "PolygonProjectedSolidAngle",
+          "PolygonProjectedSolidAngleBiased", "LineArea", "LineSolidAngle", "LineClippedSolidAngle",
+          "LineProjectedSolidAngle"})
+        for (const int lanes : {1, 4})
+            EXPECT_TRUE(std::any_of(
+                rows.begin(), rows.end(),
+                [&](const SamplerTiming& r) { return r.technique == technique && r.lanes == lanes; }))
+                << technique << " with " << lanes << " lanes";
+    for (const SamplerTiming& r : rows) {
+        EXPECT_TRUE(std::isfinite(r.prepare_ns) && std::isfinite(r.sample_ns)) << r.technique;
+        EXPECT_EQ(r.isa, "sse42");
+    }
+}
+
+// The iteration of the decentral case cannot be cheaper than a few multiplications.
+TEST(SamplerTiming, TellsAnExpensiveTechniqueFromACheapOne) {
+    const auto rows = time_samplers({15, "sse42"});
+    const auto cost = [&](const char* technique) {
+        return std::find_if(rows.begin(), rows.end(),
+                            [&](const SamplerTiming& r) {
+                                return r.technique == technique && r.lanes == 1 &&
+                                       r.configuration == "decentral, 4 vertices";
+                            })
+            ->prepare_ns;
+    };
+    EXPECT_GT(cost("PolygonProjectedSolidAngle"), 2 * cost("PolygonArea"));
+}
+
+TEST(SamplerTiming, NamesAnUnknownInstructionSet) {
+    try {
+        time_samplers({1, "mmx"});
+        FAIL() << "no exception";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("mmx"), std::string::npos) << error.what();
+    }
+}
+
+} // namespace
+
+} // namespace nusselt::lab
