@@ -6,8 +6,8 @@
 
 #include "experiments/llvmpipe_threads.h"
 #include "image/io.h"
-#include "scene/load.h"
-#include "scene/message.h"
+#include "scene/import/importers.h"
+#include "scene/input/message.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

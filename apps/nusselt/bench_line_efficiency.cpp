@@ -6,7 +6,7 @@
 
 #include "experiments/line_efficiency.h"
 #include "experiments/report_json.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

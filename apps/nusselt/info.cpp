@@ -1,10 +1,10 @@
 #include "info.h"
 #include "lights.h"
 
-#include "scene/bounds.h"
-#include "scene/light_area.h"
-#include "scene/scene_size.h"
-#include "scene/vector_math.h"
+#include "scene/model/bounds.h"
+#include "scene/model/light_area.h"
+#include "scene/model/scene_size.h"
+#include "scene/model/vector_math.h"
 
 #include <algorithm>
 #include <chrono>

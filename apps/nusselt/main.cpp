@@ -3,7 +3,7 @@
 #include "info.h"
 #include "lights.h"
 
-#include "scene/message.h"
+#include "scene/input/message.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

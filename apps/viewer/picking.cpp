@@ -1,7 +1,7 @@
 #include "picking.h"
 
-#include "scene/light_edit.h"
-#include "scene/vector_math.h"
+#include "scene/model/vector_math.h"
+#include "scene/rig/light_edit.h"
 
 #include <algorithm>
 #include <cmath>

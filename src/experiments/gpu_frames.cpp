@@ -3,8 +3,8 @@
 #include "experiments/median.h"
 #include "render_vulkan/accumulator.h"
 #include "render_vulkan/frame_records.h"
-#include "scene/rig.h"
-#include "scene/vector_math.h"
+#include "scene/model/vector_math.h"
+#include "scene/rig/rig.h"
 
 #include <cassert>
 #include <cmath>

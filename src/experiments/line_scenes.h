@@ -2,7 +2,7 @@
 /// Scenes that line samples are measured in.
 
 #include "experiments/run.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <functional>
 #include <optional>

@@ -2,8 +2,8 @@
 
 #include "render/film.h"
 #include "render/instance_transform.h"
-#include "scene/scene_size.h"
-#include "scene/vector_math.h"
+#include "scene/model/scene_size.h"
+#include "scene/model/vector_math.h"
 #include "visibility/alpha.h"
 #include "visibility/tube_mesh.h"
 

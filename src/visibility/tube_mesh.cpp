@@ -1,6 +1,6 @@
 #include "visibility/tube_mesh.h"
 
-#include "scene/scene_size.h"
+#include "scene/model/scene_size.h"
 
 #include <nusselt/core/frame.h>
 #include <nusselt/core/trig.h>

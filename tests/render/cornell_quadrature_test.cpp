@@ -4,7 +4,7 @@
 #include "scenes.h"
 
 #include "render/film.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <nusselt/core/vec.h>
 

@@ -5,8 +5,8 @@
 #include "gpu_test.h"
 
 #include "render/film.h"
-#include "scene/load.h"
-#include "scene/vector_math.h"
+#include "scene/import/importers.h"
+#include "scene/model/vector_math.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
-#include "scene/camera_file.h"
+#include "scene/rig/camera_file.h"
 
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <gtest/gtest.h>
 

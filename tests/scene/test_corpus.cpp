@@ -1,7 +1,7 @@
 /// Loads each scene of tests/scene/corpus and compares with what its comments say, see docs/testing.md.
 
-#include "scene/load.h"
-#include "scene/polygon.h"
+#include "scene/import/importers.h"
+#include "scene/model/polygon.h"
 
 #include <algorithm>
 #include <cmath>

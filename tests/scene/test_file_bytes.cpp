@@ -1,7 +1,7 @@
 // Plain and compressed files, good and broken.
 
 #include "gzip.h"
-#include "scene/file_bytes.h"
+#include "scene/input/file_bytes.h"
 #include "scene_fixture.h"
 
 namespace nusselt::scene {

@@ -1,6 +1,6 @@
 // A fingerprint tells scenes apart, whatever differs.
 
-#include "scene/fingerprint.h"
+#include "scene/model/fingerprint.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // What files of a scene may hold together.
 
 #include "gzip.h"
-#include "scene/emission.h"
-#include "scene/json_node.h"
-#include "scene/scene_size.h"
-#include "scene/texture_bake.h"
+#include "scene/build/texture_bake.h"
+#include "scene/import/pbrt/emission.h"
+#include "scene/input/json_node.h"
+#include "scene/model/scene_size.h"
 #include "scene_fixture.h"
 
 #include <random>

@@ -1,6 +1,6 @@
 // Texts of messages.
 
-#include "scene/message.h"
+#include "scene/input/message.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Objects, their instances, and lights inside of them.
 
-#include "scene/objects.h"
+#include "scene/import/pbrt/objects.h"
 #include "scene_fixture.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // PLY files in all formats, and hostile ones.
 
-#include "scene/ply.h"
+#include "scene/import/ply/ply.h"
 #include "scene_fixture.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Merging of coplanar emissive triangles.
 
-#include "scene/polygon.h"
+#include "scene/model/polygon.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // Published scenes, where they are at hand: the environment variable NUSSELT_SCENES names the folder with
 // bathroom/ and sponza/.
 
-#include "scene/load.h"
-#include "scene/rig.h"
-#include "scene/rig_json.h"
-#include "scene/vector_math.h"
+#include "scene/import/importers.h"
+#include "scene/model/vector_math.h"
+#include "scene/rig/rig.h"
+#include "scene/rig/rig_json.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,9 +1,9 @@
 // Light rigs: what tests/scene/rigs cannot say in numbers.
 
-#include "scene/colour_space.h"
-#include "scene/rig.h"
-#include "scene/rig_json.h"
-#include "scene/rig_text.h"
+#include "scene/colour/colour_space.h"
+#include "scene/rig/rig.h"
+#include "scene/rig/rig_json.h"
+#include "scene/rig/rig_text.h"
 #include "scene_fixture.h"
 
 #include <cstring>

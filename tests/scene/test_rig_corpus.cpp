@@ -1,9 +1,9 @@
 /// Applies each rig of tests/scene/rigs to lamps.pbrt beside it, or to the "scene" of its section, and compares with expectations.txt.
 
-#include "scene/light_edit.h"
-#include "scene/load.h"
-#include "scene/rig.h"
-#include "scene/rig_json.h"
+#include "scene/import/importers.h"
+#include "scene/rig/light_edit.h"
+#include "scene/rig/rig.h"
+#include "scene/rig/rig_json.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // The scenes that come with the project load silently and are built as their comments say.
 
-#include "scene/rig.h"
-#include "scene/rig_json.h"
+#include "scene/rig/rig.h"
+#include "scene/rig/rig_json.h"
 #include "scene_fixture.h"
 
 #include <array>

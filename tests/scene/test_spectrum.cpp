@@ -1,7 +1,7 @@
 // Colours and spectra against published numbers and independent formulas.
 
-#include "scene/materials.h"
-#include "scene/spectrum.h"
+#include "scene/colour/spectrum.h"
+#include "scene/import/pbrt/materials.h"
 #include "scene_fixture.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Shapes that become triangles: which way they face, their texture coordinates, their distance from the original.
 
-#include "scene/scene_size.h"
+#include "scene/model/scene_size.h"
 #include "scene_fixture.h"
 
 #include <algorithm>

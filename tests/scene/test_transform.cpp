@@ -1,6 +1,6 @@
 // Transform directives against positions computed by hand.
 
-#include "scene/transform.h"
+#include "scene/model/transform.h"
 #include "scene_fixture.h"
 
 namespace nusselt::scene {

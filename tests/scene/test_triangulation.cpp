@@ -1,7 +1,7 @@
 // Splitting of faces into triangles.
 
-#include "scene/polygon.h"
-#include "scene/polygon_triangulation.h"
+#include "scene/build/polygon_triangulation.h"
+#include "scene/model/polygon.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "scene_contract.h"
 
 #include "files.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <algorithm>
 #include <cmath>

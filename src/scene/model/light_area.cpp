@@ -1,0 +1,37 @@
+#include "scene/model/light_area.h"
+
+#include "scene/model/polygon.h"
+#include "scene/model/vector_math.h"
+
+#include <numbers>
+
+namespace nusselt::scene {
+
+double area(const PolygonLight& light) {
+    std::vector<Double3> vertices;
+    for (const Float3& p : light.vertices) vertices.push_back(to_double(p));
+    return 0.5 * length(area_vector(vertices));
+}
+
+double area(const Mesh& mesh) {
+    double sum = 0;
+    for (const Triangle& triangle : mesh.triangles) {
+        const Double3 p0 = to_double(mesh.positions[triangle.vertex[0]]);
+        sum += 0.5 * length(cross(to_double(mesh.positions[triangle.vertex[1]]) - p0,
+                                  to_double(mesh.positions[triangle.vertex[2]]) - p0));
+    }
+    return sum;
+}
+
+double mantle_area(const LineLight& light) {
+    return 2 * std::numbers::pi * static_cast<double>(light.radius) *
+           length(to_double(light.end) - to_double(light.begin));
+}
+
+double area(const LineLight& light) {
+    const double radius = light.radius;
+    const double caps = light.model == TubeModel::solid ? 2 * std::numbers::pi * radius * radius : 0;
+    return mantle_area(light) + caps;
+}
+
+} // namespace nusselt::scene
