@@ -26,19 +26,31 @@ BEGIN {
     allow("include/all", below " include/estimate")
 
     allow("src/image", "library")
-    allow("src/scene", "library src/image")
-    allow("src/visibility", "library src/scene src/interface")
+    # The scene: renderers see its model, which knows no format. Importers describe what is in a file, the builder makes
+    # the model of it, rigs change it.
+    allow("src/scene/input", "")
+    allow("src/scene/model", "src/scene/input")
+    allow("src/scene/colour", "src/scene/input src/scene/model")
+    allow("src/scene/build", "src/image src/scene/input src/scene/model")
+    allow("src/scene/rig", "src/scene/input src/scene/model src/scene/colour")
+    below = "src/scene/input src/scene/model src/scene/colour src/scene/build"
+    allow("src/scene/import/ply", below)
+    allow("src/scene/import/pbrt", below " src/scene/import/ply")
+    # The table of importers.
+    allow("src/scene/import", below " src/scene/import/pbrt")
+    scene = "src/scene/input src/scene/model src/scene/rig src/scene/import"
+    allow("src/visibility", "library src/scene/model src/interface")
     allow("src/tables", "library")
     allow("src/fit", "library src/image")
-    allow("src/render", "src/image src/scene")
-    allow("src/render_cpu", "library src/image src/scene src/visibility src/tables src/render")
+    allow("src/render", "src/image src/scene/model")
+    allow("src/render_cpu", "library src/image src/scene/model src/visibility src/tables src/render")
     # SPIR-V as arrays, which the build makes. The two renderers never see each other.
     allow("src/shaders", "")
     # Structures that C++ and shaders share: shaders/interface.
     allow("src/interface", "")
     allow("src/gpu", "library src/shaders")
-    allow("src/render_vulkan", "library src/image src/scene src/visibility src/tables src/render src/gpu src/shaders src/interface")
-    below = "library src/image src/scene src/visibility src/render src/render_cpu src/render_vulkan src/gpu src/shaders"
+    allow("src/render_vulkan", "library src/image src/scene/model src/visibility src/tables src/render src/gpu src/shaders src/interface")
+    below = "library src/image " scene " src/visibility src/render src/render_cpu src/render_vulkan src/gpu src/shaders"
     below = below " src/tables"
     allow("src/experiments", below)
     allow("apps/viewer", below " src/experiments")
@@ -65,16 +77,22 @@ function report(message) {
 }
 
 # The layer of a file, from its path: include/nusselt/core/vec.h is in include/core, the headers directly
-# in include/nusselt are in include/all; shaders/nusselt/core/vec.glsl is in include/core, too.
-function layer_of(path,    parts, count) {
+# in include/nusselt are in include/all; shaders/nusselt/core/vec.glsl is in include/core, too. Elsewhere it is the
+# innermost folder around the file that is a layer, or else a folder of src, apps or shaders.
+function layer_of(path,    parts, count, folder) {
     count = split(path, parts, "/")
     if (path ~ /^shaders\/nusselt\//) return "include/" parts[3]
     if (parts[1] == "include") return count == 3 ? "include/all" : "include/" parts[3]
+    folder = path
+    while (sub(/\/[^\/]*$/, "", folder)) if (folder in known) return folder
     return parts[1] "/" parts[2]
 }
 
 # The layer of "name/...": modules of src, else folders of apps.
-function folder_of(name) { return ("apps/" name) in known && !(("src/" name) in known) ? "apps/" name : "src/" name }
+function included_layer(name,    first) {
+    first = substr(name, 1, index(name, "/") - 1)
+    return ("apps/" first) in known && !(("src/" first) in known) ? "apps/" first : layer_of("src/" name)
+}
 
 function check(from, to,    layer) {
     if (!(to in known)) return report("no layer " to "; new layers are entered in scripts/check-includes.sh")
@@ -111,7 +129,7 @@ FNR == 1 {
         if (quoted) report("write <" name ">")
         check(from, layer_of("include/" name))
     } else if (quoted && in_library) report("the library includes itself as <nusselt/...>")
-    else if (quoted && name ~ /\//) check(from, folder_of(substr(name, 1, index(name, "/") - 1)))
+    else if (quoted && name ~ /\//) check(from, included_layer(name))
     else if (quoted && from !~ /^apps/) report("write \"module/" name "\"")
     else if (!quoted && in_library && name ~ /[.\/]/ && !(from == "include/simd" && name ~ /^(immintrin|arm_neon)\.h$/))
         report("the library uses the standard library only, not <" name ">")

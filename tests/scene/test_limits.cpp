@@ -1,9 +1,10 @@
 // What files of a scene may hold together.
 
 #include "gzip.h"
-#include "scene/build/texture_bake.h"
-#include "scene/import/pbrt/emission.h"
+#include "scene/build/textures/emission_images.h"
+#include "scene/build/textures/texture_bake.h"
 #include "scene/input/json_node.h"
+#include "scene/model/limits.h"
 #include "scene/model/scene_size.h"
 #include "scene_fixture.h"
 
@@ -137,10 +138,10 @@ TEST_F(Limits, ImagesOfLightsAreDecodedOnce) {
 }
 
 TEST_F(Limits, CountsThatIndicesTellApart) {
-    check_counts(kMaxVertices, kMaxTriangles);
-    EXPECT_EQ(reason([] { check_counts(kMaxVertices + 1, 1); }),
+    check_counts(kMaxVertices, kMaxTriangles, "ObjectInstance");
+    EXPECT_EQ(reason([] { check_counts(kMaxVertices + 1, 1, "ObjectInstance"); }),
               "the scene has more than 4294967294 vertices; use ObjectInstance for copies or fewer details");
-    EXPECT_EQ(reason([] { check_counts(3, std::size_t{1} << 31); }),
+    EXPECT_EQ(reason([] { check_counts(3, std::size_t{1} << 31, "ObjectInstance"); }),
               "the scene has more than 2147483647 triangles; use ObjectInstance for copies or fewer details");
 }
 

@@ -1,6 +1,6 @@
 // Reduction of materials, with the numbers of docs/materials.md.
 
-#include "scene/import/pbrt/materials.h"
+#include "scene/build/textures/reflectance.h"
 #include "scene_fixture.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Objects, their instances, and lights inside of them.
 
-#include "scene/import/pbrt/objects.h"
+#include "scene/build/placed_shape.h"
 #include "scene_fixture.h"
 
 #include <cmath>
@@ -82,6 +82,19 @@ TEST_F(Objects, LightsAreCopiedToTheWorld) {
     // As in pbrt, reflections carry the emitting side along.
     EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).z, 1);
     EXPECT_EQ(emitting_normal(scene.polygon_lights[1]).z, 1);
+}
+
+TEST_F(Objects, CylindersThatInstancesFlattenAreBlackSurfacesThatEmit) {
+    const Scene scene = load("Camera \"perspective\"\n" + std::string(kTriangle) +
+                             "ObjectBegin \"lamp\" AreaLightSource \"diffuse\" Shape \"cylinder\" ObjectEnd\n"
+                             "ObjectInstance \"lamp\" Translate 5 0 0 Scale 1 2 1 ObjectInstance \"lamp\"\n");
+    EXPECT_EQ(scene.line_lights.size(), 1u);
+    EXPECT_EQ(scene.polygon_lights.size(), 16u);
+    ASSERT_EQ(scene.materials.size(), 2u);
+    EXPECT_EQ(scene.materials[1].name, "black");
+    expect_near(scene.materials[1].diffuse, {0, 0, 0}, 0);
+    EXPECT_EQ(scene.triangle_material.front(), 0u);
+    EXPECT_EQ(scene.triangle_material.back(), 1u);
 }
 
 TEST_F(Objects, CopiesOfLargeLightsAreLimited) {

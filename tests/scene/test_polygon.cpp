@@ -1,5 +1,6 @@
 // Merging of coplanar emissive triangles.
 
+#include "scene/build/polygons/polygon_merge.h"
 #include "scene/model/polygon.h"
 
 #include <cmath>

@@ -1,7 +1,8 @@
 // Colours and spectra against published numbers and independent formulas.
 
+#include "scene/build/textures/reflectance.h"
 #include "scene/colour/spectrum.h"
-#include "scene/import/pbrt/materials.h"
+#include "scene/import/pbrt/syntax/named_spectra.h"
 #include "scene_fixture.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Formulas of textures: what is computed at once, and the grids on which the rest is baked.
 
-#include "scene/build/texture_domain.h"
+#include "scene/build/textures/texture_domain.h"
 #include "scene_fixture.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 // Splitting of faces into triangles.
 
-#include "scene/build/polygon_triangulation.h"
+#include "scene/build/polygons/polygon_triangulation.h"
 #include "scene/model/polygon.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #pragma once
-/// What one shape contributes to the scene.
+/// Triangle meshes as importers read them.
 
-#include "scene/input/diagnostics.h"
 #include "scene/model/scene.h"
 
 #include <cstddef>
@@ -14,11 +13,10 @@ struct Mesh {
     std::vector<Float3> normals; ///< empty or as long as positions
     std::vector<Float2> uvs;     ///< empty or as long as positions
     std::vector<Triangle> triangles;
-    std::vector<std::int32_t> triangle_light; ///< empty, or per triangle an index into polygon_lights
-    std::vector<PolygonLight> polygon_lights;
-    std::vector<LineLight> line_lights;
     std::size_t degenerate_triangles = 0; ///< left out
-    Warnings warnings;
 };
+
+/// The sum of the areas of all triangles, one side each [m^2].
+double area(const Mesh& mesh);
 
 } // namespace nusselt::scene

@@ -1,5 +1,4 @@
-#include "scene/import/pbrt/shape_readers.h"
-#include "scene/model/light_area.h"
+#include "scene/build/tessellate.h"
 #include "scene/model/vector_math.h"
 
 #include <algorithm>
@@ -21,17 +20,8 @@ struct SurfacePoint {
     Double3 normal;
 };
 
-double positive_radius(ShapeDirective& shape) {
-    const double radius = shape.parameters.real("radius", 1);
-    if (!(radius > 0))
-        throw SceneError(shape.parameters.location_of("radius"),
-                         "shape \"" + shape.type + "\": radius must be positive, found " + to_text(radius));
-    return radius;
-}
-
-/// The parameter "phimax", in radians.
-double sweep_angle(ShapeDirective& shape) {
-    return std::clamp(shape.parameters.real("phimax", 360), 0.0, 360.0) * (std::numbers::pi / 180);
+double radians(double sweep_degrees) {
+    return std::clamp(sweep_degrees, 0.0, 360.0) * (std::numbers::pi / 180);
 }
 
 int pieces(double angle, int per_circle) {
@@ -50,7 +40,7 @@ void add_triangle(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c)
 
 /// \param evaluate  SurfacePoint as a function of u and v
 template <class Surface>
-Mesh tessellate(ShapeDirective& shape, int columns, int rows, const Surface& evaluate) {
+Mesh grid(const ShapeDescription& shape, int columns, int rows, const Surface& evaluate, Warnings& warnings) {
     Mesh mesh;
     for (int row = 0; row <= rows; ++row) {
         for (int column = 0; column <= columns; ++column) {
@@ -71,17 +61,17 @@ Mesh tessellate(ShapeDirective& shape, int columns, int rows, const Surface& eva
         }
     }
     const bool emits = !is_black(shape.emission.radiance);
-    mesh.warnings.add(shape.parameters.location(), shape.type + (emits ? " that emits" : ""),
-                      "shape \"" + shape.type + "\": approximated by " + std::to_string(columns) + " x " +
-                          std::to_string(rows) + " flat pieces of the same area");
+    warnings.add(shape.origin, shape.kind + (emits ? " that emits" : ""),
+                 subject_of(shape) + ": approximated by " + std::to_string(columns) + " x " +
+                     std::to_string(rows) + " flat pieces of the same area");
     return mesh;
 }
 
 /// The ratio of the exact area to that of a tessellation. Throws SceneError if one of them is zero.
-double area_ratio(const ShapeDirective& shape, const Mesh& mesh, double exact_area) {
+double area_ratio(const ShapeDescription& shape, const Mesh& mesh, double exact_area) {
     const double flat_area = area(mesh);
     if (!(exact_area > 0) || !(flat_area > 0))
-        throw SceneError(shape.parameters.location(), "shape \"" + shape.type + "\": its area is zero");
+        throw SceneError(shape.origin, subject_of(shape) + ": its area is zero");
     return exact_area / flat_area;
 }
 
@@ -91,19 +81,18 @@ std::pair<double, double> direction(double u, double sweep) {
     return {std::cos(angle), std::sin(angle)};
 }
 
-int sides(const ShapeDirective& shape, int light_sides = kLightSides) {
-    const bool emits = !is_black(shape.emission.radiance);
-    return emits ? std::min(light_sides, shape.max_sides) : shape.max_sides;
+int sides(const PlacedShape& placed, int light_sides = kLightSides) {
+    const bool emits = !is_black(placed.shape->emission.radiance);
+    return emits ? std::min(light_sides, placed.max_sides) : placed.max_sides;
 }
 
 } // namespace
 
-Mesh read_sphere(ShapeDirective& shape) {
-    ParameterList& parameters = shape.parameters;
-    const double radius = positive_radius(shape);
-    const double sweep = sweep_angle(shape);
-    const double z_min = std::clamp(parameters.real("zmin", -radius), -radius, radius);
-    const double z_max = std::clamp(parameters.real("zmax", radius), -radius, radius);
+Mesh tessellate(const Sphere& sphere, const PlacedShape& placed, Warnings& warnings) {
+    const double radius = sphere.radius;
+    const double sweep = radians(sphere.sweep_degrees);
+    const double z_min = std::clamp(sphere.z_min, -radius, radius);
+    const double z_max = std::clamp(sphere.z_max, -radius, radius);
     const double low = std::min(z_min, z_max);
     const double high = std::max(z_min, z_max);
     const double bottom = std::acos(low / radius);
@@ -116,46 +105,41 @@ Mesh read_sphere(ShapeDirective& shape) {
         const Double3 normal = {rho * cosine, rho * sine, std::cos(theta)};
         return SurfacePoint{radius * normal, normal};
     };
-    Mesh mesh = tessellate(shape, pieces(sweep, sides(shape)), pieces(bottom - top, sides(shape)), evaluate);
-    const double scale = std::sqrt(area_ratio(shape, mesh, sweep * radius * (high - low)));
+    const int per_circle = sides(placed);
+    Mesh mesh =
+        grid(*placed.shape, pieces(sweep, per_circle), pieces(bottom - top, per_circle), evaluate, warnings);
+    const double scale = std::sqrt(area_ratio(*placed.shape, mesh, sweep * radius * (high - low)));
     for (Float3& p : mesh.positions) p = to_float(scale * to_double(p));
     return mesh;
 }
 
-Mesh read_disk(ShapeDirective& shape) {
-    ParameterList& parameters = shape.parameters;
-    const double radius = positive_radius(shape);
-    const double inner_radius = parameters.real("innerradius", 0);
-    const double height = parameters.real("height", 0);
-    const double sweep = sweep_angle(shape);
-    if (!(inner_radius >= 0 && inner_radius < radius))
-        throw SceneError(parameters.location_of("innerradius"),
-                         "shape \"disk\": innerradius must be at least 0 and less than the radius, found " +
-                             to_text(inner_radius));
+Mesh tessellate(const Disk& disk, const PlacedShape& placed, Warnings& warnings) {
+    const double radius = disk.radius;
+    const double inner_radius = disk.inner_radius;
+    const double sweep = radians(disk.sweep_degrees);
     const auto evaluate = [&](double u, double v) {
         const auto [cosine, sine] = direction(u, sweep);
         const double rho = radius + v * (inner_radius - radius);
-        return SurfacePoint{{rho * cosine, rho * sine, height}, {0, 0, 1}};
+        return SurfacePoint{{rho * cosine, rho * sine, disk.height}, {0, 0, 1}};
     };
-    Mesh mesh = tessellate(shape, pieces(sweep, sides(shape, kDiskLightSides)), 1, evaluate);
+    Mesh mesh = grid(*placed.shape, pieces(sweep, sides(placed, kDiskLightSides)), 1, evaluate, warnings);
     const double exact_area = 0.5 * sweep * (radius * radius - inner_radius * inner_radius);
-    const double scale = std::sqrt(area_ratio(shape, mesh, exact_area));
-    for (Float3& p : mesh.positions) p = to_float({scale * p.x, scale * p.y, height});
+    const double scale = std::sqrt(area_ratio(*placed.shape, mesh, exact_area));
+    for (Float3& p : mesh.positions) p = to_float({scale * p.x, scale * p.y, disk.height});
     return mesh;
 }
 
-Mesh read_cylinder(ShapeDirective& shape) {
-    ParameterList& parameters = shape.parameters;
-    const double radius = positive_radius(shape);
-    const double sweep = sweep_angle(shape);
-    const double low = parameters.real("zmin", -1);
-    const double high = parameters.real("zmax", 1);
+Mesh tessellate(const Cylinder& cylinder, const PlacedShape& placed, Warnings& warnings) {
+    const double radius = cylinder.radius;
+    const double sweep = radians(cylinder.sweep_degrees);
+    const double low = cylinder.z_min;
+    const double high = cylinder.z_max;
     const auto evaluate = [&](double u, double v) {
         const auto [cosine, sine] = direction(u, sweep);
         return SurfacePoint{{radius * cosine, radius * sine, low + v * (high - low)}, {cosine, sine, 0}};
     };
-    Mesh mesh = tessellate(shape, pieces(sweep, sides(shape)), 1, evaluate);
-    const double scale = area_ratio(shape, mesh, sweep * radius * std::fabs(high - low));
+    Mesh mesh = grid(*placed.shape, pieces(sweep, sides(placed)), 1, evaluate, warnings);
+    const double scale = area_ratio(*placed.shape, mesh, sweep * radius * std::fabs(high - low));
     for (Float3& p : mesh.positions) p = to_float({scale * p.x, scale * p.y, p.z});
     return mesh;
 }

@@ -3,8 +3,6 @@
 
 #include "scene/colour/colour_space.h"
 
-#include <optional>
-#include <string_view>
 #include <vector>
 
 namespace nusselt::scene {
@@ -23,9 +21,5 @@ Double3 srgb_of(const std::vector<SpectrumSample>& samples, SpectrumUse use);
 /// Planck's law, relative to its largest value over all wavelengths.
 /// \param kelvin  positive
 std::vector<SpectrumSample> blackbody(double kelvin);
-
-/// Linear sRGB of a spectrum that pbrt v4 knows by name: optical constants like "metal-Cu-eta" and "glass-BK7" as
-/// albedos, illuminants like "stdillum-D50" with luminance 1. Nothing for other names.
-std::optional<Double3> named_spectrum(std::string_view name);
 
 } // namespace nusselt::scene

@@ -16,7 +16,8 @@ std::string located_line(const Location& location, std::string_view message) {
 } // namespace
 
 std::string to_string(const Location& location) {
-    return location.file->path.string() + ":" + std::to_string(location.line);
+    const std::string path = location.file->path.string();
+    return location.line > 0 ? path + ":" + std::to_string(location.line) : path;
 }
 
 SceneError::SceneError(const Location& location, std::string_view message)

@@ -14,7 +14,7 @@
 
 namespace nusselt::scene {
 
-/// A scene text. Tokens, parameters and locations point into it.
+/// A file of a scene. Locations refer to it, and parts of its text where the format is text.
 struct SourceFile {
     std::filesystem::path path;
     FileBytes bytes;
@@ -22,13 +22,13 @@ struct SourceFile {
 
 struct Location {
     const SourceFile* file = nullptr;
-    int line = 0; ///< counts from 1
+    int line = 0; ///< counts from 1; 0 for the file as a whole, where a format has no lines
 };
 
-/// "file:line"
+/// "file:line", or "file"
 std::string to_string(const Location& location);
 
-/// An error in the user's scene: what() is "file:line: message", one line without control characters,
+/// An error in the user's scene: what() is "file:line: message" or "file: message", one line without control characters,
 /// the message cut to 1000 bytes.
 class SceneError : public std::runtime_error {
 public:

@@ -204,15 +204,15 @@ std::size_t JsonNode::integer(std::size_t low, std::size_t high) const {
     return value_->get<std::size_t>();
 }
 
-Float3 JsonNode::triple(double low, double high) const {
+std::array<float, 3> JsonNode::triple(double low, double high) const {
     if (!value_->is_array() || value_->size() != 3) fail_type("an array of 3 numbers");
-    float entries[3];
+    std::array<float, 3> entries{};
     std::size_t i = 0;
     for (const JsonNode& element : elements()) entries[i++] = static_cast<float>(element.number(low, high));
-    return {entries[0], entries[1], entries[2]};
+    return entries;
 }
 
-Float3 JsonNode::triple_or_number(double low, double high) const {
+std::array<float, 3> JsonNode::triple_or_number(double low, double high) const {
     if (!value_->is_number()) {
         if (!value_->is_array() || value_->size() != 3) fail_type("a number or an array of 3 numbers");
         return triple(low, high);

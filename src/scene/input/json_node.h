@@ -2,8 +2,7 @@
 /// Reading of JSON files that people write by hand: each value is checked, and each error names the file, the path of
 /// the value in it, what was found and what is expected.
 
-#include "scene/model/scene.h"
-
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>
@@ -53,9 +52,9 @@ public:
     double positive_number(double high) const;
     std::size_t integer(std::size_t low, std::size_t high) const;
     /// Three numbers, each in [low, high].
-    Float3 triple(double low, double high) const;
+    std::array<float, 3> triple(double low, double high) const;
     /// Three numbers, or one that stands for all three, each in [low, high].
-    Float3 triple_or_number(double low, double high) const;
+    std::array<float, 3> triple_or_number(double low, double high) const;
 
 private:
     JsonNode(const nlohmann::json& value, std::string file, std::string path)

@@ -13,16 +13,6 @@ double area(const PolygonLight& light) {
     return 0.5 * length(area_vector(vertices));
 }
 
-double area(const Mesh& mesh) {
-    double sum = 0;
-    for (const Triangle& triangle : mesh.triangles) {
-        const Double3 p0 = to_double(mesh.positions[triangle.vertex[0]]);
-        sum += 0.5 * length(cross(to_double(mesh.positions[triangle.vertex[1]]) - p0,
-                                  to_double(mesh.positions[triangle.vertex[2]]) - p0));
-    }
-    return sum;
-}
-
 double mantle_area(const LineLight& light) {
     return 2 * std::numbers::pi * static_cast<double>(light.radius) *
            length(to_double(light.end) - to_double(light.begin));

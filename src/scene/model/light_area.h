@@ -1,14 +1,12 @@
 #pragma once
 /// Areas of lights, which make radiance of power [m^2].
 
-#include "scene/build/mesh.h"
+#include "scene/model/scene.h"
 
 namespace nusselt::scene {
 
 /// Of one side.
 double area(const PolygonLight& light);
-/// Of the sides of all triangles to which they are oriented.
-double area(const Mesh& mesh);
 /// Of the mantle of a tube.
 double mantle_area(const LineLight& light);
 /// Of all that emits: the mantle, and the caps of solid tubes.

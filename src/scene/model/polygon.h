@@ -1,5 +1,5 @@
 #pragma once
-/// Planar convex polygons: the checks that light polygons must pass, and merging of triangles into them.
+/// Planar convex polygons: the checks that polygons of lights must pass.
 
 #include "scene/model/scene.h"
 #include "scene/model/vector_math.h"
@@ -26,19 +26,5 @@ bool is_straight(const Float3& before, const Float3& corner, const Float3& after
 
 /// Removes vertices that coincide with a neighbour or lie on the line through both neighbours.
 std::vector<Float3> without_collinear_vertices(const std::vector<Float3>& vertices);
-
-/// Triangles of a mesh, joined to convex polygons.
-struct PolygonPartition {
-    /// 3 to 8 vertices each, no collinear ones; same orientation as their triangles.
-    std::vector<PolygonVertices> polygons;
-    std::vector<std::int32_t> polygon_of_triangle;
-};
-
-/// Joins adjacent triangles to convex planar polygons of at most eight vertices: a flat region that is such a polygon as
-/// a whole becomes one, others are joined greedily. Adjacent are those that share an edge between exactly equal
-/// positions and run through it in opposite directions, if no third triangle does. The triangles must not be degenerate.
-/// Polygons are in the order of their first triangles. Time and memory grow linearly, up to sorting.
-PolygonPartition merge_coplanar_triangles(const std::vector<Float3>& positions,
-                                          const std::vector<Triangle>& triangles);
 
 } // namespace nusselt::scene

@@ -1,6 +1,6 @@
 #include "scene/model/scene_size.h"
 
-#include "scene/input/limits.h"
+#include "scene/model/limits.h"
 
 #include <stdexcept>
 
@@ -24,10 +24,10 @@ std::size_t array_bytes(const Scene& scene) {
     return bytes;
 }
 
-void check_counts(std::size_t vertices, std::size_t triangles) {
-    const auto fail = [](std::size_t limit, const std::string& what) {
-        throw std::runtime_error("the scene has more than " + std::to_string(limit) + " " + what +
-                                 "; use ObjectInstance for copies or fewer details");
+void check_counts(std::size_t vertices, std::size_t triangles, std::string_view copies) {
+    const auto fail = [copies](std::size_t limit, const std::string& what) {
+        throw std::runtime_error("the scene has more than " + std::to_string(limit) + " " + what + "; use " +
+                                 std::string(copies) + " for copies or fewer details");
     };
     if (vertices > kMaxVertices) fail(kMaxVertices, "vertices");
     if (triangles > kMaxTriangles) fail(kMaxTriangles, "triangles");

@@ -1,7 +1,7 @@
 #include "scene/rig/camera_file.h"
 
 #include "scene/input/json_node.h"
-#include "scene/input/limits.h"
+#include "scene/model/limits.h"
 #include "scene/model/vector_math.h"
 #include "scene/rig/number_text.h"
 
@@ -22,12 +22,12 @@ float largest_component(const Float3& v) {
 }
 
 Float3 read_vector(const JsonNode& camera, std::string_view field) {
-    return camera.at(field).triple(-kMaxCoordinate, kMaxCoordinate);
+    return float3_of(camera.at(field).triple(-kMaxCoordinate, kMaxCoordinate));
 }
 
 Float3 read_vector_or_zero(const JsonNode& camera, std::string_view field) {
     const auto node = camera.find(field);
-    return node ? node->triple(-kMaxCoordinate, kMaxCoordinate) : Float3{0, 0, 0};
+    return node ? float3_of(node->triple(-kMaxCoordinate, kMaxCoordinate)) : Float3{0, 0, 0};
 }
 
 bool is_zero(const Float3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }

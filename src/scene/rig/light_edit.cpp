@@ -1,11 +1,11 @@
 #include "scene/rig/light_edit.h"
 
 #include "scene/colour/colour_space.h"
-#include "scene/import/pbrt/shapes.h"
 #include "scene/model/bounds.h"
 #include "scene/model/light_area.h"
 #include "scene/model/polygon.h"
 #include "scene/model/scene_size.h"
+#include "scene/model/vector_math.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "scene/rig/rig.h"
 
 #include "scene/colour/spectrum.h"
-#include "scene/import/pbrt/shapes.h"
 #include "scene/input/message.h"
 #include "scene/model/polygon.h"
+#include "scene/model/vector_math.h"
 #include "scene/rig/light_edit.h"
 
 #include <algorithm>

@@ -14,8 +14,8 @@ constexpr double kMaxScale = 1e9;
 constexpr double kMaxDegrees = 3600;
 constexpr std::size_t kMaxIndex = 0xffffffff;
 
-Float3 read_point(const JsonNode& node) { return node.triple(-kMaxCoordinate, kMaxCoordinate); }
-Float3 read_radiance(const JsonNode& node) { return node.triple_or_number(0, kMaxRadiance); }
+Float3 read_point(const JsonNode& node) { return float3_of(node.triple(-kMaxCoordinate, kMaxCoordinate)); }
+Float3 read_radiance(const JsonNode& node) { return float3_of(node.triple_or_number(0, kMaxRadiance)); }
 float read_length(const JsonNode& node) { return static_cast<float>(node.positive_number(kMaxCoordinate)); }
 
 /// A vector of length 1.
@@ -79,7 +79,7 @@ Rotation read_rotation(const JsonNode& node) {
 }
 
 Double3 read_scale(const JsonNode& node) {
-    const Float3 scale = node.triple_or_number(0, kMaxScale);
+    const Float3 scale = float3_of(node.triple_or_number(0, kMaxScale));
     if (!(std::min({scale.x, scale.y, scale.z}) > 0)) node.fail("must be above 0");
     return to_double(scale);
 }
@@ -195,8 +195,8 @@ RigMaterial read_material(const JsonNode& entry) {
     RigMaterial result;
     result.where = entry.where();
     result.materials = read_selector(entry.at("material"));
-    if (const auto node = entry.find("diffuse")) result.diffuse = node->triple_or_number(0, 1);
-    if (const auto node = entry.find("f0")) result.f0 = node->triple_or_number(0, 1);
+    if (const auto node = entry.find("diffuse")) result.diffuse = float3_of(node->triple_or_number(0, 1));
+    if (const auto node = entry.find("f0")) result.f0 = float3_of(node->triple_or_number(0, 1));
     if (const auto node = entry.find("roughness")) result.roughness = static_cast<float>(node->number(0, 1));
     const bool is_glossy = result.f0 || result.roughness;
     if (const auto node = entry.find("model")) {

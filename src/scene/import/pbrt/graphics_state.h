@@ -1,8 +1,9 @@
 #pragma once
 /// The graphics state of a scene file and its stack.
 
+#include "scene/build/emission.h"
 #include "scene/import/pbrt/materials.h"
-#include "scene/import/pbrt/shapes.h"
+#include "scene/import/pbrt/shape_directive.h"
 #include "scene/model/transform.h"
 
 #include <array>
@@ -14,7 +15,7 @@
 namespace nusselt::scene {
 
 /// Index of materials whose surfaces are left out.
-constexpr int kInvisible = -1;
+constexpr int kInvisible = kNoMaterial;
 
 /// A material directive and, once a shape uses it, its index in the scene (or kInvisible).
 struct MaterialEntry {

@@ -1,6 +1,6 @@
 #include "scene/import/pbrt/material_reader.h"
 
-#include "scene/colour/spectrum.h"
+#include "scene/import/pbrt/syntax/named_spectra.h"
 #include "scene/model/vector_math.h"
 
 #include <cmath>

@@ -1,24 +1,13 @@
 #pragma once
 /// The parameters of a material directive as formulas, and what materials are reduced to with them.
 
+#include "scene/build/textures/surface_formula.h"
 #include "scene/import/pbrt/materials.h"
 
 #include <string>
 #include <string_view>
 
 namespace nusselt::scene {
-
-/// A material whose textures are formulas.
-struct SurfaceFormula {
-    BrdfModel model = BrdfModel::lambert;
-    TextureValue diffuse = grey_value(0);
-    TextureValue f0 = grey_value(0);
-    TextureValue roughness = grey_value(1); ///< perceptual
-    TextureValue alpha = grey_value(1);
-    TextureValue bump = grey_value(0); ///< height [bump_unit]
-    BumpUnit bump_unit = BumpUnit::metre;
-    TextureValue normal = grey_value(0); ///< without a node for none
-};
 
 /// A surface that only reflects specularly.
 SurfaceFormula metallic(const TextureValue& f0, const TextureValue& roughness);

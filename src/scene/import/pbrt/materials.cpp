@@ -13,10 +13,6 @@ namespace {
 /// Mixtures of mixtures are at most this deep; more, and they refer to themselves.
 constexpr int kMaxMixtureDepth = 8;
 
-double mean(const Float3& c) {
-    return (static_cast<double>(c.x) + static_cast<double>(c.y) + static_cast<double>(c.z)) / 3;
-}
-
 /// The weight of the roughness of `b` where only one can be.
 TextureValue roughness_share(const SurfaceFormula& a, const SurfaceFormula& b, const TextureValue& amount) {
     const double reflectance_a = mean(a.f0.factor);
@@ -134,37 +130,13 @@ private:
     Warnings& warnings_;
 };
 
-Material with_textures(const SurfaceFormula& surface, TextureTable& textures, const Location& location) {
-    const auto texture = [&](const TextureValue& value, int channels) {
-        TextureUse use;
-        use.texture = textures.request(value, channels, location);
-        return use;
-    };
-    const auto number = [](const TextureValue& value) { return static_cast<float>(mean(value.factor)); };
-    Material material;
-    material.model = surface.model;
-    material.diffuse = surface.diffuse.factor;
-    material.diffuse_texture = texture(surface.diffuse, 3);
-    material.f0 = surface.f0.factor;
-    material.f0_texture = texture(surface.f0, 3);
-    material.roughness = number(surface.roughness);
-    material.roughness_texture = texture(surface.roughness, 1);
-    material.alpha = number(surface.alpha);
-    material.alpha_texture = texture(surface.alpha, 1);
-    material.bump = number(surface.bump);
-    material.bump_texture = texture(surface.bump, 1);
-    material.bump_unit = surface.bump_unit;
-    material.normal_texture = texture(surface.normal, 3);
-    return material;
-}
-
 } // namespace
 
 std::optional<Material> reduce_material(MaterialDirective& directive, TextureTable& textures,
                                         const FindMaterial& find_material, Warnings& warnings) {
     const auto surface = Reduction(textures, find_material, warnings).surface(directive, 0);
     if (!surface) return std::nullopt;
-    Material material = with_textures(*surface, textures, directive.parameters.location());
+    Material material = make_material(*surface, textures.planner(), directive.parameters.location());
     material.name = directive.name;
     return material;
 }

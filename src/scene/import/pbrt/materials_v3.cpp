@@ -1,7 +1,7 @@
 // The materials of pbrt v3.
 
 #include "scene/import/pbrt/material_reader.h"
-#include "scene/import/pbrt/name_table.h"
+#include "scene/import/pbrt/syntax/name_table.h"
 #include "scene/model/vector_math.h"
 
 #include <algorithm>

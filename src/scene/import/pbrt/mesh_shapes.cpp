@@ -43,8 +43,7 @@ std::vector<Triangle> read_triangles(ShapeDirective& shape, std::size_t vertices
     return triangles;
 }
 
-} // namespace
-
+/// Throws SceneError unless an optional array has one value per vertex.
 void check_length(const ShapeDirective& shape, std::string_view name, std::size_t found,
                   std::size_t expected) {
     if (found != 0 && found != expected)
@@ -53,7 +52,24 @@ void check_length(const ShapeDirective& shape, std::string_view name, std::size_
                              std::string(name) + "\" for " + std::to_string(expected) + " vertices");
 }
 
-Mesh read_triangle_mesh(ShapeDirective& shape) {
+std::vector<std::uint32_t> read_patches(ShapeDirective& shape, std::size_t vertices) {
+    std::vector<std::uint32_t> indices = shape.parameters.indices("indices", vertices);
+    if (indices.empty()) {
+        if (vertices != 4)
+            throw SceneError(shape.parameters.location(),
+                             "shape \"bilinearmesh\": parameter \"integer indices\" is missing");
+        return {0, 1, 2, 3};
+    }
+    if (indices.size() % 4 != 0)
+        throw SceneError(shape.parameters.location_of("indices"),
+                         "shape \"bilinearmesh\": the number of indices, " + std::to_string(indices.size()) +
+                             ", is not a multiple of 4");
+    return indices;
+}
+
+} // namespace
+
+Geometry read_triangle_mesh(ShapeDirective& shape, Warnings&) {
     ParameterList& parameters = shape.parameters;
     Mesh mesh;
     mesh.positions = read_positions(shape);
@@ -67,30 +83,25 @@ Mesh read_triangle_mesh(ShapeDirective& shape) {
     return mesh;
 }
 
-Mesh read_loop_subdivision(ShapeDirective& shape) {
+Geometry read_loop_subdivision(ShapeDirective& shape, Warnings& warnings) {
     Mesh mesh;
     mesh.positions = read_positions(shape);
     mesh.triangles = read_triangles(shape, mesh.positions.size());
-    mesh.warnings.add(shape.parameters.location(), "loopsubdiv",
-                      "shape \"loopsubdiv\": the control mesh is used, without subdivision");
+    warnings.add(shape.parameters.location(), "loopsubdiv",
+                 "shape \"loopsubdiv\": the control mesh is used, without subdivision");
     shape.parameters.ignore({"levels", "nlevels", "scheme"});
     return mesh;
 }
 
-Mesh read_ply_mesh(ShapeDirective& shape) {
+Geometry read_ply_mesh(ShapeDirective& shape, Warnings&) {
     ParameterList& parameters = shape.parameters;
     if (parameters.string("filename", "").empty())
         throw SceneError(parameters.location(),
                          "shape \"plymesh\": parameter \"string filename\" is missing");
-    try {
-        return read_ply(FileBytes(shape.mesh_path, parameters.budget().inflated_bytes).view());
-    } catch (const std::runtime_error& error) {
-        throw SceneError(parameters.location_of("filename"),
-                         "mesh file '" + shape.mesh_path.string() + "': " + error.what());
-    }
+    return MeshFile{shape.mesh_path, read_ply, parameters.location_of("filename")};
 }
 
-Mesh read_quad(ShapeDirective& shape) {
+Geometry read_quad(ShapeDirective& shape, Warnings&) {
     ParameterList& parameters = shape.parameters;
     const auto o = parameters.point("o");
     const auto u = parameters.point("u");
@@ -108,7 +119,7 @@ Mesh read_quad(ShapeDirective& shape) {
     return mesh;
 }
 
-Mesh read_polygon(ShapeDirective& shape) {
+Geometry read_polygon(ShapeDirective& shape, Warnings&) {
     Mesh mesh;
     mesh.positions = shape.parameters.points("P");
     std::vector<Double3> vertices;
@@ -117,6 +128,19 @@ Mesh read_polygon(ShapeDirective& shape) {
         throw SceneError(shape.parameters.location_of("P"), "shape \"polygon\": " + *defect);
     mesh.triangles = fan(mesh.positions.size());
     return mesh;
+}
+
+Geometry read_bilinear_mesh(ShapeDirective& shape, Warnings&) {
+    ParameterList& parameters = shape.parameters;
+    BilinearPatches patches;
+    patches.positions = read_positions(shape);
+    patches.normals = parameters.points("N");
+    patches.uvs = parameters.pairs("uv");
+    check_length(shape, "N", patches.normals.size(), patches.positions.size());
+    check_length(shape, "uv", patches.uvs.size(), patches.positions.size());
+    patches.indices = read_patches(shape, patches.positions.size());
+    parameters.ignore({"emissionfilename"});
+    return patches;
 }
 
 } // namespace nusselt::scene

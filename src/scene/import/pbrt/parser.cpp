@@ -1,9 +1,17 @@
 #include "scene/import/pbrt/parser.h"
 
+#include "scene/build/textures/surface_formula.h"
+#include "scene/import/pbrt/camera_directive.h"
+#include "scene/import/pbrt/emission_directive.h"
+#include "scene/import/pbrt/film_directive.h"
 #include "scene/import/pbrt/graphics_state.h"
+#include "scene/import/pbrt/materials.h"
+#include "scene/import/pbrt/objects.h"
 #include "scene/import/pbrt/surface_variants.h"
 #include "scene/import/pbrt/syntax/source_reader.h"
-#include "scene/import/pbrt/type_counter.h"
+#include "scene/import/pbrt/syntax/type_counter.h"
+#include "scene/import/pbrt/textures.h"
+#include "scene/model/vector_math.h"
 
 #include <algorithm>
 #include <limits>
@@ -25,6 +33,7 @@ class Parser {
 public:
     explicit Parser(const std::filesystem::path& main_path)
         : reader_(main_path, scene_.sources, *scene_.budget) {
+        scene_.words = {"ObjectInstance", "AreaLightSource", "ReverseOrientation"};
         materials_.push_back({{"default", "matte", ParameterList(), {}}, {}});
         state_.current().material = &materials_.back();
     }
@@ -95,7 +104,7 @@ private:
     void set_transform(const Transform& t);
     MaterialEntry& add_material(const std::string& name, const std::string& type, ParameterList parameters);
     int used_material(MaterialEntry& entry);
-    int black_material();
+    int invisible_light_material();
 
     SceneDescription scene_;
     SourceReader reader_;
@@ -103,14 +112,15 @@ private:
     std::deque<MaterialEntry> materials_;
     std::unordered_map<std::string, MaterialEntry*> named_materials_;
     std::unordered_map<std::string, Transform> coordinate_systems_;
-    std::optional<int> black_material_;
+    std::optional<int> invisible_light_material_;
     TextureTable textures_;
     SurfaceVariants surface_variants_;
     EmissionImages emission_images_;
     TypeCounter left_out_shapes_;
+    std::vector<ShapeDirective> shapes_; ///< of the world
     ObjectTable objects_;
     TypeCounter ignored_lights_;
-    std::optional<CameraDirective> camera_;
+    std::optional<CameraDescription> camera_;
     std::optional<FilterDirective> pixel_filter_;
     std::optional<Location> world_begin_;
     PbrtVersion version_ = PbrtVersion::v4; ///< until the film tells
@@ -176,13 +186,14 @@ SceneDescription Parser::run() {
                          scene_.warnings);
     const Location begin{&scene_.sources.front(), 1};
     if (!camera_) scene_.warnings.add(begin, "there is no Camera, it looks from the origin along +z");
-    if (!camera_) camera_.emplace().location = begin;
+    if (!camera_) camera_.emplace().origin = begin;
     scene_.camera = *camera_;
-    scene_.textures = textures_.plan();
+    scene_.textures = textures_.planner().plan();
     if (pixel_filter_)
         scene_.film.filter =
             read_pixel_filter(pixel_filter_->type, pixel_filter_->parameters, version_, scene_.warnings);
-    scene_.objects = objects_.append_shapes(scene_.shapes);
+    scene_.shapes = read_shapes(std::move(shapes_));
+    scene_.objects = objects_.take_objects();
     scene_.instances = objects_.take_instances();
     return std::move(scene_);
 }
@@ -288,7 +299,9 @@ void Parser::object_end() {
     objects_.end();
 }
 
-void Parser::object_instance() { objects_.add_instance(read_string(), state_.current().ctm, location_); }
+void Parser::object_instance() {
+    objects_.add_instance(read_string(), state_.current().ctm, location_, scene_.words);
+}
 
 void Parser::attribute() {
     const std::string name = read_string();
@@ -455,15 +468,12 @@ int Parser::used_material(MaterialEntry& entry) {
 }
 
 /// For lights on invisible surfaces.
-int Parser::black_material() {
-    if (!black_material_) {
-        black_material_ = static_cast<int>(scene_.materials.size());
-        Material black;
-        black.name = "black";
-        black.diffuse = {0, 0, 0};
-        scene_.materials.push_back(black);
+int Parser::invisible_light_material() {
+    if (!invisible_light_material_) {
+        invisible_light_material_ = static_cast<int>(scene_.materials.size());
+        scene_.materials.push_back(black_material());
     }
-    return *black_material_;
+    return *invisible_light_material_;
 }
 
 void Parser::shape() {
@@ -483,18 +493,28 @@ void Parser::shape() {
     if (!is_tube(shape)) {
         shape.material = used_material(*state.material);
         if (shape.material == kInvisible && is_black(shape.emission.radiance)) return;
-        if (shape.material == kInvisible) shape.material = black_material();
+        if (shape.material == kInvisible) shape.material = invisible_light_material();
         shape.material =
             surface_variants_.material(shape.material, shape, textures_, scene_.materials, scene_.warnings);
     }
     if (objects_.is_open())
         objects_.add_shape(std::move(shape));
     else
-        scene_.shapes.push_back(std::move(shape));
+        shapes_.push_back(std::move(shape));
 }
 
 } // namespace
 
-SceneDescription parse_scene(const std::filesystem::path& path) { return Parser(path).run(); }
+SceneDescription read_pbrt(const std::filesystem::path& path) { return Parser(path).run(); }
+
+bool looks_like_pbrt(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const std::size_t word = bytes.find_first_not_of(" \t\r\n");
+        if (word == std::string_view::npos) return false;
+        if (bytes[word] != '#') return bytes[word] >= 'A' && bytes[word] <= 'Z';
+        bytes.remove_prefix(std::min(bytes.find('\n', word), bytes.size()));
+    }
+    return false;
+}
 
 } // namespace nusselt::scene

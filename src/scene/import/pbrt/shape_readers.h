@@ -1,29 +1,24 @@
 #pragma once
-/// One function for each type of shape: triangles in object space with the normal by the right-hand rule, or a tube in
-/// world space. All throw SceneError.
+/// One function for each type of shape. All throw SceneError.
 
-#include "scene/import/pbrt/shapes.h"
+#include "scene/import/pbrt/shape_directive.h"
 
 namespace nusselt::scene {
 
-Mesh read_triangle_mesh(ShapeDirective& shape);
-Mesh read_ply_mesh(ShapeDirective& shape);
+Geometry read_triangle_mesh(ShapeDirective& shape, Warnings& warnings);
+/// The mesh itself is read later.
+Geometry read_ply_mesh(ShapeDirective& shape, Warnings& warnings);
 /// The control mesh of a subdivision surface.
-Mesh read_loop_subdivision(ShapeDirective& shape);
-Mesh read_quad(ShapeDirective& shape);
-Mesh read_polygon(ShapeDirective& shape);
-Mesh read_bilinear_mesh(ShapeDirective& shape);
+Geometry read_loop_subdivision(ShapeDirective& shape, Warnings& warnings);
+Geometry read_quad(ShapeDirective& shape, Warnings& warnings);
+Geometry read_polygon(ShapeDirective& shape, Warnings& warnings);
+Geometry read_bilinear_mesh(ShapeDirective& shape, Warnings& warnings);
+Geometry read_sphere(ShapeDirective& shape, Warnings& warnings);
+Geometry read_disk(ShapeDirective& shape, Warnings& warnings);
+Geometry read_cylinder(ShapeDirective& shape, Warnings& warnings);
+Geometry read_line(ShapeDirective& shape, Warnings& warnings);
 
-// Tessellated: as many flat pieces as docs/materials.md says, with the area of the original.
-Mesh read_sphere(ShapeDirective& shape);
-Mesh read_disk(ShapeDirective& shape);
-Mesh read_cylinder(ShapeDirective& shape);
-
-/// A mesh with nothing but a line light.
-Mesh read_tube(ShapeDirective& shape);
-
-/// Throws SceneError unless an optional array has one value per vertex.
-void check_length(const ShapeDirective& shape, std::string_view name, std::size_t found,
-                  std::size_t expected);
+/// The parameter "phimax" [degrees].
+double read_sweep(ShapeDirective& shape);
 
 } // namespace nusselt::scene

@@ -25,7 +25,7 @@ int SurfaceVariants::material(int material, ShapeDirective& directive, TextureTa
     const TextureValue value =
         name ? textures.value(*name, TextureType::number, location) : grey_value(shape.real("alpha", 1));
     const Material& own = materials[static_cast<std::size_t>(material)];
-    Key key{material, std::clamp(value.factor.x, 0.0f, 1.0f), textures.request(value, 1, location),
+    Key key{material, std::clamp(value.factor.x, 0.0f, 1.0f), textures.planner().request(value, 1, location),
             bump_unit(directive, own)};
     if (key.alpha == 1 && key.texture < 0 && key.bump_unit == own.bump_unit) return material;
     const auto [entry, is_new] = variants_.try_emplace(key, static_cast<int>(materials.size()));

@@ -1,7 +1,7 @@
 #pragma once
 /// What surfaces of one material do not share.
 
-#include "scene/import/pbrt/shapes.h"
+#include "scene/import/pbrt/shape_directive.h"
 #include "scene/import/pbrt/textures.h"
 
 #include <compare>

@@ -71,19 +71,11 @@ constexpr double kDotCoverage = 0.19;
 
 } // namespace
 
-int TextureTable::image_index(ImageRequest request) {
-    request.path = request.path.lexically_normal();
-    const auto [entry, is_new] =
-        image_numbers_.try_emplace({request.path, request.encoding}, static_cast<int>(images_.size()));
-    if (is_new) images_.push_back(std::move(request));
-    return entry->second;
-}
-
 TextureValue TextureTable::linear_image(const std::filesystem::path& path, const Location& location) {
     TextureNode node;
     node.operation = TextureOperation::image;
-    node.image = image_index({path, ImageRequest::kLinear, location});
-    return formulas_.add(node);
+    node.image = planner_.image({path, ImageRequest::kLinear, location});
+    return formulas().add(node);
 }
 
 const TextureValue& TextureTable::value(const std::string& name, TextureType type,
@@ -94,14 +86,6 @@ const TextureValue& TextureTable::value(const std::string& name, TextureType typ
         if (found != values_.end()) return found->second;
     }
     throw SceneError(location, "texture \"" + name + "\" is not defined");
-}
-
-int TextureTable::request(const TextureValue& value, int channels, const Location& location) {
-    if (value.node < 0) return -1;
-    const auto [entry, is_new] =
-        request_numbers_.try_emplace({value.node, channels}, static_cast<int>(requests_.size()));
-    if (is_new) requests_.push_back({value.node, channels, location});
-    return entry->second;
 }
 
 TextureValue TextureTable::input(TextureDirective& directive, std::string_view name, float fallback,
@@ -121,7 +105,7 @@ TextureValue TextureTable::reduce_image(TextureDirective& directive, Warnings& w
     TextureNode node;
     node.operation = TextureOperation::image;
     node.image =
-        image_index({directive.image_path, read_encoding(directive), parameters.location_of("filename")});
+        planner_.image({directive.image_path, read_encoding(directive), parameters.location_of("filename")});
     node.wrap = read_wrap(directive, warnings);
     if (parameters.string("filter", "bilinear") == "point") node.filter = TextureFilter::nearest;
     node.is_grey = directive.type == TextureType::number;
@@ -130,15 +114,15 @@ TextureValue TextureTable::reduce_image(TextureDirective& directive, Warnings& w
     parameters.ignore({"trilinear", "maxanisotropy"});
 
     const double scale = parameters.real("scale", 1);
-    const TextureValue scaled = formulas_.product(grey_value(scale), formulas_.add(node));
-    return parameters.boolean("invert", false) ? formulas_.inverted(scaled) : scaled;
+    const TextureValue scaled = formulas().product(grey_value(scale), formulas().add(node));
+    return parameters.boolean("invert", false) ? formulas().inverted(scaled) : scaled;
 }
 
 TextureValue TextureTable::reduce_scale(TextureDirective& directive, Warnings& warnings) {
     TextureValue result;
     // v3 multiplies tex1 and tex2, v4 tex and scale.
     for (const std::string_view name : {"tex1", "tex2", "tex", "scale"})
-        result = formulas_.product(result, input(directive, name, 1, warnings));
+        result = formulas().product(result, input(directive, name, 1, warnings));
     return result;
 }
 
@@ -146,7 +130,7 @@ TextureValue TextureTable::reduce_mix(TextureDirective& directive, const Texture
                                       Warnings& warnings) {
     const TextureValue a = input(directive, "tex1", 0, warnings);
     const TextureValue b = input(directive, "tex2", 1, warnings);
-    return formulas_.mix(a, b, amount);
+    return formulas().mix(a, b, amount);
 }
 
 TextureValue TextureTable::reduce_checkerboard(TextureDirective& directive, Warnings& warnings) {
@@ -154,10 +138,10 @@ TextureValue TextureTable::reduce_checkerboard(TextureDirective& directive, Warn
     const TextureValue b = input(directive, "tex2", 0, warnings);
     directive.parameters.ignore({"aamode"});
     const TextureMapping mapping = read_mapping(directive, warnings);
-    if (directive.parameters.integer("dimension", 2) == 2) return formulas_.checkerboard(a, b, mapping);
+    if (directive.parameters.integer("dimension", 2) == 2) return formulas().checkerboard(a, b, mapping);
     warnings.add(directive.parameters.location(),
                  class_of(directive) + ": in three dimensions replaced by its mean");
-    return formulas_.mix(a, b, grey_value(0.5));
+    return formulas().mix(a, b, grey_value(0.5));
 }
 
 TextureValue TextureTable::reduce_procedure(TextureDirective& directive, Warnings& warnings) {
@@ -191,7 +175,7 @@ TextureValue TextureTable::reduce(TextureDirective& directive, Warnings& warning
         warn_mean();
         read_mapping(directive, warnings);
         const TextureValue outside = input(directive, "outside", 0, warnings);
-        return formulas_.mix(outside, input(directive, "inside", 1, warnings), grey_value(kDotCoverage));
+        return formulas().mix(outside, input(directive, "inside", 1, warnings), grey_value(kDotCoverage));
     }
     if (kind == "bilerp") {
         warn_mean();
@@ -201,7 +185,7 @@ TextureValue TextureTable::reduce(TextureDirective& directive, Warnings& warning
         const TextureValue v10 = input(directive, "v10", 0, warnings);
         const TextureValue v11 = input(directive, "v11", 1, warnings);
         const TextureValue half = grey_value(0.5);
-        return formulas_.mix(formulas_.mix(v00, v01, half), formulas_.mix(v10, v11, half), half);
+        return formulas().mix(formulas().mix(v00, v01, half), formulas().mix(v10, v11, half), half);
     }
     const TextureValue replacement = reduce_procedure(directive, warnings);
     // Nothing else is told about parameters of what is replaced.

@@ -1,16 +1,14 @@
 #pragma once
 /// Texture directives.
 
-#include "scene/build/texture_bake.h"
+#include "scene/build/textures/texture_plan.h"
 #include "scene/import/pbrt/syntax/parameters.h"
 
-#include <compare>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace nusselt::scene {
 
@@ -36,14 +34,8 @@ public:
     /// An image of numbers without any encoding, as normal maps are.
     TextureValue linear_image(const std::filesystem::path& path, const Location& location);
 
-    TextureFormulas& formulas() { return formulas_; }
-
-    /// Asks for the node of a value as a texture.
-    /// \param channels  3 or 1
-    /// \returns the index of the request; -1 for values without node
-    int request(const TextureValue& value, int channels, const Location& location);
-    /// All requests so far.
-    TexturePlan plan() const { return {images_, formulas_.nodes(), requests_}; }
+    TexturePlanner& planner() { return planner_; }
+    TextureFormulas& formulas() { return planner_.formulas(); }
 
 private:
     TextureValue reduce(TextureDirective& directive, Warnings& warnings);
@@ -54,14 +46,9 @@ private:
     TextureValue reduce_procedure(TextureDirective& directive, Warnings& warnings);
     TextureValue input(TextureDirective& directive, std::string_view name, float fallback,
                        Warnings& warnings) const;
-    int image_index(ImageRequest request);
 
     std::map<std::pair<TextureType, std::string>, TextureValue> values_;
-    std::vector<ImageRequest> images_;
-    std::map<std::pair<std::filesystem::path, ImageRequest::Encoding>, int> image_numbers_;
-    std::vector<TextureRequest> requests_;
-    std::map<std::pair<int, int>, int> request_numbers_; ///< of a node and a number of channels
-    TextureFormulas formulas_;
+    TexturePlanner planner_;
 };
 
 } // namespace nusselt::scene

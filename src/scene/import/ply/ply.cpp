@@ -1,6 +1,6 @@
 #include "scene/import/ply/ply.h"
 
-#include "scene/build/polygon_triangulation.h"
+#include "scene/build/polygons/polygon_triangulation.h"
 #include "scene/import/ply/ply_header.h"
 #include "scene/input/message.h"
 

@@ -1,6 +1,7 @@
 /// Colours and spectra among the parameters, reduced to linear sRGB.
 
 #include "scene/colour/spectrum.h"
+#include "scene/import/pbrt/syntax/named_spectra.h"
 #include "scene/import/pbrt/syntax/parameters.h"
 
 #include <algorithm>

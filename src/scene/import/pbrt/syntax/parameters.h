@@ -1,6 +1,7 @@
 #pragma once
 /// Typed parameter lists: "type name" value pairs behind a directive.
 
+#include "scene/build/limits.h"
 #include "scene/colour/colour_space.h"
 #include "scene/import/pbrt/syntax/tokenizer.h"
 #include "scene/input/diagnostics.h"

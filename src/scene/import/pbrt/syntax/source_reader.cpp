@@ -8,6 +8,10 @@ namespace {
 
 constexpr std::size_t kMaxIncludeDepth = 32;
 
+// Files that are included again. Those that include others twice multiply quickly.
+constexpr int kMaxRepeatedIncludes = 1000;
+constexpr std::size_t kMaxRepeatedBytes = std::size_t{1} << 25;
+
 } // namespace
 
 SourceReader::SourceReader(const std::filesystem::path& main_path, std::deque<SourceFile>& sources,

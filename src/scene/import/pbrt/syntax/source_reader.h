@@ -1,6 +1,7 @@
 #pragma once
 /// The files of a scene, the order in which they are read, and the arguments of directives.
 
+#include "scene/build/limits.h"
 #include "scene/import/pbrt/syntax/tokenizer.h"
 #include "scene/model/transform.h"
 
