@@ -113,7 +113,7 @@ void print_lights(const scene::Scene& scene) {
     }
     print_weak_lights(scene);
     for (const scene::LineLight& light : scene.line_lights) {
-        const double extent = length(to_double(light.end) - to_double(light.begin));
+        const double extent = length(to_double(light.end) - to_double(light.start));
         fmt::print("  {}: length {:.6g} m, radius {:.6g} m, radiance {} W/(sr m^2), power {} W\n",
                    scene.emitters[light.emitter].name, extent, light.radius, text(light.radiance),
                    text(scaled(scene::area(light) * std::numbers::pi, light.radiance)));

@@ -104,7 +104,7 @@ std::optional<std::size_t> light_at(const scene::Scene& loaded, const LightEdits
         }
         for (const scene::LineLight& tube : lights[i].tubes) {
             const double radius = placed.edit.size * static_cast<double>(tube.radius);
-            hit(hit_tube(ray, placed(tube.begin), placed(tube.end), radius, camera), i);
+            hit(hit_tube(ray, placed(tube.start), placed(tube.end), radius, camera), i);
         }
     }
     return nearest;

@@ -105,7 +105,7 @@ Numbers power(const Scene& scene) {
               (sides * std::numbers::pi * 0.5 * length(area_vector(vertices))) * to_double(light.radiance);
     }
     for (const LineLight& light : scene.line_lights) {
-        const double extent = length(to_double(light.end) - to_double(light.begin));
+        const double extent = length(to_double(light.end) - to_double(light.start));
         const double radius = light.radius;
         const double caps = light.model == TubeModel::solid ? 2 * std::numbers::pi * radius * radius : 0;
         sum = sum + (std::numbers::pi * (2 * std::numbers::pi * radius * extent + caps)) *

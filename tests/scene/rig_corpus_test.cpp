@@ -95,7 +95,7 @@ void add_light_facts(const Scene& scene, std::map<std::string, std::string>& fac
     for (std::size_t i = 0; i < scene.line_lights.size(); ++i) {
         const LineLight& light = scene.line_lights[i];
         const std::string index = std::to_string(i);
-        facts["tube " + index] = text(light.begin) + text(light.end) + text(light.radius);
+        facts["tube " + index] = text(light.start) + text(light.end) + text(light.radius);
         facts["tube radiance " + index] = text(light.radiance);
         facts["solid " + index] = light.model == TubeModel::solid ? "1" : "0";
     }

@@ -46,7 +46,7 @@ void expect_same_geometry(const Scene& a, const Scene& b) {
     for (std::size_t i = 0; i < a.line_lights.size(); ++i) {
         const LineLight& p = a.line_lights[i];
         const LineLight& q = b.line_lights[i];
-        EXPECT_TRUE(same(p.begin, q.begin) && same(p.end, q.end) && same(p.radiance, q.radiance)) << i;
+        EXPECT_TRUE(same(p.start, q.start) && same(p.end, q.end) && same(p.radiance, q.radiance)) << i;
         EXPECT_EQ(p.radius, q.radius);
         EXPECT_EQ(p.model, q.model);
         EXPECT_EQ(p.emitter, q.emitter);
@@ -124,7 +124,7 @@ TEST_F(RigTest, PrintedNumbersAreExact) {
         original.emitters.push_back({"tube " + std::to_string(i)});
         LineLight tube;
         tube.emitter = i;
-        tube.begin = {number(), number(), number()};
+        tube.start = {number(), number(), number()};
         tube.end = {number(), number(), number()};
         tube.radius = std::fabs(number());
         tube.radiance = {std::fabs(number()), std::fabs(number()), std::fabs(number())};
@@ -134,7 +134,7 @@ TEST_F(RigTest, PrintedNumbersAreExact) {
     scene.line_lights.clear();
     for (LineLight tube : original.line_lights) {
         tube.radius = 1;
-        tube.begin = {1, 2, 3};
+        tube.start = {1, 2, 3};
         tube.radiance = {1, 1, 1};
         scene.line_lights.push_back(tube);
     }

@@ -180,7 +180,7 @@ TEST_F(Shapes, Line) {
     EXPECT_TRUE(scene.triangles.empty());
     ASSERT_EQ(scene.line_lights.size(), 2u);
     const LineLight& line = scene.line_lights[0];
-    expect_near(line.begin, {1, 0, 2}, 0);
+    expect_near(line.start, {1, 0, 2}, 0);
     expect_near(line.end, {1, 6, 2}, 0);
     EXPECT_NEAR(line.radius, 0.02, 1e-8);
     EXPECT_EQ(line.radiance.z, 7);
@@ -230,13 +230,13 @@ TEST_F(Shapes, Cylinder) {
     ASSERT_EQ(scene.line_lights.size(), 2u);
     const LineLight& tube = scene.line_lights[0];
     EXPECT_EQ(tube.model, TubeModel::solid);
-    expect_near(tube.begin, {1, 0, 0}, 1e-6f);
+    expect_near(tube.start, {1, 0, 0}, 1e-6f);
     expect_near(tube.end, {7, 0, 0}, 1e-6f);
     EXPECT_NEAR(tube.radius, 0.5, 1e-7);
     EXPECT_EQ(tube.radiance.y, 6);
     EXPECT_EQ(scene.emitters[tube.emitter].name.substr(0, 12), "cylinder at ");
     // The defaults of pbrt.
-    expect_near(scene.line_lights[1].begin, {-2, 0, 0}, 1e-6f);
+    expect_near(scene.line_lights[1].start, {-2, 0, 0}, 1e-6f);
     expect_near(scene.line_lights[1].end, {4, 0, 0}, 1e-6f);
     EXPECT_NEAR(scene.line_lights[1].radius, 2, 1e-6);
 }

@@ -64,8 +64,8 @@ TEST(ShippedScenes, CornellTube) {
     for (const Material& material : scene.materials) EXPECT_EQ(material.model, BrdfModel::lambert);
     ASSERT_EQ(scene.line_lights.size(), 1u);
     EXPECT_TRUE(scene.polygon_lights.empty());
-    EXPECT_GT(scene.line_lights[0].begin.y, 1.9f);
-    EXPECT_LT(scene.line_lights[0].begin.y + scene.line_lights[0].radius, 2.0f);
+    EXPECT_GT(scene.line_lights[0].start.y, 1.9f);
+    EXPECT_LT(scene.line_lights[0].start.y + scene.line_lights[0].radius, 2.0f);
     EXPECT_EQ(scene.film.width, 512);
     // The red wall is on the left of the image: there the camera looks to smaller x.
     EXPECT_LT(scene.camera.corner.x, 0);

@@ -30,7 +30,7 @@ LineLight light_of(const Tube& tube, const Transform& world_from_object) {
     const double scale = std::cbrt(std::fabs(linear_determinant(world_from_object)));
     LineLight light;
     light.model = tube.model;
-    light.begin = to_float(transform_point(world_from_object, to_double(tube.start)));
+    light.start = to_float(transform_point(world_from_object, to_double(tube.start)));
     light.end = to_float(transform_point(world_from_object, to_double(tube.end)));
     light.radius = static_cast<float>(tube.radius * scale);
     return light;
@@ -39,7 +39,7 @@ LineLight light_of(const Tube& tube, const Transform& world_from_object) {
 LineLight light_of(const Cylinder& cylinder, const Transform& world_from_object) {
     LineLight light;
     light.model = TubeModel::solid;
-    light.begin = to_float(transform_point(world_from_object, {0, 0, cylinder.z_min}));
+    light.start = to_float(transform_point(world_from_object, {0, 0, cylinder.z_min}));
     light.end = to_float(transform_point(world_from_object, {0, 0, cylinder.z_max}));
     light.radius = static_cast<float>(cylinder.radius * cross_section_scale(world_from_object).value());
     return light;
@@ -47,13 +47,13 @@ LineLight light_of(const Cylinder& cylinder, const Transform& world_from_object)
 
 void check(const ShapeDescription& shape, const LineLight& light, const Location& radius_origin) {
     const std::string subject = subject_of(shape) + ": ";
-    if (!is_valid_coordinate(light.begin) || !is_valid_coordinate(light.end))
+    if (!is_valid_coordinate(light.start) || !is_valid_coordinate(light.end))
         throw SceneError(shape.origin, subject + "an end point is not finite or beyond 1e15 m");
     if (!(light.radius > 0) || !is_valid_coordinate({light.radius, 0, 0}))
         throw SceneError(radius_origin,
                          subject + "radius must be positive and at most 1e15 m after the transform, found " +
                              to_text(light.radius));
-    if (!(length(to_double(light.end) - to_double(light.begin)) > 0))
+    if (!(length(to_double(light.end) - to_double(light.start)) > 0))
         throw SceneError(shape.origin, subject + "both end points are equal");
 }
 

@@ -60,7 +60,7 @@ Bounds scene_bounds(const Scene& scene) {
         for (const Float3& p : light.vertices) bounds.add(to_double(p));
     for (const LineLight& line : scene.line_lights) {
         const Double3 margin = {line.radius, line.radius, line.radius};
-        for (const Float3& end : {line.begin, line.end}) {
+        for (const Float3& end : {line.start, line.end}) {
             bounds.add(to_double(end) - margin);
             bounds.add(to_double(end) + margin);
         }

@@ -80,8 +80,8 @@ public:
     }
 
     void add(const LineLight& light) {
-        const auto& [emitter, begin, end, radius, radiance, model] = light;
-        add_all(emitter, begin, end, radius, radiance, model);
+        const auto& [emitter, start, end, radius, radiance, model] = light;
+        add_all(emitter, start, end, radius, radiance, model);
     }
 
     void add(const Object& object) {

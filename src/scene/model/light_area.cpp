@@ -13,15 +13,15 @@ double area(const PolygonLight& light) {
     return 0.5 * length(area_vector(vertices));
 }
 
-double mantle_area(const LineLight& light) {
+double lateral_area(const LineLight& light) {
     return 2 * std::numbers::pi * static_cast<double>(light.radius) *
-           length(to_double(light.end) - to_double(light.begin));
+           length(to_double(light.end) - to_double(light.start));
 }
 
 double area(const LineLight& light) {
     const double radius = light.radius;
     const double caps = light.model == TubeModel::solid ? 2 * std::numbers::pi * radius * radius : 0;
-    return mantle_area(light) + caps;
+    return lateral_area(light) + caps;
 }
 
 } // namespace nusselt::scene

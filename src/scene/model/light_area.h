@@ -7,9 +7,9 @@ namespace nusselt::scene {
 
 /// Of one side.
 double area(const PolygonLight& light);
-/// Of the mantle of a tube.
-double mantle_area(const LineLight& light);
-/// Of all that emits: the mantle, and the caps of solid tubes.
+/// Of the lateral surface of a tube.
+double lateral_area(const LineLight& light);
+/// Of all that emits: the lateral surface, and the caps of solid tubes.
 double area(const LineLight& light);
 
 } // namespace nusselt::scene

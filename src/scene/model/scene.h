@@ -135,13 +135,13 @@ struct PolygonLight {
 /// What light a tube gives.
 enum class TubeModel : std::uint32_t {
     linear, ///< that of a linear light with brightness radiance * radius [W/(sr m)]: the limit of a small radius
-    solid, ///< that of a closed cylinder, which shines outwards from its mantle and its caps
+    solid, ///< that of a closed cylinder, which shines outwards from its lateral surface and its caps
 };
 
 /// A tube. Cameras see it as a cylinder of this radius; it casts no shadows.
 struct LineLight {
     std::uint32_t emitter = 0; ///< index into Scene::emitters
-    Float3 begin = {0, 0, 0};
+    Float3 start = {0, 0, 0};
     Float3 end = {0, 0, 0};
     float radius = 0;
     Float3 radiance = {0, 0, 0};

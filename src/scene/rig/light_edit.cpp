@@ -36,7 +36,7 @@ bool has_shape(const EditableLight& light, const std::vector<Float3>& vertices) 
 bool has_shape(const EditableLight& light, const TubeShape& tube) {
     if (light.tubes.size() != 1 || !light.polygons.empty()) return false;
     const LineLight& own = light.tubes[0];
-    return equal(own.begin, tube.begin) && equal(own.end, tube.end) && own.radius == tube.radius &&
+    return equal(own.start, tube.start) && equal(own.end, tube.end) && own.radius == tube.radius &&
            own.model == tube.model;
 }
 
@@ -52,7 +52,7 @@ void set_shape(EditableLight& light, const Float3& radiance, const std::vector<F
 
 void set_shape(EditableLight& light, const Float3& radiance, const TubeShape& shape) {
     LineLight tube;
-    tube.begin = shape.begin;
+    tube.start = shape.start;
     tube.end = shape.end;
     tube.radius = shape.radius;
     tube.model = shape.model;
@@ -122,7 +122,7 @@ Double3 centroid(const EditableLight& light) {
             add(0.5 * length(cross(p[i] - p[0], p[i + 1] - p[0])), (1.0 / 3) * (p[0] + p[i] + p[i + 1]));
     }
     for (const LineLight& tube : light.tubes)
-        add(mantle_area(tube), 0.5 * (to_double(tube.begin) + to_double(tube.end)));
+        add(lateral_area(tube), 0.5 * (to_double(tube.start) + to_double(tube.end)));
     return (1 / total) * moment;
 }
 
@@ -155,7 +155,7 @@ void LightEditor::transform(EditableLight& light, const Transform& transform) {
         for (Float3& p : polygon.vertices) move(p);
     const double scale = std::cbrt(linear_determinant(transform));
     for (LineLight& tube : light.tubes) {
-        move(tube.begin);
+        move(tube.start);
         move(tube.end);
         tube.radius = static_cast<float>(tube.radius * scale);
     }

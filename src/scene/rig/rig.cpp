@@ -111,9 +111,9 @@ bool is_valid(const PolygonLight& polygon) {
 }
 
 bool is_valid(const LineLight& tube) {
-    return is_valid_coordinate(tube.begin) && is_valid_coordinate(tube.end) && tube.radius > 0 &&
+    return is_valid_coordinate(tube.start) && is_valid_coordinate(tube.end) && tube.radius > 0 &&
            is_valid_coordinate({tube.radius, 0, 0}) &&
-           length(to_double(tube.end) - to_double(tube.begin)) > 0;
+           length(to_double(tube.end) - to_double(tube.start)) > 0;
 }
 
 /// The colour of a black body in linear sRGB, with the luminance 1. Below 1900 K it lies outside of the gamut.

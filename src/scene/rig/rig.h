@@ -23,7 +23,7 @@ constexpr double kMaxRadiance = 1e30;            ///< [W/(sr m^2)]
 using Selector = std::variant<std::size_t, std::string>;
 
 struct TubeShape {
-    Float3 begin = {0, 0, 0};
+    Float3 start = {0, 0, 0};
     Float3 end = {0, 0, 0};
     float radius = 0;
     TubeModel model = TubeModel::solid;

@@ -64,10 +64,10 @@ std::vector<Float3> read_panel(const JsonNode& node) {
 TubeShape read_tube(const JsonNode& node) {
     node.check_fields({"begin", "end", "radius", "finite"});
     TubeShape tube;
-    tube.begin = read_point(node.at("begin"));
+    tube.start = read_point(node.at("begin"));
     tube.end = read_point(node.at("end"));
     tube.radius = read_length(node.at("radius"));
-    if (!(length(to_double(tube.end) - to_double(tube.begin)) > 0)) node.fail("begin and end are equal");
+    if (!(length(to_double(tube.end) - to_double(tube.start)) > 0)) node.fail("begin and end are equal");
     if (const auto finite = node.find("finite"))
         tube.model = finite->boolean() ? TubeModel::solid : TubeModel::linear;
     return tube;

@@ -34,7 +34,7 @@ std::string polygon_text(const PolygonLight& light) {
 }
 
 std::string tube_text(const LineLight& light) {
-    return "{\"begin\": " + triple_text(light.begin) + ", \"end\": " + triple_text(light.end) +
+    return "{\"begin\": " + triple_text(light.start) + ", \"end\": " + triple_text(light.end) +
            ", \"radius\": " + number_text(light.radius) +
            ", \"finite\": " + boolean_text(light.model == TubeModel::solid) + "}";
 }
