@@ -20,13 +20,13 @@ struct Bounds {
     Double3 high;
 };
 
-/// Of the triangles from `first` on, in their own coordinates.
+/// The bounds of the triangles from `first` on, in their own coordinates.
 Bounds triangle_bounds(const Scene& scene, std::size_t first, std::size_t count);
 
-/// Around the image of a box under an affine transform, whose rows are as in Instance.
+/// The box around the image of a box under an affine transform, whose rows are as in Instance.
 Bounds transformed(const Bounds& box, const std::array<float, 12>& rows);
 
-/// Around surfaces, instances and lights.
+/// The box around surfaces, instances and lights.
 Bounds scene_bounds(const Scene& scene);
 
 /// Half the diagonal of scene_bounds() [m], 0 for empty scenes.

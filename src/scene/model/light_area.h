@@ -5,11 +5,11 @@
 
 namespace nusselt::scene {
 
-/// Of one side.
+/// The area of one side.
 double area(const PolygonLight& light);
-/// Of the lateral surface of a tube.
+/// The area of the lateral surface of a tube.
 double lateral_area(const LineLight& light);
-/// Of all that emits: the lateral surface, and the caps of solid tubes.
+/// The area of all that emits: the lateral surface, and the caps of solid tubes.
 double area(const LineLight& light);
 
 } // namespace nusselt::scene

@@ -63,7 +63,7 @@ enum class BumpUnit : std::uint32_t {
     texture_coordinate,
 };
 
-/// What a surface reduces to (docs/materials.md lists the reductions from the materials of pbrt). Textures are
+/// What a surface reduces to (docs/materials.md lists the reductions). Textures are
 /// multiplied with the numbers beside them; where those are no colours, the first channel of a texture counts.
 struct Material {
     std::string name = {};

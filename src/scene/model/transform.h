@@ -1,6 +1,5 @@
 #pragma once
-/// Affine (in general projective) transforms with pbrt's conventions: column vectors, left-handed camera
-/// space.
+/// Affine (in general projective) transforms of column vectors, with left-handed camera space.
 
 #include "scene/model/vector_math.h"
 
