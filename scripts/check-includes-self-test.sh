@@ -28,7 +28,11 @@ right include/nusselt/estimate/a.h <nusselt/related/b.h>
 right include/nusselt/simd/a.h <immintrin.h>
 right include/nusselt/simd/b.h <arm_neon.h>
 right include/nusselt/nusselt.h <nusselt/sampling/b.h>
-right src/visibility/a.cpp "scene/scene.h"
+right src/visibility/a.cpp "scene/model/b.h"
+right src/scene/build/polygons/a.cpp "scene/build/b.h"
+right src/scene/import/a.cpp "scene/import/pbrt/b.h"
+right src/scene/import/pbrt/syntax/a.cpp "scene/build/textures/b.h"
+right lab/figures/a.cpp "scene/import/b.h"
 right src/render_cpu/a.cpp <nusselt/simd/pack.h>
 right src/render_cpu/a.cpp <embree3/rtcore.h>
 right src/gpu/a.cpp "shaders/b.h"
@@ -65,17 +69,25 @@ wrong include/nusselt/sampling/a.h <nusselt/estimate/b.h>
 wrong include/nusselt/nusselt.h <nusselt/simd/pack.h>
 wrong include/nusselt/core/a.h <nusselt/unheard_of/b.h>
 wrong include/nusselt/core/a.h "vec.h"
-wrong include/nusselt/core/a.h "scene/scene.h"
+wrong include/nusselt/core/a.h "scene/model/scene.h"
 wrong include/nusselt/core/a.h <immintrin.h>
 wrong include/nusselt/core/a.h <fmt/core.h>
 wrong include/nusselt/core/a.h "../geometry/b.h"
-wrong src/image/a.cpp "scene/scene.h"
-wrong src/scene/a.cpp "visibility/b.h"
+wrong src/image/a.cpp "scene/model/scene.h"
+wrong src/scene/model/a.cpp "visibility/b.h"
+wrong src/scene/model/a.cpp "scene/build/b.h"
+wrong src/scene/build/polygons/a.cpp "scene/import/pbrt/b.h"
+wrong src/scene/rig/a.cpp "scene/import/b.h"
+wrong src/scene/import/pbrt/a.cpp "scene/import/b.h"
+wrong src/scene/import/ply/a.cpp "scene/import/pbrt/b.h"
+wrong src/scene/unheard_of/a.cpp "scene/model/b.h"
+wrong src/visibility/a.cpp "scene/build/b.h"
+wrong src/render/a.cpp "scene/import/b.h"
 wrong src/visibility/a.cpp "render_cpu/b.h"
 wrong src/render_cpu/a.cpp "lab/timing/b.h"
 wrong src/render_cpu/a.cpp "local.h"
 wrong src/render_cpu/a.cpp "nusselt/core/vec.h"
 wrong lab/timing/a.cpp "apps/nusselt/b.h"
-wrong src/scene/a.cpp "tests/b.h"
+wrong src/scene/model/a.cpp "tests/b.h"
 CASES
 exit $failed

@@ -29,19 +29,31 @@ BEGIN {
     allow("proof", "library src/visibility")
     allow("src/base", "")
     allow("src/image", "library src/base")
-    allow("src/scene", "library src/base src/image")
-    allow("src/visibility", "library src/scene src/interface")
+    # The scene: renderers see its model, which knows no format. Importers describe what is in a file, the builder makes
+    # the model of it, rigs change it.
+    allow("src/scene/input", "")
+    allow("src/scene/model", "src/scene/input")
+    allow("src/scene/colour", "src/scene/input src/scene/model")
+    allow("src/scene/build", "src/image src/scene/input src/scene/model")
+    allow("src/scene/rig", "src/scene/input src/scene/model src/scene/colour")
+    below = "src/scene/input src/scene/model src/scene/colour src/scene/build"
+    allow("src/scene/import/ply", below)
+    allow("src/scene/import/pbrt", below " src/scene/import/ply")
+    # The table of importers.
+    allow("src/scene/import", below " src/scene/import/pbrt")
+    scene = "src/scene/input src/scene/model src/scene/rig src/scene/import"
+    allow("src/visibility", "library src/scene/model src/interface")
     allow("src/tables", "library")
     allow("src/fit", "library src/base src/image")
-    allow("src/render", "src/image src/scene")
-    allow("src/render_cpu", "library src/base src/image src/scene src/visibility src/tables src/render")
+    allow("src/render", "src/image src/scene/model")
+    allow("src/render_cpu", "library src/base src/image src/scene/model src/visibility src/tables src/render")
     # SPIR-V as arrays, which the build makes. The two renderers never see each other.
     allow("src/shaders", "")
     # Structures that C++ and shaders share: shaders/interface.
     allow("src/interface", "")
     allow("src/gpu", "library src/shaders")
-    allow("src/render_vulkan", "library src/image src/scene src/visibility src/tables src/render src/gpu src/shaders src/interface")
-    below = "library src/base src/image src/scene src/visibility src/render src/render_cpu src/render_vulkan src/gpu"
+    allow("src/render_vulkan", "library src/image src/scene/model src/visibility src/tables src/render src/gpu src/shaders src/interface")
+    below = "library src/base src/image " scene " src/visibility src/render src/render_cpu src/render_vulkan src/gpu"
     below = below " src/shaders src/tables"
     allow("apps/common", below)
     allow("apps/viewer", below)
@@ -71,7 +83,8 @@ function report(message) {
 }
 
 # The layer of a file, from its path: include/nusselt/core/vec.h is in include/core, the headers directly
-# in include/nusselt are in include/all; shaders/nusselt/core/vec.glsl is in include/core, too.
+# in include/nusselt are in include/all; shaders/nusselt/core/vec.glsl is in include/core, too. Elsewhere it is the
+# innermost folder around the file that is a layer, or else a folder of src, apps or shaders.
 function layer_of(path,    parts, count, folder) {
     count = split(path, parts, "/")
     if (path ~ /^shaders\/nusselt\//) return "include/" parts[3]

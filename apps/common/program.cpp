@@ -1,6 +1,6 @@
 #include "program.h"
 
-#include "scene/message.h"
+#include "scene/input/message.h"
 
 #include <fmt/core.h>
 

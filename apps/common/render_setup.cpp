@@ -1,7 +1,7 @@
 #include "render_setup.h"
 
 #include "render/film.h"
-#include "scene/limits.h"
+#include "scene/model/limits.h"
 
 #include <algorithm>
 #include <charconv>

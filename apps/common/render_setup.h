@@ -3,7 +3,7 @@
 
 #include "render/names.h"
 #include "render/settings.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,8 +1,8 @@
 #pragma once
 /// A camera that a person flies.
 
-#include "scene/scene.h"
-#include "scene/vector_math.h"
+#include "scene/model/scene.h"
+#include "scene/model/vector_math.h"
 
 namespace nusselt::viewer {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// What a person did to the lights of a scene.
 
-#include "scene/rig.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
+#include "scene/rig/rig.h"
 
 #include <cstddef>
 #include <map>

@@ -1,7 +1,7 @@
 #include "picking.h"
 
-#include "scene/light_edit.h"
-#include "scene/vector_math.h"
+#include "scene/model/vector_math.h"
+#include "scene/rig/light_edit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +104,7 @@ std::optional<std::size_t> light_at(const scene::Scene& loaded, const LightEdits
         }
         for (const scene::LineLight& tube : lights[i].tubes) {
             const double radius = placed.edit.size * static_cast<double>(tube.radius);
-            hit(hit_tube(ray, placed(tube.begin), placed(tube.end), radius, camera), i);
+            hit(hit_tube(ray, placed(tube.start), placed(tube.end), radius, camera), i);
         }
     }
     return nearest;

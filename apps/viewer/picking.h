@@ -4,7 +4,7 @@
 #include "fly_camera.h"
 #include "light_edits.h"
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <cstddef>
 #include <optional>

@@ -7,8 +7,8 @@
 #include "image/image.h"
 #include "render_vulkan/accumulator.h"
 #include "render_vulkan/display_pass.h"
-#include "scene/rig.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
+#include "scene/rig/rig.h"
 
 #include <array>
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include "image/io.h"
 #include "image/srgb.h"
 #include "render/film.h"
-#include "scene/camera_file.h"
+#include "scene/rig/camera_file.h"
 
 #include <fmt/core.h>
 

@@ -1,6 +1,6 @@
 #include "viewer.h"
 
-#include "scene/rig_json.h"
+#include "scene/rig/rig_json.h"
 
 #include <exception>
 

@@ -2,7 +2,7 @@
 
 #include "render/film.h"
 #include "render_cpu/renderer.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <fmt/core.h>
 

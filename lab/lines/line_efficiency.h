@@ -2,7 +2,7 @@
 /// Time until line samples are as exact as point samples.
 
 #include "lab/errors/noise_curve.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <algorithm>
 #include <functional>

@@ -2,8 +2,8 @@
 
 #include "render/film.h"
 #include "render_cpu/renderer.h"
-#include "scene/load.h"
-#include "scene/rig_json.h"
+#include "scene/import/importers.h"
+#include "scene/rig/rig_json.h"
 
 #include <algorithm>
 #include <cmath>

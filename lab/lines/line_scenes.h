@@ -2,7 +2,7 @@
 /// Scenes that line samples are measured in.
 
 #include "lab/figures/run.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <functional>
 #include <optional>

@@ -3,8 +3,8 @@
 #include "proof/median.h"
 #include "render_vulkan/accumulator.h"
 #include "render_vulkan/frame_records.h"
-#include "scene/rig.h"
-#include "scene/vector_math.h"
+#include "scene/model/vector_math.h"
+#include "scene/rig/rig.h"
 
 #include <cassert>
 #include <cmath>
@@ -69,7 +69,7 @@ scene::Scene with_only_light(const scene::Scene& scene, std::uint32_t emitter, s
 
 /// As wide as the tube.
 std::vector<scene::Float3> quad_in_place(const scene::LineLight& tube) {
-    const scene::Double3 begin = scene::to_double(tube.begin), end = scene::to_double(tube.end);
+    const scene::Double3 begin = scene::to_double(tube.start), end = scene::to_double(tube.end);
     const scene::Double3 axis = normalized(end - begin);
     const bool is_upright = std::fabs(axis.y) > 0.9;
     const scene::Double3 front = is_upright ? scene::Double3{1, 0, 0} : scene::Double3{0, 1, 0};
@@ -136,7 +136,7 @@ bool is_same(const render::RenderSettings& a, const render::RenderSettings& b) {
 std::optional<LineAndQuad> line_and_quad(const scene::Scene& scene) {
     if (scene.line_lights.empty()) return std::nullopt;
     const scene::LineLight& tube = scene.line_lights.front();
-    const scene::TubeShape line{tube.begin, tube.end, tube.radius, scene::TubeModel::linear};
+    const scene::TubeShape line{tube.start, tube.end, tube.radius, scene::TubeModel::linear};
     return LineAndQuad{with_only_light(scene, tube.emitter, line),
                        with_only_light(scene, tube.emitter, quad_in_place(tube))};
 }

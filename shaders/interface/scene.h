@@ -1,7 +1,7 @@
 #ifndef NUSSELT_INTERFACE_SCENE_H
 #define NUSSELT_INTERFACE_SCENE_H
 /// A scene in storage buffers, for C++ and GLSL alike. All members are words of 32 bits or arrays of them, so that both
-/// languages lay them out in the same way. Positions and radiance are as in src/scene/scene.h.
+/// languages lay them out in the same way. Positions and radiance are as in src/scene/model/scene.h.
 
 #ifdef __cplusplus
 #include <cstdint>

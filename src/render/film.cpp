@@ -1,6 +1,6 @@
 #include "render/film.h"
 
-#include "scene/limits.h"
+#include "scene/model/limits.h"
 
 #include <algorithm>
 #include <cmath>

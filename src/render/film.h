@@ -1,7 +1,7 @@
 #pragma once
 /// The pixels of an image.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 namespace nusselt::render {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What renderers need to know of the transform of an instance.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <array>
 

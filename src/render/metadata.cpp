@@ -1,6 +1,6 @@
 #include "render/metadata.h"
 
-#include "scene/fingerprint.h"
+#include "scene/model/fingerprint.h"
 
 #include <string>
 

@@ -3,7 +3,7 @@
 
 #include "image/image.h"
 #include "render/settings.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 namespace nusselt::render {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Pixel filters as distributions of camera rays.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <vector>
 

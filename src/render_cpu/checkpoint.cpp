@@ -1,7 +1,7 @@
 #include "render_cpu/checkpoint.h"
 
 #include "base/atomic_file.h"
-#include "scene/content_hash.h"
+#include "scene/model/content_hash.h"
 
 #include <array>
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include "image/layers.h"
 #include "render/settings.h"
 #include "render_cpu/kernel.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <cstdint>
 #include <vector>

@@ -5,7 +5,7 @@
 #include "base/isa.h"
 #include "render/pixel_filter.h"
 #include "render/settings.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 #include "visibility/line_bvh_view.h"
 #include "visibility/ray_packets.h"
 

@@ -82,7 +82,7 @@ PolygonLightRecord make_record(const scene::Scene& scene, const scene::PolygonLi
 }
 
 LineLightRecord make_record(const scene::LineLight& light) {
-    const auto line = make_line(to_vec(light.begin), to_vec(light.end));
+    const auto line = make_line(to_vec(light.start), to_vec(light.end));
     return {to_float3(line.p0),
             to_float3(line.s),
             line.length,

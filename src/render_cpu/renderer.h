@@ -6,7 +6,7 @@
 #include "render/settings.h"
 #include "render_cpu/frame.h"
 #include "render_cpu/kernel_arrays.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 #include "visibility/embree_scene.h"
 #include "visibility/line_bvh.h"
 

@@ -4,7 +4,7 @@
 #include "render_vulkan/scene_buffers.h"
 #include "render_vulkan/scene_textures.h"
 #include "render_vulkan/shadow_scene.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <cstdint>
 #include <optional>

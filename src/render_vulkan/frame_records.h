@@ -4,7 +4,7 @@
 #include "interface/scene.h"
 #include "render/pixel_filter.h"
 #include "render/settings.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 namespace nusselt::render_vulkan {
 

@@ -7,7 +7,7 @@
 #include "render_vulkan/accumulator.h"
 #include "render_vulkan/scene_textures.h"
 #include "render_vulkan/shadow_scene.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <atomic>
 #include <cstdint>

@@ -2,8 +2,8 @@
 
 #include "render/film.h"
 #include "render/instance_transform.h"
-#include "scene/scene_size.h"
-#include "scene/vector_math.h"
+#include "scene/model/scene_size.h"
+#include "scene/model/vector_math.h"
 #include "visibility/alpha.h"
 #include "visibility/tube_mesh.h"
 
@@ -143,7 +143,7 @@ void add_lights(const scene::Scene& scene, SceneRecords& records) {
             add_polygon<8>(light, records);
     }
     for (const scene::LineLight& light : scene.line_lights) {
-        const auto line = make_line(to_vec(light.begin), to_vec(light.end));
+        const auto line = make_line(to_vec(light.start), to_vec(light.end));
         interface::LineLightRecord& record = records.line_lights.emplace_back();
         copy(to_float3(line.p0), record.begin);
         copy(to_float3(line.s), record.direction);

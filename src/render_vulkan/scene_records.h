@@ -2,7 +2,7 @@
 /// From scenes to the records that shaders read.
 
 #include "interface/scene.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <cstdint>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include "gpu/buffer.h"
 #include "gpu/image_array.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <optional>
 #include <span>

@@ -3,7 +3,7 @@
 
 #include "gpu/acceleration_structure.h"
 #include "gpu/buffer.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <array>
 #include <optional>

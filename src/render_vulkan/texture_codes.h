@@ -1,7 +1,7 @@
 #pragma once
 /// Textures in fewer bits, without loss.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 /// Surfaces that are only partly there.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Trees over boxes by Embree's builder. Only for code that makes hierarchies of its own from them.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 #include "visibility/embree_device.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 /// Ray queries against the surfaces of a scene, by Embree.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 #include "visibility/ray_packets.h"
 
 #include <memory>

@@ -1,7 +1,7 @@
 #pragma once
 /// The bounding volume hierarchy that lines of lights are traced with; see line_traversal.h.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 #include "visibility/line_bvh_view.h"
 
 #include <memory>

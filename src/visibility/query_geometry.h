@@ -2,7 +2,7 @@
 /// A scene in the form of which Vulkan builds acceleration structures for ray queries.
 
 #include "interface/query.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <array>
 #include <cstdint>

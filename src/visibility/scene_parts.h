@@ -1,7 +1,7 @@
 #pragma once
 /// How the triangles of a scene are distributed over geometries of Embree, and from there back.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <embree3/rtcore.h>
 

@@ -2,7 +2,7 @@
 /// The bounding volume hierarchy that shaders trace shadow rays with.
 
 #include "interface/bvh.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <vector>
 

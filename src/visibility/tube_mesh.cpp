@@ -1,6 +1,6 @@
 #include "visibility/tube_mesh.h"
 
-#include "scene/scene_size.h"
+#include "scene/model/scene_size.h"
 
 #include <nusselt/core/frame.h>
 #include <nusselt/core/trig.h>
@@ -24,7 +24,7 @@ double corner_radius() {
 }
 
 void append_tube(const scene::LineLight& light, TubeMesh& mesh) {
-    const Vec3<double> begin = to_double(light.begin);
+    const Vec3<double> begin = to_double(light.start);
     const Vec3<double> end = to_double(light.end);
     const auto frame = Frame<double>::from_normal(normalize(end - begin));
     const double radius = light.radius * corner_radius();

@@ -1,7 +1,7 @@
 #pragma once
 /// Line lights as cameras see them.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <cstdint>
 #include <vector>

@@ -2,7 +2,7 @@
 /// Shadow rays against all triangles of a scene in double precision, with a margin: single precision may decide either way
 /// where a ray passes an edge, or ends on a triangle, within the margin.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <array>
 

@@ -3,7 +3,7 @@
 #include "lab/errors/bias_statistics.h"
 #include "render/film.h"
 #include "render_cpu/renderer.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "lab/figures/plot.h"
 #include "render/film.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <gtest/gtest.h>
 

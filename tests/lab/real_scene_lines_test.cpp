@@ -6,7 +6,7 @@
 #include "lab/errors/noise_curve.h"
 
 #include "render/film.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "scenes.h"
 
 #include "render_cpu/checkpoint.h"
-#include "scene/content_hash.h"
+#include "scene/model/content_hash.h"
 
 #include <gtest/gtest.h>
 

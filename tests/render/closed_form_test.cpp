@@ -30,7 +30,7 @@ scene::Scene make_panel_scene() {
 }
 
 scene::LineLight make_tube() {
-    return {.begin = {-0.5f, -0.3f, 0.3f},
+    return {.start = {-0.5f, -0.3f, 0.3f},
             .end = {0.6f, 0.4f, 0.8f},
             .radius = 0.01f,
             .radiance = {kRadiance, kRadiance, kRadiance},
@@ -58,10 +58,10 @@ double panel_radiance(const Vec3<double>& point) {
 /// Integral of 2 R cos_i sin_l / r^2 along the tube: Simpson's rule, far finer than the tests need.
 double tube_radiance(const Vec3<double>& point) {
     const scene::LineLight tube = make_tube();
-    const Vec3<double> extent = to_vec(tube.end) - to_vec(tube.begin);
+    const Vec3<double> extent = to_vec(tube.end) - to_vec(tube.start);
     const double tube_length = std::sqrt(dot(extent, extent));
     const auto integrand = [&](double t) {
-        const Vec3<double> d = to_vec(tube.begin) + t * extent - point;
+        const Vec3<double> d = to_vec(tube.start) + t * extent - point;
         const double r2 = dot(d, d);
         const Vec3<double> n = cross(d, extent);
         const double sine = std::sqrt(dot(n, n) / (r2 * dot(extent, extent)));

@@ -4,7 +4,7 @@
 #include "scenes.h"
 
 #include "render/film.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <nusselt/core/vec.h>
 
@@ -86,7 +86,7 @@ private:
 
 /// Whether a ray meets the cylinder around a line light before a distance.
 bool meets_tube(const scene::LineLight& light, const Vec& origin, const Vec& direction, double t_max) {
-    const Vec begin = to_vec(light.begin);
+    const Vec begin = to_vec(light.start);
     const Vec extent = to_vec(light.end) - begin;
     const double length = std::sqrt(dot(extent, extent));
     const Vec axis = (1 / length) * extent;
@@ -155,7 +155,7 @@ private:
 
     Integral line_integral(const scene::LineLight& light, const Vec& point, const Vec& normal) const {
         constexpr int kPieces = 1024;
-        const Vec begin = to_vec(light.begin);
+        const Vec begin = to_vec(light.start);
         const Vec extent = to_vec(light.end) - begin;
         Integral sum;
         for (int i = 0; i < kPieces; ++i) {

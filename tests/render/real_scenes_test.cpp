@@ -5,9 +5,9 @@
 
 #include "image/metrics.h"
 #include "render/film.h"
-#include "scene/load.h"
-#include "scene/rig.h"
-#include "scene/rig_json.h"
+#include "scene/import/importers.h"
+#include "scene/rig/rig.h"
+#include "scene/rig/rig_json.h"
 
 #include <gtest/gtest.h>
 

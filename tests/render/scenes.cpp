@@ -117,7 +117,7 @@ void set_radius(scene::Scene& scene) {
     };
     for (const Float3& p : scene.positions) include(p);
     for (const scene::LineLight& light : scene.line_lights) {
-        include(light.begin);
+        include(light.start);
         include(light.end);
     }
     const Float3 diagonal = minus(high, low);
@@ -130,7 +130,7 @@ scene::Scene scaled(scene::Scene scene, float factor) {
     for (scene::PolygonLight& light : scene.polygon_lights)
         for (Float3& p : light.vertices) p = times(factor, p);
     for (scene::LineLight& light : scene.line_lights) {
-        light.begin = times(factor, light.begin);
+        light.start = times(factor, light.start);
         light.end = times(factor, light.end);
         light.radius *= factor;
     }

@@ -3,7 +3,7 @@
 
 #include "image/image.h"
 #include "render_cpu/renderer.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <array>
 #include <vector>

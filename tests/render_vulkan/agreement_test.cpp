@@ -4,7 +4,7 @@
 #include "gpu_test.h"
 #include "render/film.h"
 #include "rich_scene.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 #include "scenes.h"
 
 #include <filesystem>

@@ -5,7 +5,7 @@
 #include "lab/errors/bias_statistics.h"
 #include "render/film.h"
 #include "rich_scene.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <cstdlib>
 #include <filesystem>

@@ -5,8 +5,8 @@
 #include "gpu_test.h"
 
 #include "render/film.h"
-#include "scene/load.h"
-#include "scene/vector_math.h"
+#include "scene/import/importers.h"
+#include "scene/model/vector_math.h"
 
 #include <cmath>
 #include <cstdio>
@@ -68,12 +68,12 @@ TEST(LineAndQuad, HaveTheSamePlaceAndSize) {
         EXPECT_TRUE(quad.two_sided);
         ASSERT_EQ(quad.vertices.size(), 4u);
         const auto corner = [&](std::size_t i) { return scene::to_double(quad.vertices[i]); };
-        const double length = scene::length(scene::to_double(line.end) - scene::to_double(line.begin));
+        const double length = scene::length(scene::to_double(line.end) - scene::to_double(line.start));
         const scene::Double3 normal = cross(corner(1) - corner(0), corner(3) - corner(0));
         EXPECT_NEAR(scene::length(normal) / (2 * line.radius * length), 1, 1e-5);
         EXPECT_GT(std::fabs(normal.y), 0.5 * scene::length(normal)) << "faces up and down";
         const scene::Double3 middle = 0.5 * (corner(0) + corner(2));
-        const scene::Double3 expected = 0.5 * (scene::to_double(line.begin) + scene::to_double(line.end));
+        const scene::Double3 expected = 0.5 * (scene::to_double(line.start) + scene::to_double(line.end));
         EXPECT_LT(scene::length(middle - expected), 1e-5);
         EXPECT_EQ(quad.radiance.y, line.radiance.y);
         EXPECT_EQ(line.radiance.y, scene.line_lights[0].radiance.y);
@@ -83,7 +83,7 @@ TEST(LineAndQuad, HaveTheSamePlaceAndSize) {
 
 TEST(LineAndQuad, TurnsQuadsOfUprightTubes) {
     scene::Scene scene = load_small("cornell-tube.pbrt");
-    scene.line_lights[0].begin = {0, 0.5f, 0};
+    scene.line_lights[0].start = {0, 0.5f, 0};
     scene.line_lights[0].end = {0, 1.5f, 0};
     const auto both = lab::line_and_quad(scene);
     ASSERT_TRUE(both);

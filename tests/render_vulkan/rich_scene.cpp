@@ -91,9 +91,9 @@ scene::Scene make_rich_scene(int width, int height) {
         scene, {Float3{1.9f, -0.5f, 1}, {1.9f, 0.5f, 1}, {1.9f, 0.5f, 1.6f}, {1.9f, -0.5f, 1.6f}}, {1, 2, 3},
         true, emitter);
     render_test::add_line_light(
-        scene, "tube", {.begin = {-1, 1, 2}, .end = {1, 1.2f, 2.2f}, .radius = 0.05f, .radiance = {5, 5, 6}});
+        scene, "tube", {.start = {-1, 1, 2}, .end = {1, 1.2f, 2.2f}, .radius = 0.05f, .radiance = {5, 5, 6}});
     render_test::add_line_light(scene, "line",
-                                {.begin = {-1.5f, -1, 0.5f},
+                                {.start = {-1.5f, -1, 0.5f},
                                  .end = {-1.5f, 0, 0.8f},
                                  .radius = 0.01f,
                                  .radiance = {30, 20, 10},

@@ -1,7 +1,7 @@
 #pragma once
 /// A scene with all that surfaces can have.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 namespace nusselt::render_vulkan_test {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Fixture that writes scene files into a folder of its own and loads them.
 
-#include "scene/load.h"
-#include "scene/vector_math.h"
+#include "scene/import/importers.h"
+#include "scene/model/vector_math.h"
 
 #include <cstdlib>
 #include <filesystem>

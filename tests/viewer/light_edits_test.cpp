@@ -1,7 +1,7 @@
 #include "viewer/light_edits.h"
 
-#include "scene/load.h"
-#include "scene/rig_json.h"
+#include "scene/import/importers.h"
+#include "scene/rig/rig_json.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "viewer/picking.h"
 
-#include "scene/light_edit.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
+#include "scene/rig/light_edit.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include "image/io.h"
 #include "render/film.h"
-#include "scene/camera_file.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
+#include "scene/rig/camera_file.h"
 
 #include <filesystem>
 #include <fstream>

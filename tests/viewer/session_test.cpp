@@ -9,7 +9,7 @@
 #include "render/film.h"
 #include "render_vulkan/frame_records.h"
 #include "render_vulkan/renderer.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 #include "viewer/viewer.h"
 
 #include <cmath>

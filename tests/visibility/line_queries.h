@@ -1,7 +1,7 @@
 #pragma once
 /// What is visible of lines of a light, by the hierarchy and by all triangles.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 #include "visibility/line_bvh.h"
 #include "visibility/line_traversal.h"
 

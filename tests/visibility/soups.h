@@ -1,7 +1,7 @@
 #pragma once
 /// Scenes of triangles and lights for the tests of visibility.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <random>
 

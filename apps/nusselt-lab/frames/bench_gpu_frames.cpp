@@ -6,8 +6,8 @@
 
 #include "image/io.h"
 #include "lab/timing/llvmpipe_threads.h"
-#include "scene/load.h"
-#include "scene/message.h"
+#include "scene/import/importers.h"
+#include "scene/input/message.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

@@ -6,7 +6,7 @@
 
 #include "lab/figures/report_json.h"
 #include "lab/lines/line_efficiency.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

@@ -7,7 +7,7 @@
 
 #include "base/process_time.h"
 #include "render_cpu/renderer.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

@@ -5,7 +5,7 @@
 
 #include "base/atomic_file.h"
 #include "render_cpu/renderer.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

@@ -3,7 +3,7 @@
 #include "bench_frames.h"
 
 #include "render_cpu/renderer.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

@@ -17,7 +17,7 @@
 #include "render_cpu/checkpoint.h"
 #include "render_cpu/frame.h"
 #include "render_cpu/renderer.h"
-#include "scene/camera_file.h"
+#include "scene/rig/camera_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

@@ -5,7 +5,7 @@
 #include "render_report.h"
 
 #include "render/settings.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <CLI/CLI.hpp>
 

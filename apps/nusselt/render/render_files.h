@@ -3,7 +3,7 @@
 
 #include "render.h"
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <filesystem>
 #include <vector>

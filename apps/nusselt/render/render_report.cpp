@@ -4,7 +4,7 @@
 #include "base/json_output.h"
 
 #include "render_cpu/line_choice.h"
-#include "scene/scene_size.h"
+#include "scene/model/scene_size.h"
 
 #include <fmt/core.h>
 

@@ -4,7 +4,7 @@
 #include "render.h"
 
 #include "render_cpu/renderer.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <nlohmann/json.hpp>
 

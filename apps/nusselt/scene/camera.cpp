@@ -1,8 +1,8 @@
 #include "camera.h"
 #include "apps/common/render_setup.h"
 
-#include "scene/camera_file.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
+#include "scene/rig/camera_file.h"
 
 #include <fmt/core.h>
 

@@ -1,10 +1,10 @@
 #include "info.h"
 #include "lights.h"
 
-#include "scene/bounds.h"
-#include "scene/light_area.h"
-#include "scene/scene_size.h"
-#include "scene/vector_math.h"
+#include "scene/model/bounds.h"
+#include "scene/model/light_area.h"
+#include "scene/model/scene_size.h"
+#include "scene/model/vector_math.h"
 
 #include <algorithm>
 #include <chrono>
@@ -113,7 +113,7 @@ void print_lights(const scene::Scene& scene) {
     }
     print_weak_lights(scene);
     for (const scene::LineLight& light : scene.line_lights) {
-        const double extent = length(to_double(light.end) - to_double(light.begin));
+        const double extent = length(to_double(light.end) - to_double(light.start));
         fmt::print("  {}: length {:.6g} m, radius {:.6g} m, radiance {} W/(sr m^2), power {} W\n",
                    scene.emitters[light.emitter].name, extent, light.radius, text(light.radiance),
                    text(scaled(scene::area(light) * std::numbers::pi, light.radiance)));

@@ -1,9 +1,9 @@
 #include "lights.h"
 
-#include "scene/load.h"
-#include "scene/rig.h"
-#include "scene/rig_json.h"
-#include "scene/rig_text.h"
+#include "scene/import/importers.h"
+#include "scene/rig/rig.h"
+#include "scene/rig/rig_json.h"
+#include "scene/rig/rig_text.h"
 
 #include <fmt/core.h>
 

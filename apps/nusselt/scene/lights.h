@@ -1,7 +1,7 @@
 #pragma once
 /// `nusselt lights SCENE`, and the option --lights of it and other commands.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <CLI/CLI.hpp>
 

@@ -7,7 +7,7 @@
 
 #include "gpu/device.h"
 #include "render_vulkan/shadow_scene.h"
-#include "scene/camera_file.h"
+#include "scene/rig/camera_file.h"
 #include "viewer/run_viewer.h"
 
 #include <CLI/CLI.hpp>

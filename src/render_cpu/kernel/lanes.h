@@ -4,7 +4,7 @@
 /// Everything in this folder is compiled once per instruction set. Standard containers and algorithms must
 /// not appear here: the linker would merge their inline functions across instruction sets.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <nusselt/core/vec.h>
 #include <nusselt/simd/pack.h>

@@ -1,7 +1,7 @@
 /// PLY meshes: alone, and as a light in a scene.
 
 #include "files.h"
-#include "scene/ply.h"
+#include "scene/import/ply/ply.h"
 #include "scene_contract.h"
 
 namespace nusselt::fuzz {

@@ -1,10 +1,10 @@
 /// Light rigs, applied to a scene with lights of all sorts; what is left of it must again be a rig.
 
 #include "files.h"
-#include "scene/load.h"
-#include "scene/rig.h"
-#include "scene/rig_json.h"
-#include "scene/rig_text.h"
+#include "scene/import/importers.h"
+#include "scene/rig/rig.h"
+#include "scene/rig/rig_json.h"
+#include "scene/rig/rig_text.h"
 #include "scene_contract.h"
 
 namespace nusselt::fuzz {

@@ -1,7 +1,7 @@
 #include "scene_contract.h"
 
 #include "files.h"
-#include "scene/load.h"
+#include "scene/import/importers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,7 +119,7 @@ std::string_view violation_of_lights(const Scene& scene) {
         if (!is_radiance(light.radiance)) return "a radiance is negative or not finite";
     }
     for (const LineLight& light : scene.line_lights) {
-        if (!is_position(light.begin) || !is_position(light.end))
+        if (!is_position(light.start) || !is_position(light.end))
             return "an end of a tube is not finite or too large";
         if (!(light.radius >= 0 && light.radius <= kLargestCoordinate)) return "a tube has no valid radius";
         if (!is_radiance(light.radiance)) return "a radiance is negative or not finite";

@@ -1,7 +1,7 @@
 #pragma once
 /// What renderers rely on in a scene that the importer accepted.
 
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 #include <filesystem>
 #include <string_view>

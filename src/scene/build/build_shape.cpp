@@ -1,0 +1,110 @@
+#include "scene/build/build_shape.h"
+
+#include "scene/build/polygon_light.h"
+#include "scene/build/tessellate.h"
+#include "scene/build/tube_light.h"
+#include "scene/input/file_bytes.h"
+#include "scene/model/vector_math.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace nusselt::scene {
+
+namespace {
+
+Mesh read_mesh(const MeshFile& file, SceneBudget& budget) {
+    try {
+        return file.read(FileBytes(file.path, budget.inflated_bytes).view());
+    } catch (const std::runtime_error& error) {
+        throw SceneError(file.origin, "mesh file '" + file.path.string() + "': " + error.what());
+    }
+}
+
+/// The triangles of a surface in its own coordinates.
+class MeshMaker {
+public:
+    MeshMaker(const PlacedShape& placed, SceneBudget& budget, Warnings& warnings)
+        : placed_(placed), budget_(budget), warnings_(warnings) {}
+
+    Mesh operator()(Mesh& mesh) const { return placed_.is_shared ? mesh : std::move(mesh); }
+    Mesh operator()(const MeshFile& file) const { return read_mesh(file, budget_); }
+    Mesh operator()(const Tube&) const { return {}; }
+    template <class Curved>
+    Mesh operator()(const Curved& curved) const {
+        return tessellate(curved, placed_, warnings_);
+    }
+
+private:
+    const PlacedShape& placed_;
+    SceneBudget& budget_;
+    Warnings& warnings_;
+};
+
+/// Whether the emitting side is the reverse of that of the right-hand rule in world space.
+bool flips_orientation(const PlacedShape& placed) {
+    return placed.shape->reverse_orientation != (linear_determinant(placed.world_from_object) < 0);
+}
+
+void move_to_world(const PlacedShape& placed, Mesh& mesh) {
+    const Transform& transform = placed.world_from_object;
+    if (!is_identity(transform)) {
+        for (Float3& p : mesh.positions) p = to_float(transform_point(transform, to_double(p)));
+        for (Float3& n : mesh.normals) n = to_float(transform_normal(transform, to_double(n)));
+    }
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        if (is_valid_coordinate(mesh.positions[i])) continue;
+        const Float3& p = mesh.positions[i];
+        throw SceneError(placed.shape->origin, subject_of(*placed.shape) + ": vertex " + std::to_string(i) +
+                                                   " at (" + to_text(p.x) + ", " + to_text(p.y) + ", " +
+                                                   to_text(p.z) + ") is not finite or beyond 1e15 m");
+    }
+    for (Float3& n : mesh.normals) {
+        if (placed.shape->reverse_orientation) n = {-n.x, -n.y, -n.z};
+        // Meshes come with broken normals; the geometric one is better than NaN.
+        if (!is_valid_coordinate(n)) n = {0, 0, 0};
+    }
+    constexpr float kMaxTextureCoordinate = 1e6f;
+    for (Float2& uv : mesh.uvs)
+        if (!(std::fabs(uv.x) <= kMaxTextureCoordinate && std::fabs(uv.y) <= kMaxTextureCoordinate))
+            uv = {0, 0};
+    if (flips_orientation(placed))
+        for (Triangle& triangle : mesh.triangles) std::swap(triangle.vertex[1], triangle.vertex[2]);
+}
+
+/// Renderers normalise normals in float, so their squares must not vanish there.
+void remove_degenerate_triangles(Mesh& mesh) {
+    const auto is_degenerate = [&](const Triangle& triangle) {
+        const Double3 p0 = to_double(mesh.positions[triangle.vertex[0]]);
+        const Double3 normal = cross(to_double(mesh.positions[triangle.vertex[1]]) - p0,
+                                     to_double(mesh.positions[triangle.vertex[2]]) - p0);
+        return dot(normal, normal) < static_cast<double>(std::numeric_limits<float>::min());
+    };
+    mesh.degenerate_triangles += std::erase_if(mesh.triangles, is_degenerate);
+}
+
+BuiltShape build_surface(const PlacedShape& placed, SceneBudget& budget, const FormatWords& words) {
+    BuiltShape built;
+    static_cast<Mesh&>(built) = std::visit(MeshMaker(placed, budget, built.warnings), placed.shape->geometry);
+    move_to_world(placed, built);
+    remove_degenerate_triangles(built);
+    if (!is_black(placed.shape->emission.radiance) && !built.triangles.empty())
+        add_polygon_lights(*placed.shape, words, built);
+    return built;
+}
+
+} // namespace
+
+std::string subject_of(const ShapeDescription& shape) { return "shape \"" + shape.kind + '"'; }
+
+BuiltShape build_shape(const PlacedShape& placed, SceneBudget& budget, const FormatWords& words) {
+    const ShapeDescription& shape = *placed.shape;
+    BuiltShape built = becomes_tube(shape.geometry, shape.emission, placed.world_from_object)
+                           ? build_tube(placed, words)
+                           : build_surface(placed, budget, words);
+    built.warnings.append(shape.warnings);
+    return built;
+}
+
+} // namespace nusselt::scene

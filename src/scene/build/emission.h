@@ -1,0 +1,28 @@
+#pragma once
+/// What shapes emit.
+
+#include "scene/input/diagnostics.h"
+#include "scene/model/scene.h"
+
+#include <optional>
+#include <string_view>
+
+namespace nusselt::scene {
+
+struct Emission {
+    Float3 radiance = {0, 0, 0}; ///< to be scaled to `power`, if there is one
+    bool two_sided = false;
+    /// What each shape would emit in all if the luminance of `radiance` were one [W].
+    std::optional<double> power;
+};
+
+/// Throws SceneError at `location` unless all channels are finite and not negative.
+/// \param subject  what the format calls the emission
+void check_radiance(const Float3& radiance, std::string_view subject, const Location& location);
+
+/// The radiance of a shape of this area [m^2], counted once where it emits to both sides. Throws SceneError at
+/// `location` if it is not finite in single precision.
+/// \param subject  what the format calls the emission
+Float3 radiance_of(const Emission& emission, double area, std::string_view subject, const Location& location);
+
+} // namespace nusselt::scene

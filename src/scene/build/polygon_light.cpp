@@ -1,0 +1,47 @@
+#include "scene/build/polygon_light.h"
+
+#include "scene/build/polygons/polygon_merge.h"
+#include "scene/model/vector_math.h"
+
+#include <utility>
+
+namespace nusselt::scene {
+
+namespace {
+
+Double3 right_hand_normal(const Mesh& mesh, const Triangle& triangle) {
+    const Double3 p0 = to_double(mesh.positions[triangle.vertex[0]]);
+    return cross(to_double(mesh.positions[triangle.vertex[1]]) - p0,
+                 to_double(mesh.positions[triangle.vertex[2]]) - p0);
+}
+
+void orient_by_shading_normals(Mesh& mesh) {
+    if (mesh.normals.empty()) return;
+    for (Triangle& triangle : mesh.triangles) {
+        Double3 shading;
+        for (const std::uint32_t vertex : triangle.vertex)
+            shading = shading + to_double(mesh.normals[vertex]);
+        if (dot(shading, right_hand_normal(mesh, triangle)) < 0)
+            std::swap(triangle.vertex[1], triangle.vertex[2]);
+    }
+}
+
+} // namespace
+
+void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words, BuiltShape& built) {
+    orient_by_shading_normals(built);
+    const Float3 radiance = radiance_of(shape.emission, area(built), words.emission, shape.origin);
+    PolygonPartition partition = merge_coplanar_triangles(built.positions, built.triangles);
+    built.triangle_light = std::move(partition.polygon_of_triangle);
+    built.polygon_lights.reserve(partition.polygons.size());
+    for (const PolygonVertices& polygon : partition.polygons)
+        built.polygon_lights.push_back({0, polygon, radiance, shape.emission.two_sided});
+    if (!shape.is_invisible) return;
+    built.positions = {};
+    built.normals = {};
+    built.uvs = {};
+    built.triangles = {};
+    built.triangle_light = {};
+}
+
+} // namespace nusselt::scene

@@ -1,0 +1,21 @@
+#pragma once
+/// Images that lights emit, each of which is replaced by its mean colour.
+
+#include "scene/build/textures/texture_image.h"
+
+#include <filesystem>
+#include <map>
+
+namespace nusselt::scene {
+
+/// Mean colours of images that lights emit, each decoded once.
+class EmissionImages {
+public:
+    /// Throws SceneError at the location of the request if the image cannot be read.
+    Float3 mean_colour(const ImageRequest& request, SceneBudget& budget, Warnings& warnings);
+
+private:
+    std::map<std::filesystem::path, Float3> mean_colours_;
+};
+
+} // namespace nusselt::scene

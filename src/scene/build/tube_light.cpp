@@ -1,0 +1,95 @@
+#include "scene/build/tube_light.h"
+
+#include "scene/model/light_area.h"
+#include "scene/model/vector_math.h"
+
+#include <cmath>
+#include <optional>
+
+namespace nusselt::scene {
+
+namespace {
+
+/// By how much a transform scales the cross section of a cylinder around the z axis; nothing if that does not stay
+/// round, or if the axis does not stay perpendicular to it.
+std::optional<double> cross_section_scale(const Transform& world_from_object) {
+    const Double3 x = transform_vector(world_from_object, {1, 0, 0});
+    const Double3 y = transform_vector(world_from_object, {0, 1, 0});
+    const Double3 z = transform_vector(world_from_object, {0, 0, 1});
+    // Scene files round angles and matrices to a few digits.
+    constexpr double kTolerance = 1e-3;
+    const double scale = std::sqrt(length(x) * length(y));
+    const bool is_round = std::fabs(length(x) - length(y)) <= kTolerance * scale &&
+                          std::fabs(dot(x, y)) <= kTolerance * scale * scale;
+    const double across = std::max(std::fabs(dot(x, z)), std::fabs(dot(y, z)));
+    if (!is_round || across > kTolerance * scale * length(z)) return std::nullopt;
+    return scale;
+}
+
+LineLight light_of(const Tube& tube, const Transform& world_from_object) {
+    const double scale = std::cbrt(std::fabs(linear_determinant(world_from_object)));
+    LineLight light;
+    light.model = tube.model;
+    light.start = to_float(transform_point(world_from_object, to_double(tube.start)));
+    light.end = to_float(transform_point(world_from_object, to_double(tube.end)));
+    light.radius = static_cast<float>(tube.radius * scale);
+    return light;
+}
+
+LineLight light_of(const Cylinder& cylinder, const Transform& world_from_object) {
+    LineLight light;
+    light.model = TubeModel::solid;
+    light.start = to_float(transform_point(world_from_object, {0, 0, cylinder.z_min}));
+    light.end = to_float(transform_point(world_from_object, {0, 0, cylinder.z_max}));
+    light.radius = static_cast<float>(cylinder.radius * cross_section_scale(world_from_object).value());
+    return light;
+}
+
+void check(const ShapeDescription& shape, const LineLight& light, const Location& radius_origin) {
+    const std::string subject = subject_of(shape) + ": ";
+    if (!is_valid_coordinate(light.start) || !is_valid_coordinate(light.end))
+        throw SceneError(shape.origin, subject + "an end point is not finite or beyond 1e15 m");
+    if (!(light.radius > 0) || !is_valid_coordinate({light.radius, 0, 0}))
+        throw SceneError(radius_origin,
+                         subject + "radius must be positive and at most 1e15 m after the transform, found " +
+                             to_text(light.radius));
+    if (!(length(to_double(light.end) - to_double(light.start)) > 0))
+        throw SceneError(shape.origin, subject + "both end points are equal");
+}
+
+} // namespace
+
+bool becomes_tube(const Geometry& geometry, const Emission& emission, const Transform& world_from_object) {
+    if (std::holds_alternative<Tube>(geometry)) return true;
+    const Cylinder* cylinder = std::get_if<Cylinder>(&geometry);
+    return cylinder != nullptr && !is_black(emission.radiance) && cylinder->sweep_degrees == 360 &&
+           cross_section_scale(world_from_object);
+}
+
+BuiltShape build_tube(const PlacedShape& placed, const FormatWords& words) {
+    const ShapeDescription& shape = *placed.shape;
+    BuiltShape built;
+    LineLight light;
+    if (const Tube* tube = std::get_if<Tube>(&shape.geometry)) {
+        light = light_of(*tube, placed.world_from_object);
+        check(shape, light, tube->radius_origin);
+    } else {
+        const auto& cylinder = std::get<Cylinder>(shape.geometry);
+        light = light_of(cylinder, placed.world_from_object);
+        if (shape.reverse_orientation)
+            built.warnings.add(shape.origin,
+                               subject_of(shape) + ": " + words.reversal + " is ignored, it emits outwards");
+        check(shape, light, cylinder.radius_origin);
+    }
+    if (is_black(shape.emission.radiance)) {
+        built.warnings.add(shape.origin, subject_of(shape) + ": ignored where it does not emit light");
+        return built;
+    }
+    Emission outwards = shape.emission;
+    outwards.two_sided = false;
+    light.radiance = radiance_of(outwards, area(light), words.emission, shape.origin);
+    built.line_lights = {light};
+    return built;
+}
+
+} // namespace nusselt::scene

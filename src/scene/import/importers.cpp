@@ -1,0 +1,56 @@
+#include "scene/import/importers.h"
+
+#include "scene/build/build_scene.h"
+#include "scene/import/pbrt/parser.h"
+#include "scene/input/file_bytes.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace nusselt::scene {
+
+namespace {
+
+constexpr Importer kImporters[] = {
+    {"pbrt", ".pbrt", read_pbrt, looks_like_pbrt},
+};
+
+std::string extension_of(const std::filesystem::path& path) {
+    const std::filesystem::path extension = path.extension();
+    return extension == ".gz" ? path.stem().extension().string() : extension.string();
+}
+
+[[noreturn]] void fail_unknown(const std::filesystem::path& path, std::span<const Importer> formats) {
+    std::string known;
+    for (const Importer& format : formats)
+        known += (known.empty() ? "" : ", ") + std::string(format.name) + " (" +
+                 std::string(format.extension) + ')';
+    throw std::runtime_error("scene file '" + path.string() +
+                             "': its format is unknown; supported formats: " + known);
+}
+
+const Importer& find_importer(const std::filesystem::path& path, std::span<const Importer> formats) {
+    const std::string extension = extension_of(path);
+    for (const Importer& format : formats)
+        if (format.extension == extension) return format;
+    FileBytes contents;
+    try {
+        SceneBudget budget;
+        contents = FileBytes(path, budget.inflated_bytes);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error("scene file '" + path.string() + "': " + error.what());
+    }
+    for (const Importer& format : formats)
+        if (format.recognizes(contents.view())) return format;
+    fail_unknown(path, formats);
+}
+
+} // namespace
+
+std::span<const Importer> importers() { return kImporters; }
+
+Scene load_scene(const std::filesystem::path& path, std::span<const Importer> formats) {
+    return build_scene(find_importer(path, formats).read(path));
+}
+
+} // namespace nusselt::scene

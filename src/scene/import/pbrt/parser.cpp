@@ -1,0 +1,520 @@
+#include "scene/import/pbrt/parser.h"
+
+#include "scene/build/textures/surface_formula.h"
+#include "scene/import/pbrt/camera_directive.h"
+#include "scene/import/pbrt/emission_directive.h"
+#include "scene/import/pbrt/film_directive.h"
+#include "scene/import/pbrt/graphics_state.h"
+#include "scene/import/pbrt/materials.h"
+#include "scene/import/pbrt/objects.h"
+#include "scene/import/pbrt/surface_variants.h"
+#include "scene/import/pbrt/syntax/source_reader.h"
+#include "scene/import/pbrt/syntax/type_counter.h"
+#include "scene/import/pbrt/textures.h"
+#include "scene/model/vector_math.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+namespace nusselt::scene {
+
+namespace {
+
+struct FilterDirective {
+    std::string type;
+    ParameterList parameters;
+};
+
+class Parser {
+public:
+    explicit Parser(const std::filesystem::path& main_path)
+        : reader_(main_path, scene_.sources, *scene_.budget) {
+        scene_.words = {"ObjectInstance", "AreaLightSource", "ReverseOrientation"};
+        materials_.push_back({{"default", "matte", ParameterList(), {}}, {}});
+        state_.current().material = &materials_.back();
+    }
+
+    SceneDescription run();
+
+private:
+    using Handler = void (Parser::*)();
+
+    static const std::unordered_map<std::string_view, Handler>& handlers();
+
+    void parse_file();
+    void parse_directive(const Token& directive);
+    void skip_unknown_directive(const Token& directive);
+
+    // Directives.
+    void identity();
+    void translate();
+    void scale();
+    void rotate();
+    void look_at_directive();
+    void transform();
+    void concat_transform();
+    void coordinate_system();
+    void coord_sys_transform();
+    void transform_times();
+    void reverse_orientation() {
+        state_.current().reverse_orientation = !state_.current().reverse_orientation;
+    }
+    void active_transform();
+    void attribute_begin() { state_.push(StateBlock::attribute, location_); }
+    void attribute_end() { state_.pop(StateBlock::attribute, location_); }
+    void transform_begin() { state_.push(StateBlock::transform, location_); }
+    void transform_end() { state_.pop(StateBlock::transform, location_); }
+    void object_begin();
+    void object_end();
+    void object_instance();
+    void attribute();
+    void world_begin();
+    void world_end() {}
+    void include();
+    void import();
+    void camera();
+    void film();
+    void pixel_filter();
+    void ignore_with_parameters();
+    void ignore_option() { read_parameters(); }
+    void ignore_medium();
+    void medium_interface();
+    void color_space();
+    void light_source();
+    void area_light_source();
+    void material();
+    void make_named_material();
+    void named_material();
+    void texture();
+    void shape();
+
+    std::string read_string() { return reader_.read_string(); }
+    ParameterContext context() const {
+        return {version_, state_.current().colour_space, &reader_.main_file(), scene_.budget.get(), nullptr};
+    }
+    ParameterList read_parameters() { return {reader_.tokens(), location_, context()}; }
+    /// With the defaults that Attribute directives set.
+    ParameterList read_parameters(AttributeTarget target);
+    std::filesystem::path resolve(const std::string& name) const { return reader_.resolve(name, location_); }
+    void concatenate(const Transform& t) { set_transform(state_.current().ctm * t); }
+    void set_transform(const Transform& t);
+    MaterialEntry& add_material(const std::string& name, const std::string& type, ParameterList parameters);
+    int used_material(MaterialEntry& entry);
+    int invisible_light_material();
+
+    SceneDescription scene_;
+    SourceReader reader_;
+    StateStack state_;
+    std::deque<MaterialEntry> materials_;
+    std::unordered_map<std::string, MaterialEntry*> named_materials_;
+    std::unordered_map<std::string, Transform> coordinate_systems_;
+    std::optional<int> invisible_light_material_;
+    TextureTable textures_;
+    SurfaceVariants surface_variants_;
+    EmissionImages emission_images_;
+    TypeCounter left_out_shapes_;
+    std::vector<ShapeDirective> shapes_; ///< of the world
+    ObjectTable objects_;
+    TypeCounter ignored_lights_;
+    std::optional<CameraDescription> camera_;
+    std::optional<FilterDirective> pixel_filter_;
+    std::optional<Location> world_begin_;
+    PbrtVersion version_ = PbrtVersion::v4; ///< until the film tells
+
+    Location location_; ///< of the directive that is being read
+};
+
+const std::unordered_map<std::string_view, Parser::Handler>& Parser::handlers() {
+    static const std::unordered_map<std::string_view, Handler> kHandlers = {
+        {"Identity", &Parser::identity},
+        {"Translate", &Parser::translate},
+        {"Scale", &Parser::scale},
+        {"Rotate", &Parser::rotate},
+        {"LookAt", &Parser::look_at_directive},
+        {"Transform", &Parser::transform},
+        {"ConcatTransform", &Parser::concat_transform},
+        {"CoordinateSystem", &Parser::coordinate_system},
+        {"CoordSysTransform", &Parser::coord_sys_transform},
+        {"TransformTimes", &Parser::transform_times},
+        {"ReverseOrientation", &Parser::reverse_orientation},
+        {"ActiveTransform", &Parser::active_transform},
+        {"AttributeBegin", &Parser::attribute_begin},
+        {"AttributeEnd", &Parser::attribute_end},
+        {"TransformBegin", &Parser::transform_begin},
+        {"TransformEnd", &Parser::transform_end},
+        {"ObjectBegin", &Parser::object_begin},
+        {"ObjectEnd", &Parser::object_end},
+        {"ObjectInstance", &Parser::object_instance},
+        {"Attribute", &Parser::attribute},
+        {"WorldBegin", &Parser::world_begin},
+        {"WorldEnd", &Parser::world_end},
+        {"Include", &Parser::include},
+        {"Import", &Parser::import},
+        {"Camera", &Parser::camera},
+        {"Film", &Parser::film},
+        {"PixelFilter", &Parser::pixel_filter},
+        {"Sampler", &Parser::ignore_with_parameters},
+        {"Integrator", &Parser::ignore_with_parameters},
+        {"SurfaceIntegrator", &Parser::ignore_with_parameters},
+        {"Renderer", &Parser::ignore_with_parameters},
+        {"Accelerator", &Parser::ignore_with_parameters},
+        {"ColorSpace", &Parser::color_space},
+        {"Option", &Parser::ignore_option},
+        {"MakeNamedMedium", &Parser::ignore_medium},
+        {"MediumInterface", &Parser::medium_interface},
+        {"LightSource", &Parser::light_source},
+        {"AreaLightSource", &Parser::area_light_source},
+        {"Material", &Parser::material},
+        {"MakeNamedMaterial", &Parser::make_named_material},
+        {"NamedMaterial", &Parser::named_material},
+        {"Texture", &Parser::texture},
+        {"Shape", &Parser::shape},
+    };
+    return kHandlers;
+}
+
+SceneDescription Parser::run() {
+    coordinate_systems_["world"] = {};
+    parse_file();
+    state_.warn_if_open(scene_.warnings);
+    left_out_shapes_.warn("shapes that are not supported are left out, the first one here", scene_.warnings);
+    ignored_lights_.warn("light sources that are no area lights are left out, the first one here",
+                         scene_.warnings);
+    const Location begin{&scene_.sources.front(), 1};
+    if (!camera_) scene_.warnings.add(begin, "there is no Camera, it looks from the origin along +z");
+    if (!camera_) camera_.emplace().origin = begin;
+    scene_.camera = *camera_;
+    scene_.textures = textures_.planner().plan();
+    if (pixel_filter_)
+        scene_.film.filter =
+            read_pixel_filter(pixel_filter_->type, pixel_filter_->parameters, version_, scene_.warnings);
+    scene_.shapes = read_shapes(std::move(shapes_));
+    scene_.objects = objects_.take_objects();
+    scene_.instances = objects_.take_instances();
+    return std::move(scene_);
+}
+
+void Parser::parse_file() {
+    while (reader_.tokens().peek().kind != TokenKind::end) parse_directive(reader_.tokens().next());
+}
+
+void Parser::parse_directive(const Token& directive) {
+    location_ = reader_.tokens().location(directive);
+    if (directive.kind != TokenKind::word)
+        throw SceneError(location_, "expected a directive, found " + Tokenizer::describe(directive));
+    const auto handler = handlers().find(directive.text);
+    if (handler != handlers().end()) {
+        (this->*handler->second)();
+    } else {
+        skip_unknown_directive(directive);
+    }
+}
+
+void Parser::skip_unknown_directive(const Token& directive) {
+    const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
+    if (!is_capital(directive.text.front()))
+        throw SceneError(location_, "expected a directive, found " + Tokenizer::describe(directive));
+    scene_.warnings.add(location_, "directive '" + shortened(directive.text) + "' is unknown and skipped");
+    const auto is_argument = [&](const Token& token) {
+        return token.kind != TokenKind::end &&
+               (token.kind != TokenKind::word || !is_capital(token.text.front()));
+    };
+    while (is_argument(reader_.tokens().peek())) reader_.tokens().next();
+}
+
+ParameterList Parser::read_parameters(AttributeTarget target) {
+    ParameterContext context = this->context();
+    context.defaults = state_.current().defaults[static_cast<std::size_t>(target)];
+    return {reader_.tokens(), location_, std::move(context)};
+}
+
+// ---- Transforms and state
+
+void Parser::set_transform(const Transform& t) {
+    if (state_.current().moves_begin) {
+        state_.current().ctm = t;
+    } else {
+        scene_.warnings.add(location_, "motion",
+                            "moving objects stand still: transforms for EndTime alone are ignored");
+    }
+}
+
+void Parser::identity() { set_transform({}); }
+void Parser::translate() { concatenate(translation(reader_.read_vector())); }
+void Parser::scale() { concatenate(scaling(reader_.read_vector())); }
+
+void Parser::rotate() {
+    const double degrees = reader_.read_number();
+    const Double3 axis = reader_.read_vector();
+    if (length(axis) == 0) throw SceneError(location_, "Rotate: the axis is zero");
+    concatenate(rotation(degrees, axis));
+}
+
+void Parser::look_at_directive() {
+    const Double3 eye = reader_.read_vector();
+    const Double3 target = reader_.read_vector();
+    const Double3 up = reader_.read_vector();
+    const auto t = look_at(eye, target, up);
+    if (!t) throw SceneError(location_, "LookAt: the viewing direction is zero or parallel to the up vector");
+    concatenate(*t);
+}
+
+void Parser::transform() { set_transform(reader_.read_matrix()); }
+void Parser::concat_transform() { concatenate(reader_.read_matrix()); }
+void Parser::coordinate_system() { coordinate_systems_[read_string()] = state_.current().ctm; }
+
+void Parser::coord_sys_transform() {
+    const std::string name = read_string();
+    const auto found = coordinate_systems_.find(name);
+    if (found == coordinate_systems_.end())
+        throw SceneError(location_, "coordinate system \"" + shortened(name) + "\" is not defined");
+    state_.current().ctm = found->second;
+}
+
+void Parser::transform_times() {
+    reader_.read_number();
+    reader_.read_number();
+}
+
+void Parser::active_transform() {
+    const Token token = reader_.tokens().next();
+    if (token.text != "All" && token.text != "StartTime" && token.text != "EndTime")
+        throw SceneError(location_, "ActiveTransform: expected All, StartTime or EndTime, found " +
+                                        Tokenizer::describe(token));
+    state_.current().moves_begin = token.text != "EndTime";
+}
+
+void Parser::object_begin() {
+    const std::string name = read_string();
+    objects_.begin(name, location_, scene_.warnings);
+    state_.push(StateBlock::object, location_);
+}
+
+void Parser::object_end() {
+    state_.pop(StateBlock::object, location_);
+    objects_.end();
+}
+
+void Parser::object_instance() {
+    objects_.add_instance(read_string(), state_.current().ctm, location_, scene_.words);
+}
+
+void Parser::attribute() {
+    const std::string name = read_string();
+    const ParameterList parameters = read_parameters();
+    const auto target = std::find(kAttributeTargets.begin(), kAttributeTargets.end(), name);
+    if (target == kAttributeTargets.end())
+        throw SceneError(location_,
+                         "Attribute \"" + shortened(name) +
+                             "\": expected \"shape\", \"light\", \"material\", \"texture\" or \"medium\"");
+    auto& defaults = state_.current().defaults[static_cast<std::size_t>(target - kAttributeTargets.begin())];
+    auto all = parameters.appended_to(defaults != nullptr ? *defaults : std::vector<Parameter>{});
+    constexpr std::size_t kMaxDefaults = 64;
+    if (all.size() > kMaxDefaults)
+        throw SceneError(location_, "Attribute \"" + name + "\": more than " + std::to_string(kMaxDefaults) +
+                                        " parameters; enclose them in AttributeBegin and AttributeEnd");
+    defaults = std::make_shared<const std::vector<Parameter>>(std::move(all));
+}
+
+void Parser::world_begin() {
+    if (world_begin_)
+        throw SceneError(location_, "WorldBegin again, the world begins at " + to_string(*world_begin_) +
+                                        "; split the file, one world each");
+    world_begin_ = location_;
+    state_.current().ctm = {};
+    state_.current().moves_begin = true;
+    coordinate_systems_["world"] = {};
+}
+
+void Parser::include() {
+    reader_.open(read_string(), location_);
+    parse_file();
+    reader_.close();
+}
+
+void Parser::import() {
+    const Location begin = location_;
+    state_.push(StateBlock::import, begin);
+    include();
+    state_.pop(StateBlock::import, begin);
+}
+
+// ---- Camera and film
+
+void Parser::camera() {
+    const std::string type = read_string();
+    ParameterList parameters = read_parameters();
+    camera_ = read_camera(type, parameters, state_.current().ctm, scene_.warnings);
+    const auto world_from_camera = inverse(state_.current().ctm);
+    if (world_from_camera) coordinate_systems_["camera"] = *world_from_camera;
+}
+
+void Parser::film() {
+    const std::string type = read_string();
+    ParameterList parameters = read_parameters();
+    scene_.film = read_film(type, parameters, scene_.warnings);
+    version_ = type == "image" ? PbrtVersion::v3 : PbrtVersion::v4;
+}
+
+/// Its defaults depend on the version, which the film may tell later.
+void Parser::pixel_filter() {
+    std::string type = read_string();
+    pixel_filter_ = {std::move(type), read_parameters()};
+}
+
+void Parser::ignore_with_parameters() {
+    read_string();
+    read_parameters();
+}
+
+// ---- Lights, materials, shapes
+
+void Parser::ignore_medium() {
+    ignore_with_parameters();
+    scene_.warnings.add(location_, "media", "participating media are ignored");
+}
+
+void Parser::medium_interface() {
+    read_string();
+    // v3 allows one name for both sides.
+    if (reader_.tokens().peek().kind == TokenKind::string) read_string();
+    scene_.warnings.add(location_, "media", "participating media are ignored");
+}
+
+void Parser::color_space() {
+    const std::string name = read_string();
+    const ColourSpace* const space = find_colour_space(name);
+    if (space == nullptr)
+        throw SceneError(location_,
+                         "ColorSpace \"" + shortened(name) +
+                             "\" is unknown; use \"srgb\", \"dci-p3\", \"rec2020\" or \"aces2065-1\"");
+    state_.current().colour_space = space;
+}
+
+void Parser::light_source() {
+    const std::string type = read_string();
+    read_parameters();
+    ignored_lights_.add(type, location_);
+}
+
+void Parser::area_light_source() {
+    const std::string type = read_string();
+    ParameterList parameters = read_parameters(AttributeTarget::light);
+    const std::filesystem::path image = resolve(parameters.string("filename", ""));
+    state_.current().emission = read_emission(type, parameters, image, emission_images_, scene_.warnings);
+}
+
+MaterialEntry& Parser::add_material(const std::string& name, const std::string& type,
+                                    ParameterList parameters) {
+    MaterialDirective directive{name, type, std::move(parameters), {}};
+    const std::string normal_map = directive.parameters.string("normalmap", "");
+    if (!normal_map.empty()) directive.normal_map = resolve(normal_map);
+    return materials_.emplace_back(MaterialEntry{std::move(directive), {}});
+}
+
+void Parser::material() {
+    const std::string type = read_string();
+    state_.current().material = &add_material(type, type, read_parameters(AttributeTarget::material));
+}
+
+void Parser::make_named_material() {
+    const std::string name = read_string();
+    ParameterList parameters = read_parameters(AttributeTarget::material);
+    const std::string type = parameters.string("type", "matte");
+    if (named_materials_.contains(name))
+        scene_.warnings.add(location_, "material \"" + shortened(name) +
+                                           "\" is defined again; the new one applies from here on");
+    named_materials_[name] = &add_material(name, type, std::move(parameters));
+}
+
+void Parser::named_material() {
+    const std::string name = read_string();
+    const auto found = named_materials_.find(name);
+    if (found == named_materials_.end())
+        throw SceneError(location_, "material \"" + shortened(name) + "\" is not defined");
+    state_.current().material = found->second;
+}
+
+void Parser::texture() {
+    TextureDirective directive;
+    directive.name = read_string();
+    const std::string type = read_string();
+    directive.texture_class = read_string();
+    directive.parameters = read_parameters(AttributeTarget::texture);
+    if (type != "float" && type != "spectrum" && type != "color")
+        throw SceneError(location_, "texture \"" + shortened(directive.name) +
+                                        "\": expected type \"float\" or \"spectrum\", found \"" +
+                                        shortened(type) + '"');
+    directive.type = type == "float" ? TextureType::number : TextureType::colour;
+    directive.image_path = resolve(directive.parameters.string("filename", ""));
+    textures_.define(directive, scene_.warnings);
+}
+
+int Parser::used_material(MaterialEntry& entry) {
+    if (!entry.index) {
+        const auto find_material = [&](const std::string& name) {
+            const auto found = named_materials_.find(name);
+            return found != named_materials_.end() ? &found->second->directive : nullptr;
+        };
+        const auto reduced = reduce_material(entry.directive, textures_, find_material, scene_.warnings);
+        entry.index = reduced ? static_cast<int>(scene_.materials.size()) : kInvisible;
+        if (reduced) scene_.materials.push_back(*reduced);
+    }
+    return *entry.index;
+}
+
+/// For lights on invisible surfaces.
+int Parser::invisible_light_material() {
+    if (!invisible_light_material_) {
+        invisible_light_material_ = static_cast<int>(scene_.materials.size());
+        scene_.materials.push_back(black_material());
+    }
+    return *invisible_light_material_;
+}
+
+void Parser::shape() {
+    ShapeDirective shape;
+    shape.type = read_string();
+    shape.parameters = read_parameters(AttributeTarget::shape);
+    const GraphicsState& state = state_.current();
+    shape.world_from_object = state.ctm;
+    shape.reverse_orientation = state.reverse_orientation;
+    shape.emission = state.emission;
+    if (!is_supported(shape.type)) {
+        left_out_shapes_.add(shape.type, location_);
+        return;
+    }
+    if (shape.type == "plymesh") shape.mesh_path = resolve(shape.parameters.string("filename", ""));
+    // Tubes are no surfaces, they need no material.
+    if (!is_tube(shape)) {
+        shape.material = used_material(*state.material);
+        if (shape.material == kInvisible && is_black(shape.emission.radiance)) return;
+        if (shape.material == kInvisible) shape.material = invisible_light_material();
+        shape.material =
+            surface_variants_.material(shape.material, shape, textures_, scene_.materials, scene_.warnings);
+    }
+    if (objects_.is_open())
+        objects_.add_shape(std::move(shape));
+    else
+        shapes_.push_back(std::move(shape));
+}
+
+} // namespace
+
+SceneDescription read_pbrt(const std::filesystem::path& path) { return Parser(path).run(); }
+
+bool looks_like_pbrt(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const std::size_t word = bytes.find_first_not_of(" \t\r\n");
+        if (word == std::string_view::npos) return false;
+        if (bytes[word] != '#') return bytes[word] >= 'A' && bytes[word] <= 'Z';
+        bytes.remove_prefix(std::min(bytes.find('\n', word), bytes.size()));
+    }
+    return false;
+}
+
+} // namespace nusselt::scene

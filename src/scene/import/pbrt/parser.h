@@ -1,0 +1,19 @@
+#pragma once
+/// The importer of pbrt's scenes, syntax v3 or v4.
+
+#include "scene/build/scene_description.h"
+
+#include <filesystem>
+#include <string_view>
+
+namespace nusselt::scene {
+
+/// Reads a scene file and what it includes. docs/materials.md says how materials, textures and lights are reduced. What
+/// the importer does not know it skips where that is safe, with a warning. Throws SceneError, or std::runtime_error if
+/// `path` cannot be read.
+SceneDescription read_pbrt(const std::filesystem::path& path);
+
+/// Whether a file that begins like this may be a scene: its first word begins with a capital letter.
+bool looks_like_pbrt(std::string_view bytes);
+
+} // namespace nusselt::scene

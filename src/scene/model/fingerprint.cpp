@@ -1,0 +1,139 @@
+#include "scene/model/fingerprint.h"
+
+#include "scene/model/content_hash.h"
+
+#include <cstdio>
+#include <string>
+#include <type_traits>
+
+// Members are listed by structured bindings: a new member does not compile until it is listed here.
+
+namespace nusselt::scene {
+
+namespace {
+
+/// Types whose bytes are all part of their value, so that arrays of them can be taken at once.
+template <class T>
+constexpr bool kIsPlain =
+    std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Float2> || std::is_same_v<T, Float3> ||
+    std::is_same_v<T, Triangle> || std::is_same_v<T, std::array<float, 12>>;
+
+class Fingerprint {
+public:
+    std::uint64_t value() const { return hash_.value(); }
+
+    template <class... Values>
+    void add_all(const Values&... values) {
+        (add(values), ...);
+    }
+
+    template <class T>
+    requires kIsPlain<T> void add(const T& value) {
+        hash_.add_bytes(&value, sizeof value);
+    }
+
+    void add(const std::string& text) { hash_.add_bytes(text.data(), text.size()); }
+
+    template <class T>
+    void add(const std::vector<T>& values) {
+        if constexpr (kIsPlain<T>) {
+            hash_.add_bytes(values.data(), values.size() * sizeof(T));
+        } else {
+            add(values.size());
+            for (const T& value : values) add(value);
+        }
+    }
+
+    template <class T>
+    void add(const std::optional<T>& value) {
+        add(value.has_value());
+        if (value) add(*value);
+    }
+
+    void add(const Texture& texture) {
+        const auto& [name, width, height, texels, channels, wrap, filter] = texture;
+        add_all(width, height, texels, channels, wrap, filter);
+    }
+
+    void add(const TextureUse& use) {
+        const auto& [texture, scale, offset] = use;
+        add_all(texture, scale, offset);
+    }
+
+    void add(const Material& material) {
+        const auto& [name, model, diffuse, diffuse_texture, f0, f0_texture, roughness, roughness_texture,
+                     alpha, alpha_texture, bump, bump_texture, bump_unit, normal_texture] = material;
+        add_all(model, diffuse, diffuse_texture, f0, f0_texture, roughness, roughness_texture, alpha,
+                alpha_texture, bump, bump_texture, bump_unit, normal_texture);
+    }
+
+    void add(const Emitter& emitter) { [[maybe_unused]] const auto& [name] = emitter; }
+
+    void add(const PolygonVertices& vertices) {
+        add(vertices.size());
+        for (const Float3& vertex : vertices) add(vertex);
+    }
+
+    void add(const PolygonLight& light) {
+        const auto& [emitter, vertices, radiance, two_sided] = light;
+        add_all(emitter, vertices, radiance, two_sided);
+    }
+
+    void add(const LineLight& light) {
+        const auto& [emitter, start, end, radius, radiance, model] = light;
+        add_all(emitter, start, end, radius, radiance, model);
+    }
+
+    void add(const Object& object) {
+        const auto& [name, first_triangle, triangle_count] = object;
+        add_all(first_triangle, triangle_count);
+    }
+
+    void add(const Instance& instance) {
+        const auto& [object, world_from_object] = instance;
+        add_all(object, world_from_object);
+    }
+
+    void add(const Camera& camera) {
+        const auto& [origin, origin_right, origin_down, corner, right, down] = camera;
+        add_all(origin, origin_right, origin_down, corner, right, down);
+    }
+
+    void add(const PixelBounds& bounds) {
+        const auto& [x_begin, y_begin, x_end, y_end] = bounds;
+        add_all(x_begin, y_begin, x_end, y_end);
+    }
+
+    void add(const PixelFilter& filter) {
+        const auto& [kind, radius_x, radius_y, sigma, b, c] = filter;
+        add_all(kind, radius_x, radius_y, sigma, b, c);
+    }
+
+    void add(const Film& film) {
+        const auto& [width, height, crop, filter, filename] = film;
+        add_all(width, height, crop, filter);
+    }
+
+    void add(const Scene& scene) {
+        const auto& [positions, normals, uvs, triangles, triangle_material, triangle_light, objects,
+                     instances, materials, textures, emitters, polygon_lights, line_lights, camera, film,
+                     warnings, radius] = scene;
+        add_all(positions, normals, uvs, triangles, triangle_material, triangle_light, objects, instances,
+                materials, textures, emitters, polygon_lights, line_lights, camera, film, radius);
+    }
+
+private:
+    ContentHash hash_;
+};
+
+} // namespace
+
+std::string fingerprint(const Scene& scene) {
+    Fingerprint result;
+    result.add(scene);
+    std::array<char, 17> text;
+    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(result.value()));
+    return text.data();
+}
+
+} // namespace nusselt::scene

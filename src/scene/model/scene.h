@@ -1,0 +1,241 @@
+#pragma once
+/// The scene model: what importers produce and renderers consume. Plain data in world space; units are
+/// metres and W/(sr m^2). Types of include/nusselt do not appear here on purpose: their names differ between
+/// instruction sets, while this data crosses from baseline code into code compiled for each of them.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nusselt::scene {
+
+struct Float2 {
+    float x, y;
+};
+
+struct Float3 {
+    float x, y, z;
+    bool operator==(const Float3&) const = default;
+};
+
+/// What a texture is outside of the unit square.
+enum class TextureWrap : std::uint32_t {
+    repeat, ///< the same again
+    clamp,  ///< the nearest texel of the border
+    black,  ///< 0
+};
+
+enum class TextureFilter : std::uint32_t { bilinear, nearest };
+
+/// Linear texels. Row 0 is the row at texture coordinate v = 0 (the bottom of the image file), texel centres lie at
+/// (i + 0.5) / size.
+struct Texture {
+    std::string name = {};
+    int width = 0;
+    int height = 0;
+    std::vector<float> texels = {}; ///< channels * width * height; finite and not negative
+    int channels = 3;               ///< 3 for RGB, 1 for grey
+    TextureWrap wrap = TextureWrap::repeat;
+    TextureFilter filter = TextureFilter::bilinear;
+};
+
+/// Where a surface looks up a texture: at scale * uv + offset.
+struct TextureUse {
+    int texture = -1; ///< index into Scene::textures, -1 for none
+    Float2 scale = {1, 1};
+    Float2 offset = {0, 0};
+};
+
+enum class BrdfModel : std::uint32_t {
+    lambert,   ///< diffuse / pi; f0 and roughness are unused
+    frostbite, ///< Disney diffuse (renormalised) plus GGX
+};
+
+/// What heights of bump maps are measured in.
+enum class BumpUnit : std::uint32_t {
+    metre,
+    /// As in pbrt v3, on triangles with normals: the derivatives of the position by the texture coordinates count as
+    /// unit vectors, and point backwards. Other triangles: metres.
+    texture_coordinate,
+};
+
+/// What a surface reduces to (docs/materials.md lists the reductions). Textures are
+/// multiplied with the numbers beside them; where those are no colours, the first channel of a texture counts.
+struct Material {
+    std::string name = {};
+    BrdfModel model = BrdfModel::lambert;
+    Float3 diffuse = {0.5f, 0.5f, 0.5f}; ///< diffuse albedo
+    TextureUse diffuse_texture = {};
+    Float3 f0 = {0.04f, 0.04f, 0.04f}; ///< specular reflectance at normal incidence
+    TextureUse f0_texture = {};
+    float roughness = 1.0f; ///< perceptual roughness in [0, 1]; the GGX alpha is its square
+    TextureUse roughness_texture = {};
+    float alpha = 1.0f; ///< probability that the surface is there
+    TextureUse alpha_texture = {};
+    float bump = 1.0f; ///< height of texels of value 1 of the bump texture [bump_unit]
+    TextureUse bump_texture = {};
+    BumpUnit bump_unit = BumpUnit::metre;
+    /// Normals in the tangent frame (dp/du orthogonalised, normal x that, normal), a component n as (n + 1) / 2. Takes
+    /// precedence over the bump texture.
+    TextureUse normal_texture = {};
+};
+
+/// One light as the user sees it: an emissive shape, which may consist of many polygons, or a tube. Light rigs and
+/// layers of images refer to lights by these.
+struct Emitter {
+    std::string name;
+};
+
+/// The corners of a polygonal light, in place: scenes have hundreds of thousands of such lights.
+class PolygonVertices {
+public:
+    static constexpr std::size_t kCapacity = 8;
+
+    PolygonVertices() = default;
+    PolygonVertices(std::initializer_list<Float3> vertices) { assign(vertices.begin(), vertices.end()); }
+    PolygonVertices(const std::vector<Float3>& vertices) { assign(vertices.begin(), vertices.end()); }
+    /// \throws std::length_error if these are too many
+    template <class Iterator>
+    void assign(Iterator begin, Iterator end) {
+        size_ = 0;
+        for (; begin != end; ++begin) push_back(*begin);
+    }
+    /// \throws std::length_error if it is full
+    void push_back(const Float3& vertex);
+
+    std::size_t size() const { return size_; }
+    const Float3* begin() const { return vertices_.data(); }
+    const Float3* end() const { return vertices_.data() + size_; }
+    Float3* begin() { return vertices_.data(); }
+    Float3* end() { return vertices_.data() + size_; }
+    const Float3& operator[](std::size_t i) const { return vertices_[i]; }
+    Float3& operator[](std::size_t i) { return vertices_[i]; }
+    /// \throws std::out_of_range
+    const Float3& at(std::size_t i) const;
+    const Float3& back() const { return vertices_[size_ - 1]; }
+
+private:
+    std::array<Float3, kCapacity> vertices_ = {};
+    std::uint32_t size_ = 0;
+};
+
+/// A convex planar light of 3 to 8 vertices. It emits `radiance` to the side from which the vertices appear
+/// counter-clockwise, or to both sides.
+struct PolygonLight {
+    std::uint32_t emitter = 0; ///< index into Scene::emitters
+    PolygonVertices vertices = {};
+    Float3 radiance = {0, 0, 0};
+    bool two_sided = false;
+};
+
+/// What light a tube gives.
+enum class TubeModel : std::uint32_t {
+    linear, ///< that of a linear light with brightness radiance * radius [W/(sr m)]: the limit of a small radius
+    solid, ///< that of a closed cylinder, which shines outwards from its lateral surface and its caps
+};
+
+/// A tube. Cameras see it as a cylinder of this radius; it casts no shadows.
+struct LineLight {
+    std::uint32_t emitter = 0; ///< index into Scene::emitters
+    Float3 start = {0, 0, 0};
+    Float3 end = {0, 0, 0};
+    float radius = 0;
+    Float3 radiance = {0, 0, 0};
+    TubeModel model = TubeModel::solid;
+};
+
+/// A camera whose rays depend linearly on the raster position (x, y), in pixels of the whole film with y downwards and
+/// pixel centres at half integers: a ray starts at origin + x * origin_right + y * origin_down and has the (not
+/// normalised) direction corner + x * right + y * down. Perspective cameras have rays from one point, orthographic ones
+/// parallel rays.
+struct Camera {
+    Float3 origin = {0, 0, 0};
+    Float3 origin_right = {0, 0, 0};
+    Float3 origin_down = {0, 0, 0};
+    Float3 corner = {0, 0, 1};
+    Float3 right = {1, 0, 0};
+    Float3 down = {0, 1, 0};
+    bool operator==(const Camera&) const = default;
+};
+
+enum class FilterKind : std::uint32_t { box, triangle, gaussian, mitchell };
+
+/// How a pixel weighs radiance around its centre. The defaults are a box of one pixel.
+struct PixelFilter {
+    FilterKind kind = FilterKind::box;
+    float radius_x = 0.5f; ///< half the width of its support in pixels
+    float radius_y = 0.5f;
+    float sigma = 0.5f; ///< gaussian: standard deviation in pixels; its value at the radius is subtracted
+    float b = 1.0f / 3; ///< mitchell
+    float c = 1.0f / 3; ///< mitchell
+};
+
+/// Pixels x_begin <= x < x_end, y_begin <= y < y_end of a film.
+struct PixelBounds {
+    int x_begin = 0;
+    int y_begin = 0;
+    int x_end = 0;
+    int y_end = 0;
+};
+
+struct Film {
+    int width = 640;
+    int height = 480;
+    std::optional<PixelBounds> crop = {}; ///< the pixels to render, not empty; nothing for all
+    PixelFilter filter = {};
+    std::string filename = {}; ///< as written in the scene file; may be empty
+};
+
+struct Triangle {
+    std::uint32_t vertex[3];
+};
+
+/// Surfaces that instances share, in coordinates of their own: a range of Scene::triangles. They do not emit.
+struct Object {
+    std::string name;
+    std::uint32_t first_triangle = 0;
+    std::uint32_t triangle_count = 0;
+};
+
+/// A copy of an object.
+struct Instance {
+    std::uint32_t object = 0; ///< index into Scene::objects
+    /// Affine and invertible; rows of four: the linear part, then the translation.
+    std::array<float, 12> world_from_object = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+};
+
+struct Scene {
+    // Vertices, all arrays equally long. A zero normal means: use the geometric normal of the triangle.
+    std::vector<Float3> positions;
+    std::vector<Float3> normals;
+    std::vector<Float2> uvs;
+    // Triangles, all arrays equally long. The geometric normal is (v1 - v0) x (v2 - v0). Those in world space come
+    // first, then those of objects.
+    std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> triangle_material; ///< index into materials
+    std::vector<std::int32_t> triangle_light; ///< index into polygon_lights, -1 for surfaces that do not emit
+    std::vector<Object> objects;
+    std::vector<Instance> instances;
+
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<Emitter> emitters;
+    std::vector<PolygonLight> polygon_lights; ///< in the order of their emitters
+    std::vector<LineLight> line_lights;       ///< likewise
+    Camera camera;
+    Film film;
+
+    std::vector<std::string> warnings; ///< "file:line: message", in order, each kind once
+    double radius = 0;                 ///< half the diagonal of the bounding box of surfaces and lights [m]
+};
+
+/// Number of triangles that belong to no object.
+inline std::size_t world_triangle_count(const Scene& scene) {
+    return scene.objects.empty() ? scene.triangles.size() : scene.objects.front().first_triangle;
+}
+
+} // namespace nusselt::scene

@@ -1,0 +1,29 @@
+#pragma once
+/// Files that hold a camera and the size of its images; docs/rendering.md describes them.
+
+#include "scene/model/scene.h"
+
+#include <filesystem>
+#include <string>
+
+namespace nusselt::scene {
+
+/// A camera with the film that its raster positions refer to.
+struct FilmedCamera {
+    Camera camera;
+    int width = 0;
+    int height = 0;
+};
+
+/// {"version": 1, "film": [width, height], "camera": {...}}: `origin`, where rays through the upper left corner of the film
+/// start [m], and `corner`, their direction; `right` and `down`, by how much that changes from one side of the film to the
+/// other; for parallel rays `origin_right` and `origin_down`, by how much the origin does.
+std::string to_camera_text(const FilmedCamera& view);
+
+/// Throws std::runtime_error, what() being "file: path of the value: message", if it cannot be read or is not as above.
+FilmedCamera read_camera_file(const std::filesystem::path& path);
+
+/// Gives the scene another camera and a film of that size without a crop.
+void apply_camera(const FilmedCamera& view, Scene& scene);
+
+} // namespace nusselt::scene

@@ -1,0 +1,359 @@
+#include "scene/rig/rig.h"
+
+#include "scene/colour/spectrum.h"
+#include "scene/input/message.h"
+#include "scene/model/polygon.h"
+#include "scene/model/vector_math.h"
+#include "scene/rig/light_edit.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <unordered_set>
+
+namespace nusselt::scene {
+
+namespace {
+
+/// Of the surfaces of lights that are added without a material.
+constexpr const char* kBlackMaterial = "black surface of a light";
+
+// Of materials without a specular component that get one.
+constexpr Float3 kDefaultF0 = {0.04f, 0.04f, 0.04f};
+constexpr float kDefaultRoughness = 0.5f;
+
+[[noreturn]] void fail(const std::string& where, const std::string& message) {
+    throw std::runtime_error(message_line(where + ": " + message));
+}
+
+[[noreturn]] void fail(const std::string& where, const std::string& field, const std::string& message) {
+    fail(where + "." + field, message);
+}
+
+/// A name in quotes.
+std::string in_quotes(const std::string& name) { return '"' + shortened(name) + '"'; }
+
+/// The names of materials, or of the lights that have not been removed, by index. Scenes may have very many and rigs may
+/// select very often, so that nothing is copied.
+using NameOf = std::function<const std::string*(std::size_t)>; // null where there is nothing
+
+/// \param kind   "light" or "material"
+/// \param count  of the indices, from 0
+std::string nothing_selected(const std::string& kind, const Selector& selector, std::size_t count,
+                             const NameOf& name_of) {
+    constexpr std::size_t kShown = 10;
+    std::string list;
+    std::size_t named = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string* const name = name_of(i);
+        if (name != nullptr && ++named <= kShown) list += (named > 1 ? ", " : " ") + in_quotes(*name);
+    }
+    std::string text;
+    if (const auto* const index = std::get_if<std::size_t>(&selector))
+        text = "there is no " + kind + " " + std::to_string(*index) + " (they are counted from 0)";
+    else
+        text = "no " + kind + " is called " + in_quotes(std::get<std::string>(selector));
+    if (named == 0) return text + "; the scene has no " + kind + "s";
+    text += std::string("; there ") + (named == 1 ? "is" : "are") + list;
+    if (named > kShown) text += " and " + std::to_string(named - kShown) + " more";
+    return text;
+}
+
+/// Indices of what a selector means.
+std::vector<std::size_t> select(const Selector& selector, std::size_t count, const NameOf& name_of) {
+    if (const auto* const index = std::get_if<std::size_t>(&selector)) {
+        if (*index < count && name_of(*index) != nullptr) return {*index};
+        return {};
+    }
+    const std::string& pattern = std::get<std::string>(selector);
+    std::vector<std::size_t> exact;
+    std::vector<std::size_t> matching;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string* const name = name_of(i);
+        if (name == nullptr) continue;
+        if (*name == pattern) exact.push_back(i);
+        if (exact.empty() && matches(*name, pattern)) matching.push_back(i);
+    }
+    return exact.empty() ? matching : exact;
+}
+
+Transform about(const Double3& center, const Transform& transform) {
+    return translation(center) * transform * translation(-1.0 * center);
+}
+
+template <class Change>
+void change_radiance(EditableLight& light, const Change& change) {
+    for (PolygonLight& polygon : light.polygons) polygon.radiance = change(polygon.radiance);
+    for (LineLight& tube : light.tubes) tube.radiance = change(tube.radiance);
+}
+
+/// What a rig gives takes the place of a number and of the image beside it.
+template <class Value>
+void replace(const std::optional<Value>& given, Value& value, TextureUse& texture) {
+    if (!given) return;
+    value = *given;
+    texture = {};
+}
+
+Float3 scaled(double factor, const Float3& colour) { return to_float(factor * to_double(colour)); }
+
+/// Whether renderers can work with the shape: they normalise normals in float.
+bool is_valid(const PolygonLight& polygon) {
+    const auto& p = polygon.vertices;
+    if (!std::all_of(p.begin(), p.end(), is_valid_coordinate)) return false;
+    for (std::size_t i = 1; i + 1 < p.size(); ++i) {
+        const Double3 normal =
+            cross(to_double(p[i]) - to_double(p[0]), to_double(p[i + 1]) - to_double(p[0]));
+        if (!(dot(normal, normal) >= static_cast<double>(std::numeric_limits<float>::min()))) return false;
+    }
+    return true;
+}
+
+bool is_valid(const LineLight& tube) {
+    return is_valid_coordinate(tube.start) && is_valid_coordinate(tube.end) && tube.radius > 0 &&
+           is_valid_coordinate({tube.radius, 0, 0}) &&
+           length(to_double(tube.end) - to_double(tube.start)) > 0;
+}
+
+/// The colour of a black body in linear sRGB, with the luminance 1. Below 1900 K it lies outside of the gamut.
+Double3 blackbody_colour(double kelvin) {
+    const Double3 rgb = srgb_of(blackbody(kelvin), SpectrumUse::illuminant);
+    const Double3 visible = {std::max(rgb.x, 0.0), std::max(rgb.y, 0.0), std::max(rgb.z, 0.0)};
+    return (1 / luminance(visible)) * visible;
+}
+
+class RigApplication {
+public:
+    explicit RigApplication(Scene& scene) : scene_(scene), editor_(scene) {
+        for (const EditableLight& light : editor_.lights()) names_.insert(light.name);
+    }
+    void apply(const RigMaterial& entry);
+    void apply(const RigLight& entry);
+    void finish() { editor_.finish(); }
+
+private:
+    // Both throw if there is nothing.
+    std::vector<std::size_t> select_materials(const std::string& where, const Selector& selector) const;
+    std::vector<std::size_t> select_lights(const std::string& where, const Selector& selector);
+    void add(const RigLight& entry, const LightAddition& addition);
+    std::uint32_t surface_material(const RigLight& entry, const LightAddition& addition);
+    std::uint32_t black_material();
+    void change(const RigLight& entry, EditableLight& light, const Double3& offset);
+    void rename(const RigLight& entry, EditableLight& light);
+    void move(const RigLight& entry, EditableLight& light, const Double3& offset);
+    static void change_emission(const RigLight& entry, EditableLight& light);
+
+    Scene& scene_;
+    LightEditor editor_;
+    std::unordered_multiset<std::string> names_;
+};
+
+void RigApplication::apply(const RigMaterial& entry) {
+    for (const std::size_t i : select_materials(entry.where, entry.materials)) {
+        Material& material = scene_.materials[i];
+        const bool becomes_glossy = material.model == BrdfModel::lambert &&
+                                    entry.model.value_or(material.model) == BrdfModel::frostbite;
+        if (becomes_glossy) {
+            replace(std::optional(kDefaultF0), material.f0, material.f0_texture);
+            replace(std::optional(kDefaultRoughness), material.roughness, material.roughness_texture);
+        }
+        if (entry.model) material.model = *entry.model;
+        replace(entry.diffuse, material.diffuse, material.diffuse_texture);
+        replace(entry.f0, material.f0, material.f0_texture);
+        replace(entry.roughness, material.roughness, material.roughness_texture);
+    }
+}
+
+void RigApplication::apply(const RigLight& entry) {
+    if (const auto* const addition = std::get_if<LightAddition>(&entry.lights)) {
+        add(entry, *addition);
+        return;
+    }
+    const std::vector<std::size_t> selected = select_lights(entry.where, std::get<Selector>(entry.lights));
+    const LightChanges& changes = entry.changes;
+    if (selected.size() > 1 && (changes.name || changes.shape || changes.center))
+        fail(entry.where, "light",
+             "selects " + std::to_string(selected.size()) + " lights, but a " +
+                 (changes.name    ? "name"
+                  : changes.shape ? "shape"
+                                  : "center") +
+                 " is for one light only");
+    for (const std::size_t i : selected) change(entry, editor_.lights()[i], {});
+}
+
+std::vector<std::size_t> RigApplication::select_materials(const std::string& where,
+                                                          const Selector& selector) const {
+    const auto name_of = [&](std::size_t i) { return &scene_.materials[i].name; };
+    std::vector<std::size_t> selected = select(selector, scene_.materials.size(), name_of);
+    if (selected.empty())
+        fail(where, "material", nothing_selected("material", selector, scene_.materials.size(), name_of));
+    return selected;
+}
+
+std::vector<std::size_t> RigApplication::select_lights(const std::string& where, const Selector& selector) {
+    const std::vector<EditableLight>& lights = editor_.lights();
+    const auto name_of = [&](std::size_t i) { return lights[i].is_removed ? nullptr : &lights[i].name; };
+    std::vector<std::size_t> selected = select(selector, lights.size(), name_of);
+    if (selected.empty()) fail(where, "light", nothing_selected("light", selector, lights.size(), name_of));
+    return selected;
+}
+
+void RigApplication::add(const RigLight& entry, const LightAddition& addition) {
+    const std::uint32_t material = surface_material(entry, addition);
+    const bool is_single = addition.offsets.size() == 1;
+    if (editor_.lights().size() + addition.offsets.size() > kMaxRigLights)
+        fail(entry.where, "add",
+             "the scene would have more than " + std::to_string(kMaxRigLights) + " lights");
+    for (std::size_t i = 0; i < addition.offsets.size(); ++i) {
+        const std::string name = is_single ? addition.name : addition.name + " " + std::to_string(i);
+        if (names_.count(name) > 0)
+            fail(entry.where, "add", "there is a light " + in_quotes(name) + " already; take another name");
+        names_.insert(name);
+        EditableLight& light = editor_.lights().emplace_back();
+        light.name = name;
+        light.material = material;
+        change(entry, light, addition.offsets[i]);
+    }
+}
+
+std::uint32_t RigApplication::surface_material(const RigLight& entry, const LightAddition& addition) {
+    if (!addition.material) return black_material();
+    // Not a pattern: a surface has one material.
+    const auto& materials = scene_.materials;
+    const auto found = std::find_if(materials.begin(), materials.end(), [&](const Material& material) {
+        return material.name == *addition.material;
+    });
+    if (found == materials.end())
+        fail(entry.where, "material",
+             nothing_selected("material", *addition.material, materials.size(),
+                              [&](std::size_t i) { return &materials[i].name; }));
+    return static_cast<std::uint32_t>(found - materials.begin());
+}
+
+std::uint32_t RigApplication::black_material() {
+    for (std::size_t i = scene_.materials.size(); i-- > 0;)
+        if (scene_.materials[i].name == kBlackMaterial) return static_cast<std::uint32_t>(i);
+    Material material;
+    material.name = kBlackMaterial;
+    material.diffuse = {0, 0, 0};
+    scene_.materials.push_back(material);
+    return static_cast<std::uint32_t>(scene_.materials.size() - 1);
+}
+
+void RigApplication::change(const RigLight& entry, EditableLight& light, const Double3& offset) {
+    const LightChanges& changes = entry.changes;
+    rename(entry, light);
+    if (changes.shape) {
+        const bool has_material =
+            !light.polygons.empty() || std::holds_alternative<LightAddition>(entry.lights);
+        editor_.replace_shape(light, *changes.shape, has_material ? light.material : black_material());
+    }
+    move(entry, light, offset);
+    const auto valid = [](const auto& part) { return is_valid(part); };
+    if (!std::all_of(light.polygons.begin(), light.polygons.end(), valid) ||
+        !std::all_of(light.tubes.begin(), light.tubes.end(), valid))
+        fail(entry.where,
+             "light " + in_quotes(light.name) + " would be beyond 1e15 m or too small to have an area");
+    change_emission(entry, light);
+    if (changes.two_sided) {
+        if (!light.tubes.empty())
+            fail(entry.where, "two_sided",
+                 "light " + in_quotes(light.name) + " is a tube, which has one side only");
+        for (PolygonLight& polygon : light.polygons) polygon.two_sided = *changes.two_sided;
+    }
+    if (changes.enabled) light.is_enabled = *changes.enabled;
+    if (!changes.remove) return;
+    light.is_removed = true;
+    names_.erase(names_.find(light.name));
+}
+
+void RigApplication::rename(const RigLight& entry, EditableLight& light) {
+    const std::optional<std::string>& name = entry.changes.name;
+    if (!name || *name == light.name) return;
+    if (names_.count(*name) > 0)
+        fail(entry.where, "name", "there is a light " + in_quotes(*name) + " already; take another name");
+    names_.erase(names_.find(light.name));
+    names_.insert(*name);
+    light.name = *name;
+}
+
+void RigApplication::move(const RigLight& entry, EditableLight& light, const Double3& offset) {
+    const LightChanges& changes = entry.changes;
+    const Double3 center = changes.scale || changes.rotation || changes.center ? centroid(light) : Double3{};
+    Transform transform;
+    if (changes.scale) {
+        const Double3& scale = *changes.scale;
+        if (!light.tubes.empty() && (scale.x != scale.y || scale.x != scale.z))
+            fail(entry.where, "scale",
+                 "light " + in_quotes(light.name) + " is a tube; scale it by one number");
+        transform = about(center, scaling(scale));
+    }
+    if (changes.rotation)
+        transform = about(center, rotation(changes.rotation->degrees, changes.rotation->axis)) * transform;
+    // Compared in the precision of files, so that a centroid that was printed moves nothing.
+    if (changes.center)
+        transform = translation(to_double(*changes.center) - to_double(to_float(center))) * transform;
+    if (changes.move) transform = translation(*changes.move) * transform;
+    transform = translation(offset) * transform;
+    if (!is_identity(transform)) editor_.transform(light, transform);
+}
+
+void RigApplication::change_emission(const RigLight& entry, EditableLight& light) {
+    const LightChanges& changes = entry.changes;
+    if (changes.radiance) change_radiance(light, [&](const Float3&) { return *changes.radiance; });
+    if ((changes.kelvin || changes.power) && is_black(light))
+        fail(entry.where, changes.kelvin ? "kelvin" : "power",
+             "light " + in_quotes(light.name) + " is black, which this cannot change; give its radiance");
+    if (changes.kelvin) {
+        const Double3 colour = blackbody_colour(*changes.kelvin);
+        change_radiance(light, [&](const Float3& c) { return to_float(luminance(to_double(c)) * colour); });
+    }
+    if (changes.scale_radiance)
+        change_radiance(light, [&](const Float3& c) { return scaled(*changes.scale_radiance, c); });
+    if (changes.power) {
+        const double factor = *changes.power / luminous_power(light);
+        change_radiance(light, [&](const Float3& c) { return scaled(factor, c); });
+    }
+    const auto check = [&](const Float3& c) {
+        if (!(std::max({c.x, c.y, c.z}) <= kMaxRadiance))
+            fail(entry.where,
+                 "light " + in_quotes(light.name) + " gets a radiance above " + to_text(kMaxRadiance));
+        return c;
+    };
+    change_radiance(light, check);
+}
+
+} // namespace
+
+bool matches(std::string_view text, std::string_view pattern) {
+    // After a star, the text that it stands for grows as long as the rest does not match; only the last star matters.
+    std::size_t t = 0;
+    std::size_t p = 0;
+    std::size_t after_star = pattern.npos;
+    std::size_t star_end = 0;
+    while (t < text.size()) {
+        if (p < pattern.size() && pattern[p] == '*') {
+            after_star = ++p;
+            star_end = t;
+        } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
+            ++p;
+            ++t;
+        } else if (after_star != pattern.npos) {
+            p = after_star;
+            t = ++star_end;
+        } else {
+            return false;
+        }
+    }
+    return pattern.find_first_not_of('*', p) == pattern.npos;
+}
+
+void apply_rig(const Rig& rig, Scene& scene) {
+    RigApplication application(scene);
+    for (const RigMaterial& entry : rig.materials) application.apply(entry);
+    for (const RigLight& entry : rig.lights) application.apply(entry);
+    application.finish();
+}
+
+} // namespace nusselt::scene

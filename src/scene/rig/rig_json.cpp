@@ -1,0 +1,227 @@
+#include "scene/rig/rig_json.h"
+
+#include "scene/input/json_node.h"
+#include "scene/model/polygon.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nusselt::scene {
+
+namespace {
+
+constexpr double kMaxScale = 1e9;
+constexpr double kMaxDegrees = 3600;
+constexpr std::size_t kMaxIndex = 0xffffffff;
+
+Float3 read_point(const JsonNode& node) { return float3_of(node.triple(-kMaxCoordinate, kMaxCoordinate)); }
+Float3 read_radiance(const JsonNode& node) { return float3_of(node.triple_or_number(0, kMaxRadiance)); }
+float read_length(const JsonNode& node) { return static_cast<float>(node.positive_number(kMaxCoordinate)); }
+
+/// A vector of length 1.
+Double3 read_direction(const JsonNode& node) {
+    const Double3 v = to_double(read_point(node));
+    if (!(length(v) > 0)) node.fail("must not be zero");
+    return normalized(v);
+}
+
+Selector read_selector(const JsonNode& node) {
+    if (node.is_text()) return node.text();
+    if (!node.is_number()) node.fail_type("an index or a name");
+    return node.integer(0, kMaxIndex);
+}
+
+std::vector<Float3> read_polygon(const JsonNode& node) {
+    std::vector<Float3> vertices;
+    std::vector<Double3> points;
+    for (const JsonNode& vertex : node.elements()) {
+        vertices.push_back(read_point(vertex));
+        points.push_back(to_double(vertices.back()));
+    }
+    if (const auto defect = find_polygon_defect(points)) node.fail(*defect);
+    return vertices;
+}
+
+std::vector<Float3> read_panel(const JsonNode& node) {
+    node.check_fields({"center", "normal", "up", "width", "height"});
+    const Double3 center = to_double(read_point(node.at("center")));
+    const Double3 normal = read_direction(node.at("normal"));
+    constexpr double kMinSine = 1e-3;
+    Double3 up = {0, 1, 0};
+    if (const auto given = node.find("up")) {
+        up = read_direction(*given);
+        if (length(cross(up, normal)) < kMinSine) given->fail("must not be parallel to the normal");
+    } else if (length(cross(up, normal)) < kMinSine) {
+        up = {0, 0, 1};
+    }
+    const Double3 right = normalized(cross(up, normal));
+    const Double3 x = (0.5 * read_length(node.at("width"))) * right;
+    const Double3 y = (0.5 * read_length(node.at("height"))) * cross(normal, right);
+    return {to_float(center - x - y), to_float(center + x - y), to_float(center + x + y),
+            to_float(center - x + y)};
+}
+
+TubeShape read_tube(const JsonNode& node) {
+    node.check_fields({"begin", "end", "radius", "finite"});
+    TubeShape tube;
+    tube.start = read_point(node.at("begin"));
+    tube.end = read_point(node.at("end"));
+    tube.radius = read_length(node.at("radius"));
+    if (!(length(to_double(tube.end) - to_double(tube.start)) > 0)) node.fail("begin and end are equal");
+    if (const auto finite = node.find("finite"))
+        tube.model = finite->boolean() ? TubeModel::solid : TubeModel::linear;
+    return tube;
+}
+
+Rotation read_rotation(const JsonNode& node) {
+    node.check_fields({"axis", "degrees"});
+    return {read_direction(node.at("axis")), node.at("degrees").number(-kMaxDegrees, kMaxDegrees)};
+}
+
+Double3 read_scale(const JsonNode& node) {
+    const Float3 scale = float3_of(node.triple_or_number(0, kMaxScale));
+    if (!(std::min({scale.x, scale.y, scale.z}) > 0)) node.fail("must be above 0");
+    return to_double(scale);
+}
+
+/// Offsets of a grid, the first axis running fastest.
+std::vector<Double3> read_copies(const JsonNode& node) {
+    node.check_fields({"count", "step"});
+    const JsonNode count = node.at("count");
+    const std::vector<JsonNode> counts = count.elements();
+    const std::vector<JsonNode> steps = node.at("step").elements();
+    if (counts.empty() || counts.size() > 3 || counts.size() != steps.size())
+        node.fail("needs as many counts as steps, 1 to 3, found " + std::to_string(counts.size()) + " and " +
+                  std::to_string(steps.size()));
+    std::vector<Double3> offsets = {{}};
+    for (std::size_t axis = 0; axis < counts.size(); ++axis) {
+        const std::size_t n = counts[axis].integer(1, kMaxRigLights);
+        const Double3 step = to_double(read_point(steps[axis]));
+        if (offsets.size() * n > kMaxRigLights)
+            count.fail("gives more than " + std::to_string(kMaxRigLights) + " lights");
+        const std::size_t row = offsets.size();
+        for (std::size_t i = row; i < row * n; ++i)
+            offsets.push_back(offsets[i % row] + static_cast<double>(i / row) * step);
+    }
+    return offsets;
+}
+
+/// The only one of these fields that an entry has, or nothing. Throws if it has several.
+std::optional<JsonNode> find_one(const JsonNode& entry, std::initializer_list<std::string_view> fields) {
+    std::optional<JsonNode> found;
+    std::string_view found_name;
+    for (const std::string_view name : fields) {
+        std::optional<JsonNode> node = entry.find(name);
+        if (!node) continue;
+        if (found)
+            entry.fail("has \"" + std::string(found_name) + "\" and \"" + std::string(name) +
+                       "\"; keep one of them");
+        found = std::move(node);
+        found_name = name;
+    }
+    return found;
+}
+
+std::optional<LightShape> read_shape(const JsonNode& entry) {
+    if (!find_one(entry, {"polygon", "panel", "tube"})) return std::nullopt;
+    if (const auto polygon = entry.find("polygon")) return read_polygon(*polygon);
+    if (const auto panel = entry.find("panel")) return read_panel(*panel);
+    return read_tube(entry.at("tube"));
+}
+
+LightChanges read_changes(const JsonNode& entry) {
+    LightChanges changes;
+    if (const auto node = entry.find("name")) changes.name = node->text();
+    changes.shape = read_shape(entry);
+    if (const auto node = entry.find("scale")) changes.scale = read_scale(*node);
+    if (const auto node = entry.find("rotate")) changes.rotation = read_rotation(*node);
+    if (const auto node = entry.find("center")) changes.center = read_point(*node);
+    if (const auto node = entry.find("move")) changes.move = to_double(read_point(*node));
+    find_one(entry, {"radiance", "scale_radiance", "power"});
+    if (const auto node = entry.find("radiance")) changes.radiance = read_radiance(*node);
+    if (const auto node = entry.find("kelvin")) changes.kelvin = node->number(1000, 40000);
+    if (const auto node = entry.find("power")) changes.power = node->number(0, kMaxRadiance);
+    if (const auto node = entry.find("scale_radiance"))
+        changes.scale_radiance = node->number(0, kMaxRadiance);
+    if (const auto node = entry.find("two_sided")) changes.two_sided = node->boolean();
+    if (const auto node = entry.find("enabled")) changes.enabled = node->boolean();
+    if (const auto node = entry.find("remove")) changes.remove = node->boolean();
+    return changes;
+}
+
+LightAddition read_addition(const JsonNode& entry, const LightChanges& changes) {
+    LightAddition addition;
+    addition.name = entry.at("add").text();
+    if (!changes.shape) entry.fail("adds a light without a shape; give a polygon, a panel or a tube");
+    if (!changes.radiance && !changes.power) entry.fail("adds a light; give its radiance or its power");
+    if (const auto name = entry.find("name")) name->fail("the name of a new light stands in \"add\"");
+    if (const auto material = entry.find("material")) {
+        if (std::holds_alternative<TubeShape>(*changes.shape)) material->fail("tubes have no material");
+        addition.material = material->text();
+    }
+    const auto copies = entry.find("copies");
+    addition.offsets = copies ? read_copies(*copies) : std::vector<Double3>{{}};
+    return addition;
+}
+
+RigLight read_light(const JsonNode& entry) {
+    entry.check_fields({"light",    "add",   "comment", "name",      "polygon", "panel",         "tube",
+                        "material", "scale", "rotate",  "center",    "move",    "copies",        "radiance",
+                        "kelvin",   "power", "enabled", "two_sided", "remove",  "scale_radiance"});
+    if (!find_one(entry, {"light", "add"}))
+        entry.fail("needs the field \"light\", which selects lights, or \"add\" with the name of a new one");
+    RigLight result;
+    result.where = entry.where();
+    result.changes = read_changes(entry);
+    if (const auto light = entry.find("light")) {
+        for (const char* field : {"copies", "material"})
+            if (const auto node = entry.find(field)) node->fail("is for lights that are added");
+        result.lights = read_selector(*light);
+    } else {
+        result.lights = read_addition(entry, result.changes);
+    }
+    return result;
+}
+
+BrdfModel read_model(const JsonNode& node) {
+    const std::string name = node.text();
+    if (name == "lambert") return BrdfModel::lambert;
+    if (name == "frostbite") return BrdfModel::frostbite;
+    node.fail_type("\"lambert\" or \"frostbite\"");
+}
+
+RigMaterial read_material(const JsonNode& entry) {
+    entry.check_fields({"material", "comment", "model", "diffuse", "f0", "roughness"});
+    RigMaterial result;
+    result.where = entry.where();
+    result.materials = read_selector(entry.at("material"));
+    if (const auto node = entry.find("diffuse")) result.diffuse = float3_of(node->triple_or_number(0, 1));
+    if (const auto node = entry.find("f0")) result.f0 = float3_of(node->triple_or_number(0, 1));
+    if (const auto node = entry.find("roughness")) result.roughness = static_cast<float>(node->number(0, 1));
+    const bool is_glossy = result.f0 || result.roughness;
+    if (const auto node = entry.find("model")) {
+        result.model = read_model(*node);
+        if (is_glossy && *result.model == BrdfModel::lambert)
+            node->fail("\"lambert\" has no f0 and no roughness");
+    } else if (is_glossy) {
+        result.model = BrdfModel::frostbite;
+    }
+    return result;
+}
+
+} // namespace
+
+Rig read_rig(const std::filesystem::path& path) {
+    const nlohmann::json document = read_json(path);
+    const JsonNode root(document, path);
+    root.check_fields({"version", "comment", "lights", "materials"});
+    root.at("version").integer(1, 1);
+    Rig rig;
+    if (const auto lights = root.find("lights"))
+        for (const JsonNode& entry : lights->elements()) rig.lights.push_back(read_light(entry));
+    if (const auto materials = root.find("materials"))
+        for (const JsonNode& entry : materials->elements()) rig.materials.push_back(read_material(entry));
+    return rig;
+}
+
+} // namespace nusselt::scene
