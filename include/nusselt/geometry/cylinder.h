@@ -29,9 +29,10 @@ NUSSELT_INLINE Real scale_of(const Cylinder<Real>& cylinder) noexcept {
         max(max(max(abs(p0.x), abs(p0.y)), abs(p0.z)), max(cylinder.axis.length, cylinder.radius)));
 }
 
+/// The same cylinder in all lanes.
 template <class Real, class Single>
 NUSSELT_INLINE Cylinder<Real> broadcast(const Cylinder<Single>& c) noexcept {
-    return {{broadcast<Real>(c.axis.p0), broadcast<Real>(c.axis.s), Real(c.axis.length)}, Real(c.radius)};
+    return {broadcast<Real>(c.axis), Real(c.radius)};
 }
 
 template <class Real>

@@ -14,6 +14,12 @@ struct LineSegment {
     Real length;   ///< [m]
 };
 
+/// The same segment in all lanes.
+template <class Real, class Single>
+NUSSELT_INLINE LineSegment<Real> broadcast(const LineSegment<Single>& line) noexcept {
+    return {broadcast<Real>(line.p0), broadcast<Real>(line.s), Real(line.length)};
+}
+
 /// The segment from begin to end [m].
 template <class Real>
 NUSSELT_INLINE LineSegment<Real> make_line(const Vec3<Real>& begin, const Vec3<Real>& end) noexcept {

@@ -5,6 +5,7 @@
 /// N. Billen, P. Dutre 2016, Line Sampling for Direct Illumination, CGF 35(4), doi:10.1111/cgf.12948: Sec. 4 and 5.1.
 /// Deviations: convex polygons instead of triangles; the density of Sec. 5.1.2 peaks at 2 / (b - a), not 2 / area.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/trig.h>
 #include <nusselt/geometry/convex_polygon.h>
 #include <nusselt/geometry/line_segment.h>
@@ -56,6 +57,12 @@ struct Chord {
     Real offset; ///< [m]
     Interval<Real> extent;
 };
+
+/// The same chord in all lanes.
+template <class Real, class Single>
+NUSSELT_HD inline Chord<Real> broadcast(const Chord<Single>& chord) noexcept {
+    return {Real(chord.offset), {Real(chord.extent.begin), Real(chord.extent.end)}};
+}
 
 /// A part of a line of the light.
 template <class Real>
@@ -130,11 +137,8 @@ public:
 
     /// Broadcasts a family to all lanes of a pack, to take many lines of one light.
     template <class Single>
-    NUSSELT_HD explicit LineFamily(const LineFamily<Single, N>& single) noexcept
-        : plane_(broadcast<Real>(single.plane_)), scale_(single.scale_), scaled_area_(single.scaled_area_) {
-        for (int k = 0; k < N; ++k)
-            knot_[k] = {Real(single.knot_[k].offset),
-                        {Real(single.knot_[k].extent.begin), Real(single.knot_[k].extent.end)}};
+    NUSSELT_HD explicit LineFamily(const LineFamily<Single, N>& single) noexcept {
+        broadcast_members<Real>(*this, single);
     }
 
     NUSSELT_HD const LinePlane<Real>& plane() const noexcept { return plane_; }
@@ -238,9 +242,6 @@ public:
     NUSSELT_HD Real area() const noexcept { return scaled_area_ / scale_; }
 
 private:
-    template <class, int>
-    friend class LineFamily;
-
     /// Neighbouring knots.
     struct Span {
         Chord<Real> left, right;
@@ -278,6 +279,12 @@ private:
     Chord<Real> knot_[N]; ///< through the vertices, by increasing offset; between them chords are linear
     Real scale_;          ///< a power of two: one over the extent of the light, up to a factor of 2
     Real scaled_area_;    ///< area times the scale [m]: areas themselves leave the range of Real earlier
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.plane_, self.knot_, self.scale_, self.scaled_area_);
+    }
 };
 
 template <class Real, int N>

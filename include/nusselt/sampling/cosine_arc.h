@@ -8,6 +8,7 @@
 /// from the begin of the light; the start takes the cosine with the normal into account; the iteration also runs
 /// near the ends, where it needs no exception in this form.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/geometry/clip_line.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -27,6 +28,9 @@ inline constexpr Scalar kSmallStep = power_of_two<Scalar>(-std::numeric_limits<S
 template <class Real, int Iterations = kLineIterations<Real>>
 class CosineArc {
 public:
+    /// Uninitialised: to be assigned to before it is used.
+    CosineArc() = default;
+
     /// \param extent above the horizon.
     NUSSELT_HD explicit CosineArc(const LineExtent<Real>& extent) noexcept
         : extent_(extent), sweep_(extent_.sweep()) {
@@ -39,12 +43,9 @@ public:
 
     /// Broadcasts an arc to all lanes of a pack.
     template <class Single>
-    NUSSELT_HD explicit CosineArc(const CosineArc<Single, Iterations>& single) noexcept
-        : extent_(broadcast<Real>(single.extent_)),
-          sweep_(single.sweep_),
-          middle_height_(single.middle_height_),
-          slope_(single.slope_),
-          integral_(single.integral_) {}
+    NUSSELT_HD explicit CosineArc(const CosineArc<Single, Iterations>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
     NUSSELT_HD const LineExtent<Real>& extent() const noexcept { return extent_; }
 
@@ -83,9 +84,6 @@ public:
     }
 
 private:
-    template <class, int>
-    friend class CosineArc;
-
     /// What the iteration needs at the angle theta from the begin.
     struct Rotation {
         Real sine, cosine;         ///< of alpha
@@ -138,6 +136,12 @@ private:
     Real middle_height_; ///< cosine of the direction to the middle by sine with the normal
     Real slope_;         ///< derivative by theta of that cosine, at the begin
     Real integral_;
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.extent_, self.sweep_, self.middle_height_, self.slope_, self.integral_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

@@ -2,6 +2,7 @@
 /// Uniform sampling of the surface of a closed cylinder, caps included. Cheap to prepare, but half of the samples or more
 /// lie on the far side, and it is noisy close to the light.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/cylinder.h>
 
@@ -21,10 +22,9 @@ public:
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
-    NUSSELT_HD explicit CylinderArea(const CylinderArea<Single>& single) noexcept
-        : light_(broadcast<Real>(single.light_)),
-          frame_{broadcast<Real>(single.frame_.t), broadcast<Real>(single.frame_.b),
-                 broadcast<Real>(single.frame_.n)} {}
+    NUSSELT_HD explicit CylinderArea(const CylinderArea<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
     /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves from the middle of the cap at the begin over
     ///          the mantle to the middle of the other cap.
@@ -89,9 +89,6 @@ public:
     }
 
 private:
-    template <class>
-    friend class CylinderArea;
-
     NUSSELT_HD Real density(const Real& distance, const Real& cosine) const noexcept {
         const Real denominator = measure() * cosine;
         const auto lit = denominator > Real(0);
@@ -101,6 +98,12 @@ private:
 
     Cylinder<Real> light_;
     Frame<Real> frame_; ///< n is the direction of the axis
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.light_, self.frame_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

@@ -6,6 +6,7 @@
 /// integral is known in closed form and is sampled as that of a line; the azimuth of the half-plane follows an
 /// interpolant of these integrals.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/geometry/cylinder.h>
 #include <nusselt/sampling/cosine_arc.h>
 #include <nusselt/sampling/piecewise_linear.h>
@@ -87,6 +88,9 @@ class CylinderFan {
     using Scalar = scalar_t<Real>;
 
 public:
+    /// Uninitialised: to be assigned to before it is used.
+    CylinderFan() = default;
+
     /// \param cylinder in shading space, with coordinates of order one.
     NUSSELT_HD CylinderFan(const Cylinder<Real>& cylinder, const Space& space) noexcept
         : space_(space), view_(make_cylinder_view(cylinder, horizon_normal(space))) {
@@ -136,27 +140,9 @@ public:
 
     /// Broadcasts a fan to all lanes of a pack.
     template <class Single, class SingleSpace>
-    NUSSELT_HD explicit CylinderFan(const CylinderFan<Single, SingleSpace, Importance>& single) noexcept
-        : space_(broadcast<Real>(single.space_)),
-          view_(broadcast<Real>(single.view_)),
-          s_(broadcast<Real>(single.s_)),
-          m_(broadcast<Real>(single.m_)),
-          n_(broadcast<Real>(single.n_)),
-          stretch_(single.stretch_),
-          m_along_m_(single.m_along_m_),
-          n_along_m_(single.n_along_m_),
-          n_along_n_(single.n_along_n_),
-          m_along_s_(single.m_along_s_),
-          n_along_s_(single.n_along_s_),
-          height_of_m_(single.height_of_m_),
-          height_of_n_(single.height_of_n_),
-          begin_height_(single.begin_height_),
-          end_height_(single.end_height_),
-          low_(single.low_),
-          range_(single.range_),
-          warp_(single.warp_),
-          integral_(single.integral_),
-          inverse_normalization_(single.inverse_normalization_) {}
+    NUSSELT_HD explicit CylinderFan(const CylinderFan<Single, SingleSpace, Importance>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
     /// The point of the cylinder for random numbers in [0, 1)^2: u.x chooses the half-plane, u.y the direction in it,
     /// rising along the axis. Without meaning if integral() is 0.
@@ -191,8 +177,6 @@ public:
     NUSSELT_HD const Real& integral() const noexcept { return integral_; }
 
 private:
-    template <class, class, class>
-    friend class CylinderFan;
     using Warp = PiecewiseLinear<Real, kAzimuthNodes>;
 
     /// A half-plane of the fan and its image.
@@ -352,6 +336,15 @@ private:
     Warp warp_;
     Real integral_;
     Real inverse_normalization_; ///< 0 if nothing is visible
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.space_, self.view_, self.s_, self.m_, self.n_, self.stretch_, self.m_along_m_,
+              self.n_along_m_, self.n_along_n_, self.m_along_s_, self.n_along_s_, self.height_of_m_,
+              self.height_of_n_, self.begin_height_, self.end_height_, self.low_, self.range_, self.warp_,
+              self.integral_, self.inverse_normalization_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

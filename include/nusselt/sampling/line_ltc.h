@@ -6,6 +6,7 @@
 /// projected solid angle sampling of the image of the segment in cosine space. Deviation: points, not directions, come
 /// back to shading space, by their position along the light.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/ltc/light_transform.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>
 
@@ -29,16 +30,9 @@ public:
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
-    NUSSELT_HD explicit LineLtc(const LineLtc<Single, Horizons>& single) noexcept
-        : ltc_(single.ltc_),
-          image_(single.image_),
-          s_(broadcast<Real>(single.s_)),
-          closest_(broadcast<Real>(single.closest_)),
-          l0_(single.l0_),
-          l1_(single.l1_),
-          inverse_scale_(single.inverse_scale_),
-          measure_(single.measure_),
-          inverse_measure_(single.inverse_measure_) {}
+    NUSSELT_HD explicit LineLtc(const LineLtc<Single, Horizons>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
     /// \param u in [0, 1); increasing u moves from the begin of the light to its end.
     NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
@@ -64,9 +58,6 @@ public:
     NUSSELT_HD Real measure() const noexcept { return measure_; }
 
 private:
-    template <class, class>
-    friend class LineLtc;
-
     /// \param part the part of the light that counts, scaled.
     NUSSELT_HD LineLtc(const LineSegment<Real>& part, const Real& scale, const Ltc<Real>& ltc) noexcept
         : ltc_(ltc),
@@ -101,6 +92,13 @@ private:
 
     Real measure_;
     Real inverse_measure_; ///< 0 without light
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.ltc_, self.image_, self.s_, self.closest_, self.l0_, self.l1_, self.inverse_scale_,
+              self.measure_, self.inverse_measure_);
+    }
 };
 
 /// Samples are never below the surface.

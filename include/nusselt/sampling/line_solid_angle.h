@@ -5,6 +5,7 @@
 /// Eq. 1. Deviations: everything is expressed by the end points, so that nothing cancels for short or distant
 /// lights; neither preparation nor sampling needs trigonometry.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_line.h>
 
@@ -27,11 +28,9 @@ public:
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
-    NUSSELT_HD explicit LineSolidAngle(const LineSolidAngle<Single>& single) noexcept
-        : extent_(broadcast<Real>(single.extent_)),
-          inverse_scale_(single.inverse_scale_),
-          measure_(single.measure_),
-          pdf_(single.pdf_) {}
+    NUSSELT_HD explicit LineSolidAngle(const LineSolidAngle<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
     /// \param u in [0, 1); increasing u moves from the begin of the light to its end.
     NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
@@ -73,13 +72,16 @@ protected:
     }
 
 private:
-    template <class>
-    friend class LineSolidAngle;
-
     LineExtent<Real> extent_; ///< scaled to an extent of order one
     Real inverse_scale_;
     Real measure_;
     Real pdf_;
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.extent_, self.inverse_scale_, self.measure_, self.pdf_);
+    }
 };
 
 /// Uniform sampling of the solid angle of the part of a linear light above the horizon, in shading space.

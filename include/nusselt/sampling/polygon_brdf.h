@@ -6,6 +6,7 @@
 /// docs/techniques/ggx_visible_normals.md says why there is no such technique for lines.
 
 #include <nusselt/bsdf/ggx_visible_normals.h>
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/polygon_measures.h>
 
@@ -43,14 +44,8 @@ public:
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single, class SingleLobe>
-    NUSSELT_HD explicit PolygonBrdf(const PolygonBrdf<Single, N, SingleLobe>& single) noexcept
-        : lobe_(single.lobe_),
-          plane_(broadcast<Real>(single.plane_)),
-          low_(broadcast<Real>(single.low_)),
-          high_(broadcast<Real>(single.high_)),
-          inverse_scale_(single.inverse_scale_),
-          present_(single.present_) {
-        for (int j = 0; j < N; ++j) side_[j] = broadcast<Real>(single.side_[j]);
+    NUSSELT_HD explicit PolygonBrdf(const PolygonBrdf<Single, N, SingleLobe>& single) noexcept {
+        broadcast_members<Real>(*this, single);
     }
 
     /// \param u in [0, 1)^2, as for the lobe.
@@ -70,9 +65,6 @@ public:
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept { return lobe_.invert(wi); }
 
 private:
-    template <class, int, class>
-    friend class PolygonBrdf;
-
     NUSSELT_HD mask_t<Real> is_towards_light(const Vec3<Real>& wi) const noexcept {
         auto inside = dot(plane_.normal, wi) * plane_.distance > Real(0);
         NUSSELT_UNROLL
@@ -87,6 +79,12 @@ private:
     Vec3<Real> side_[N];    ///< normals of the planes through the origin and the edges, towards the light
     Real inverse_scale_;    ///< a power of two
     Real present_;          ///< 1, or 0 if nothing of the light can be seen
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.lobe_, self.plane_, self.low_, self.high_, self.side_, self.inverse_scale_, self.present_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

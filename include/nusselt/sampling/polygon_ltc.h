@@ -6,6 +6,7 @@
 /// projected solid angle sampling of the image of the polygon in cosine space. Deviation: the hit point lies where the
 /// direction meets the plane of the light in shading space, since the image of a narrow lobe is too flat to tell.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/ltc/light_transform.h>
 #include <nusselt/sampling/polygon_projected_solid_angle.h>
 
@@ -33,15 +34,9 @@ public:
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single, class SingleImage>
-    NUSSELT_HD explicit PolygonLtc(const PolygonLtc<Single, N, Horizons, SingleImage>& single) noexcept
-        : ltc_(single.ltc_),
-          image_(single.image_),
-          plane_(broadcast<Real>(single.plane_)),
-          low_(broadcast<Real>(single.low_)),
-          high_(broadcast<Real>(single.high_)),
-          inverse_scale_(single.inverse_scale_),
-          measure_(single.measure_),
-          inverse_measure_(single.inverse_measure_) {}
+    NUSSELT_HD explicit PolygonLtc(const PolygonLtc<Single, N, Horizons, SingleImage>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
     /// \param u in [0, 1)^2; as continuous as that of PolygonProjectedSolidAngle.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
@@ -68,9 +63,6 @@ public:
     NUSSELT_HD Real measure() const noexcept { return measure_; }
 
 private:
-    template <class, int, class, class>
-    friend class PolygonLtc;
-
     NUSSELT_HD PolygonLtc(const ScaledPolygon<Real, kVertices>& part, const Ltc<Real>& ltc) noexcept
         : ltc_(ltc), image_(to_cosine_space(part.polygon, ltc)), inverse_scale_(part.inverse_scale) {
         Real farthest = Real(0); // squared
@@ -97,6 +89,13 @@ private:
 
     Real measure_;
     Real inverse_measure_; ///< 0 without light
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.ltc_, self.image_, self.plane_, self.low_, self.high_, self.inverse_scale_, self.measure_,
+              self.inverse_measure_);
+    }
 };
 
 /// Samples are never below the surface (Sec. 4.1 leaves that out for its cost).

@@ -8,6 +8,7 @@
 /// the tangent plane (azimuthal_sweep.h, decentral_sector.h), so that small lights keep their precision; the
 /// central case goes along the great circle of the edge; the iteration is clamped to the sector.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_polygon.h>
 #include <nusselt/geometry/polygon_measures.h>
@@ -35,6 +36,9 @@ class PolygonProjectedSolidAngle {
     static constexpr int kSectors = N + 1;
 
 public:
+    /// Uninitialised: to be assigned to before it is used.
+    PolygonProjectedSolidAngle() = default;
+
     /// \param light in shading space, either winding [m].
     NUSSELT_HD explicit PolygonProjectedSolidAngle(const ConvexPolygon<Real, N>& light) noexcept {
         const Real scale = unit_extent_scale(light);
@@ -68,24 +72,8 @@ public:
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
     NUSSELT_HD explicit PolygonProjectedSolidAngle(
-        const PolygonProjectedSolidAngle<Single, N, Iterations, Angles>& single) noexcept
-        : plane_(broadcast<Real>(single.plane_)),
-          low_(broadcast<Real>(single.low_)),
-          high_(broadcast<Real>(single.high_)),
-          mirror_(single.mirror_),
-          inverse_scale_(single.inverse_scale_),
-          central_(single.central_),
-          doubled_total_(single.doubled_total_),
-          inverse_measure_(single.inverse_measure_) {
-        NUSSELT_UNROLL
-        for (int k = 0; k < kSectors; ++k) {
-            begin_[k] = broadcast<Real>(single.begin_[k]);
-            chord_[k] = broadcast<Real>(single.chord_[k]);
-            begin_gap_[k] = Real(single.begin_gap_[k]);
-            end_gap_[k] = Real(single.end_gap_[k]);
-            angle_per_area_[k] = Real(single.angle_per_area_[k]);
-            doubled_area_[k] = Real(single.doubled_area_[k]);
-        }
+        const PolygonProjectedSolidAngle<Single, N, Iterations, Angles>& single) noexcept {
+        broadcast_members<Real>(*this, single);
     }
 
     /// \param u in [0, 1)^2; x selects the azimuth, y the inclination. Continuous, up to the cyclic start in
@@ -154,9 +142,6 @@ public:
     NUSSELT_HD Real measure() const noexcept { return Real(0.5) * doubled_total_; }
 
 private:
-    template <class, int, int, class>
-    friend class PolygonProjectedSolidAngle;
-
     /// The sector that a random number falls into.
     struct Selection {
         DecentralSector<Real> sector;
@@ -367,6 +352,14 @@ private:
     Real end_gap_[kSectors];
     Real angle_per_area_[kSectors]; ///< on the great circle of the edge, per doubled area; central case only
     Real doubled_area_[kSectors];   ///< twice the area of each sector, 0 for those without light
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.plane_, self.low_, self.high_, self.mirror_, self.inverse_scale_, self.central_,
+              self.doubled_total_, self.inverse_measure_, self.begin_, self.chord_, self.begin_gap_,
+              self.end_gap_, self.angle_per_area_, self.doubled_area_);
+    }
 };
 
 /// The biased variant (Sec. 6.4): no iteration, fast arctangents. pdf() is the density of exact projected solid

@@ -6,6 +6,7 @@
 /// area of the triangle times the distance of its plane, which cancels nowhere, instead of a Householder
 /// reflection; the hit point comes from barycentric coordinates.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_polygon.h>
 #include <nusselt/geometry/polygon_measures.h>
@@ -30,22 +31,8 @@ public:
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
-    NUSSELT_HD explicit PolygonSolidAngle(const PolygonSolidAngle<Single, N>& single) noexcept
-        : inverse_scale_(single.inverse_scale_),
-          total_(single.total_),
-          inverse_total_(single.inverse_total_),
-          counterclockwise_(single.counterclockwise_) {
-        for (int j = 0; j < N; ++j) {
-            vertex_[j] = broadcast<Real>(single.vertex_[j]);
-            direction_[j] = broadcast<Real>(single.direction_[j]);
-            inverse_distance_[j] = Real(single.inverse_distance_[j]);
-        }
-        for (int j = 0; j < kTriangles; ++j) {
-            g0_[j] = Real(single.g0_[j]);
-            g1_[j] = Real(single.g1_[j]);
-            g2_[j] = Real(single.g2_[j]);
-            solid_angle_[j] = Real(single.solid_angle_[j]);
-        }
+    NUSSELT_HD explicit PolygonSolidAngle(const PolygonSolidAngle<Single, N>& single) noexcept {
+        broadcast_members<Real>(*this, single);
     }
 
     /// \param u in [0, 1)^2; x selects the great circle through vertex 0, y the point on it, beginning at
@@ -188,9 +175,6 @@ protected:
     }
 
 private:
-    template <class, int>
-    friend class PolygonSolidAngle;
-
     NUSSELT_HD PolygonSolidAngle(const ConvexPolygon<Real, N>& polygon, const Real& inverse_scale) noexcept
         : PolygonSolidAngle(polygon, inverse_scale, plane_distance(polygon)) {}
 
@@ -250,6 +234,13 @@ private:
     Real total_;
     Real inverse_total_;            ///< the density; 0 without light
     mask_t<Real> counterclockwise_; ///< winding as seen along a ray from the origin through the polygon
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.vertex_, self.direction_, self.inverse_distance_, self.inverse_scale_, self.g0_, self.g1_,
+              self.g2_, self.solid_angle_, self.total_, self.inverse_total_, self.counterclockwise_);
+    }
 };
 
 /// Uniform sampling of the solid angle of the part of a polygon above the horizon, in shading space.
