@@ -2,6 +2,7 @@
 /// Extents of line segments, whole or clipped to the upper hemisphere, and their closed forms.
 
 #include <nusselt/geometry/line_segment.h>
+#include <nusselt/geometry/scaled_light.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -96,18 +97,18 @@ NUSSELT_INLINE Real cosine_integral(const LineExtent<Real>& e) noexcept {
 /// Solid angle per radius of a linear light in the limit of a thin cylinder [sr/m], in any frame.
 template <class Real>
 NUSSELT_HD inline Real solid_angle(const LineSegment<Real>& line) noexcept {
-    const Real scale = scale_of(line);
-    const LineExtent<Real> e = make_line_extent(scaled(line, scale));
-    return select(e.visible, Real(2) * e.sine_extent / e.distance * scale, Real(0));
+    const auto unit = to_unit_extent(line);
+    const LineExtent<Real> e = make_line_extent(unit.light);
+    return select(e.visible, Real(2) * e.sine_extent / e.distance * unit.scale, Real(0));
 }
 
 /// Projected solid angle per radius of the part of a linear light above the horizon in the limit of a thin
 /// cylinder [sr/m], in shading space.
 template <class Real>
 NUSSELT_HD inline Real projected_solid_angle(const LineSegment<Real>& line) noexcept {
-    const Real scale = scale_of(line);
-    const LineExtent<Real> e = clipped_extent(scaled(line, scale));
-    return select(e.visible, cosine_integral(e) / e.distance * scale, Real(0));
+    const auto unit = to_unit_extent(line);
+    const LineExtent<Real> e = clipped_extent(unit.light);
+    return select(e.visible, cosine_integral(e) / e.distance * unit.scale, Real(0));
 }
 
 NUSSELT_NAMESPACE_END

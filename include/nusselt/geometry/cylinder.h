@@ -189,8 +189,8 @@ struct LightHit {
 /// \param wi unit direction.
 template <class Real>
 NUSSELT_HD inline LightHit<Real> intersect(const Cylinder<Real>& cylinder, const Vec3<Real>& wi) noexcept {
-    const Real scale = scale_of(cylinder);
-    const CylinderView<Real> view = make_cylinder_view(scaled(cylinder, scale), {Real(0), Real(0), Real(0)});
+    const auto unit = to_unit_extent(cylinder);
+    const CylinderView<Real> view = make_cylinder_view(unit.light, {Real(0), Real(0), Real(0)});
     const CylinderSlice<Real> slice = view.slice(view.azimuth_of(wi));
     const Real sine = dot(wi, view.s);
     const Real cosine = max(dot(wi, slice.t), Real(0));
@@ -208,7 +208,7 @@ NUSSELT_HD inline LightHit<Real> intersect(const Cylinder<Real>& cylinder, const
     const auto beyond_begin = p.x > view.l0;
     const auto on_mantle = beyond_begin & (p.x < view.l1);
     const Real facing = cosine * slice.half_chord / select(hits, view.radius, Real(1));
-    return {mask_t<Real>(hits), length(Vec3<Real>{p.x, p.y, Real(0)}) * reciprocal_power_of_two(scale),
+    return {mask_t<Real>(hits), length(Vec3<Real>{p.x, p.y, Real(0)}) * unit.inverse_scale,
             select(on_mantle, facing, abs(sine))};
 }
 

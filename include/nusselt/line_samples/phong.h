@@ -107,8 +107,8 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
 template <class Real>
 NUSSELT_HD inline Real phong_integral(const LineSegment<Real>& light, const Vec3<Real>& mirror,
                                       const Real& exponent) noexcept {
-    const Real scale = scale_of(light);
-    return phong_integral(clipped_extent(scaled(light, scale)), mirror, exponent) * scale;
+    const auto unit = to_unit_extent(light);
+    return phong_integral(clipped_extent(unit.light), mirror, exponent) * unit.scale;
 }
 
 /// What a part of a line of a planar light contributes to a Phong surface [1/m], see shading.h.

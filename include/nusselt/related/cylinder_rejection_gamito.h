@@ -41,8 +41,8 @@ public:
 
 private:
     static PolygonSolidAnglePeters<Real, 4> rectangle_around(const Cylinder<Real>& light) noexcept {
-        const Real scale = scale_of(light);
-        const CylinderView<Real> v = make_cylinder_view(scaled(light, scale), {Real(0), Real(0), Real(0)});
+        const auto unit = to_unit_extent(light);
+        const CylinderView<Real> v = make_cylinder_view(unit.light, {Real(0), Real(0), Real(0)});
         const Vec3<Real>& t = v.m;
         // Across the direction to the axis, where the tangents from the origin touch the cylinder.
         const Real distance = select(v.outside, v.center.x, Real(1));
@@ -57,7 +57,7 @@ private:
         const Vec3<Real> center = select(v.outside, depth * t + (Real(0.5) * (low + high)) * v.s, cap);
         const Vec3<Real> a = select(v.outside, (Real(0.5) * (high - low)) * v.s, v.radius * t);
         const Vec3<Real> b = select(v.outside, half_width, v.radius) * v.n;
-        const Real size = select(v.visible, reciprocal_power_of_two(scale), Real(0));
+        const Real size = select(v.visible, unit.inverse_scale, Real(0));
         const Vec3<Real> corners[] = {size * (center - a - b), size * (center + a - b),
                                       size * (center + a + b), size * (center - a + b)};
         return PolygonSolidAnglePeters<Real, 4>(make_polygon<4>(corners, 4));

@@ -22,7 +22,7 @@ class CylinderLtc {
 public:
     /// \param light in shading space [m].
     NUSSELT_HD CylinderLtc(const Cylinder<Real>& light, const Ltc<Real>& ltc) noexcept
-        : CylinderLtc(light, ltc, scale_of(light)) {}
+        : CylinderLtc(to_unit_extent(light), ltc) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
@@ -53,8 +53,8 @@ public:
     NUSSELT_HD Real measure() const noexcept { return Real(1 / kPi<scalar_t<Real>>) * fan_.integral(); }
 
 private:
-    NUSSELT_HD CylinderLtc(const Cylinder<Real>& light, const Ltc<Real>& ltc, const Real& scale) noexcept
-        : ltc_(ltc), fan_(scaled(light, scale), ltc), inverse_scale_(reciprocal_power_of_two(scale)) {}
+    NUSSELT_HD CylinderLtc(const ScaledLight<Cylinder<Real>, Real>& unit, const Ltc<Real>& ltc) noexcept
+        : ltc_(ltc), fan_(unit.light, ltc), inverse_scale_(unit.inverse_scale) {}
 
     Ltc<Real> ltc_;
     CylinderFan<Real, Ltc<Real>, CosineImportance> fan_; ///< scaled to an extent of order one

@@ -20,7 +20,7 @@ class CylinderProjectedSolidAngle {
 public:
     /// \param light in shading space [m].
     NUSSELT_HD explicit CylinderProjectedSolidAngle(const Cylinder<Real>& light) noexcept
-        : CylinderProjectedSolidAngle(light, scale_of(light)) {}
+        : CylinderProjectedSolidAngle(to_unit_extent(light)) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
@@ -51,8 +51,8 @@ public:
     NUSSELT_HD Real measure() const noexcept { return fan_.integral(); }
 
 private:
-    NUSSELT_HD CylinderProjectedSolidAngle(const Cylinder<Real>& light, const Real& scale) noexcept
-        : fan_(scaled(light, scale), {}), inverse_scale_(reciprocal_power_of_two(scale)) {}
+    NUSSELT_HD explicit CylinderProjectedSolidAngle(const ScaledLight<Cylinder<Real>, Real>& unit) noexcept
+        : fan_(unit.light, {}), inverse_scale_(unit.inverse_scale) {}
 
     CylinderFan<Real, ShadingSpace<Real>, CosineImportance> fan_; ///< scaled to an extent of order one
     Real inverse_scale_;

@@ -19,7 +19,7 @@ class CylinderSolidAngle {
 public:
     /// \param light relative to the shading point [m].
     NUSSELT_HD explicit CylinderSolidAngle(const Cylinder<Real>& light) noexcept
-        : CylinderSolidAngle(light, scale_of(light)) {}
+        : CylinderSolidAngle(to_unit_extent(light)) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
@@ -46,8 +46,8 @@ public:
     NUSSELT_HD Real measure() const noexcept { return fan_.integral(); }
 
 private:
-    NUSSELT_HD CylinderSolidAngle(const Cylinder<Real>& light, const Real& scale) noexcept
-        : fan_(scaled(light, scale), {}), inverse_scale_(reciprocal_power_of_two(scale)) {}
+    NUSSELT_HD explicit CylinderSolidAngle(const ScaledLight<Cylinder<Real>, Real>& unit) noexcept
+        : fan_(unit.light, {}), inverse_scale_(unit.inverse_scale) {}
 
     CylinderFan<Real, ShadingSpace<Real>, UniformImportance> fan_; ///< scaled to an extent of order one
     Real inverse_scale_;

@@ -27,7 +27,7 @@ public:
 
     /// \param light in shading space [m].
     NUSSELT_HD explicit LineProjectedSolidAngle(const LineSegment<Real>& light) noexcept
-        : LineProjectedSolidAngle(light, scale_of(light)) {}
+        : LineProjectedSolidAngle(to_unit_extent(light)) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
@@ -55,11 +55,11 @@ public:
     NUSSELT_HD Real measure() const noexcept { return measure_; }
 
 private:
-    NUSSELT_HD LineProjectedSolidAngle(const LineSegment<Real>& light, const Real& scale) noexcept
-        : arc_(clipped_extent(scaled(light, scale))), inverse_scale_(reciprocal_power_of_two(scale)) {
+    NUSSELT_HD explicit LineProjectedSolidAngle(const ScaledLight<LineSegment<Real>, Real>& unit) noexcept
+        : arc_(clipped_extent(unit.light)), inverse_scale_(unit.inverse_scale) {
         const Real& integral = arc_.integral();
         const Real& distance = arc_.extent().distance;
-        const Real measure = integral / distance * scale;
+        const Real measure = integral / distance * unit.scale;
         const Real inverse = distance / select(integral > Real(0), integral, Real(1)) * inverse_scale_;
         const auto fits = is_finite(max(measure, inverse));
         const auto lit = arc_.extent().visible & (measure > Real(0)) & fits;

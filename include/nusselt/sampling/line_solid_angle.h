@@ -23,7 +23,7 @@ class LineSolidAngle {
 public:
     /// \param light relative to the shading point [m].
     NUSSELT_HD explicit LineSolidAngle(const LineSegment<Real>& light) noexcept
-        : LineSolidAngle(light, scale_of(light),
+        : LineSolidAngle(to_unit_extent(light),
                          [](const LineSegment<Real>& line) { return make_line_extent(line); }) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
@@ -53,13 +53,12 @@ public:
 
 protected:
     /// \param extent_of returns the extent of the part of a segment to sample.
-    /// \param scale     by which that extent shall be larger than the light.
     template <class ExtentOf>
-    NUSSELT_HD LineSolidAngle(const LineSegment<Real>& light, const Real& scale, ExtentOf extent_of) noexcept
-        : extent_(extent_of(scaled(light, scale))), inverse_scale_(reciprocal_power_of_two(scale)) {
+    NUSSELT_HD LineSolidAngle(const ScaledLight<LineSegment<Real>, Real>& unit, ExtentOf extent_of) noexcept
+        : extent_(extent_of(unit.light)), inverse_scale_(unit.inverse_scale) {
         // Eq. 1 in the limit of a radius of 0.
         const Real solid_angle = Real(2) * extent_.sine_extent;
-        const Real measure = solid_angle / extent_.distance * scale;
+        const Real measure = solid_angle / extent_.distance * unit.scale;
         const Real density =
             extent_.distance / select(extent_.visible, solid_angle, Real(1)) * inverse_scale_;
         const auto measure_fits =
@@ -91,7 +90,7 @@ class LineClippedSolidAngle : public LineSolidAngle<Real> {
 public:
     /// \param light in shading space [m].
     NUSSELT_HD explicit LineClippedSolidAngle(const LineSegment<Real>& light) noexcept
-        : LineSolidAngle<Real>(light, scale_of(light),
+        : LineSolidAngle<Real>(to_unit_extent(light),
                                [](const LineSegment<Real>& line) { return clipped_extent(line); }) {}
 
     /// \copydoc LineSolidAngle::LineSolidAngle(const LineSolidAngle<Single>&)

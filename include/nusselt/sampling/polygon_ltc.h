@@ -43,9 +43,7 @@ public:
         const Vec3<Real> direction = normalize(ltc_.to_shading(image_.sample(u).wi));
         const Vec3<Real> up{Real(0), Real(0), Real(1)};
         const Vec3<Real> wi = select(inverse_measure_ > Real(0), direction, up);
-        // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
-        const Vec3<Real> p = min(max(plane_.distance_along(wi) * wi, low_), high_);
-        return {wi, pdf(wi), inverse_scale_ * p};
+        return {wi, pdf(wi), inverse_scale_ * hull_.point_along(wi)};
     }
 
     /// \param wi a unit direction towards the light.
@@ -64,17 +62,12 @@ public:
 
 private:
     NUSSELT_HD PolygonLtc(const ScaledPolygon<Real, kVertices>& part, const Ltc<Real>& ltc) noexcept
-        : ltc_(ltc), image_(to_cosine_space(part.polygon, ltc)), inverse_scale_(part.inverse_scale) {
-        Real farthest = Real(0); // squared
-        low_ = high_ = part.polygon.vertex[0];
-        for (const Vec3<Real>& v : part.polygon.vertex) {
-            farthest = max(farthest, dot(v, v));
-            low_ = min(low_, v);
-            high_ = max(high_, v);
-        }
-        plane_ = {part.polygon.normal, plane_distance(part.polygon), sqrt(farthest)};
+        : ltc_(ltc),
+          image_(to_cosine_space(part.light, ltc)),
+          hull_(hull_of(part.light, plane_distance(part.light))),
+          inverse_scale_(part.inverse_scale) {
         const auto in_lobe = image_.measure() > Real(0);
-        const auto lit = in_lobe & (plane_.distance != Real(0));
+        const auto lit = in_lobe & (hull_.plane.distance != Real(0));
         measure_ = select(lit, Real(1 / kPi<scalar_t<Real>>) * image_.measure(), Real(0));
         inverse_measure_ = select(lit, Real(1) / select(lit, measure_, Real(1)), Real(0));
     }
@@ -83,9 +76,8 @@ private:
     Image image_; ///< in cosine space
 
     // In shading space, of the part of the light that counts, scaled to an extent of order one.
-    LightPlane<Real> plane_;
-    Vec3<Real> low_, high_; ///< axis-aligned box
-    Real inverse_scale_;    ///< a power of two
+    PolygonHull<Real> hull_;
+    Real inverse_scale_; ///< a power of two
 
     Real measure_;
     Real inverse_measure_; ///< 0 without light
@@ -93,8 +85,7 @@ private:
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.ltc_, self.image_, self.plane_, self.low_, self.high_, self.inverse_scale_, self.measure_,
-              self.inverse_measure_);
+        visit(self.ltc_, self.image_, self.hull_, self.inverse_scale_, self.measure_, self.inverse_measure_);
     }
 };
 

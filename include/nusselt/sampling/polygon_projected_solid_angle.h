@@ -41,9 +41,9 @@ public:
 
     /// \param light in shading space, either winding [m].
     NUSSELT_HD explicit PolygonProjectedSolidAngle(const ConvexPolygon<Real, N>& light) noexcept {
-        const Real scale = unit_extent_scale(light);
-        ConvexPolygon<Real, N> polygon = with_unit_extent(light, scale);
-        inverse_scale_ = reciprocal_power_of_two(scale);
+        const ScaledPolygon<Real, N> unit = to_unit_extent(light);
+        ConvexPolygon<Real, N> polygon = unit.light;
+        inverse_scale_ = unit.inverse_scale;
         const Real distance = plane_distance(polygon);
         // The method wants the winding that is clockwise as seen from the origin: mirror y otherwise.
         mirror_ = copysign(Real(1), distance);
@@ -62,10 +62,9 @@ public:
             prepare(polygon, distance);
         } else {
             // Once more to an extent of order one, since little may be left of the light.
-            const ConvexPolygon<Real, N + 1> clipped = clip_to_horizon(polygon);
-            const Real again = unit_extent_scale(clipped);
-            inverse_scale_ = inverse_scale_ * reciprocal_power_of_two(again);
-            prepare(with_unit_extent(clipped, again), again * distance);
+            const ScaledPolygon<Real, N + 1> clipped = to_unit_extent(clip_to_horizon(polygon));
+            inverse_scale_ = inverse_scale_ * clipped.inverse_scale;
+            prepare(clipped.light, clipped.scale * distance);
         }
     }
 
@@ -87,8 +86,7 @@ public:
             s.wi = select(central_, s.wi, other.wi);
             s.p = select(central_, s.p, other.p);
         }
-        // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
-        s.p = inverse_scale_ * min(max(s.p, low_), high_);
+        s.p = inverse_scale_ * hull_.clamped(s.p);
         s.wi = select(inverse_measure_ > Real(0), s.wi, Vec3<Real>{Real(0), Real(0), Real(1)});
         s.wi.y = mirror_ * s.wi.y;
         s.p.y = mirror_ * s.p.y;
@@ -161,14 +159,7 @@ private:
     /// \param distance of its plane from the origin.
     template <int M>
     NUSSELT_HD void prepare(const ConvexPolygon<Real, M>& polygon, const Real& distance) noexcept {
-        Real farthest = Real(0); // squared
-        low_ = high_ = polygon.vertex[0];
-        for (const Vec3<Real>& v : polygon.vertex) {
-            farthest = max(farthest, dot(v, v));
-            low_ = min(low_, v);
-            high_ = max(high_, v);
-        }
-        plane_ = {polygon.normal, distance, sqrt(farthest)};
+        hull_ = hull_of(polygon, distance);
 
         mask_t<Real> is_outer[M];
         auto decentral = mask_t<Real>(false);
@@ -195,7 +186,7 @@ private:
         // light is there. Strips along the horizon tell less clearly by their edges.
         const Real slack = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon());
         const auto reaches_axis = (distance * polygon.normal.z >= Real(0)) &
-                                  (abs(distance) <= fma(abs(polygon.normal.z), high_.z, slack));
+                                  (abs(distance) <= fma(abs(polygon.normal.z), hull_.high.z, slack));
         decentral = (decentral & (!touches_zenith)) | (!reaches_axis);
         central_ = !decentral;
         if (any(decentral)) prepare_decentral(polygon, decentral);
@@ -241,7 +232,7 @@ private:
     template <int M>
     NUSSELT_HD void prepare_decentral(const ConvexPolygon<Real, M>& polygon,
                                       const mask_t<Real>& decentral) noexcept {
-        const AzimuthalSweep<Real, M> sweep(polygon, plane_.distance);
+        const AzimuthalSweep<Real, M> sweep(polygon, hull_.plane.distance);
         sweep.for_each_sector([&](int k, const DecentralSector<Real>& sector, const mask_t<Real>& present) {
             const Real doubled = sector.template doubled_area_to<Angles>(Real(1));
             begin_[k] = sector.begin;
@@ -285,7 +276,7 @@ private:
         const Vec3<Real> q = fma(angle.cos, a, angle.sin * t);
         const Real root = sqrt(u);
         const Vec3<Real> wi{root * q.x, root * q.y, sqrt(fma(u, q.z * q.z, Real(1) - u))};
-        return {wi, Real(0), plane_.distance_along(wi) * wi};
+        return {wi, Real(0), hull_.plane.distance_along(wi) * wi};
     }
 
     NUSSELT_HD LightSample<Real> sample_decentral(const Selection& s, const Real& u) const noexcept {
@@ -304,10 +295,10 @@ private:
         const Real inverse = inverse_length(direction);
         // The lifted point lies on the ray to the sample; scale it to the plane of the light, but not beyond
         // the farthest vertex.
-        const Real lifted = fma(lift, plane_.normal.z, plane_.distance);
-        const auto usable = plane_.distance * lifted > Real(0);
-        const Real stretch = select(usable, plane_.distance / select(usable, lifted, Real(1)), Real(1));
-        const Real along = min(stretch, plane_.farthest * inverse);
+        const Real lifted = fma(lift, hull_.plane.normal.z, hull_.plane.distance);
+        const auto usable = hull_.plane.distance * lifted > Real(0);
+        const Real stretch = select(usable, hull_.plane.distance / select(usable, lifted, Real(1)), Real(1));
+        const Real along = min(stretch, hull_.plane.farthest * inverse);
         return {inverse * direction, Real(0), along * direction};
     }
 
@@ -339,8 +330,7 @@ private:
     }
 
     // Coordinates are scaled to an extent of order one, and mirrored.
-    LightPlane<Real> plane_;
-    Vec3<Real> low_, high_;      ///< axis-aligned box of the light above the horizon
+    PolygonHull<Real> hull_;     ///< of the light above the horizon
     Real mirror_;                ///< -1 if y is mirrored to get the expected winding
     Real inverse_scale_;         ///< a power of two
     mask_t<Real> central_;       ///< the zenith is in the polygon or on its boundary
@@ -356,9 +346,9 @@ private:
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.plane_, self.low_, self.high_, self.mirror_, self.inverse_scale_, self.central_,
-              self.doubled_total_, self.inverse_measure_, self.begin_, self.chord_, self.begin_gap_,
-              self.end_gap_, self.angle_per_area_, self.doubled_area_);
+        visit(self.hull_, self.mirror_, self.inverse_scale_, self.central_, self.doubled_total_,
+              self.inverse_measure_, self.begin_, self.chord_, self.begin_gap_, self.end_gap_,
+              self.angle_per_area_, self.doubled_area_);
     }
 };
 

@@ -27,7 +27,7 @@ class PolygonSolidAngle {
 public:
     /// \param light relative to the shading point, either winding [m].
     NUSSELT_HD explicit PolygonSolidAngle(const ConvexPolygon<Real, N>& light) noexcept
-        : PolygonSolidAngle(with_unit_extent(light), reciprocal_power_of_two(unit_extent_scale(light))) {}
+        : PolygonSolidAngle(to_unit_extent(light)) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
@@ -175,8 +175,8 @@ protected:
     }
 
 private:
-    NUSSELT_HD PolygonSolidAngle(const ConvexPolygon<Real, N>& polygon, const Real& inverse_scale) noexcept
-        : PolygonSolidAngle(polygon, inverse_scale, plane_distance(polygon)) {}
+    NUSSELT_HD explicit PolygonSolidAngle(const ScaledPolygon<Real, N>& unit) noexcept
+        : PolygonSolidAngle(unit.light, unit.inverse_scale, plane_distance(unit.light)) {}
 
     /// 0 where there is no finite one.
     NUSSELT_HD static Real inverse(const Real& total) noexcept {
@@ -250,8 +250,7 @@ class PolygonClippedSolidAngle : public PolygonSolidAngle<Real, N + 1> {
 public:
     /// \param light in shading space, either winding [m].
     NUSSELT_HD explicit PolygonClippedSolidAngle(const ConvexPolygon<Real, N>& light) noexcept
-        : PolygonClippedSolidAngle(with_unit_extent(light),
-                                   reciprocal_power_of_two(unit_extent_scale(light))) {}
+        : PolygonClippedSolidAngle(to_unit_extent(light)) {}
 
     /// \copydoc PolygonSolidAngle::PolygonSolidAngle(const PolygonSolidAngle<Single, N>&)
     template <class Single>
@@ -271,18 +270,22 @@ public:
     }
 
 private:
-    NUSSELT_HD PolygonClippedSolidAngle(const ConvexPolygon<Real, N>& light,
-                                        const Real& inverse_scale) noexcept
-        : PolygonClippedSolidAngle(clip_to_horizon(light), inverse_scale, plane_distance(light)) {}
+    NUSSELT_HD explicit PolygonClippedSolidAngle(const ScaledPolygon<Real, N>& whole) noexcept
+        : PolygonClippedSolidAngle(whole, clip_to_horizon(whole.light)) {}
 
-    /// Scaled once more, since little may be left of the light. New vertices are not exactly on its plane: whether
-    /// that contains the origin is a question to the whole light.
-    NUSSELT_HD PolygonClippedSolidAngle(const ConvexPolygon<Real, N + 1>& clipped, const Real& inverse_scale,
-                                        const Real& whole_distance) noexcept
-        : PolygonSolidAngle<Real, N + 1>(with_unit_extent(clipped),
-                                         inverse_scale * reciprocal_power_of_two(unit_extent_scale(clipped)),
-                                         select(whole_distance == Real(0), Real(0), plane_distance(clipped)) *
-                                             unit_extent_scale(clipped)) {}
+    NUSSELT_HD PolygonClippedSolidAngle(const ScaledPolygon<Real, N>& whole,
+                                        const ConvexPolygon<Real, N + 1>& clipped) noexcept
+        : PolygonClippedSolidAngle(whole, clipped, to_unit_extent(clipped)) {}
+
+    /// \param unit clipped, scaled once more, since little may be left of the light. New vertices are not exactly on its
+    ///             plane: whether that contains the origin is a question to the whole light.
+    NUSSELT_HD PolygonClippedSolidAngle(const ScaledPolygon<Real, N>& whole,
+                                        const ConvexPolygon<Real, N + 1>& clipped,
+                                        const ScaledPolygon<Real, N + 1>& unit) noexcept
+        : PolygonSolidAngle<Real, N + 1>(
+              unit.light, whole.inverse_scale * unit.inverse_scale,
+              select(plane_distance(whole.light) == Real(0), Real(0), plane_distance(clipped)) * unit.scale) {
+    }
 };
 
 NUSSELT_NAMESPACE_END
