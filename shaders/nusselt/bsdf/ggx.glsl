@@ -1,5 +1,6 @@
 #ifndef NUSSELT_BSDF_GGX_GLSL
 #define NUSSELT_BSDF_GGX_GLSL
+// Follows include/nusselt/bsdf/ggx.h @ aa133c5bd822
 /// What BRDFs and samplers with GGX normals share. Twin of include/nusselt/bsdf/ggx.h.
 
 #include "../core/trig.glsl"

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_BSDF_GGX_VISIBLE_NORMALS_GLSL
 #define NUSSELT_BSDF_GGX_VISIBLE_NORMALS_GLSL
+// Follows include/nusselt/bsdf/ggx_visible_normals.h @ 6b3e37f6e8f0
 /// Sampling of the directions in which the visible ones of GGX normals reflect. Twin of
 /// include/nusselt/bsdf/ggx_visible_normals.h, where the sources and deviations stand.
 ///

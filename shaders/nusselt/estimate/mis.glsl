@@ -1,5 +1,6 @@
 #ifndef NUSSELT_ESTIMATE_MIS_GLSL
 #define NUSSELT_ESTIMATE_MIS_GLSL
+// Follows include/nusselt/estimate/mis.h @ 898a2602ada1
 /// Multiple importance sampling (MIS): how samples of two techniques make one estimate. Twin of
 /// include/nusselt/estimate/mis.h, where the sources stand.
 ///

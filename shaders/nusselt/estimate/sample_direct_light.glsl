@@ -1,5 +1,6 @@
 #ifndef NUSSELT_ESTIMATE_SAMPLE_DIRECT_LIGHT_GLSL
 #define NUSSELT_ESTIMATE_SAMPLE_DIRECT_LIGHT_GLSL
+// Follows include/nusselt/estimate/direct_light.h @ edc9a0b962eb
 /// Direct light in one call, in world space, with the projected solid angle and linearly transformed cosines. Twin of
 /// the end of include/nusselt/estimate/direct_light.h.
 

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_ESTIMATE_SURFACE_GLSL
 #define NUSSELT_ESTIMATE_SURFACE_GLSL
+// Follows include/nusselt/estimate/surface.h @ 90a4d300ca43
 /// What is known of a point of a surface before lights are looked at. Twin of include/nusselt/estimate/surface.h.
 
 #include "../bsdf/frostbite.glsl"

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_CYLINDER_GLSL
 #define NUSSELT_GEOMETRY_CYLINDER_GLSL
+// Follows include/nusselt/geometry/cylinder.h @ 799ec85be6ad
 /// Solid cylinders, and the rectangles that half-planes through a shading point cut out of them. Twin of
 /// include/nusselt/geometry/cylinder.h.
 

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_RANDOM_LIGHT_RANDOM_GLSL
 #define NUSSELT_RANDOM_LIGHT_RANDOM_GLSL
+// Follows include/nusselt/random/light_random.h @ efe75d866930
 /// The random numbers of a renderer of direct light as a pure function of seed, pixel, sample, light and dimension.
 /// Twin of include/nusselt/random/light_random.h. The same bits as there.
 

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_RELATED_LINE_PROJECTED_SOLID_ANGLE_PETERS_GLSL
 #define NUSSELT_RELATED_LINE_PROJECTED_SOLID_ANGLE_PETERS_GLSL
+// Follows include/nusselt/related/line_projected_solid_angle_peters.h @ 82a1d79c50a3
 /// A plain transcription of a published method, to compare with: accuracy and cost of the formulas as printed.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Algorithms 1 and 2

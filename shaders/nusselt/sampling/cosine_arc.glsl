@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_COSINE_ARC_GLSL
 #define NUSSELT_SAMPLING_COSINE_ARC_GLSL
+// Follows include/nusselt/sampling/cosine_arc.h @ 47202420c27a
 /// Directions on an arc of a great circle with a density proportional to the cosine at the surface times the cosine of
 /// the angle to the middle of the circle: the inner step of projected solid angle sampling of lines and tubes.
 ///

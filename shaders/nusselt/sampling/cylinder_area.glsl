@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_CYLINDER_AREA_GLSL
 #define NUSSELT_SAMPLING_CYLINDER_AREA_GLSL
+// Follows include/nusselt/sampling/cylinder_area.h @ 0553d47b7ebf
 /// Uniform sampling of the surface of a closed cylinder, caps included. Cheap to prepare, but half of the samples or
 /// more lie on the far side, and it is noisy close to the light. Twin of include/nusselt/sampling/cylinder_area.h.
 ///

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_AREA_GLSL
 #define NUSSELT_SAMPLING_LINE_AREA_GLSL
+// Follows include/nusselt/sampling/line_area.h @ d5baa45eb29c
 /// Uniform sampling of the length of a linear light. It needs no trigonometry, but is noisy close to the light. Twin of
 /// include/nusselt/sampling/line_area.h.
 ///

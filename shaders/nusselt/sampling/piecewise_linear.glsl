@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_PIECEWISE_LINEAR_GLSL
 #define NUSSELT_SAMPLING_PIECEWISE_LINEAR_GLSL
+// Follows include/nusselt/sampling/piecewise_linear.h @ 4bf771354ecf
 /// A piecewise linear density on the unit interval, and its inverse distribution. Twin of
 /// include/nusselt/sampling/piecewise_linear.h, for a fixed number of nodes.
 
