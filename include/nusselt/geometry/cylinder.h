@@ -61,8 +61,8 @@ struct CylinderView {
     Vec2<Real> center;  ///< where the infinite axis passes, in the basis m, n
     Real radius;
     Real gap, sum;         ///< distance from the axis minus and plus the radius
-    Vec3<Real> begin, end; ///< of the axis
-    Real l0, l1, length;   ///< coordinates of begin and end along s, and their difference
+    Vec3<Real> start, end; ///< of the axis
+    Real l0, l1, length;   ///< coordinates of start and end along s, and their difference
     Vec2<Real> touching;   ///< unit, from outside: the half-plane that touches on the side of n
     mask_t<Real> outside;  ///< of the infinite cylinder; m then leads to its axis
     mask_t<Real>
@@ -111,10 +111,10 @@ struct CylinderView {
     /// \param tangent l / rho of the direction.
     /// \return (l, rho)
     NUSSELT_HD Vec2<Real> first_point(const CylinderSlice<Real>& c, const Real& tangent) const noexcept {
-        const Real on_mantle = c.near * tangent;
-        const auto before = on_mantle < l0;
-        const auto beyond = on_mantle > l1;
-        const Real l = select(before, l0, select(beyond, l1, on_mantle));
+        const Real on_side = c.near * tangent;
+        const auto before = on_side < l0;
+        const auto beyond = on_side > l1;
+        const Real l = select(before, l0, select(beyond, l1, on_side));
         const Real on_cap = l / select(tangent == Real(0), Real(1), tangent);
         const Real rho = select(before | beyond, min(max(on_cap, c.near), c.far), c.near);
         return {l, rho};
@@ -129,7 +129,7 @@ NUSSELT_INLINE CylinderView<Real> make_cylinder_view(const Cylinder<Real>& cylin
     const LineSegment<Real>& axis = cylinder.axis;
     CylinderView<Real> v;
     v.s = axis.s;
-    v.begin = axis.p0;
+    v.start = axis.p0;
     v.end = end_of(axis);
     v.length = axis.length;
     v.radius = cylinder.radius;
@@ -138,7 +138,7 @@ NUSSELT_INLINE CylinderView<Real> make_cylinder_view(const Cylinder<Real>& cylin
     const Real distance = length(moment);
     v.gap = distance - v.radius;
     v.sum = distance + v.radius;
-    v.l0 = dot(v.begin, v.s);
+    v.l0 = dot(v.start, v.s);
     v.l1 = dot(v.end, v.s);
     v.outside = (v.gap >= Real(0)) & (distance > Real(0));
     const Real apart = max(max(v.l0, -v.l1), v.gap);
@@ -166,7 +166,7 @@ NUSSELT_INLINE CylinderView<Real> broadcast(const CylinderView<Single>& v) noexc
             Real(v.radius),
             Real(v.gap),
             Real(v.sum),
-            broadcast<Real>(v.begin),
+            broadcast<Real>(v.start),
             broadcast<Real>(v.end),
             Real(v.l0),
             Real(v.l1),
@@ -184,8 +184,8 @@ struct LightHit {
     Real cosine;   ///< between the ray, backwards, and the normal of the light
 };
 
-/// The first point where a ray from the origin meets a closed cylinder from outside: mantle or caps. Rays that start
-/// inside hit nothing.
+/// The first point where a ray from the origin meets a closed cylinder from outside, on its lateral surface or on a cap.
+/// Rays that start inside hit nothing.
 /// \param wi unit direction.
 template <class Real>
 NUSSELT_HD inline LightHit<Real> intersect(const Cylinder<Real>& cylinder, const Vec3<Real>& wi) noexcept {
@@ -205,11 +205,11 @@ NUSSELT_HD inline LightHit<Real> intersect(const Cylinder<Real>& cylinder, const
     const Real tangent = sine / max(cosine, Real(kTiny<scalar_t<Real>>));
     const Vec2<Real> p = view.first_point(slice, tangent);
     const auto hits = view.visible & slice.meets & reaches & starts & ahead & wide;
-    const auto beyond_begin = p.x > view.l0;
-    const auto on_mantle = beyond_begin & (p.x < view.l1);
+    const auto beyond_start = p.x > view.l0;
+    const auto on_side = beyond_start & (p.x < view.l1);
     const Real facing = cosine * slice.half_chord / select(hits, view.radius, Real(1));
     return {mask_t<Real>(hits), length(Vec3<Real>{p.x, p.y, Real(0)}) * unit.inverse_scale,
-            select(on_mantle, facing, abs(sine))};
+            select(on_side, facing, abs(sine))};
 }
 
 NUSSELT_NAMESPACE_END

@@ -66,7 +66,7 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
     const Real quarter_turn = Real(kPi<Scalar> / 2);
     if (!any(e.visible)) return Real(0);
 
-    // Angles from the begin, theta, and from the mirrored direction in the plane of line and origin, u.
+    // Angles from the start, theta, and from the mirrored direction in the plane of line and origin, u.
     const Real mirror_s = dot(mirror, e.s);
     const Real mirror_t = dot(mirror, e.t);
     const Real mirror_aside = dot(mirror, cross(e.s, e.t));
@@ -81,7 +81,7 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
     const Real width = (sweep - skipped) - max(u1 - cut, Real(0));
     const Real u_begin = max(u0, -cut);
 
-    // Cosine at the line and with the normal, from their values and derivatives at the begin.
+    // Cosine at the line and with the normal, from their values and derivatives at the start.
     const Real cos_sweep = fma(e.c0, e.c1, e.s0 * e.s1);
     const Real slope = select(e.acute, (e.height1 - e.height0 * cos_sweep) / e.sin_sweep,
                               difference_of_products(e.s.z, e.c0, e.t.z, e.s0));

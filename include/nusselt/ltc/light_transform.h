@@ -75,9 +75,9 @@ struct BothHorizons {
     NUSSELT_HD static LineSegment<Real> part_of(const LineSegment<Real>& light) noexcept {
         const LineExtent<Real> e = clipped_extent(light);
         const Vec3<Real> far = fma(e.length, e.inward, e.near);
-        Vec3<Real> begin = select(e.begins_near, e.near, far);
-        begin.z = max(begin.z, Real(0));
-        return {begin, light.s, select(e.visible, e.length, Real(0))};
+        Vec3<Real> start = select(e.starts_near, e.near, far);
+        start.z = max(start.z, Real(0));
+        return {start, light.s, select(e.visible, e.length, Real(0))};
     }
 };
 

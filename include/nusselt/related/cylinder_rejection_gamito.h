@@ -52,7 +52,7 @@ private:
         const Real low = v.l0 * select(v.l0 < Real(0), Real(1) + ratio, Real(1) - ratio);
         const Real high = v.l1 * select(v.l1 > Real(0), Real(1) + ratio, Real(1) - ratio);
         // The square around the nearer cap.
-        const Vec3<Real> cap = select(v.l0 > Real(0), v.begin, v.end);
+        const Vec3<Real> cap = select(v.l0 > Real(0), v.start, v.end);
 
         const Vec3<Real> center = select(v.outside, depth * t + (Real(0.5) * (low + high)) * v.s, cap);
         const Vec3<Real> a = select(v.outside, (Real(0.5) * (high - low)) * v.s, v.radius * t);

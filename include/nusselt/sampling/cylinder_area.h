@@ -1,6 +1,6 @@
 #pragma once
-/// Uniform sampling of the surface of a closed cylinder, caps included. Cheap to prepare, but half of the samples or more
-/// lie on the far side, and it is noisy close to the light.
+/// Uniform sampling of the surface of a closed cylinder, caps included. Cheap to prepare, but half of the samples or
+/// more lie on the far side, and it is noisy close to the light.
 
 #include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
@@ -26,8 +26,8 @@ public:
         broadcast_members<Real>(*this, single);
     }
 
-    /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves from the middle of the cap at the begin over
-    ///          the mantle to the middle of the other cap.
+    /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves from the middle of the cap at the start over
+    ///          the lateral surface to the middle of the other cap.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         const Real& radius = light_.radius;
         const Real& length = light_.axis.length;
@@ -35,10 +35,10 @@ public:
         const Real half = Real(scalar_t<Real>(0.5)) * radius;
         const Real position = u.y * (length + radius);
         const auto on_first = position < half;
-        const auto on_mantle = (!on_first) & (position < half + length);
+        const auto on_side = (!on_first) & (position < half + length);
         const Real to_middle = max(select(on_first, position, length + radius - position), Real(0));
         const Real on_cap = radius * sqrt(min(to_middle / select(half > Real(0), half, Real(1)), Real(1)));
-        const Real rho = select(on_mantle, radius, on_cap);
+        const Real rho = select(on_side, radius, on_cap);
         const Real along = select(on_first, Real(0), min(position - half, length));
 
         // The azimuth in [-pi, pi).
@@ -47,7 +47,7 @@ public:
         const Vec3<Real> outwards = half_turn.cos * frame_.t + copysign(half_turn.sin, turn) * frame_.b;
         const Vec3<Real> p = fma(rho, outwards, fma(along, light_.axis.s, light_.axis.p0));
         const Vec3<Real> on_caps = select(on_first, -light_.axis.s, light_.axis.s);
-        const Vec3<Real> normal = select(on_mantle, outwards, on_caps);
+        const Vec3<Real> normal = select(on_side, outwards, on_caps);
         const Vec3<Real> wi = inverse_length(p) * p;
         return {wi, density(nusselt::length(p), -dot(wi, normal)), p};
     }
@@ -63,10 +63,10 @@ public:
         const Real& radius = light_.radius;
         const Real& length = light_.axis.length;
         const Real distance = intersect(light_, wi).distance;
-        const Vec3<Real> from_begin = distance * wi - light_.axis.p0;
-        const Real along = dot(from_begin, light_.axis.s);
-        const Real x = dot(from_begin, frame_.t);
-        const Real y = dot(from_begin, frame_.b);
+        const Vec3<Real> from_start = distance * wi - light_.axis.p0;
+        const Real along = dot(from_start, light_.axis.s);
+        const Real x = dot(from_start, frame_.t);
+        const Real y = dot(from_start, frame_.b);
         const Real turn = copysign(atan2_positive(abs(y), x), y);
         // At the rims, where rounding decides, both parts of the profile meet.
         const Real rounding = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon()) * (distance + length);
@@ -83,7 +83,7 @@ public:
             below_one(position / select(profile > Real(0), profile, Real(1)))};
     }
 
-    /// Area of mantle and caps [m^2].
+    /// Area of the lateral surface and the caps [m^2].
     NUSSELT_HD Real measure() const noexcept {
         return Real(2 * kPi<scalar_t<Real>>) * light_.radius * (light_.axis.length + light_.radius);
     }

@@ -55,7 +55,7 @@ struct UniformImportance {
     }
     template <class Real>
     NUSSELT_HD static Real invert(const LineExtent<Real>& e, const Vec3<Real>& wi) noexcept {
-        return below_one(e.point_in(wi).from_begin / select(e.visible, e.sine_extent, Real(1)));
+        return below_one(e.point_in(wi).from_start / select(e.visible, e.sine_extent, Real(1)));
     }
 };
 
@@ -113,7 +113,7 @@ public:
         n_along_s_ = dot(n, s_);
         height_of_m_ = m.z;
         height_of_n_ = n.z;
-        begin_height_ = space.to_cosine(view_.begin).z;
+        start_height_ = space.to_cosine(view_.start).z;
         end_height_ = space.to_cosine(view_.end).z;
         set_range();
 
@@ -234,9 +234,9 @@ private:
         const Vec3<Real> t = (Real(1) / h.widening) * (image.x * m_ + image.y * n_);
 
         // Corners of the rectangle that bound the interval of directions.
-        const auto begins_far = view_.l0 > Real(0);
+        const auto starts_far = view_.l0 > Real(0);
         const auto ends_far = view_.l1 < Real(0);
-        const Real rho0 = select(begins_far, h.slice.far, h.slice.near);
+        const Real rho0 = select(starts_far, h.slice.far, h.slice.near);
         const Real rho1 = select(ends_far, h.slice.far, h.slice.near);
         const Real steepest = Real(kSteepest<Scalar>);
         const auto clamped = [](const Real& x, const Real& limit) { return min(max(x, -limit), limit); };
@@ -266,7 +266,7 @@ private:
             p.z = select(steep, p.z, height / (distance * h.widening));
             return p;
         };
-        h.extent = Importance::extent(s_, corner(tangent0, steep0, begins_far, begin_height_, rho0),
+        h.extent = Importance::extent(s_, corner(tangent0, steep0, starts_far, start_height_, rho0),
                                       corner(tangent1, steep1, ends_far, end_height_, rho1), t, Real(1),
                                       tangent0, tangent1, length);
         const Real integral = Importance::integral(h.extent);
@@ -287,7 +287,7 @@ private:
         Real low = rightmost;
         Real high = leftmost;
         if constexpr (Importance::kEndsAtHorizon) {
-            const Real axis_height = max(begin_height_, end_height_);
+            const Real axis_height = max(start_height_, end_height_);
             const auto rises = [&](const Vec2<Real>& azimuth, const Real& offset) {
                 return axis_height + offset * height_to_the_left_of(azimuth) > Real(0);
             };
@@ -316,7 +316,7 @@ private:
                 low = select(crosses, min(low, min(angle0, angle1)), low);
                 high = select(crosses, max(high, max(angle0, angle1)), high);
             };
-            include_rim(begin_height_);
+            include_rim(start_height_);
             include_rim(end_height_);
         }
         low_ = select(sees_right, rightmost, max(low, rightmost));
@@ -330,7 +330,7 @@ private:
     Vec3<Real> s_, m_, n_; ///< right-handed, orthonormal
     Real stretch_;         ///< of the axis
     Real m_along_m_, n_along_m_, n_along_n_, m_along_s_, n_along_s_;
-    Real height_of_m_, height_of_n_, begin_height_, end_height_;
+    Real height_of_m_, height_of_n_, start_height_, end_height_;
 
     Real low_, range_; ///< azimuths around s_, from m_ to n_
     Warp warp_;
@@ -342,7 +342,7 @@ private:
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
         visit(self.space_, self.view_, self.s_, self.m_, self.n_, self.stretch_, self.m_along_m_,
               self.n_along_m_, self.n_along_n_, self.m_along_s_, self.n_along_s_, self.height_of_m_,
-              self.height_of_n_, self.begin_height_, self.end_height_, self.low_, self.range_, self.warp_,
+              self.height_of_n_, self.start_height_, self.end_height_, self.low_, self.range_, self.warp_,
               self.integral_, self.inverse_normalization_);
     }
 };

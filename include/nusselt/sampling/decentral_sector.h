@@ -17,9 +17,9 @@ NUSSELT_NAMESPACE_BEGIN
 /// range. Points of the range are x in [0, 1] on a chord of the outer circle's plane.
 template <class Real>
 struct DecentralSector {
-    Vec3<Real> begin;      ///< a point in the plane of the outer circle, at the begin of the range
+    Vec3<Real> begin;      ///< a point in the plane of the outer circle, at the start of the range
     Vec3<Real> chord;      ///< from there to the end of the range, counterclockwise around the zenith
-    Real begin_gap;        ///< height of the plane of the inner circle above the chord at its begin, >= 0
+    Real begin_gap;        ///< height of the plane of the inner circle above the chord at its start, >= 0
     Real end_gap;          ///< the same at its end
     Real doubled_triangle; ///< det(begin, chord) in the tangent plane, > 0
 
@@ -40,12 +40,12 @@ struct DecentralSector {
         return f;
     }
 
-    /// Twice the area from the begin to x (Prop. 1 for both ellipses). Each ellipse contributes the
+    /// Twice the area from the start to x (Prop. 1 for both ellipses). Each ellipse contributes the
     /// determinant of its end points times angle / sine; the determinants are equal.
     template <class Angles>
     NUSSELT_HD Real doubled_area_to(const Real& x) const noexcept {
         const Real turn = end_gap - begin_gap;
-        // Normals of the planes through the origin and the segments from begin to x, divided by x.
+        // Normals of the planes through the origin and the segments from start to x, divided by x.
         const Vec3<Real> outer_normal = cross(begin, chord);
         const Vec3<Real> lift{fma(turn, begin.y, -begin_gap * chord.y),
                               fma(begin_gap, chord.x, -turn * begin.x), Real(0)};

@@ -29,7 +29,7 @@ public:
         broadcast_members<Real>(*this, single);
     }
 
-    /// \param u in [0, 1), proportional to the distance from the begin.
+    /// \param u in [0, 1), proportional to the distance from the start.
     NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
         const Vec3<Real> p = light_.p0 + (u * light_.length) * light_.s;
         const Real r = length(p);
@@ -45,10 +45,10 @@ public:
 
     /// The random number for which sample() returns wi, a unit direction on the light.
     NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
-        const Real begin = dot(light_.p0, light_.s);
+        const Real start = dot(light_.p0, light_.s);
         const Real along = dot(wi, light_.s);
         const Real sine = length(cross(wi, light_.s));
-        const Real coordinate = distance_ * along / select(sine > Real(0), sine, Real(1)) - begin;
+        const Real coordinate = distance_ * along / select(sine > Real(0), sine, Real(1)) - start;
         return below_one(coordinate / select(light_.length > Real(0), light_.length, Real(1)));
     }
 

@@ -34,7 +34,7 @@ public:
         broadcast_members<Real>(*this, single);
     }
 
-    /// \param u in [0, 1); increasing u moves from the begin of the light to its end.
+    /// \param u in [0, 1); increasing u moves from the start of the light to its end.
     NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
         // Only the coordinate along the light comes from cosine space: rounding there must not leave the light.
         const Real along = dot(ltc_.to_shading(image_.sample(u).p), s_) / ltc_.minor();

@@ -36,7 +36,7 @@ public:
         broadcast_members<Real>(*this, single);
     }
 
-    /// \param u in [0, 1); increasing u moves from the begin of the light to its end.
+    /// \param u in [0, 1); increasing u moves from the start of the light to its end.
     NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
         const LinePoint<Real> point = arc_.point(u);
         const Vec3<Real> p = arc_.extent().position(point);

@@ -32,7 +32,7 @@ public:
         broadcast_members<Real>(*this, single);
     }
 
-    /// \param u in [0, 1); increasing u moves from the begin of the light to its end.
+    /// \param u in [0, 1); increasing u moves from the start of the light to its end.
     NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
         const LinePoint<Real> point = extent_.point_at(u * extent_.sine_extent);
         const Vec3<Real> p = extent_.position(point);
@@ -44,7 +44,7 @@ public:
 
     /// The random number for which sample() returns wi, a unit direction on the light.
     NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
-        const Real part = extent_.point_in(wi).from_begin;
+        const Real part = extent_.point_in(wi).from_start;
         return below_one(part / select(extent_.visible, extent_.sine_extent, Real(1)));
     }
 

@@ -111,7 +111,7 @@ public:
         NUSSELT_UNROLL
         for (int k = 0; k < kSectors; ++k) {
             const DecentralSector<Real> sector = decentral_sector(k);
-            const Real from_begin = det(xy(sector.begin), w);
+            const Real from_start = det(xy(sector.begin), w);
             const Vec3<Real> end = sector.begin + sector.chord;
             const Real to_end = det(w, xy(end));
             // A sector also has what rounding moved beyond its ends: there may be no other one. In the
@@ -120,11 +120,11 @@ public:
                 Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * (abs(w.x) + abs(w.y));
             const Real begin_slack = tolerance * (abs(sector.begin.x) + abs(sector.begin.y));
             const Real end_slack = tolerance * (abs(end.x) + abs(end.y));
-            const auto inside = (from_begin >= -begin_slack) & (to_end >= -end_slack);
+            const auto inside = (from_start >= -begin_slack) & (to_end >= -end_slack);
             const auto here = (!found) & (doubled_area_[k] > Real(0)) & ((!central_) | inside);
             // The chord meets the ray along w.
             const Real slope = det(w, xy(sector.chord));
-            const Real x = min(max(from_begin / select(slope > Real(0), slope, Real(1)), Real(0)), Real(1));
+            const Real x = min(max(from_start / select(slope > Real(0), slope, Real(1)), Real(0)), Real(1));
             const Real partial =
                 select(central_, central_area_to(sector, x, k), sector.template doubled_area_to<Angles>(x));
             area = select(here, before + min(partial, doubled_area_[k]), area);
@@ -302,7 +302,7 @@ private:
         return {inverse * direction, Real(0), along * direction};
     }
 
-    /// Twice the area of central sector k from its begin to x.
+    /// Twice the area of central sector k from its start to x.
     NUSSELT_HD Real central_area_to(const DecentralSector<Real>& sector, const Real& x,
                                     int k) const noexcept {
         const Vec3<Real> n = x * cross(sector.begin, sector.chord);

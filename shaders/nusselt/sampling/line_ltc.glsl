@@ -73,7 +73,7 @@ float line_ltc_pdf(LineLtc self, vec3 wi) {
     return is_finite(density) ? density : 0.0;
 }
 
-/// \param u in [0, 1); increasing u moves from the begin of the light to its end.
+/// \param u in [0, 1); increasing u moves from the start of the light to its end.
 LightSample line_ltc_sample(LineLtc self, float u) {
     // Only the coordinate along the light comes from cosine space: rounding there must not leave the light.
     vec3 image = line_projected_solid_angle_sample(self.image, u).p;

@@ -46,7 +46,7 @@ float line_projected_solid_angle_pdf(LineProjectedSolidAngle self, vec3 wi) {
     return nusselt_max(wi.z, 0.0) * self.inverse_measure;
 }
 
-/// \param u in [0, 1); increasing u moves from the begin of the light to its end.
+/// \param u in [0, 1); increasing u moves from the start of the light to its end.
 LightSample line_projected_solid_angle_sample(LineProjectedSolidAngle self, float u) {
     LinePoint point = cosine_arc_point(self.arc, u);
     vec3 p = line_extent_position(self.arc.extent, point);
