@@ -22,7 +22,7 @@ struct VisibleCap {
     }
 };
 
-/// Without normals that are sure to reflect to directions below the surface.
+/// The cap without normals that are sure to reflect to directions below the surface.
 struct BoundedCap {
     template <class Real>
     NUSSELT_HD static Real reach(const Vec3<Real>& wo, const Real& alpha2) noexcept {
@@ -119,7 +119,7 @@ public:
     }
 
 private:
-    /// How far above the direction opposite to the stretched wo the point of the cap lies that gives a half vector.
+    /// The height, above the direction opposite to the stretched wo, of the point of the cap that gives a half vector.
     NUSSELT_HD Real height_of(const Vec3<Real>& h, const Real& ratio) const noexcept {
         return alpha_ * alpha_ * ratio * h.z * inverse_length_;
     }

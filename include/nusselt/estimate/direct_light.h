@@ -25,8 +25,9 @@ struct DirectLightSample {
 
 /// One light at one surface point: techniques for both components, whose samples any heuristic can combine.
 ///
-/// Unbiased for all heuristics, unless a technique of the pair is biased itself: the technique for the diffuse component covers all of the light above the surface and
-/// takes over where the lobe is zero; samples below the surface count, with a BRDF of zero.
+/// Estimates are unbiased for all heuristics, unless a technique of the pair is biased itself: the technique for the
+/// diffuse component covers all of the light above the surface and takes over where the lobe is zero; samples below the
+/// surface count, with a BRDF of zero.
 ///
 /// \tparam Real       float, double, long double or a pack: one light and surface point per lane.
 /// \tparam Light      ConvexPolygon<Real, N>, LineSegment<Real> or Cylinder<Real>.

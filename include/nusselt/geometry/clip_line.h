@@ -41,6 +41,7 @@ template <class Real>
 NUSSELT_INLINE LineExtent<Real>
 clipped_extent(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& closest,
                const Real& distance, const Real& start, const Real& end, const Real& length) noexcept {
+    // Tell which ends lie above the horizon.
     const Real z0 = without_tiny(p0.z);
     const Real z1 = without_tiny(p1.z);
     const auto rises = (z0 < Real(0)) & (z1 > Real(0));
@@ -51,14 +52,17 @@ clipped_extent(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1, 
     const Real visible_length = select(lit, length, Real(0));
     if (!any(crosses)) return make_line_extent(s, p0, p1, closest, distance, start, end, visible_length);
 
+    // Find the crossing with the horizon.
     const Real slope = select(crosses, s.z, Real(1));
-    // What remains follows from the end above the horizon: the difference of coordinates would cancel.
+    // The remaining length follows from the end above the horizon: the difference of coordinates would cancel.
     const Real remaining = min(select(rises, z1, z0) / abs(slope), length);
     // The first formula errs by rounding times the distance over the slope, the second by rounding times the
     // length: the better one gives z = 0 up to rounding also near the axis of the light.
     const auto steep = distance < abs(slope) * max(abs(start), abs(end));
     const Real crossing =
         select(steep, -closest.z / slope, select(rises, end - remaining, start + remaining));
+
+    // Replace the end that lies below.
     Vec3<Real> on_horizon = crossing * s + closest;
     on_horizon.z = Real(0);
     return make_line_extent(s, select(rises, on_horizon, p0), select(falls, on_horizon, p1), closest,
@@ -88,7 +92,7 @@ NUSSELT_INLINE Real cosine_integral(const Real& theta, const Real& from_start, c
     return max(fma(n_t, x_minus_sin(theta), from_start * heights), Real(0));
 }
 
-/// The same from end to end.
+/// The integral from end to end.
 template <class Real>
 NUSSELT_INLINE Real cosine_integral(const LineExtent<Real>& e) noexcept {
     return cosine_integral(e.sweep(), e.sine_extent, e.height0 + e.height1, e.t.z);

@@ -40,8 +40,8 @@ NUSSELT_INLINE Cylinder<Real> scaled(const Cylinder<Real>& cylinder, const Real&
     return {scaled(cylinder.axis, scale), scale * cylinder.radius};
 }
 
-/// Where the half-plane of points l s + rho t, rho >= 0, through the origin meets an infinite cylinder with axis
-/// direction s: the strip of rho in [near, far].
+/// The intersection of the half-plane of points l s + rho t, rho >= 0, through the origin with an infinite cylinder of
+/// axis direction s: the strip of rho in [near, far].
 template <class Real>
 struct CylinderSlice {
     Vec2<Real> azimuth; ///< t in the basis m, n of the view
@@ -72,6 +72,8 @@ struct CylinderView {
     /// \param direction unit, in the basis m, n.
     NUSSELT_HD CylinderSlice<Real> slice(const Vec2<Real>& direction) const noexcept {
         CylinderSlice<Real> c;
+
+        // Turn directions that miss the cylinder to the closest one that touches it.
         const Real safe_radius = select(visible, radius, Real(1));
         const Real x = det(center, direction) / safe_radius;
         const auto crosses = abs(x) < Real(1);
@@ -80,17 +82,20 @@ struct CylinderView {
         const Vec2<Real> closest{touching.x, copysign(touching.y, x)};
         c.azimuth = select(outside & (!c.meets), closest, direction);
         c.t = c.azimuth.x * m + c.azimuth.y * n;
+
+        // Find the middle of the strip and half its width.
         const Real side = min(max(x, Real(-1)), Real(1));
         c.offset = side * safe_radius;
         c.along = dot(center, c.azimuth);
-        // Sums of terms that are not negative; products may be too small to be represented.
+        // These are sums of terms that are not negative; products may be too small to be represented.
         const Real inside_along = select(outside, Real(0), c.along / safe_radius);
         const Real inside_gap = (-gap / safe_radius) * (sum / safe_radius);
         const Real squared =
             select(outside, (Real(1) + side) * (Real(1) - side), fma(inside_along, inside_along, inside_gap));
         c.half_chord = sqrt(max(squared, Real(0))) * safe_radius;
-        // The product of near and far is that of gap and sum: none of them comes from a difference, nor does the
-        // larger one fall below the root.
+
+        // Find where the strip starts and ends. The product of near and far is that of gap and sum: none of them comes
+        // from a difference, nor does the larger one fall below the root.
         const Real larger = max(abs(c.along) + c.half_chord, sqrt(abs(gap)) * sqrt(sum));
         const auto apart = larger > Real(kTiny<scalar_t<Real>>);
         const Real other = abs(gap) * (sum / select(apart, larger, Real(1)));
@@ -133,17 +138,22 @@ NUSSELT_INLINE CylinderView<Real> make_cylinder_view(const Cylinder<Real>& cylin
     v.end = end_of(axis);
     v.length = axis.length;
     v.radius = cylinder.radius;
+
+    // Find the closest point of the axis, and whether the origin lies outside of the infinite cylinder.
     const Vec3<Real> moment = cross(axis.p0, v.s);
     const Vec3<Real> closest = cross(v.s, moment);
     const Real distance = length(moment);
     v.gap = distance - v.radius;
     v.sum = distance + v.radius;
+
+    // Tell whether anything is visible: the origin must not be inside or next to the surface.
     v.l0 = dot(v.start, v.s);
     v.l1 = dot(v.end, v.s);
     v.outside = (v.gap >= Real(0)) & (distance > Real(0));
     const Real apart = max(max(v.l0, -v.l1), v.gap);
     v.visible = (v.length > Real(0)) & (v.radius > Real(0)) & (apart > Real(kTiny<scalar_t<Real>>));
 
+    // Complete the axis to a basis, towards the closest point if there is one.
     const Vec3<Real> upwards = normalize(cross(v.s, cross(up, v.s)));
     const auto horizontal = (upwards.x == Real(0)) & (upwards.y == Real(0)) & (upwards.z == Real(0));
     const Vec3<Real> free = select(horizontal, Frame<Real>::from_normal(v.s).t, upwards);
@@ -151,6 +161,8 @@ NUSSELT_INLINE CylinderView<Real> make_cylinder_view(const Cylinder<Real>& cylin
     v.n = cross(v.s, v.m);
     v.center = {select(v.outside, distance, dot(closest, v.m)),
                 select(v.outside, Real(0), dot(closest, v.n))};
+
+    // Find the half-planes that touch.
     const Real safe_distance = select(v.outside, distance, Real(1));
     v.touching = {sqrt(max(v.gap, Real(0)) / safe_distance) * sqrt(v.sum / safe_distance),
                   v.radius / safe_distance};
@@ -189,12 +201,14 @@ struct LightHit {
 /// \param wi unit direction.
 template <class Real>
 NUSSELT_HD inline LightHit<Real> intersect(const Cylinder<Real>& cylinder, const Vec3<Real>& wi) noexcept {
+    // Cut the cylinder by the half-plane of the ray.
     const auto unit = to_unit_extent(cylinder);
     const CylinderView<Real> view = make_cylinder_view(unit.light, {Real(0), Real(0), Real(0)});
     const CylinderSlice<Real> slice = view.slice(view.azimuth_of(wi));
     const Real sine = dot(wi, view.s);
     const Real cosine = max(dot(wi, slice.t), Real(0));
-    // The ray passes the strip from l = near tan(alpha) to far tan(alpha).
+
+    // Test whether the ray meets the rectangle. It passes the strip from l = near tan(alpha) to far tan(alpha).
     const Real enters = slice.near * sine;
     const Real leaves = slice.far * sine;
     const auto reaches = max(enters, leaves) >= view.l0 * cosine;
@@ -205,6 +219,8 @@ NUSSELT_HD inline LightHit<Real> intersect(const Cylinder<Real>& cylinder, const
     const Real tangent = sine / max(cosine, Real(kTiny<scalar_t<Real>>));
     const Vec2<Real> p = view.first_point(slice, tangent);
     const auto hits = view.visible & slice.meets & reaches & starts & ahead & wide;
+
+    // Find the cosine: on a cap it is that with the axis.
     const auto beyond_start = p.x > view.l0;
     const auto on_side = beyond_start & (p.x < view.l1);
     const Real facing = cosine * slice.half_chord / select(hits, view.radius, Real(1));

@@ -127,7 +127,7 @@ private:
     }
 };
 
-/// For coordinates of order one: a smaller distance of a line from the origin cannot be told from rounding.
+/// With coordinates of order one, a smaller distance of a line from the origin cannot be told from rounding.
 template <class Scalar>
 inline constexpr Scalar kSmallestDistance = 4 * std::numeric_limits<Scalar>::epsilon();
 
@@ -142,14 +142,18 @@ NUSSELT_INLINE LineExtent<Real>
 make_line_extent(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& closest,
                  const Real& distance, const Real& l0, const Real& l1, const Real& length) noexcept {
     LineExtent<Real> e;
+
+    // Set up the plane of the line and the origin (Peters 2021, linear lights, Sec. 3.1).
     const auto passes_by = (distance > Real(kSmallestDistance<scalar_t<Real>>)) & (length > Real(0));
-    // Without light, any values will do that keep the formulas finite.
+    // If there is no light, any values will do that keep the formulas finite.
     e.distance = select(passes_by, distance, Real(1));
     e.s = s;
     e.t = (Real(1) / e.distance) * closest;
     e.length = length;
     e.l0 = l0;
     e.l1 = l1;
+
+    // Find sines and cosines of the angles of both ends, and their heights.
     const Real r0 = sqrt(fma(l0, l0, e.distance * e.distance));
     const Real r1 = sqrt(fma(l1, l1, e.distance * e.distance));
     const Real inverse_r0 = Real(1) / r0;
@@ -160,22 +164,29 @@ make_line_extent(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1
     e.c1 = e.distance * inverse_r1;
     e.height0 = max(p0.z, Real(0)) / r0;
     e.height1 = max(p1.z, Real(0)) / r1;
+
+    // One plus or minus a sine cancels for one sign of it; the squared cosine does not.
     const Real one_plus_abs0 = Real(1) + abs(e.s0);
     const Real one_plus_abs1 = Real(1) + abs(e.s1);
     e.one_plus_s0 = select(e.s0 < Real(0), e.c0 * e.c0 / one_plus_abs0, one_plus_abs0);
     e.one_minus_s1 = select(e.s1 > Real(0), e.c1 * e.c1 / one_plus_abs1, one_plus_abs1);
+
+    // Points are best found from the nearer end.
     e.starts_near = r0 <= r1;
     e.near = select(e.starts_near, p0, p1);
     e.inward = select(e.starts_near, s, -s);
     e.near_distance = min(r0, r1);
     e.near_cosine = max(e.c0, e.c1);
-    // The sine of the sweep is the area of the triangle with the origin, never a difference.
+
+    // Find the angle between the ends. Its sine is the area of the triangle with the origin, never a difference.
     e.sin_sweep = (length * inverse_r0) * e.c1;
     const Real cos_sweep = fma(e.c0, e.c1, e.s0 * e.s1);
     e.visible = passes_by & (e.sin_sweep > Real(0));
     e.acute = cos_sweep > Real(0);
     e.half_tangent = e.sin_sweep / (Real(1) + abs(cos_sweep));
-    // Beyond a quarter of a turn the closest point lies between the ends: both sines add up.
+
+    // Find the difference of both sines (Eq. 1). Beyond a quarter of a turn the closest point lies between the ends,
+    // and they add up.
     e.sine_extent = select(e.acute, e.half_tangent * (e.c0 + e.c1), e.s1 - e.s0);
     return e;
 }

@@ -42,7 +42,7 @@ NUSSELT_HD inline ConvexPolygon<Real, N> with_unit_extent(const ConvexPolygon<Re
     result.normal = polygon.normal;
     return result;
 }
-/// The same for those who do not need the scale.
+/// The scaled polygon, for callers that do not need the scale.
 template <class Real, int N>
 NUSSELT_HD inline ConvexPolygon<Real, N> with_unit_extent(const ConvexPolygon<Real, N>& polygon) noexcept {
     return with_unit_extent(polygon, unit_extent_scale(polygon));
@@ -51,14 +51,14 @@ NUSSELT_HD inline ConvexPolygon<Real, N> with_unit_extent(const ConvexPolygon<Re
 template <class Real, int N>
 using ScaledPolygon = ScaledLight<ConvexPolygon<Real, N>, Real>;
 
-/// The same with the scale.
+/// The scaled polygon and its scale.
 template <class Real, int N>
 NUSSELT_HD inline ScaledPolygon<Real, N> to_unit_extent(const ConvexPolygon<Real, N>& polygon) noexcept {
     const Real scale = unit_extent_scale(polygon);
     return {with_unit_extent(polygon, scale), scale, reciprocal_power_of_two(scale)};
 }
 
-/// Where directions meet a polygon with coordinates of order one.
+/// The plane of a polygon with coordinates of order one and a box around it, to find where directions meet it.
 template <class Real>
 struct PolygonHull {
     LightPlane<Real> plane;

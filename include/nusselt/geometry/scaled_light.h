@@ -14,7 +14,7 @@ struct ScaledLight {
     Real inverse_scale; ///< by which the original is larger
 };
 
-/// For lights with scale_of() and scaled(): lines and cylinders.
+/// Scales a line or a cylinder, which have scale_of() and scaled().
 template <template <class> class Light, class Real>
 NUSSELT_INLINE ScaledLight<Light<Real>, Real> to_unit_extent(const Light<Real>& light) noexcept {
     const Real scale = scale_of(light);

@@ -44,14 +44,14 @@ struct Interval {
     Real begin, end;
 };
 
-/// From infinity to minus infinity, so that unions are a minimum and a maximum.
+/// The interval from infinity to minus infinity, so that unions are a minimum and a maximum.
 template <class Real>
 NUSSELT_HD inline Interval<Real> empty_interval() noexcept {
     constexpr scalar_t<Real> kInfinity = std::numeric_limits<scalar_t<Real>>::infinity();
     return {Real(kInfinity), Real(-kInfinity)};
 }
 
-/// What a light has of a line.
+/// The part of a line on the light.
 template <class Real>
 struct Chord {
     Real offset; ///< [m]
@@ -111,6 +111,7 @@ public:
     /// \param light in any space.
     /// \param angle of the lines with the longest edge of the light, in [0, pi).
     NUSSELT_HD LineFamily(const ConvexPolygon<Real, N>& light, const Real& angle) noexcept {
+        // Scale the light to an extent of order one and find its longest edge.
         Real extent = Real(0);
         for (int j = 0; j < N; ++j) {
             const Vec3<Real>& edge = light.edge[j];
@@ -122,9 +123,13 @@ public:
             const Vec3<Real> edge = scale_ * light.edge[j];
             longest = select(dot(edge, edge) > dot(longest, longest), edge, longest);
         }
-        // Edges of tiny lights far from the origin of their space are rounded out of the plane.
+
+        // Complete that edge to a basis of the plane. Edges of tiny lights far from the origin of their space are
+        // rounded out of the plane.
         const Vec3<Real> bitangent = normalize(cross(light.normal, longest));
         const Vec3<Real> tangent = cross(bitangent, light.normal);
+
+        // Turn the basis by the angle (Sec. 5.1.1).
         const SinCos<Real> half = sincos_quarter_turn(Real(0.5) * angle);
         const Real sine = Real(2) * half.sin * half.cos;
         const Real cosine = fma(Real(-2) * half.sin, half.sin, Real(1));
@@ -143,7 +148,7 @@ public:
 
     NUSSELT_HD const LinePlane<Real>& plane() const noexcept { return plane_; }
 
-    /// Of all lines of the light [m].
+    /// The range of the offsets of all lines of the light [m].
     NUSSELT_HD Interval<Real> offsets() const noexcept { return {knot_[0].offset, knot_[N - 1].offset}; }
 
     /// \param u in [0, 1); increasing u increases the offset.
@@ -173,9 +178,10 @@ public:
         return largest;
     }
 
-    /// With a density in proportion to the length of the line on the light.
+    /// Samples lines in proportion to their length on the light.
     /// \param u in [0, 1); increasing u increases the offset.
     NUSSELT_HD LineChoice<Real> sample_by_length(const Real& u) const noexcept {
+        // Choose the part between two neighbouring vertices in proportion to its area (Sec. 5.1.2).
         const Real target = u * scaled_area_;
         Real below = Real(0);
         Real rest = target;
@@ -186,11 +192,13 @@ public:
             span = select(beyond, Span{knot_[k], knot_[k + 1]}, span);
             rest = select(beyond, target - below, rest);
         }
+
+        // In it, the length of the lines is a linear function of the offset: invert its integral.
         const Real l0 = scale_ * length_of(span.left);
         const Real l1 = scale_ * length_of(span.right);
         const Real area = scaled_area(span);
         const Real x = min(rest / select(area > Real(0), area, Real(1)), Real(1));
-        // Without a difference of nearly equal lengths.
+        // The sum in the denominator avoids a difference of nearly equal lengths.
         const Real denominator = l0 + sqrt(max(fma(x, l1 * l1 - l0 * l0, l0 * l0), Real(0)));
         const Real step = x * (l0 + l1) / select(denominator > Real(0), denominator, Real(1));
         const Real width = span.right.offset - span.left.offset;
@@ -238,7 +246,7 @@ public:
         return {offset, {begin, max(begin, end)}};
     }
 
-    /// Of the light [m^2].
+    /// Area of the light [m^2].
     NUSSELT_HD Real area() const noexcept { return scaled_area_ / scale_; }
 
 private:
@@ -289,7 +297,8 @@ private:
 
 template <class Real, int N>
 NUSSELT_HD inline void LineFamily<Real, N>::project(const ConvexPolygon<Real, N>& light) noexcept {
-    // From edges: differences of vertices would lose the size of small lights far away.
+    // Find the coordinates of the vertices, from edges: differences of vertices would lose the size of small lights far
+    // away.
     Real u[N];
     Real t[N];
     u[0] = t[0] = Real(0);
@@ -297,6 +306,8 @@ NUSSELT_HD inline void LineFamily<Real, N>::project(const ConvexPolygon<Real, N>
         u[j + 1] = u[j] + dot(light.edge[j], plane_.across);
         t[j + 1] = t[j] + dot(light.edge[j], plane_.along);
     }
+
+    // Find the chord through each vertex, by where its line crosses the other edges.
     for (int k = 0; k < N; ++k) {
         knot_[k] = {u[k], {t[k], t[k]}};
         for (int j = 0; j < N; ++j) {
@@ -309,7 +320,8 @@ NUSSELT_HD inline void LineFamily<Real, N>::project(const ConvexPolygon<Real, N>
             knot_[k].extent.end = select(crosses, max(knot_[k].extent.end, at), knot_[k].extent.end);
         }
     }
-    // Insertion sort with static indices.
+
+    // Sort the chords by offset: an insertion sort with static indices.
     for (int i = 1; i < N; ++i)
         for (int k = i; k > 0; --k) {
             const auto swaps = knot_[k].offset < knot_[k - 1].offset;
@@ -317,6 +329,8 @@ NUSSELT_HD inline void LineFamily<Real, N>::project(const ConvexPolygon<Real, N>
             knot_[k] = select(swaps, knot_[k - 1], knot_[k]);
             knot_[k - 1] = lower;
         }
+
+    // Add up the area.
     scaled_area_ = Real(0);
     for (int k = 0; k + 1 < N; ++k) scaled_area_ = scaled_area_ + scaled_area({knot_[k], knot_[k + 1]});
 }

@@ -78,7 +78,7 @@ public:
                 difference_of_products(m00_, n.z, m02_, n.x)};
     }
 
-    /// What to_shading() and normal_to_cosine() are scaled by, > 0.
+    /// The factor by which to_shading() and normal_to_cosine() are scaled, > 0.
     NUSSELT_HD Real minor() const noexcept { return minor_; }
 
     /// Density of the lobe with respect to solid angle [1/sr]: it integrates to 1 over the sphere. 0 beyond the horizon

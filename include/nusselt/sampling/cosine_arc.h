@@ -58,8 +58,8 @@ public:
         auto goes_on = mask_t<Real>(true);
         for (int i = 0; i < Iterations && any(goes_on); ++i) {
             const Rotation rotation = rotation_to(theta);
-            const Real residual = fma(-u, integral_, rotation.integral);
-            // Laguerre's method: the root of the quadratic Taylor polynomial, in Blinn's stable form.
+            const Real residual = fma(-u, integral_, rotation.integral); // Eq. 4
+            // Laguerre's method (Algorithm 2): the root of the quadratic Taylor polynomial, in Blinn's stable form.
             const Real first = rotation.cosine * rotation.height;
             const Real second = fma(rotation.cosine, rotation.height_slope, -rotation.sine * rotation.height);
             const Real denominator = first + sqrt(max(fma(first, first, -second * residual), Real(0)));
@@ -84,7 +84,7 @@ public:
     }
 
 private:
-    /// What the iteration needs at the angle theta from the start.
+    /// The quantities that the iteration needs at the angle theta from the start.
     struct Rotation {
         Real sine, cosine;         ///< of alpha
         Real height, height_slope; ///< cosine with the normal and its derivative

@@ -31,7 +31,7 @@ public:
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         const Real& radius = light_.radius;
         const Real& length = light_.axis.length;
-        // Along the profile, in units of the circumference, a cap counts half its radius.
+        // Choose the position along the profile. In units of the circumference, a cap counts half its radius.
         const Real half = Real(scalar_t<Real>(0.5)) * radius;
         const Real position = u.y * (length + radius);
         const auto on_first = position < half;
@@ -41,10 +41,12 @@ public:
         const Real rho = select(on_side, radius, on_cap);
         const Real along = select(on_first, Real(0), min(position - half, length));
 
-        // The azimuth in [-pi, pi).
+        // Choose the azimuth, in [-pi, pi).
         const Real turn = Real(kPi<scalar_t<Real>>) * fma(Real(2), u.x, Real(-1));
         const SinCos<Real> half_turn = sincos_half_turn(abs(turn));
         const Vec3<Real> outwards = half_turn.cos * frame_.t + copysign(half_turn.sin, turn) * frame_.b;
+
+        // Put both together.
         const Vec3<Real> p = fma(rho, outwards, fma(along, light_.axis.s, light_.axis.p0));
         const Vec3<Real> on_caps = select(on_first, -light_.axis.s, light_.axis.s);
         const Vec3<Real> normal = select(on_side, outwards, on_caps);
@@ -63,12 +65,15 @@ public:
         const Real& radius = light_.radius;
         const Real& length = light_.axis.length;
         const Real distance = intersect(light_, wi).distance;
+
+        // Find the point on the light in cylindrical coordinates.
         const Vec3<Real> from_start = distance * wi - light_.axis.p0;
         const Real along = dot(from_start, light_.axis.s);
         const Real x = dot(from_start, frame_.t);
         const Real y = dot(from_start, frame_.b);
         const Real turn = copysign(atan2_positive(abs(y), x), y);
-        // At the rims, where rounding decides, both parts of the profile meet.
+
+        // Find its position along the profile. At the rims, where rounding decides, both parts of the profile meet.
         const Real rounding = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon()) * (distance + length);
         const Real half = Real(scalar_t<Real>(0.5)) * radius;
         const Real safe_radius = select(radius > Real(0), radius, Real(1));

@@ -94,12 +94,15 @@ public:
     /// \param cylinder in shading space, with coordinates of order one.
     NUSSELT_HD CylinderFan(const Cylinder<Real>& cylinder, const Space& space) noexcept
         : space_(space), view_(make_cylinder_view(cylinder, horizon_normal(space))) {
+        // Map the axis and the basis across it to the space of the importance.
         const Vec3<Real> s = space.to_cosine(view_.s);
         const Vec3<Real> m = space.to_cosine(view_.m);
         const Vec3<Real> n = space.to_cosine(view_.n);
         // The image of the plane across n contains those of s and m. Products, not differences: images may be flat.
         const Vec3<Real> across = space.normal_to_cosine(view_.n);
         const Real lateral = space.to_cosine({Real(0), Real(1), Real(0)}).y;
+
+        // Express the images in an orthonormal basis along the image of the axis.
         stretch_ = length(s);
         s_ = normalize(s);
         n_ = normalize(across);
@@ -115,8 +118,12 @@ public:
         height_of_n_ = n.z;
         start_height_ = space.to_cosine(view_.start).z;
         end_height_ = space.to_cosine(view_.end).z;
+
+        // Find the azimuths of what is visible.
         set_range();
 
+        // Integrate the importance over half-planes at the nodes. The integral of their interpolant estimates the whole
+        // one.
         Real value[kAzimuthNodes];
         Real largest = Real(0);
         NUSSELT_UNROLL
@@ -126,6 +133,8 @@ public:
             largest = max(value[i], largest);
         }
         integral_ = Real(0.5) * range_ * Warp(value).integral();
+
+        // Interpolate these integrals: the density of azimuths.
         NUSSELT_UNROLL
         for (int i = 0; i < kAzimuthNodes; ++i) value[i] = fma(largest, Real(kLeastShare<Scalar>), value[i]);
         warp_ = Warp(value);
@@ -187,7 +196,7 @@ private:
         Real integral;           ///< of the importance
     };
 
-    /// In shading space: directions with a positive product have importance.
+    /// The normal of the horizon in shading space: directions with a positive product have importance.
     NUSSELT_HD static Vec3<Real> horizon_normal(const Space& space) noexcept {
         const Real zero = Real(0);
         const Real one = Real(1);
@@ -226,6 +235,8 @@ private:
 
     NUSSELT_HD HalfPlane half_plane(const Vec2<Real>& direction) const noexcept {
         HalfPlane h;
+
+        // Cut the cylinder and map the half-plane to the space of the importance.
         h.slice = view_.slice(direction);
         const Vec2<Real>& azimuth = h.slice.azimuth;
         const Vec2<Real> image = image_of(azimuth);
@@ -233,7 +244,7 @@ private:
         h.shear = fma(azimuth.x, m_along_s_, azimuth.y * n_along_s_);
         const Vec3<Real> t = (Real(1) / h.widening) * (image.x * m_ + image.y * n_);
 
-        // Corners of the rectangle that bound the interval of directions.
+        // Find the two corners of the rectangle that bound the interval of directions, by their tangents.
         const auto starts_far = view_.l0 > Real(0);
         const auto ends_far = view_.l1 < Real(0);
         const Real rho0 = select(starts_far, h.slice.far, h.slice.near);
@@ -256,6 +267,7 @@ private:
         const Real difference = area / rho0 / rho1 * (stretch_ / h.widening);
         const Real length = select(steep0 | steep1, tangent1 - tangent0, difference);
 
+        // Find the heights of these corners above the horizon, by sums that keep their precision near it.
         const Real height_of_t = fma(azimuth.x, height_of_m_, azimuth.y * height_of_n_);
         const Real height_sideways = h.slice.offset * height_to_the_left_of(azimuth);
         const Real height_across = h.slice.half_chord * height_of_t;
@@ -266,6 +278,8 @@ private:
             p.z = select(steep, p.z, height / (distance * h.widening));
             return p;
         };
+
+        // They are the end points of a line at distance one, whose importance has a closed form.
         h.extent = Importance::extent(s_, corner(tangent0, steep0, starts_far, start_height_, rho0),
                                       corner(tangent1, steep1, ends_far, end_height_, rho1), t, Real(1),
                                       tangent0, tangent1, length);
@@ -277,6 +291,7 @@ private:
     /// The azimuths of the part of the cylinder above the horizon. They are bounded by half-planes that touch the
     /// cylinder, if these reach above the horizon, or else by points of the rims in the horizon.
     NUSSELT_HD void set_range() noexcept {
+        // Half-planes that touch the cylinder bound what is seen from outside; from inside, everything around is seen.
         const Real half_turn = Real(kPi<Scalar>);
         const Vec2<Real> left = view_.touching;
         const Vec2<Real> right{left.x, -left.y};
@@ -287,6 +302,7 @@ private:
         Real low = rightmost;
         Real high = leftmost;
         if constexpr (Importance::kEndsAtHorizon) {
+            // Tell which of them reach above the horizon.
             const Real axis_height = max(start_height_, end_height_);
             const auto rises = [&](const Vec2<Real>& azimuth, const Real& offset) {
                 return axis_height + offset * height_to_the_left_of(azimuth) > Real(0);
@@ -297,6 +313,7 @@ private:
             sees_left = surrounded | (view_.outside & rises(left, view_.radius));
             sees_right = surrounded | (view_.outside & rises(right, -view_.radius));
 
+            // Otherwise points of the rims in the horizon are the bounds.
             low = leftmost;
             high = rightmost;
             const Vec3<Real> up = normalize(Vec3<Real>{height_of_m_, height_of_n_, Real(0)});

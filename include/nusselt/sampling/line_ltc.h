@@ -65,11 +65,14 @@ private:
     NUSSELT_HD LineLtc(const ScaledLight<LineSegment<Real>, Real>& unit, const LineSegment<Real>& part,
                        const Ltc<Real>& ltc) noexcept
         : ltc_(ltc), image_(to_cosine_space(part, ltc)), s_(part.s), inverse_scale_(unit.inverse_scale) {
+        // Describe the line by its closest point and the coordinates of its ends.
         const Vec3<Real> moment = cross(part.p0, part.s);
         closest_ = cross(part.s, moment);
         l0_ = dot(part.p0, part.s);
         l1_ = dot(end_of(part), part.s);
-        // The reciprocal of what the density of directions on the image is divided by.
+
+        // Correct the radius, which differs in cosine space (Eq. 5). The ratio is the reciprocal of what the density of
+        // directions on the image is divided by.
         const Real ratio = Real(kPi<scalar_t<Real>>) * radius_ratio(moment, ltc);
         const auto passes_by = length(moment) > Real(kSmallestDistance<scalar_t<Real>>);
         const auto in_lobe = image_.measure() > Real(0);
@@ -85,7 +88,7 @@ private:
     Ltc<Real> ltc_;
     LineProjectedSolidAngle<Real> image_; ///< in cosine space
 
-    // In shading space, of the part of the light that counts, scaled to an extent of order one.
+    // The part of the light that counts, in shading space and scaled to an extent of order one.
     Vec3<Real> s_;
     Vec3<Real> closest_; ///< point of the infinite line
     Real l0_, l1_;       ///< coordinates of the end points along s, 0 at the closest point

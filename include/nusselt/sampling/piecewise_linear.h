@@ -14,7 +14,7 @@ class PiecewiseLinear {
 public:
     static constexpr int kNodes = Nodes;
 
-    /// Where the i-th node lies, in [0, 1].
+    /// The position of node i, in [0, 1].
     static constexpr scalar_t<Real> node(int i) noexcept {
         using T = scalar_t<Real>;
         const T t = static_cast<T>(i) / static_cast<T>(Nodes - 1);

@@ -50,6 +50,7 @@ public:
     /// \param u in [0, 1)^2; x selects the triangle of the fan around vertex 0 and the line through its first
     ///          corner, y the point on that line. Continuous within each triangle.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        // Choose a triangle of the fan in proportion to its area.
         const Real target = u.x * doubled_total_;
         Vec3<Real> a = side_[0];
         Vec3<Real> b = side_[1];
@@ -64,6 +65,8 @@ public:
             begin = select(reached, before, begin);
             before = before + doubled_area_[j];
         }
+
+        // Choose a point in it (Turk 1992): distances from the common corner go with the root.
         const Real fraction = (target - begin) / select(chosen > Real(0), chosen, Real(1));
         const Real along = min(max(fraction, Real(0)), Real(1));
         const Real root = sqrt(u.y);
@@ -90,7 +93,8 @@ public:
             const Vec3<Real>& b = side_[j + 1];
             const Real beyond_b = dot(n, cross(q, b));
             const auto usable = doubled_area_[j] > Real(0);
-            const auto here = (!found) & usable; // the last triangle also has what rounding moved beyond it
+            // The last triangle also has what rounding moved beyond its end.
+            const auto here = (!found) & usable;
             const Real inverse = Real(1) / select(usable, doubled_area_[j], Real(1));
             // Barycentric coordinates of q: of b from the triangle (a, q), of a from (q, b).
             const Real along_b = max(dot(n, cross(a, q)) * inverse, Real(0));

@@ -67,7 +67,7 @@ private:
     }
 
     Lobe lobe_;
-    // Of the light scaled to an extent of order one.
+    // All of this is that of the light scaled to an extent of order one.
     PolygonHull<Real> hull_;
     Vec3<Real> side_[N]; ///< normals of the planes through the origin and the edges, towards the light
     Real inverse_scale_; ///< a power of two

@@ -75,7 +75,7 @@ private:
     Ltc<Real> ltc_;
     Image image_; ///< in cosine space
 
-    // In shading space, of the part of the light that counts, scaled to an extent of order one.
+    // The part of the light that counts, in shading space and scaled to an extent of order one.
     PolygonHull<Real> hull_;
     Real inverse_scale_; ///< a power of two
 

@@ -41,11 +41,13 @@ public:
 
     /// \param light in shading space, either winding [m].
     NUSSELT_HD explicit PolygonProjectedSolidAngle(const ConvexPolygon<Real, N>& light) noexcept {
+        // Scale the light to coordinates of order one.
         const ScaledPolygon<Real, N> unit = to_unit_extent(light);
         ConvexPolygon<Real, N> polygon = unit.light;
         inverse_scale_ = unit.inverse_scale;
         const Real distance = plane_distance(polygon);
-        // The method wants the winding that is clockwise as seen from the origin: mirror y otherwise.
+
+        // The method wants the winding that is clockwise as seen from the origin: mirror y otherwise (Sec. 3.1).
         mirror_ = copysign(Real(1), distance);
         auto all_above = mask_t<Real>(true);
         for (int j = 0; j < N; ++j) {
@@ -54,10 +56,14 @@ public:
             all_above = all_above & (polygon.vertex[j].z > Real(0));
         }
         polygon.normal.y = mirror_ * polygon.normal.y;
+
+        // Sectors that are not filled below have no area.
         for (int k = 0; k < kSectors; ++k) {
             begin_[k] = chord_[k] = {Real(0), Real(0), Real(0)};
             begin_gap_[k] = end_gap_[k] = angle_per_area_[k] = doubled_area_[k] = Real(0);
         }
+
+        // Clip the light to the horizon and find its sectors.
         if (all(all_above)) {
             prepare(polygon, distance);
         } else {
@@ -110,6 +116,7 @@ public:
         Real height = Real(0);
         NUSSELT_UNROLL
         for (int k = 0; k < kSectors; ++k) {
+            // Tell whether the azimuth of wi lies in this sector.
             const DecentralSector<Real> sector = decentral_sector(k);
             const Real from_start = det(xy(sector.begin), w);
             const Vec3<Real> end = sector.begin + sector.chord;
@@ -122,7 +129,8 @@ public:
             const Real end_slack = tolerance * (abs(end.x) + abs(end.y));
             const auto inside = (from_start >= -begin_slack) & (to_end >= -end_slack);
             const auto here = (!found) & (doubled_area_[k] > Real(0)) & ((!central_) | inside);
-            // The chord meets the ray along w.
+
+            // Find where the chord meets the ray along w, and with it the area of the sector up to there.
             const Real slope = det(w, xy(sector.chord));
             const Real x = min(max(from_start / select(slope > Real(0), slope, Real(1)), Real(0)), Real(1));
             const Real partial =
@@ -159,8 +167,10 @@ private:
     /// \param distance of its plane from the origin.
     template <int M>
     NUSSELT_HD void prepare(const ConvexPolygon<Real, M>& polygon, const Real& distance) noexcept {
+        // Find the plane of the light and a box around it, for the hit points.
         hull_ = hull_of(polygon, distance);
 
+        // Classify the edges: outer ones run counterclockwise around the zenith, inner ones clockwise (Sec. 3.7).
         mask_t<Real> is_outer[M];
         auto decentral = mask_t<Real>(false);
         auto touches_zenith = mask_t<Real>(false);
@@ -182,16 +192,21 @@ private:
             const auto on_edge = across & (abs(turn) <= rounding * (abs(edge.x) + abs(edge.y)));
             touches_zenith = touches_zenith | at_vertex | on_edge;
         }
-        // On the zenith's axis, the plane has the height distance / normal.z: some vertex is at least as high if the
-        // light is there. Strips along the horizon tell less clearly by their edges.
+
+        // Tell the central case, where the zenith lies in the light, from the decentral one. On the zenith's axis, the
+        // plane has the height distance / normal.z: some vertex is at least as high if the light is there. Strips along
+        // the horizon tell less clearly by their edges.
         const Real slack = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon());
         const auto reaches_axis = (distance * polygon.normal.z >= Real(0)) &
                                   (abs(distance) <= fma(abs(polygon.normal.z), hull_.high.z, slack));
         decentral = (decentral & (!touches_zenith)) | (!reaches_axis);
         central_ = !decentral;
+
+        // Find the sectors and their areas.
         if (any(decentral)) prepare_decentral(polygon, decentral);
         if (any(central_)) prepare_central(polygon, is_outer);
 
+        // Their sum is the projected solid angle.
         doubled_total_ = Real(0);
         NUSSELT_UNROLL
         for (int k = 0; k < M; ++k) doubled_total_ = doubled_total_ + doubled_area_[k];
@@ -208,7 +223,8 @@ private:
         return reach;
     }
 
-    /// Each edge has a sector of its own: Prop. 1 simplifies to Lambert's formula.
+    /// Each edge has a sector of its own: the area of the ellipse in it (Prop. 1, Eq. 1) simplifies to Lambert's
+    /// formula.
     template <int M>
     NUSSELT_HD void prepare_central(const ConvexPolygon<Real, M>& polygon,
                                     const mask_t<Real>* is_outer) noexcept {
@@ -244,6 +260,7 @@ private:
     }
 
     NUSSELT_HD Selection select_sector(const Real& u) const noexcept {
+        // Walk along the sectors up to the area that the random number asks for.
         const Real target = u * doubled_total_;
         Selection s{decentral_sector(0), doubled_area_[0], angle_per_area_[0], Real(0)};
         Real before = Real(0);
@@ -260,6 +277,8 @@ private:
             first = select(reached, before, first);
             before = before + doubled_area_[k];
         }
+
+        // The rest is to be found in the sector itself.
         s.sector.doubled_triangle = det(xy(s.sector.begin), xy(s.sector.chord));
         s.rest = min(max(fma(u, doubled_total_, -first), Real(0)), s.doubled_area);
         return s;
@@ -268,22 +287,27 @@ private:
     /// Sec. 3.2 in three dimensions: equal areas between the zenith and the edge are equal angles on its
     /// circle.
     NUSSELT_HD LightSample<Real> sample_central(const Selection& s, const Real& u) const noexcept {
+        // Turn along the great circle of the edge by the angle that belongs to the area.
         const Vec3<Real> n = cross(s.sector.begin, s.sector.chord);
         const Vec3<Real> a = inverse_length(s.sector.begin) * s.sector.begin;
         const Vec3<Real> t = inverse_length(n) * cross(n, a);
         const SinCos<Real> angle =
             sincos_half_turn(min(s.rest * s.angle_per_area, Real(kPi<scalar_t<Real>>)));
         const Vec3<Real> q = fma(angle.cos, a, angle.sin * t);
+
+        // Squared radii below the ellipse are uniform; project the point up to the hemisphere (Eq. 2).
         const Real root = sqrt(u);
         const Vec3<Real> wi{root * q.x, root * q.y, sqrt(fma(u, q.z * q.z, Real(1) - u))};
         return {wi, Real(0), hull_.plane.distance_along(wi) * wi};
     }
 
     NUSSELT_HD LightSample<Real> sample_decentral(const Selection& s, const Real& u) const noexcept {
+        // Find the azimuth, as a position on the chord (Sec. 3.3).
         const Real x = s.sector.template position<Iterations, Angles>(s.rest, s.doubled_area);
         const auto forms = s.sector.at(x);
-        // The squared radius is uniform between the ellipses: the reciprocal of the form is. The form of the
-        // circle through the sample gives its height above the outer point, in the same azimuth.
+
+        // Choose the inclination. The squared radius is uniform between the ellipses, and so is the reciprocal of the
+        // form. The form of the circle through the sample gives its height above the outer point, in the same azimuth.
         const Real inner = forms.outer + forms.rise;
         const Real v = Real(1) - u;
         const Real mixed = fma(u, inner, v * forms.outer);
@@ -293,8 +317,9 @@ private:
         const Real lift = min(rise / select(top > Real(0), top, Real(1)), forms.gap);
         const Vec3<Real> direction{forms.outer_point.x, forms.outer_point.y, z + lift};
         const Real inverse = inverse_length(direction);
-        // The lifted point lies on the ray to the sample; scale it to the plane of the light, but not beyond
-        // the farthest vertex.
+
+        // Find the hit point. The lifted point lies on the ray to the sample; scale it to the plane of the light, but
+        // not beyond the farthest vertex.
         const Real lifted = fma(lift, hull_.plane.normal.z, hull_.plane.distance);
         const auto usable = hull_.plane.distance * lifted > Real(0);
         const Real stretch = select(usable, hull_.plane.distance / select(usable, lifted, Real(1)), Real(1));
@@ -311,8 +336,8 @@ private:
         return angle / select(angle_per_area_[k] > Real(0), angle_per_area_[k], Real(1));
     }
 
-    /// Where between the inner ellipse (0; the zenith in the central case) and the outer one (1) a direction
-    /// with the projection w and height z above x lies, in squared radii.
+    /// The position, in squared radii, between the inner ellipse (0; the zenith in the central case) and the outer one
+    /// (1) of a direction with the projection w and height z above x.
     NUSSELT_HD Real relative_height(const DecentralSector<Real>& sector, const Real& x, const Vec2<Real>& w,
                                     const Real& z) const noexcept {
         const auto forms = sector.at(x);

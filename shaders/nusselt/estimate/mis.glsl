@@ -15,7 +15,7 @@
 /// diffuse component has to take over there, also on metals.
 const float kNusseltSmallestDiffuseAlbedo = 0.01;
 
-/// What heuristics know beforehand about both techniques, for one light and shading point.
+/// The knowledge that heuristics have beforehand about both techniques, for one light and shading point.
 struct MisTechniques {
     float samples[2];   ///< n_k > 0, how many samples each technique takes
     vec3 unshadowed[2]; ///< c_k >= 0 per colour channel, for a radiance of 1; 0 for a technique that cannot sample

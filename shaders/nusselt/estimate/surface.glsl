@@ -24,7 +24,7 @@ bool is_glossy(vec3 specular_albedo) {
 }
 bool glossy_surface_is_glossy(GlossySurface self) { return is_glossy(self.specular_albedo); }
 
-/// What a table says of a specular component.
+/// The fit of a specular component by a table.
 struct SpecularFit {
     Ltc lobe;
     vec3 albedo;

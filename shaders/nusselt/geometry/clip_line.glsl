@@ -37,7 +37,7 @@ LineExtent clipped_extent(vec3 s, vec3 p0, vec3 p1, vec3 closest, float distance
     bool falls = z0 > 0.0 && z1 < 0.0;
     if (rises || falls) {
         float slope = s.z;
-        // What remains follows from the end above the horizon: the difference of coordinates would cancel.
+        // The remaining length follows from the end above the horizon: the difference of coordinates would cancel.
         length = nusselt_min((rises ? z1 : z0) / abs(slope), length);
         // The first formula errs by rounding times the distance over the slope, the second by rounding times the
         // length: the better one gives z = 0 up to rounding also near the axis of the light.
@@ -76,7 +76,7 @@ float cosine_integral(float theta, float from_start, float heights, float n_t) {
     return nusselt_max(nusselt_fma(n_t, x_minus_sin(theta), from_start * heights), 0.0);
 }
 
-/// The same from end to end.
+/// The integral from end to end.
 float cosine_integral(LineExtent e) {
     return cosine_integral(line_extent_sweep(e), e.sine_extent, e.height0 + e.height1, e.t.z);
 }

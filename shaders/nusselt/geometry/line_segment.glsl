@@ -118,7 +118,7 @@ const float kNusseltSmallestDistance = 4.76837158203125e-7;
 LineExtent make_line_extent(vec3 s, vec3 p0, vec3 p1, vec3 closest, float distance, float l0, float l1, float length) {
     LineExtent e;
     bool passes_by = distance > kNusseltSmallestDistance && length > 0.0;
-    // Without light, any values will do that keep the formulas finite.
+    // If there is no light, any values will do that keep the formulas finite.
     e.distance = passes_by ? distance : 1.0;
     e.s = s;
     e.t = (1.0 / e.distance) * closest;

@@ -49,7 +49,7 @@ ScaledPolygon to_unit_extent(ConvexPolygon light) {
     return ScaledPolygon(with_unit_extent(light), reciprocal_power_of_two(unit_extent_scale(light)));
 }
 
-/// What remains of a polygon above the surface, which can be clipped once more, in cosine space.
+/// The part of a polygon above the surface, which can be clipped once more, in cosine space.
 /// \param light in shading space, of at most NUSSELT_MAX_VERTICES - 1 vertices.
 ScaledPolygon part_above_horizon(ConvexPolygon light) {
     ScaledPolygon whole = to_unit_extent(light);
@@ -59,7 +59,7 @@ ScaledPolygon part_above_horizon(ConvexPolygon light) {
     return part;
 }
 
-/// What remains of a line above the surface.
+/// The part of a line above the surface.
 /// \param light in shading space, with coordinates of order one (scaled()).
 LineSegment part_above_horizon(LineSegment light) {
     LineExtent e = clipped_extent(light);

@@ -17,7 +17,7 @@ struct SweepEvent {
     float kind; ///< 1: an outer edge begins, -1: an inner one, 0: neither
 };
 
-/// Where the sweep is on the outer or the inner edges.
+/// The position of the sweep on the outer or the inner edges.
 struct SweepChain {
     vec3 at;
     vec3 rest; ///< of the edge

@@ -36,7 +36,7 @@ CosineArc make_cosine_arc(LineExtent e) {
     return self;
 }
 
-/// What the iteration needs at the angle theta from the start.
+/// The quantities that the iteration needs at the angle theta from the start.
 struct ArcRotation {
     float sine, cosine;         ///< of alpha
     float height, height_slope; ///< cosine with the normal and its derivative

@@ -52,7 +52,7 @@ float importance_invert(int importance, LineExtent e, vec3 wi) {
 /// Shading space where a fan asks for the cosine space of a lobe: the lobe is the clamped cosine.
 Ltc shading_space() { return Ltc(1.0, 0.0, 1.0, 0.0, 1.0, 1.0, 1.0); }
 
-/// In shading space: directions with a positive product have importance.
+/// The normal of the horizon in shading space: directions with a positive product have importance.
 vec3 ltc_horizon_normal(Ltc self) {
     return vec3(ltc_to_cosine(self, vec3(1.0, 0.0, 0.0)).z, ltc_to_cosine(self, vec3(0.0, 1.0, 0.0)).z,
                 ltc_to_cosine(self, vec3(0.0, 0.0, 1.0)).z);

@@ -19,7 +19,7 @@
 struct LineLtc {
     Ltc ltc;
     LineProjectedSolidAngle image; ///< in cosine space
-    // In shading space, of the part of the light that counts, scaled to an extent of order one.
+    // The part of the light that counts, in shading space and scaled to an extent of order one.
     vec3 s;
     vec3 closest;        ///< point of the infinite line
     float l0, l1;        ///< coordinates of the end points along s, 0 at the closest point

@@ -9,7 +9,7 @@
 /// Where the density is given. Tables of this size stay in registers.
 const int kNusseltNodes = 7;
 
-/// Where the i-th node lies, in [0, 1]: closer to each other near both ends.
+/// The position of node i, in [0, 1]: nodes are closer to each other near both ends.
 float piecewise_linear_node(int i) {
     float t = float(i) * (1.0 / float(kNusseltNodes - 1));
     return t * t * (3.0 - 2.0 * t);

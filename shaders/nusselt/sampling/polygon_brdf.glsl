@@ -15,7 +15,7 @@
 
 struct PolygonBrdf {
     GgxVisibleNormals lobe;
-    // Of the light scaled to an extent of order one.
+    // All of this is that of the light scaled to an extent of order one.
     LightPlane plane;
     vec3 low, high;           ///< axis-aligned box
     vec3 side[kNusseltSlots]; ///< normals of the planes through the origin and the edges, towards the light

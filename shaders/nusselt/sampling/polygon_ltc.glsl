@@ -18,7 +18,7 @@
 struct PolygonLtc {
     Ltc ltc;
     PolygonProjectedSolidAngle image; ///< in cosine space
-    // In shading space, of the part of the light that counts, scaled to an extent of order one.
+    // The part of the light that counts, in shading space and scaled to an extent of order one.
     LightPlane plane;
     vec3 low, high;      ///< axis-aligned box
     float inverse_scale; ///< a power of two

@@ -262,7 +262,7 @@ LightSample polygon_projected_solid_angle_sample_decentral(LightPlane plane, Dec
     return LightSample(inverse_norm * direction, 0.0, along * direction);
 }
 
-/// From scaled and mirrored coordinates back to those of the light.
+/// Takes scaled and mirrored coordinates back to those of the light.
 LightSample polygon_projected_solid_angle_finish(PolygonProjectedSolidAngle self, LightSample s) {
     // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
     s.p = self.inverse_scale * nusselt_min(nusselt_max(s.p, self.low), self.high);
@@ -309,7 +309,7 @@ float relative_height_in_sector(bool central, DecentralSector sector, float x, v
     return forms.outer * below / (form > 0.0 && forms.rise > 0.0 ? form * forms.rise : 1.0);
 }
 
-/// Where a direction lies.
+/// The position of a direction.
 struct ProjectedSectorPosition {
     DecentralSector sector; ///< in the central case the gaps mean nothing
     float doubled_area, angle_per_area;
