@@ -55,7 +55,7 @@ public:
     NUSSELT_HD Real measure() const noexcept { return measure_; }
 
 private:
-    NUSSELT_HD explicit LineProjectedSolidAngle(const ScaledLight<LineSegment<Real>, Real>& unit) noexcept
+    NUSSELT_INLINE explicit LineProjectedSolidAngle(const ScaledLight<LineSegment<Real>, Real>& unit) noexcept
         : arc_(clipped_extent(unit.light)), inverse_scale_(unit.inverse_scale) {
         const Real& integral = arc_.integral();
         const Real& distance = arc_.extent().distance;
