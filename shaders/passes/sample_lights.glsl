@@ -83,8 +83,8 @@ Draw choose_technique(bool is_paired, TechniquePair techniques, int pair, vec2 u
 
 /// \param pdf densities of both techniques in the direction of the sample.
 DirectLightSample combine(TechniquePair techniques, Reflection reflection, int technique, LightSample s, vec2 pdf) {
-    MisSample at = direct_light_look_at(techniques.estimator, s, pdf.x, pdf.y,
-                                        reflection_eval_components(reflection, s.wi));
+    MisSample at = direct_light_densities_at(techniques.estimator, s, pdf.x, pdf.y,
+                                             reflection_eval_components(reflection, s.wi));
     if (kMis == kNusseltMisOneSample)
         return direct_light_combined(s, one_sample_choice_estimate(techniques.choice, at));
     return direct_light_combined(

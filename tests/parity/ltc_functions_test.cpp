@@ -138,7 +138,7 @@ struct PolygonShading {
         for (int j = 0; j < 4; ++j) corners[j] = get<Real>(inputs + 3 * j);
         const auto light = make_polygon<4>(corners, 4);
         const auto ltc = get_lobe<Real>(inputs + 12);
-        const auto image = to_cosine_space(to_unit_extent(light).polygon, ltc);
+        const auto image = to_cosine_space(to_unit_extent(light).light, ltc);
         Results<Real> results{diffuse_integral(light), lobe_integral(light, ltc),
                               lobe_integral<BothHorizons>(light, ltc)};
         put(results, 3, image.vertex[2]);
@@ -181,7 +181,7 @@ struct LineShading {
         const Real radius = rest[3];
         const Real integral = lobe_integral(light, ltc);
         const Real caps = caps_integral(light, radius, [&](const Vec3<Real>& wi) { return ltc.density(wi); });
-        const auto image = to_cosine_space(scaled(light, scale_of(light)), ltc);
+        const auto image = to_cosine_space(to_unit_extent(light).light, ltc);
         Results<Real> results{diffuse_integral(light),
                               integral,
                               lobe_integral<BothHorizons>(light, ltc),

@@ -24,7 +24,7 @@ NUSSELT_INLINE Real ggx_alpha(const Real& roughness) noexcept {
 /// \param h half vector in shading space of any length but 0, say wo + wi.
 template <class Real>
 NUSSELT_INLINE Real ggx_ratio(const Vec3<Real>& h, const Real& alpha2) noexcept {
-    // Of a length near one even if the directions almost oppose each other.
+    // The scaled vector has a length near one even if the directions almost oppose each other.
     const Vec3<Real> scaled = reciprocal_power_of_two(max(max(abs(h.x), abs(h.y)), abs(h.z))) * h;
     const Real plane2 = scaled.x * scaled.x + scaled.y * scaled.y;
     const Real height2 = scaled.z * scaled.z;

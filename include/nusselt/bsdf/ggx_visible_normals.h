@@ -9,6 +9,7 @@
 /// nothing cancels in narrow lobes.
 
 #include <nusselt/bsdf/ggx.h>
+#include <nusselt/core/broadcast.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -21,7 +22,7 @@ struct VisibleCap {
     }
 };
 
-/// Without normals that are sure to reflect to directions below the surface.
+/// The cap without normals that are sure to reflect to directions below the surface.
 struct BoundedCap {
     template <class Real>
     NUSSELT_HD static Real reach(const Vec3<Real>& wo, const Real& alpha2) noexcept {
@@ -46,6 +47,9 @@ class GgxVisibleNormals {
     using Scalar = scalar_t<Real>;
 
 public:
+    /// Uninitialised: to be assigned to before it is used.
+    GgxVisibleNormals() = default;
+
     /// \param wo    unit direction to the eye.
     /// \param alpha of GGX, say ggx_alpha(roughness); clamped to [kSmallestGgxAlpha, 1].
     NUSSELT_HD GgxVisibleNormals(const Vec3<Real>& wo, const Real& alpha) noexcept
@@ -67,15 +71,9 @@ public:
 
     /// Broadcasts one surface point to all lanes of a pack, to take many samples of it.
     template <class Single>
-    NUSSELT_HD explicit GgxVisibleNormals(const GgxVisibleNormals<Single, Cap>& single) noexcept
-        : wo_(broadcast<Real>(single.wo_)),
-          alpha_(single.alpha_),
-          inverse_length_(single.inverse_length_),
-          stretched_(broadcast<Real>(single.stretched_)),
-          height_(single.height_),
-          rim_(single.rim_),
-          rim_above_pole_(single.rim_above_pole_),
-          factor_(single.factor_) {}
+    NUSSELT_HD explicit GgxVisibleNormals(const GgxVisibleNormals<Single, Cap>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
     /// \param u in [0, 1)^2; x turns around the normal, y leads away from it. Continuous, also from x = 1 to x = 0.
     NUSSELT_HD Vec3<Real> sample(const Vec2<Real>& u) const noexcept {
@@ -121,10 +119,7 @@ public:
     }
 
 private:
-    template <class, class>
-    friend class GgxVisibleNormals;
-
-    /// How far above the direction opposite to the stretched wo the point of the cap lies that gives a half vector.
+    /// The height, above the direction opposite to the stretched wo, of the point of the cap that gives a half vector.
     NUSSELT_HD Real height_of(const Vec3<Real>& h, const Real& ratio) const noexcept {
         return alpha_ * alpha_ * ratio * h.z * inverse_length_;
     }
@@ -137,6 +132,13 @@ private:
     Real rim_;             ///< height of the rim above the direction opposite to stretched_
     Real rim_above_pole_;  ///< height of the rim above (0, 0, -1)
     Real factor_;          ///< density of directions over that of normals; 0 where wo.z <= 0
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.wo_, self.alpha_, self.inverse_length_, self.stretched_, self.height_, self.rim_,
+              self.rim_above_pole_, self.factor_);
+    }
 };
 
 /// Fewer samples below the surface, at the cost of a square root per surface point.

@@ -24,7 +24,7 @@
 /// may compile the library for several instruction sets; without distinct names the linker would merge their
 /// inline functions and could give the baseline a copy that needs AVX-512.
 #if defined(__CUDACC__) || defined(__CUDA__)
-// Of host and device alike: kernels whose types are the library's have the same name on both.
+// Host and device share it, so that kernels whose types are the library's have the same name on both.
 #define NUSSELT_ISA isa_cuda
 #elif defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 #define NUSSELT_ISA isa_avx512

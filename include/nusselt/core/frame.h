@@ -29,4 +29,10 @@ struct Frame {
     }
 };
 
+/// The same frame in all lanes.
+template <class Real, class Single>
+NUSSELT_HD inline Frame<Real> broadcast(const Frame<Single>& frame) noexcept {
+    return {broadcast<Real>(frame.t), broadcast<Real>(frame.b), broadcast<Real>(frame.n)};
+}
+
 NUSSELT_NAMESPACE_END

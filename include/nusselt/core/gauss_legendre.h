@@ -25,7 +25,7 @@ public:
         }
     }
 
-    /// In (0, 1), increasing with i.
+    /// Node i in (0, 1), increasing with i.
     constexpr Scalar node(int i) const noexcept { return node_[i]; }
     /// All of them add up to 1.
     constexpr Scalar weight(int i) const noexcept { return weight_[i]; }

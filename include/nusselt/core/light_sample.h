@@ -1,5 +1,5 @@
 #pragma once
-/// What all techniques return, and the hit point on planar lights.
+/// Samples, as all techniques return them, and hit points on planar lights.
 
 #include <type_traits>
 

@@ -59,7 +59,7 @@ struct AtanRatio<float> {
     static constexpr float kLargest = 1;
 };
 
-/// For t beyond the polynomial, where nothing cancels.
+/// 1 - atan(t) / t for t beyond the polynomial, where nothing cancels.
 template <class Real>
 NUSSELT_INLINE Real one_minus_atan_ratio_of_large(const Real& s) noexcept {
     const Real t = sqrt(s);

@@ -25,8 +25,9 @@ struct DirectLightSample {
 
 /// One light at one surface point: techniques for both components, whose samples any heuristic can combine.
 ///
-/// Unbiased for all heuristics, unless a technique of the pair is biased itself: the technique for the diffuse component covers all of the light above the surface and
-/// takes over where the lobe is zero; samples below the surface count, with a BRDF of zero.
+/// Estimates are unbiased for all heuristics, unless a technique of the pair is biased itself: the technique for the
+/// diffuse component covers all of the light above the surface and takes over where the lobe is zero; samples below the
+/// surface count, with a BRDF of zero.
 ///
 /// \tparam Real       float, double, long double or a pack: one light and surface point per lane.
 /// \tparam Light      ConvexPolygon<Real, N>, LineSegment<Real> or Cylinder<Real>.
@@ -60,7 +61,7 @@ public:
     NUSSELT_HD DirectLightSample<Real> sample_diffuse(const Heuristic& heuristic,
                                                       const Vec2<Real>& u) const noexcept {
         const LightSample<Real> s = draw(diffuse_, u);
-        return combined(s, heuristic.template estimate<0>(techniques_, look_at(s)));
+        return combined(s, heuristic.template estimate<0>(techniques_, densities_at(s)));
     }
 
     /// A sample of the technique for the specular component; none where the surface is not glossy.
@@ -69,7 +70,7 @@ public:
     NUSSELT_HD DirectLightSample<Real> sample_specular(const Heuristic& heuristic,
                                                        const Vec2<Real>& u) const noexcept {
         const LightSample<Real> s = draw_specular(u);
-        return combined(s, heuristic.template estimate<1>(techniques_, look_at(s)));
+        return combined(s, heuristic.template estimate<1>(techniques_, densities_at(s)));
     }
 
     /// A sample of either technique, chosen at random: an estimate by itself.
@@ -86,7 +87,7 @@ public:
             s.p = select(decision.chosen[1], other.p, s.p);
             s.pdf = select(decision.chosen[1], other.pdf, s.pdf);
         }
-        return combined(s, choice.estimate(look_at(s)));
+        return combined(s, choice.estimate(densities_at(s)));
     }
 
 private:
@@ -97,7 +98,7 @@ private:
     }
 
     /// Densities and components at a sample.
-    NUSSELT_HD MisSample<Real, 2> look_at(const LightSample<Real>& s) const noexcept {
+    NUSSELT_HD MisSample<Real, 2> densities_at(const LightSample<Real>& s) const noexcept {
         // NaN, which no technique should return, counts as drawn, so that it is noticed.
         const auto drawn = s.pdf != Real(0);
         const auto above = drawn & (s.wi.z > Real(0));

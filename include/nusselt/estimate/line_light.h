@@ -1,5 +1,5 @@
 #pragma once
-/// What a surface reflects of the visible parts of lines on a polygonal light.
+/// The light that a surface reflects from the visible parts of lines on a polygonal light.
 ///
 /// N. Billen, P. Dutre 2016, Line Sampling for Direct Illumination, doi:10.1111/cgf.12948, Sec. 5.3, with what it lacks:
 /// glossy surfaces by linearly transformed cosines (Heitz and Hill 2017, Linear-Light Shading with Linearly Transformed
@@ -33,8 +33,9 @@ public:
     NUSSELT_HD LineLight(const LinePlane<Real>& plane, const Real& reach, const Surface& surface) noexcept
         : LineLight(ScaledPlane<Real>(plane, reach), surface) {}
 
-    /// By the integrals of a Lambertian and of the fitted lobe above the horizon of the surface. Exact for Lambert,
-    /// otherwise biased by the misfit. Not negative; the sum over disjoint parts is that of the whole up to rounding.
+    /// The integrals of a Lambertian and of the fitted lobe above the horizon of the surface. They are exact for
+    /// Lambert and otherwise biased by the misfit. They are not negative, and those of disjoint parts add up to that of
+    /// the whole up to rounding.
     /// \param offset of the line [m].
     /// \param parts  its visible parts.
     NUSSELT_HD BrdfComponents<Real> analytic(const Real& offset,
@@ -51,8 +52,8 @@ public:
         return components(diffuse, specular);
     }
 
-    /// Without bias, from the same integrals and one point of the visible parts, where the BRDF is compared to what they
-    /// stand for. No shadow ray is needed. Can be negative.
+    /// An unbiased estimate from the same integrals and one point of the visible parts, where the BRDF is compared to
+    /// what they stand for. No shadow ray is needed. Can be negative.
     /// \param offset of the line [m].
     /// \param parts  its visible parts.
     /// \param u      random in [0, 1), stratified together with the offsets of other lines.
@@ -94,7 +95,7 @@ public:
         }
     }
 
-    /// Of the fitted lobe; diffuse surfaces have none.
+    /// The peak of the fitted lobe; diffuse surfaces have none.
     /// \param offsets of the light [m].
     NUSSELT_HD LinePeak<Real> peak(const Interval<Real>& offsets) const noexcept {
         const LinePeak<Real> of_lobe = lobe_.peak(offsets);
@@ -158,7 +159,7 @@ private:
         return {diffuse * diffuse_albedo_, specular * surface_.specular_albedo};
     }
 
-    /// To a point of the part, with a density by the lobe.
+    /// The direction to a point of the part, with a density by the lobe.
     NUSSELT_HD Vec3<Real> direction_to(const Line& line, const Choice& choice) const noexcept {
         const auto image = LobeLine<Real>::select_between(choice.is_lobe, line.lobe, line.cosine);
         const CosineArc<Real> arc(image.extent(choice.part));

@@ -18,7 +18,7 @@ NUSSELT_NAMESPACE_BEGIN
 /// diffuse component has to take over there, also on metals (Peters 2021, Sec. 4.2).
 inline constexpr double kSmallestDiffuseAlbedo = 0.01;
 
-/// What heuristics know beforehand about K techniques, for one light and shading point.
+/// The knowledge that heuristics have beforehand about K techniques, for one light and shading point.
 template <class Real, int K>
 struct MisTechniques {
     Real samples[K]; ///< n_k > 0, how many samples each technique takes

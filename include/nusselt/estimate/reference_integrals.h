@@ -28,7 +28,7 @@ Real reference_line_integral(const LineSegment<Real>& light, const Density& dens
     return sum * step;
 }
 
-/// The integral over the mantle of a tube, without its end caps.
+/// The integral over the lateral surface of a tube, without its end caps.
 /// \param light  the axis [m]; the origin is outside of the tube.
 /// \param radius [m]
 /// \param around, along steps around the tube and along it.

@@ -60,8 +60,8 @@ public:
     }
 
 private:
-    /// Of the mean of the table, everywhere: what is between two nodes has about that share of its density by length, and
-    /// all else loses no more than that.
+    /// This share of the mean of the table is added everywhere: what is between two nodes has about that share of its
+    /// density by length, and all else loses no more than that.
     static constexpr double kLeastShare = 0.1;
 
     /// Nodes at the ends of the light are moved inside by this share of its area: the first and the last line may have no
@@ -80,7 +80,7 @@ private:
     NUSSELT_HD void place_nodes(const LinePeak<Real>& peak) noexcept {
         constexpr Scalar kSpacing = Scalar(1) / Scalar(Nodes - 1);
         const Scalar centre = first_lane(family_.invert_by_length(peak.offset));
-        // Not by the density, which is 0 at the tips of lights.
+        // The density would not do: it is 0 at the tips of lights.
         const Scalar width =
             first_lane(Real(Scalar(0.5)) * (family_.invert_by_length(peak.offset + peak.width) -
                                             family_.invert_by_length(peak.offset - peak.width)));
@@ -152,7 +152,7 @@ private:
             x.store(lanes);
     }
 
-    /// What a line sampled by length would add, without shadows.
+    /// The radiance that a line sampled by length would add, without shadows.
     /// \param u random number of the line, beyond [0, 1] the same as at its end
     template <class Brdf>
     NUSSELT_HD Real relative_radiance(const LineLight<Real, Brdf>& light, const Real& u) const noexcept {

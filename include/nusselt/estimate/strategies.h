@@ -17,7 +17,7 @@ NUSSELT_NAMESPACE_BEGIN
 // specular(light, surface), that make techniques; and two that estimate the integral of a normalised component over the
 // light: diffuse_integral(technique), specular_integral(technique).
 
-/// What pairs have in common whose techniques have the integrals of the components as their measures.
+/// The common part of pairs whose techniques have the integrals of the components as their measures.
 struct CosineMeasures {
     template <class Technique>
     NUSSELT_HD static auto diffuse_integral(const Technique& technique) noexcept {

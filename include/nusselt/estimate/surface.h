@@ -1,5 +1,5 @@
 #pragma once
-/// What is known of a point of a surface before lights are looked at.
+/// Points of surfaces, prepared for estimates of direct light.
 
 #include <nusselt/bsdf/frostbite.h>
 #include <nusselt/bsdf/lambert.h>
@@ -25,7 +25,7 @@ struct GlossySurface {
     }
 };
 
-/// What a table says of a specular component.
+/// The fit of a specular component by a table.
 template <class Real>
 struct SpecularFit {
     Ltc<Real> lobe;

@@ -16,13 +16,16 @@ template <class Real, int N>
 NUSSELT_HD inline ConvexPolygon<Real, N + 1> clip_to_horizon(const ConvexPolygon<Real, N>& polygon) noexcept {
     using Mask = mask_t<Real>;
     const Vec3<Real> zero{Real(0), Real(0), Real(0)};
-    // A vertex on the horizon counts as below: the crossing on its edge to an upper neighbour reproduces it.
+    // Classify the vertices. One on the horizon counts as below: the crossing on its edge to an upper neighbour
+    // reproduces it.
     Mask above[N];
     Mask all_above = Mask(true);
     for (int j = 0; j < N; ++j) {
         above[j] = polygon.vertex[j].z > Real(0);
         all_above = all_above & above[j];
     }
+
+    // Nothing to clip: repeat the last vertex.
     ConvexPolygon<Real, N + 1> clipped;
     clipped.normal = polygon.normal;
     if (all(all_above)) {
@@ -35,8 +38,8 @@ NUSSELT_HD inline ConvexPolygon<Real, N + 1> clip_to_horizon(const ConvexPolygon
         return clipped;
     }
 
-    // Each lower vertex is replaced by the point where the boundary comes up again; the point where it goes
-    // down is inserted before the first of them.
+    // Find the two crossings with the horizon. Each lower vertex is replaced by the point where the boundary comes up
+    // again; the point where it goes down is inserted before the first of them.
     Vec3<Real> down = zero;
     Vec3<Real> up = zero;
     Vec3<Real> sum_of_edges = zero;
@@ -65,13 +68,16 @@ NUSSELT_HD inline ConvexPolygon<Real, N + 1> clip_to_horizon(const ConvexPolygon
         sum_of_edges = sum_of_edges + edge[j];
         extents_of_edges = extents_of_edges + max(max(abs(edge[j].x), abs(edge[j].y)), abs(edge[j].z));
     }
-    // The sum is rounding, of any direction, where the polygon only touches the horizon.
+
+    // Close the polygon along the horizon. The sum of edges is rounding, of any direction, where the polygon only
+    // touches the horizon.
     const Real rounding = Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * extents_of_edges;
     const Mask touches = max(abs(sum_of_edges.x), abs(sum_of_edges.y)) <= rounding;
     const Vec3<Real> along_horizon =
         select(touches, zero, Vec3<Real>{-sum_of_edges.x, -sum_of_edges.y, Real(0)});
     down = select(touches, up, down);
 
+    // Write the new vertices and edges, shifted by one slot from the inserted vertex on.
     Mask inserted = Mask(false);
     for (int k = 0; k < N; ++k) {
         const Mask insert = goes_down[k > 0 ? k - 1 : N - 1];

@@ -29,9 +29,10 @@ NUSSELT_INLINE Real scale_of(const Cylinder<Real>& cylinder) noexcept {
         max(max(max(abs(p0.x), abs(p0.y)), abs(p0.z)), max(cylinder.axis.length, cylinder.radius)));
 }
 
+/// The same cylinder in all lanes.
 template <class Real, class Single>
 NUSSELT_INLINE Cylinder<Real> broadcast(const Cylinder<Single>& c) noexcept {
-    return {{broadcast<Real>(c.axis.p0), broadcast<Real>(c.axis.s), Real(c.axis.length)}, Real(c.radius)};
+    return {broadcast<Real>(c.axis), Real(c.radius)};
 }
 
 template <class Real>
@@ -39,8 +40,8 @@ NUSSELT_INLINE Cylinder<Real> scaled(const Cylinder<Real>& cylinder, const Real&
     return {scaled(cylinder.axis, scale), scale * cylinder.radius};
 }
 
-/// Where the half-plane of points l s + rho t, rho >= 0, through the origin meets an infinite cylinder with axis
-/// direction s: the strip of rho in [near, far].
+/// The intersection of the half-plane of points l s + rho t, rho >= 0, through the origin with an infinite cylinder of
+/// axis direction s: the strip of rho in [near, far].
 template <class Real>
 struct CylinderSlice {
     Vec2<Real> azimuth; ///< t in the basis m, n of the view
@@ -60,8 +61,8 @@ struct CylinderView {
     Vec2<Real> center;  ///< where the infinite axis passes, in the basis m, n
     Real radius;
     Real gap, sum;         ///< distance from the axis minus and plus the radius
-    Vec3<Real> begin, end; ///< of the axis
-    Real l0, l1, length;   ///< coordinates of begin and end along s, and their difference
+    Vec3<Real> start, end; ///< of the axis
+    Real l0, l1, length;   ///< coordinates of start and end along s, and their difference
     Vec2<Real> touching;   ///< unit, from outside: the half-plane that touches on the side of n
     mask_t<Real> outside;  ///< of the infinite cylinder; m then leads to its axis
     mask_t<Real>
@@ -71,6 +72,8 @@ struct CylinderView {
     /// \param direction unit, in the basis m, n.
     NUSSELT_HD CylinderSlice<Real> slice(const Vec2<Real>& direction) const noexcept {
         CylinderSlice<Real> c;
+
+        // Turn directions that miss the cylinder to the closest one that touches it.
         const Real safe_radius = select(visible, radius, Real(1));
         const Real x = det(center, direction) / safe_radius;
         const auto crosses = abs(x) < Real(1);
@@ -79,17 +82,20 @@ struct CylinderView {
         const Vec2<Real> closest{touching.x, copysign(touching.y, x)};
         c.azimuth = select(outside & (!c.meets), closest, direction);
         c.t = c.azimuth.x * m + c.azimuth.y * n;
+
+        // Find the middle of the strip and half its width.
         const Real side = min(max(x, Real(-1)), Real(1));
         c.offset = side * safe_radius;
         c.along = dot(center, c.azimuth);
-        // Sums of terms that are not negative; products may be too small to be represented.
+        // These are sums of terms that are not negative; products may be too small to be represented.
         const Real inside_along = select(outside, Real(0), c.along / safe_radius);
         const Real inside_gap = (-gap / safe_radius) * (sum / safe_radius);
         const Real squared =
             select(outside, (Real(1) + side) * (Real(1) - side), fma(inside_along, inside_along, inside_gap));
         c.half_chord = sqrt(max(squared, Real(0))) * safe_radius;
-        // The product of near and far is that of gap and sum: none of them comes from a difference, nor does the
-        // larger one fall below the root.
+
+        // Find where the strip starts and ends. The product of near and far is that of gap and sum: none of them comes
+        // from a difference, nor does the larger one fall below the root.
         const Real larger = max(abs(c.along) + c.half_chord, sqrt(abs(gap)) * sqrt(sum));
         const auto apart = larger > Real(kTiny<scalar_t<Real>>);
         const Real other = abs(gap) * (sum / select(apart, larger, Real(1)));
@@ -110,10 +116,10 @@ struct CylinderView {
     /// \param tangent l / rho of the direction.
     /// \return (l, rho)
     NUSSELT_HD Vec2<Real> first_point(const CylinderSlice<Real>& c, const Real& tangent) const noexcept {
-        const Real on_mantle = c.near * tangent;
-        const auto before = on_mantle < l0;
-        const auto beyond = on_mantle > l1;
-        const Real l = select(before, l0, select(beyond, l1, on_mantle));
+        const Real on_side = c.near * tangent;
+        const auto before = on_side < l0;
+        const auto beyond = on_side > l1;
+        const Real l = select(before, l0, select(beyond, l1, on_side));
         const Real on_cap = l / select(tangent == Real(0), Real(1), tangent);
         const Real rho = select(before | beyond, min(max(on_cap, c.near), c.far), c.near);
         return {l, rho};
@@ -128,21 +134,26 @@ NUSSELT_INLINE CylinderView<Real> make_cylinder_view(const Cylinder<Real>& cylin
     const LineSegment<Real>& axis = cylinder.axis;
     CylinderView<Real> v;
     v.s = axis.s;
-    v.begin = axis.p0;
+    v.start = axis.p0;
     v.end = end_of(axis);
     v.length = axis.length;
     v.radius = cylinder.radius;
+
+    // Find the closest point of the axis, and whether the origin lies outside of the infinite cylinder.
     const Vec3<Real> moment = cross(axis.p0, v.s);
     const Vec3<Real> closest = cross(v.s, moment);
     const Real distance = length(moment);
     v.gap = distance - v.radius;
     v.sum = distance + v.radius;
-    v.l0 = dot(v.begin, v.s);
+
+    // Tell whether anything is visible: the origin must not be inside or next to the surface.
+    v.l0 = dot(v.start, v.s);
     v.l1 = dot(v.end, v.s);
     v.outside = (v.gap >= Real(0)) & (distance > Real(0));
     const Real apart = max(max(v.l0, -v.l1), v.gap);
     v.visible = (v.length > Real(0)) & (v.radius > Real(0)) & (apart > Real(kTiny<scalar_t<Real>>));
 
+    // Complete the axis to a basis, towards the closest point if there is one.
     const Vec3<Real> upwards = normalize(cross(v.s, cross(up, v.s)));
     const auto horizontal = (upwards.x == Real(0)) & (upwards.y == Real(0)) & (upwards.z == Real(0));
     const Vec3<Real> free = select(horizontal, Frame<Real>::from_normal(v.s).t, upwards);
@@ -150,6 +161,8 @@ NUSSELT_INLINE CylinderView<Real> make_cylinder_view(const Cylinder<Real>& cylin
     v.n = cross(v.s, v.m);
     v.center = {select(v.outside, distance, dot(closest, v.m)),
                 select(v.outside, Real(0), dot(closest, v.n))};
+
+    // Find the half-planes that touch.
     const Real safe_distance = select(v.outside, distance, Real(1));
     v.touching = {sqrt(max(v.gap, Real(0)) / safe_distance) * sqrt(v.sum / safe_distance),
                   v.radius / safe_distance};
@@ -165,7 +178,7 @@ NUSSELT_INLINE CylinderView<Real> broadcast(const CylinderView<Single>& v) noexc
             Real(v.radius),
             Real(v.gap),
             Real(v.sum),
-            broadcast<Real>(v.begin),
+            broadcast<Real>(v.start),
             broadcast<Real>(v.end),
             Real(v.l0),
             Real(v.l1),
@@ -183,17 +196,19 @@ struct LightHit {
     Real cosine;   ///< between the ray, backwards, and the normal of the light
 };
 
-/// The first point where a ray from the origin meets a closed cylinder from outside: mantle or caps. Rays that start
-/// inside hit nothing.
+/// The first point where a ray from the origin meets a closed cylinder from outside, on its lateral surface or on a cap.
+/// Rays that start inside hit nothing.
 /// \param wi unit direction.
 template <class Real>
 NUSSELT_HD inline LightHit<Real> intersect(const Cylinder<Real>& cylinder, const Vec3<Real>& wi) noexcept {
-    const Real scale = scale_of(cylinder);
-    const CylinderView<Real> view = make_cylinder_view(scaled(cylinder, scale), {Real(0), Real(0), Real(0)});
+    // Cut the cylinder by the half-plane of the ray.
+    const auto unit = to_unit_extent(cylinder);
+    const CylinderView<Real> view = make_cylinder_view(unit.light, {Real(0), Real(0), Real(0)});
     const CylinderSlice<Real> slice = view.slice(view.azimuth_of(wi));
     const Real sine = dot(wi, view.s);
     const Real cosine = max(dot(wi, slice.t), Real(0));
-    // The ray passes the strip from l = near tan(alpha) to far tan(alpha).
+
+    // Test whether the ray meets the rectangle. It passes the strip from l = near tan(alpha) to far tan(alpha).
     const Real enters = slice.near * sine;
     const Real leaves = slice.far * sine;
     const auto reaches = max(enters, leaves) >= view.l0 * cosine;
@@ -204,11 +219,13 @@ NUSSELT_HD inline LightHit<Real> intersect(const Cylinder<Real>& cylinder, const
     const Real tangent = sine / max(cosine, Real(kTiny<scalar_t<Real>>));
     const Vec2<Real> p = view.first_point(slice, tangent);
     const auto hits = view.visible & slice.meets & reaches & starts & ahead & wide;
-    const auto beyond_begin = p.x > view.l0;
-    const auto on_mantle = beyond_begin & (p.x < view.l1);
+
+    // Find the cosine: on a cap it is that with the axis.
+    const auto beyond_start = p.x > view.l0;
+    const auto on_side = beyond_start & (p.x < view.l1);
     const Real facing = cosine * slice.half_chord / select(hits, view.radius, Real(1));
-    return {mask_t<Real>(hits), length(Vec3<Real>{p.x, p.y, Real(0)}) * reciprocal_power_of_two(scale),
-            select(on_mantle, facing, abs(sine))};
+    return {mask_t<Real>(hits), length(Vec3<Real>{p.x, p.y, Real(0)}) * unit.inverse_scale,
+            select(on_side, facing, abs(sine))};
 }
 
 NUSSELT_NAMESPACE_END

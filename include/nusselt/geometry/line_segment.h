@@ -9,16 +9,22 @@ NUSSELT_NAMESPACE_BEGIN
 /// A linear light: a cylinder whose radius tends to zero.
 template <class Real>
 struct LineSegment {
-    Vec3<Real> p0; ///< begin [m]
-    Vec3<Real> s;  ///< unit direction from begin to end; zero if both ends coincide
+    Vec3<Real> p0; ///< start [m]
+    Vec3<Real> s;  ///< unit direction from start to end; zero if both ends coincide
     Real length;   ///< [m]
 };
 
-/// The segment from begin to end [m].
+/// The same segment in all lanes.
+template <class Real, class Single>
+NUSSELT_INLINE LineSegment<Real> broadcast(const LineSegment<Single>& line) noexcept {
+    return {broadcast<Real>(line.p0), broadcast<Real>(line.s), Real(line.length)};
+}
+
+/// The segment from start to end [m].
 template <class Real>
-NUSSELT_INLINE LineSegment<Real> make_line(const Vec3<Real>& begin, const Vec3<Real>& end) noexcept {
-    const Vec3<Real> extent = end - begin;
-    return {begin, normalize(extent), length(extent)};
+NUSSELT_INLINE LineSegment<Real> make_line(const Vec3<Real>& start, const Vec3<Real>& end) noexcept {
+    const Vec3<Real> extent = end - start;
+    return {start, normalize(extent), length(extent)};
 }
 
 /// The segment seen from a shading point: the point becomes the origin, the normal of the frame +z.
@@ -35,7 +41,7 @@ NUSSELT_INLINE LineSegment<Real> to_shading_space(const LineSegment<LightReal>& 
 template <class Real>
 struct LinePoint {
     Real sine, cosine; ///< of alpha
-    Real from_begin;   ///< sine minus that of the begin, accurate relative to itself
+    Real from_start;   ///< sine minus that of the start, accurate relative to itself
     Real to_end;       ///< sine of the end minus this one, likewise
 };
 
@@ -57,7 +63,7 @@ struct LineExtent {
     Real sine_extent;        ///< s1 - s0, accurate relative to itself
     Vec3<Real> near, inward; ///< the end point nearer to the origin, and the direction to the other one
     Real near_distance, near_cosine; ///< from the origin, and of the angle alpha
-    mask_t<Real> begins_near;        ///< whether it is the begin
+    mask_t<Real> starts_near;        ///< whether it is the start
     mask_t<Real> acute;              ///< whether the sweep is
     mask_t<Real> visible; ///< false if the segment has no length or its line passes through the origin
 
@@ -67,12 +73,12 @@ struct LineExtent {
         return select(acute, angle, Real(kPi<scalar_t<Real>>) - angle);
     }
 
-    /// \param from_begin sine minus s0, in [0, sine_extent]
-    NUSSELT_HD LinePoint<Real> point_at(const Real& from_begin) const noexcept {
-        const Real to_end = max(sine_extent - from_begin, Real(0));
+    /// \param from_start sine minus s0, in [0, sine_extent]
+    NUSSELT_HD LinePoint<Real> point_at(const Real& from_start) const noexcept {
+        const Real to_end = max(sine_extent - from_start, Real(0));
         // The square of the cosine is (1 + sine) (1 - sine): sums of positive terms.
-        const Real squared = (one_plus_s0 + from_begin) * (one_minus_s1 + to_end);
-        return {s0 + from_begin, sqrt(squared), from_begin, to_end};
+        const Real squared = (one_plus_s0 + from_start) * (one_minus_s1 + to_end);
+        return {s0 + from_start, sqrt(squared), from_start, to_end};
     }
 
     /// The point itself, on the segment.
@@ -80,7 +86,7 @@ struct LineExtent {
         // The nearer end is the more accurate place to start from. The step is 2 sin(theta / 2) cos(theta / 2)
         // times its distance over the cosine of alpha, with tan(theta / 2) = tangent.
         const Real tangent =
-            select(begins_near, point.from_begin, point.to_end) / (near_cosine + point.cosine);
+            select(starts_near, point.from_start, point.to_end) / (near_cosine + point.cosine);
         const Real step = Real(2) * near_distance * tangent / (point.cosine * fma(tangent, tangent, Real(1)));
         const Vec3<Real> p = near + min(step, length) * inward;
         const auto beside = is_beside(point);
@@ -121,7 +127,7 @@ private:
     }
 };
 
-/// For coordinates of order one: a smaller distance of a line from the origin cannot be told from rounding.
+/// With coordinates of order one, a smaller distance of a line from the origin cannot be told from rounding.
 template <class Scalar>
 inline constexpr Scalar kSmallestDistance = 4 * std::numeric_limits<Scalar>::epsilon();
 
@@ -136,14 +142,18 @@ NUSSELT_INLINE LineExtent<Real>
 make_line_extent(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& closest,
                  const Real& distance, const Real& l0, const Real& l1, const Real& length) noexcept {
     LineExtent<Real> e;
+
+    // Set up the plane of the line and the origin (Peters 2021, linear lights, Sec. 3.1).
     const auto passes_by = (distance > Real(kSmallestDistance<scalar_t<Real>>)) & (length > Real(0));
-    // Without light, any values will do that keep the formulas finite.
+    // If there is no light, any values will do that keep the formulas finite.
     e.distance = select(passes_by, distance, Real(1));
     e.s = s;
     e.t = (Real(1) / e.distance) * closest;
     e.length = length;
     e.l0 = l0;
     e.l1 = l1;
+
+    // Find sines and cosines of the angles of both ends, and their heights.
     const Real r0 = sqrt(fma(l0, l0, e.distance * e.distance));
     const Real r1 = sqrt(fma(l1, l1, e.distance * e.distance));
     const Real inverse_r0 = Real(1) / r0;
@@ -154,22 +164,29 @@ make_line_extent(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1
     e.c1 = e.distance * inverse_r1;
     e.height0 = max(p0.z, Real(0)) / r0;
     e.height1 = max(p1.z, Real(0)) / r1;
+
+    // One plus or minus a sine cancels for one sign of it; the squared cosine does not.
     const Real one_plus_abs0 = Real(1) + abs(e.s0);
     const Real one_plus_abs1 = Real(1) + abs(e.s1);
     e.one_plus_s0 = select(e.s0 < Real(0), e.c0 * e.c0 / one_plus_abs0, one_plus_abs0);
     e.one_minus_s1 = select(e.s1 > Real(0), e.c1 * e.c1 / one_plus_abs1, one_plus_abs1);
-    e.begins_near = r0 <= r1;
-    e.near = select(e.begins_near, p0, p1);
-    e.inward = select(e.begins_near, s, -s);
+
+    // Points are best found from the nearer end.
+    e.starts_near = r0 <= r1;
+    e.near = select(e.starts_near, p0, p1);
+    e.inward = select(e.starts_near, s, -s);
     e.near_distance = min(r0, r1);
     e.near_cosine = max(e.c0, e.c1);
-    // The sine of the sweep is the area of the triangle with the origin, never a difference.
+
+    // Find the angle between the ends. Its sine is the area of the triangle with the origin, never a difference.
     e.sin_sweep = (length * inverse_r0) * e.c1;
     const Real cos_sweep = fma(e.c0, e.c1, e.s0 * e.s1);
     e.visible = passes_by & (e.sin_sweep > Real(0));
     e.acute = cos_sweep > Real(0);
     e.half_tangent = e.sin_sweep / (Real(1) + abs(cos_sweep));
-    // Beyond a quarter of a turn the closest point lies between the ends: both sines add up.
+
+    // Find the difference of both sines (Eq. 1). Beyond a quarter of a turn the closest point lies between the ends,
+    // and they add up.
     e.sine_extent = select(e.acute, e.half_tangent * (e.c0 + e.c1), e.s1 - e.s0);
     return e;
 }
@@ -197,7 +214,7 @@ NUSSELT_INLINE LineExtent<Real> broadcast(const LineExtent<Single>& e) noexcept 
             broadcast<Real>(e.inward),
             Real(e.near_distance),
             Real(e.near_cosine),
-            mask_t<Real>(e.begins_near),
+            mask_t<Real>(e.starts_near),
             mask_t<Real>(e.acute),
             mask_t<Real>(e.visible)};
 }

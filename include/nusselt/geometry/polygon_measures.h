@@ -1,8 +1,10 @@
 #pragma once
 /// Closed forms for the area, solid angle and projected solid angle of convex polygons.
 
+#include <nusselt/core/light_sample.h>
 #include <nusselt/core/trig.h>
 #include <nusselt/geometry/clip_polygon.h>
+#include <nusselt/geometry/scaled_light.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -40,10 +42,59 @@ NUSSELT_HD inline ConvexPolygon<Real, N> with_unit_extent(const ConvexPolygon<Re
     result.normal = polygon.normal;
     return result;
 }
-/// The same for those who do not need the scale.
+/// The scaled polygon, for callers that do not need the scale.
 template <class Real, int N>
 NUSSELT_HD inline ConvexPolygon<Real, N> with_unit_extent(const ConvexPolygon<Real, N>& polygon) noexcept {
     return with_unit_extent(polygon, unit_extent_scale(polygon));
+}
+
+template <class Real, int N>
+using ScaledPolygon = ScaledLight<ConvexPolygon<Real, N>, Real>;
+
+/// The scaled polygon and its scale.
+template <class Real, int N>
+NUSSELT_HD inline ScaledPolygon<Real, N> to_unit_extent(const ConvexPolygon<Real, N>& polygon) noexcept {
+    const Real scale = unit_extent_scale(polygon);
+    return {with_unit_extent(polygon, scale), scale, reciprocal_power_of_two(scale)};
+}
+
+/// The plane of a polygon with coordinates of order one and a box around it, to find where directions meet it.
+template <class Real>
+struct PolygonHull {
+    LightPlane<Real> plane;
+    Vec3<Real> low, high; ///< axis-aligned box
+
+    /// A point of the plane moved into the box. Where the light is seen edge-on, rounding moves points along their
+    /// direction; they shall not leave the light.
+    NUSSELT_HD Vec3<Real> clamped(const Vec3<Real>& p) const noexcept { return min(max(p, low), high); }
+
+    /// The point in a unit direction that hits the polygon.
+    NUSSELT_HD Vec3<Real> point_along(const Vec3<Real>& wi) const noexcept {
+        return clamped(plane.distance_along(wi) * wi);
+    }
+};
+
+/// \param distance of the plane of the polygon from the origin, see plane_distance().
+template <class Real, int N>
+NUSSELT_HD inline PolygonHull<Real> hull_of(const ConvexPolygon<Real, N>& polygon,
+                                            const Real& distance) noexcept {
+    Real farthest = Real(0); // squared
+    Vec3<Real> low = polygon.vertex[0];
+    Vec3<Real> high = polygon.vertex[0];
+    NUSSELT_UNROLL
+    for (int j = 0; j < N; ++j) {
+        const Vec3<Real>& v = polygon.vertex[j];
+        farthest = max(farthest, dot(v, v));
+        low = min(low, v);
+        high = max(high, v);
+    }
+    return {{polygon.normal, distance, sqrt(farthest)}, low, high};
+}
+
+/// The same hull in all lanes.
+template <class Real, class Single>
+NUSSELT_HD inline PolygonHull<Real> broadcast(const PolygonHull<Single>& hull) noexcept {
+    return {broadcast<Real>(hull.plane), broadcast<Real>(hull.low), broadcast<Real>(hull.high)};
 }
 
 /// Solid angle [sr] seen from the origin by a polygon, clipped or not, in any frame; 0 if the origin lies in

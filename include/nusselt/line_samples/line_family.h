@@ -5,6 +5,7 @@
 /// N. Billen, P. Dutre 2016, Line Sampling for Direct Illumination, CGF 35(4), doi:10.1111/cgf.12948: Sec. 4 and 5.1.
 /// Deviations: convex polygons instead of triangles; the density of Sec. 5.1.2 peaks at 2 / (b - a), not 2 / area.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/trig.h>
 #include <nusselt/geometry/convex_polygon.h>
 #include <nusselt/geometry/line_segment.h>
@@ -43,19 +44,25 @@ struct Interval {
     Real begin, end;
 };
 
-/// From infinity to minus infinity, so that unions are a minimum and a maximum.
+/// The interval from infinity to minus infinity, so that unions are a minimum and a maximum.
 template <class Real>
 NUSSELT_HD inline Interval<Real> empty_interval() noexcept {
     constexpr scalar_t<Real> kInfinity = std::numeric_limits<scalar_t<Real>>::infinity();
     return {Real(kInfinity), Real(-kInfinity)};
 }
 
-/// What a light has of a line.
+/// The part of a line on the light.
 template <class Real>
 struct Chord {
     Real offset; ///< [m]
     Interval<Real> extent;
 };
+
+/// The same chord in all lanes.
+template <class Real, class Single>
+NUSSELT_HD inline Chord<Real> broadcast(const Chord<Single>& chord) noexcept {
+    return {Real(chord.offset), {Real(chord.extent.begin), Real(chord.extent.end)}};
+}
 
 /// A part of a line of the light.
 template <class Real>
@@ -104,6 +111,7 @@ public:
     /// \param light in any space.
     /// \param angle of the lines with the longest edge of the light, in [0, pi).
     NUSSELT_HD LineFamily(const ConvexPolygon<Real, N>& light, const Real& angle) noexcept {
+        // Scale the light to an extent of order one and find its longest edge.
         Real extent = Real(0);
         for (int j = 0; j < N; ++j) {
             const Vec3<Real>& edge = light.edge[j];
@@ -115,9 +123,13 @@ public:
             const Vec3<Real> edge = scale_ * light.edge[j];
             longest = select(dot(edge, edge) > dot(longest, longest), edge, longest);
         }
-        // Edges of tiny lights far from the origin of their space are rounded out of the plane.
+
+        // Complete that edge to a basis of the plane. Edges of tiny lights far from the origin of their space are
+        // rounded out of the plane.
         const Vec3<Real> bitangent = normalize(cross(light.normal, longest));
         const Vec3<Real> tangent = cross(bitangent, light.normal);
+
+        // Turn the basis by the angle (Sec. 5.1.1).
         const SinCos<Real> half = sincos_quarter_turn(Real(0.5) * angle);
         const Real sine = Real(2) * half.sin * half.cos;
         const Real cosine = fma(Real(-2) * half.sin, half.sin, Real(1));
@@ -130,16 +142,13 @@ public:
 
     /// Broadcasts a family to all lanes of a pack, to take many lines of one light.
     template <class Single>
-    NUSSELT_HD explicit LineFamily(const LineFamily<Single, N>& single) noexcept
-        : plane_(broadcast<Real>(single.plane_)), scale_(single.scale_), scaled_area_(single.scaled_area_) {
-        for (int k = 0; k < N; ++k)
-            knot_[k] = {Real(single.knot_[k].offset),
-                        {Real(single.knot_[k].extent.begin), Real(single.knot_[k].extent.end)}};
+    NUSSELT_HD explicit LineFamily(const LineFamily<Single, N>& single) noexcept {
+        broadcast_members<Real>(*this, single);
     }
 
     NUSSELT_HD const LinePlane<Real>& plane() const noexcept { return plane_; }
 
-    /// Of all lines of the light [m].
+    /// The range of the offsets of all lines of the light [m].
     NUSSELT_HD Interval<Real> offsets() const noexcept { return {knot_[0].offset, knot_[N - 1].offset}; }
 
     /// \param u in [0, 1); increasing u increases the offset.
@@ -169,9 +178,10 @@ public:
         return largest;
     }
 
-    /// With a density in proportion to the length of the line on the light.
+    /// Samples lines in proportion to their length on the light.
     /// \param u in [0, 1); increasing u increases the offset.
     NUSSELT_HD LineChoice<Real> sample_by_length(const Real& u) const noexcept {
+        // Choose the part between two neighbouring vertices in proportion to its area (Sec. 5.1.2).
         const Real target = u * scaled_area_;
         Real below = Real(0);
         Real rest = target;
@@ -182,11 +192,13 @@ public:
             span = select(beyond, Span{knot_[k], knot_[k + 1]}, span);
             rest = select(beyond, target - below, rest);
         }
+
+        // In it, the length of the lines is a linear function of the offset: invert its integral.
         const Real l0 = scale_ * length_of(span.left);
         const Real l1 = scale_ * length_of(span.right);
         const Real area = scaled_area(span);
         const Real x = min(rest / select(area > Real(0), area, Real(1)), Real(1));
-        // Without a difference of nearly equal lengths.
+        // The sum in the denominator avoids a difference of nearly equal lengths.
         const Real denominator = l0 + sqrt(max(fma(x, l1 * l1 - l0 * l0, l0 * l0), Real(0)));
         const Real step = x * (l0 + l1) / select(denominator > Real(0), denominator, Real(1));
         const Real width = span.right.offset - span.left.offset;
@@ -234,13 +246,10 @@ public:
         return {offset, {begin, max(begin, end)}};
     }
 
-    /// Of the light [m^2].
+    /// Area of the light [m^2].
     NUSSELT_HD Real area() const noexcept { return scaled_area_ / scale_; }
 
 private:
-    template <class, int>
-    friend class LineFamily;
-
     /// Neighbouring knots.
     struct Span {
         Chord<Real> left, right;
@@ -278,11 +287,18 @@ private:
     Chord<Real> knot_[N]; ///< through the vertices, by increasing offset; between them chords are linear
     Real scale_;          ///< a power of two: one over the extent of the light, up to a factor of 2
     Real scaled_area_;    ///< area times the scale [m]: areas themselves leave the range of Real earlier
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.plane_, self.knot_, self.scale_, self.scaled_area_);
+    }
 };
 
 template <class Real, int N>
 NUSSELT_HD inline void LineFamily<Real, N>::project(const ConvexPolygon<Real, N>& light) noexcept {
-    // From edges: differences of vertices would lose the size of small lights far away.
+    // Find the coordinates of the vertices, from edges: differences of vertices would lose the size of small lights far
+    // away.
     Real u[N];
     Real t[N];
     u[0] = t[0] = Real(0);
@@ -290,6 +306,8 @@ NUSSELT_HD inline void LineFamily<Real, N>::project(const ConvexPolygon<Real, N>
         u[j + 1] = u[j] + dot(light.edge[j], plane_.across);
         t[j + 1] = t[j] + dot(light.edge[j], plane_.along);
     }
+
+    // Find the chord through each vertex, by where its line crosses the other edges.
     for (int k = 0; k < N; ++k) {
         knot_[k] = {u[k], {t[k], t[k]}};
         for (int j = 0; j < N; ++j) {
@@ -302,7 +320,8 @@ NUSSELT_HD inline void LineFamily<Real, N>::project(const ConvexPolygon<Real, N>
             knot_[k].extent.end = select(crosses, max(knot_[k].extent.end, at), knot_[k].extent.end);
         }
     }
-    // Insertion sort with static indices.
+
+    // Sort the chords by offset: an insertion sort with static indices.
     for (int i = 1; i < N; ++i)
         for (int k = i; k > 0; --k) {
             const auto swaps = knot_[k].offset < knot_[k - 1].offset;
@@ -310,6 +329,8 @@ NUSSELT_HD inline void LineFamily<Real, N>::project(const ConvexPolygon<Real, N>
             knot_[k] = select(swaps, knot_[k - 1], knot_[k]);
             knot_[k - 1] = lower;
         }
+
+    // Add up the area.
     scaled_area_ = Real(0);
     for (int k = 0; k + 1 < N; ++k) scaled_area_ = scaled_area_ + scaled_area({knot_[k], knot_[k + 1]});
 }

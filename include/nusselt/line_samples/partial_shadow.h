@@ -25,7 +25,7 @@ struct PartialShadow {
     Scalar end_of_edge[3];
     /// Lines with smaller offsets than that meet the edge beyond the light.
     bool beyond_below_end[3];
-    /// Where the plane of the triangle reaches the light.
+    /// The edge where the plane of the triangle reaches the light.
     ShadowEdge<Scalar> end;
     /// Whether the point is on the side of the triangle where its corners go clockwise.
     bool faces;
@@ -73,7 +73,7 @@ NUSSELT_HD inline PartialShadow<Scalar> make_partial_shadow(const ShadowFrame<Sc
 
 namespace detail {
 
-/// Where a line meets an edge of an occluder.
+/// The point where a line meets an edge of an occluder.
 template <class Real>
 struct ShadowCrossing {
     Real t;
@@ -114,7 +114,7 @@ template <class Real, class Scalar>
 NUSSELT_HD inline Interval<Real> hidden_interval(const PartialShadow<Scalar>& shadow,
                                                  const Real& offset) noexcept {
     using Mask = mask_t<Real>;
-    // The plane of point and line has corners above and below.
+    // Find the two edges that the line crosses: the plane of point and line has corners above and below.
     Mask above[3];
     for (int i = 0; i < 3; ++i) above[i] = Mask((offset < Real(shadow.corner[i])) ^ Mask(shadow.behind[i]));
     const Mask crosses_ab = above[0] ^ above[1];
@@ -141,6 +141,8 @@ NUSSELT_HD inline Interval<Real> hidden_interval(const PartialShadow<Scalar>& sh
     const Mask falls_beyond = falls & front.beyond;
     const Mask begins_beyond = detail::select_mask(both, lower.beyond, rises_beyond);
     const Mask ends_beyond = detail::select_mask(both, upper.beyond, falls_beyond);
+
+    // End the shadow at the light.
     const Real light = min(max(fma(Real(shadow.end.slope), offset, Real(shadow.end.at_zero)), begin), end);
     const Mask hides = (crosses_ab | crosses_ac) & (p.front | q.front) & !(begins_beyond & ends_beyond);
     return {select(hides, select(begins_beyond, light, begin), nothing.begin),

@@ -66,7 +66,7 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
     const Real quarter_turn = Real(kPi<Scalar> / 2);
     if (!any(e.visible)) return Real(0);
 
-    // Angles from the begin, theta, and from the mirrored direction in the plane of line and origin, u.
+    // Find the angles from the start, theta, and from the mirrored direction in the plane of line and origin, u.
     const Real mirror_s = dot(mirror, e.s);
     const Real mirror_t = dot(mirror, e.t);
     const Real mirror_aside = dot(mirror, cross(e.s, e.t));
@@ -75,18 +75,22 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
                                    fma(e.c0, mirror_t, e.s0 * mirror_s));
     u0 = select(u0 > quarter_turn, u0 - Real(2) * half_turn, u0);
     const Real u1 = u0 + sweep;
+
+    // Cut off what is negligible.
     const Real nearest = max(max(u0, -u1), Real(0));
     const Real cut = detail::phong_cut(exponent, min(nearest, quarter_turn));
     const Real skipped = max(-cut - u0, Real(0));
     const Real width = (sweep - skipped) - max(u1 - cut, Real(0));
     const Real u_begin = max(u0, -cut);
 
-    // Cosine at the line and with the normal, from their values and derivatives at the begin.
+    // Find the cosine at the line and with the normal, from their values and derivatives at the start.
     const Real cos_sweep = fma(e.c0, e.c1, e.s0 * e.s1);
     const Real slope = select(e.acute, (e.height1 - e.height0 * cos_sweep) / e.sin_sweep,
                               difference_of_products(e.s.z, e.c0, e.t.z, e.s0));
     const Real in_plane = sqrt(fma(mirror_s, mirror_s, mirror_t * mirror_t));
     const Real log_aside = negative_log_of_cosine(SinCos<Real>{mirror_aside, in_plane});
+
+    // Integrate over what is left (Billen and Dutre 2016, Eq. 14, with the power of the sine that it lacks).
     Real sum = Real(0);
     for (int i = 0; i < Quadrature::kNodes; ++i) {
         const Real step = Real(kRule.node(i)) * width;
@@ -102,16 +106,16 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
     return select(lit, factor * sum, Real(0));
 }
 
-/// The same over the part of a segment above the surface [1/m].
+/// The integral over the part of a segment above the surface [1/m].
 /// \param light in shading space [m].
 template <class Real>
 NUSSELT_HD inline Real phong_integral(const LineSegment<Real>& light, const Vec3<Real>& mirror,
                                       const Real& exponent) noexcept {
-    const Real scale = scale_of(light);
-    return phong_integral(clipped_extent(scaled(light, scale)), mirror, exponent) * scale;
+    const auto unit = to_unit_extent(light);
+    return phong_integral(clipped_extent(unit.light), mirror, exponent) * unit.scale;
 }
 
-/// What a part of a line of a planar light contributes to a Phong surface [1/m], see shading.h.
+/// The contribution of a part of a line of a planar light to a Phong surface [1/m], see shading.h.
 /// \param cosine   as for diffuse_part().
 /// \param part     with finite ends [m].
 /// \param mirror   unit, in shading space: mirrored(wo).

@@ -1,5 +1,5 @@
 #pragma once
-/// What parts of the lines of a planar light contribute to diffuse and glossy surfaces, in closed form.
+/// Contributions of parts of the lines of a planar light to diffuse and glossy surfaces, in closed form.
 ///
 /// Along a line, the cosine at the light over the distance is constant up to one more cosine: a part of a line is a
 /// linear light, times half the cosine at the light in the closest point of the infinite line. So the integrals of
@@ -33,7 +33,7 @@ struct BothSides {
     }
 };
 
-/// Where among the lines of a light a lobe is brightest.
+/// The line of a light on which a lobe is brightest.
 template <class Real>
 struct LinePeak {
     Real offset; ///< [m]
@@ -87,7 +87,7 @@ struct LobeLine {
         return make_line_extent(along, p0, p1, closest, distance, l0, l1, (part.end - part.begin) * stretch);
     }
 
-    /// What of a part is above the horizon of the lobe.
+    /// The piece of a part that is above the horizon of the lobe.
     /// \param part with finite ends [m].
     NUSSELT_INLINE Interval<Real> clipped(const Interval<Real>& part) const noexcept {
         const auto rises = slope > Real(0);
@@ -114,7 +114,7 @@ struct LobeLine {
 template <class Real, class Sides = FrontSide>
 class LobePlane {
 public:
-    /// For Lambertian surfaces, whose lobe is the cosine itself.
+    /// The plane for Lambertian surfaces, whose lobe is the cosine itself.
     NUSSELT_HD explicit LobePlane(const ScaledPlane<Real>& light) noexcept
         : LobePlane(light, light.plane.origin, light.plane.across, light.plane.along, Real(1)) {}
 
@@ -176,7 +176,7 @@ private:
     Real scale_; ///< of the light [1/m]
 };
 
-/// What a part of a line contributes to a Lambertian surface [1/m].
+/// The contribution of a part of a line to a Lambertian surface [1/m].
 /// \param cosine the line, by a LobePlane without lobe.
 /// \param part   with finite ends [m].
 template <class Real>
@@ -184,7 +184,7 @@ NUSSELT_HD inline Real diffuse_part(const LobeLine<Real>& cosine, const Interval
     return cosine.integral(cosine.clipped(part));
 }
 
-/// What a part of a line contributes to a glossy surface [1/m]. What is below the surface does not count.
+/// The contribution of a part of a line to a glossy surface [1/m]. Light from below the surface does not count.
 /// \param cosine as for diffuse_part().
 /// \param lobe   the same line, by the LobePlane of the lobe.
 /// \param part   with finite ends [m].

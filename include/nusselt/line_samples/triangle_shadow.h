@@ -114,6 +114,7 @@ NUSSELT_HD inline Interval<Real> hidden_interval(const TriangleShadow<Real>& sha
 template <class Real>
 NUSSELT_HD inline mask_t<Real> may_hide(const TriangleShadow<Real>& shadow,
                                         const LineBounds<Real>& bounds) noexcept {
+    // Restrict the shadow to the offsets of the rectangle.
     const Real begin = max(shadow.first, bounds.offsets.begin);
     const Real end = min(shadow.last, bounds.offsets.end);
     // fma is monotonic: what an edge has in between lies between these two, bit by bit.
@@ -125,6 +126,8 @@ NUSSELT_HD inline mask_t<Real> may_hide(const TriangleShadow<Real>& shadow,
     const Interval<Real> through = range(shadow.through, begin, end);
     const Interval<Real> before = range(shadow.before, begin, min(end, shadow.middle));
     const Interval<Real> after = range(shadow.after, max(begin, shadow.middle), end);
+
+    // Compare the coordinates that all edges cover with those of the rectangle.
     const auto has_before = begin < shadow.middle;
     const auto has_after = shadow.middle <= end;
     const Real lowest = min(through.begin, min(select(has_before, before.begin, through.begin),
@@ -207,23 +210,28 @@ template <class Real>
 NUSSELT_HD inline TriangleShadows<Real> make_triangle_shadow(const ShadowFrame<Real>& frame,
                                                              const Vec3<Real>& a, const Vec3<Real>& b,
                                                              const Vec3<Real>& c) noexcept {
+    // Project the corners and edges to the plane of the light.
     const detail::ShadowCorner<Real> corner[] = {
         detail::shadow_corner(frame, a), detail::shadow_corner(frame, b), detail::shadow_corner(frame, c)};
     const ShadowEdge<Real> ab = detail::shadow_edge(frame, corner[0], corner[1]);
     const ShadowEdge<Real> bc = detail::shadow_edge(frame, corner[1], corner[2]);
     const ShadowEdge<Real> ac = detail::shadow_edge(frame, corner[0], corner[2]);
 
+    // Only triangles wholly between the point and the light have a shadow of this kind.
     const Real nearest = min(min(corner[0].position.z, corner[1].position.z), corner[2].position.z);
     const Real farthest = max(max(corner[0].position.z, corner[1].position.z), corner[2].position.z);
     const auto whole = (nearest > Real(0)) & (farthest <= frame.end);
     const auto nothing = (farthest <= Real(0)) | (nearest > frame.end);
 
+    // Order the corners by offset: the middle one is between the others.
     const Real u[] = {corner[0].offset, corner[1].offset, corner[2].offset};
     const auto a_before_b = u[0] < u[1];
     const auto b_before_c = u[1] < u[2];
     const auto a_before_c = u[0] < u[2];
     const auto a_is_middle = a_before_b ^ a_before_c;
     const auto c_is_middle = a_before_c ^ b_before_c;
+
+    // Choose the edge through both ends and the two at the middle corner.
     const Interval<Real> none = empty_interval<Real>();
     return {{select(whole, min(min(u[0], u[1]), u[2]), none.begin),
              select(a_is_middle, u[0], select(c_is_middle, u[2], u[1])),

@@ -1,5 +1,5 @@
 #pragma once
-/// What remains visible of lines while occluders are found one after the other.
+/// The parts of lines that remain visible while occluders are found one after the other.
 
 #include <nusselt/line_samples/line_family.h>
 
@@ -15,7 +15,7 @@ inline constexpr Scalar kShortestPart = Scalar(1e-6);
 template <class Real>
 class VisibleParts {
 public:
-    /// Without storage: to be assigned to before it is used.
+    /// An object without storage, to be assigned to before it is used.
     VisibleParts() noexcept = default;
 
     /// \param storage  for `capacity` intervals, which outlives this object.
@@ -24,7 +24,7 @@ public:
     NUSSELT_HD VisibleParts(Interval<Real>* storage, int capacity) noexcept
         : part_(storage), capacity_(capacity) {}
 
-    /// Back to whole lines. Where begin >= end (or NaN) there is none.
+    /// Goes back to whole lines. Where begin >= end (or NaN) there is none.
     NUSSELT_HD void reset(const Interval<Real>& whole) noexcept {
         const auto lit = whole.begin < whole.end;
         const Interval<Real> none = empty_interval<Real>();
@@ -38,7 +38,7 @@ public:
     /// Slots in use, some of which may be empty in some lanes.
     NUSSELT_HD int count() const noexcept { return count_; }
 
-    /// In no order. Empty where begin >= end.
+    /// Part `slot`, in no order; empty where begin >= end.
     NUSSELT_HD const Interval<Real>& operator[](int slot) const noexcept { return part_[slot]; }
 
     /// The least interval that has all parts of a line; empty where begin >= end.
@@ -55,7 +55,7 @@ public:
         return result;
     }
 
-    /// How many parts were taken for hidden since there was no room for them.
+    /// The number of parts that were taken for hidden since there was no room for them.
     NUSSELT_HD const Real& lost() const noexcept { return lost_; }
 
     /// Takes away what an occluder hides. Where begin >= end (or NaN) it hides nothing.

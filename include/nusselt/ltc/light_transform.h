@@ -41,19 +41,6 @@ NUSSELT_HD inline Real radius_ratio(const Vec3<Real>& moment, const Ltc<Real>& l
     return length(ltc.normal_to_cosine(normalize(moment))) / ltc.minor();
 }
 
-/// A polygon with coordinates of order one.
-template <class Real, int N>
-struct ScaledPolygon {
-    ConvexPolygon<Real, N> polygon;
-    Real inverse_scale; ///< a power of two: the light is polygon times this
-};
-
-template <class Real, int N>
-NUSSELT_HD inline ScaledPolygon<Real, N> to_unit_extent(const ConvexPolygon<Real, N>& light) noexcept {
-    const Real scale = unit_extent_scale(light);
-    return {with_unit_extent(light, scale), reciprocal_power_of_two(scale)};
-}
-
 /// Which part of a light counts for a lobe: what the lobe reaches. As published (Peters 2021, polygonal lights, Sec.
 /// 4.1): lobes also reach below the surface, but seldom.
 struct CosineHorizon {
@@ -81,17 +68,16 @@ struct BothHorizons {
     NUSSELT_HD static ScaledPolygon<Real, N + 1> part_of(const ConvexPolygon<Real, N>& light) noexcept {
         const ScaledPolygon<Real, N> whole = to_unit_extent(light);
         // Once more to an extent of order one, since little may be left of the light.
-        ScaledPolygon<Real, N + 1> part = to_unit_extent(clip_to_horizon(whole.polygon));
-        part.inverse_scale = part.inverse_scale * whole.inverse_scale;
-        return part;
+        const ScaledPolygon<Real, N + 1> part = to_unit_extent(clip_to_horizon(whole.light));
+        return {part.light, part.scale * whole.scale, part.inverse_scale * whole.inverse_scale};
     }
     template <class Real>
     NUSSELT_HD static LineSegment<Real> part_of(const LineSegment<Real>& light) noexcept {
         const LineExtent<Real> e = clipped_extent(light);
         const Vec3<Real> far = fma(e.length, e.inward, e.near);
-        Vec3<Real> begin = select(e.begins_near, e.near, far);
-        begin.z = max(begin.z, Real(0));
-        return {begin, light.s, select(e.visible, e.length, Real(0))};
+        Vec3<Real> start = select(e.starts_near, e.near, far);
+        start.z = max(start.z, Real(0));
+        return {start, light.s, select(e.visible, e.length, Real(0))};
     }
 };
 

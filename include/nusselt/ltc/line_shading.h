@@ -23,11 +23,12 @@ NUSSELT_HD inline Real diffuse_integral(const LineSegment<Real>& light) noexcept
 /// \param light in shading space with wo in the xz half-plane [m].
 template <class Horizons = CosineHorizon, class Real>
 NUSSELT_HD inline Real lobe_integral(const LineSegment<Real>& light, const Ltc<Real>& ltc) noexcept {
-    const Real scale = scale_of(light);
-    const LineSegment<Real> part = Horizons::part_of(scaled(light, scale));
+    const auto unit = to_unit_extent(light);
+    const LineSegment<Real> part = Horizons::part_of(unit.light);
     const Real ratio = radius_ratio(cross(part.p0, part.s), ltc);
     const auto seen = ratio > Real(0);
-    const Real integral = diffuse_integral(to_cosine_space(part, ltc)) / select(seen, ratio, Real(1)) * scale;
+    const Real integral =
+        diffuse_integral(to_cosine_space(part, ltc)) / select(seen, ratio, Real(1)) * unit.scale;
     return select(seen, integral, Real(0));
 }
 

@@ -8,6 +8,7 @@
 /// Two spaces: shading space, where the normal is +z and wo lies in the xz half-plane with x >= 0 (shading_frame()),
 /// and cosine space, where the density of the lobe is that of a clamped cosine.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/frame.h>
 #include <nusselt/core/trig.h>
 #include <nusselt/ltc/coefficients.h>
@@ -34,6 +35,9 @@ NUSSELT_HD inline Frame<Real> shading_frame(const Vec3<Real>& normal, const Vec3
 template <class Real>
 class Ltc {
 public:
+    /// Uninitialised: to be assigned to before it is used.
+    Ltc() = default;
+
     /// \param coefficients with a positive determinant and m11 > 0, as those of a table; the albedo is not used.
     NUSSELT_HD explicit Ltc(const LtcCoefficients<Real>& coefficients) noexcept {
         const LtcCoefficients<Real>& c = coefficients;
@@ -50,14 +54,9 @@ public:
 
     /// Broadcasts one lobe to all lanes of a pack.
     template <class Single>
-    NUSSELT_HD explicit Ltc(const Ltc<Single>& single) noexcept
-        : m00_(single.m00_),
-          m02_(single.m02_),
-          m11_(single.m11_),
-          m20_(single.m20_),
-          m22_(single.m22_),
-          minor_(single.minor_),
-          lateral_(single.lateral_) {}
+    NUSSELT_HD explicit Ltc(const Ltc<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
     /// A vector of shading space in cosine space, scaled by a number of the order of one that depends on the lobe only.
     /// Narrow lobes make both terms of a component large and their sum small: it is accurate relative to itself.
@@ -79,7 +78,7 @@ public:
                 difference_of_products(m00_, n.z, m02_, n.x)};
     }
 
-    /// What to_shading() and normal_to_cosine() are scaled by, > 0.
+    /// The factor by which to_shading() and normal_to_cosine() are scaled, > 0.
     NUSSELT_HD Real minor() const noexcept { return minor_; }
 
     /// Density of the lobe with respect to solid angle [1/sr]: it integrates to 1 over the sphere. 0 beyond the horizon
@@ -96,13 +95,16 @@ public:
     }
 
 private:
-    template <class>
-    friend class Ltc;
-
     // cosine_from_shading, scaled by a power of two such that its largest entry is of order one.
     Real m00_, m02_, m11_, m20_, m22_;
     Real minor_;   ///< m00 m22 - m02 m20
     Real lateral_; ///< minor / m11
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.m00_, self.m02_, self.m11_, self.m20_, self.m22_, self.minor_, self.lateral_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

@@ -18,7 +18,7 @@ NUSSELT_NAMESPACE_BEGIN
 /// direction of the peak turns by many times the width of a lobe from one sample to the next, its inclination is
 /// interpolated (up to the third power of the step), whatever the widths do.
 struct LtcTableView {
-    /// Of floats per sample: m00, m02 (a unit vector together), 1 / m11, -m20, m22, albedo; all at least 0.
+    /// The number of floats per sample: m00, m02 (a unit vector together), 1 / m11, -m20, m22, albedo; all at least 0.
     static constexpr int kStride = 6;
     /// Tables have fewer floats than this: float counts them exactly.
     static constexpr std::int64_t kMostFloats = std::int64_t{1} << 24;
@@ -97,7 +97,7 @@ private:
         Real fraction;
     };
 
-    /// Where the entries of each lane are.
+    /// The offsets of the entries of each lane.
     template <class Real>
     struct Offsets {
         static constexpr int kLanes = RealTraits<Real>::kLanes;

@@ -34,7 +34,7 @@ struct LtcTableFile {
     const unsigned char* numbers; ///< after the header
     int roughnesses, inclinations, f0s;
 
-    /// Of floats that decode() writes.
+    /// The number of floats that decode() writes.
     std::size_t entries() const noexcept {
         return static_cast<std::size_t>(roughnesses) * static_cast<std::size_t>(inclinations) *
                static_cast<std::size_t>(f0s) * static_cast<std::size_t>(LtcTableView::kStride);

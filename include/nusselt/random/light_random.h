@@ -19,7 +19,7 @@ NUSSELT_NAMESPACE_BEGIN
 /// How the samples of one pixel and light relate to each other. Pixels, lights and pairs of dimensions are
 /// independent of each other in every case.
 enum class Sampler {
-    /// Not at all.
+    /// Samples are independent of each other.
     independent,
     /// Owen-scrambled Sobol' points: stratified in x, in y and in two dimensions, best for powers of two.
     sobol,
@@ -43,7 +43,7 @@ NUSSELT_HD constexpr std::uint32_t random_stream(std::uint32_t seed, RandomPurpo
     return pcg4d({light, pair, static_cast<std::uint32_t>(purpose), seed}).x;
 }
 
-/// What the samples of one pixel share.
+/// The random bits that all samples of one pixel share.
 NUSSELT_HD constexpr UInt4 pixel_key(std::uint32_t x, std::uint32_t y, std::uint32_t stream) noexcept {
     return pcg4d({x, y, 0, stream});
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// From random bits to numbers in [0, 1).
+/// Conversion of random bits to numbers in [0, 1).
 
 #include <cstdint>
 

@@ -41,8 +41,8 @@ public:
 
 private:
     static PolygonSolidAnglePeters<Real, 4> rectangle_around(const Cylinder<Real>& light) noexcept {
-        const Real scale = scale_of(light);
-        const CylinderView<Real> v = make_cylinder_view(scaled(light, scale), {Real(0), Real(0), Real(0)});
+        const auto unit = to_unit_extent(light);
+        const CylinderView<Real> v = make_cylinder_view(unit.light, {Real(0), Real(0), Real(0)});
         const Vec3<Real>& t = v.m;
         // Across the direction to the axis, where the tangents from the origin touch the cylinder.
         const Real distance = select(v.outside, v.center.x, Real(1));
@@ -52,12 +52,12 @@ private:
         const Real low = v.l0 * select(v.l0 < Real(0), Real(1) + ratio, Real(1) - ratio);
         const Real high = v.l1 * select(v.l1 > Real(0), Real(1) + ratio, Real(1) - ratio);
         // The square around the nearer cap.
-        const Vec3<Real> cap = select(v.l0 > Real(0), v.begin, v.end);
+        const Vec3<Real> cap = select(v.l0 > Real(0), v.start, v.end);
 
         const Vec3<Real> center = select(v.outside, depth * t + (Real(0.5) * (low + high)) * v.s, cap);
         const Vec3<Real> a = select(v.outside, (Real(0.5) * (high - low)) * v.s, v.radius * t);
         const Vec3<Real> b = select(v.outside, half_width, v.radius) * v.n;
-        const Real size = select(v.visible, reciprocal_power_of_two(scale), Real(0));
+        const Real size = select(v.visible, unit.inverse_scale, Real(0));
         const Vec3<Real> corners[] = {size * (center - a - b), size * (center + a - b),
                                       size * (center + a + b), size * (center - a + b)};
         return PolygonSolidAnglePeters<Real, 4>(make_polygon<4>(corners, 4));

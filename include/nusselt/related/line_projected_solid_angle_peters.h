@@ -23,33 +23,33 @@ public:
     explicit LineProjectedSolidAnglePeters(const LineSegment<Real>& light) noexcept
         : l0_(light.p0), s_(light.s) {
         Real length = light.length;
-        const Real begin_height = l0_.z;
+        const Real start_height = l0_.z;
         const Real end_height = l0_.z + length * s_.z;
-        if (begin_height <= Real(0) && end_height <= Real(0)) return;
-        if (begin_height < Real(0)) {
-            const Real below = -begin_height / s_.z;
+        if (start_height <= Real(0) && end_height <= Real(0)) return;
+        if (start_height < Real(0)) {
+            const Real below = -start_height / s_.z;
             l0_ = l0_ + below * s_;
             length -= below;
         } else if (end_height < Real(0)) {
-            length = -begin_height / s_.z;
+            length = -start_height / s_.z;
         }
         l0_s_ = dot(l0_, s_);
         const Real q2 = dot(l0_, l0_) - l0_s_ * l0_s_;
         inverse_q_ = Real(1) / sqrt(q2);
-        begin_s_ = clamped(l0_s_ / sqrt(dot(l0_, l0_)));
+        start_s_ = clamped(l0_s_ / sqrt(dot(l0_, l0_)));
         end_s_ = clamped((l0_s_ + length) / sqrt((l0_s_ + length) * (l0_s_ + length) + q2));
         n_s_ = s_.z;
         n_t_ = inverse_q_ * (l0_.z - n_s_ * l0_s_);
-        begin_integral_ = integral(begin_s_);
-        total_ = integral(end_s_) - begin_integral_;
+        start_integral_ = integral(start_s_);
+        total_ = integral(end_s_) - start_integral_;
     }
 
     /// \param u in [0, 1).
     LightSample<Real> sample(const Real& u) const noexcept {
-        Real w_s = clamped(begin_s_ + u * (end_s_ - begin_s_));
+        Real w_s = clamped(start_s_ + u * (end_s_ - start_s_));
         Real w_t = sqrt(Real(1) - w_s * w_s);
         if (u >= Real(1e-5) && u <= Real(1 - 1e-5)) {
-            const Real target = u * total_ + begin_integral_;
+            const Real target = u * total_ + start_integral_;
             Real alpha = std::asin(w_s);
             for (int i = 0; i < 2; ++i) {
                 const Real along = n_s_ * w_s + n_t_ * w_t;
@@ -82,8 +82,8 @@ private:
     }
 
     Vec3<Real> l0_, s_;
-    Real l0_s_ = 0, inverse_q_ = 0, begin_s_ = 0, end_s_ = 0, n_s_ = 0, n_t_ = 0;
-    Real begin_integral_ = 0, total_ = 0;
+    Real l0_s_ = 0, inverse_q_ = 0, start_s_ = 0, end_s_ = 0, n_s_ = 0, n_t_ = 0;
+    Real start_integral_ = 0, total_ = 0;
 };
 
 NUSSELT_NAMESPACE_END

@@ -77,8 +77,8 @@ private:
 template <class Real, class CosinePower>
 Real phong_integral_billen(const LineSegment<Real>& light, const Vec3<Real>& mirror, int exponent,
                            const CosinePower& power) noexcept {
-    const Real scale = scale_of(light);
-    const LineExtent<Real> e = clipped_extent(scaled(light, scale));
+    const auto unit = to_unit_extent(light);
+    const LineExtent<Real> e = clipped_extent(unit.light);
     const Real mirror_s = dot(mirror, e.s);
     const Real mirror_t = dot(mirror, e.t);
     const Real in_plane = std::hypot(mirror_s, mirror_t);
@@ -106,7 +106,8 @@ Real phong_integral_billen(const LineSegment<Real>& light, const Vec3<Real>& mir
     const Real squared_sines = ((n + 2) * even - boundary) / (n + 1) - even;
     const Real sum =
         cosine * height * even + (cosine * slope - sine * height) * odd - sine * slope * squared_sines;
-    return 2 * phong_normalisation(n) * std::pow(in_plane, n) * std::fmax(sum, Real(0)) / e.distance * scale;
+    return 2 * phong_normalisation(n) * std::pow(in_plane, n) * std::fmax(sum, Real(0)) / e.distance *
+           unit.scale;
 }
 
 NUSSELT_NAMESPACE_END

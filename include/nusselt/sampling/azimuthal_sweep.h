@@ -19,6 +19,7 @@ public:
     /// \param distance of the plane of the polygon from the origin: dot(polygon.normal, p) for a point p of it.
     NUSSELT_HD AzimuthalSweep(const ConvexPolygon<Real, M>& polygon, const Real& distance) noexcept
         : base_(polygon.vertex[0]), normal_(polygon.normal), distance_(distance) {
+        // Measure the azimuth of each vertex relative to vertex 0.
         Vec3<Real> offset[M];
         Azimuth azimuth[M];
         offset[0] = {Real(0), Real(0), Real(0)};
@@ -30,6 +31,7 @@ public:
             reach = max(reach, abs(offset[j].x) + abs(offset[j].y));
             azimuth[j] = azimuth_of(polygon.vertex[j], offset[j], reach);
         }
+
         // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. With exactly equal
         // azimuths they do not disturb the order of the others. In both directions, for runs of such edges.
         NUSSELT_UNROLL
@@ -38,6 +40,7 @@ public:
         NUSSELT_UNROLL
         for (int j = M - 1; j > 0; --j) unite(azimuth[j - 1], azimuth[j]);
 
+        // Associate each vertex with the edge that begins there in counterclockwise order (Sec. 3.7).
         first_inner_ = {offset[0], offset[0], mask_t<Real>(false)};
         NUSSELT_UNROLL
         for (int j = 0; j < M; ++j) {
@@ -57,6 +60,8 @@ public:
             event_[j] = {azimuth[j].angle, offset[j], select(is_outer, polygon.edge[j], backward),
                          select(is_outer, Real(1), select(is_inner, Real(-1), Real(0)))};
         }
+
+        // Sort the vertices by their azimuth.
         sort_by_network<M>([&](int low, int high) {
             Event& a = event_[low];
             Event& b = event_[high];
@@ -72,11 +77,14 @@ public:
     /// Calls emit(k, sector, present) for k = 0 to M - 2, in counterclockwise order, where any lane has a sector.
     template <class Emit>
     NUSSELT_HD void for_each_sector(Emit emit) const noexcept {
+        // Start both chains of edges at the clockwise end of the polygon.
         Chain outer{event_[0].offset, event_[0].edge, event_[0].kind > Real(0)};
         const auto inner_first = event_[0].kind < Real(0);
         Chain inner{select(inner_first, event_[0].offset, first_inner_.at),
                     select(inner_first, event_[0].edge, first_inner_.rest),
                     mask_t<Real>(first_inner_.begun | inner_first)};
+
+        // Advance from vertex to vertex; between two of them, both chains bound a sector.
         Real gap = Real(0);
         NUSSELT_UNROLL
         for (int k = 1; k < M; ++k) {
@@ -147,7 +155,7 @@ private:
         b = {select(b_moves, old.angle, b.angle), select(b_moves, old.rounding, b.rounding)};
     }
 
-    /// Where the sweep is on the outer or the inner edges.
+    /// The position of the sweep on the outer or the inner edges.
     struct Chain {
         Vec3<Real> at;
         Vec3<Real> rest; ///< of the edge

@@ -5,9 +5,10 @@
 /// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Sec. 3.2 and
 /// 3.3, Algorithms 1 and 2. Deviations: the integral is written by the end points of the light, so that
 /// nothing cancels (the paper accepts that short and distant lights lose precision); the unknown is the angle
-/// from the begin of the light; the start takes the cosine with the normal into account; the iteration also runs
-/// near the ends, where it needs no exception in this form.
+/// from the start of the light; the initial guess takes the cosine with the normal into account; the iteration also
+/// runs near the ends, where it needs no exception in this form.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/geometry/clip_line.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -27,6 +28,9 @@ inline constexpr Scalar kSmallStep = power_of_two<Scalar>(-std::numeric_limits<S
 template <class Real, int Iterations = kLineIterations<Real>>
 class CosineArc {
 public:
+    /// Uninitialised: to be assigned to before it is used.
+    CosineArc() = default;
+
     /// \param extent above the horizon.
     NUSSELT_HD explicit CosineArc(const LineExtent<Real>& extent) noexcept
         : extent_(extent), sweep_(extent_.sweep()) {
@@ -39,26 +43,23 @@ public:
 
     /// Broadcasts an arc to all lanes of a pack.
     template <class Single>
-    NUSSELT_HD explicit CosineArc(const CosineArc<Single, Iterations>& single) noexcept
-        : extent_(broadcast<Real>(single.extent_)),
-          sweep_(single.sweep_),
-          middle_height_(single.middle_height_),
-          slope_(single.slope_),
-          integral_(single.integral_) {}
+    NUSSELT_HD explicit CosineArc(const CosineArc<Single, Iterations>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
     NUSSELT_HD const LineExtent<Real>& extent() const noexcept { return extent_; }
 
     /// E of the paper: 2 int cos(alpha) n . w(alpha) d alpha.
     NUSSELT_HD const Real& integral() const noexcept { return integral_; }
 
-    /// \param u in [0, 1); increasing u moves from the begin to the end.
+    /// \param u in [0, 1); increasing u moves from the start to the end.
     NUSSELT_HD LinePoint<Real> point(const Real& u) const noexcept {
         Real theta = angle_at(initial_sine(u));
         auto goes_on = mask_t<Real>(true);
         for (int i = 0; i < Iterations && any(goes_on); ++i) {
             const Rotation rotation = rotation_to(theta);
-            const Real residual = fma(-u, integral_, rotation.integral);
-            // Laguerre's method: the root of the quadratic Taylor polynomial, in Blinn's stable form.
+            const Real residual = fma(-u, integral_, rotation.integral); // Eq. 4
+            // Laguerre's method (Algorithm 2): the root of the quadratic Taylor polynomial, in Blinn's stable form.
             const Real first = rotation.cosine * rotation.height;
             const Real second = fma(rotation.cosine, rotation.height_slope, -rotation.sine * rotation.height);
             const Real denominator = first + sqrt(max(fma(first, first, -second * residual), Real(0)));
@@ -69,28 +70,25 @@ public:
             goes_on =
                 goes_on & (abs(step) * (first + abs(second)) > Real(kSmallStep<scalar_t<Real>>) * first);
         }
-        const Real from_begin = sine_from_begin(sincos_quarter_turn(Real(0.5) * theta));
-        return extent_.point_at(min(from_begin, extent_.sine_extent));
+        const Real from_start = sine_from_start(sincos_quarter_turn(Real(0.5) * theta));
+        return extent_.point_at(min(from_start, extent_.sine_extent));
     }
 
     /// The random number for which point() returns the one in direction wi, a unit direction on the arc.
     NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
         const LinePoint<Real> point = extent_.point_in(wi);
-        const Real theta = angle_at(point.from_begin);
+        const Real theta = angle_at(point.from_start);
         const Real part =
-            cosine_integral(theta, point.from_begin, extent_.height0 + max(wi.z, Real(0)), extent_.t.z);
+            cosine_integral(theta, point.from_start, extent_.height0 + max(wi.z, Real(0)), extent_.t.z);
         return below_one(part / select(integral_ > Real(0), integral_, Real(1)));
     }
 
 private:
-    template <class, int>
-    friend class CosineArc;
-
-    /// What the iteration needs at the angle theta from the begin.
+    /// The quantities that the iteration needs at the angle theta from the start.
     struct Rotation {
         Real sine, cosine;         ///< of alpha
         Real height, height_slope; ///< cosine with the normal and its derivative
-        Real integral;             ///< from the begin
+        Real integral;             ///< from the start
     };
 
     NUSSELT_HD Rotation rotation_to(const Real& theta) const noexcept {
@@ -102,24 +100,24 @@ private:
         r.cosine = max(fma(extent_.c0, cos, -extent_.s0 * sin), Real(0));
         r.height = max(fma(extent_.height0, cos, slope_ * sin), Real(0));
         r.height_slope = fma(slope_, cos, -extent_.height0 * sin);
-        r.integral = cosine_integral(theta, sine_from_begin(half), extent_.height0 + r.height, extent_.t.z);
+        r.integral = cosine_integral(theta, sine_from_start(half), extent_.height0 + r.height, extent_.t.z);
         return r;
     }
 
-    /// \param half sine and cosine of half the angle from the begin.
-    NUSSELT_HD Real sine_from_begin(const SinCos<Real>& half) const noexcept {
+    /// \param half sine and cosine of half the angle from the start.
+    NUSSELT_HD Real sine_from_start(const SinCos<Real>& half) const noexcept {
         const Real middle = fma(extent_.c0, half.cos, -extent_.s0 * half.sin);
         return Real(2) * half.sin * max(middle, Real(0));
     }
 
-    /// The angle from the begin.
-    NUSSELT_HD Real angle_at(const Real& from_begin) const noexcept {
-        const LinePoint<Real> point = extent_.point_at(from_begin);
-        return min(Real(2) * atan2_positive(from_begin, extent_.c0 + point.cosine), sweep_);
+    /// The angle from the start.
+    NUSSELT_HD Real angle_at(const Real& from_start) const noexcept {
+        const LinePoint<Real> point = extent_.point_at(from_start);
+        return min(Real(2) * atan2_positive(from_start, extent_.c0 + point.cosine), sweep_);
     }
 
-    /// Start of the iteration: by sine, the density is the cosine with the normal. It is taken as linear from the
-    /// begin to the middle and from there to the end.
+    /// The initial guess of the iteration: by sine, the density is the cosine with the normal. It is taken as linear
+    /// from the start to the middle and from there to the end.
     NUSSELT_HD Real initial_sine(const Real& u) const noexcept {
         const Real first_half = extent_.height0 + middle_height_;
         const Real target = u * (first_half + middle_height_ + extent_.height1);
@@ -136,8 +134,14 @@ private:
     LineExtent<Real> extent_;
     Real sweep_;         ///< angle between the end points
     Real middle_height_; ///< cosine of the direction to the middle by sine with the normal
-    Real slope_;         ///< derivative by theta of that cosine, at the begin
+    Real slope_;         ///< derivative by theta of that cosine, at the start
     Real integral_;
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.extent_, self.sweep_, self.middle_height_, self.slope_, self.integral_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

@@ -1,7 +1,8 @@
 #pragma once
-/// Uniform sampling of the surface of a closed cylinder, caps included. Cheap to prepare, but half of the samples or more
-/// lie on the far side, and it is noisy close to the light.
+/// Uniform sampling of the surface of a closed cylinder, caps included. Cheap to prepare, but half of the samples or
+/// more lie on the far side, and it is noisy close to the light.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/cylinder.h>
 
@@ -21,33 +22,34 @@ public:
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
-    NUSSELT_HD explicit CylinderArea(const CylinderArea<Single>& single) noexcept
-        : light_(broadcast<Real>(single.light_)),
-          frame_{broadcast<Real>(single.frame_.t), broadcast<Real>(single.frame_.b),
-                 broadcast<Real>(single.frame_.n)} {}
+    NUSSELT_HD explicit CylinderArea(const CylinderArea<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
-    /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves from the middle of the cap at the begin over
-    ///          the mantle to the middle of the other cap.
+    /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves from the middle of the cap at the start over
+    ///          the lateral surface to the middle of the other cap.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         const Real& radius = light_.radius;
         const Real& length = light_.axis.length;
-        // Along the profile, in units of the circumference, a cap counts half its radius.
+        // Choose the position along the profile. In units of the circumference, a cap counts half its radius.
         const Real half = Real(scalar_t<Real>(0.5)) * radius;
         const Real position = u.y * (length + radius);
         const auto on_first = position < half;
-        const auto on_mantle = (!on_first) & (position < half + length);
+        const auto on_side = (!on_first) & (position < half + length);
         const Real to_middle = max(select(on_first, position, length + radius - position), Real(0));
         const Real on_cap = radius * sqrt(min(to_middle / select(half > Real(0), half, Real(1)), Real(1)));
-        const Real rho = select(on_mantle, radius, on_cap);
+        const Real rho = select(on_side, radius, on_cap);
         const Real along = select(on_first, Real(0), min(position - half, length));
 
-        // The azimuth in [-pi, pi).
+        // Choose the azimuth, in [-pi, pi).
         const Real turn = Real(kPi<scalar_t<Real>>) * fma(Real(2), u.x, Real(-1));
         const SinCos<Real> half_turn = sincos_half_turn(abs(turn));
         const Vec3<Real> outwards = half_turn.cos * frame_.t + copysign(half_turn.sin, turn) * frame_.b;
+
+        // Put both together.
         const Vec3<Real> p = fma(rho, outwards, fma(along, light_.axis.s, light_.axis.p0));
         const Vec3<Real> on_caps = select(on_first, -light_.axis.s, light_.axis.s);
-        const Vec3<Real> normal = select(on_mantle, outwards, on_caps);
+        const Vec3<Real> normal = select(on_side, outwards, on_caps);
         const Vec3<Real> wi = inverse_length(p) * p;
         return {wi, density(nusselt::length(p), -dot(wi, normal)), p};
     }
@@ -63,12 +65,15 @@ public:
         const Real& radius = light_.radius;
         const Real& length = light_.axis.length;
         const Real distance = intersect(light_, wi).distance;
-        const Vec3<Real> from_begin = distance * wi - light_.axis.p0;
-        const Real along = dot(from_begin, light_.axis.s);
-        const Real x = dot(from_begin, frame_.t);
-        const Real y = dot(from_begin, frame_.b);
+
+        // Find the point on the light in cylindrical coordinates.
+        const Vec3<Real> from_start = distance * wi - light_.axis.p0;
+        const Real along = dot(from_start, light_.axis.s);
+        const Real x = dot(from_start, frame_.t);
+        const Real y = dot(from_start, frame_.b);
         const Real turn = copysign(atan2_positive(abs(y), x), y);
-        // At the rims, where rounding decides, both parts of the profile meet.
+
+        // Find its position along the profile. At the rims, where rounding decides, both parts of the profile meet.
         const Real rounding = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon()) * (distance + length);
         const Real half = Real(scalar_t<Real>(0.5)) * radius;
         const Real safe_radius = select(radius > Real(0), radius, Real(1));
@@ -83,15 +88,12 @@ public:
             below_one(position / select(profile > Real(0), profile, Real(1)))};
     }
 
-    /// Area of mantle and caps [m^2].
+    /// Area of the lateral surface and the caps [m^2].
     NUSSELT_HD Real measure() const noexcept {
         return Real(2 * kPi<scalar_t<Real>>) * light_.radius * (light_.axis.length + light_.radius);
     }
 
 private:
-    template <class>
-    friend class CylinderArea;
-
     NUSSELT_HD Real density(const Real& distance, const Real& cosine) const noexcept {
         const Real denominator = measure() * cosine;
         const auto lit = denominator > Real(0);
@@ -101,6 +103,12 @@ private:
 
     Cylinder<Real> light_;
     Frame<Real> frame_; ///< n is the direction of the axis
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.light_, self.frame_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

@@ -6,6 +6,7 @@
 /// integral is known in closed form and is sampled as that of a line; the azimuth of the half-plane follows an
 /// interpolant of these integrals.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/geometry/cylinder.h>
 #include <nusselt/sampling/cosine_arc.h>
 #include <nusselt/sampling/piecewise_linear.h>
@@ -54,7 +55,7 @@ struct UniformImportance {
     }
     template <class Real>
     NUSSELT_HD static Real invert(const LineExtent<Real>& e, const Vec3<Real>& wi) noexcept {
-        return below_one(e.point_in(wi).from_begin / select(e.visible, e.sine_extent, Real(1)));
+        return below_one(e.point_in(wi).from_start / select(e.visible, e.sine_extent, Real(1)));
     }
 };
 
@@ -87,15 +88,21 @@ class CylinderFan {
     using Scalar = scalar_t<Real>;
 
 public:
+    /// Uninitialised: to be assigned to before it is used.
+    CylinderFan() = default;
+
     /// \param cylinder in shading space, with coordinates of order one.
     NUSSELT_HD CylinderFan(const Cylinder<Real>& cylinder, const Space& space) noexcept
         : space_(space), view_(make_cylinder_view(cylinder, horizon_normal(space))) {
+        // Map the axis and the basis across it to the space of the importance.
         const Vec3<Real> s = space.to_cosine(view_.s);
         const Vec3<Real> m = space.to_cosine(view_.m);
         const Vec3<Real> n = space.to_cosine(view_.n);
         // The image of the plane across n contains those of s and m. Products, not differences: images may be flat.
         const Vec3<Real> across = space.normal_to_cosine(view_.n);
         const Real lateral = space.to_cosine({Real(0), Real(1), Real(0)}).y;
+
+        // Express the images in an orthonormal basis along the image of the axis.
         stretch_ = length(s);
         s_ = normalize(s);
         n_ = normalize(across);
@@ -109,10 +116,14 @@ public:
         n_along_s_ = dot(n, s_);
         height_of_m_ = m.z;
         height_of_n_ = n.z;
-        begin_height_ = space.to_cosine(view_.begin).z;
+        start_height_ = space.to_cosine(view_.start).z;
         end_height_ = space.to_cosine(view_.end).z;
+
+        // Find the azimuths of what is visible.
         set_range();
 
+        // Integrate the importance over half-planes at the nodes. The integral of their interpolant estimates the whole
+        // one.
         Real value[kAzimuthNodes];
         Real largest = Real(0);
         NUSSELT_UNROLL
@@ -122,6 +133,8 @@ public:
             largest = max(value[i], largest);
         }
         integral_ = Real(0.5) * range_ * Warp(value).integral();
+
+        // Interpolate these integrals: the density of azimuths.
         NUSSELT_UNROLL
         for (int i = 0; i < kAzimuthNodes; ++i) value[i] = fma(largest, Real(kLeastShare<Scalar>), value[i]);
         warp_ = Warp(value);
@@ -136,27 +149,9 @@ public:
 
     /// Broadcasts a fan to all lanes of a pack.
     template <class Single, class SingleSpace>
-    NUSSELT_HD explicit CylinderFan(const CylinderFan<Single, SingleSpace, Importance>& single) noexcept
-        : space_(broadcast<Real>(single.space_)),
-          view_(broadcast<Real>(single.view_)),
-          s_(broadcast<Real>(single.s_)),
-          m_(broadcast<Real>(single.m_)),
-          n_(broadcast<Real>(single.n_)),
-          stretch_(single.stretch_),
-          m_along_m_(single.m_along_m_),
-          n_along_m_(single.n_along_m_),
-          n_along_n_(single.n_along_n_),
-          m_along_s_(single.m_along_s_),
-          n_along_s_(single.n_along_s_),
-          height_of_m_(single.height_of_m_),
-          height_of_n_(single.height_of_n_),
-          begin_height_(single.begin_height_),
-          end_height_(single.end_height_),
-          low_(single.low_),
-          range_(single.range_),
-          warp_(single.warp_),
-          integral_(single.integral_),
-          inverse_normalization_(single.inverse_normalization_) {}
+    NUSSELT_HD explicit CylinderFan(const CylinderFan<Single, SingleSpace, Importance>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
     /// The point of the cylinder for random numbers in [0, 1)^2: u.x chooses the half-plane, u.y the direction in it,
     /// rising along the axis. Without meaning if integral() is 0.
@@ -191,8 +186,6 @@ public:
     NUSSELT_HD const Real& integral() const noexcept { return integral_; }
 
 private:
-    template <class, class, class>
-    friend class CylinderFan;
     using Warp = PiecewiseLinear<Real, kAzimuthNodes>;
 
     /// A half-plane of the fan and its image.
@@ -203,7 +196,7 @@ private:
         Real integral;           ///< of the importance
     };
 
-    /// In shading space: directions with a positive product have importance.
+    /// The normal of the horizon in shading space: directions with a positive product have importance.
     NUSSELT_HD static Vec3<Real> horizon_normal(const Space& space) noexcept {
         const Real zero = Real(0);
         const Real one = Real(1);
@@ -242,6 +235,8 @@ private:
 
     NUSSELT_HD HalfPlane half_plane(const Vec2<Real>& direction) const noexcept {
         HalfPlane h;
+
+        // Cut the cylinder and map the half-plane to the space of the importance.
         h.slice = view_.slice(direction);
         const Vec2<Real>& azimuth = h.slice.azimuth;
         const Vec2<Real> image = image_of(azimuth);
@@ -249,10 +244,10 @@ private:
         h.shear = fma(azimuth.x, m_along_s_, azimuth.y * n_along_s_);
         const Vec3<Real> t = (Real(1) / h.widening) * (image.x * m_ + image.y * n_);
 
-        // Corners of the rectangle that bound the interval of directions.
-        const auto begins_far = view_.l0 > Real(0);
+        // Find the two corners of the rectangle that bound the interval of directions, by their tangents.
+        const auto starts_far = view_.l0 > Real(0);
         const auto ends_far = view_.l1 < Real(0);
-        const Real rho0 = select(begins_far, h.slice.far, h.slice.near);
+        const Real rho0 = select(starts_far, h.slice.far, h.slice.near);
         const Real rho1 = select(ends_far, h.slice.far, h.slice.near);
         const Real steepest = Real(kSteepest<Scalar>);
         const auto clamped = [](const Real& x, const Real& limit) { return min(max(x, -limit), limit); };
@@ -272,6 +267,7 @@ private:
         const Real difference = area / rho0 / rho1 * (stretch_ / h.widening);
         const Real length = select(steep0 | steep1, tangent1 - tangent0, difference);
 
+        // Find the heights of these corners above the horizon, by sums that keep their precision near it.
         const Real height_of_t = fma(azimuth.x, height_of_m_, azimuth.y * height_of_n_);
         const Real height_sideways = h.slice.offset * height_to_the_left_of(azimuth);
         const Real height_across = h.slice.half_chord * height_of_t;
@@ -282,7 +278,9 @@ private:
             p.z = select(steep, p.z, height / (distance * h.widening));
             return p;
         };
-        h.extent = Importance::extent(s_, corner(tangent0, steep0, begins_far, begin_height_, rho0),
+
+        // They are the end points of a line at distance one, whose importance has a closed form.
+        h.extent = Importance::extent(s_, corner(tangent0, steep0, starts_far, start_height_, rho0),
                                       corner(tangent1, steep1, ends_far, end_height_, rho1), t, Real(1),
                                       tangent0, tangent1, length);
         const Real integral = Importance::integral(h.extent);
@@ -293,6 +291,7 @@ private:
     /// The azimuths of the part of the cylinder above the horizon. They are bounded by half-planes that touch the
     /// cylinder, if these reach above the horizon, or else by points of the rims in the horizon.
     NUSSELT_HD void set_range() noexcept {
+        // Half-planes that touch the cylinder bound what is seen from outside; from inside, everything around is seen.
         const Real half_turn = Real(kPi<Scalar>);
         const Vec2<Real> left = view_.touching;
         const Vec2<Real> right{left.x, -left.y};
@@ -303,7 +302,8 @@ private:
         Real low = rightmost;
         Real high = leftmost;
         if constexpr (Importance::kEndsAtHorizon) {
-            const Real axis_height = max(begin_height_, end_height_);
+            // Tell which of them reach above the horizon.
+            const Real axis_height = max(start_height_, end_height_);
             const auto rises = [&](const Vec2<Real>& azimuth, const Real& offset) {
                 return axis_height + offset * height_to_the_left_of(azimuth) > Real(0);
             };
@@ -313,6 +313,7 @@ private:
             sees_left = surrounded | (view_.outside & rises(left, view_.radius));
             sees_right = surrounded | (view_.outside & rises(right, -view_.radius));
 
+            // Otherwise points of the rims in the horizon are the bounds.
             low = leftmost;
             high = rightmost;
             const Vec3<Real> up = normalize(Vec3<Real>{height_of_m_, height_of_n_, Real(0)});
@@ -332,7 +333,7 @@ private:
                 low = select(crosses, min(low, min(angle0, angle1)), low);
                 high = select(crosses, max(high, max(angle0, angle1)), high);
             };
-            include_rim(begin_height_);
+            include_rim(start_height_);
             include_rim(end_height_);
         }
         low_ = select(sees_right, rightmost, max(low, rightmost));
@@ -346,12 +347,21 @@ private:
     Vec3<Real> s_, m_, n_; ///< right-handed, orthonormal
     Real stretch_;         ///< of the axis
     Real m_along_m_, n_along_m_, n_along_n_, m_along_s_, n_along_s_;
-    Real height_of_m_, height_of_n_, begin_height_, end_height_;
+    Real height_of_m_, height_of_n_, start_height_, end_height_;
 
     Real low_, range_; ///< azimuths around s_, from m_ to n_
     Warp warp_;
     Real integral_;
     Real inverse_normalization_; ///< 0 if nothing is visible
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.space_, self.view_, self.s_, self.m_, self.n_, self.stretch_, self.m_along_m_,
+              self.n_along_m_, self.n_along_n_, self.m_along_s_, self.n_along_s_, self.height_of_m_,
+              self.height_of_n_, self.start_height_, self.end_height_, self.low_, self.range_, self.warp_,
+              self.integral_, self.inverse_normalization_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

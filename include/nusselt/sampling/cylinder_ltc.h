@@ -2,17 +2,12 @@
 /// Sampling of a closed cylinder of finite radius in proportion to a linearly transformed cosine, without rejection.
 /// With a lobe that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/ltc/ltc.h>
 #include <nusselt/sampling/cylinder_fan.h>
 
 NUSSELT_NAMESPACE_BEGIN
-
-/// The same lobe in every lane of a pack.
-template <class Real, class Single>
-NUSSELT_HD inline Ltc<Real> broadcast(const Ltc<Single>& ltc) noexcept {
-    return Ltc<Real>(ltc);
-}
 
 /// \tparam Real float, double, long double or a pack of float or double: one light and shading point per lane, or many
 ///              samples of one light (see the broadcasting constructor).
@@ -27,12 +22,13 @@ class CylinderLtc {
 public:
     /// \param light in shading space [m].
     NUSSELT_HD CylinderLtc(const Cylinder<Real>& light, const Ltc<Real>& ltc) noexcept
-        : CylinderLtc(light, ltc, scale_of(light)) {}
+        : CylinderLtc(to_unit_extent(light), ltc) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
-    NUSSELT_HD explicit CylinderLtc(const CylinderLtc<Single>& single) noexcept
-        : ltc_(single.ltc_), fan_(single.fan_), inverse_scale_(single.inverse_scale_) {}
+    NUSSELT_HD explicit CylinderLtc(const CylinderLtc<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
     /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves along it. Continuous in both.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
@@ -57,15 +53,18 @@ public:
     NUSSELT_HD Real measure() const noexcept { return Real(1 / kPi<scalar_t<Real>>) * fan_.integral(); }
 
 private:
-    template <class>
-    friend class CylinderLtc;
-
-    NUSSELT_HD CylinderLtc(const Cylinder<Real>& light, const Ltc<Real>& ltc, const Real& scale) noexcept
-        : ltc_(ltc), fan_(scaled(light, scale), ltc), inverse_scale_(reciprocal_power_of_two(scale)) {}
+    NUSSELT_HD CylinderLtc(const ScaledLight<Cylinder<Real>, Real>& unit, const Ltc<Real>& ltc) noexcept
+        : ltc_(ltc), fan_(unit.light, ltc), inverse_scale_(unit.inverse_scale) {}
 
     Ltc<Real> ltc_;
     CylinderFan<Real, Ltc<Real>, CosineImportance> fan_; ///< scaled to an extent of order one
     Real inverse_scale_;
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.ltc_, self.fan_, self.inverse_scale_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

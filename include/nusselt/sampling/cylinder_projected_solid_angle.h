@@ -2,6 +2,7 @@
 /// Sampling of a closed cylinder of finite radius in proportion to the cosine at the surface, without rejection. With a
 /// Lambertian tube on a Lambertian surface, almost all noise that remains comes from shadows.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/sampling/cylinder_fan.h>
 
@@ -19,13 +20,14 @@ class CylinderProjectedSolidAngle {
 public:
     /// \param light in shading space [m].
     NUSSELT_HD explicit CylinderProjectedSolidAngle(const Cylinder<Real>& light) noexcept
-        : CylinderProjectedSolidAngle(light, scale_of(light)) {}
+        : CylinderProjectedSolidAngle(to_unit_extent(light)) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
     NUSSELT_HD explicit CylinderProjectedSolidAngle(
-        const CylinderProjectedSolidAngle<Single>& single) noexcept
-        : fan_(single.fan_), inverse_scale_(single.inverse_scale_) {}
+        const CylinderProjectedSolidAngle<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
     /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves along it. Continuous in both.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
@@ -49,14 +51,17 @@ public:
     NUSSELT_HD Real measure() const noexcept { return fan_.integral(); }
 
 private:
-    template <class>
-    friend class CylinderProjectedSolidAngle;
-
-    NUSSELT_HD CylinderProjectedSolidAngle(const Cylinder<Real>& light, const Real& scale) noexcept
-        : fan_(scaled(light, scale), {}), inverse_scale_(reciprocal_power_of_two(scale)) {}
+    NUSSELT_HD explicit CylinderProjectedSolidAngle(const ScaledLight<Cylinder<Real>, Real>& unit) noexcept
+        : fan_(unit.light, {}), inverse_scale_(unit.inverse_scale) {}
 
     CylinderFan<Real, ShadingSpace<Real>, CosineImportance> fan_; ///< scaled to an extent of order one
     Real inverse_scale_;
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.fan_, self.inverse_scale_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

@@ -17,9 +17,9 @@ NUSSELT_NAMESPACE_BEGIN
 /// range. Points of the range are x in [0, 1] on a chord of the outer circle's plane.
 template <class Real>
 struct DecentralSector {
-    Vec3<Real> begin;      ///< a point in the plane of the outer circle, at the begin of the range
+    Vec3<Real> begin;      ///< a point in the plane of the outer circle, at the start of the range
     Vec3<Real> chord;      ///< from there to the end of the range, counterclockwise around the zenith
-    Real begin_gap;        ///< height of the plane of the inner circle above the chord at its begin, >= 0
+    Real begin_gap;        ///< height of the plane of the inner circle above the chord at its start, >= 0
     Real end_gap;          ///< the same at its end
     Real doubled_triangle; ///< det(begin, chord) in the tangent plane, > 0
 
@@ -40,12 +40,13 @@ struct DecentralSector {
         return f;
     }
 
-    /// Twice the area from the begin to x (Prop. 1 for both ellipses). Each ellipse contributes the
+    /// Twice the area from the start to x (Prop. 1 for both ellipses). Each ellipse contributes the
     /// determinant of its end points times angle / sine; the determinants are equal.
     template <class Angles>
     NUSSELT_HD Real doubled_area_to(const Real& x) const noexcept {
+        // Describe the end points on both circles by their angles about the origin.
         const Real turn = end_gap - begin_gap;
-        // Normals of the planes through the origin and the segments from begin to x, divided by x.
+        // Normals of the planes through the origin and the segments from start to x, divided by x.
         const Vec3<Real> outer_normal = cross(begin, chord);
         const Vec3<Real> lift{fma(turn, begin.y, -begin_gap * chord.y),
                               fma(begin_gap, chord.x, -turn * begin.x), Real(0)};
@@ -58,11 +59,12 @@ struct DecentralSector {
         const Real rise = fma(begin_gap, fma(x, chord.z, begin.z) + gap, begin.z * gap);
         const Real inner_cosine = outer_cosine + rise;
 
+        // Take the difference of angle / sine of both circles (Eq. 1). Where both angles are at most an eighth of a
+        // turn, a polynomial has it as a divided difference.
         const Real x2 = x * x;
         const Real outer_sine2 = x2 * outer_squared;
         const Real inner_sine2 = x2 * inner_squared;
         const Real sine2_step = x2 * dot(lift, outer_normal + inner_normal);
-        // Both angles are at most an eighth of a turn.
         const auto outer_narrow = outer_sine2 <= outer_cosine * outer_cosine;
         const auto inner_narrow = inner_sine2 <= inner_cosine * inner_cosine;
         const auto narrow = (outer_cosine > Real(0)) & outer_narrow & inner_narrow;
@@ -79,6 +81,7 @@ struct DecentralSector {
             const auto k = one_minus_atan_ratio_difference(min(outer_tangent2, Real(1)), tangent2_step);
             difference = fma(rise * inverse, Real(1) - k.value, inner_inverse * k.difference);
         }
+        // Otherwise the difference of the angles is an angle itself.
         if (!all(narrow)) {
             const Real outer_sine = sqrt(outer_sine2);
             const Real inner_sine = sqrt(inner_sine2);
@@ -99,7 +102,8 @@ struct DecentralSector {
     /// one end of the range to its middle.
     /// \param fraction of the area that shall lie before the result.
     NUSSELT_HD Real initial_position(const Real& fraction) const noexcept {
-        // The direction to the middle is the sum of the unit directions to both ends.
+        // Split the range in its middle, which lies in the direction of the sum of the unit directions to both ends
+        // (Eq. 8).
         const Vec3<Real> end = begin + chord;
         const Real r0 = sqrt(fma(begin.x, begin.x, begin.y * begin.y));
         const Real r1 = sqrt(fma(end.x, end.x, end.y * end.y));
@@ -109,7 +113,8 @@ struct DecentralSector {
         const Forms fh = at(middle);
         const Forms f1 = at(Real(1));
 
-        // Roots of products of forms at both ends of each chord, and what the inner one has more.
+        // Find the areas of the two quads, by roots of products of forms at both ends of each chord and by what the
+        // inner one has more, and choose one of them.
         const Real outer_0 = sqrt(f0.outer * fh.outer);
         const Real outer_1 = sqrt(f1.outer * fh.outer);
         const Real inner_0 = sqrt((f0.outer + f0.rise) * (fh.outer + fh.rise));
@@ -121,8 +126,9 @@ struct DecentralSector {
         const Real rest = fma(fraction, quad_1, fma(fraction, quad_0, -quad_0));
         const auto first = rest <= Real(0);
 
-        // With v in [0, 1] from the end to the middle, the areas below the chords of the ellipses up to v are
-        // v / (form (1 - v) + root v); their difference is a quadratic in v.
+        // Sample the quad uniformly. With v in [0, 1] from its end to the middle, the areas below the chords of the
+        // ellipses up to v are v / (form (1 - v) + root v). That their difference is the target is a quadratic equation
+        // in v (the matrix Q of Sec. 3.4).
         const Forms f = {select(first, f0.outer_point, f1.outer_point), Real(0),
                          select(first, f0.outer, f1.outer), select(first, f0.rise, f1.rise)};
         const Real width = select(first, middle, Real(1) - middle);
@@ -143,12 +149,16 @@ struct DecentralSector {
     /// One step of the iteration (Sec. 3.3): replaces both ellipses by their tangents at x. The error is cubed.
     /// \param missing twice the area that shall lie between x and the result.
     NUSSELT_HD Real step(const Real& x, const Real& missing) const noexcept {
+        // The values and slopes of both forms at x determine the tangents.
         const Forms f = at(x);
         const Real turn = end_gap - begin_gap;
         const Real inner = f.outer + f.rise;
         const Real outer_slope = dot(f.outer_point, chord);
         const Real rise_slope = fma(f.gap, chord.z, (f.outer_point.z + f.gap) * turn);
         const Real inner_slope = outer_slope + rise_slope;
+
+        // That the area between them is the missing one is a quadratic equation (Eq. 5); take the root that goes to 0
+        // with the missing area (Eq. 6).
         const Real a = fma(doubled_triangle, rise_slope, -missing * outer_slope * inner_slope);
         const Real b = Real(0.5) * fma(doubled_triangle, f.rise,
                                        -missing * fma(f.outer, inner_slope, inner * outer_slope));
@@ -165,7 +175,7 @@ struct DecentralSector {
         // Rounding of the areas; nothing is gained below.
         const Real tolerance = Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * doubled_total;
         for (int i = 0; i < Iterations; ++i) {
-            const Real missing = target - doubled_area_to<Angles>(x);
+            const Real missing = target - doubled_area_to<Angles>(x); // Eq. 7
             const auto goes_on = abs(missing) > tolerance;
             if (!any(goes_on)) break;
             // Lanes that are done keep their result: it must not depend on their neighbours.

@@ -2,6 +2,7 @@
 /// Uniform sampling of the length of a linear light. It needs no trigonometry, but is noisy close to the
 /// light.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/line_segment.h>
 
@@ -24,12 +25,11 @@ public:
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
-    NUSSELT_HD explicit LineArea(const LineArea<Single>& single) noexcept
-        : light_{broadcast<Real>(single.light_.p0), broadcast<Real>(single.light_.s),
-                 Real(single.light_.length)},
-          distance_(single.distance_) {}
+    NUSSELT_HD explicit LineArea(const LineArea<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
-    /// \param u in [0, 1), proportional to the distance from the begin.
+    /// \param u in [0, 1), proportional to the distance from the start.
     NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
         const Vec3<Real> p = light_.p0 + (u * light_.length) * light_.s;
         const Real r = length(p);
@@ -45,10 +45,10 @@ public:
 
     /// The random number for which sample() returns wi, a unit direction on the light.
     NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
-        const Real begin = dot(light_.p0, light_.s);
+        const Real start = dot(light_.p0, light_.s);
         const Real along = dot(wi, light_.s);
         const Real sine = length(cross(wi, light_.s));
-        const Real coordinate = distance_ * along / select(sine > Real(0), sine, Real(1)) - begin;
+        const Real coordinate = distance_ * along / select(sine > Real(0), sine, Real(1)) - start;
         return below_one(coordinate / select(light_.length > Real(0), light_.length, Real(1)));
     }
 
@@ -56,9 +56,6 @@ public:
     NUSSELT_HD Real measure() const noexcept { return light_.length; }
 
 private:
-    template <class>
-    friend class LineArea;
-
     NUSSELT_HD Real density(const Real& r, const Real& sine) const noexcept {
         const Real denominator = Real(2) * light_.length * sine;
         const auto lit = denominator > Real(0);
@@ -68,6 +65,12 @@ private:
 
     LineSegment<Real> light_;
     Real distance_; ///< of the infinite line from the origin [m]
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.light_, self.distance_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

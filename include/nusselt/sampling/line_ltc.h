@@ -6,6 +6,7 @@
 /// projected solid angle sampling of the image of the segment in cosine space. Deviation: points, not directions, come
 /// back to shading space, by their position along the light.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/ltc/light_transform.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>
 
@@ -29,18 +30,11 @@ public:
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
-    NUSSELT_HD explicit LineLtc(const LineLtc<Single, Horizons>& single) noexcept
-        : ltc_(single.ltc_),
-          image_(single.image_),
-          s_(broadcast<Real>(single.s_)),
-          closest_(broadcast<Real>(single.closest_)),
-          l0_(single.l0_),
-          l1_(single.l1_),
-          inverse_scale_(single.inverse_scale_),
-          measure_(single.measure_),
-          inverse_measure_(single.inverse_measure_) {}
+    NUSSELT_HD explicit LineLtc(const LineLtc<Single, Horizons>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
-    /// \param u in [0, 1); increasing u moves from the begin of the light to its end.
+    /// \param u in [0, 1); increasing u moves from the start of the light to its end.
     NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
         // Only the coordinate along the light comes from cosine space: rounding there must not leave the light.
         const Real along = dot(ltc_.to_shading(image_.sample(u).p), s_) / ltc_.minor();
@@ -64,20 +58,22 @@ public:
     NUSSELT_HD Real measure() const noexcept { return measure_; }
 
 private:
-    template <class, class>
-    friend class LineLtc;
-
-    /// \param part the part of the light that counts, scaled.
+    /// Takes the parts of a ScaledLight one by one: as a whole it would go through memory, which costs a fifth.
+    /// \param part  of the scaled light that counts.
+    /// \param scale of that light.
     NUSSELT_HD LineLtc(const LineSegment<Real>& part, const Real& scale, const Ltc<Real>& ltc) noexcept
         : ltc_(ltc),
           image_(to_cosine_space(part, ltc)),
           s_(part.s),
           inverse_scale_(reciprocal_power_of_two(scale)) {
+        // Describe the line by its closest point and the coordinates of its ends.
         const Vec3<Real> moment = cross(part.p0, part.s);
         closest_ = cross(part.s, moment);
         l0_ = dot(part.p0, part.s);
         l1_ = dot(end_of(part), part.s);
-        // The reciprocal of what the density of directions on the image is divided by.
+
+        // Correct the radius, which differs in cosine space (Eq. 5). The ratio is the reciprocal of what the density of
+        // directions on the image is divided by.
         const Real ratio = Real(kPi<scalar_t<Real>>) * radius_ratio(moment, ltc);
         const auto passes_by = length(moment) > Real(kSmallestDistance<scalar_t<Real>>);
         const auto in_lobe = image_.measure() > Real(0);
@@ -93,7 +89,7 @@ private:
     Ltc<Real> ltc_;
     LineProjectedSolidAngle<Real> image_; ///< in cosine space
 
-    // In shading space, of the part of the light that counts, scaled to an extent of order one.
+    // The part of the light that counts, in shading space and scaled to an extent of order one.
     Vec3<Real> s_;
     Vec3<Real> closest_; ///< point of the infinite line
     Real l0_, l1_;       ///< coordinates of the end points along s, 0 at the closest point
@@ -101,6 +97,13 @@ private:
 
     Real measure_;
     Real inverse_measure_; ///< 0 without light
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.ltc_, self.image_, self.s_, self.closest_, self.l0_, self.l1_, self.inverse_scale_,
+              self.measure_, self.inverse_measure_);
+    }
 };
 
 /// Samples are never below the surface.

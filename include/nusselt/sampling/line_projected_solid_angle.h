@@ -5,6 +5,7 @@
 /// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Sec. 3.2 and
 /// 3.3, Algorithms 1 and 2. cosine_arc.h lists the deviations.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/sampling/cosine_arc.h>
 
@@ -21,20 +22,21 @@ NUSSELT_NAMESPACE_BEGIN
 template <class Real, int Iterations = kLineIterations<Real>>
 class LineProjectedSolidAngle {
 public:
+    /// Uninitialised: to be assigned to before it is used.
+    LineProjectedSolidAngle() = default;
+
     /// \param light in shading space [m].
     NUSSELT_HD explicit LineProjectedSolidAngle(const LineSegment<Real>& light) noexcept
-        : LineProjectedSolidAngle(light, scale_of(light)) {}
+        : LineProjectedSolidAngle(to_unit_extent(light)) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
     NUSSELT_HD explicit LineProjectedSolidAngle(
-        const LineProjectedSolidAngle<Single, Iterations>& single) noexcept
-        : arc_(single.arc_),
-          inverse_scale_(single.inverse_scale_),
-          measure_(single.measure_),
-          inverse_measure_(single.inverse_measure_) {}
+        const LineProjectedSolidAngle<Single, Iterations>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
-    /// \param u in [0, 1); increasing u moves from the begin of the light to its end.
+    /// \param u in [0, 1); increasing u moves from the start of the light to its end.
     NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
         const LinePoint<Real> point = arc_.point(u);
         const Vec3<Real> p = arc_.extent().position(point);
@@ -53,14 +55,11 @@ public:
     NUSSELT_HD Real measure() const noexcept { return measure_; }
 
 private:
-    template <class, int>
-    friend class LineProjectedSolidAngle;
-
-    NUSSELT_HD LineProjectedSolidAngle(const LineSegment<Real>& light, const Real& scale) noexcept
-        : arc_(clipped_extent(scaled(light, scale))), inverse_scale_(reciprocal_power_of_two(scale)) {
+    NUSSELT_INLINE explicit LineProjectedSolidAngle(const ScaledLight<LineSegment<Real>, Real>& unit) noexcept
+        : arc_(clipped_extent(unit.light)), inverse_scale_(unit.inverse_scale) {
         const Real& integral = arc_.integral();
         const Real& distance = arc_.extent().distance;
-        const Real measure = integral / distance * scale;
+        const Real measure = integral / distance * unit.scale;
         const Real inverse = distance / select(integral > Real(0), integral, Real(1)) * inverse_scale_;
         const auto fits = is_finite(max(measure, inverse));
         const auto lit = arc_.extent().visible & (measure > Real(0)) & fits;
@@ -72,6 +71,12 @@ private:
     Real inverse_scale_;
     Real measure_;
     Real inverse_measure_;
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.arc_, self.inverse_scale_, self.measure_, self.inverse_measure_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

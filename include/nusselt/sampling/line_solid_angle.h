@@ -5,6 +5,7 @@
 /// Eq. 1. Deviations: everything is expressed by the end points, so that nothing cancels for short or distant
 /// lights; neither preparation nor sampling needs trigonometry.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_line.h>
 
@@ -22,18 +23,16 @@ class LineSolidAngle {
 public:
     /// \param light relative to the shading point [m].
     NUSSELT_HD explicit LineSolidAngle(const LineSegment<Real>& light) noexcept
-        : LineSolidAngle(light, scale_of(light),
+        : LineSolidAngle(to_unit_extent(light),
                          [](const LineSegment<Real>& line) { return make_line_extent(line); }) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
-    NUSSELT_HD explicit LineSolidAngle(const LineSolidAngle<Single>& single) noexcept
-        : extent_(broadcast<Real>(single.extent_)),
-          inverse_scale_(single.inverse_scale_),
-          measure_(single.measure_),
-          pdf_(single.pdf_) {}
+    NUSSELT_HD explicit LineSolidAngle(const LineSolidAngle<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
-    /// \param u in [0, 1); increasing u moves from the begin of the light to its end.
+    /// \param u in [0, 1); increasing u moves from the start of the light to its end.
     NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
         const LinePoint<Real> point = extent_.point_at(u * extent_.sine_extent);
         const Vec3<Real> p = extent_.position(point);
@@ -45,7 +44,7 @@ public:
 
     /// The random number for which sample() returns wi, a unit direction on the light.
     NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
-        const Real part = extent_.point_in(wi).from_begin;
+        const Real part = extent_.point_in(wi).from_start;
         return below_one(part / select(extent_.visible, extent_.sine_extent, Real(1)));
     }
 
@@ -54,13 +53,12 @@ public:
 
 protected:
     /// \param extent_of returns the extent of the part of a segment to sample.
-    /// \param scale     by which that extent shall be larger than the light.
     template <class ExtentOf>
-    NUSSELT_HD LineSolidAngle(const LineSegment<Real>& light, const Real& scale, ExtentOf extent_of) noexcept
-        : extent_(extent_of(scaled(light, scale))), inverse_scale_(reciprocal_power_of_two(scale)) {
+    NUSSELT_HD LineSolidAngle(const ScaledLight<LineSegment<Real>, Real>& unit, ExtentOf extent_of) noexcept
+        : extent_(extent_of(unit.light)), inverse_scale_(unit.inverse_scale) {
         // Eq. 1 in the limit of a radius of 0.
         const Real solid_angle = Real(2) * extent_.sine_extent;
-        const Real measure = solid_angle / extent_.distance * scale;
+        const Real measure = solid_angle / extent_.distance * unit.scale;
         const Real density =
             extent_.distance / select(extent_.visible, solid_angle, Real(1)) * inverse_scale_;
         const auto measure_fits =
@@ -73,13 +71,16 @@ protected:
     }
 
 private:
-    template <class>
-    friend class LineSolidAngle;
-
     LineExtent<Real> extent_; ///< scaled to an extent of order one
     Real inverse_scale_;
     Real measure_;
     Real pdf_;
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.extent_, self.inverse_scale_, self.measure_, self.pdf_);
+    }
 };
 
 /// Uniform sampling of the solid angle of the part of a linear light above the horizon, in shading space.
@@ -89,7 +90,7 @@ class LineClippedSolidAngle : public LineSolidAngle<Real> {
 public:
     /// \param light in shading space [m].
     NUSSELT_HD explicit LineClippedSolidAngle(const LineSegment<Real>& light) noexcept
-        : LineSolidAngle<Real>(light, scale_of(light),
+        : LineSolidAngle<Real>(to_unit_extent(light),
                                [](const LineSegment<Real>& line) { return clipped_extent(line); }) {}
 
     /// \copydoc LineSolidAngle::LineSolidAngle(const LineSolidAngle<Single>&)

@@ -1,6 +1,7 @@
 #pragma once
 /// A piecewise linear density on the unit interval, and its inverse distribution.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/vec.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -13,7 +14,7 @@ class PiecewiseLinear {
 public:
     static constexpr int kNodes = Nodes;
 
-    /// Where the i-th node lies, in [0, 1].
+    /// The position of node i, in [0, 1].
     static constexpr scalar_t<Real> node(int i) noexcept {
         using T = scalar_t<Real>;
         const T t = static_cast<T>(i) / static_cast<T>(Nodes - 1);
@@ -37,11 +38,7 @@ public:
 
     template <class Single>
     NUSSELT_HD explicit PiecewiseLinear(const PiecewiseLinear<Single, Nodes>& single) noexcept {
-        NUSSELT_UNROLL
-        for (int i = 0; i < Nodes; ++i) {
-            value_[i] = Real(single.value_[i]);
-            below_[i] = Real(single.below_[i]);
-        }
+        broadcast_members<Real>(*this, single);
     }
 
     /// The integral over [0, 1].
@@ -73,9 +70,6 @@ public:
     }
 
 private:
-    template <class, int>
-    friend class PiecewiseLinear;
-
     struct Segment {
         Real begin, width, left, right, below;
     };
@@ -101,6 +95,12 @@ private:
 
     Real value_[Nodes];
     Real below_[Nodes]; ///< integral from 0 to the node
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.value_, self.below_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

@@ -4,6 +4,7 @@
 ///
 /// G. Turk 1992, Generating Random Points in Triangles, Graphics Gems I, for each triangle of a fan.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/convex_polygon.h>
 
@@ -42,17 +43,14 @@ public:
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
-    NUSSELT_HD explicit PolygonArea(const PolygonArea<Single, N>& single) noexcept
-        : plane_(broadcast<Real>(single.plane_)),
-          corner_(broadcast<Real>(single.corner_)),
-          doubled_total_(single.doubled_total_) {
-        for (int j = 0; j <= kTriangles; ++j) side_[j] = broadcast<Real>(single.side_[j]);
-        for (int j = 0; j < kTriangles; ++j) doubled_area_[j] = Real(single.doubled_area_[j]);
+    NUSSELT_HD explicit PolygonArea(const PolygonArea<Single, N>& single) noexcept {
+        broadcast_members<Real>(*this, single);
     }
 
     /// \param u in [0, 1)^2; x selects the triangle of the fan around vertex 0 and the line through its first
     ///          corner, y the point on that line. Continuous within each triangle.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        // Choose a triangle of the fan in proportion to its area.
         const Real target = u.x * doubled_total_;
         Vec3<Real> a = side_[0];
         Vec3<Real> b = side_[1];
@@ -67,6 +65,8 @@ public:
             begin = select(reached, before, begin);
             before = before + doubled_area_[j];
         }
+
+        // Choose a point in it (Turk 1992): distances from the common corner go with the root.
         const Real fraction = (target - begin) / select(chosen > Real(0), chosen, Real(1));
         const Real along = min(max(fraction, Real(0)), Real(1));
         const Real root = sqrt(u.y);
@@ -93,7 +93,8 @@ public:
             const Vec3<Real>& b = side_[j + 1];
             const Real beyond_b = dot(n, cross(q, b));
             const auto usable = doubled_area_[j] > Real(0);
-            const auto here = (!found) & usable; // the last triangle also has what rounding moved beyond it
+            // The last triangle also has what rounding moved beyond its end.
+            const auto here = (!found) & usable;
             const Real inverse = Real(1) / select(usable, doubled_area_[j], Real(1));
             // Barycentric coordinates of q: of b from the triangle (a, q), of a from (q, b).
             const Real along_b = max(dot(n, cross(a, q)) * inverse, Real(0));
@@ -113,9 +114,6 @@ public:
     NUSSELT_HD Real measure() const noexcept { return Real(0.5) * doubled_total_; }
 
 private:
-    template <class, int>
-    friend class PolygonArea;
-
     NUSSELT_HD Real density(const Vec3<Real>& wi, const Real& distance) const noexcept {
         const Real projected = measure() * abs(dot(plane_.normal, wi));
         const auto lit = (projected > Real(0)) & (plane_.distance != Real(0));
@@ -129,6 +127,12 @@ private:
     Vec3<Real> side_[kTriangles + 1]; ///< from the corner to the other vertices
     Real doubled_area_[kTriangles];   ///< of the triangle between sides j and j + 1
     Real doubled_total_;
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.plane_, self.corner_, self.side_, self.doubled_area_, self.doubled_total_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

@@ -6,6 +6,7 @@
 /// docs/techniques/ggx_visible_normals.md says why there is no such technique for lines.
 
 #include <nusselt/bsdf/ggx_visible_normals.h>
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/polygon_measures.h>
 
@@ -24,33 +25,13 @@ template <class Real, int N, class Lobe>
 class PolygonBrdf {
 public:
     /// \param light in shading space, either winding [m].
-    NUSSELT_HD PolygonBrdf(const ConvexPolygon<Real, N>& light, const Lobe& lobe) noexcept : lobe_(lobe) {
-        const Real scale = unit_extent_scale(light);
-        const ConvexPolygon<Real, N> unit = with_unit_extent(light, scale);
-        plane_ = {light.normal, plane_distance(unit), Real(0)};
-        present_ = select(plane_.distance != Real(0), Real(1), Real(0));
-        low_ = high_ = unit.vertex[0];
-        const Real sign = copysign(Real(1), plane_.distance);
-        NUSSELT_UNROLL
-        for (int j = 0; j < N; ++j) {
-            low_ = min(low_, unit.vertex[j]);
-            high_ = max(high_, unit.vertex[j]);
-            plane_.farthest = max(plane_.farthest, length(unit.vertex[j]));
-            side_[j] = sign * cross(unit.vertex[j], unit.edge[j]);
-        }
-        inverse_scale_ = reciprocal_power_of_two(scale);
-    }
+    NUSSELT_HD PolygonBrdf(const ConvexPolygon<Real, N>& light, const Lobe& lobe) noexcept
+        : PolygonBrdf(to_unit_extent(light), lobe) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single, class SingleLobe>
-    NUSSELT_HD explicit PolygonBrdf(const PolygonBrdf<Single, N, SingleLobe>& single) noexcept
-        : lobe_(single.lobe_),
-          plane_(broadcast<Real>(single.plane_)),
-          low_(broadcast<Real>(single.low_)),
-          high_(broadcast<Real>(single.high_)),
-          inverse_scale_(single.inverse_scale_),
-          present_(single.present_) {
-        for (int j = 0; j < N; ++j) side_[j] = broadcast<Real>(single.side_[j]);
+    NUSSELT_HD explicit PolygonBrdf(const PolygonBrdf<Single, N, SingleLobe>& single) noexcept {
+        broadcast_members<Real>(*this, single);
     }
 
     /// \param u in [0, 1)^2, as for the lobe.
@@ -58,9 +39,7 @@ public:
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         const Vec3<Real> wi = lobe_.sample(u);
         const Real density = select(is_towards_light(wi), pdf(wi), Real(0));
-        // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
-        const Vec3<Real> p = min(max(plane_.distance_along(wi) * wi, low_), high_);
-        return {wi, density, inverse_scale_ * p};
+        return {wi, density, inverse_scale_ * hull_.point_along(wi)};
     }
 
     /// \param wi a unit direction towards the light.
@@ -70,23 +49,35 @@ public:
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept { return lobe_.invert(wi); }
 
 private:
-    template <class, int, class>
-    friend class PolygonBrdf;
+    NUSSELT_HD PolygonBrdf(const ScaledPolygon<Real, N>& unit, const Lobe& lobe) noexcept
+        : lobe_(lobe),
+          hull_(hull_of(unit.light, plane_distance(unit.light))),
+          inverse_scale_(unit.inverse_scale),
+          present_(select(hull_.plane.distance != Real(0), Real(1), Real(0))) {
+        const Real sign = copysign(Real(1), hull_.plane.distance);
+        NUSSELT_UNROLL
+        for (int j = 0; j < N; ++j) side_[j] = sign * cross(unit.light.vertex[j], unit.light.edge[j]);
+    }
 
     NUSSELT_HD mask_t<Real> is_towards_light(const Vec3<Real>& wi) const noexcept {
-        auto inside = dot(plane_.normal, wi) * plane_.distance > Real(0);
+        auto inside = dot(hull_.plane.normal, wi) * hull_.plane.distance > Real(0);
         NUSSELT_UNROLL
         for (int j = 0; j < N; ++j) inside = inside & (dot(side_[j], wi) >= Real(0));
         return inside;
     }
 
     Lobe lobe_;
-    // Of the light scaled to an extent of order one.
-    LightPlane<Real> plane_;
-    Vec3<Real> low_, high_; ///< axis-aligned box
-    Vec3<Real> side_[N];    ///< normals of the planes through the origin and the edges, towards the light
-    Real inverse_scale_;    ///< a power of two
-    Real present_;          ///< 1, or 0 if nothing of the light can be seen
+    // All of this is that of the light scaled to an extent of order one.
+    PolygonHull<Real> hull_;
+    Vec3<Real> side_[N]; ///< normals of the planes through the origin and the edges, towards the light
+    Real inverse_scale_; ///< a power of two
+    Real present_;       ///< 1, or 0 if nothing of the light can be seen
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.lobe_, self.hull_, self.side_, self.inverse_scale_, self.present_);
+    }
 };
 
 NUSSELT_NAMESPACE_END

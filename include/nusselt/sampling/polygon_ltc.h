@@ -6,6 +6,7 @@
 /// projected solid angle sampling of the image of the polygon in cosine space. Deviation: the hit point lies where the
 /// direction meets the plane of the light in shading space, since the image of a narrow lobe is too flat to tell.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/ltc/light_transform.h>
 #include <nusselt/sampling/polygon_projected_solid_angle.h>
 
@@ -33,24 +34,16 @@ public:
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single, class SingleImage>
-    NUSSELT_HD explicit PolygonLtc(const PolygonLtc<Single, N, Horizons, SingleImage>& single) noexcept
-        : ltc_(single.ltc_),
-          image_(single.image_),
-          plane_(broadcast<Real>(single.plane_)),
-          low_(broadcast<Real>(single.low_)),
-          high_(broadcast<Real>(single.high_)),
-          inverse_scale_(single.inverse_scale_),
-          measure_(single.measure_),
-          inverse_measure_(single.inverse_measure_) {}
+    NUSSELT_HD explicit PolygonLtc(const PolygonLtc<Single, N, Horizons, SingleImage>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
 
     /// \param u in [0, 1)^2; as continuous as that of PolygonProjectedSolidAngle.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         const Vec3<Real> direction = normalize(ltc_.to_shading(image_.sample(u).wi));
         const Vec3<Real> up{Real(0), Real(0), Real(1)};
         const Vec3<Real> wi = select(inverse_measure_ > Real(0), direction, up);
-        // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
-        const Vec3<Real> p = min(max(plane_.distance_along(wi) * wi, low_), high_);
-        return {wi, pdf(wi), inverse_scale_ * p};
+        return {wi, pdf(wi), inverse_scale_ * hull_.point_along(wi)};
     }
 
     /// \param wi a unit direction towards the light.
@@ -68,21 +61,13 @@ public:
     NUSSELT_HD Real measure() const noexcept { return measure_; }
 
 private:
-    template <class, int, class, class>
-    friend class PolygonLtc;
-
     NUSSELT_HD PolygonLtc(const ScaledPolygon<Real, kVertices>& part, const Ltc<Real>& ltc) noexcept
-        : ltc_(ltc), image_(to_cosine_space(part.polygon, ltc)), inverse_scale_(part.inverse_scale) {
-        Real farthest = Real(0); // squared
-        low_ = high_ = part.polygon.vertex[0];
-        for (const Vec3<Real>& v : part.polygon.vertex) {
-            farthest = max(farthest, dot(v, v));
-            low_ = min(low_, v);
-            high_ = max(high_, v);
-        }
-        plane_ = {part.polygon.normal, plane_distance(part.polygon), sqrt(farthest)};
+        : ltc_(ltc),
+          image_(to_cosine_space(part.light, ltc)),
+          hull_(hull_of(part.light, plane_distance(part.light))),
+          inverse_scale_(part.inverse_scale) {
         const auto in_lobe = image_.measure() > Real(0);
-        const auto lit = in_lobe & (plane_.distance != Real(0));
+        const auto lit = in_lobe & (hull_.plane.distance != Real(0));
         measure_ = select(lit, Real(1 / kPi<scalar_t<Real>>) * image_.measure(), Real(0));
         inverse_measure_ = select(lit, Real(1) / select(lit, measure_, Real(1)), Real(0));
     }
@@ -90,13 +75,18 @@ private:
     Ltc<Real> ltc_;
     Image image_; ///< in cosine space
 
-    // In shading space, of the part of the light that counts, scaled to an extent of order one.
-    LightPlane<Real> plane_;
-    Vec3<Real> low_, high_; ///< axis-aligned box
-    Real inverse_scale_;    ///< a power of two
+    // The part of the light that counts, in shading space and scaled to an extent of order one.
+    PolygonHull<Real> hull_;
+    Real inverse_scale_; ///< a power of two
 
     Real measure_;
     Real inverse_measure_; ///< 0 without light
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.ltc_, self.image_, self.hull_, self.inverse_scale_, self.measure_, self.inverse_measure_);
+    }
 };
 
 /// Samples are never below the surface (Sec. 4.1 leaves that out for its cost).

@@ -8,6 +8,7 @@
 /// the tangent plane (azimuthal_sweep.h, decentral_sector.h), so that small lights keep their precision; the
 /// central case goes along the great circle of the edge; the iteration is clamped to the sector.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_polygon.h>
 #include <nusselt/geometry/polygon_measures.h>
@@ -35,13 +36,18 @@ class PolygonProjectedSolidAngle {
     static constexpr int kSectors = N + 1;
 
 public:
+    /// Uninitialised: to be assigned to before it is used.
+    PolygonProjectedSolidAngle() = default;
+
     /// \param light in shading space, either winding [m].
     NUSSELT_HD explicit PolygonProjectedSolidAngle(const ConvexPolygon<Real, N>& light) noexcept {
-        const Real scale = unit_extent_scale(light);
-        ConvexPolygon<Real, N> polygon = with_unit_extent(light, scale);
-        inverse_scale_ = reciprocal_power_of_two(scale);
+        // Scale the light to coordinates of order one.
+        const ScaledPolygon<Real, N> unit = to_unit_extent(light);
+        ConvexPolygon<Real, N> polygon = unit.light;
+        inverse_scale_ = unit.inverse_scale;
         const Real distance = plane_distance(polygon);
-        // The method wants the winding that is clockwise as seen from the origin: mirror y otherwise.
+
+        // The method wants the winding that is clockwise as seen from the origin: mirror y otherwise (Sec. 3.1).
         mirror_ = copysign(Real(1), distance);
         auto all_above = mask_t<Real>(true);
         for (int j = 0; j < N; ++j) {
@@ -50,42 +56,29 @@ public:
             all_above = all_above & (polygon.vertex[j].z > Real(0));
         }
         polygon.normal.y = mirror_ * polygon.normal.y;
+
+        // Sectors that are not filled below have no area.
         for (int k = 0; k < kSectors; ++k) {
             begin_[k] = chord_[k] = {Real(0), Real(0), Real(0)};
             begin_gap_[k] = end_gap_[k] = angle_per_area_[k] = doubled_area_[k] = Real(0);
         }
+
+        // Clip the light to the horizon and find its sectors.
         if (all(all_above)) {
             prepare(polygon, distance);
         } else {
             // Once more to an extent of order one, since little may be left of the light.
-            const ConvexPolygon<Real, N + 1> clipped = clip_to_horizon(polygon);
-            const Real again = unit_extent_scale(clipped);
-            inverse_scale_ = inverse_scale_ * reciprocal_power_of_two(again);
-            prepare(with_unit_extent(clipped, again), again * distance);
+            const ScaledPolygon<Real, N + 1> clipped = to_unit_extent(clip_to_horizon(polygon));
+            inverse_scale_ = inverse_scale_ * clipped.inverse_scale;
+            prepare(clipped.light, clipped.scale * distance);
         }
     }
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
     NUSSELT_HD explicit PolygonProjectedSolidAngle(
-        const PolygonProjectedSolidAngle<Single, N, Iterations, Angles>& single) noexcept
-        : plane_(broadcast<Real>(single.plane_)),
-          low_(broadcast<Real>(single.low_)),
-          high_(broadcast<Real>(single.high_)),
-          mirror_(single.mirror_),
-          inverse_scale_(single.inverse_scale_),
-          central_(single.central_),
-          doubled_total_(single.doubled_total_),
-          inverse_measure_(single.inverse_measure_) {
-        NUSSELT_UNROLL
-        for (int k = 0; k < kSectors; ++k) {
-            begin_[k] = broadcast<Real>(single.begin_[k]);
-            chord_[k] = broadcast<Real>(single.chord_[k]);
-            begin_gap_[k] = Real(single.begin_gap_[k]);
-            end_gap_[k] = Real(single.end_gap_[k]);
-            angle_per_area_[k] = Real(single.angle_per_area_[k]);
-            doubled_area_[k] = Real(single.doubled_area_[k]);
-        }
+        const PolygonProjectedSolidAngle<Single, N, Iterations, Angles>& single) noexcept {
+        broadcast_members<Real>(*this, single);
     }
 
     /// \param u in [0, 1)^2; x selects the azimuth, y the inclination. Continuous, up to the cyclic start in
@@ -99,8 +92,7 @@ public:
             s.wi = select(central_, s.wi, other.wi);
             s.p = select(central_, s.p, other.p);
         }
-        // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
-        s.p = inverse_scale_ * min(max(s.p, low_), high_);
+        s.p = inverse_scale_ * hull_.clamped(s.p);
         s.wi = select(inverse_measure_ > Real(0), s.wi, Vec3<Real>{Real(0), Real(0), Real(1)});
         s.wi.y = mirror_ * s.wi.y;
         s.p.y = mirror_ * s.p.y;
@@ -124,8 +116,9 @@ public:
         Real height = Real(0);
         NUSSELT_UNROLL
         for (int k = 0; k < kSectors; ++k) {
+            // Tell whether the azimuth of wi lies in this sector.
             const DecentralSector<Real> sector = decentral_sector(k);
-            const Real from_begin = det(xy(sector.begin), w);
+            const Real from_start = det(xy(sector.begin), w);
             const Vec3<Real> end = sector.begin + sector.chord;
             const Real to_end = det(w, xy(end));
             // A sector also has what rounding moved beyond its ends: there may be no other one. In the
@@ -134,11 +127,12 @@ public:
                 Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * (abs(w.x) + abs(w.y));
             const Real begin_slack = tolerance * (abs(sector.begin.x) + abs(sector.begin.y));
             const Real end_slack = tolerance * (abs(end.x) + abs(end.y));
-            const auto inside = (from_begin >= -begin_slack) & (to_end >= -end_slack);
+            const auto inside = (from_start >= -begin_slack) & (to_end >= -end_slack);
             const auto here = (!found) & (doubled_area_[k] > Real(0)) & ((!central_) | inside);
-            // The chord meets the ray along w.
+
+            // Find where the chord meets the ray along w, and with it the area of the sector up to there.
             const Real slope = det(w, xy(sector.chord));
-            const Real x = min(max(from_begin / select(slope > Real(0), slope, Real(1)), Real(0)), Real(1));
+            const Real x = min(max(from_start / select(slope > Real(0), slope, Real(1)), Real(0)), Real(1));
             const Real partial =
                 select(central_, central_area_to(sector, x, k), sector.template doubled_area_to<Angles>(x));
             area = select(here, before + min(partial, doubled_area_[k]), area);
@@ -154,9 +148,6 @@ public:
     NUSSELT_HD Real measure() const noexcept { return Real(0.5) * doubled_total_; }
 
 private:
-    template <class, int, int, class>
-    friend class PolygonProjectedSolidAngle;
-
     /// The sector that a random number falls into.
     struct Selection {
         DecentralSector<Real> sector;
@@ -176,15 +167,10 @@ private:
     /// \param distance of its plane from the origin.
     template <int M>
     NUSSELT_HD void prepare(const ConvexPolygon<Real, M>& polygon, const Real& distance) noexcept {
-        Real farthest = Real(0); // squared
-        low_ = high_ = polygon.vertex[0];
-        for (const Vec3<Real>& v : polygon.vertex) {
-            farthest = max(farthest, dot(v, v));
-            low_ = min(low_, v);
-            high_ = max(high_, v);
-        }
-        plane_ = {polygon.normal, distance, sqrt(farthest)};
+        // Find the plane of the light and a box around it, for the hit points.
+        hull_ = hull_of(polygon, distance);
 
+        // Classify the edges: outer ones run counterclockwise around the zenith, inner ones clockwise (Sec. 3.7).
         mask_t<Real> is_outer[M];
         auto decentral = mask_t<Real>(false);
         auto touches_zenith = mask_t<Real>(false);
@@ -206,16 +192,21 @@ private:
             const auto on_edge = across & (abs(turn) <= rounding * (abs(edge.x) + abs(edge.y)));
             touches_zenith = touches_zenith | at_vertex | on_edge;
         }
-        // On the zenith's axis, the plane has the height distance / normal.z: some vertex is at least as high if the
-        // light is there. Strips along the horizon tell less clearly by their edges.
+
+        // Tell the central case, where the zenith lies in the light, from the decentral one. On the zenith's axis, the
+        // plane has the height distance / normal.z: some vertex is at least as high if the light is there. Strips along
+        // the horizon tell less clearly by their edges.
         const Real slack = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon());
         const auto reaches_axis = (distance * polygon.normal.z >= Real(0)) &
-                                  (abs(distance) <= fma(abs(polygon.normal.z), high_.z, slack));
+                                  (abs(distance) <= fma(abs(polygon.normal.z), hull_.high.z, slack));
         decentral = (decentral & (!touches_zenith)) | (!reaches_axis);
         central_ = !decentral;
+
+        // Find the sectors and their areas.
         if (any(decentral)) prepare_decentral(polygon, decentral);
         if (any(central_)) prepare_central(polygon, is_outer);
 
+        // Their sum is the projected solid angle.
         doubled_total_ = Real(0);
         NUSSELT_UNROLL
         for (int k = 0; k < M; ++k) doubled_total_ = doubled_total_ + doubled_area_[k];
@@ -232,7 +223,8 @@ private:
         return reach;
     }
 
-    /// Each edge has a sector of its own: Prop. 1 simplifies to Lambert's formula.
+    /// Each edge has a sector of its own: the area of the ellipse in it (Prop. 1, Eq. 1) simplifies to Lambert's
+    /// formula.
     template <int M>
     NUSSELT_HD void prepare_central(const ConvexPolygon<Real, M>& polygon,
                                     const mask_t<Real>* is_outer) noexcept {
@@ -256,7 +248,7 @@ private:
     template <int M>
     NUSSELT_HD void prepare_decentral(const ConvexPolygon<Real, M>& polygon,
                                       const mask_t<Real>& decentral) noexcept {
-        const AzimuthalSweep<Real, M> sweep(polygon, plane_.distance);
+        const AzimuthalSweep<Real, M> sweep(polygon, hull_.plane.distance);
         sweep.for_each_sector([&](int k, const DecentralSector<Real>& sector, const mask_t<Real>& present) {
             const Real doubled = sector.template doubled_area_to<Angles>(Real(1));
             begin_[k] = sector.begin;
@@ -268,6 +260,7 @@ private:
     }
 
     NUSSELT_HD Selection select_sector(const Real& u) const noexcept {
+        // Walk along the sectors up to the area that the random number asks for.
         const Real target = u * doubled_total_;
         Selection s{decentral_sector(0), doubled_area_[0], angle_per_area_[0], Real(0)};
         Real before = Real(0);
@@ -284,6 +277,8 @@ private:
             first = select(reached, before, first);
             before = before + doubled_area_[k];
         }
+
+        // The rest is to be found in the sector itself.
         s.sector.doubled_triangle = det(xy(s.sector.begin), xy(s.sector.chord));
         s.rest = min(max(fma(u, doubled_total_, -first), Real(0)), s.doubled_area);
         return s;
@@ -292,22 +287,27 @@ private:
     /// Sec. 3.2 in three dimensions: equal areas between the zenith and the edge are equal angles on its
     /// circle.
     NUSSELT_HD LightSample<Real> sample_central(const Selection& s, const Real& u) const noexcept {
+        // Turn along the great circle of the edge by the angle that belongs to the area.
         const Vec3<Real> n = cross(s.sector.begin, s.sector.chord);
         const Vec3<Real> a = inverse_length(s.sector.begin) * s.sector.begin;
         const Vec3<Real> t = inverse_length(n) * cross(n, a);
         const SinCos<Real> angle =
             sincos_half_turn(min(s.rest * s.angle_per_area, Real(kPi<scalar_t<Real>>)));
         const Vec3<Real> q = fma(angle.cos, a, angle.sin * t);
+
+        // Squared radii below the ellipse are uniform; project the point up to the hemisphere (Eq. 2).
         const Real root = sqrt(u);
         const Vec3<Real> wi{root * q.x, root * q.y, sqrt(fma(u, q.z * q.z, Real(1) - u))};
-        return {wi, Real(0), plane_.distance_along(wi) * wi};
+        return {wi, Real(0), hull_.plane.distance_along(wi) * wi};
     }
 
     NUSSELT_HD LightSample<Real> sample_decentral(const Selection& s, const Real& u) const noexcept {
+        // Find the azimuth, as a position on the chord (Sec. 3.3).
         const Real x = s.sector.template position<Iterations, Angles>(s.rest, s.doubled_area);
         const auto forms = s.sector.at(x);
-        // The squared radius is uniform between the ellipses: the reciprocal of the form is. The form of the
-        // circle through the sample gives its height above the outer point, in the same azimuth.
+
+        // Choose the inclination. The squared radius is uniform between the ellipses, and so is the reciprocal of the
+        // form. The form of the circle through the sample gives its height above the outer point, in the same azimuth.
         const Real inner = forms.outer + forms.rise;
         const Real v = Real(1) - u;
         const Real mixed = fma(u, inner, v * forms.outer);
@@ -317,16 +317,17 @@ private:
         const Real lift = min(rise / select(top > Real(0), top, Real(1)), forms.gap);
         const Vec3<Real> direction{forms.outer_point.x, forms.outer_point.y, z + lift};
         const Real inverse = inverse_length(direction);
-        // The lifted point lies on the ray to the sample; scale it to the plane of the light, but not beyond
-        // the farthest vertex.
-        const Real lifted = fma(lift, plane_.normal.z, plane_.distance);
-        const auto usable = plane_.distance * lifted > Real(0);
-        const Real stretch = select(usable, plane_.distance / select(usable, lifted, Real(1)), Real(1));
-        const Real along = min(stretch, plane_.farthest * inverse);
+
+        // Find the hit point. The lifted point lies on the ray to the sample; scale it to the plane of the light, but
+        // not beyond the farthest vertex.
+        const Real lifted = fma(lift, hull_.plane.normal.z, hull_.plane.distance);
+        const auto usable = hull_.plane.distance * lifted > Real(0);
+        const Real stretch = select(usable, hull_.plane.distance / select(usable, lifted, Real(1)), Real(1));
+        const Real along = min(stretch, hull_.plane.farthest * inverse);
         return {inverse * direction, Real(0), along * direction};
     }
 
-    /// Twice the area of central sector k from its begin to x.
+    /// Twice the area of central sector k from its start to x.
     NUSSELT_HD Real central_area_to(const DecentralSector<Real>& sector, const Real& x,
                                     int k) const noexcept {
         const Vec3<Real> n = x * cross(sector.begin, sector.chord);
@@ -335,8 +336,8 @@ private:
         return angle / select(angle_per_area_[k] > Real(0), angle_per_area_[k], Real(1));
     }
 
-    /// Where between the inner ellipse (0; the zenith in the central case) and the outer one (1) a direction
-    /// with the projection w and height z above x lies, in squared radii.
+    /// The position, in squared radii, between the inner ellipse (0; the zenith in the central case) and the outer one
+    /// (1) of a direction with the projection w and height z above x.
     NUSSELT_HD Real relative_height(const DecentralSector<Real>& sector, const Real& x, const Vec2<Real>& w,
                                     const Real& z) const noexcept {
         const auto forms = sector.at(x);
@@ -354,8 +355,7 @@ private:
     }
 
     // Coordinates are scaled to an extent of order one, and mirrored.
-    LightPlane<Real> plane_;
-    Vec3<Real> low_, high_;      ///< axis-aligned box of the light above the horizon
+    PolygonHull<Real> hull_;     ///< of the light above the horizon
     Real mirror_;                ///< -1 if y is mirrored to get the expected winding
     Real inverse_scale_;         ///< a power of two
     mask_t<Real> central_;       ///< the zenith is in the polygon or on its boundary
@@ -367,6 +367,14 @@ private:
     Real end_gap_[kSectors];
     Real angle_per_area_[kSectors]; ///< on the great circle of the edge, per doubled area; central case only
     Real doubled_area_[kSectors];   ///< twice the area of each sector, 0 for those without light
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.hull_, self.mirror_, self.inverse_scale_, self.central_, self.doubled_total_,
+              self.inverse_measure_, self.begin_, self.chord_, self.begin_gap_, self.end_gap_,
+              self.angle_per_area_, self.doubled_area_);
+    }
 };
 
 /// The biased variant (Sec. 6.4): no iteration, fast arctangents. pdf() is the density of exact projected solid

@@ -6,6 +6,7 @@
 /// area of the triangle times the distance of its plane, which cancels nowhere, instead of a Householder
 /// reflection; the hit point comes from barycentric coordinates.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_polygon.h>
 #include <nusselt/geometry/polygon_measures.h>
@@ -26,31 +27,18 @@ class PolygonSolidAngle {
 public:
     /// \param light relative to the shading point, either winding [m].
     NUSSELT_HD explicit PolygonSolidAngle(const ConvexPolygon<Real, N>& light) noexcept
-        : PolygonSolidAngle(with_unit_extent(light), reciprocal_power_of_two(unit_extent_scale(light))) {}
+        : PolygonSolidAngle(to_unit_extent(light)) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
-    NUSSELT_HD explicit PolygonSolidAngle(const PolygonSolidAngle<Single, N>& single) noexcept
-        : inverse_scale_(single.inverse_scale_),
-          total_(single.total_),
-          inverse_total_(single.inverse_total_),
-          counterclockwise_(single.counterclockwise_) {
-        for (int j = 0; j < N; ++j) {
-            vertex_[j] = broadcast<Real>(single.vertex_[j]);
-            direction_[j] = broadcast<Real>(single.direction_[j]);
-            inverse_distance_[j] = Real(single.inverse_distance_[j]);
-        }
-        for (int j = 0; j < kTriangles; ++j) {
-            g0_[j] = Real(single.g0_[j]);
-            g1_[j] = Real(single.g1_[j]);
-            g2_[j] = Real(single.g2_[j]);
-            solid_angle_[j] = Real(single.solid_angle_[j]);
-        }
+    NUSSELT_HD explicit PolygonSolidAngle(const PolygonSolidAngle<Single, N>& single) noexcept {
+        broadcast_members<Real>(*this, single);
     }
 
     /// \param u in [0, 1)^2; x selects the great circle through vertex 0, y the point on it, beginning at
     ///          vertex 0.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        // Choose a triangle of the fan in proportion to its solid angle (Sec. 5).
         const Real target = u.x * total_;
         Triangle t = triangle(0);
         Real before = Real(0);
@@ -63,7 +51,8 @@ public:
         }
         const Real part = min(max(target - begin, Real(0)), t.solid_angle);
 
-        // The corner v of the sub-triangle (a, c, v) with that solid angle, v on the arc from a to b.
+        // Find the corner v, on the arc from a to b, for which the triangle (a, c, v) has the remaining solid angle
+        // (Eq. 14). It is the mirror image of a at the direction r = excess a + y (a + b).
         const SinCos<Real> half = sincos_half_turn(Real(0.5) * part);
         const Vec3<Real> ab = t.a + t.b;
         const Real one_plus_ab = max(Real(0.5) * dot(ab, ab), Real(kOpposite));
@@ -79,7 +68,7 @@ public:
         const Real difference = fma(excess, excess, Real(-2) * one_plus_ab * y * y) * inverse;
         const Vec3<Real> v = difference * t.a + weight_b * ab;
 
-        // The point on the arc from c to v, whose cosine with c is uniform.
+        // Choose the point on the arc from c to v: its cosine with c is uniform (Arvo 1995).
         const Vec3<Real> chord = v - direction_[0];
         const Vec3<Real> cv = v + direction_[0];
         const Real depth = Real(0.5) * dot(chord, chord); // 1 - cosine of the arc
@@ -90,7 +79,8 @@ public:
         Vec3<Real> wi = fma(-tau, room, fma(-u.y, depth, Real(1))) * direction_[0] + tau * cv;
         wi = inverse_length(wi) * wi;
 
-        // The same weights divided by the distances are barycentric coordinates up to their sum.
+        // Find the point of the light in that direction: the same weights, divided by the distances, are its
+        // barycentric coordinates up to their sum.
         const Real at_a = max(tau * weight_a, Real(0)) * t.inverse_a;
         const Real at_b = max(tau * weight_b, Real(0)) * t.inverse_b;
         const Real at_c = max(weight_c, Real(0)) * inverse_distance_[0];
@@ -116,17 +106,19 @@ public:
         for (int j = 0; j < kTriangles; ++j) {
             const Vec3<Real>& a = direction_[j + 1];
             const Vec3<Real>& b = direction_[j + 2];
+            // Tell on which sides of the great circle through c and wi the other vertices lie.
             const Real to_b = select(counterclockwise_, dot(n, b), -dot(n, b));
             const Real from_a = select(counterclockwise_, -dot(n, a), dot(n, a));
-            // The last triangle also has what rounding moved beyond it.
+            // The last triangle also has what rounding moved beyond its end.
             const auto here = (!found) & (solid_angle_[j] > Real(0));
-            // The arc meets the edge at v = (weight_a a + weight_b b) / |...|.
+            // Find v, where the arc from c through wi meets the edge, as the normalised sum of both directions.
             const Real weight_a = max(to_b, Real(0));
             const Real weight_b = max(from_a, Real(0));
             const Vec3<Real> sum = weight_a * a + weight_b * b;
             const Real norm = sqrt(dot(sum, sum));
             const Real inverse = Real(1) / select(norm > Real(0), norm, Real(1));
             const Vec3<Real> v = inverse * sum;
+            // The solid angle of (a, c, v) gives u.x (Eq. 13), the chord from c to wi gives u.y.
             const Real partial = Real(2) * atan2_positive(g0_[j] * weight_b * inverse,
                                                           Real(1) + dot(a, c) + dot(a, v) + dot(c, v));
             const Vec3<Real> to_wi = wi - c;
@@ -150,6 +142,7 @@ protected:
     NUSSELT_HD PolygonSolidAngle(const ConvexPolygon<Real, N>& polygon, const Real& inverse_scale,
                                  const Real& signed_distance) noexcept
         : inverse_scale_(inverse_scale) {
+        // Project the vertices to the unit sphere.
         for (int j = 0; j < N; ++j) {
             vertex_[j] = polygon.vertex[j];
             // A vertex at the origin implies that no triangle has a solid angle; any direction will do.
@@ -157,6 +150,8 @@ protected:
             direction_[j] = inverse_distance_[j] * polygon.vertex[j];
         }
         counterclockwise_ = signed_distance >= Real(0);
+
+        // Prepare the triangles of the fan around vertex 0.
         Vec3<Real> offset = polygon.edge[0];
         total_ = Real(0);
         NUSSELT_UNROLL
@@ -164,10 +159,12 @@ protected:
             const Vec3<Real>& a = direction_[j + 1];
             const Vec3<Real>& c = direction_[0];
             const Vec3<Real>& b = direction_[j + 2];
+            // The triple product G0 follows from twice the area of the triangle and the distance of its plane.
             const Real doubled_area = abs(dot(polygon.normal, cross(offset, polygon.edge[j + 1])));
             g0_[j] = abs(signed_distance) * doubled_area * inverse_distance_[0] * inverse_distance_[j + 1] *
                      inverse_distance_[j + 2];
-            // Two of three directions may be almost opposite: cosines would lose what is left of their sum.
+            // Form G1 + G2 and G2 of the paper from sums of directions: two of the three directions may be almost
+            // opposite, and cosines would lose what is left of their sum.
             const Vec3<Real> ab = a + b;
             const Vec3<Real> ac = a + c;
             const Vec3<Real> bc = b + c;
@@ -179,7 +176,7 @@ protected:
             const Vec3<Real> s1 = select((bc2 > ab2) & (bc2 > ac2), ab, bc);
             g1_[j] = dot(s0, s1);
             g2_[j] = max(Real(0.5) * ac2, Real(kOpposite));
-            const Real solid_angle = Real(2) * atan2_positive(g0_[j], g1_[j]);
+            const Real solid_angle = Real(2) * atan2_positive(g0_[j], g1_[j]); // Eq. 13
             solid_angle_[j] = select(g0_[j] > Real(0), solid_angle, Real(0));
             total_ = total_ + solid_angle_[j];
             offset = offset + polygon.edge[j + 1];
@@ -188,11 +185,8 @@ protected:
     }
 
 private:
-    template <class, int>
-    friend class PolygonSolidAngle;
-
-    NUSSELT_HD PolygonSolidAngle(const ConvexPolygon<Real, N>& polygon, const Real& inverse_scale) noexcept
-        : PolygonSolidAngle(polygon, inverse_scale, plane_distance(polygon)) {}
+    NUSSELT_HD explicit PolygonSolidAngle(const ScaledPolygon<Real, N>& unit) noexcept
+        : PolygonSolidAngle(unit.light, unit.inverse_scale, plane_distance(unit.light)) {}
 
     /// 0 where there is no finite one.
     NUSSELT_HD static Real inverse(const Real& total) noexcept {
@@ -250,6 +244,13 @@ private:
     Real total_;
     Real inverse_total_;            ///< the density; 0 without light
     mask_t<Real> counterclockwise_; ///< winding as seen along a ray from the origin through the polygon
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.vertex_, self.direction_, self.inverse_distance_, self.inverse_scale_, self.g0_, self.g1_,
+              self.g2_, self.solid_angle_, self.total_, self.inverse_total_, self.counterclockwise_);
+    }
 };
 
 /// Uniform sampling of the solid angle of the part of a polygon above the horizon, in shading space.
@@ -259,8 +260,7 @@ class PolygonClippedSolidAngle : public PolygonSolidAngle<Real, N + 1> {
 public:
     /// \param light in shading space, either winding [m].
     NUSSELT_HD explicit PolygonClippedSolidAngle(const ConvexPolygon<Real, N>& light) noexcept
-        : PolygonClippedSolidAngle(with_unit_extent(light),
-                                   reciprocal_power_of_two(unit_extent_scale(light))) {}
+        : PolygonClippedSolidAngle(to_unit_extent(light)) {}
 
     /// \copydoc PolygonSolidAngle::PolygonSolidAngle(const PolygonSolidAngle<Single, N>&)
     template <class Single>
@@ -280,18 +280,22 @@ public:
     }
 
 private:
-    NUSSELT_HD PolygonClippedSolidAngle(const ConvexPolygon<Real, N>& light,
-                                        const Real& inverse_scale) noexcept
-        : PolygonClippedSolidAngle(clip_to_horizon(light), inverse_scale, plane_distance(light)) {}
+    NUSSELT_HD explicit PolygonClippedSolidAngle(const ScaledPolygon<Real, N>& whole) noexcept
+        : PolygonClippedSolidAngle(whole, clip_to_horizon(whole.light)) {}
 
-    /// Scaled once more, since little may be left of the light. New vertices are not exactly on its plane: whether
-    /// that contains the origin is a question to the whole light.
-    NUSSELT_HD PolygonClippedSolidAngle(const ConvexPolygon<Real, N + 1>& clipped, const Real& inverse_scale,
-                                        const Real& whole_distance) noexcept
-        : PolygonSolidAngle<Real, N + 1>(with_unit_extent(clipped),
-                                         inverse_scale * reciprocal_power_of_two(unit_extent_scale(clipped)),
-                                         select(whole_distance == Real(0), Real(0), plane_distance(clipped)) *
-                                             unit_extent_scale(clipped)) {}
+    NUSSELT_HD PolygonClippedSolidAngle(const ScaledPolygon<Real, N>& whole,
+                                        const ConvexPolygon<Real, N + 1>& clipped) noexcept
+        : PolygonClippedSolidAngle(whole, clipped, to_unit_extent(clipped)) {}
+
+    /// \param unit clipped, scaled once more, since little may be left of the light. New vertices are not exactly on its
+    ///             plane: whether that contains the origin is a question to the whole light.
+    NUSSELT_HD PolygonClippedSolidAngle(const ScaledPolygon<Real, N>& whole,
+                                        const ConvexPolygon<Real, N + 1>& clipped,
+                                        const ScaledPolygon<Real, N + 1>& unit) noexcept
+        : PolygonSolidAngle<Real, N + 1>(
+              unit.light, whole.inverse_scale * unit.inverse_scale,
+              select(plane_distance(whole.light) == Real(0), Real(0), plane_distance(clipped)) * unit.scale) {
+    }
 };
 
 NUSSELT_NAMESPACE_END

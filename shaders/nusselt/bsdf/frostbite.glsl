@@ -1,5 +1,6 @@
 #ifndef NUSSELT_BSDF_FROSTBITE_GLSL
 #define NUSSELT_BSDF_FROSTBITE_GLSL
+// Follows include/nusselt/bsdf/frostbite.h @ 7240170aa5c4
 /// The Frostbite BRDF: Disney diffuse, renormalised, plus GGX with height-correlated Smith and Schlick.
 ///
 /// S. Lagarde, C. de Rousiers 2014, Moving Frostbite to Physically Based Rendering, SIGGRAPH course, Sec. 3.1. Twin of

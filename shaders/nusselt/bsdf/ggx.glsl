@@ -1,5 +1,6 @@
 #ifndef NUSSELT_BSDF_GGX_GLSL
 #define NUSSELT_BSDF_GGX_GLSL
+// Follows include/nusselt/bsdf/ggx.h @ aa133c5bd822
 /// What BRDFs and samplers with GGX normals share. Twin of include/nusselt/bsdf/ggx.h.
 
 #include "../core/trig.glsl"
@@ -19,7 +20,7 @@ float ggx_alpha(float roughness) {
 /// (n.h)^2 (alpha^2 - 1) + 1 cancels in narrow lobes; this is a quotient of sums of positive terms.
 /// \param h half vector in shading space of any length but 0, say wo + wi.
 float ggx_ratio(vec3 h, float alpha2) {
-    // Of a length near one even if the directions almost oppose each other.
+    // The scaled vector has a length near one even if the directions almost oppose each other.
     vec3 scaled = reciprocal_power_of_two(largest_component(h)) * h;
     float plane2 = dot(scaled.xy, scaled.xy);
     float height2 = scaled.z * scaled.z;

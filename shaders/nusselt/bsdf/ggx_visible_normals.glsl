@@ -1,5 +1,6 @@
 #ifndef NUSSELT_BSDF_GGX_VISIBLE_NORMALS_GLSL
 #define NUSSELT_BSDF_GGX_VISIBLE_NORMALS_GLSL
+// Follows include/nusselt/bsdf/ggx_visible_normals.h @ 6b3e37f6e8f0
 /// Sampling of the directions in which the visible ones of GGX normals reflect. Twin of
 /// include/nusselt/bsdf/ggx_visible_normals.h, where the sources and deviations stand.
 ///
@@ -54,7 +55,7 @@ GgxVisibleNormals ggx_visible_normals_prepare(vec3 wo, float alpha) {
                                            ggx_visible_normals_clamped_alpha(alpha), 1.0);
 }
 
-/// Without normals that are sure to reflect to directions below the surface: fewer samples there, at the cost of a
+/// The cap without normals that are sure to reflect to directions below the surface: fewer samples there, at the cost of a
 /// square root per surface point. GgxBoundedVisibleNormals in C++.
 GgxVisibleNormals ggx_bounded_visible_normals_prepare(vec3 wo, float alpha) {
     bool lit = wo.z > 0.0;
@@ -80,7 +81,7 @@ vec3 ggx_visible_normals_sample(GgxVisibleNormals self, vec2 u) {
     return 2.0 * dot(self.wo, normal) * normal - self.wo;
 }
 
-/// How far above the direction opposite to the stretched wo the point of the cap lies that gives a half vector.
+/// The height, above the direction opposite to the stretched wo, of the point of the cap that gives a half vector.
 float ggx_visible_normals_height_of(GgxVisibleNormals self, vec3 h, float ratio) {
     return self.alpha * self.alpha * ratio * h.z * self.inverse_length;
 }

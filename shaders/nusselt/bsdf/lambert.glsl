@@ -1,5 +1,6 @@
 #ifndef NUSSELT_BSDF_LAMBERT_GLSL
 #define NUSSELT_BSDF_LAMBERT_GLSL
+// Follows include/nusselt/bsdf/lambert.h @ 0f5fdca327d2
 /// The Lambertian BRDF. Twin of include/nusselt/bsdf/lambert.h.
 
 #include "../bsdf/components.glsl"

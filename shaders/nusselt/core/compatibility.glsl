@@ -1,5 +1,6 @@
 #ifndef NUSSELT_CORE_COMPATIBILITY_GLSL
 #define NUSSELT_CORE_COMPATIBILITY_GLSL
+// Follows no header: it is about dialects of GLSL and its devices
 /// What differs between GLSL 4.50 (Vulkan), GLSL ES 3.00 (WebGL 2) and devices. A program may define the macros below
 /// before it includes the library.
 

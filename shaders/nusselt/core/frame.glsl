@@ -1,5 +1,6 @@
 #ifndef NUSSELT_CORE_FRAME_GLSL
 #define NUSSELT_CORE_FRAME_GLSL
+// Follows include/nusselt/core/frame.h @ 39bd8167eaab
 /// Right-handed orthonormal frames. Shading space has the shading point as origin and the normal as +z. Twin of
 /// include/nusselt/core/frame.h.
 

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_CORE_REAL_GLSL
 #define NUSSELT_CORE_REAL_GLSL
+// Follows include/nusselt/core/real.h @ ab00cf4c419d
 /// Arithmetic with known rounding. Twin of include/nusselt/core/real.h; functions whose names GLSL has already are
 /// called nusselt_*. What is said about NaN holds on devices that preserve NaN (README.md).
 

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_CORE_TRIG_GLSL
 #define NUSSELT_CORE_TRIG_GLSL
+// Follows include/nusselt/core/trig.h @ 5e644da0bb70
 /// Trigonometric functions as polynomials, the same ones as in single precision on the CPU: the built-in functions of
 /// GLSL may err by 4e-4 and leave special values undefined. Twin of include/nusselt/core/trig.h, where the error bounds
 /// stand.
@@ -8,16 +9,20 @@
 
 const float kNusseltPi = 3.14159265358979;
 
+/// Coefficients of (1 - atan(t) / t) / t^2 as a polynomial in t^2.
+const float kNusseltAtanRatio[9] = float[9](3.33333018e-1, -1.99986379e-1, 1.42652367e-1, -1.09575244e-1, 8.41929077e-2,
+                                            -5.82313878e-2, 3.14522795e-2, -1.10624615e-2, 1.8267392e-3);
+
 /// 1 - atan(t) / t given s = t^2 in [0, 1], with an error relative to itself.
 float one_minus_atan_ratio(float s) {
-    float p = nusselt_fma(1.8267392e-3, s, -1.10624615e-2);
-    p = nusselt_fma(p, s, 3.14522795e-2);
-    p = nusselt_fma(p, s, -5.82313878e-2);
-    p = nusselt_fma(p, s, 8.41929077e-2);
-    p = nusselt_fma(p, s, -1.09575244e-1);
-    p = nusselt_fma(p, s, 1.42652367e-1);
-    p = nusselt_fma(p, s, -1.99986379e-1);
-    p = nusselt_fma(p, s, 3.33333018e-1);
+    float p = nusselt_fma(kNusseltAtanRatio[8], s, kNusseltAtanRatio[7]);
+    p = nusselt_fma(p, s, kNusseltAtanRatio[6]);
+    p = nusselt_fma(p, s, kNusseltAtanRatio[5]);
+    p = nusselt_fma(p, s, kNusseltAtanRatio[4]);
+    p = nusselt_fma(p, s, kNusseltAtanRatio[3]);
+    p = nusselt_fma(p, s, kNusseltAtanRatio[2]);
+    p = nusselt_fma(p, s, kNusseltAtanRatio[1]);
+    p = nusselt_fma(p, s, kNusseltAtanRatio[0]);
     return s * p;
 }
 
@@ -36,16 +41,16 @@ void divided_difference_step(inout float p, inout float slope, float s, float en
 /// \param s, step s and s + step in [0, 1].
 AtanRatioDifference one_minus_atan_ratio_difference(float s, float step) {
     float end = s + step;
-    float p = 1.8267392e-3;
+    float p = kNusseltAtanRatio[8];
     float slope = p;
-    divided_difference_step(p, slope, s, end, -1.10624615e-2);
-    divided_difference_step(p, slope, s, end, 3.14522795e-2);
-    divided_difference_step(p, slope, s, end, -5.82313878e-2);
-    divided_difference_step(p, slope, s, end, 8.41929077e-2);
-    divided_difference_step(p, slope, s, end, -1.09575244e-1);
-    divided_difference_step(p, slope, s, end, 1.42652367e-1);
-    divided_difference_step(p, slope, s, end, -1.99986379e-1);
-    divided_difference_step(p, slope, s, end, 3.33333018e-1);
+    divided_difference_step(p, slope, s, end, kNusseltAtanRatio[7]);
+    divided_difference_step(p, slope, s, end, kNusseltAtanRatio[6]);
+    divided_difference_step(p, slope, s, end, kNusseltAtanRatio[5]);
+    divided_difference_step(p, slope, s, end, kNusseltAtanRatio[4]);
+    divided_difference_step(p, slope, s, end, kNusseltAtanRatio[3]);
+    divided_difference_step(p, slope, s, end, kNusseltAtanRatio[2]);
+    divided_difference_step(p, slope, s, end, kNusseltAtanRatio[1]);
+    divided_difference_step(p, slope, s, end, kNusseltAtanRatio[0]);
     return AtanRatioDifference(s * p, step * slope);
 }
 

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_ESTIMATE_DIRECT_LIGHT_GLSL
 #define NUSSELT_ESTIMATE_DIRECT_LIGHT_GLSL
+// Follows include/nusselt/estimate/direct_light.h @ 4af0dcf0c393
 /// The light that a surface with a diffuse and a specular component reflects from one light, estimated without bias
 /// from a few samples. Twin of include/nusselt/estimate/direct_light.h, where the sources stand.
 ///
@@ -12,9 +13,9 @@
 ///     DirectLight estimator = direct_light_prepare(surface.diffuse_albedo, surface.specular_albedo, diffuse_integral,
 ///                                                  polygon_ltc_measure(specular), 1.0, 1.0);
 ///     LightSample s = direct_light_drawn(estimator, 1, polygon_ltc_sample(specular, u));
-///     MisSample at = direct_light_look_at(estimator, s, polygon_projected_solid_angle_pdf(diffuse, s.wi),
-///                                         polygon_ltc_pdf(specular, s.wi),
-///                                         frostbite_eval_components(surface.brdf, s.wi));
+///     MisSample at = direct_light_densities_at(estimator, s, polygon_projected_solid_angle_pdf(diffuse, s.wi),
+///                                              polygon_ltc_pdf(specular, s.wi),
+///                                              frostbite_eval_components(surface.brdf, s.wi));
 ///     DirectLightSample result = direct_light_combined(s, mis_estimate(heuristic, 1, 0.5, estimator.techniques, at));
 ///
 /// The integral of what a polygon_brdf samples is not known: tell 0, and take the balance heuristic.
@@ -65,8 +66,8 @@ LightSample direct_light_drawn(DirectLight self, int drawn, LightSample s) {
 /// \param s                         by direct_light_drawn().
 /// \param diffuse_pdf, specular_pdf densities of both techniques in direction s.wi.
 /// \param brdf                      in direction s.wi.
-MisSample direct_light_look_at(DirectLight self, LightSample s, float diffuse_pdf, float specular_pdf,
-                               BrdfComponents brdf) {
+MisSample direct_light_densities_at(DirectLight self, LightSample s, float diffuse_pdf, float specular_pdf,
+                                    BrdfComponents brdf) {
     // NaN, which no technique should return, counts as drawn, so that it is noticed.
     bool drawn = s.pdf != 0.0;
     bool above = drawn && s.wi.z > 0.0;

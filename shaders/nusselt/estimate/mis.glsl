@@ -1,5 +1,6 @@
 #ifndef NUSSELT_ESTIMATE_MIS_GLSL
 #define NUSSELT_ESTIMATE_MIS_GLSL
+// Follows include/nusselt/estimate/mis.h @ 898a2602ada1
 /// Multiple importance sampling (MIS): how samples of two techniques make one estimate. Twin of
 /// include/nusselt/estimate/mis.h, where the sources stand.
 ///
@@ -14,7 +15,7 @@
 /// diffuse component has to take over there, also on metals.
 const float kNusseltSmallestDiffuseAlbedo = 0.01;
 
-/// What heuristics know beforehand about both techniques, for one light and shading point.
+/// The knowledge that heuristics have beforehand about both techniques, for one light and shading point.
 struct MisTechniques {
     float samples[2];   ///< n_k > 0, how many samples each technique takes
     vec3 unshadowed[2]; ///< c_k >= 0 per colour channel, for a radiance of 1; 0 for a technique that cannot sample

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_ESTIMATE_SAMPLE_DIRECT_LIGHT_GLSL
 #define NUSSELT_ESTIMATE_SAMPLE_DIRECT_LIGHT_GLSL
+// Follows include/nusselt/estimate/direct_light.h @ 4af0dcf0c393
 /// Direct light in one call, in world space, with the projected solid angle and linearly transformed cosines. Twin of
 /// the end of include/nusselt/estimate/direct_light.h.
 
@@ -65,10 +66,10 @@ LightSample polygon_direct_light_draw(PolygonDirectLight self, int drawn, vec2 u
     return direct_light_drawn(self.estimator, 1, polygon_ltc_sample(self.specular, u));
 }
 
-MisSample polygon_direct_light_look_at(PolygonDirectLight self, LightSample s) {
-    return direct_light_look_at(self.estimator, s, polygon_projected_solid_angle_pdf(self.diffuse, s.wi),
-                                polygon_ltc_pdf(self.specular, s.wi),
-                                frostbite_eval_components(self.surface.brdf, s.wi));
+MisSample polygon_direct_light_densities_at(PolygonDirectLight self, LightSample s) {
+    return direct_light_densities_at(self.estimator, s, polygon_projected_solid_angle_pdf(self.diffuse, s.wi),
+                                     polygon_ltc_pdf(self.specular, s.wi),
+                                     frostbite_eval_components(self.surface.brdf, s.wi));
 }
 
 /// \param drawn the technique that takes the sample: 0 for the diffuse component, 1 for the specular one.
@@ -77,7 +78,7 @@ DirectLightSample polygon_direct_light_sample(PolygonDirectLight self, int heuri
                                               vec2 u) {
     LightSample s = polygon_direct_light_draw(self, drawn, u);
     return direct_light_combined(s, mis_estimate(heuristic, drawn, visibility, self.estimator.techniques,
-                                                 polygon_direct_light_look_at(self, s)));
+                                                 polygon_direct_light_densities_at(self, s)));
 }
 
 /// A sample of either technique, chosen at random: an estimate by itself.
@@ -86,7 +87,7 @@ DirectLightSample polygon_direct_light_sample_one(PolygonDirectLight self, vec2 
     OneSampleChoice choice = one_sample_choice_prepare(self.estimator.techniques);
     OneSampleDecision decision = one_sample_choice_decide(choice, u.x);
     LightSample s = polygon_direct_light_draw(self, decision.chosen, vec2(decision.u, u.y));
-    return direct_light_combined(s, one_sample_choice_estimate(choice, polygon_direct_light_look_at(self, s)));
+    return direct_light_combined(s, one_sample_choice_estimate(choice, polygon_direct_light_densities_at(self, s)));
 }
 
 /// Both techniques for a line.
@@ -114,10 +115,10 @@ LightSample line_direct_light_draw(LineDirectLight self, int drawn, float u) {
     return direct_light_drawn(self.estimator, 1, line_ltc_sample(self.specular, u));
 }
 
-MisSample line_direct_light_look_at(LineDirectLight self, LightSample s) {
-    return direct_light_look_at(self.estimator, s, line_projected_solid_angle_pdf(self.diffuse, s.wi),
-                                line_ltc_pdf(self.specular, s.wi),
-                                frostbite_eval_components(self.surface.brdf, s.wi));
+MisSample line_direct_light_densities_at(LineDirectLight self, LightSample s) {
+    return direct_light_densities_at(self.estimator, s, line_projected_solid_angle_pdf(self.diffuse, s.wi),
+                                     line_ltc_pdf(self.specular, s.wi),
+                                     frostbite_eval_components(self.surface.brdf, s.wi));
 }
 
 /// \param drawn the technique that takes the sample: 0 for the diffuse component, 1 for the specular one.
@@ -126,7 +127,7 @@ DirectLightSample line_direct_light_sample(LineDirectLight self, int heuristic, 
                                            float u) {
     LightSample s = line_direct_light_draw(self, drawn, u);
     return direct_light_combined(s, mis_estimate(heuristic, drawn, visibility, self.estimator.techniques,
-                                                 line_direct_light_look_at(self, s)));
+                                                 line_direct_light_densities_at(self, s)));
 }
 
 /// A sample of either technique, chosen at random: an estimate by itself.
@@ -135,7 +136,7 @@ DirectLightSample line_direct_light_sample_one(LineDirectLight self, float u) {
     OneSampleChoice choice = one_sample_choice_prepare(self.estimator.techniques);
     OneSampleDecision decision = one_sample_choice_decide(choice, u);
     LightSample s = line_direct_light_draw(self, decision.chosen, decision.u);
-    return direct_light_combined(s, one_sample_choice_estimate(choice, line_direct_light_look_at(self, s)));
+    return direct_light_combined(s, one_sample_choice_estimate(choice, line_direct_light_densities_at(self, s)));
 }
 
 /// Everything in one call: an unbiased estimate of the light that a point of a surface reflects, from two samples. It

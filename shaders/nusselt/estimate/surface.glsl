@@ -1,5 +1,6 @@
 #ifndef NUSSELT_ESTIMATE_SURFACE_GLSL
 #define NUSSELT_ESTIMATE_SURFACE_GLSL
+// Follows include/nusselt/estimate/surface.h @ 90a4d300ca43
 /// What is known of a point of a surface before lights are looked at. Twin of include/nusselt/estimate/surface.h.
 
 #include "../bsdf/frostbite.glsl"
@@ -23,7 +24,7 @@ bool is_glossy(vec3 specular_albedo) {
 }
 bool glossy_surface_is_glossy(GlossySurface self) { return is_glossy(self.specular_albedo); }
 
-/// What a table says of a specular component.
+/// The fit of a specular component by a table.
 struct SpecularFit {
     Ltc lobe;
     vec3 albedo;

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_CONVEX_POLYGON_GLSL
 #define NUSSELT_GEOMETRY_CONVEX_POLYGON_GLSL
+// Follows include/nusselt/geometry/convex_polygon.h @ b38c85eba488
 /// Convex planar polygons. Twin of include/nusselt/geometry/convex_polygon.h.
 
 #include "../core/frame.glsl"

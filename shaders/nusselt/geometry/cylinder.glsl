@@ -1,5 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_CYLINDER_GLSL
 #define NUSSELT_GEOMETRY_CYLINDER_GLSL
+// Follows include/nusselt/geometry/cylinder.h @ ffa86591882e
 /// Solid cylinders, and the rectangles that half-planes through a shading point cut out of them. Twin of
 /// include/nusselt/geometry/cylinder.h.
 
@@ -45,8 +46,8 @@ struct CylinderView {
     vec2 center;  ///< where the infinite axis passes, in the basis m, n
     float radius;
     float gap, sum;       ///< distance from the axis minus and plus the radius
-    vec3 begin, end;      ///< of the axis
-    float l0, l1, len;    ///< coordinates of begin and end along s, and their difference
+    vec3 start, end;      ///< of the axis
+    float l0, l1, len;    ///< coordinates of start and end along s, and their difference
     vec2 touching;        ///< unit, from outside: the half-plane that touches on the side of n
     bool outside;         ///< of the infinite cylinder; m then leads to its axis
     bool visible;         ///< false inside, on the surface next to it, and for a cylinder without length or radius
@@ -58,7 +59,7 @@ CylinderView make_cylinder_view(Cylinder cylinder, vec3 up) {
     LineSegment axis = cylinder.axis;
     CylinderView v;
     v.s = axis.s;
-    v.begin = axis.p0;
+    v.start = axis.p0;
     v.end = end_of(axis);
     v.len = axis.len;
     v.radius = cylinder.radius;
@@ -67,7 +68,7 @@ CylinderView make_cylinder_view(Cylinder cylinder, vec3 up) {
     float distance = nusselt_length(moment);
     v.gap = distance - v.radius;
     v.sum = distance + v.radius;
-    v.l0 = dot(v.begin, v.s);
+    v.l0 = dot(v.start, v.s);
     v.l1 = dot(v.end, v.s);
     v.outside = v.gap >= 0.0 && distance > 0.0;
     float apart = nusselt_max(nusselt_max(v.l0, -v.l1), v.gap);
@@ -127,9 +128,9 @@ vec2 cylinder_view_azimuth_of(CylinderView self, vec3 wi) {
 /// \param tangent l / rho of the direction.
 /// \return (l, rho)
 vec2 cylinder_view_first_point(CylinderView self, CylinderSlice c, float tangent) {
-    float on_mantle = c.near * tangent;
-    if (!(on_mantle < self.l0 || on_mantle > self.l1)) return vec2(on_mantle, c.near);
-    float l = on_mantle < self.l0 ? self.l0 : self.l1;
+    float on_side = c.near * tangent;
+    if (!(on_side < self.l0 || on_side > self.l1)) return vec2(on_side, c.near);
+    float l = on_side < self.l0 ? self.l0 : self.l1;
     float on_cap = l / (tangent == 0.0 ? 1.0 : tangent);
     return vec2(l, nusselt_min(nusselt_max(on_cap, c.near), c.far));
 }
@@ -141,8 +142,8 @@ struct LightHit {
     float cosine;   ///< between the ray, backwards, and the normal of the light
 };
 
-/// The first point where a ray from the origin meets a closed cylinder from outside: mantle or caps. Rays that start
-/// inside hit nothing.
+/// The first point where a ray from the origin meets a closed cylinder from outside, on its lateral surface or on a cap.
+/// Rays that start inside hit nothing.
 /// \param wi unit direction.
 LightHit intersect(Cylinder cylinder, vec3 wi) {
     float scale = scale_of(cylinder);
@@ -160,10 +161,10 @@ LightHit intersect(Cylinder cylinder, vec3 wi) {
     bool wide = slice.far > 0.0;
     vec2 p = cylinder_view_first_point(view, slice, sine / nusselt_max(cosine, kNusseltTiny));
     bool hits = view.visible && slice.meets && reaches && starts && ahead && wide;
-    bool on_mantle = p.x > view.l0 && p.x < view.l1;
+    bool on_side = p.x > view.l0 && p.x < view.l1;
     float facing = cosine * slice.half_chord / (hits ? view.radius : 1.0);
     return LightHit(hits, nusselt_length(vec3(p, 0.0)) * reciprocal_power_of_two(scale),
-                    on_mantle ? facing : abs(sine));
+                    on_side ? facing : abs(sine));
 }
 
 #endif

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_LINE_SEGMENT_GLSL
 #define NUSSELT_GEOMETRY_LINE_SEGMENT_GLSL
+// Follows include/nusselt/geometry/line_segment.h @ 3f5fd28b510b
 /// Line segments, and the angles under which a shading point sees them. Twin of
 /// include/nusselt/geometry/line_segment.h.
 
@@ -8,14 +9,14 @@
 
 /// A linear light: a cylinder whose radius tends to zero.
 struct LineSegment {
-    vec3 p0;      ///< begin [m]
-    vec3 s;       ///< unit direction from begin to end; zero if both ends coincide
+    vec3 p0;      ///< start [m]
+    vec3 s;       ///< unit direction from start to end; zero if both ends coincide
     float len;    ///< length [m]
 };
 
-/// The segment from begin to end [m].
-LineSegment make_line(vec3 begin, vec3 end) {
-    return LineSegment(begin, nusselt_normalize(end - begin), nusselt_length(end - begin));
+/// The segment from start to end [m].
+LineSegment make_line(vec3 start, vec3 end) {
+    return LineSegment(start, nusselt_normalize(end - start), nusselt_length(end - start));
 }
 
 /// The segment seen from a shading point: the point becomes the origin, the normal of the frame +z.
@@ -26,7 +27,7 @@ LineSegment to_shading_space(LineSegment world, vec3 point, Frame frame) {
 /// A point of a line extent, given by sine and cosine of its angle alpha.
 struct LinePoint {
     float sine, cosine; ///< of alpha
-    float from_begin;   ///< sine minus that of the begin, accurate relative to itself
+    float from_start;   ///< sine minus that of the start, accurate relative to itself
     float to_end;       ///< sine of the end minus this one, likewise
 };
 
@@ -47,7 +48,7 @@ struct LineExtent {
     float sine_extent;  ///< s1 - s0, accurate relative to itself
     vec3 near, inward;  ///< the end point nearer to the origin, and the direction to the other one
     float near_distance, near_cosine; ///< from the origin, and of the angle alpha
-    bool begins_near; ///< whether it is the begin
+    bool starts_near; ///< whether it is the start
     bool acute;       ///< whether the sweep is
     bool visible;     ///< false if the segment has no length or its line passes through the origin
 };
@@ -58,12 +59,12 @@ float line_extent_sweep(LineExtent self) {
     return self.acute ? angle : kNusseltPi - angle;
 }
 
-/// \param from_begin sine minus s0, in [0, sine_extent].
-LinePoint line_extent_point_at(LineExtent self, float from_begin) {
-    float to_end = nusselt_max(self.sine_extent - from_begin, 0.0);
+/// \param from_start sine minus s0, in [0, sine_extent].
+LinePoint line_extent_point_at(LineExtent self, float from_start) {
+    float to_end = nusselt_max(self.sine_extent - from_start, 0.0);
     // The square of the cosine is (1 + sine) (1 - sine): sums of positive terms.
-    float squared = (self.one_plus_s0 + from_begin) * (self.one_minus_s1 + to_end);
-    return LinePoint(self.s0 + from_begin, sqrt(squared), from_begin, to_end);
+    float squared = (self.one_plus_s0 + from_start) * (self.one_minus_s1 + to_end);
+    return LinePoint(self.s0 + from_start, sqrt(squared), from_start, to_end);
 }
 
 /// Whether a point is much closer to the origin than both ends are.
@@ -77,7 +78,7 @@ vec3 line_extent_position(LineExtent self, LinePoint point) {
     }
     // The nearer end is the more accurate place to start from. The step is 2 sin(theta / 2) cos(theta / 2) times its
     // distance over the cosine of alpha, with tan(theta / 2) = tangent.
-    float tangent = (self.begins_near ? point.from_begin : point.to_end) / (self.near_cosine + point.cosine);
+    float tangent = (self.starts_near ? point.from_start : point.to_end) / (self.near_cosine + point.cosine);
     float step = 2.0 * self.near_distance * tangent / (point.cosine * nusselt_fma(tangent, tangent, 1.0));
     return self.near + nusselt_min(step, self.len) * self.inward;
 }
@@ -117,7 +118,7 @@ const float kNusseltSmallestDistance = 4.76837158203125e-7;
 LineExtent make_line_extent(vec3 s, vec3 p0, vec3 p1, vec3 closest, float distance, float l0, float l1, float length) {
     LineExtent e;
     bool passes_by = distance > kNusseltSmallestDistance && length > 0.0;
-    // Without light, any values will do that keep the formulas finite.
+    // If there is no light, any values will do that keep the formulas finite.
     e.distance = passes_by ? distance : 1.0;
     e.s = s;
     e.t = (1.0 / e.distance) * closest;
@@ -138,9 +139,9 @@ LineExtent make_line_extent(vec3 s, vec3 p0, vec3 p1, vec3 closest, float distan
     float one_plus_abs1 = 1.0 + abs(e.s1);
     e.one_plus_s0 = e.s0 < 0.0 ? e.c0 * e.c0 / one_plus_abs0 : one_plus_abs0;
     e.one_minus_s1 = e.s1 > 0.0 ? e.c1 * e.c1 / one_plus_abs1 : one_plus_abs1;
-    e.begins_near = r0 <= r1;
-    e.near = e.begins_near ? p0 : p1;
-    e.inward = e.begins_near ? s : -s;
+    e.starts_near = r0 <= r1;
+    e.near = e.starts_near ? p0 : p1;
+    e.inward = e.starts_near ? s : -s;
     e.near_distance = nusselt_min(r0, r1);
     e.near_cosine = nusselt_max(e.c0, e.c1);
     // The sine of the sweep is the area of the triangle with the origin, never a difference.

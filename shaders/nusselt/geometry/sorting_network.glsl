@@ -1,5 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_SORTING_NETWORK_GLSL
 #define NUSSELT_GEOMETRY_SORTING_NETWORK_GLSL
+// Follows include/nusselt/geometry/sorting_network.h @ 0cef526b61d4
 /// NUSSELT_SORT_BY_NETWORK(F): F(low, high) for each comparator in turn of a network that sorts the
 /// NUSSELT_MAX_VERTICES + 1 slots of a polygon. F is a function-like macro; low and high are literals. Twin of
 /// include/nusselt/geometry/sorting_network.h, where the sources of the networks stand.

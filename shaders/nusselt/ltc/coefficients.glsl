@@ -1,5 +1,6 @@
 #ifndef NUSSELT_LTC_COEFFICIENTS_GLSL
 #define NUSSELT_LTC_COEFFICIENTS_GLSL
+// Follows include/nusselt/ltc/coefficients.h @ 780a83e305b0
 /// The numbers that describe one linearly transformed cosine (LTC). Twin of include/nusselt/ltc/coefficients.h, where
 /// the conditions on them stand.
 

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_LTC_LIGHT_TRANSFORM_GLSL
 #define NUSSELT_LTC_LIGHT_TRANSFORM_GLSL
+// Follows include/nusselt/ltc/light_transform.h @ a279d4b1e051
 /// Lights in the cosine space of a lobe. A linear map takes polygons to polygons and segments to segments, and the
 /// integral of the lobe over the light to that of the clamped cosine over its image. Twin of
 /// include/nusselt/ltc/light_transform.h.
@@ -48,7 +49,7 @@ ScaledPolygon to_unit_extent(ConvexPolygon light) {
     return ScaledPolygon(with_unit_extent(light), reciprocal_power_of_two(unit_extent_scale(light)));
 }
 
-/// What remains of a polygon above the surface, which can be clipped once more, in cosine space.
+/// The part of a polygon above the surface, which can be clipped once more, in cosine space.
 /// \param light in shading space, of at most NUSSELT_MAX_VERTICES - 1 vertices.
 ScaledPolygon part_above_horizon(ConvexPolygon light) {
     ScaledPolygon whole = to_unit_extent(light);
@@ -58,13 +59,13 @@ ScaledPolygon part_above_horizon(ConvexPolygon light) {
     return part;
 }
 
-/// What remains of a line above the surface.
+/// The part of a line above the surface.
 /// \param light in shading space, with coordinates of order one (scaled()).
 LineSegment part_above_horizon(LineSegment light) {
     LineExtent e = clipped_extent(light);
-    vec3 begin = e.begins_near ? e.near : exact_fma(e.len, e.inward, e.near);
-    begin.z = nusselt_max(begin.z, 0.0);
-    return LineSegment(begin, light.s, e.visible ? e.len : 0.0);
+    vec3 start = e.starts_near ? e.near : exact_fma(e.len, e.inward, e.near);
+    start.z = nusselt_max(start.z, 0.0);
+    return LineSegment(start, light.s, e.visible ? e.len : 0.0);
 }
 
 #endif

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_LTC_LINE_SHADING_GLSL
 #define NUSSELT_LTC_LINE_SHADING_GLSL
+// Follows include/nusselt/ltc/line_shading.h @ 57cba8bb0c6d
 /// Analytic, unshadowed shading with linear lights, and tubes and strips approximated by them.
 ///
 /// E. Heitz, S. Hill 2017, Linear-Light Shading with Linearly Transformed Cosines, GPU Zen. Twin of

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_LTC_LTC_GLSL
 #define NUSSELT_LTC_LTC_GLSL
+// Follows include/nusselt/ltc/ltc.h @ e48bc0cdcdda
 /// Linearly transformed cosines (LTCs): the lobe of a glossy surface as the image of a clamped cosine.
 ///
 /// E. Heitz, J. Dupuy, S. Hill, D. Neubelt 2016, Real-Time Polygonal-Light Shading with Linearly Transformed Cosines,

@@ -1,5 +1,7 @@
 #ifndef NUSSELT_LTC_TABLE_GLSL
 #define NUSSELT_LTC_TABLE_GLSL
+// Follows include/nusselt/ltc/table.h @ e0c2258767c9
+// Follows include/nusselt/ltc/table_file.h @ a47ad8074362
 /// Tables of linearly transformed cosines and their interpolation, between the fetches that a program makes: from a 3D
 /// texture or from a buffer. Twin of include/nusselt/ltc/table.h and table_file.h, where the meaning of entries stands.
 ///

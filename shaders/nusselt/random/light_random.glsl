@@ -1,5 +1,6 @@
 #ifndef NUSSELT_RANDOM_LIGHT_RANDOM_GLSL
 #define NUSSELT_RANDOM_LIGHT_RANDOM_GLSL
+// Follows include/nusselt/random/light_random.h @ efe75d866930
 /// The random numbers of a renderer of direct light as a pure function of seed, pixel, sample, light and dimension.
 /// Twin of include/nusselt/random/light_random.h. The same bits as there.
 
@@ -27,7 +28,7 @@ vec2 stream_random(int kind, uint stream, uint x, uint y, uint index, uint sampl
         uvec4 bits = pcg4d(uvec4(x, y, index, stream));
         return vec2(to_unit(bits.x), to_unit(bits.y));
     }
-    // What the samples of one pixel share.
+    // The random bits that all samples of one pixel share.
     uvec4 key = pcg4d(uvec4(x, y, 0u, stream));
     if (kind == kNusseltSamplerJittered)
         return vec2(uniform_jittered(to_unit(key.x), index, sample_count), to_unit(reverse_bits(index) + key.y));

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_RANDOM_MULTI_JITTERED_GLSL
 #define NUSSELT_RANDOM_MULTI_JITTERED_GLSL
+// Follows include/nusselt/random/multi_jittered.h @ 3e03be7c2b76
 /// Permutations that are functions of a hash, and multi-jittered points. Twin of
 /// include/nusselt/random/multi_jittered.h, where the sources stand. The same bits as there.
 

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_RANDOM_PCG_GLSL
 #define NUSSELT_RANDOM_PCG_GLSL
+// Follows include/nusselt/random/pcg.h @ 5b221654936e
 /// Pseudorandom bits without state. Twin of include/nusselt/random/pcg.h; its generator with 64 bits of state has none.
 
 #include "../core/compatibility.glsl"

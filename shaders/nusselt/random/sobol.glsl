@@ -1,5 +1,6 @@
 #ifndef NUSSELT_RANDOM_SOBOL_GLSL
 #define NUSSELT_RANDOM_SOBOL_GLSL
+// Follows include/nusselt/random/sobol.h @ fcad869b7efa
 /// The first two dimensions of Sobol's sequence and Owen scrambling by hashes. Twin of include/nusselt/random/sobol.h,
 /// where the sources stand.
 

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_RELATED_LINE_PROJECTED_SOLID_ANGLE_PETERS_GLSL
 #define NUSSELT_RELATED_LINE_PROJECTED_SOLID_ANGLE_PETERS_GLSL
+// Follows include/nusselt/related/line_projected_solid_angle_peters.h @ b802d788b1d6
 /// A plain transcription of a published method, to compare with: accuracy and cost of the formulas as printed.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Algorithms 1 and 2
@@ -15,8 +16,8 @@
 
 struct LineProjectedSolidAnglePeters {
     vec3 l0, s;
-    float l0_s, inverse_q, begin_s, end_s, n_s, n_t;
-    float begin_integral, total;
+    float l0_s, inverse_q, start_s, end_s, n_s, n_t;
+    float start_integral, total;
 };
 
 float peters_clamped(float x) { return nusselt_min(nusselt_max(x, -1.0), 1.0); }
@@ -36,25 +37,25 @@ LineProjectedSolidAnglePeters line_projected_solid_angle_peters_prepare(LineSegm
     LineProjectedSolidAnglePeters self =
         LineProjectedSolidAnglePeters(light.p0, light.s, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     float length = light.len;
-    float begin_height = self.l0.z;
+    float start_height = self.l0.z;
     float end_height = self.l0.z + length * self.s.z;
-    if (begin_height <= 0.0 && end_height <= 0.0) return self;
-    if (begin_height < 0.0) {
-        float below = -begin_height / self.s.z;
+    if (start_height <= 0.0 && end_height <= 0.0) return self;
+    if (start_height < 0.0) {
+        float below = -start_height / self.s.z;
         self.l0 = self.l0 + below * self.s;
         length -= below;
     } else if (end_height < 0.0) {
-        length = -begin_height / self.s.z;
+        length = -start_height / self.s.z;
     }
     self.l0_s = dot(self.l0, self.s);
     float q2 = dot(self.l0, self.l0) - self.l0_s * self.l0_s;
     self.inverse_q = 1.0 / sqrt(q2);
-    self.begin_s = peters_clamped(self.l0_s / sqrt(dot(self.l0, self.l0)));
+    self.start_s = peters_clamped(self.l0_s / sqrt(dot(self.l0, self.l0)));
     self.end_s = peters_clamped((self.l0_s + length) / sqrt((self.l0_s + length) * (self.l0_s + length) + q2));
     self.n_s = self.s.z;
     self.n_t = self.inverse_q * (self.l0.z - self.n_s * self.l0_s);
-    self.begin_integral = peters_line_integral(self.n_s, self.n_t, self.begin_s);
-    self.total = peters_line_integral(self.n_s, self.n_t, self.end_s) - self.begin_integral;
+    self.start_integral = peters_line_integral(self.n_s, self.n_t, self.start_s);
+    self.total = peters_line_integral(self.n_s, self.n_t, self.end_s) - self.start_integral;
     return self;
 }
 
@@ -70,10 +71,10 @@ float line_projected_solid_angle_peters_pdf(LineProjectedSolidAnglePeters self, 
 
 /// \param u in [0, 1).
 LightSample line_projected_solid_angle_peters_sample(LineProjectedSolidAnglePeters self, float u) {
-    float w_s = peters_clamped(self.begin_s + u * (self.end_s - self.begin_s));
+    float w_s = peters_clamped(self.start_s + u * (self.end_s - self.start_s));
     float w_t = sqrt(1.0 - w_s * w_s);
     if (u >= 1e-5 && u <= 1.0 - 1e-5) {
-        float target = u * self.total + self.begin_integral;
+        float target = u * self.total + self.start_integral;
         float alpha = peters_arcsine(w_s, w_t);
         for (int i = 0; i < 2; ++i) {
             float along = self.n_s * w_s + self.n_t * w_t;

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_RELATED_POLYGON_SOLID_ANGLE_PETERS_GLSL
 #define NUSSELT_RELATED_POLYGON_SOLID_ANGLE_PETERS_GLSL
+// Follows include/nusselt/related/polygon_solid_angle_peters.h @ 8c3f6dc2d954
 /// A plain transcription of a published method, to compare with: accuracy and cost of the formulas as printed.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672: Sec. 5,

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_AZIMUTHAL_SWEEP_GLSL
 #define NUSSELT_SAMPLING_AZIMUTHAL_SWEEP_GLSL
+// Follows include/nusselt/sampling/azimuthal_sweep.h @ 49da0861b10e
 /// Cuts a polygon beside the zenith into sectors at the azimuths of its vertices, each bounded by one outer and one
 /// inner edge (Peters 2021, polygonal lights, Sec. 3.7). Twin of include/nusselt/sampling/azimuthal_sweep.h.
 
@@ -16,7 +17,7 @@ struct SweepEvent {
     float kind; ///< 1: an outer edge begins, -1: an inner one, 0: neither
 };
 
-/// Where the sweep is on the outer or the inner edges.
+/// The position of the sweep on the outer or the inner edges.
 struct SweepChain {
     vec3 at;
     vec3 rest; ///< of the edge

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_COSINE_ARC_GLSL
 #define NUSSELT_SAMPLING_COSINE_ARC_GLSL
+// Follows include/nusselt/sampling/cosine_arc.h @ 5b54ee07aa66
 /// Directions on an arc of a great circle with a density proportional to the cosine at the surface times the cosine of
 /// the angle to the middle of the circle: the inner step of projected solid angle sampling of lines and tubes.
 ///
@@ -19,7 +20,7 @@ struct CosineArc {
     LineExtent extent;   ///< above the horizon
     float sweep;         ///< angle between the end points
     float middle_height; ///< cosine of the direction to the middle by sine with the normal
-    float slope;         ///< derivative by theta, at the begin, of the cosine with the normal
+    float slope;         ///< derivative by theta, at the start, of the cosine with the normal
     float integral;      ///< E of the paper: 2 int cos(alpha) n . w(alpha) d alpha
 };
 
@@ -35,15 +36,15 @@ CosineArc make_cosine_arc(LineExtent e) {
     return self;
 }
 
-/// What the iteration needs at the angle theta from the begin.
+/// The quantities that the iteration needs at the angle theta from the start.
 struct ArcRotation {
     float sine, cosine;         ///< of alpha
     float height, height_slope; ///< cosine with the normal and its derivative
-    float integral;             ///< from the begin
+    float integral;             ///< from the start
 };
 
-/// \param half_angle sine and cosine of half the angle from the begin.
-float cosine_arc_sine_from_begin(CosineArc self, SinCos half_angle) {
+/// \param half_angle sine and cosine of half the angle from the start.
+float cosine_arc_sine_from_start(CosineArc self, SinCos half_angle) {
     float middle = nusselt_fma(self.extent.c0, half_angle.cosine, -self.extent.s0 * half_angle.sine);
     return 2.0 * half_angle.sine * nusselt_max(middle, 0.0);
 }
@@ -58,18 +59,18 @@ ArcRotation cosine_arc_rotation_to(CosineArc self, float theta) {
     r.cosine = nusselt_max(nusselt_fma(e.c0, cosine, -e.s0 * sine), 0.0);
     r.height = nusselt_max(nusselt_fma(e.height0, cosine, self.slope * sine), 0.0);
     r.height_slope = nusselt_fma(self.slope, cosine, -e.height0 * sine);
-    r.integral = cosine_integral(theta, cosine_arc_sine_from_begin(self, half_angle), e.height0 + r.height, e.t.z);
+    r.integral = cosine_integral(theta, cosine_arc_sine_from_start(self, half_angle), e.height0 + r.height, e.t.z);
     return r;
 }
 
-/// The angle from the begin.
-float cosine_arc_angle_at(CosineArc self, float from_begin) {
-    LinePoint point = line_extent_point_at(self.extent, from_begin);
-    return nusselt_min(2.0 * atan2_positive(from_begin, self.extent.c0 + point.cosine), self.sweep);
+/// The angle from the start.
+float cosine_arc_angle_at(CosineArc self, float from_start) {
+    LinePoint point = line_extent_point_at(self.extent, from_start);
+    return nusselt_min(2.0 * atan2_positive(from_start, self.extent.c0 + point.cosine), self.sweep);
 }
 
-/// Start of the iteration: by sine, the density is the cosine with the normal. It is taken as linear from the begin to
-/// the middle and from there to the end.
+/// The initial guess of the iteration: by sine, the density is the cosine with the normal. It is taken as linear from
+/// the start to the middle and from there to the end.
 float cosine_arc_initial_sine(CosineArc self, float u) {
     float first_half = self.extent.height0 + self.middle_height;
     float target = u * (first_half + self.middle_height + self.extent.height1);
@@ -82,7 +83,7 @@ float cosine_arc_initial_sine(CosineArc self, float u) {
     return 0.5 * nusselt_min(in_first ? share : share + 1.0, 2.0) * self.extent.sine_extent;
 }
 
-/// \param u in [0, 1); increasing u moves from the begin to the end.
+/// \param u in [0, 1); increasing u moves from the start to the end.
 LinePoint cosine_arc_point(CosineArc self, float u) {
     float theta = cosine_arc_angle_at(self, cosine_arc_initial_sine(self, u));
     for (int i = 0; i < kNusseltLineIterations; ++i) {
@@ -97,16 +98,16 @@ LinePoint cosine_arc_point(CosineArc self, float u) {
         // The step leaves an error of the order of its cube, relative to the scale on which the density changes.
         if (!(abs(step) * (first + abs(second)) > kNusseltSmallStep * first)) break;
     }
-    float from_begin = cosine_arc_sine_from_begin(self, sincos_quarter_turn(0.5 * theta));
-    return line_extent_point_at(self.extent, nusselt_min(from_begin, self.extent.sine_extent));
+    float from_start = cosine_arc_sine_from_start(self, sincos_quarter_turn(0.5 * theta));
+    return line_extent_point_at(self.extent, nusselt_min(from_start, self.extent.sine_extent));
 }
 
 /// The random number for which cosine_arc_point() returns the one in direction wi, a unit direction on the arc.
 float cosine_arc_invert(CosineArc self, vec3 wi) {
     LinePoint point = line_extent_point_in(self.extent, wi);
-    float theta = cosine_arc_angle_at(self, point.from_begin);
+    float theta = cosine_arc_angle_at(self, point.from_start);
     float heights = self.extent.height0 + nusselt_max(wi.z, 0.0);
-    float part = cosine_integral(theta, point.from_begin, heights, self.extent.t.z);
+    float part = cosine_integral(theta, point.from_start, heights, self.extent.t.z);
     return below_one(part / (self.integral > 0.0 ? self.integral : 1.0));
 }
 

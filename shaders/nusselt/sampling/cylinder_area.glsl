@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_CYLINDER_AREA_GLSL
 #define NUSSELT_SAMPLING_CYLINDER_AREA_GLSL
+// Follows include/nusselt/sampling/cylinder_area.h @ 12a2f96820ad
 /// Uniform sampling of the surface of a closed cylinder, caps included. Cheap to prepare, but half of the samples or
 /// more lie on the far side, and it is noisy close to the light. Twin of include/nusselt/sampling/cylinder_area.h.
 ///
@@ -18,7 +19,7 @@ struct CylinderArea {
 /// \param light relative to the shading point [m].
 CylinderArea cylinder_area_prepare(Cylinder light) { return CylinderArea(light, frame_from_normal(light.axis.s)); }
 
-/// Area of mantle and caps [m^2].
+/// Area of the lateral surface and the caps [m^2].
 float cylinder_area_measure(CylinderArea self) {
     return 2.0 * kNusseltPi * self.light.radius * (self.light.axis.len + self.light.radius);
 }
@@ -31,8 +32,8 @@ float cylinder_area_density(CylinderArea self, float distance, float cosine) {
     return density > 0.0 && is_finite(density) ? density : 0.0;
 }
 
-/// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves from the middle of the cap at the begin over
-///          the mantle to the middle of the other cap.
+/// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves from the middle of the cap at the start over
+///          the lateral surface to the middle of the other cap.
 LightSample cylinder_area_sample(CylinderArea self, vec2 u) {
     LineSegment axis = self.light.axis;
     float radius = self.light.radius;
@@ -40,10 +41,10 @@ LightSample cylinder_area_sample(CylinderArea self, vec2 u) {
     float on_cap = 0.5 * radius;
     float position = u.y * (axis.len + radius);
     bool on_first = position < on_cap;
-    bool on_mantle = !on_first && position < on_cap + axis.len;
+    bool on_side = !on_first && position < on_cap + axis.len;
     float to_middle = nusselt_max(on_first ? position : axis.len + radius - position, 0.0);
     float share = nusselt_min(to_middle / (on_cap > 0.0 ? on_cap : 1.0), 1.0);
-    float rho = on_mantle ? radius : radius * sqrt(share);
+    float rho = on_side ? radius : radius * sqrt(share);
     float along = on_first ? 0.0 : nusselt_min(position - on_cap, axis.len);
 
     // The azimuth in [-pi, pi).
@@ -52,7 +53,7 @@ LightSample cylinder_area_sample(CylinderArea self, vec2 u) {
     float sine = copysign(abs(angle.sine), turn);
     vec3 outwards = angle.cosine * self.frame.t + sine * self.frame.b;
     vec3 p = nusselt_fma(rho, outwards, exact_fma(along, axis.s, axis.p0));
-    vec3 normal = on_mantle ? outwards : (on_first ? -axis.s : axis.s);
+    vec3 normal = on_side ? outwards : (on_first ? -axis.s : axis.s);
     vec3 wi = inverse_length(p) * p;
     return LightSample(wi, cylinder_area_density(self, nusselt_length(p), -dot(wi, normal)), p);
 }
@@ -68,10 +69,10 @@ vec2 cylinder_area_invert(CylinderArea self, vec3 wi) {
     LineSegment axis = self.light.axis;
     float radius = self.light.radius;
     float distance = intersect(self.light, wi).distance;
-    vec3 from_begin = distance * wi - axis.p0;
-    float along = dot(from_begin, axis.s);
-    float x = dot(from_begin, self.frame.t);
-    float y = dot(from_begin, self.frame.b);
+    vec3 from_start = distance * wi - axis.p0;
+    float along = dot(from_start, axis.s);
+    float x = dot(from_start, self.frame.t);
+    float y = dot(from_start, self.frame.b);
     float turn = copysign(atan2_positive(abs(y), x), y);
     // At the rims, where rounding decides, both parts of the profile meet.
     float rounding = 8.0 * kNusseltEpsilon * (distance + axis.len);

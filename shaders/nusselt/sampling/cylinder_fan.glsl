@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_CYLINDER_FAN_GLSL
 #define NUSSELT_SAMPLING_CYLINDER_FAN_GLSL
+// Follows include/nusselt/sampling/cylinder_fan.h @ fbc39dab51fc
 /// Sampling of closed cylinders without rejection: first a half-plane of the fan around the direction of the axis, then
 /// a direction in it. What the techniques for cylinders share. Twin of include/nusselt/sampling/cylinder_fan.h;
 /// docs/techniques/cylinder.md has the derivation.
@@ -44,14 +45,14 @@ LinePoint importance_point(int importance, LineExtent e, float u) {
 
 float importance_invert(int importance, LineExtent e, vec3 wi) {
     if (importance == kNusseltUniformImportance)
-        return below_one(line_extent_point_in(e, wi).from_begin / (e.visible ? e.sine_extent : 1.0));
+        return below_one(line_extent_point_in(e, wi).from_start / (e.visible ? e.sine_extent : 1.0));
     return cosine_arc_invert(make_cosine_arc(e), wi);
 }
 
 /// Shading space where a fan asks for the cosine space of a lobe: the lobe is the clamped cosine.
 Ltc shading_space() { return Ltc(1.0, 0.0, 1.0, 0.0, 1.0, 1.0, 1.0); }
 
-/// In shading space: directions with a positive product have importance.
+/// The normal of the horizon in shading space: directions with a positive product have importance.
 vec3 ltc_horizon_normal(Ltc self) {
     return vec3(ltc_to_cosine(self, vec3(1.0, 0.0, 0.0)).z, ltc_to_cosine(self, vec3(0.0, 1.0, 0.0)).z,
                 ltc_to_cosine(self, vec3(0.0, 0.0, 1.0)).z);
@@ -64,7 +65,7 @@ struct CylinderImage {
     vec3 s, m, n;  ///< right-handed, orthonormal
     float stretch; ///< of the axis
     float m_along_m, n_along_m, n_along_n, m_along_s, n_along_s;
-    float height_of_m, height_of_n, begin_height, end_height;
+    float height_of_m, height_of_n, start_height, end_height;
 };
 
 CylinderImage make_cylinder_image(Cylinder cylinder, Ltc space) {
@@ -87,7 +88,7 @@ CylinderImage make_cylinder_image(Cylinder cylinder, Ltc space) {
     self.n_along_s = dot(n, self.s);
     self.height_of_m = m.z;
     self.height_of_n = n.z;
-    self.begin_height = ltc_to_cosine(space, self.view.begin).z;
+    self.start_height = ltc_to_cosine(space, self.view.start).z;
     self.end_height = ltc_to_cosine(space, self.view.end).z;
     return self;
 }
@@ -148,7 +149,7 @@ AzimuthRange cylinder_image_range(CylinderImage self, int importance) {
     if (importance == kNusseltUniformImportance)
         return AzimuthRange(rightmost, nusselt_max(leftmost - rightmost, 0.0));
 
-    float axis_height = nusselt_max(self.begin_height, self.end_height);
+    float axis_height = nusselt_max(self.start_height, self.end_height);
     float left_height = axis_height + view.radius * cylinder_image_height_to_the_left_of(self, left);
     float right_height = axis_height - view.radius * cylinder_image_height_to_the_left_of(self, right);
     // From inside, everything around the axis if the axis rises.
@@ -162,7 +163,7 @@ AzimuthRange cylinder_image_range(CylinderImage self, int importance) {
     bool sees_right = surrounded || has_rim_above || (view.outside && right_height > 0.0);
     float low = leftmost;
     float high = rightmost;
-    include_rim(self, self.begin_height, rise, up, low, high);
+    include_rim(self, self.start_height, rise, up, low, high);
     include_rim(self, self.end_height, rise, up, low, high);
     low = sees_right ? rightmost : nusselt_max(low, rightmost);
     high = sees_left ? leftmost : nusselt_min(high, leftmost);
@@ -206,9 +207,9 @@ CylinderHalfPlane cylinder_half_plane(CylinderImage self, int importance, vec2 d
     vec3 t = (1.0 / h.widening) * (image.x * self.m + image.y * self.n);
 
     // Corners of the rectangle that bound the interval of directions.
-    bool begins_far = view.l0 > 0.0;
+    bool starts_far = view.l0 > 0.0;
     bool ends_far = view.l1 < 0.0;
-    float rho0 = begins_far ? h.slice.far : h.slice.near;
+    float rho0 = starts_far ? h.slice.far : h.slice.near;
     float rho1 = ends_far ? h.slice.far : h.slice.near;
     float tangent0 = cylinder_image_tangent(self, view.l0, rho0, h.widening, h.shear);
     float tangent1 = cylinder_image_tangent(self, view.l1, rho1, h.widening, h.shear);
@@ -224,7 +225,7 @@ CylinderHalfPlane cylinder_half_plane(CylinderImage self, int importance, vec2 d
     float height_of_t = nusselt_fma(azimuth.x, self.height_of_m, azimuth.y * self.height_of_n);
     float sideways = h.slice.offset * cylinder_image_height_to_the_left_of(self, azimuth);
     float across = h.slice.half_chord * height_of_t;
-    float height0 = self.begin_height + (sideways + (begins_far ? across : -across));
+    float height0 = self.start_height + (sideways + (starts_far ? across : -across));
     float height1 = self.end_height + (sideways + (ends_far ? across : -across));
     vec3 p0 = cylinder_image_corner(self, t, tangent0, height0, rho0 * h.widening);
     vec3 p1 = cylinder_image_corner(self, t, tangent1, height1, rho1 * h.widening);

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_CYLINDER_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_CYLINDER_SOLID_ANGLE_GLSL
+// Follows include/nusselt/sampling/cylinder_solid_angle.h @ fe27260f607f
 /// Sampling of the solid angle of a closed cylinder of finite radius, without rejection: for surfaces and for volumes.
 /// Twin of include/nusselt/sampling/cylinder_solid_angle.h.
 ///

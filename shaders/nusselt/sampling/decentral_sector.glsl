@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_DECENTRAL_SECTOR_GLSL
 #define NUSSELT_SAMPLING_DECENTRAL_SECTOR_GLSL
+// Follows include/nusselt/sampling/decentral_sector.h @ 8a1c87b32341
 /// Area between two projected great circles and its inversion: the azimuth of a sample when the zenith lies outside of
 /// the polygon (Peters 2021, polygonal lights, Sec. 3.1 and 3.3 to 3.6). Twin of
 /// include/nusselt/sampling/decentral_sector.h.
@@ -13,9 +14,9 @@ const int kNusseltPolygonIterations = 2;
 /// The region of the tangent plane between an outer and an inner great circle, projected, within an azimuth range.
 /// Points of the range are x in [0, 1] on a chord of the outer circle's plane.
 struct DecentralSector {
-    vec3 begin;             ///< a point in the plane of the outer circle, at the begin of the range
+    vec3 begin;             ///< a point in the plane of the outer circle, at the start of the range
     vec3 chord;             ///< from there to the end of the range, counterclockwise around the zenith
-    float begin_gap;        ///< height of the plane of the inner circle above the chord at its begin, >= 0
+    float begin_gap;        ///< height of the plane of the inner circle above the chord at its start, >= 0
     float end_gap;          ///< the same at its end
     float doubled_triangle; ///< det(begin, chord) in the tangent plane, > 0
 };
@@ -35,7 +36,7 @@ DecentralForms decentral_sector_at(DecentralSector self, float x) {
                           nusselt_max(gap * nusselt_fma(2.0, outer_point.z, gap), 0.0));
 }
 
-/// What both ellipses have between the begin of a sector and x. Sines and cosines of the angles about the origin are
+/// What both ellipses have between the start of a sector and x. Sines and cosines of the angles about the origin are
 /// not normalised.
 struct DecentralArcs {
     float doubled_triangle; ///< det(begin, end) in the tangent plane
@@ -50,7 +51,7 @@ DecentralArcs decentral_sector_arcs_to(DecentralSector self, float x) {
     vec3 begin = self.begin;
     vec3 chord = self.chord;
     float turn = self.end_gap - self.begin_gap;
-    // Normals of the planes through the origin and the segments from begin to x, divided by x: times x, their lengths
+    // Normals of the planes through the origin and the segments from start to x, divided by x: times x, their lengths
     // are the sines.
     vec3 outer_normal = nusselt_cross(begin, chord);
     vec3 lift = vec3(nusselt_fma(turn, begin.y, -self.begin_gap * chord.y),
@@ -113,7 +114,7 @@ float decentral_wide_doubled_area(DecentralWideArcs arcs, float inner_angle, flo
     return nusselt_max(arcs.doubled_triangle * difference, 0.0);
 }
 
-/// Twice the area from the begin to x (Prop. 1 for both ellipses). Each ellipse contributes the determinant of its end
+/// Twice the area from the start to x (Prop. 1 for both ellipses). Each ellipse contributes the determinant of its end
 /// points times angle / sine; the determinants are equal.
 float decentral_sector_doubled_area_to(DecentralSector self, float x) {
     DecentralArcs arcs = decentral_sector_arcs_to(self, x);

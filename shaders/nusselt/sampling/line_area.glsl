@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_AREA_GLSL
 #define NUSSELT_SAMPLING_LINE_AREA_GLSL
+// Follows include/nusselt/sampling/line_area.h @ 776cf4ab6c81
 /// Uniform sampling of the length of a linear light. It needs no trigonometry, but is noisy close to the light. Twin of
 /// include/nusselt/sampling/line_area.h.
 ///
@@ -33,7 +34,7 @@ float line_area_density(LineArea self, float r, float sine) {
     return density > 0.0 && is_finite(density) ? density : 0.0;
 }
 
-/// \param u in [0, 1), proportional to the distance from the begin.
+/// \param u in [0, 1), proportional to the distance from the start.
 LightSample line_area_sample(LineArea self, float u) {
     vec3 p = self.light.p0 + (u * self.light.len) * self.light.s;
     float r = nusselt_length(p);
@@ -49,10 +50,10 @@ float line_area_pdf(LineArea self, vec3 wi) {
 
 /// The random number for which the sample is wi, a unit direction on the light.
 float line_area_invert(LineArea self, vec3 wi) {
-    float begin = dot(self.light.p0, self.light.s);
+    float start = dot(self.light.p0, self.light.s);
     float along = dot(wi, self.light.s);
     float sine = nusselt_length(nusselt_cross(wi, self.light.s));
-    float coordinate = self.distance * along / (sine > 0.0 ? sine : 1.0) - begin;
+    float coordinate = self.distance * along / (sine > 0.0 ? sine : 1.0) - start;
     return below_one(coordinate / (self.light.len > 0.0 ? self.light.len : 1.0));
 }
 

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_LTC_GLSL
 #define NUSSELT_SAMPLING_LINE_LTC_GLSL
+// Follows include/nusselt/sampling/line_ltc.h @ dd5a719ca912
 /// Sampling of a linear light proportional to a linearly transformed cosine. With a lobe that fits the specular BRDF
 /// times cosine, the noise that remains comes from shadows and from the misfit.
 ///
@@ -18,7 +19,7 @@
 struct LineLtc {
     Ltc ltc;
     LineProjectedSolidAngle image; ///< in cosine space
-    // In shading space, of the part of the light that counts, scaled to an extent of order one.
+    // The part of the light that counts, in shading space and scaled to an extent of order one.
     vec3 s;
     vec3 closest;        ///< point of the infinite line
     float l0, l1;        ///< coordinates of the end points along s, 0 at the closest point
@@ -72,7 +73,7 @@ float line_ltc_pdf(LineLtc self, vec3 wi) {
     return is_finite(density) ? density : 0.0;
 }
 
-/// \param u in [0, 1); increasing u moves from the begin of the light to its end.
+/// \param u in [0, 1); increasing u moves from the start of the light to its end.
 LightSample line_ltc_sample(LineLtc self, float u) {
     // Only the coordinate along the light comes from cosine space: rounding there must not leave the light.
     vec3 image = line_projected_solid_angle_sample(self.image, u).p;

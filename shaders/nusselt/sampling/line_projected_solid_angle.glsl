@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_LINE_PROJECTED_SOLID_ANGLE_GLSL
+// Follows include/nusselt/sampling/line_projected_solid_angle.h @ dd4c84864f7e
 /// Uniform sampling of the projected solid angle of a linear light: density proportional to the cosine at the surface.
 /// With a Lambertian tube on a Lambertian surface, all noise that remains comes from shadows.
 ///
@@ -45,7 +46,7 @@ float line_projected_solid_angle_pdf(LineProjectedSolidAngle self, vec3 wi) {
     return nusselt_max(wi.z, 0.0) * self.inverse_measure;
 }
 
-/// \param u in [0, 1); increasing u moves from the begin of the light to its end.
+/// \param u in [0, 1); increasing u moves from the start of the light to its end.
 LightSample line_projected_solid_angle_sample(LineProjectedSolidAngle self, float u) {
     LinePoint point = cosine_arc_point(self.arc, u);
     vec3 p = line_extent_position(self.arc.extent, point);

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_LINE_SOLID_ANGLE_GLSL
+// Follows include/nusselt/sampling/line_solid_angle.h @ 2929166c513a
 /// Uniform sampling of the solid angle of a linear light, for surfaces and for volumes.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Sec. 3.1, Eq. 1. Twin
@@ -54,7 +55,7 @@ float line_solid_angle_measure(LineSolidAngle self) { return self.measure; }
 /// Constant on the light; the caller knows that wi hits it.
 float line_solid_angle_pdf(LineSolidAngle self, vec3 wi) { return self.pdf; }
 
-/// \param u in [0, 1); increasing u moves from the begin of the light to its end.
+/// \param u in [0, 1); increasing u moves from the start of the light to its end.
 LightSample line_solid_angle_sample(LineSolidAngle self, float u) {
     LinePoint point = line_extent_point_at(self.extent, u * self.extent.sine_extent);
     vec3 p = line_extent_position(self.extent, point);
@@ -63,7 +64,7 @@ LightSample line_solid_angle_sample(LineSolidAngle self, float u) {
 
 /// The random number for which the sample is wi, a unit direction on the light.
 float line_solid_angle_invert(LineSolidAngle self, vec3 wi) {
-    float part = line_extent_point_in(self.extent, wi).from_begin;
+    float part = line_extent_point_in(self.extent, wi).from_start;
     return below_one(part / (self.extent.visible ? self.extent.sine_extent : 1.0));
 }
 

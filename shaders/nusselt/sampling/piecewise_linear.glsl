@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_PIECEWISE_LINEAR_GLSL
 #define NUSSELT_SAMPLING_PIECEWISE_LINEAR_GLSL
+// Follows include/nusselt/sampling/piecewise_linear.h @ 4bf771354ecf
 /// A piecewise linear density on the unit interval, and its inverse distribution. Twin of
 /// include/nusselt/sampling/piecewise_linear.h, for a fixed number of nodes.
 
@@ -8,7 +9,7 @@
 /// Where the density is given. Tables of this size stay in registers.
 const int kNusseltNodes = 7;
 
-/// Where the i-th node lies, in [0, 1]: closer to each other near both ends.
+/// The position of node i, in [0, 1]: nodes are closer to each other near both ends.
 float piecewise_linear_node(int i) {
     float t = float(i) * (1.0 / float(kNusseltNodes - 1));
     return t * t * (3.0 - 2.0 * t);

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_AREA_GLSL
 #define NUSSELT_SAMPLING_POLYGON_AREA_GLSL
+// Follows include/nusselt/sampling/polygon_area.h @ 6d0c191a1a3a
 /// Uniform sampling of the area of a convex polygon. It needs no trigonometry and works for lights of any size and
 /// distance, but is noisy wherever the solid angle per area varies, above all close to the light.
 ///

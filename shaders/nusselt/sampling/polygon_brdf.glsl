@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_BRDF_GLSL
 #define NUSSELT_SAMPLING_POLYGON_BRDF_GLSL
+// Follows include/nusselt/sampling/polygon_brdf.h @ 57434443bfa9
 /// BRDF sampling of a convex polygon: directions by the BRDF alone, and a test whether they hit the light. Twin of
 /// include/nusselt/sampling/polygon_brdf.h.
 ///
@@ -14,7 +15,7 @@
 
 struct PolygonBrdf {
     GgxVisibleNormals lobe;
-    // Of the light scaled to an extent of order one.
+    // All of this is that of the light scaled to an extent of order one.
     LightPlane plane;
     vec3 low, high;           ///< axis-aligned box
     vec3 side[kNusseltSlots]; ///< normals of the planes through the origin and the edges, towards the light

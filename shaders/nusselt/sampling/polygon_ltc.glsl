@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_LTC_GLSL
 #define NUSSELT_SAMPLING_POLYGON_LTC_GLSL
+// Follows include/nusselt/sampling/polygon_ltc.h @ 8b3e6e9d24f5
 /// Sampling of a convex polygon proportional to a linearly transformed cosine. With a Lambertian emitter and a lobe
 /// that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 ///
@@ -17,7 +18,7 @@
 struct PolygonLtc {
     Ltc ltc;
     PolygonProjectedSolidAngle image; ///< in cosine space
-    // In shading space, of the part of the light that counts, scaled to an extent of order one.
+    // The part of the light that counts, in shading space and scaled to an extent of order one.
     LightPlane plane;
     vec3 low, high;      ///< axis-aligned box
     float inverse_scale; ///< a power of two

@@ -1,5 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
+// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 0225fb081251
 /// Uniform sampling of the projected solid angle of a convex polygon: density proportional to the cosine at the
 /// surface. With a Lambertian emitter on a Lambertian surface, all noise that remains comes from shadows.
 ///
@@ -261,7 +262,7 @@ LightSample polygon_projected_solid_angle_sample_decentral(LightPlane plane, Dec
     return LightSample(inverse_norm * direction, 0.0, along * direction);
 }
 
-/// From scaled and mirrored coordinates back to those of the light.
+/// Takes scaled and mirrored coordinates back to those of the light.
 LightSample polygon_projected_solid_angle_finish(PolygonProjectedSolidAngle self, LightSample s) {
     // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
     s.p = self.inverse_scale * nusselt_min(nusselt_max(s.p, self.low), self.high);
@@ -308,7 +309,7 @@ float relative_height_in_sector(bool central, DecentralSector sector, float x, v
     return forms.outer * below / (form > 0.0 && forms.rise > 0.0 ? form * forms.rise : 1.0);
 }
 
-/// Where a direction lies.
+/// The position of a direction.
 struct ProjectedSectorPosition {
     DecentralSector sector; ///< in the central case the gaps mean nothing
     float doubled_area, angle_per_area;
@@ -326,7 +327,7 @@ ProjectedSectorPosition polygon_projected_solid_angle_locate(PolygonProjectedSol
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots; ++k) {
         DecentralSector sector = DecentralSector(self.begin[k], self.chord[k], self.begin_gap[k], self.end_gap[k],
                                                  det(self.begin[k].xy, self.chord[k].xy));
-        float from_begin = det(sector.begin.xy, w);
+        float from_start = det(sector.begin.xy, w);
         vec3 end = sector.begin + sector.chord;
         float to_end = det(w, end.xy);
         // A sector also has what rounding moved beyond its ends: there may be no other one. In the decentral case, the
@@ -334,11 +335,11 @@ ProjectedSectorPosition polygon_projected_solid_angle_locate(PolygonProjectedSol
         float tolerance = (4.0 * kNusseltEpsilon) * (abs(w.x) + abs(w.y));
         float begin_slack = tolerance * (abs(sector.begin.x) + abs(sector.begin.y));
         float end_slack = tolerance * (abs(end.x) + abs(end.y));
-        bool inside = from_begin >= -begin_slack && to_end >= -end_slack;
+        bool inside = from_start >= -begin_slack && to_end >= -end_slack;
         if (!found && self.doubled_area[k] > 0.0 && (!self.central || inside)) {
             // The chord meets the ray along w.
             float slope = det(w, sector.chord.xy);
-            float x = nusselt_min(nusselt_max(from_begin / (slope > 0.0 ? slope : 1.0), 0.0), 1.0);
+            float x = nusselt_min(nusselt_max(from_start / (slope > 0.0 ? slope : 1.0), 0.0), 1.0);
             at = ProjectedSectorPosition(sector, self.doubled_area[k], self.angle_per_area[k], before, x);
             found = self.central || to_end > 0.0;
         }
@@ -347,19 +348,19 @@ ProjectedSectorPosition polygon_projected_solid_angle_locate(PolygonProjectedSol
     return at;
 }
 
-/// Twice the area of a central sector from its begin to x.
+/// Twice the area of a central sector from its start to x.
 /// \param angle of that part on the great circle.
 float central_sector_doubled_area(ProjectedSectorPosition at, float angle) {
     return angle / (at.angle_per_area > 0.0 ? at.angle_per_area : 1.0);
 }
 
-/// Sine and cosine, not normalised, of the angle on the great circle of a central sector from its begin to x.
+/// Sine and cosine, not normalised, of the angle on the great circle of a central sector from its start to x.
 SinCos central_sector_angle(ProjectedSectorPosition at) {
     vec3 n = at.x * nusselt_cross(at.sector.begin, at.sector.chord);
     return SinCos(sqrt(dot(n, n)), dot(at.sector.begin, at.sector.begin + at.x * at.sector.chord));
 }
 
-/// \param partial_area twice the area of the sector from its begin to x.
+/// \param partial_area twice the area of the sector from its start to x.
 /// \param w, z         the direction in the tangent plane, mirrored, and its height.
 vec2 polygon_projected_solid_angle_random_numbers(PolygonProjectedSolidAngle self, ProjectedSectorPosition at,
                                                   float partial_area, vec2 w, float z) {

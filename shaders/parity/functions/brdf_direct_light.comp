@@ -32,8 +32,8 @@ void main() {
     else
         s = direct_light_drawn(estimator, 1, polygon_brdf_sample(specular, vec2(inputs[rest + 5u], inputs[rest + 6u])));
     const MisSample at =
-        direct_light_look_at(estimator, s, polygon_solid_angle_pdf(diffuse, s.wi), polygon_brdf_pdf(specular, s.wi),
-                             frostbite_eval_components(surface.brdf, s.wi));
+        direct_light_densities_at(estimator, s, polygon_solid_angle_pdf(diffuse, s.wi),
+                                  polygon_brdf_pdf(specular, s.wi), frostbite_eval_components(surface.brdf, s.wi));
     const MisEstimate estimate = mis_estimate(heuristic, drawn, inputs[rest + 1u], estimator.techniques, at);
     write_sample(i, to_world(frame, direct_light_combined(s, estimate)));
 }

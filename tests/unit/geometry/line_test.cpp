@@ -100,7 +100,7 @@ TYPED_TEST(LineTest, PointsOfTheExtentLieOnTheLine) {
             const T extent = std::max(length(p), length(line.p0));
             EXPECT_LE(length(p - line.p0 - along * line.s), 4 * this->kEpsilon * extent) << light.name;
             // Back from the direction to the point.
-            EXPECT_NEAR(e.point_in(direction).from_begin, point.from_begin, 64 * this->kEpsilon)
+            EXPECT_NEAR(e.point_in(direction).from_start, point.from_start, 64 * this->kEpsilon)
                 << light.name;
         }
     }
