@@ -23,13 +23,18 @@ function(nusselt_report_missing what alternative missing)
     if(missing)
         list(JOIN missing " " packages)
         message(FATAL_ERROR "${what} cannot be built, these Debian packages are missing: ${packages}\n"
-            "`make test` and `make demo` install what they need on Debian 12. ${alternative}")
+            "`make test` and `make demo` install what they need on Debian 12 and 13. ${alternative}")
     endif()
 endfunction()
 
 macro(nusselt_require_renderer_dependencies)
     set(missing)
-    nusselt_find(embree libembree-dev 3.13)
+    # Each version of Embree calls itself compatible with its own major version only.
+    nusselt_find(embree libembree-dev)
+    if(embree_FOUND AND (embree_VERSION VERSION_LESS 3.13 OR embree_VERSION VERSION_GREATER_EQUAL 5))
+        message(FATAL_ERROR "Embree ${embree_VERSION} in ${embree_DIR} cannot be used; 3.13 or 4 is needed "
+            "(Debian: libembree-dev). -Dembree_DIR=FOLDER names the folder of another embree-config.cmake.")
+    endif()
     nusselt_find(TBB libtbb-dev)
     nusselt_find(OpenEXR libopenexr-dev 3)
     nusselt_find(CLI11 libcli11-dev)
