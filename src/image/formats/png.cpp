@@ -136,13 +136,13 @@ void PngReader::read_rows_of(CodeRows& rows) {
         for (std::size_t y = 0; y < height; ++y) read_row(width, {.y = y});
         return;
     }
-    for (unsigned pass = 0; pass < PNG_INTERLACE_ADAM7_PASSES; ++pass) {
+    for (std::size_t pass = 0; pass < PNG_INTERLACE_ADAM7_PASSES; ++pass) {
         const std::size_t columns = PNG_PASS_COLS(width, pass);
         const std::size_t pass_height = columns == 0 ? 0 : PNG_PASS_ROWS(height, pass);
         for (std::size_t y = 0; y < pass_height; ++y)
             read_row(columns, {.y = PNG_ROW_FROM_PASS_ROW(y, pass),
                                .x = PNG_PASS_START_COL(pass),
-                               .step = PNG_PASS_COL_OFFSET(pass)});
+                               .step = std::size_t(PNG_PASS_COL_OFFSET(pass))});
     }
 }
 
