@@ -22,8 +22,8 @@ esac
 system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-}") || system=unknown
 case "$system" in
     "debian 12" | "debian 13") ;;
-    *) fail "this set-up knows Debian 12 and Debian 13, not '$system'. Install the equivalents of the packages listed in" \
-        "scripts/debian-packages.txt, then run: cmake --preset release && cmake --build --preset release" ;;
+    *) fail "this set-up knows Debian 12 and Debian 13, not '$system'. Install the equivalents of" \
+        "the packages listed in scripts/debian-packages.txt, then run: cmake --preset release && cmake --build --preset release" ;;
 esac
 
 missing=()

@@ -59,7 +59,7 @@ std::string random_bytes(std::size_t count) {
     return bytes;
 }
 
-std::string little_endian_bytes(std::uint32_t value, std::size_t size) {
+std::string little_endian_bytes(std::uint64_t value, std::size_t size) {
     std::string bytes;
     for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>(value >> (8 * i));
     return bytes;
