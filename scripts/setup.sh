@@ -1,6 +1,9 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of scripts/debian-packages.txt that are missing.
-# Usage: scripts/setup.sh build|test    (build: what the programs need; test: also what the tests need)
+# Installs the Debian packages of scripts/debian-packages.txt that are missing, on Debian 12 and Debian 13.
+# Usage: scripts/setup.sh build|check|test
+#   build  what the programs need
+#   check  also what `make check` needs
+#   test   also what `make test` needs
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -11,17 +14,23 @@ fail() {
 
 case "${1:-}" in
     build) wanted='build' ;;
-    test) wanted='build|test' ;;
-    *) fail "usage: scripts/setup.sh build|test" ;;
+    check) wanted='build|check' ;;
+    test) wanted='build|check|test' ;;
+    *) fail "usage: scripts/setup.sh build|check|test" ;;
 esac
 
 system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-}") || system=unknown
-[ "$system" = "debian 12" ] || fail "this set-up knows Debian 12 only, not '$system'. Install the equivalents of" \
-    "the packages listed in scripts/debian-packages.txt, then run: cmake --preset release && cmake --build --preset release"
+case "$system" in
+    "debian 12" | "debian 13") ;;
+    *) fail "this set-up knows Debian 12 and Debian 13, not '$system'. Install the equivalents of" \
+        "the packages listed in scripts/debian-packages.txt, then run: cmake --preset release && cmake --build --preset release" ;;
+esac
 
 missing=()
-while read -r group package _; do
+while read -r group package in_debian_13 _; do
     [[ $group =~ ^($wanted)$ ]] || continue
+    if [ "$system" = "debian 13" ] && [ "$in_debian_13" != "=" ]; then package=$in_debian_13; fi
+    [ "$package" != "-" ] || continue
     state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) || state=absent
     [ "$state" = installed ] || missing+=("$package")
 done <debian-packages.txt

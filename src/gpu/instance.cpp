@@ -29,8 +29,9 @@ bool has_validation_layer(const vk::raii::Context& context) {
     });
 }
 
-VKAPI_ATTR VkBool32 VKAPI_CALL note(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                    const VkDebugUtilsMessengerCallbackDataEXT* data, void* log) {
+/// A template, as newer versions of vulkan.hpp take a function with the C++ types, older ones with those of C.
+template <class Severity, class Types, class Data>
+VKAPI_ATTR VkBool32 VKAPI_CALL note(Severity, Types, const Data* data, void* log) {
     static_cast<ValidationLog*>(log)->add(data->pMessage);
     return VK_FALSE;
 }

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <fstream>
 #include <string>
-#include <string_view>
 
 namespace nusselt::image {
 
@@ -33,9 +32,5 @@ Image decode_pfm(std::istream& stream);
 void encode_png(std::ostream& stream, const Image& image, double scale);
 /// PNG, JPG or TGA, whichever the contents are.
 Image decode_srgb(std::istream& stream);
-
-/// \param file  contents of a PNG, JPG, TGA or BMP file
-/// \throws std::runtime_error  if the file cannot have that many pixels, or too many
-void check_coded_file(std::string_view file, std::int64_t width, std::int64_t height);
 
 } // namespace nusselt::image

@@ -1,11 +1,14 @@
 #include "image/coded_file.h"
 
 #include "image/codecs.h"
+#include "image/formats/bmp.h"
+#include "image/formats/jpg.h"
+#include "image/formats/png.h"
+#include "image/formats/tga.h"
+#include "image/srgb.h"
 
-#include <stb/stb_image.h>
-
-#include <limits>
-#include <memory>
+#include <istream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -13,59 +16,48 @@ namespace nusselt::image {
 
 namespace {
 
-[[noreturn]] void fail_with_reason() {
-    throw std::runtime_error(std::string("this is no PNG, JPG, TGA or BMP that can be decoded (") +
-                             stbi_failure_reason() + "); check its name and whether it is complete");
-}
+/// One of the formats that store codes.
+struct CodedFormat {
+    bool (*matches)(std::string_view file);
+    CodedHeader (*read_header)(std::string_view file);
+    void (*decode)(std::string_view file, CodeRows& rows);
+};
 
-const stbi_uc* bytes_of(std::string_view file) { return reinterpret_cast<const stbi_uc*>(file.data()); }
+constexpr std::string_view kBmpMark = "BM";
 
-/// \param codes  from stb, which owns the memory; null if decoding failed
-template <class Code>
-std::vector<float> linear_values(Code* codes, std::size_t pixel_count, int channels,
-                                 const std::function<double(double)>& to_linear) {
-    if (codes == nullptr) fail_with_reason();
-    const std::unique_ptr<Code, void (*)(void*)> owner(codes, stbi_image_free);
-    constexpr std::size_t kLargest = std::numeric_limits<Code>::max();
-    std::vector<float> color(kLargest + 1);
-    for (std::size_t code = 0; code <= kLargest; ++code)
-        color[code] = static_cast<float>(to_linear(static_cast<double>(code) / double(kLargest)));
+/// TGA comes last since it has no mark: its reader looks for a header that makes sense.
+constexpr CodedFormat kFormats[] = {
+    {[](std::string_view file) { return file.starts_with("\x89PNG\r\n\x1A\n"); }, read_png_header,
+     decode_png},
+    {[](std::string_view file) { return file.starts_with("\xFF\xD8"); }, read_jpg_header, decode_jpg},
+    {[](std::string_view file) { return file.starts_with(kBmpMark); }, read_bmp_header, decode_bmp},
+    {is_tga, read_tga_header, decode_tga},
+};
 
-    const auto stride = static_cast<std::size_t>(channels);
-    std::vector<float> values(pixel_count * stride);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = color[codes[i]];
-    if (stride % 2 != 0) return values;
-    for (std::size_t i = stride - 1; i < values.size(); i += stride)
-        values[i] = static_cast<float>(codes[i]) / float(kLargest);
-    return values;
+const CodedFormat& format_of(std::string_view file) {
+    for (const CodedFormat& format : kFormats)
+        if (format.matches(file)) return format;
+    throw std::runtime_error("this is neither PNG, JPG, TGA nor BMP; check its name or convert it");
 }
 
 } // namespace
 
-CodedHeader read_coded_header(std::string_view file) {
-    if (file.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw std::runtime_error("files above 2 GiB are not supported");
-    CodedHeader header;
-    if (stbi_info_from_memory(bytes_of(file), int(file.size()), &header.width, &header.height,
-                              &header.channels) == 0)
-        fail_with_reason();
-    check_coded_file(file, header.width, header.height);
-    return header;
-}
+CodedHeader read_coded_header(std::string_view file) { return format_of(file).read_header(file); }
 
 std::vector<float> decode_codes(std::string_view file, int channels,
                                 const std::function<double(double)>& to_linear) {
-    const int size = static_cast<int>(file.size());
-    int width = 0;
-    int height = 0;
-    int channels_in_file = 0;
-    const auto decode = [&](auto load) {
-        auto* const codes = load(bytes_of(file), size, &width, &height, &channels_in_file, channels);
-        const std::size_t pixel_count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-        return linear_values(codes, pixel_count, channels, to_linear);
-    };
-    return stbi_is_16_bit_from_memory(bytes_of(file), size) != 0 ? decode(stbi_load_16_from_memory)
-                                                                 : decode(stbi_load_from_memory);
+    const CodedFormat& format = format_of(file);
+    CodeRows rows(format.read_header(file), channels, to_linear);
+    format.decode(file, rows);
+    return rows.take();
+}
+
+Image decode_srgb(std::istream& stream) {
+    const std::string file(std::istreambuf_iterator<char>(stream), {});
+    if (file.starts_with(kBmpMark))
+        throw std::runtime_error("this is neither PNG, JPG nor TGA; check its name or convert it");
+    const CodedHeader header = read_coded_header(file);
+    return {header.width, header.height, decode_codes(file, 3, linear_from_srgb)};
 }
 
 } // namespace nusselt::image

@@ -1,7 +1,7 @@
 #pragma once
 /// Embree's device and its errors. Only for code that calls Embree itself.
 
-#include <embree3/rtcore.h>
+#include "visibility/embree_api.h"
 
 #include <memory>
 

@@ -1,11 +1,10 @@
 #pragma once
 /// Packets of rays in the form that Embree takes. Only for code that calls Embree itself.
 
+#include "visibility/embree_api.h"
 #include "visibility/embree_scene.h"
 #include "visibility/ray_packets.h"
 #include "visibility/scene_parts.h"
-
-#include <embree3/rtcore.h>
 
 #include <cmath>
 #include <cstdint>
@@ -90,12 +89,7 @@ struct ClosestHitQuery {
     }
 
     /// Embree's answer overwrites the packet.
-    void trace(RTCScene scene) {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        Embree<N>::intersect(valid, scene, &context, &packet);
-    }
+    void trace(RTCScene scene) { intersect_coherent(Embree<N>::intersect, valid, scene, packet); }
 
     alignas(64) int valid[N]; ///< -1 for lanes to trace, 0 for others
     typename Embree<N>::RayHits packet;
@@ -110,11 +104,7 @@ struct ShadowQuery {
     }
 
     /// \copydoc ClosestHitQuery::trace
-    void trace(RTCScene scene) {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        Embree<N>::occluded(valid, scene, &context, &packet);
-    }
+    void trace(RTCScene scene) { find_occluded(Embree<N>::occluded, valid, scene, packet); }
 
     alignas(64) int valid[N]; ///< as above
     typename Embree<N>::Rays packet;

@@ -2,8 +2,7 @@
 /// How the triangles of a scene are distributed over geometries of Embree, and from there back.
 
 #include "scene/model/scene.h"
-
-#include <embree3/rtcore.h>
+#include "visibility/embree_api.h"
 
 #include <cstdint>
 #include <vector>

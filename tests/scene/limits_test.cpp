@@ -103,7 +103,7 @@ TEST_F(Limits, ImagesShareABudgetOfTexels) {
               "scene.pbrt:7: texture file 'image.pfm': too many texels");
 }
 
-TEST_F(Limits, ImagesThatStbDecodesAreChargedBefore) {
+TEST_F(Limits, ImagesOfCodesAreChargedBefore) {
     // An uncompressed grey TGA of 8 x 4.
     write("image.tga", std::string("\0\0\3\0\0\0\0\0\0\0\0\0\10\0\4\0\10\0", 18) + std::string(32, 'g'));
     SceneBudget budget{{0, "no files"}, {63, "too many texels"}};

@@ -165,9 +165,9 @@ TEST_F(Textures, Errors) {
     EXPECT_EQ(error(material("Texture \"t\" \"spectrum\" \"imagemap\"\n\"string filename\" \"none.png\"")),
               "scene.pbrt:2: texture file 'none.png': no such file");
     EXPECT_EQ(error(material("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"broken.png\"")),
-              "scene.pbrt:1: texture file 'broken.png': this is no PNG, JPG, TGA or BMP that can be decoded "
-              "(unknown "
-              "image type); check its name and whether it is complete");
+              "scene.pbrt:1: texture file 'broken.png': this is neither PNG, JPG, TGA nor BMP; check its "
+              "name or convert "
+              "it");
     EXPECT_EQ(error("\nTexture \"t\" \"spectrum\" \"imagemap\""),
               "scene.pbrt:2: texture \"t\": parameter \"string filename\" is missing");
     EXPECT_EQ(error("Texture \"t\" \"vector\" \"constant\""),

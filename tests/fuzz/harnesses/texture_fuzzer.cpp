@@ -1,6 +1,7 @@
 /// Image files as textures of a scene.
 
 #include "files.h"
+#include "image_checksums.h"
 #include "scene_contract.h"
 
 namespace nusselt::fuzz {
@@ -28,8 +29,9 @@ struct SceneFolder : Folder {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace nusselt::fuzz;
     static const SceneFolder kFolder;
+    const std::string file = with_right_checksums(text(data, size));
     for (const std::string_view extension : SceneFolder::kExtensions) {
-        kFolder.write("image." + std::string(extension), text(data, size));
+        kFolder.write("image." + std::string(extension), file);
         load_or_refuse(kFolder / (std::string(extension) + ".pbrt"));
     }
     return 0;

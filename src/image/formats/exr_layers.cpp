@@ -1,6 +1,6 @@
 #include "base/atomic_file.h"
 #include "image/codecs.h"
-#include "image/exr_part.h"
+#include "image/formats/exr_part.h"
 #include "image/layers.h"
 
 #include <OpenEXR/ImfChannelList.h>

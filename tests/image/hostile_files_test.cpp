@@ -33,7 +33,7 @@ protected:
         EXPECT_NE(error.find(name), std::string::npos) << error;
     }
 
-    /// The bytes of an image in one of the formats that stb writes.
+    /// The bytes of an image in one of the formats that stb, another program's library, writes.
     std::string written_by_stb(const std::string& extension) const {
         const std::string path = in_folder("stb" + extension).string();
         std::mt19937 engine(1);
@@ -52,16 +52,45 @@ std::string big_endian(std::uint32_t value) {
     return {char(value >> 24), char(value >> 16), char(value >> 8), char(value)};
 }
 
+std::string png_chunk(const std::string& type, const std::string& data) {
+    const std::string summed = type + data;
+    const auto* bytes = reinterpret_cast<const unsigned char*>(summed.data());
+    return big_endian(std::uint32_t(data.size())) + summed +
+           big_endian(std::uint32_t(crc32(0, bytes, uInt(summed.size()))));
+}
+
+std::string deflated(const std::string& data) {
+    uLongf size = compressBound(uLong(data.size()));
+    std::string packed(size, '\0');
+    compress2(reinterpret_cast<unsigned char*>(packed.data()), &size,
+              reinterpret_cast<const unsigned char*>(data.data()), uLong(data.size()), 9);
+    packed.resize(size);
+    return packed;
+}
+
+/// A grey PNG. \param bits per pixel, 1, 2, 4, 8 or 16 \param interlaced whether the header says so
+std::string grey_png(int width, int height, char bits, bool interlaced, const std::string& rows) {
+    const std::string header = big_endian(std::uint32_t(width)) + big_endian(std::uint32_t(height)) + bits +
+                               std::string("\0\0\0", 3) + char(interlaced);
+    const std::string packed = deflated(rows);
+    // In two pieces, as large files are.
+    return "\x89PNG\r\n\x1A\n" + png_chunk("IHDR", header) +
+           png_chunk("IDAT", packed.substr(0, packed.size() / 2)) +
+           png_chunk("IDAT", packed.substr(packed.size() / 2)) + png_chunk("IEND", "");
+}
+
 TEST_F(HostileFiles, PngWithHugeSize) {
-    write_image(in_folder("good.png"), random_image(9, 7, 1));
-    std::string png = read_bytes(in_folder("good.png"));
-    EXPECT_EQ(error_of_reading("a.png", png), "");
-    // stb does not look at the checksum of the header.
-    png.replace(16, 8, big_endian(16384) + big_endian(16384));
-    expect_cut_off("a.png", png);
-    // 1032 bytes of one are the most that deflate can do: 24 bits of 1000 x 1000 pixels need 2900 bytes.
-    png.replace(16, 8, big_endian(1000) + big_endian(1000));
-    expect_cut_off("a.png", png);
+    const auto png = [](int width, int height) {
+        return grey_png(width, height, 8, false, std::string(70, '\0'));
+    };
+    EXPECT_EQ(error_of_reading("a.png", png(9, 7)), "");
+    expect_cut_off("a.png", png(16384, 16384));
+    // 1032 bytes of one are the most that deflate can do: 8 bits of 1000 x 1000 pixels need 970 bytes.
+    expect_cut_off("a.png", png(1000, 1000));
+    EXPECT_NE(error_of_reading("a.png", png(20000, 20000)).find("20000 x 20000 pixels"), std::string::npos);
+    std::string damaged = png(9, 7);
+    damaged[19] = 8;
+    EXPECT_NE(error_of_reading("a.png", damaged).find("IHDR: CRC error"), std::string::npos);
 }
 
 TEST_F(HostileFiles, LegalPngOfOneColourIsRead) {
@@ -71,41 +100,44 @@ TEST_F(HostileFiles, LegalPngOfOneColourIsRead) {
     EXPECT_EQ(read_image(in_folder("a.png")).pixels, image.pixels);
 }
 
-/// A PNG of zeros. \param bits per pixel, 1, 2, 4, 8 or 16, grey \param interlaced whether the header says so
-std::string grey_png(int width, int height, char bits, bool interlaced, std::size_t byte_count) {
-    std::vector<unsigned char> zeros(byte_count);
-    uLongf size = compressBound(uLong(byte_count));
-    std::string packed(size, '\0');
-    compress2(reinterpret_cast<unsigned char*>(packed.data()), &size, zeros.data(), uLong(byte_count), 9);
-    packed.resize(size);
-    const auto chunk = [](const std::string& type, const std::string& data) {
-        return big_endian(std::uint32_t(data.size())) + type + data + "crc.";
-    };
-    const std::string header = big_endian(std::uint32_t(width)) + big_endian(std::uint32_t(height)) + bits +
-                               std::string("\0\0\0", 3) + char(interlaced);
-    // In two pieces, as large files are.
-    return "\x89PNG\r\n\x1A\n" + chunk("IHDR", header) + chunk("IDAT", packed.substr(0, size / 2)) +
-           chunk("IDAT", packed.substr(size / 2)) + chunk("IEND", "");
-}
-
-TEST_F(HostileFiles, PngIsInflatedBeforeItsPixelsAreBelieved) {
+TEST_F(HostileFiles, PngMustHoldItsPixels) {
+    const auto zeros = [](std::size_t count) { return std::string(count, '\0'); };
     // Rows of 1 + 250 bytes. Few bytes of deflate could be 2000 x 2000 pixels of one bit; these are one byte less.
-    EXPECT_EQ(error_of_reading("a.png", grey_png(2000, 2000, 1, false, 2000 * 251)), "");
-    expect_cut_off("a.png", grey_png(2000, 2000, 1, false, 2000 * 251 - 1));
+    EXPECT_EQ(error_of_reading("a.png", grey_png(2000, 2000, 1, false, zeros(2000 * 251))), "");
+    expect_cut_off("a.png", grey_png(2000, 2000, 1, false, zeros(2000 * 251 - 1)));
     // 32 KB, which claim 2^28 pixels but hold as many bytes only.
-    expect_cut_off("a.png", grey_png(16384, 16384, 1, false, std::size_t(1) << 24));
-    EXPECT_EQ(error_of_reading("a.png", grey_png(7, 3, 16, false, 3 * 15)), "");
-    expect_cut_off("a.png", grey_png(7, 3, 16, false, 3 * 15 - 1));
+    expect_cut_off("a.png", grey_png(16384, 16384, 1, false, zeros(std::size_t(1) << 24)));
+    EXPECT_EQ(error_of_reading("a.png", grey_png(7, 3, 16, false, zeros(3 * 15))), "");
+    expect_cut_off("a.png", grey_png(7, 3, 16, false, zeros(3 * 15 - 1)));
 }
 
 TEST_F(HostileFiles, PngInterlacedInSevenPasses) {
+    const auto zeros = [](std::size_t count) { return std::string(count, '\0'); };
     // 9 x 9 pixels: passes of 2x2, 1x2, 3x1, 2x3, 5x2, 4x5 and 9x4, with a byte more in each row.
     constexpr std::size_t kSize = 2 * 3 + 2 * 2 + 1 * 4 + 3 * 3 + 2 * 6 + 5 * 5 + 4 * 10;
-    EXPECT_EQ(error_of_reading("a.png", grey_png(9, 9, 8, true, kSize)), "");
-    expect_cut_off("a.png", grey_png(9, 9, 8, true, kSize - 1));
+    EXPECT_EQ(error_of_reading("a.png", grey_png(9, 9, 8, true, zeros(kSize))), "");
+    expect_cut_off("a.png", grey_png(9, 9, 8, true, zeros(kSize - 1)));
     // A single pixel has only the first pass.
-    EXPECT_EQ(error_of_reading("a.png", grey_png(1, 1, 8, true, 2)), "");
-    expect_cut_off("a.png", grey_png(1, 1, 8, true, 1));
+    EXPECT_EQ(error_of_reading("a.png", grey_png(1, 1, 8, true, zeros(2))), "");
+    expect_cut_off("a.png", grey_png(1, 1, 8, true, zeros(1)));
+}
+
+// 12 KB of deflate, 12 MB of zeros: what follows the last row is not inflated.
+TEST_F(HostileFiles, PngWithMoreThanItsPixels) {
+    const std::string png = grey_png(16, 16, 8, false, std::string(12'000'000, '\0'));
+    EXPECT_LT(png.size(), 13'000u);
+    EXPECT_NE(error_of_reading("a.png", png).find("Too much image data"), std::string::npos);
+}
+
+// Neither inflated nor mentioned on the standard error output.
+TEST_F(HostileFiles, PngWithDamagedTextIsRead) {
+    std::string png = grey_png(9, 7, 8, false, std::string(70, '\0'));
+    const std::size_t end_of_header = 8 + 25;
+    png.insert(end_of_header, png_chunk("zTXt", "key\0\0no deflate") + png_chunk("iCCP", "profile") +
+                                  png_chunk("gAMA", big_endian(1)));
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(error_of_reading("a.png", png), "");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST_F(HostileFiles, BmpMustHoldItsPixels) {
@@ -122,6 +154,24 @@ TEST_F(HostileFiles, BmpMustHoldItsPixels) {
     EXPECT_NE(error_of([&] { (void)read_coded_header(bmp(23)); }), "");
 }
 
+/// A progressive file of 8 x 8 grey pixels, all but the first scan of which say that nothing changes.
+std::string jpg_of_scans(int count) {
+    // One table for each kind of coefficients, whose only code is the bit 0: no difference, or the end of the block.
+    const std::string table = std::string("\x01", 1) + std::string(15, '\0') + '\0';
+    const auto segment = [](char mark, const std::string& data) {
+        return std::string("\xFF") + mark + big_endian(std::uint32_t(data.size() + 2)).substr(2) + data;
+    };
+    const auto scan = [&](char first, char last, char bits) {
+        // One bit of the code, and ones up to the end of the byte.
+        return segment('\xDA', std::string("\1\1\0", 3) + first + last + bits) + "\x7F";
+    };
+    std::string jpg = "\xFF\xD8" + segment('\xDB', std::string(1, '\0') + std::string(64, '\1')) +
+                      segment('\xC2', std::string("\x08\0\x08\0\x08\1\1\x11\0", 9)) +
+                      segment('\xC4', '\0' + table) + segment('\xC4', '\x10' + table) + scan(0, 0, 0);
+    for (int i = 1; i < count; ++i) jpg += scan(1, 63, 0);
+    return jpg + "\xFF\xD9";
+}
+
 TEST_F(HostileFiles, JpgCutOffOrHuge) {
     const std::string jpg = written_by_stb(".jpg");
     EXPECT_EQ(error_of_reading("a.jpg", jpg), "");
@@ -133,6 +183,24 @@ TEST_F(HostileFiles, JpgCutOffOrHuge) {
     ASSERT_NE(frame, std::string::npos);
     huge.replace(frame + 5, 4, "\x3F\xFF\x3F\xFF");
     expect_cut_off("a.jpg", huge);
+}
+
+// A decoder would guess pixels, and say so on the standard error output.
+TEST_F(HostileFiles, DamagedJpgIsRefused) {
+    std::string jpg = written_by_stb(".jpg");
+    const std::size_t scan = jpg.find("\xFF\xDA");
+    ASSERT_NE(scan, std::string::npos);
+    jpg.replace(scan + 20, 2, "\xFF\xD9");
+    testing::internal::CaptureStderr();
+    EXPECT_NE(error_of_reading("a.jpg", jpg).find("premature end of data segment"), std::string::npos);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+// Each of its scans goes over the whole image, but takes a few bytes.
+TEST_F(HostileFiles, JpgWithVeryManyScans) {
+    const auto error_of_scans = [&](int count) { return error_of_reading("a.jpg", jpg_of_scans(count)); };
+    EXPECT_EQ(error_of_scans(500), "");
+    EXPECT_NE(error_of_scans(501).find("more than 500 scans"), std::string::npos);
 }
 
 TEST_F(HostileFiles, TgaCutOffOrHuge) {
@@ -157,7 +225,7 @@ TEST_F(HostileFiles, HdrWithHugeSize) {
                        "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + size + "\n" + std::string(1000, '\1'));
 }
 
-TEST_F(HostileFiles, OtherFormatsThatStbKnowsAreRefused) {
+TEST_F(HostileFiles, OtherFormatsAreRefused) {
     // A bitmap of one pixel.
     const std::string bmp =
         std::string("BM\x3A\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\1\0\0\0\1\0\x18\0", 30) +

@@ -1,5 +1,5 @@
 #include "image/codecs.h"
-#include "image/exr_part.h"
+#include "image/formats/exr_part.h"
 
 #include <OpenEXR/ImfChannelList.h>
 

@@ -65,7 +65,7 @@ TEST_F(Files, WritingReplacesAnExistingFile) {
 }
 
 TEST_F(Files, AFullDiskLeavesTheOldFileAndNoOther) {
-    const Image image = random_image(200, 200, 1); // above 100 kB in every format
+    const Image image = random_image(250, 250, 1); // above 100 kB in every format
     for (const std::string& extension : kWritable) {
         const std::filesystem::path path = in_folder("a" + extension);
         write_bytes(path, "the old contents");

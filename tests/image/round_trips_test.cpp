@@ -188,10 +188,11 @@ TEST_F(RoundTrip, PngExposureIsInStops) {
 
 TEST_F(RoundTrip, Png16BitIsReadWithAllItsBits) {
     // 1 x 1, 16 bit RGB (0x0101, 0x8001, 0xffff), made by hand: signature, IHDR, stored deflate block, IEND.
-    const std::string bytes("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x10\2\0\0\0\0\0\0\0"
-                            "\0\0\0\x12IDAT\x78\1\1\7\0\xf8\xff\0\1\1\x80\1\xff\xff\0\0\0\0\0\0\0\0"
-                            "\0\0\0\0IEND\xae\x42\x60\x82",
-                            8 + 25 + 30 + 12);
+    const std::string bytes(
+        "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x10\2\0\0\0\xc0\xe7\x8f\x9d"
+        "\0\0\0\x12IDAT\x78\1\1\7\0\xf8\xff\0\1\1\x80\1\xff\xff\5\x12\2\x82\xed\x72\xd6\xdb"
+        "\0\0\0\0IEND\xae\x42\x60\x82",
+        8 + 25 + 30 + 12);
     write_bytes(in_folder("a.png"), bytes);
     const Image read = read_image(in_folder("a.png"));
     ASSERT_EQ(read.pixels.size(), 3u);

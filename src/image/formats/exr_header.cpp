@@ -1,4 +1,4 @@
-#include "image/exr_header.h"
+#include "image/formats/exr_header.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
-#include "image/exr_part.h"
+#include "image/formats/exr_part.h"
 
 #include "image/codecs.h"
-#include "image/exr_header.h"
+#include "image/formats/exr_header.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

@@ -1,0 +1,66 @@
+#pragma once
+/// The way from the codes in files to texels: what decoders of PNG, JPG, TGA and BMP have in common.
+
+#include "image/coded_file.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+namespace nusselt::image {
+
+[[noreturn]] void fail_as_cut_off();
+
+/// Fails unless the size is supported and the file large enough.
+/// \param pixels_per_byte  the largest number that the format can store in a byte
+void check_claims(std::string_view file, const CodedHeader& header, double pixels_per_byte);
+
+/// Where the pixels of a decoded row go.
+struct RowPlace {
+    std::size_t y = 0; ///< counted from the top
+    std::size_t x = 0; ///< of the first pixel
+    std::size_t step = 1;
+};
+
+/// Takes rows of codes and makes texels of them. Memory is touched only as rows arrive.
+class CodeRows {
+public:
+    /// \param channels, to_linear  see decode_codes()
+    CodeRows(const CodedHeader& header, int channels, const std::function<double(double)>& to_linear);
+
+    const CodedHeader& header() const { return header_; }
+
+    /// \tparam Code  std::uint8_t or std::uint16_t, as the header says
+    /// \param codes  `count` pixels with the channels of the header
+    template <class Code>
+    void put(const Code* codes, std::size_t count, RowPlace place);
+
+    std::vector<float> take() { return std::move(texels_); }
+
+private:
+    CodedHeader header_;
+    std::size_t channels_;
+    std::vector<float> linear_; ///< the texel value of each code
+    std::vector<float> texels_;
+};
+
+template <class Code>
+void CodeRows::put(const Code* codes, std::size_t count, RowPlace place) {
+    const auto source_channels = static_cast<std::size_t>(header_.channels);
+    const bool has_colour = source_channels >= 3;
+    const bool has_alpha = source_channels % 2 == 0;
+    const std::size_t colours = channels_ >= 3 ? 3 : 1;
+
+    const std::size_t row_size = channels_ * static_cast<std::size_t>(header_.width);
+    if (texels_.size() < (place.y + 1) * row_size) texels_.resize((place.y + 1) * row_size);
+    float* texel = texels_.data() + place.y * row_size + place.x * channels_;
+    for (std::size_t i = 0; i < count; ++i, codes += source_channels, texel += place.step * channels_) {
+        for (std::size_t c = 0; c < colours; ++c) texel[c] = linear_[codes[has_colour ? c : 0]];
+        if (channels_ > colours)
+            texel[colours] = has_alpha ? float(codes[source_channels - 1]) / float(linear_.size() - 1) : 1.0f;
+    }
+}
+
+} // namespace nusselt::image

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "image/formats/code_rows.h"
+
+namespace nusselt::image {
+
+/// See read_coded_header(). \param file begins as a JPG file does
+CodedHeader read_jpg_header(std::string_view file);
+
+/// See decode_codes(). \param file its header was read
+void decode_jpg(std::string_view file, CodeRows& rows);
+
+} // namespace nusselt::image

@@ -1,0 +1,221 @@
+#include "image/formats/png.h"
+
+#include "image/codecs.h"
+#include "image/srgb.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+
+namespace nusselt::image {
+
+namespace {
+
+/// The message of libpng's last error. It stands in an array, as the jump that follows runs no destructors.
+using Message = std::array<char, 128>;
+
+[[noreturn]] void jump_with_message(png_structp png, png_const_charp text) {
+    auto& message = *static_cast<Message*>(png_get_error_ptr(png));
+    std::snprintf(message.data(), message.size(), "%s", text);
+    png_longjmp(png, 1);
+}
+
+void ignore_warning(png_structp, png_const_charp) {}
+
+/// Runs `step`, which calls libpng and has no objects with destructors.
+/// \returns false if libpng reported an error
+template <class Step>
+bool succeeds(png_structp png, const Step& step) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    step();
+    return true;
+}
+
+/// What libpng allocates for reading.
+struct PngMemory {
+    explicit PngMemory(Message& message)
+        : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &message, jump_with_message, ignore_warning)) {
+        if (png == nullptr) throw std::bad_alloc();
+    }
+    ~PngMemory() { png_destroy_read_struct(&png, &info, nullptr); }
+    PngMemory(const PngMemory&) = delete;
+    PngMemory& operator=(const PngMemory&) = delete;
+
+    png_structp png;
+    png_infop info = nullptr;
+};
+
+class PngReader {
+public:
+    /// Reads everything before the pixels.
+    explicit PngReader(std::string_view file);
+
+    CodedHeader header() const { return header_; }
+    void read_rows(CodeRows& rows);
+
+private:
+    template <class Step>
+    void call(const Step& step) const;
+    template <class Code>
+    void read_rows_of(CodeRows& rows);
+    static void read_bytes(png_structp png, png_bytep target, std::size_t count);
+
+    std::string_view rest_; ///< what libpng has not read yet
+    Message message_ = {};
+    PngMemory memory_;
+    png_structp png_;
+    CodedHeader header_;
+};
+
+template <class Step>
+void PngReader::call(const Step& step) const {
+    if (!succeeds(png_, step))
+        throw std::runtime_error("its PNG data cannot be decoded (" + std::string(message_.data()) +
+                                 "); is the file damaged, or was it cut off?");
+}
+
+void PngReader::read_bytes(png_structp png, png_bytep target, std::size_t count) {
+    std::string_view& rest = *static_cast<std::string_view*>(png_get_io_ptr(png));
+    if (count > rest.size()) png_error(png, "the file ends too early");
+    std::memcpy(target, rest.data(), count);
+    rest.remove_prefix(count);
+}
+
+PngReader::PngReader(std::string_view file) : rest_(file), memory_(message_), png_(memory_.png) {
+    call([this] {
+        memory_.info = png_create_info_struct(png_);
+        png_set_read_fn(png_, &rest_, read_bytes);
+        // Sizes are checked below. Texts, colour profiles and the like are skipped without inflating them.
+        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+        png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+        // Pixels that go on after the last row are an error, not a warning.
+        png_set_benign_errors(png_, 0);
+        png_read_info(png_, memory_.info);
+    });
+    header_.width = static_cast<int>(png_get_image_width(png_, memory_.info));
+    header_.height = static_cast<int>(png_get_image_height(png_, memory_.info));
+    // A byte of deflate becomes 1032 at most.
+    const int bits_per_pixel = png_get_channels(png_, memory_.info) * png_get_bit_depth(png_, memory_.info);
+    check_claims(file, header_, 8.0 * 1032 / bits_per_pixel);
+    call([this] {
+        // A palette may have alpha. A single colour that stands for transparent pixels is ignored.
+        if (png_get_color_type(png_, memory_.info) == PNG_COLOR_TYPE_PALETTE)
+            png_set_expand(png_);
+        else
+            png_set_expand_gray_1_2_4_to_8(png_);
+        if (std::endian::native == std::endian::little) png_set_swap(png_);
+        png_read_update_info(png_, memory_.info);
+    });
+    header_.channels = png_get_channels(png_, memory_.info);
+    header_.bits = png_get_bit_depth(png_, memory_.info);
+}
+
+template <class Code>
+void PngReader::read_rows_of(CodeRows& rows) {
+    std::vector<Code> row(static_cast<std::size_t>(header_.width) *
+                          static_cast<std::size_t>(header_.channels));
+    const bool is_interlaced = png_get_interlace_type(png_, memory_.info) != PNG_INTERLACE_NONE;
+    const auto read_row = [&](std::size_t count, RowPlace place) {
+        call([&] { png_read_row(png_, reinterpret_cast<png_bytep>(row.data()), nullptr); });
+        rows.put(row.data(), count, place);
+    };
+    const auto width = static_cast<std::size_t>(header_.width);
+    const auto height = static_cast<std::size_t>(header_.height);
+    if (!is_interlaced) {
+        for (std::size_t y = 0; y < height; ++y) read_row(width, {.y = y});
+        return;
+    }
+    for (std::size_t pass = 0; pass < PNG_INTERLACE_ADAM7_PASSES; ++pass) {
+        const std::size_t columns = PNG_PASS_COLS(width, pass);
+        const std::size_t pass_height = columns == 0 ? 0 : PNG_PASS_ROWS(height, pass);
+        for (std::size_t y = 0; y < pass_height; ++y)
+            read_row(columns, {.y = PNG_ROW_FROM_PASS_ROW(y, pass),
+                               .x = PNG_PASS_START_COL(pass),
+                               .step = std::size_t(PNG_PASS_COL_OFFSET(pass))});
+    }
+}
+
+void PngReader::read_rows(CodeRows& rows) {
+    if (header_.bits == 16)
+        read_rows_of<std::uint16_t>(rows);
+    else
+        read_rows_of<std::uint8_t>(rows);
+    call([this] { png_read_end(png_, nullptr); });
+}
+
+/// A file that is written to a stream.
+struct PngWriter {
+    explicit PngWriter(std::ostream& target)
+        : stream(target),
+          png(png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, jump_with_message, ignore_warning)) {
+        if (png == nullptr) throw std::bad_alloc();
+    }
+    ~PngWriter() { png_destroy_write_struct(&png, &info); }
+    PngWriter(const PngWriter&) = delete;
+    PngWriter& operator=(const PngWriter&) = delete;
+
+    template <class Step>
+    void call(const Step& step) {
+        if (succeeds(png, step)) return;
+        if (error_of_stream) std::rethrow_exception(error_of_stream);
+        throw std::runtime_error("libpng reports: " + std::string(message.data()));
+    }
+
+    /// Exceptions must not pass through libpng.
+    static void write_bytes(png_structp png, png_bytep bytes, std::size_t count) {
+        auto& writer = *static_cast<PngWriter*>(png_get_io_ptr(png));
+        try {
+            writer.stream.write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(count));
+        } catch (...) {
+            writer.error_of_stream = std::current_exception();
+        }
+        if (writer.error_of_stream) png_error(png, "the stream failed");
+    }
+
+    std::ostream& stream;
+    std::exception_ptr error_of_stream;
+    Message message = {};
+    png_structp png;
+    png_infop info = nullptr;
+};
+
+} // namespace
+
+CodedHeader read_png_header(std::string_view file) { return PngReader(file).header(); }
+
+void decode_png(std::string_view file, CodeRows& rows) { PngReader(file).read_rows(rows); }
+
+void encode_png(std::ostream& stream, const Image& image, double scale) {
+    PngWriter writer(stream);
+    writer.call([&] {
+        writer.info = png_create_info_struct(writer.png);
+        png_set_write_fn(writer.png, &writer, PngWriter::write_bytes, nullptr);
+        png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width),
+                     static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                     PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        png_write_info(writer.png, writer.info);
+    });
+    std::vector<png_byte> row(3 * static_cast<std::size_t>(image.width));
+    for (auto pixels = image.pixels.begin(); pixels != image.pixels.end();
+         pixels += static_cast<std::ptrdiff_t>(row.size())) {
+        std::transform(
+            pixels, pixels + static_cast<std::ptrdiff_t>(row.size()), row.begin(), [scale](float value) {
+                return static_cast<png_byte>(std::lround(255 * display_code(scale * double(value))));
+            });
+        writer.call([&] { png_write_row(writer.png, row.data()); });
+    }
+    writer.call([&] { png_write_end(writer.png, nullptr); });
+}
+
+} // namespace nusselt::image
