@@ -358,7 +358,7 @@ int run_until_interrupted(std::vector<const char*> arguments) {
         ::dup2(errors[1], STDERR_FILENO);
         ::close(errors[0]);
         ::close(errors[1]);
-        ::execv(NUSSELT_PROGRAM, const_cast<char**>(arguments.data()));
+        ::execv(kProgram, const_cast<char**>(arguments.data()));
         std::_Exit(127);
     }
     ::close(errors[1]);

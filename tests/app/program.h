@@ -1,6 +1,8 @@
 #pragma once
 /// Runs the program as a user does.
 
+#include "common/source_folder.h"
+
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
@@ -16,7 +18,10 @@
 
 namespace nusselt {
 
-inline const std::string kScenes = std::string(NUSSELT_SOURCE_DIR) + "/scenes";
+/// The path of the program under test.
+extern const char* const kProgram;
+
+inline const std::string kScenes = std::string(nusselt_test::kSourceFolder) + "/scenes";
 
 struct Outcome {
     int exit_code;
@@ -44,7 +49,7 @@ protected:
     /// \param arguments as typed in a shell, after the name of the program.
     /// \param prefix    such as an environment variable.
     Outcome run(const std::string& arguments, const std::string& prefix = "") const {
-        const std::string command = "cd '" + folder_.string() + "' && " + prefix + " '" NUSSELT_PROGRAM "' " +
+        const std::string command = "cd '" + folder_.string() + "' && " + prefix + " '" + kProgram + "' " +
                                     arguments + " >out.txt 2>err.txt </dev/null";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
