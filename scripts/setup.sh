@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages of scripts/debian-packages.txt that are missing.
-# Usage: scripts/setup.sh build|test    (build: what the programs need; test: also what the tests need)
+# Usage: scripts/setup.sh check|build|test    (check: what the library and its tests need; build: also what the programs
+# need; test: also what all tests need)
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -10,9 +11,10 @@ fail() {
 }
 
 case "${1:-}" in
-    build) wanted='build' ;;
-    test) wanted='build|test' ;;
-    *) fail "usage: scripts/setup.sh build|test" ;;
+    check) wanted='check' ;;
+    build) wanted='check|build' ;;
+    test) wanted='check|build|test' ;;
+    *) fail "usage: scripts/setup.sh check|build|test" ;;
 esac
 
 system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-}") || system=unknown
