@@ -1,6 +1,6 @@
-# make demo and make test need Debian 12, git and make; scripts/setup.sh installs the rest.
+# make demo, make check and make test need Debian 12, git and make; scripts/setup.sh installs the rest.
 
-.PHONY: build demo test single-header shaders clean help
+.PHONY: build demo check test test-full single-header shaders clean help
 
 build: ## the programs, optimised, in build/release
 	scripts/setup.sh build
@@ -9,9 +9,17 @@ build: ## the programs, optimised, in build/release
 demo: build ## a picture of a room: out/room.png and out/room.exr
 	scripts/demo.sh
 
+check: ## the library and its tests, for this processor: the loop while editing
+	scripts/setup.sh check
+	scripts/test.sh check
+
 test: ## builds and runs all tests and checks (docs/testing.md)
 	scripts/setup.sh test
 	scripts/test.sh
+
+test-full: ## the same with full effort, and with other compilers and processors: hours
+	scripts/setup.sh test
+	NUSSELT_TEST_EFFORT=full scripts/test.sh full
 
 single-header: ## the library in one file: out/nusselt.h (needs cmake only)
 	cmake -D OUTPUT=out/nusselt.h -P scripts/amalgamate.cmake

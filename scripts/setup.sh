@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Installs the Debian packages of scripts/debian-packages.txt that are missing, on Debian 12 and Debian 13.
-# Usage: scripts/setup.sh build|check|test
-#   build  what the programs need
-#   check  also what `make check` needs
-#   test   also what `make test` needs
+# Usage: scripts/setup.sh check|build|test
+#   check  what the library and its tests need
+#   build  also what the programs need
+#   test   also what all tests need
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -13,10 +13,10 @@ fail() {
 }
 
 case "${1:-}" in
-    build) wanted='build' ;;
-    check) wanted='build|check' ;;
-    test) wanted='build|check|test' ;;
-    *) fail "usage: scripts/setup.sh build|check|test" ;;
+    check) wanted='check' ;;
+    build) wanted='check|build' ;;
+    test) wanted='check|build|test' ;;
+    *) fail "usage: scripts/setup.sh check|build|test" ;;
 esac
 
 system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-}") || system=unknown

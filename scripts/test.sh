@@ -1,11 +1,18 @@
 #!/usr/bin/env bash
-# Builds everything and runs all tests, stage by stage; docs/testing.md says what each stage proves.
+# Builds and runs tests, stage by stage; docs/testing.md says what each stage proves.
+# Usage: scripts/test.sh [check|all|full]    (check: the library, for this processor; full: also the tests of portability)
+# NUSSELT_TEST_EFFORT is the effort of the tests: quick, unless it says full.
 # The last line sums up: `N passed, N failed`, with `, N skipped` where tests were skipped.
 # With CI=true in the environment compiler warnings are errors.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
 if [ "${CI:-}" = true ]; then warnings_as_errors=ON; else warnings_as_errors=OFF; fi
+case "${1:-all}" in
+    check | all) portability=OFF ;;
+    full) portability=ON ;;
+    *) echo "usage: scripts/test.sh [check|all|full]" >&2; exit 2 ;;
+esac
 jobs=$(nproc)
 results=build/test-results
 rm -rf "$results"
@@ -24,7 +31,8 @@ stage() {
 }
 
 build() {
-    cmake --preset "$1" -DNUSSELT_BUILD_TESTS=ON -DNUSSELT_WARNINGS_AS_ERRORS="$2" >"$results/$1-configure.log" 2>&1 ||
+    cmake --preset "$1" -DNUSSELT_BUILD_TESTS=ON -DNUSSELT_TEST_PORTABILITY="$portability" \
+        -DNUSSELT_WARNINGS_AS_ERRORS="$2" >"$results/$1-configure.log" 2>&1 ||
         { cat "$results/$1-configure.log"; return 1; }
     cmake --build --preset "$1"
 }
@@ -56,9 +64,13 @@ build_and_test() {
     passed=$((passed + all - bad - ignored)) failed=$((failed + bad)) skipped=$((skipped + ignored))
 }
 
-build_and_test release "$warnings_as_errors"
-# GCC's sanitizers cause false warnings of their own, so warnings are no errors here.
-build_and_test asan-ubsan OFF
+if [ "${1:-all}" = check ]; then
+    build_and_test check "$warnings_as_errors"
+else
+    build_and_test release "$warnings_as_errors"
+    # GCC's sanitizers cause false warnings of their own, so warnings are no errors here.
+    build_and_test asan-ubsan OFF
+fi
 
 echo "== times"
 printf '%s\n' "${times[@]}"

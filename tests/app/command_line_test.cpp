@@ -358,7 +358,7 @@ int run_until_interrupted(const char* program, std::vector<const char*> argument
 TEST_F(CommandLine, CtrlCWritesWhatIsThere) {
     const std::string output = path("stopped.exr");
     const std::string scene = kScenes + "/room.pbrt";
-    EXPECT_EQ(run_until_interrupted(NUSSELT_PROGRAM,
+    EXPECT_EQ(run_until_interrupted(kProgram,
                                     {"render", scene.c_str(), "--spp", "64", "-o", output.c_str()}),
               130);
     EXPECT_EQ(image::read_image(output).width, 1280);
@@ -367,7 +367,7 @@ TEST_F(CommandLine, CtrlCWritesWhatIsThere) {
 
 TEST_F(CommandLine, CtrlCKeepsWorstCases) {
     const std::string state = path("stopped.json");
-    EXPECT_EQ(run_until_interrupted(NUSSELT_LAB_PROGRAM,
+    EXPECT_EQ(run_until_interrupted(kLabProgram,
                                     {"bench", "worst-case", "--time", "15", "--state", state.c_str()}),
               130);
     const auto targets = nlohmann::json::parse(read("stopped.json")).at("targets");
@@ -412,7 +412,7 @@ TEST_F(CommandLine, FitFindsOutEarlyThatItCannotWrite) {
 
 TEST_F(CommandLine, CtrlCKeepsFittedColumns) {
     const std::string output = path("table"), state = path("state");
-    EXPECT_EQ(run_until_interrupted(NUSSELT_LAB_PROGRAM, {"fit-ltc", "--size", "64x4x51", "-o",
+    EXPECT_EQ(run_until_interrupted(kLabProgram, {"fit-ltc", "--size", "64x4x51", "-o",
                                                           output.c_str(), "--checkpoint", state.c_str()}),
               130);
     EXPECT_FALSE(std::filesystem::exists(output + ".bin"));

@@ -1,6 +1,8 @@
 #pragma once
 /// Runs the program as a user does.
 
+#include "common/source_folder.h"
+
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
@@ -16,7 +18,11 @@
 
 namespace nusselt {
 
-inline const std::string kScenes = std::string(NUSSELT_SOURCE_DIR) + "/scenes";
+/// The path of the program under test.
+extern const char* const kProgram;
+extern const char* const kLabProgram;
+
+inline const std::string kScenes = std::string(nusselt_test::kSourceFolder) + "/scenes";
 
 struct Outcome {
     int exit_code;
@@ -44,12 +50,12 @@ protected:
     /// \param arguments as typed in a shell, after the name of the program.
     /// \param prefix    such as an environment variable.
     Outcome run(const std::string& arguments, const std::string& prefix = "") const {
-        return run_program(NUSSELT_PROGRAM, arguments, prefix);
+        return run_program(kProgram, arguments, prefix);
     }
 
     /// The same with the program of the laboratory.
     Outcome run_lab(const std::string& arguments, const std::string& prefix = "") const {
-        return run_program(NUSSELT_LAB_PROGRAM, arguments, prefix);
+        return run_program(kLabProgram, arguments, prefix);
     }
 
 private:

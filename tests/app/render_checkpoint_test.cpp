@@ -47,7 +47,7 @@ protected:
         argv.push_back(nullptr);
         const pid_t child = ::fork();
         if (child != 0) return child;
-        ::execv(NUSSELT_PROGRAM, argv.data());
+        ::execv(kProgram, argv.data());
         std::_Exit(127);
     }
 

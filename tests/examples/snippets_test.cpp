@@ -1,3 +1,4 @@
+#include "common/source_folder.h"
 #include "examples/snippets/snippets.cpp"
 
 #include <gtest/gtest.h>
@@ -49,7 +50,8 @@ TEST(Snippets, MultipleImportanceSamplingIsUnbiased) {
 }
 
 TEST(Snippets, GlossyLightIsUnbiased) {
-    std::ifstream file(NUSSELT_DATA "/ltc-frostbite.bin", std::ios::binary);
+    std::ifstream file(std::string(nusselt_test::kSourceFolder) + "/data/ltc-frostbite.bin",
+                       std::ios::binary);
     const Lobes lobes = load_lobes({std::istreambuf_iterator<char>(file), {}});
     const auto light = make_polygon<4>(kCorners, 4);
     const SurfacePoint<float> point{

@@ -1,5 +1,6 @@
 // The shipped tables against quadrature, and against tables that others published.
 
+#include "common/source_folder.h"
 #include "quadrature.h"
 
 #include "fit/table_error.h"
@@ -22,7 +23,8 @@ using tables::LtcTable;
 const Brdf& specular_brdf() { return find_brdf("frostbite-specular"); }
 
 LtcTable engine_table() {
-    const auto path = std::filesystem::path(NUSSELT_SOURCE_DIR) / "data" / "ltc-frostbite-engine.bin";
+    const auto path =
+        std::filesystem::path(nusselt_test::kSourceFolder) / "data" / "ltc-frostbite-engine.bin";
     std::ifstream file(path, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
     return tables::decode_for_engines(bytes, 64, 64, "the engine table");

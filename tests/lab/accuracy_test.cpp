@@ -1,3 +1,4 @@
+#include "common/source_folder.h"
 #include "lab/accuracy/accuracy_json.h"
 #include "lab/accuracy/accuracy_page.h"
 #include "lab/accuracy/accuracy_targets.h"
@@ -15,7 +16,7 @@ namespace nusselt::lab {
 
 namespace {
 
-const std::filesystem::path kDocs = std::filesystem::path(NUSSELT_SOURCE_DIR) / "docs";
+const std::filesystem::path kDocs = std::filesystem::path(nusselt_test::kSourceFolder) / "docs";
 
 const AccuracyTable& baseline() {
     static const AccuracyTable table = read_accuracy_json(kDocs / "accuracy.json");

@@ -1,3 +1,4 @@
+#include "common/source_folder.h"
 #include "lab/figures/run.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ namespace nusselt::lab {
 
 namespace {
 
-const std::filesystem::path kScenes = std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes";
+const std::filesystem::path kScenes = std::filesystem::path(nusselt_test::kSourceFolder) / "scenes";
 
 const Experiment& experiment(const std::string& name) {
     const auto& all = all_experiments();

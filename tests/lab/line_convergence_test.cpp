@@ -1,3 +1,4 @@
+#include "common/source_folder.h"
 #include "lab/lines/line_convergence.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ namespace nusselt::lab {
 
 namespace {
 
-const std::filesystem::path kScenes = std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes";
+const std::filesystem::path kScenes = std::filesystem::path(nusselt_test::kSourceFolder) / "scenes";
 
 /// Without the counts and scenes that take long. The first scene is no exception to anything.
 LineConvergence small(const LineConvergence& full) {

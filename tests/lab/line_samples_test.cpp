@@ -1,5 +1,6 @@
 /// Line samples have the mean of point samples on the scenes of the repository.
 
+#include "common/source_folder.h"
 #include "lab/errors/bias_statistics.h"
 #include "render/film.h"
 #include "render_cpu/renderer.h"
@@ -25,8 +26,8 @@ protected:
     }
 
     static scene::Scene load_small(const std::string& name) {
-        scene::Scene scene =
-            scene::load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes" / (name + ".pbrt"));
+        scene::Scene scene = scene::load_scene(std::filesystem::path(nusselt_test::kSourceFolder) / "scenes" /
+                                               (name + ".pbrt"));
         // Not square: in symmetrical scenes, pixel centres would be on edges between walls.
         render::resize_film(scene, 65, 48);
         return scene;

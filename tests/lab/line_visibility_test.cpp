@@ -1,3 +1,4 @@
+#include "common/source_folder.h"
 #include "lab/lines/line_visibility.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ LineVisibility shipped_only(const LineVisibility& full) {
 
 LineVisibilityResult run(const LineVisibility& experiment) {
     RunSettings settings;
-    settings.scenes = std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes";
+    settings.scenes = std::filesystem::path(nusselt_test::kSourceFolder) / "scenes";
     return run_line_visibility(experiment, settings, [](std::string_view) {});
 }
 

@@ -1,3 +1,4 @@
+#include "common/source_folder.h"
 #include "lab/errors/noise_curve.h"
 
 #include "lab/figures/plot.h"
@@ -65,7 +66,8 @@ TEST(NoiseCurve, InterpolatesTimes) {
 class RenderSeeds : public testing::Test {
 protected:
     RenderSeeds()
-        : scene_(scene::load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes/planes.pbrt")) {
+        : scene_(
+              scene::load_scene(std::filesystem::path(nusselt_test::kSourceFolder) / "scenes/planes.pbrt")) {
         render::resize_film(scene_, 48, 36);
         settings_.technique = render::Technique::area;
         settings_.sample_order = render::SampleOrder::independent;

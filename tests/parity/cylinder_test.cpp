@@ -21,15 +21,15 @@ TYPED_TEST_SUITE(CylinderParity, Techniques);
 TYPED_TEST(CylinderParity, IsAsAccurateAsCpp) {
     for (const Variant variant : variants_for(this->device())) {
         const Verdict verdict =
-            judge_twin<TypeParam>(this->device(), shader_of<TypeParam>(variant), kRandomLights);
-        EXPECT_GE(verdict.lights, kRandomLights);
+            judge_twin<TypeParam>(this->device(), shader_of<TypeParam>(variant), random_lights());
+        EXPECT_GE(verdict.lights, random_lights());
         expect_parity(verdict);
     }
 }
 
 TYPED_TEST(CylinderParity, KeepsTheContractOnHostileLights) {
     for (const Variant variant : variants_for(this->device()))
-        EXPECT_EQ(first_violation<TypeParam>(this->device(), shader_of<TypeParam>(variant), kHostileLights),
+        EXPECT_EQ(first_violation<TypeParam>(this->device(), shader_of<TypeParam>(variant), hostile_lights()),
                   "");
 }
 
@@ -37,7 +37,7 @@ class CylinderMutant : public GpuTest {};
 
 TEST_F(CylinderMutant, HitPointsOnTheMantleInsteadOfTheCapsAreFound) {
     const auto excesses =
-        judge_twin<CylinderSolidAnglePair>(device(), shaders::kLidlessCylinder, kRandomLights / 20).excesses;
+        judge_twin<CylinderSolidAnglePair>(device(), shaders::kLidlessCylinder, kMutantLights).excesses;
     const auto count_of = [&](const std::string& begin) {
         return std::count_if(excesses.begin(), excesses.end(),
                              [&](const std::string& excess) { return excess.rfind(begin, 0) == 0; });

@@ -1,3 +1,4 @@
+#include "common/environment.h"
 #include "gpu/compute_pipeline.h"
 #include "gpu/fused_fma.h"
 #include "gpu_test.h"
@@ -12,27 +13,6 @@
 namespace nusselt::parity {
 
 namespace {
-
-/// Sets an environment variable for the duration of a test.
-class ScopedVariable {
-public:
-    ScopedVariable(const char* name, const char* value) : name_(name) {
-        if (const char* old = std::getenv(name)) old_ = old;
-        setenv(name, value, 1);
-    }
-    ~ScopedVariable() {
-        if (old_)
-            setenv(name_, old_->c_str(), 1);
-        else
-            unsetenv(name_);
-    }
-    ScopedVariable(const ScopedVariable&) = delete;
-    ScopedVariable& operator=(const ScopedVariable&) = delete;
-
-private:
-    const char* name_;
-    std::optional<std::string> old_;
-};
 
 struct Push {
     float scale;
@@ -102,7 +82,7 @@ TEST_F(DevicesTest, AreListedAndChosenByNameOrIndex) {
     std::string part = devices[0].name.substr(0, 4);
     for (char& c : part) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     EXPECT_EQ(gpu::Device({.choice = part}).description().name, devices[0].name);
-    const ScopedVariable variable("NUSSELT_DEVICE", part.c_str());
+    const nusselt_test::ScopedVariable variable("NUSSELT_DEVICE", part.c_str());
     EXPECT_EQ(gpu::Device().description().name, devices[0].name);
 }
 
@@ -185,8 +165,8 @@ TEST_F(DevicesTest, FusedFmaOfSoftwareDevicesIsKnown) {
 }
 
 TEST(NoDevice, IsAnErrorInOneLine) {
-    const ScopedVariable variable("VK_ICD_FILENAMES", "/nonexistent.json");
-    const ScopedVariable same("VK_DRIVER_FILES", "/nonexistent.json");
+    const nusselt_test::ScopedVariable variable("VK_ICD_FILENAMES", "/nonexistent.json");
+    const nusselt_test::ScopedVariable same("VK_DRIVER_FILES", "/nonexistent.json");
     EXPECT_TRUE(gpu::list_devices().empty());
     const auto reason = gpu::why_no_device();
     ASSERT_TRUE(reason);
@@ -214,9 +194,10 @@ TEST(GpuErrors, StateSizes) {
 
 TEST(GpuTests, NeedADeviceWhereOneIsAskedFor) {
     for (const char* name : {"CI", "NUSSELT_DEVICE", "NUSSELT_EXPECT_DRIVER"}) {
-        const ScopedVariable ci("CI", ""), choice("NUSSELT_DEVICE", ""), driver("NUSSELT_EXPECT_DRIVER", "");
+        const nusselt_test::ScopedVariable ci("CI", ""), choice("NUSSELT_DEVICE", ""),
+            driver("NUSSELT_EXPECT_DRIVER", "");
         EXPECT_FALSE(needs_device());
-        const ScopedVariable variable(name, "true");
+        const nusselt_test::ScopedVariable variable(name, "true");
         EXPECT_TRUE(needs_device()) << name;
     }
 }

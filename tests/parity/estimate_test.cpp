@@ -363,33 +363,33 @@ class EstimateParity : public GpuTest {};
 TEST_F(EstimateParity, HeuristicsAreAsAccurateAsCpp) { expect_group_parity<Heuristics>(device()); }
 
 TEST_F(EstimateParity, VisibleNormalsAreAsAccurateAsCpp) {
-    expect_group_parity<VisibleNormals>(device(), kCalls, {}, Tail::nearly_largest);
+    expect_group_parity<VisibleNormals>(device(), function_calls(), {}, Tail::nearly_largest);
 }
 
 TEST_F(EstimateParity, SamplingOfTheBrdfIsAsAccurateAsCpp) {
-    expect_group_parity<PolygonBrdfSampling>(device(), kCalls / 2, {}, Tail::nearly_largest);
+    expect_group_parity<PolygonBrdfSampling>(device(), function_calls() / 2, {}, Tail::nearly_largest);
 }
 
 /// Estimates need a fit of the table for each surface.
-constexpr std::size_t kEstimates = kCalls / 8;
+std::size_t estimate_calls() { return function_calls() / 8; }
 
 TEST_F(EstimateParity, PolygonsAreAsAccurateAsCpp) {
-    expect_group_parity<PolygonDirectLight>(device(), kEstimates, table_words(), Tail::nearly_largest);
+    expect_group_parity<PolygonDirectLight>(device(), estimate_calls(), table_words(), Tail::nearly_largest);
 }
 
 TEST_F(EstimateParity, LinesAreAsAccurateAsCpp) {
-    expect_group_parity<LineDirectLight>(device(), kEstimates, table_words(), Tail::nearly_largest);
+    expect_group_parity<LineDirectLight>(device(), estimate_calls(), table_words(), Tail::nearly_largest);
 }
 
 TEST_F(EstimateParity, OtherPairsOfTechniquesAreAsAccurateAsCpp) {
-    expect_group_parity<BrdfDirectLight>(device(), kEstimates, table_words(), Tail::nearly_largest);
+    expect_group_parity<BrdfDirectLight>(device(), estimate_calls(), table_words(), Tail::nearly_largest);
 }
 
 class EstimateMutant : public GpuTest {};
 
 TEST_F(EstimateMutant, SwappedTechniquesAreFound) {
     const auto excesses =
-        judge_group<Heuristics>(device(), shaders::kSwappedTechniques, kCalls / 20).excesses;
+        judge_group<Heuristics>(device(), shaders::kSwappedTechniques, kMutantCalls).excesses;
     EXPECT_FALSE(excesses.empty());
     for (const std::string& excess : excesses)
         EXPECT_TRUE(excess.rfind("shadowed", 0) == 0 || excess.rfind("constant", 0) == 0) << excess;
@@ -397,7 +397,7 @@ TEST_F(EstimateMutant, SwappedTechniquesAreFound) {
 
 TEST_F(EstimateMutant, UnboundedNormalsAreFound) {
     const auto excesses =
-        judge_group<VisibleNormals>(device(), shaders::kUnboundedNormals, kCalls / 20).excesses;
+        judge_group<VisibleNormals>(device(), shaders::kUnboundedNormals, kMutantCalls).excesses;
     EXPECT_FALSE(excesses.empty());
     for (const std::string& excess : excesses) EXPECT_EQ(excess.rfind("bounded", 0), 0u) << excess;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Functions below the techniques: on the device, in C++ with float, and in C++ with long double.
 
+#include "common/effort.h"
 #include "gpu/fused_fma.h"
 #include "gpu_test.h"
 #include "parity_check.h"
@@ -17,7 +18,10 @@ namespace nusselt::parity {
 
 using hostile::RandomSource;
 
-inline constexpr std::size_t kCalls = 1'200'000;
+inline std::size_t function_calls() { return nusselt_test::at_effort<std::size_t>(120'000, 1'200'000); }
+
+/// Wrong functions are rejected with no more calls than the quick effort has.
+inline constexpr std::size_t kMutantCalls = 60'000;
 
 /// Whether the next inputs shall be degenerate: more than 1e5 of the calls.
 inline bool is_degenerate(RandomSource& random) { return random.index(8) == 0; }
@@ -148,7 +152,7 @@ Verdict judge_group(const gpu::Device& device, std::span<const std::uint32_t> sh
 /// Judges all variants of the shader of a group that give the right results on a device.
 /// \param table what the shader finds in the third buffer, if anything.
 template <class Group>
-void expect_group_parity(const gpu::Device& device, std::size_t calls = kCalls,
+void expect_group_parity(const gpu::Device& device, std::size_t calls = function_calls(),
                          std::span<const std::uint32_t> table = {}, Tail tail = Tail::largest) {
     std::vector<std::span<const std::uint32_t>> variants{Group::kSplit};
     if (gpu::has_fused_fma(device)) variants.emplace_back(Group::kFused);

@@ -333,7 +333,7 @@ TYPED_TEST(FunctionParity, IsAsAccurateAsCpp) { expect_group_parity<TypeParam>(t
 class FunctionMutant : public GpuTest {};
 
 TEST_F(FunctionMutant, DifferencesThatCancelAreFound) {
-    const auto excesses = judge_group<Arithmetic>(device(), shaders::kPlainProducts, kCalls / 20).excesses;
+    const auto excesses = judge_group<Arithmetic>(device(), shaders::kPlainProducts, kMutantCalls).excesses;
     ASSERT_FALSE(excesses.empty());
     for (const std::string& excess : excesses)
         EXPECT_EQ(excess.rfind("difference_of_products, ", 0), 0u) << excess;
@@ -342,19 +342,20 @@ TEST_F(FunctionMutant, DifferencesThatCancelAreFound) {
 class RandomParity : public GpuTest {};
 
 TEST_F(RandomParity, HasTheBitsOfCpp) {
+    const std::size_t calls = function_calls();
     std::vector<float> inputs;
     const auto bits = [](RandomSource& random) {
         // A word with any bits might be a signalling NaN, which must not pass through arithmetic; loads and stores
         // keep it.
         return std::bit_cast<float>(static_cast<std::uint32_t>(random.uniform() * 0x1p32));
     };
-    for (std::size_t i = 0; i < kCalls; ++i) {
+    for (std::size_t i = 0; i < calls; ++i) {
         RandomSource random(2, i);
         for (int k = 0; k < 4; ++k) inputs.push_back(bits(random));
         inputs.push_back(static_cast<float>(random.uniform() * 0.9999));
     }
     const auto results = ShaderRunner(device(), shaders::kRandom, 5).run(inputs);
-    for (std::size_t i = 0; i < kCalls; ++i) {
+    for (std::size_t i = 0; i < calls; ++i) {
         std::uint32_t key[4], words[8];
         std::memcpy(key, &inputs[5 * i], sizeof key);
         std::memcpy(words, results[i].data(), sizeof words);

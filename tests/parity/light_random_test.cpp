@@ -1,5 +1,6 @@
 // The random numbers of a renderer, bit by bit.
 
+#include "common/effort.h"
 #include "gpu/fused_fma.h"
 #include "gpu_test.h"
 #include "proof/hostile/lights.h"
@@ -16,7 +17,7 @@ namespace nusselt::parity {
 
 namespace {
 
-constexpr std::size_t kCalls = 400'000;
+std::size_t calls() { return nusselt_test::at_effort<std::size_t>(100'000, 400'000); }
 
 struct Call {
     Sampler sampler;
@@ -43,7 +44,7 @@ Call draw_call(std::size_t i) {
 /// How many numbers of a shader differ from those of C++, by sampler; the last count is that of camera rays.
 std::array<int, 5> differences(const gpu::Device& device, std::span<const std::uint32_t> shader) {
     std::vector<float> inputs;
-    for (std::size_t i = 0; i < kCalls; ++i) {
+    for (std::size_t i = 0; i < calls(); ++i) {
         const Call c = draw_call(i);
         for (const std::uint32_t word : {static_cast<std::uint32_t>(c.sampler), c.seed, c.x, c.y, c.sample,
                                          c.sample_count, c.light, c.pair})
@@ -51,7 +52,7 @@ std::array<int, 5> differences(const gpu::Device& device, std::span<const std::u
     }
     const auto results = ShaderRunner(device, shader, 8).run(inputs);
     std::array<int, 5> differences{};
-    for (std::size_t i = 0; i < kCalls; ++i) {
+    for (std::size_t i = 0; i < calls(); ++i) {
         const Call c = draw_call(i);
         const auto of_light =
             light_random(c.sampler, c.seed, c.x, c.y, c.sample, c.sample_count, c.light, c.pair);

@@ -45,7 +45,7 @@ Ltc<Real> get_lobe(const float* inputs) {
 constexpr std::size_t kLobeSize = 6;
 
 struct ShadingFrames {
-    static constexpr std::size_t kCalls = parity::kCalls;
+    static std::size_t calls() { return function_calls(); }
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kShadingFrameSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kShadingFrameFused;
     static constexpr std::size_t kInputs = 6;
@@ -73,7 +73,7 @@ struct ShadingFrames {
 };
 
 struct Lobes {
-    static constexpr std::size_t kCalls = parity::kCalls;
+    static std::size_t calls() { return function_calls(); }
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kLobeSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kLobeFused;
     static constexpr std::size_t kInputs = kLobeSize + 3;
@@ -115,7 +115,7 @@ struct Lobes {
 };
 
 struct PolygonShading {
-    static constexpr std::size_t kCalls = parity::kCalls / 4;
+    static std::size_t calls() { return function_calls() / 4; }
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kPolygonShadingSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kPolygonShadingFused;
     static constexpr std::size_t kInputs = 12 + kLobeSize;
@@ -149,7 +149,7 @@ struct PolygonShading {
 };
 
 struct LineShading {
-    static constexpr std::size_t kCalls = parity::kCalls / 4;
+    static std::size_t calls() { return function_calls() / 4; }
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kLineShadingSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kLineShadingFused;
     static constexpr std::size_t kInputs = 10 + kLobeSize;
@@ -273,30 +273,30 @@ using Groups = testing::Types<ShadingFrames, Lobes, PolygonShading, LineShading>
 TYPED_TEST_SUITE(LtcFunctionParity, Groups);
 
 TYPED_TEST(LtcFunctionParity, IsAsAccurateAsCpp) {
-    expect_group_parity<TypeParam>(this->device(), TypeParam::kCalls);
+    expect_group_parity<TypeParam>(this->device(), TypeParam::calls());
 }
 
 class LtcTableParity : public GpuTest {};
 
 TEST_F(LtcTableParity, OfSixteenBitsIsAsAccurateAsCpp) {
-    expect_group_parity<Table>(device(), kCalls, table_words());
+    expect_group_parity<Table>(device(), function_calls(), table_words());
 }
 
 TEST_F(LtcTableParity, OfHalfFloatsIsAsAccurateAsCpp) {
-    expect_group_parity<EngineTable>(device(), kCalls, words_of(engine_bytes()));
+    expect_group_parity<EngineTable>(device(), function_calls(), words_of(engine_bytes()));
 }
 
 class LtcFunctionMutant : public GpuTest {};
 
 TEST_F(LtcFunctionMutant, ComponentsThatCancelAreFound) {
-    const auto excesses = judge_group<Lobes>(device(), shaders::kPlainLobe, kCalls / 20).excesses;
+    const auto excesses = judge_group<Lobes>(device(), shaders::kPlainLobe, kMutantCalls).excesses;
     EXPECT_FALSE(excesses.empty());
     for (const std::string& excess : excesses) EXPECT_EQ(excess.rfind("to_cosine, ", 0), 0u) << excess;
 }
 
 TEST_F(LtcFunctionMutant, SeamsAlongTheReflectanceAreFound) {
     const auto excesses =
-        judge_group<Table>(device(), shaders::kSeamedTable, kCalls / 20, table_words()).excesses;
+        judge_group<Table>(device(), shaders::kSeamedTable, kMutantCalls, table_words()).excesses;
     EXPECT_FALSE(excesses.empty());
     for (const std::string& excess : excesses)
         EXPECT_NE(excess.rfind("coloured albedo, ", 0), 0u) << "it has no samples of f0 between: " << excess;

@@ -21,17 +21,17 @@ using Techniques =
 TYPED_TEST_SUITE(LtcParity, Techniques);
 
 TYPED_TEST(LtcParity, IsAsAccurateAsCpp) {
-    constexpr int kCount = kIsPolygonal<typename TypeParam::Traits> ? kRandomLights / 2 : kRandomLights;
+    const int count = random_lights_of<TypeParam>();
     for (const Variant variant : variants_for(this->device())) {
-        const Verdict verdict = judge_twin<TypeParam>(this->device(), shader_of<TypeParam>(variant), kCount);
-        EXPECT_GE(verdict.lights, kCount);
+        const Verdict verdict = judge_twin<TypeParam>(this->device(), shader_of<TypeParam>(variant), count);
+        EXPECT_GE(verdict.lights, count);
         expect_parity(verdict);
     }
 }
 
 TYPED_TEST(LtcParity, KeepsTheContractOnHostileLights) {
     for (const Variant variant : variants_for(this->device()))
-        EXPECT_EQ(first_violation<TypeParam>(this->device(), shader_of<TypeParam>(variant), kHostileLights),
+        EXPECT_EQ(first_violation<TypeParam>(this->device(), shader_of<TypeParam>(variant), hostile_lights()),
                   "");
 }
 
@@ -39,7 +39,7 @@ class LtcMutant : public GpuTest {};
 
 TEST_F(LtcMutant, MissingClippingIsFound) {
     const auto excesses = judge_twin<PolygonClippedLtcPair<4>>(
-                              device(), shader_of<PolygonLtcPair<4>>(Variant::split), kRandomLights / 20)
+                              device(), shader_of<PolygonLtcPair<4>>(Variant::split), kMutantLights)
                               .excesses;
     const auto count_of = [&](const std::string& begin) {
         return std::count_if(excesses.begin(), excesses.end(),

@@ -16,7 +16,7 @@ class MutantParity : public GpuTest {
 protected:
     template <class Pair>
     std::vector<std::string> excesses_of(std::span<const std::uint32_t> shader) const {
-        return judge_twin<Pair>(device(), shader, kRandomLights / 20).excesses;
+        return judge_twin<Pair>(device(), shader, kMutantLights).excesses;
     }
 };
 
@@ -58,7 +58,7 @@ TEST_F(MutantParity, TheVariantForAFusedFmaIsRejectedWhereFmaRoundsTwice) {
 
 TEST_F(MutantParity, InfiniteDensitiesAreFound) {
     const std::string violation =
-        first_violation<ProjectedPair>(device(), shaders::kUnguardedPolygon, kHostileLights);
+        first_violation<ProjectedPair>(device(), shaders::kUnguardedPolygon, hostile_lights());
     EXPECT_NE(violation.find("the density of the sample is negative or not finite"), std::string::npos)
         << violation;
 }

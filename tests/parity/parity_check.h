@@ -59,12 +59,12 @@ struct Verdict {
     void add(const std::string& prefix, const Verdict& other);
 };
 
-/// Which errors are compared, beside the median, 99 % and 99.9 %.
+/// Which errors are compared, beside the median, 99 % and the tail: 99.9 %, or less where a class has few lights.
 enum class Tail {
     quantiles,
-    nearly_largest, ///< also 99.99 %
-    /// Also the largest error. Where a quantity is hard to tell for single lights (say, the second random number at the
-    /// tip of a sector), the largest error of one method may be three times that of another by chance alone.
+    nearly_largest, ///< also 99.99 %, where a class has many lights
+    /// Also the largest error of many lights. Where a quantity is hard to tell for single lights (say, the second random
+    /// number at the tip of a sector), the largest error of one method may be three times that of another by chance alone.
     largest,
 };
 

@@ -6,11 +6,11 @@ namespace nusselt::parity {
 
 namespace {
 
-/// A thousand errors of each quantity, spread evenly up to `largest`.
-Errors errors_up_to(double largest) {
+/// Errors of each quantity, spread evenly up to `largest`: as many as the full effort has of a class of lights, or fewer.
+Errors errors_up_to(double largest, int count = 30'000) {
     Errors errors;
     for (std::size_t q = 0; q < kQuantities; ++q)
-        for (int i = 1; i <= 1000; ++i) errors.add(static_cast<Quantity>(q), largest * i / 1000);
+        for (int i = 1; i <= count; ++i) errors.add(static_cast<Quantity>(q), largest * i / count);
     return errors;
 }
 
@@ -23,6 +23,19 @@ TEST(ParityBudget, IsThreeTimesTheErrorOfCpp) {
     const auto found = excesses_of(errors_up_to(3.1e-5), errors_up_to(1e-5), {});
     // Three quantiles of each quantity, and the largest error of two.
     EXPECT_EQ(found.size(), 3 * kQuantities + 2);
+}
+
+TEST(ParityBudget, LeavesOutTheLargestErrorOfFewLights) {
+    const auto excesses = [](int bad, int count) {
+        Errors device = errors_up_to(1e-6, count);
+        for (auto& errors : device.of) std::fill(errors.end() - bad, errors.end(), 1.0);
+        return excesses_of(device, errors_up_to(1e-6, count), {}).size();
+    };
+    EXPECT_EQ(excesses(30, 3000), 0u);
+    EXPECT_EQ(excesses(32, 3000), 2 * kQuantities) << "99 % is the tail of so few";
+    EXPECT_EQ(excesses(31, 10'000), kQuantities) << "only the tail";
+    EXPECT_EQ(excesses(1, 29'999), 0u);
+    EXPECT_EQ(excesses(1, 30'000), 2u) << "the largest error of two quantities";
 }
 
 TEST(ParityBudget, IsNotBelowTheFloor) {
@@ -59,7 +72,7 @@ TEST(ParityBudget, LeavesRoomForChanceWhereImagesAreRounded) {
     const auto excesses = [](const Errors& device, const Errors& cpp) {
         return compare(device, cpp, {}, Images::rounded).excesses.size();
     };
-    // One error of a thousand is beyond 99.9 %, ten are not.
+    // One error of 30 000 is beyond 99.99 %, ten are not.
     Errors device = errors_up_to(1e-6);
     for (auto& errors : device.of) errors.back() = 1;
     EXPECT_EQ(excesses(device, errors_up_to(1e-6)), 0u);

@@ -46,11 +46,12 @@ TYPED_TEST_SUITE(RelatedParity, Techniques);
 
 TYPED_TEST(RelatedParity, IsAsAccurateAsCppOnOrdinaryLights) {
     const std::set<std::string> ordinary{"decentral", "central", "ordinary"};
+    const int count = random_lights() / 10;
     for (const Variant variant : variants_for(this->device())) {
         const Verdict verdict =
-            judge_twin<TypeParam>(this->device(), shader_of<TypeParam>(variant), kRandomLights / 10,
+            judge_twin<TypeParam>(this->device(), shader_of<TypeParam>(variant), count,
                                   [&](const auto& lights) { return ordinary.count(lights.name) > 0; });
-        EXPECT_GE(verdict.lights, kRandomLights / 10);
+        EXPECT_GE(verdict.lights, count);
         expect_parity(verdict);
     }
 }

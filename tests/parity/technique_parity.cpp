@@ -22,11 +22,11 @@ constexpr const char* kSilhouette =
 constexpr VacuousBudget kVacuousBudgets[] = {
     {"square of 1 cm at 40 m: first random number, largest", kCorner},
     {"square of 1 mm at 40 m: first random number, largest", kCorner},
-    {"square of 1 mm at 40 m: second random number, 99.9 %", kCorner},
+    {"square of 1 mm at 40 m: second random number, tail", kCorner},
     {"pointing at the point within 1e-4: first random number, largest", kForeshortened},
-    {"pointing at the point within 1e-4: first random number, 99.99 %", kForeshortened},
-    {"cylinder of 1 cm at 40 m: density, 99.9 %", kSilhouette},
-    {"cylinder of 1 cm at 40 m: density of the sample, 99.9 %", kSilhouette},
+    {"pointing at the point within 1e-4: first random number, far tail", kForeshortened},
+    {"cylinder of 1 cm at 40 m: density, tail", kSilhouette},
+    {"cylinder of 1 cm at 40 m: density of the sample, tail", kSilhouette},
 };
 
 } // namespace

@@ -1,6 +1,7 @@
 #pragma once
 /// Runs a technique in GLSL and in C++ on the classes of lights of the accuracy tables, and compares their errors.
 
+#include "common/effort.h"
 #include "gpu/fused_fma.h"
 #include "gpu_test.h"
 #include "hostile_inputs.h"
@@ -156,8 +157,15 @@ Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> sha
 void expect_parity(const Verdict& verdict);
 
 /// Random lights of each technique, in all classes together. Polygons come with two bounds on the number of vertices.
-inline constexpr int kRandomLights = 1'000'000;
-inline constexpr int kHostileLights = 100'000;
+inline int random_lights() { return nusselt_test::at_effort(100'000, 1'000'000); }
+template <class Pair>
+int random_lights_of() {
+    return kIsPolygonal<typename Pair::Traits> ? random_lights() / 2 : random_lights();
+}
+inline int hostile_lights() { return nusselt_test::at_effort(20'000, 100'000); }
+
+/// Wrong shaders are rejected with no more lights than the quick effort has.
+inline constexpr int kMutantLights = 50'000;
 
 /// The first of `count` hostile lights on which a twin breaks the contract; empty if there is none.
 template <class Pair>

@@ -32,17 +32,17 @@ using Techniques = testing::Types<PolygonArea4, PolygonArea8, PolygonSolidAngle4
 TYPED_TEST_SUITE(TechniqueParity, Techniques);
 
 TYPED_TEST(TechniqueParity, IsAsAccurateAsCpp) {
-    constexpr int kCount = kIsPolygonal<typename TypeParam::Traits> ? kRandomLights / 2 : kRandomLights;
+    const int count = random_lights_of<TypeParam>();
     for (const Variant variant : variants_for(this->device())) {
-        const Verdict verdict = judge_twin<TypeParam>(this->device(), shader_of<TypeParam>(variant), kCount);
-        EXPECT_GE(verdict.lights, kCount);
+        const Verdict verdict = judge_twin<TypeParam>(this->device(), shader_of<TypeParam>(variant), count);
+        EXPECT_GE(verdict.lights, count);
         expect_parity(verdict);
     }
 }
 
 TYPED_TEST(TechniqueParity, KeepsTheContractOnHostileLights) {
     for (const Variant variant : variants_for(this->device()))
-        EXPECT_EQ(first_violation<TypeParam>(this->device(), shader_of<TypeParam>(variant), kHostileLights),
+        EXPECT_EQ(first_violation<TypeParam>(this->device(), shader_of<TypeParam>(variant), hostile_lights()),
                   "");
 }
 

@@ -29,8 +29,8 @@ struct PolygonProjectedSolidAngleBiased {
     using Pair = PolygonProjectedSolidAngleBiasedPair<N>;
 };
 
-/// As many as of each class with a bound of four: of few lights, the largest error is chance.
-constexpr int kLightsPerClass = 33'000;
+/// As many as of each class with a bound of four.
+int lights_per_class() { return nusselt_test::at_effort(3'300, 33'000); }
 
 template <class Technique>
 class VertexBounds : public GpuTest {
@@ -48,8 +48,8 @@ protected:
             const auto& classes = proof::polygon_classes();
             const auto judged = std::count_if(classes.begin(), classes.end(), is_judged);
             expect_parity(
-                judge_twin<Pair>(device(), shader, kLightsPerClass * static_cast<int>(judged), is_judged));
-            EXPECT_EQ(first_violation<Pair>(device(), shader, kHostileLights / 10), "");
+                judge_twin<Pair>(device(), shader, lights_per_class() * static_cast<int>(judged), is_judged));
+            EXPECT_EQ(first_violation<Pair>(device(), shader, hostile_lights() / 10), "");
         }
     }
 };
@@ -68,8 +68,8 @@ TEST_F(RolledLoops, AreAsAccurateAsCpp) {
     const auto judge = [&](auto pair) {
         using Pair = decltype(pair);
         const auto shader = shader_of<Pair>(Variant::rolled);
-        expect_parity(judge_twin<Pair>(device(), shader, kRandomLights / 20));
-        EXPECT_EQ(first_violation<Pair>(device(), shader, kHostileLights / 10), "");
+        expect_parity(judge_twin<Pair>(device(), shader, random_lights_of<Pair>()));
+        EXPECT_EQ(first_violation<Pair>(device(), shader, hostile_lights() / 10), "");
     };
     judge(PolygonProjectedSolidAnglePair<4>());
     judge(PolygonProjectedSolidAnglePair<8>());

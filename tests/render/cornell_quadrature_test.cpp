@@ -1,6 +1,7 @@
 /// The shipped Cornell boxes against quadrature in double precision with a ray tracer of its own: neither
 /// Embree nor packets nor any sampling technique takes part in the reference.
 
+#include "common/source_folder.h"
 #include "scenes.h"
 
 #include "render/film.h"
@@ -205,7 +206,7 @@ protected:
     /// symmetric
     ///               room
     void load(const char* file, int height) {
-        scene_ = scene::load_scene(std::string(NUSSELT_SOURCE_DIR "/scenes/") + file);
+        scene_ = scene::load_scene(std::string(nusselt_test::kSourceFolder) + "/scenes/" + file);
         for (scene::LineLight& light : scene_.line_lights) light.model = scene::TubeModel::linear;
         render::resize_film(scene_, height + 1, height);
         const Quadrature quadrature(scene_);

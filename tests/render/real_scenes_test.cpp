@@ -1,6 +1,7 @@
 /// Published scenes at full size, where they are at hand: the environment variable NUSSELT_SCENES names the
 /// folder with bathroom/ and sponza/.
 
+#include "common/source_folder.h"
 #include "scenes.h"
 
 #include "image/metrics.h"
@@ -51,7 +52,8 @@ TEST_P(RealSceneWithRig, EachTechniqueGivesValidPixels) {
     const std::string name = rig.substr(0, rig.find('-'));
     scene::Scene scene = load(name + "/" + name + ".pbrt");
     scene::apply_rig(
-        scene::read_rig(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes/rigs" / (rig + ".json")), scene);
+        scene::read_rig(std::filesystem::path(nusselt_test::kSourceFolder) / "scenes/rigs" / (rig + ".json")),
+        scene);
     render::resize_film(scene, 48, 32);
     const render_cpu::Renderer renderer(scene, render_cpu::default_thread_count());
     for (const Technique technique : render::kTechniques) {

@@ -1,5 +1,6 @@
 /// With pixel centres and the same random numbers, the GPU renders the image of the CPU.
 
+#include "common/source_folder.h"
 #include "comparison.h"
 #include "gpu_test.h"
 #include "render/film.h"
@@ -134,7 +135,8 @@ TEST_F(Agreement, OfEveryHeuristic_Strategy_AndSampler) {
 }
 
 TEST_F(Agreement, OfShippedScenes) {
-    for (const auto& entry : std::filesystem::directory_iterator(NUSSELT_SOURCE_DIR "/scenes")) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(nusselt_test::kSourceFolder) + "/scenes")) {
         if (entry.path().extension() != ".pbrt") continue;
         SCOPED_TRACE(entry.path().filename());
         scene::Scene scene = scene::load_scene(entry.path());

@@ -1,5 +1,6 @@
 /// With random positions in pixels, images of both renderers have the same mean.
 
+#include "common/source_folder.h"
 #include "comparison.h"
 #include "gpu_test.h"
 #include "lab/errors/bias_statistics.h"
@@ -76,7 +77,8 @@ const scene::PixelFilter kWideFilter = {.kind = scene::FilterKind::mitchell, .ra
 void leave_out_sum_of_squares(lab::BiasTest& test) { test.chi_square = 0; }
 
 TEST_F(Bias, OfShippedScenes_ThereIsNone) {
-    for (const auto& entry : std::filesystem::directory_iterator(NUSSELT_SOURCE_DIR "/scenes")) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(nusselt_test::kSourceFolder) + "/scenes")) {
         if (entry.path().extension() != ".pbrt") continue;
         SCOPED_TRACE(entry.path().filename());
         scene::Scene scene = scene::load_scene(entry.path());

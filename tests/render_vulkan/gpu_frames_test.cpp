@@ -1,5 +1,6 @@
 /// What `nusselt-lab bench gpu` measures.
 
+#include "common/source_folder.h"
 #include "lab/timing/gpu_frames.h"
 
 #include "gpu_test.h"
@@ -23,7 +24,7 @@ using render_vulkan::DeviceScene;
 using render_vulkan::ShadowRays;
 
 scene::Scene load_small(const std::string& name) {
-    scene::Scene scene = scene::load_scene(NUSSELT_SOURCE_DIR "/scenes/" + name);
+    scene::Scene scene = scene::load_scene(std::string(nusselt_test::kSourceFolder) + "/scenes/" + name);
     render::resize_film(scene, 32, 24);
     return scene;
 }

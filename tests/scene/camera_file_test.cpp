@@ -1,3 +1,4 @@
+#include "common/source_folder.h"
 #include "scene/rig/camera_file.h"
 
 #include "scene/import/importers.h"
@@ -55,7 +56,7 @@ TEST(CameraFile, ReadsWhatItWrites) {
 }
 
 TEST(CameraFile, ReplacesTheCropToo) {
-    Scene scene = load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes/room.pbrt");
+    Scene scene = load_scene(std::filesystem::path(nusselt_test::kSourceFolder) / "scenes/room.pbrt");
     scene.film.crop = PixelBounds{1, 2, 3, 4};
     apply_camera({scene.camera, 32, 16}, scene);
     EXPECT_EQ(scene.film.width, 32);

@@ -1,5 +1,6 @@
 /// Loads each scene of tests/scene/corpus and compares with what its comments say, see docs/testing.md.
 
+#include "common/source_folder.h"
 #include "scene/import/importers.h"
 #include "scene/model/polygon.h"
 
@@ -20,7 +21,8 @@
 namespace nusselt::scene {
 namespace {
 
-const std::filesystem::path kCorpus = NUSSELT_CORPUS;
+const std::filesystem::path kCorpus =
+    std::filesystem::path(nusselt_test::kSourceFolder) / "tests/scene/corpus";
 
 /// What a file says about itself, in lines "# expect KEY: VALUE".
 struct Expectations {

@@ -1,6 +1,7 @@
 // Published scenes, where they are at hand: the environment variable NUSSELT_SCENES names the folder with
 // bathroom/ and sponza/.
 
+#include "common/source_folder.h"
 #include "scene/import/importers.h"
 #include "scene/model/vector_math.h"
 #include "scene/rig/rig.h"
@@ -39,7 +40,7 @@ protected:
     }
     /// A scene, such as "sponza", with a rig that comes with the project, such as "tube".
     Scene lit_by(const std::string& name, const std::string& rig) const {
-        const std::filesystem::path rigs = std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes/rigs";
+        const std::filesystem::path rigs = std::filesystem::path(nusselt_test::kSourceFolder) / "scenes/rigs";
         Scene scene = load_scene(folder_ / name / (name + ".pbrt"));
         apply_rig(read_rig(rigs / (name + "-" + rig + ".json")), scene);
         expect_consistent(scene);

@@ -1,5 +1,6 @@
 /// Applies each rig of tests/scene/rigs to lamps.pbrt beside it, or to the "scene" of its section, and compares with expectations.txt.
 
+#include "common/source_folder.h"
 #include "scene/import/importers.h"
 #include "scene/rig/light_edit.h"
 #include "scene/rig/rig.h"
@@ -19,7 +20,7 @@
 namespace nusselt::scene {
 namespace {
 
-const std::filesystem::path kRigs = NUSSELT_RIGS;
+const std::filesystem::path kRigs = std::filesystem::path(nusselt_test::kSourceFolder) / "tests/scene/rigs";
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 

@@ -1,5 +1,6 @@
 // Light rigs: what tests/scene/rigs cannot say in numbers.
 
+#include "common/source_folder.h"
 #include "scene/colour/colour_space.h"
 #include "scene/rig/rig.h"
 #include "scene/rig/rig_json.h"
@@ -12,7 +13,7 @@
 namespace nusselt::scene {
 namespace {
 
-const std::filesystem::path kScenes = std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes";
+const std::filesystem::path kScenes = std::filesystem::path(nusselt_test::kSourceFolder) / "scenes";
 
 template <class T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
@@ -100,7 +101,8 @@ TEST_F(RigTest, PatternsMatch) {
 }
 
 TEST_F(RigTest, PrintedRigsChangeNothing) {
-    std::vector<std::filesystem::path> scenes = {std::filesystem::path(NUSSELT_RIGS) / "lamps.pbrt"};
+    std::vector<std::filesystem::path> scenes = {std::filesystem::path(nusselt_test::kSourceFolder) /
+                                                 "tests/scene/rigs" / "lamps.pbrt"};
     for (const auto& entry : std::filesystem::directory_iterator(kScenes))
         if (entry.path().extension() == ".pbrt") scenes.push_back(entry.path());
     ASSERT_GE(scenes.size(), 8u);

@@ -1,5 +1,6 @@
 // The scenes that come with the project load silently and are built as their comments say.
 
+#include "common/source_folder.h"
 #include "scene/rig/rig.h"
 #include "scene/rig/rig_json.h"
 #include "scene_fixture.h"
@@ -13,7 +14,7 @@
 namespace nusselt::scene {
 namespace {
 
-const std::filesystem::path kFolder = std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes";
+const std::filesystem::path kFolder = std::filesystem::path(nusselt_test::kSourceFolder) / "scenes";
 
 Scene shipped(const std::string& name) {
     Scene scene = load_scene(kFolder / name);
@@ -213,7 +214,7 @@ TEST(ShippedRigs, LightTheRoom) {
 }
 
 TEST_F(Parts, OfTheManualAreGoodRigs) {
-    std::ifstream manual(std::filesystem::path(NUSSELT_SOURCE_DIR) / "docs/lights.md");
+    std::ifstream manual(std::filesystem::path(nusselt_test::kSourceFolder) / "docs/lights.md");
     const std::string text{std::istreambuf_iterator<char>(manual), {}};
     const std::string fence = "```json\n";
     const std::size_t begin = text.find(fence) + fence.size();

@@ -12,6 +12,7 @@
 #include <nusselt/estimate/direct_light.h>
 #include <nusselt/ltc/table_file.h>
 
+#include "common/source_folder.h"
 #include "geometry/adaptive_quadrature.h"
 #include "geometry/cylinder_reference.h"
 #include "sampling/lights.h"
@@ -25,7 +26,7 @@ using Surface = nusselt::GlossySurface<double>;
 class ShippedTable {
 public:
     ShippedTable() {
-        const auto path = std::filesystem::path(NUSSELT_SOURCE_DIR) / "data" / "ltc-frostbite.bin";
+        const auto path = std::filesystem::path(nusselt_test::kSourceFolder) / "data" / "ltc-frostbite.bin";
         std::ifstream stream(path, std::ios::binary);
         const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
         const auto file = nusselt::open_ltc_table(bytes.data(), bytes.size());

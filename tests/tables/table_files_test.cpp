@@ -1,5 +1,6 @@
 // Files of LTC tables, the tables in data/ and the one that is compiled in.
 
+#include "common/source_folder.h"
 #include "tables/engine_table.h"
 #include "tables/ltc_table.h"
 
@@ -17,7 +18,8 @@ namespace nusselt::tables {
 
 namespace {
 
-const std::string kData = (std::filesystem::path(NUSSELT_SOURCE_DIR) / "data" / "ltc-frostbite").string();
+const std::string kData =
+    (std::filesystem::path(nusselt_test::kSourceFolder) / "data" / "ltc-frostbite").string();
 
 std::string bytes_of(const std::string& path) {
     std::ifstream file(path, std::ios::binary);

@@ -1,3 +1,4 @@
+#include "common/source_folder.h"
 #include "viewer/light_edits.h"
 
 #include "scene/import/importers.h"
@@ -14,7 +15,8 @@ namespace {
 
 class LightEditsTest : public testing::Test {
 protected:
-    scene::Scene scene_ = scene::load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes/room.pbrt");
+    scene::Scene scene_ =
+        scene::load_scene(std::filesystem::path(nusselt_test::kSourceFolder) / "scenes/room.pbrt");
 };
 
 TEST_F(LightEditsTest, DoNothingByDefault) {

@@ -1,3 +1,4 @@
+#include "common/source_folder.h"
 #include "viewer/picking.h"
 
 #include "scene/import/importers.h"
@@ -13,7 +14,7 @@ namespace {
 using scene::Double3;
 
 scene::Scene load(const char* name) {
-    return scene::load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes" / name);
+    return scene::load_scene(std::filesystem::path(nusselt_test::kSourceFolder) / "scenes" / name);
 }
 
 /// Where a perspective camera sees a point.

@@ -1,3 +1,4 @@
+#include "common/source_folder.h"
 #include "viewer/script.h"
 
 #include "gpu_test.h"
@@ -38,8 +39,8 @@ protected:
     }
 
     Viewer make_viewer() const {
-        scene::Scene scene =
-            scene::load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes/cornell-panel.pbrt");
+        scene::Scene scene = scene::load_scene(std::filesystem::path(nusselt_test::kSourceFolder) /
+                                               "scenes/cornell-panel.pbrt");
         render::resize_film(scene, 24, 20);
         return {device(), scene, render_vulkan::ShadowRays::bvh, {}, {"cornell-panel.pbrt", {}, {}}};
     }

@@ -1,5 +1,6 @@
 /// What the viewer renders, without its window.
 
+#include "common/source_folder.h"
 #include "viewer/session.h"
 
 #include "gpu_test.h"
@@ -27,7 +28,8 @@ constexpr int kWidth = 48;
 constexpr int kHeight = 40;
 
 scene::Scene load(const char* name) {
-    scene::Scene scene = scene::load_scene(std::filesystem::path(NUSSELT_SOURCE_DIR) / "scenes" / name);
+    scene::Scene scene =
+        scene::load_scene(std::filesystem::path(nusselt_test::kSourceFolder) / "scenes" / name);
     render::resize_film(scene, kWidth, kHeight);
     return scene;
 }

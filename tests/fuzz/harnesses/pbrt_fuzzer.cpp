@@ -1,6 +1,7 @@
 /// Scene files. One input is a scene and up to ten files beside it: a line `#file 3` begins the file "3", which the
 /// scene can include or use as mesh or image. The files that the scenes of tests/scene/corpus refer to are there, too.
 
+#include "common/source_folder.h"
 #include "files.h"
 #include "scene_contract.h"
 
@@ -16,7 +17,8 @@ constexpr std::string_view kNames = "0123456789";
 /// With a copy of what lies beside the scenes of the corpus.
 struct CorpusFolder : Folder {
     CorpusFolder() {
-        const std::filesystem::path corpus = std::filesystem::path(NUSSELT_SOURCE_DIR) / "tests/scene/corpus";
+        const std::filesystem::path corpus =
+            std::filesystem::path(nusselt_test::kSourceFolder) / "tests/scene/corpus";
         std::set<std::filesystem::path> companions;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus))
             if (entry.is_regular_file() && entry.path().extension() != ".pbrt")

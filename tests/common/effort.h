@@ -1,0 +1,22 @@
+#pragma once
+/// How much work the tests do. Sample sizes follow from the effort, and significances and quantiles from the sample sizes;
+/// tolerances do not depend on it.
+
+namespace nusselt_test {
+
+enum class Effort {
+    quick, ///< what proves a change: `make test`
+    full,  ///< what finds rarer errors: `make test-full`
+};
+
+/// The value of the environment variable NUSSELT_TEST_EFFORT, "quick" or "full"; quick where it is not set.
+/// \throws std::runtime_error for any other value.
+Effort effort();
+
+/// One of two sample sizes.
+template <class T>
+T at_effort(T quick, T full) {
+    return effort() == Effort::full ? full : quick;
+}
+
+} // namespace nusselt_test
