@@ -1,5 +1,6 @@
 /// PNG, TGA and BMP files decode to the codes that a second, independent reader finds in them (stb), JPG files nearly.
 
+#include "common/source_folder.h"
 #include "image/coded_file.h"
 #include "temporary_folder.h"
 
@@ -189,7 +190,7 @@ TEST_F(SecondReader, CommittedFiles) {
     int count = 0;
     for (const char* folder : {"docs/images", "tests/fuzz/corpus/image", "tests/scene/corpus/textures"})
         for (const auto& entry :
-             std::filesystem::directory_iterator(std::filesystem::path(NUSSELT_SOURCE_DIR) / folder)) {
+             std::filesystem::directory_iterator(std::filesystem::path(nusselt_test::kSourceFolder) / folder)) {
             const std::string extension = entry.path().extension().string();
             if (extension != ".png" && extension != ".tga" && extension != ".bmp") continue;
             const std::string file = read_bytes(entry.path());
