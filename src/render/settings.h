@@ -1,10 +1,12 @@
 #pragma once
-/// What a user can choose about a rendering.
+/// What a user can choose about a rendering. The table behind each enumeration has all of its values, in the order in which
+/// they are listed to users.
+
+#include "render/names.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 namespace nusselt::render {
@@ -19,6 +21,17 @@ enum class Technique : std::uint32_t {
     ltc_analytic,                 ///< integrals of linearly transformed cosines: no samples and no shadows
 };
 
+template <>
+inline constexpr auto kNames<Technique> = std::to_array<Named<Technique>>({
+    {Technique::area, "area"},
+    {Technique::solid_angle, "solid_angle"},
+    {Technique::clipped_solid_angle, "clipped_solid_angle"},
+    {Technique::projected_solid_angle, "projected_solid_angle"},
+    {Technique::projected_solid_angle_biased, "projected_solid_angle_biased"},
+    {Technique::ltc_analytic, "ltc_analytic"},
+});
+inline constexpr auto kTechniques = values_of(kNames<Technique>);
+
 /// Which techniques take samples of a light.
 enum class Strategies : std::uint32_t {
     diffuse,     ///< one for all components of the BRDF: that of RenderSettings::technique
@@ -28,6 +41,15 @@ enum class Strategies : std::uint32_t {
     diffuse_ggx,
     diffuse_ggx_bounded,
 };
+
+template <>
+inline constexpr auto kNames<Strategies> = std::to_array<Named<Strategies>>({
+    {Strategies::diffuse, "diffuse"},
+    {Strategies::diffuse_ltc, "diffuse+ltc"},
+    {Strategies::diffuse_ggx, "diffuse+ggx"},
+    {Strategies::diffuse_ggx_bounded, "diffuse+ggx_bounded"},
+});
+inline constexpr auto kStrategies = values_of(kNames<Strategies>);
 
 /// How samples of several techniques are combined; see nusselt/estimate/mis.h.
 enum class Mis : std::uint32_t {
@@ -40,17 +62,52 @@ enum class Mis : std::uint32_t {
     separate,   ///< each technique estimates its own component of the BRDF only
 };
 
+template <>
+inline constexpr auto kNames<Mis> = std::to_array<Named<Mis>>({
+    {Mis::balance, "balance"},
+    {Mis::power, "power"},
+    {Mis::weighted_balance, "weighted_balance"},
+    {Mis::clamped_optimal, "clamped_optimal"},
+    {Mis::optimal, "optimal"},
+    {Mis::one_sample, "one_sample"},
+    {Mis::separate, "separate"},
+});
+inline constexpr auto kMisHeuristics = values_of(kNames<Mis>);
+
 /// How the samples of a pixel and light relate to each other; see nusselt::Sampler.
 enum class SampleOrder : std::uint32_t { independent, sobol, jittered, stratified };
 
+template <>
+inline constexpr auto kNames<SampleOrder> = std::to_array<Named<SampleOrder>>({
+    {SampleOrder::independent, "independent"},
+    {SampleOrder::sobol, "sobol"},
+    {SampleOrder::jittered, "jittered"},
+    {SampleOrder::stratified, "stratified"},
+});
+inline constexpr auto kSampleOrders = values_of(kNames<SampleOrder>);
+
 /// Where camera rays pass through their pixel.
 enum class PixelPosition : std::uint32_t { jittered, center };
+
+template <>
+inline constexpr auto kNames<PixelPosition> = std::to_array<Named<PixelPosition>>({
+    {PixelPosition::jittered, "jittered"},
+    {PixelPosition::center, "center"},
+});
+inline constexpr auto kPixelPositions = values_of(kNames<PixelPosition>);
 
 /// Which BRDF all surfaces have.
 enum class BrdfChoice : std::uint32_t {
     material, ///< that of the scene file
     lambert,  ///< diffuse albedo / pi
 };
+
+template <>
+inline constexpr auto kNames<BrdfChoice> = std::to_array<Named<BrdfChoice>>({
+    {BrdfChoice::material, "material"},
+    {BrdfChoice::lambert, "lambert"},
+});
+inline constexpr auto kBrdfChoices = values_of(kNames<BrdfChoice>);
 
 /// What images can show beside the radiance of their pixels; see make_frame().
 enum class LayerKind : std::uint32_t {
@@ -65,6 +122,20 @@ enum class LayerKind : std::uint32_t {
     variance,
 };
 
+template <>
+inline constexpr auto kNames<LayerKind> = std::to_array<Named<LayerKind>>({
+    {LayerKind::albedo, "albedo"},
+    {LayerKind::normal, "normal"},
+    {LayerKind::depth, "depth"},
+    {LayerKind::emission, "emission"},
+    {LayerKind::diffuse, "diffuse"},
+    {LayerKind::specular, "specular"},
+    {LayerKind::lights, "lights"},
+    {LayerKind::pieces, "pieces"},
+    {LayerKind::variance, "variance"},
+});
+inline constexpr auto kLayerKinds = values_of(kNames<LayerKind>);
+
 /// One of several shares of the tiles of an image, for work on several machines.
 struct Part {
     int number = 1; ///< 1 to count
@@ -78,12 +149,27 @@ enum class Integrator : std::uint32_t {
     lines, ///< whole segments, with exact visibility
 };
 
+template <>
+inline constexpr auto kNames<Integrator> = std::to_array<Named<Integrator>>({
+    {Integrator::points, "points"},
+    {Integrator::lines, "lines"},
+});
+inline constexpr auto kIntegrators = values_of(kNames<Integrator>);
+
 /// Directions of line samples in the plane of their light.
 enum class LineOrientation : std::uint32_t {
     parallel,    ///< random, the same for all lines of a shading point and light
     fixed,       ///< along the longest edge of the light
     independent, ///< random for each line
 };
+
+template <>
+inline constexpr auto kNames<LineOrientation> = std::to_array<Named<LineOrientation>>({
+    {LineOrientation::parallel, "parallel"},
+    {LineOrientation::fixed, "fixed"},
+    {LineOrientation::independent, "independent"},
+});
+inline constexpr auto kLineOrientations = values_of(kNames<LineOrientation>);
 
 /// Density of the offsets of line samples.
 enum class LineOffsets : std::uint32_t {
@@ -92,17 +178,39 @@ enum class LineOffsets : std::uint32_t {
     reflected, ///< in proportion to what the surface would reflect of the line without shadows
 };
 
+template <>
+inline constexpr auto kNames<LineOffsets> = std::to_array<Named<LineOffsets>>({
+    {LineOffsets::length, "length"},
+    {LineOffsets::uniform, "uniform"},
+    {LineOffsets::reflected, "reflected"},
+});
+inline constexpr auto kLineOffsets = values_of(kNames<LineOffsets>);
+
 /// How the visible parts of a line sample are shaded.
 enum class LineShading : std::uint32_t {
     unbiased, ///< the integral of a fitted lobe, and one point for what the BRDF is beyond that
     analytic, ///< the integral of the fitted lobe alone
 };
 
+template <>
+inline constexpr auto kNames<LineShading> = std::to_array<Named<LineShading>>({
+    {LineShading::unbiased, "unbiased"},
+    {LineShading::analytic, "analytic"},
+});
+inline constexpr auto kLineShadings = values_of(kNames<LineShading>);
+
 /// What shading points take of lights with many occluders in between.
 enum class ManyOccluders : std::uint32_t {
     points, ///< point samples, where these are cheaper
     lines,  ///< line samples, as everywhere
 };
+
+template <>
+inline constexpr auto kNames<ManyOccluders> = std::to_array<Named<ManyOccluders>>({
+    {ManyOccluders::points, "points"},
+    {ManyOccluders::lines, "lines"},
+});
+inline constexpr auto kManyOccludersChoices = values_of(kNames<ManyOccluders>);
 
 struct LineSettings {
     int count = 16; ///< per shading point and light, 1 to kMaxLines
@@ -157,44 +265,5 @@ bool has_variance(const RenderSettings& settings);
 
 /// \throws std::invalid_argument naming the first setting out of range, its value and the range
 void validate(const RenderSettings& settings);
-
-// All values in the order in which they are listed to users, and their names.
-inline constexpr std::array kTechniques = {Technique::area,
-                                           Technique::solid_angle,
-                                           Technique::clipped_solid_angle,
-                                           Technique::projected_solid_angle,
-                                           Technique::projected_solid_angle_biased,
-                                           Technique::ltc_analytic};
-inline constexpr std::array kStrategies = {Strategies::diffuse, Strategies::diffuse_ltc,
-                                           Strategies::diffuse_ggx, Strategies::diffuse_ggx_bounded};
-inline constexpr std::array kMisHeuristics = {Mis::balance,         Mis::power,   Mis::weighted_balance,
-                                              Mis::clamped_optimal, Mis::optimal, Mis::one_sample,
-                                              Mis::separate};
-inline constexpr std::array kSampleOrders = {SampleOrder::independent, SampleOrder::sobol,
-                                             SampleOrder::jittered, SampleOrder::stratified};
-inline constexpr std::array kPixelPositions = {PixelPosition::jittered, PixelPosition::center};
-inline constexpr std::array kBrdfChoices = {BrdfChoice::material, BrdfChoice::lambert};
-inline constexpr std::array kLayerKinds = {LayerKind::albedo,   LayerKind::normal,  LayerKind::depth,
-                                           LayerKind::emission, LayerKind::diffuse, LayerKind::specular,
-                                           LayerKind::lights,   LayerKind::pieces,  LayerKind::variance};
-inline constexpr std::array kIntegrators = {Integrator::points, Integrator::lines};
-inline constexpr std::array kLineOrientations = {LineOrientation::parallel, LineOrientation::fixed,
-                                                 LineOrientation::independent};
-inline constexpr std::array kLineOffsets = {LineOffsets::length, LineOffsets::uniform,
-                                            LineOffsets::reflected};
-inline constexpr std::array kLineShadings = {LineShading::unbiased, LineShading::analytic};
-inline constexpr std::array kManyOccludersChoices = {ManyOccluders::points, ManyOccluders::lines};
-std::string_view name_of(Technique technique);
-std::string_view name_of(Strategies strategies);
-std::string_view name_of(Mis mis);
-std::string_view name_of(SampleOrder order);
-std::string_view name_of(PixelPosition position);
-std::string_view name_of(BrdfChoice brdf);
-std::string_view name_of(LayerKind kind);
-std::string_view name_of(Integrator integrator);
-std::string_view name_of(LineOrientation orientation);
-std::string_view name_of(LineOffsets offsets);
-std::string_view name_of(LineShading shading);
-std::string_view name_of(ManyOccluders choice);
 
 } // namespace nusselt::render
