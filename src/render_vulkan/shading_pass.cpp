@@ -34,10 +34,11 @@ gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<s
         .storage_buffers = kShadingBuffers, .images = textures.images(),
         .push_constant_size = sizeof(interface::FrameRecord), .constants = constants
     };
-    if (is_analytic(constants)) return {device, integration_shader(variant), interface};
+    if (is_analytic(constants))
+        return {device, shading_shader(ShadingPassKind::integrate_lights, variant), interface};
     interface.storage_buffers += static_cast<std::uint32_t>(shadows.buffers().size());
     interface.ray_scenes = shadows.structure() == nullptr ? 0 : 1;
-    return {device, sampling_shader(variant, shadows.way()), interface};
+    return {device, shading_shader(sampling_pass(shadows.way()), variant), interface};
 }
 
 std::size_t pixel_count(std::uint32_t width, std::uint32_t height) { return std::size_t{width} * height; }
