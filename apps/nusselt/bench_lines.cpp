@@ -72,7 +72,7 @@ LinesTable measure(const render_cpu::Renderer& renderer, const BenchLinesOptions
         render::RenderSettings lines = points;
         lines.samples = 1;
         apply_line_kind_options(options.lines, lines.lines);
-        lines.integrator = render::Integrator::lines;
+        lines.light_samples = render::LightSamples::lines;
         lines.lines.count = count;
         lines.lines.many_occluders = render::ManyOccluders::lines;
         table.rows.push_back({lines});

@@ -23,7 +23,8 @@ struct LineKindOptions {
 
 /// Whether there are line samples, and how. Defaults are those of render::RenderSettings.
 struct LineOptions : LineKindOptions {
-    std::string integrator = "points";
+    std::string light_samples = "points";
+    bool has_old_name = false; ///< whether they were chosen by the name of earlier versions, --integrator
     std::optional<int> count;
     std::optional<std::string> many_occluders;
 };

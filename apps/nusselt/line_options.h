@@ -10,7 +10,7 @@
 
 namespace nusselt::app {
 
-/// Adds --integrator and all that goes with it.
+/// Adds --light-samples and all that goes with it.
 void add_line_options(CLI::App& command, LineOptions& options);
 
 /// Adds --orientation, --offsets and --line-shading.
@@ -20,7 +20,7 @@ void add_line_kind_options(CLI::App& command, LineKindOptions& options);
 /// \throws std::invalid_argument for values that the command line does not let through
 void apply_line_kind_options(const LineKindOptions& options, render::LineSettings& settings);
 
-/// The same for all options, and the integrator.
+/// The same for all options, and what is sampled.
 void apply_line_options(const LineOptions& options, render::RenderSettings& settings);
 
 /// What add_line_kind_options() can change, as an object.

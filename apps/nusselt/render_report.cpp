@@ -18,7 +18,7 @@ namespace {
 /// Null without line samples.
 nlohmann::ordered_json line_samples_json(const render::RenderSettings& settings,
                                          const render_cpu::LineStatistics& work) {
-    if (settings.integrator != render::Integrator::lines) return nullptr;
+    if (settings.light_samples != render::LightSamples::lines) return nullptr;
     const render::LineSettings& lines = settings.lines;
     const auto per_line = [&](std::uint64_t count) {
         return work.lines > 0 ? static_cast<double>(count) / static_cast<double>(work.lines) : 0.0;
@@ -43,6 +43,9 @@ nlohmann::ordered_json line_samples_json(const render::RenderSettings& settings,
 void print_warnings(const RenderOptions& options, const render::RenderSettings& settings,
                     const scene::Scene& scene) {
     for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    if (options.lines.has_old_name)
+        fmt::print(stderr, "warning: --integrator is now called --light-samples; the next version will not "
+                           "know the old name\n");
     if (scene.emitters.empty())
         fmt::print(stderr, "warning: there are no area lights, the image is black; --lights adds some\n");
     if (samples_visible_normals(settings.strategies) && !scene.line_lights.empty())
@@ -51,7 +54,7 @@ void print_warnings(const RenderOptions& options, const render::RenderSettings& 
             "warning: {} tubes and lines are sampled by {} alone: visible normals are for polygons, no "
             "sample ever hits a line\n",
             scene.line_lights.size(), name_of(settings.technique));
-    if (settings.integrator == render::Integrator::lines &&
+    if (settings.light_samples == render::LightSamples::lines &&
         settings.lines.many_occluders == render::ManyOccluders::points &&
         render_cpu::most_occluders_for_lines(settings.lines.count) < 0)
         fmt::print(
@@ -80,7 +83,7 @@ nlohmann::ordered_json settings_json(const RenderOptions& options, const render:
         {"scene_bytes", scene::array_bytes(scene)},
         {"width", scene.film.width},
         {"height", scene.film.height},
-        {"integrator", render::name_of(settings.integrator)},
+        {"light_samples", render::name_of(settings.light_samples)},
         {"technique", render::name_of(settings.technique)},
         {"strategies", render::name_of(settings.strategies)},
         {"mis", is_combined ? nlohmann::ordered_json(render::name_of(settings.mis)) : nullptr},
@@ -101,7 +104,7 @@ nlohmann::ordered_json report_json(const RenderOptions& options, const render::R
         return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
     };
     // Most time goes into lines then.
-    const bool has_lines = settings.integrator == render::Integrator::lines;
+    const bool has_lines = settings.light_samples == render::LightSamples::lines;
     nlohmann::ordered_json json = settings_json(options, settings, scene);
     json.update({
         {"backend", "cpu"},

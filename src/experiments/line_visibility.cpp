@@ -55,7 +55,7 @@ LineVisibility table() {
 
 RenderSettings settings_of(const LineVisibility& experiment) {
     RenderSettings settings;
-    settings.integrator = render::Integrator::lines;
+    settings.light_samples = render::LightSamples::lines;
     settings.lines.count = experiment.lines;
     settings.lines.shading = render::LineShading::analytic;
     settings.lines.many_occluders = render::ManyOccluders::lines;

@@ -9,7 +9,7 @@
 namespace nusselt::experiments {
 
 render::RenderSettings with_count(render::RenderSettings settings, int count) {
-    (settings.integrator == render::Integrator::lines ? settings.lines.count : settings.samples) = count;
+    (settings.light_samples == render::LightSamples::lines ? settings.lines.count : settings.samples) = count;
     return settings;
 }
 

@@ -30,7 +30,7 @@ bool allows(Strategies strategies, Mis mis) {
 
 bool uses_lobes(const RenderSettings& settings) {
     return settings.technique == Technique::ltc_analytic || settings.strategies != Strategies::diffuse ||
-           settings.integrator == Integrator::lines;
+           settings.light_samples == LightSamples::lines;
 }
 
 int camera_ray_count(const RenderSettings& settings) {
@@ -77,7 +77,7 @@ void validate(const RenderSettings& settings) {
         throw std::invalid_argument("camera rays per pixel must divide the " +
                                     std::to_string(settings.samples) + " samples per light, found " +
                                     std::to_string(camera_rays));
-    if (settings.integrator == Integrator::lines) validate_lines(settings);
+    if (settings.light_samples == LightSamples::lines) validate_lines(settings);
     const Part& part = settings.part;
     if (part.count < 1 || part.count > kMaxParts || part.number < 1 || part.number > part.count)
         throw std::invalid_argument("parts are numbered from 1 to their count, which is at most " +

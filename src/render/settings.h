@@ -144,17 +144,17 @@ struct Part {
 };
 
 /// What is sampled of polygonal lights. Linear lights always get points.
-enum class Integrator : std::uint32_t {
+enum class LightSamples : std::uint32_t {
     points,
     lines, ///< whole segments, with exact visibility
 };
 
 template <>
-inline constexpr auto kNames<Integrator> = std::to_array<Named<Integrator>>({
-    {Integrator::points, "points"},
-    {Integrator::lines, "lines"},
+inline constexpr auto kNames<LightSamples> = std::to_array<Named<LightSamples>>({
+    {LightSamples::points, "points"},
+    {LightSamples::lines, "lines"},
 });
-inline constexpr auto kIntegrators = values_of(kNames<Integrator>);
+inline constexpr auto kLightSamples = values_of(kNames<LightSamples>);
 
 /// Directions of line samples in the plane of their light.
 enum class LineOrientation : std::uint32_t {
@@ -228,8 +228,8 @@ inline constexpr int kMaxSamples = 1 << 20;
 inline constexpr int kMaxParts = 1 << 20;
 
 struct RenderSettings {
-    Integrator integrator = Integrator::points;
-    LineSettings lines; ///< for Integrator::lines
+    LightSamples light_samples = LightSamples::points;
+    LineSettings lines; ///< for LightSamples::lines
     Technique technique = Technique::projected_solid_angle;
     Strategies strategies = Strategies::diffuse;
     Mis mis = Mis::clamped_optimal;

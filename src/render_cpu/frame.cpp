@@ -101,7 +101,7 @@ std::vector<LayerFormat> layer_formats(const scene::Scene& scene, const RenderSe
     if (wants_specular) formats.push_back({"specular", kRgb});
     if (wanted(LayerKind::lights))
         for (const std::string& name : light_layer_names(scene.emitters)) formats.push_back({name, kRgb});
-    if (wanted(LayerKind::pieces) && settings.integrator == Integrator::lines)
+    if (wanted(LayerKind::pieces) && settings.light_samples == LightSamples::lines)
         formats.push_back({"pieces", {"Y"}});
     if (wanted(LayerKind::variance) && has_variance(settings)) formats.push_back({"variance", kRgb});
     return formats;

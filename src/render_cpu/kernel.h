@@ -139,7 +139,7 @@ struct LayerTargets {
 struct RenderJob {
     KernelScene scene;
     visibility::RayTracer tracer;
-    Integrator integrator;
+    LightSamples light_samples;
     LineSettings lines;
     const visibility::LineBvhView* line_bvh; ///< null without line samples
     std::int32_t most_occluders;             ///< see most_occluders_for_lines(); below 0: points everywhere
@@ -151,9 +151,9 @@ struct RenderJob {
     SampleOrder sample_order;
     PixelPosition pixel_position;
     std::uint32_t seed;
-    std::uint32_t camera_rays;   ///< per pixel
-    std::uint32_t light_samples; ///< per camera ray, light and technique
-    std::int32_t x_begin;        ///< the first pixel of the image, on the film
+    std::uint32_t camera_rays;       ///< per pixel
+    std::uint32_t samples_per_light; ///< per camera ray, light and technique
+    std::int32_t x_begin;            ///< the first pixel of the image, on the film
     std::int32_t y_begin;
     std::int32_t width; ///< of the image
     float* pixels;      ///< three floats for each, as image::Image

@@ -161,9 +161,9 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
         job.scene.ltc = {ltc.entries.data(), ltc.roughnesses, ltc.inclinations, ltc.f0s};
     }
     job.tracer = tracer;
-    job.integrator = settings.integrator;
+    job.light_samples = settings.light_samples;
     job.lines = settings.lines;
-    if (settings.integrator == Integrator::lines && !scene_.polygon_lights.empty()) {
+    if (settings.light_samples == LightSamples::lines && !scene_.polygon_lights.empty()) {
         line_bvh = lines_.get(scene_, arena_);
         job.line_bvh = &line_bvh;
     }
@@ -176,7 +176,7 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.pixel_position = settings.pixel_position;
     job.seed = settings.seed;
     job.camera_rays = static_cast<std::uint32_t>(camera_ray_count(settings));
-    job.light_samples = static_cast<std::uint32_t>(settings.samples) / job.camera_rays;
+    job.samples_per_light = static_cast<std::uint32_t>(settings.samples) / job.camera_rays;
     job.points_in_place_of_lines = static_cast<std::uint32_t>(
         points_in_place_of_lines(settings.lines.count, camera_ray_count(settings)));
     job.x_begin = frame.bounds.x_begin;
@@ -188,7 +188,7 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
 
     const RenderTile render_tile = kernel_for(isa);
     const std::size_t summed_emitters = job.layers.lights == nullptr ? 0 : scene_.emitters.size();
-    const std::size_t line_bytes = settings.integrator == Integrator::lines ? kLineMemoryBytes : 0;
+    const std::size_t line_bytes = settings.light_samples == LightSamples::lines ? kLineMemoryBytes : 0;
     tbb::enumerable_thread_specific<ThreadMemory> memory(summed_emitters, line_bytes);
     Tally tally(frame, monitor);
     const TickClock clock;

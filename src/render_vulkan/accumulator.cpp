@@ -153,8 +153,8 @@ void check_supported(const render::RenderSettings& settings) {
     const auto refuse = [](const std::string& what) {
         throw std::invalid_argument("there is no " + what + " on GPUs; take --backend cpu");
     };
-    if (settings.integrator != render::Integrator::points)
-        refuse("integrator " + std::string(name_of(settings.integrator)));
+    if (settings.light_samples != render::LightSamples::points)
+        refuse("light samples " + std::string(name_of(settings.light_samples)));
     if (!settings.layers.empty()) refuse("layer " + std::string(name_of(settings.layers.front())));
     if (settings.part.count > 1) refuse("rendering of parts");
 }

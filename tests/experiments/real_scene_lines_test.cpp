@@ -20,7 +20,7 @@ namespace nusselt::experiments {
 
 namespace {
 
-using render::Integrator;
+using render::LightSamples;
 using render::LineShading;
 using render::ManyOccluders;
 using render::RenderSettings;
@@ -41,7 +41,7 @@ RenderSettings point_settings() {
 RenderSettings line_settings(LineShading shading, ManyOccluders many_occluders) {
     RenderSettings settings = point_settings();
     settings.samples = 1;
-    settings.integrator = Integrator::lines;
+    settings.light_samples = LightSamples::lines;
     settings.lines.count = 16;
     settings.lines.shading = shading;
     settings.lines.many_occluders = many_occluders;
@@ -64,7 +64,7 @@ protected:
         for (int i = 0; i < kFrames; ++i, ++settings.seed) {
             const render_cpu::RenderResult result = renderer.render(settings, render_cpu::choose_isa());
             EXPECT_EQ(result.statistics.rejected_samples, 0u);
-            if (settings.integrator == Integrator::lines) {
+            if (settings.light_samples == LightSamples::lines) {
                 EXPECT_GT(result.statistics.lines.lines, 0u);
                 if (settings.lines.many_occluders == ManyOccluders::points) {
                     EXPECT_GT(result.statistics.lines.point_lights, 0u);

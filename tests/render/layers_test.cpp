@@ -40,7 +40,7 @@ struct Case {
     Technique technique;
     Strategies strategies;
     Mis mis;
-    render::Integrator integrator = render::Integrator::points;
+    render::LightSamples light_samples = render::LightSamples::points;
 };
 
 const Case kCases[] = {
@@ -55,7 +55,7 @@ const Case kCases[] = {
     {"ggx", Technique::projected_solid_angle, Strategies::diffuse_ggx, Mis::balance},
     {"analytic", Technique::ltc_analytic, Strategies::diffuse, Mis::balance},
     {"lines", Technique::projected_solid_angle, Strategies::diffuse_ltc, Mis::balance,
-     render::Integrator::lines},
+     render::LightSamples::lines},
 };
 
 class Layers : public testing::TestWithParam<Case> {
@@ -65,7 +65,7 @@ protected:
         settings.technique = GetParam().technique;
         settings.strategies = GetParam().strategies;
         settings.mis = GetParam().mis;
-        settings.integrator = GetParam().integrator;
+        settings.light_samples = GetParam().light_samples;
         settings.samples = 4;
         settings.camera_rays = 2;
         return settings;

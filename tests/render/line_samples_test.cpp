@@ -11,7 +11,7 @@
 namespace nusselt::render_test {
 namespace {
 
-using render::Integrator;
+using render::LightSamples;
 using render::LineOffsets;
 using render::LineOrientation;
 using render::LineShading;
@@ -254,7 +254,7 @@ TEST(LinePieces, AreTheVisiblePartsPerLine) {
     EXPECT_EQ(*std::max_element(halves.begin(), halves.end()), 2);
     EXPECT_GT(std::count(halves.begin(), halves.end(), 2.0f), kSize * kSize / 2);
 
-    settings.integrator = Integrator::points;
+    settings.light_samples = LightSamples::points;
     EXPECT_TRUE(render(scene, settings).layers.empty());
 }
 
@@ -289,7 +289,7 @@ TEST(LineSurfaces, AreNotNeededWithoutPolygonalLights) {
     scene::Scene scene = make_floor(kSize);
     add_line_light(scene, "tube", {0, {0, 0, 1}, {1, 0, 1}, 0.01f, {9, 9, 9}, scene::TubeModel::linear});
     RenderSettings points = line_settings(4);
-    points.integrator = Integrator::points;
+    points.light_samples = LightSamples::points;
     EXPECT_EQ(render(scene, line_settings(4)).image.pixels, render(scene, points).image.pixels);
 }
 
@@ -348,7 +348,7 @@ TEST(LineSettings, AreInTheMetadata) {
     };
     const RenderSettings settings = line_settings(4);
     std::vector<RenderSettings> others(6, settings);
-    others[0].integrator = Integrator::points;
+    others[0].light_samples = LightSamples::points;
     others[1].lines.count = 5;
     others[2].lines.orientation = LineOrientation::fixed;
     others[3].lines.offsets = LineOffsets::uniform;

@@ -90,7 +90,7 @@ TEST_F(Renderer, RefusesSettingsOfTheCpuAlone) {
     const scene::Scene scene = make_rich_scene(8, 8);
     VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
     render::RenderSettings lines;
-    lines.integrator = render::Integrator::lines;
+    lines.light_samples = render::LightSamples::lines;
     EXPECT_THROW(static_cast<void>(renderer.render(lines)), std::invalid_argument);
     render::RenderSettings layers;
     layers.layers = {render::LayerKind::normal};
