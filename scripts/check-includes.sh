@@ -30,8 +30,8 @@ BEGIN {
     allow("src/visibility", "library src/scene src/interface")
     allow("src/tables", "library")
     allow("src/fit", "library src/image")
-    allow("src/render", "src/image src/scene")
-    allow("src/render_cpu", "library src/image src/scene src/visibility src/tables src/render")
+    allow("src/render", "src/image src/scene src/interface")
+    allow("src/render_cpu", "library src/image src/scene src/visibility src/tables src/render src/interface")
     # SPIR-V as arrays, which the build makes. The two renderers never see each other.
     allow("src/shaders", "")
     # Structures that C++ and shaders share: shaders/interface.

@@ -42,6 +42,29 @@ bool has_variance(const RenderSettings& settings) { return camera_ray_count(sett
 
 namespace {
 
+/// Numbers that are no value of their enumeration have no name.
+template <class Value>
+void check_value(const char* setting, Value value) {
+    if (name_of(value).empty())
+        throw std::invalid_argument("unknown " + std::string(setting) + ": number " +
+                                    std::to_string(static_cast<std::uint32_t>(value)));
+}
+
+void check_values(const RenderSettings& settings) {
+    check_value("light samples", settings.light_samples);
+    check_value("orientation of lines", settings.lines.orientation);
+    check_value("offsets of lines", settings.lines.offsets);
+    check_value("shading of lines", settings.lines.shading);
+    check_value("choice for many occluders", settings.lines.many_occluders);
+    check_value("technique", settings.technique);
+    check_value("strategies", settings.strategies);
+    check_value("heuristic of multiple importance sampling", settings.mis);
+    check_value("pixel position", settings.pixel_position);
+    check_value("sampler", settings.sample_order);
+    check_value("BRDF", settings.brdf);
+    for (const LayerKind layer : settings.layers) check_value("layer", layer);
+}
+
 void validate_lines(const RenderSettings& settings) {
     if (settings.technique == Technique::ltc_analytic)
         throw std::invalid_argument("technique ltc_analytic has no shadows and does not fit line samples");
@@ -59,6 +82,7 @@ void validate_lines(const RenderSettings& settings) {
 } // namespace
 
 void validate(const RenderSettings& settings) {
+    check_values(settings);
     if (settings.samples < 1 || settings.samples > kMaxSamples)
         throw std::invalid_argument("samples per light and pixel must lie between 1 and " +
                                     std::to_string(kMaxSamples) + ", found " +

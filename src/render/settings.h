@@ -2,6 +2,7 @@
 /// What a user can choose about a rendering. The table behind each enumeration has all of its values, in the order in which
 /// they are listed to users.
 
+#include "interface/settings.h"
 #include "render/names.h"
 
 #include <array>
@@ -13,12 +14,14 @@ namespace nusselt::render {
 
 /// How directions towards lights are sampled.
 enum class Technique : std::uint32_t {
-    area,
-    solid_angle,
-    clipped_solid_angle,
-    projected_solid_angle,
-    projected_solid_angle_biased, ///< for line lights the same as projected_solid_angle
-    ltc_analytic,                 ///< integrals of linearly transformed cosines: no samples and no shadows
+    area = interface::kTechniqueArea,
+    solid_angle = interface::kTechniqueSolidAngle,
+    clipped_solid_angle = interface::kTechniqueClippedSolidAngle,
+    projected_solid_angle = interface::kTechniqueProjectedSolidAngle,
+    projected_solid_angle_biased =
+        interface::kTechniqueProjectedSolidAngleBiased, ///< for line lights the same as projected_solid_angle
+    ltc_analytic = interface::
+        kTechniqueLtcAnalytic, ///< integrals of linearly transformed cosines: no samples and no shadows
 };
 
 template <>
@@ -31,15 +34,18 @@ inline constexpr auto kNames<Technique> = std::to_array<Named<Technique>>({
     {Technique::ltc_analytic, "ltc_analytic"},
 });
 inline constexpr auto kTechniques = values_of(kNames<Technique>);
+static_assert(kTechniques.size() == interface::kTechniqueCount);
 
 /// Which techniques take samples of a light.
 enum class Strategies : std::uint32_t {
-    diffuse,     ///< one for all components of the BRDF: that of RenderSettings::technique
-    diffuse_ltc, ///< that one for the diffuse component, linearly transformed cosines for the specular one
+    diffuse = interface::
+        kStrategiesDiffuse, ///< one for all components of the BRDF: that of RenderSettings::technique
+    diffuse_ltc = interface::
+        kStrategiesDiffuseLtc, ///< that one for the diffuse component, linearly transformed cosines for the specular one
     // The same with GGX visible normals for the specular one. No such sample hits a linear light: they are left to the
     // technique for the diffuse component.
-    diffuse_ggx,
-    diffuse_ggx_bounded,
+    diffuse_ggx = interface::kStrategiesDiffuseGgx,
+    diffuse_ggx_bounded = interface::kStrategiesDiffuseGgxBounded,
 };
 
 template <>
@@ -50,16 +56,17 @@ inline constexpr auto kNames<Strategies> = std::to_array<Named<Strategies>>({
     {Strategies::diffuse_ggx_bounded, "diffuse+ggx_bounded"},
 });
 inline constexpr auto kStrategies = values_of(kNames<Strategies>);
+static_assert(kStrategies.size() == interface::kStrategiesCount);
 
 /// How samples of several techniques are combined; see nusselt/estimate/mis.h.
 enum class Mis : std::uint32_t {
-    balance,
-    power,
-    weighted_balance,
-    clamped_optimal,
-    optimal,
-    one_sample, ///< one sample of either technique instead of one of each
-    separate,   ///< each technique estimates its own component of the BRDF only
+    balance = interface::kMisBalance,
+    power = interface::kMisPower,
+    weighted_balance = interface::kMisWeightedBalance,
+    clamped_optimal = interface::kMisClampedOptimal,
+    optimal = interface::kMisOptimal,
+    one_sample = interface::kMisOneSample, ///< one sample of either technique instead of one of each
+    separate = interface::kMisSeparate,    ///< each technique estimates its own component of the BRDF only
 };
 
 template <>
@@ -73,9 +80,15 @@ inline constexpr auto kNames<Mis> = std::to_array<Named<Mis>>({
     {Mis::separate, "separate"},
 });
 inline constexpr auto kMisHeuristics = values_of(kNames<Mis>);
+static_assert(kMisHeuristics.size() == interface::kMisCount);
 
 /// How the samples of a pixel and light relate to each other; see nusselt::Sampler.
-enum class SampleOrder : std::uint32_t { independent, sobol, jittered, stratified };
+enum class SampleOrder : std::uint32_t {
+    independent = interface::kSamplerIndependent,
+    sobol = interface::kSamplerSobol,
+    jittered = interface::kSamplerJittered,
+    stratified = interface::kSamplerStratified
+};
 
 template <>
 inline constexpr auto kNames<SampleOrder> = std::to_array<Named<SampleOrder>>({
@@ -85,6 +98,7 @@ inline constexpr auto kNames<SampleOrder> = std::to_array<Named<SampleOrder>>({
     {SampleOrder::stratified, "stratified"},
 });
 inline constexpr auto kSampleOrders = values_of(kNames<SampleOrder>);
+static_assert(kSampleOrders.size() == interface::kSamplerCount);
 
 /// Where camera rays pass through their pixel.
 enum class PixelPosition : std::uint32_t { jittered, center };
@@ -98,8 +112,8 @@ inline constexpr auto kPixelPositions = values_of(kNames<PixelPosition>);
 
 /// Which BRDF all surfaces have.
 enum class BrdfChoice : std::uint32_t {
-    material, ///< that of the scene file
-    lambert,  ///< diffuse albedo / pi
+    material = interface::kBrdfMaterial, ///< that of the scene file
+    lambert = interface::kBrdfLambert,   ///< diffuse albedo / pi
 };
 
 template <>
@@ -108,6 +122,7 @@ inline constexpr auto kNames<BrdfChoice> = std::to_array<Named<BrdfChoice>>({
     {BrdfChoice::lambert, "lambert"},
 });
 inline constexpr auto kBrdfChoices = values_of(kNames<BrdfChoice>);
+static_assert(kBrdfChoices.size() == interface::kBrdfCount);
 
 /// What images can show beside the radiance of their pixels; see make_frame().
 enum class LayerKind : std::uint32_t {

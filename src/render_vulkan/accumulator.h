@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace nusselt::render_vulkan {
@@ -26,6 +27,10 @@ struct FrameWork {
     /// unless there is NaN or overflow in the scene, or a bug.
     std::uint64_t rejected_samples = 0;
 };
+
+/// \param device its name, for messages
+/// \throws gpu::Error if shaders were not done or did not know their settings, so that the image is wrong
+FrameWork checked_work(const interface::WorkRecord& work, const std::string& device);
 
 /// An image of a scene: the mean over frames.
 class Accumulator {
@@ -52,7 +57,7 @@ public:
     std::uint32_t height() const { return pixels_.height; }
     /// Black without a frame.
     image::Image mean() const;
-    /// \throws gpu::Error if shaders were not done, so that the image is wrong
+    /// \throws gpu::Error see checked_work()
     FrameWork work() const;
     /// One interface::PixelSum per pixel: divided by frames() they are the image.
     const gpu::Buffer& sums() const { return pixels_.sums; }

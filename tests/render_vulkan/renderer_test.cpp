@@ -108,7 +108,7 @@ TEST_F(Renderer, NamesRayQueriesThatTheDeviceDoesNotHave) {
         FAIL() << "no error";
     } catch (const gpu::Error& error) {
         EXPECT_EQ(error.what(),
-                  device().description().name + ": the device has no ray queries; take --shadow-rays bvh");
+                  device().description().name + ": the device has no ray queries; use --shadow-rays bvh");
     }
 }
 
