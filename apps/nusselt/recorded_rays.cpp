@@ -19,8 +19,7 @@ public:
     PacketsOfRays(const render_cpu::Renderer& renderer, const render::RenderSettings& settings,
                   render_cpu::Isa isa)
         : recorder_(renderer.visibility()) {
-        const render_cpu::RenderStatistics work =
-            renderer.render(settings, isa, recorder_.tracer()).statistics;
+        const render::RenderStatistics work = renderer.render(settings, isa, recorder_.tracer()).statistics;
         primary_count = work.primary_rays;
         shadow_count = work.shadow_rays;
     }

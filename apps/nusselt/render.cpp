@@ -14,8 +14,8 @@
 
 #include "image/io.h"
 #include "image/layers.h"
-#include "render_cpu/checkpoint.h"
-#include "render_cpu/frame.h"
+#include "render/checkpoint.h"
+#include "render/frame.h"
 #include "render_cpu/renderer.h"
 #include "scene/camera_file.h"
 
@@ -43,7 +43,7 @@ double seconds_since(Clock::time_point begin) {
 
 /// Writes the frame to all files. EXR files get all that is known, others the image.
 void write_outputs(const RenderOptions& options, const render::RenderSettings& settings,
-                   const scene::Film& film, render_cpu::Frame&& frame, const image::Metadata& metadata) {
+                   const scene::Film& film, render::Frame&& frame, const image::Metadata& metadata) {
     const std::vector<std::filesystem::path> paths = output_paths(options, film);
     for (const std::filesystem::path& path : paths)
         if (!image::is_exr(path)) image::write_image(path, frame.image, metadata, options.exposure);
@@ -157,7 +157,7 @@ int run_render(const RenderOptions& options) {
     if (!options.quiet) print_warnings(options, settings, scene);
     if (on_gpu) return render_on_gpu(options, settings, scene, times, begin);
 
-    render_cpu::Frame frame = render_cpu::make_frame(scene, settings);
+    render::Frame frame = render::make_frame(scene, settings);
     image::Metadata metadata = make_metadata(scene, settings, isa);
     if (!options.rigs.empty()) metadata["light_rigs"] = rig_names(options.rigs);
     std::optional<Checkpointer> checkpointer;
@@ -176,7 +176,7 @@ int run_render(const RenderOptions& options) {
     }
 
     Progress progress(finished_fraction(frame));
-    render_cpu::RenderMonitor monitor;
+    render::RenderMonitor monitor;
     monitor.cancel = &interrupted;
     if (!options.quiet) monitor.progress = [&](double fraction) { progress.update(fraction); };
     std::optional<FrameDisplay> display;
@@ -190,7 +190,7 @@ int run_render(const RenderOptions& options) {
         if (checkpointer) checkpointer->add(tile);
         if (display) display->show(tile);
     };
-    const render_cpu::RenderStatistics statistics =
+    const render::RenderStatistics statistics =
         renderer.render_into(frame, settings, isa, renderer.visibility().tracer(), monitor);
     progress.finish();
 

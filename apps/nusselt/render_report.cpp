@@ -3,7 +3,7 @@
 #include "json_output.h"
 #include "line_options.h"
 
-#include "render_cpu/line_choice.h"
+#include "render/line_choice.h"
 #include "scene/scene_size.h"
 
 #include <fmt/core.h>
@@ -17,7 +17,7 @@ namespace {
 
 /// Null without line samples.
 nlohmann::ordered_json line_samples_json(const render::RenderSettings& settings,
-                                         const render_cpu::LineStatistics& work) {
+                                         const render::LineStatistics& work) {
     if (settings.light_samples != render::LightSamples::lines) return nullptr;
     const render::LineSettings& lines = settings.lines;
     const auto per_line = [&](std::uint64_t count) {
@@ -56,7 +56,7 @@ void print_warnings(const RenderOptions& options, const render::RenderSettings& 
             scene.line_lights.size(), name_of(settings.technique));
     if (settings.light_samples == render::LightSamples::lines &&
         settings.lines.many_occluders == render::ManyOccluders::points &&
-        render_cpu::most_occluders_for_lines(settings.lines.count) < 0)
+        render::most_occluders_for_lines(settings.lines.count) < 0)
         fmt::print(
             stderr,
             "warning: --lines {}: points are faster than fewer than 16 lines and are taken in their place; "
@@ -99,7 +99,7 @@ nlohmann::ordered_json settings_json(const RenderOptions& options, const render:
 
 nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,
                                    render_cpu::Isa isa, const scene::Scene& scene,
-                                   const render_cpu::RenderStatistics& statistics, const Times& times) {
+                                   const render::RenderStatistics& statistics, const Times& times) {
     const auto rate = [](std::uint64_t rays, double seconds) {
         return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
     };

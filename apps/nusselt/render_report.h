@@ -29,7 +29,7 @@ nlohmann::ordered_json settings_json(const RenderOptions& options, const render:
 
 nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,
                                    render_cpu::Isa isa, const scene::Scene& scene,
-                                   const render_cpu::RenderStatistics& statistics, const Times& times);
+                                   const render::RenderStatistics& statistics, const Times& times);
 
 /// \param target a file, or "-" for the standard output. \throws std::runtime_error if it cannot be written
 void write_report(const std::string& target, const nlohmann::ordered_json& report);

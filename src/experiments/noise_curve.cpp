@@ -18,7 +18,7 @@ SeedStatistics render_seeds(const render_cpu::Renderer& renderer, render_cpu::Is
     std::vector<double> means, squares, seconds;
     SeedStatistics result;
     for (int i = 0; i < seeds; ++i, ++settings.seed) {
-        render_cpu::RenderResult frame = renderer.render(settings, isa);
+        render::RenderResult frame = renderer.render(settings, isa);
         seconds.push_back(frame.statistics.render_seconds);
         const std::vector<float>& pixels = frame.image.pixels;
         means.resize(pixels.size());

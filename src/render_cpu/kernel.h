@@ -4,6 +4,7 @@
 
 #include "render/pixel_filter.h"
 #include "render/settings.h"
+#include "render/tile.h"
 #include "scene/scene.h"
 #include "visibility/line_bvh_view.h"
 #include "visibility/ray_packets.h"
@@ -166,11 +167,6 @@ inline constexpr std::size_t kLightSumFloats = 2 * 3 * 16;
 
 /// Working memory that line samples take.
 inline constexpr std::size_t kLineMemoryBytes = std::size_t(1) << 16;
-
-/// Pixels x_begin <= x < x_end, y_begin <= y < y_end of the film.
-struct Tile {
-    std::int32_t x_begin, y_begin, x_end, y_end;
-};
 
 /// Work done for tiles. Times are ticks of the time stamp counter.
 struct TileStatistics {

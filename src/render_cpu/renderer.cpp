@@ -1,9 +1,10 @@
 #include "render_cpu/renderer.h"
 
 #include "render/film.h"
+#include "render/line_choice.h"
 #include "render/metadata.h"
 #include "render_cpu/flush_denormals.h"
-#include "render_cpu/line_choice.h"
+#include "render_cpu/frame_targets.h"
 
 #include "tables/ltc_table.h"
 

@@ -62,7 +62,7 @@ protected:
         const render_cpu::Renderer renderer(scene, render_cpu::default_thread_count());
         BiasStatistics statistics;
         for (int i = 0; i < kFrames; ++i, ++settings.seed) {
-            const render_cpu::RenderResult result = renderer.render(settings, render_cpu::choose_isa());
+            const render::RenderResult result = renderer.render(settings, render_cpu::choose_isa());
             EXPECT_EQ(result.statistics.rejected_samples, 0u);
             if (settings.light_samples == LightSamples::lines) {
                 EXPECT_GT(result.statistics.lines.lines, 0u);

@@ -67,7 +67,7 @@ void expect_sane_images(const scene::Scene& scene) {
             const bool may_be_negative =
                 settings.mis == render::Mis::optimal ||
                 (has_lines && settings.lines.shading == render::LineShading::unbiased);
-            const render_cpu::RenderResult result = renderer.render(settings, isa);
+            const render::RenderResult result = renderer.render(settings, isa);
             ASSERT_EQ(result.statistics.rejected_samples, 0u)
                 << description_of(settings) << ", " << name_of(isa);
             for (const float value : result.image.pixels)

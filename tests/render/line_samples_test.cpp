@@ -16,9 +16,9 @@ using render::LineOffsets;
 using render::LineOrientation;
 using render::LineShading;
 using render::ManyOccluders;
+using render::RenderResult;
 using render::RenderSettings;
 using render::Technique;
-using render_cpu::RenderResult;
 
 /// Not seen from its axis: the centres of pixels would be on the edges between walls, where rounding decides whether a
 /// wall hides the light from points of its neighbour.
@@ -202,13 +202,13 @@ TEST(LineChoice, TakesPointsBehindManyOccluders) {
     const auto statistics_of = [&] {
         return renderer.render(settings, render_cpu::choose_isa()).statistics.lines;
     };
-    const render_cpu::LineStatistics lines_only = statistics_of();
+    const render::LineStatistics lines_only = statistics_of();
     EXPECT_EQ(lines_only.point_lights, 0u);
     EXPECT_EQ(lines_only.lines, 16 * lines_only.line_lights);
 
     settings.lines.orientation = LineOrientation::fixed;
     settings.lines.many_occluders = ManyOccluders::points;
-    const render_cpu::LineStatistics both = statistics_of();
+    const render::LineStatistics both = statistics_of();
     EXPECT_GT(both.point_lights, 0u);
     EXPECT_GT(both.line_lights, 0u);
     EXPECT_EQ(both.line_lights + both.point_lights, lines_only.line_lights);

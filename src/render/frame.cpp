@@ -1,7 +1,7 @@
-#include "render_cpu/frame.h"
+#include "render/frame.h"
 
 #include "render/film.h"
-#include "render_cpu/memory.h"
+#include "render/memory.h"
 
 #include <algorithm>
 #include <numeric>
@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 namespace {
 
@@ -149,21 +149,6 @@ Frame make_frame(const scene::Scene& scene, const RenderSettings& settings) {
     return frame;
 }
 
-FrameTargets::FrameTargets(Frame& frame) {
-    const std::pair<const char*, float * LayerTargets::*> targets[] = {
-        {"albedo", &LayerTargets::albedo},     {"normal", &LayerTargets::normal},
-        {"depth", &LayerTargets::depth},       {"coverage", &LayerTargets::coverage},
-        {"emission", &LayerTargets::emission}, {"diffuse", &LayerTargets::diffuse},
-        {"specular", &LayerTargets::specular}, {"pieces", &LayerTargets::pieces},
-        {"variance", &LayerTargets::variance}};
-    for (image::Layer& layer : frame.layers) {
-        if (layer.name.starts_with("light.")) lights_.push_back(layer.data.data());
-        for (const auto& [name, member] : targets)
-            if (layer.name == name) layers_.*member = layer.data.data();
-    }
-    if (!lights_.empty()) layers_.lights = lights_.data();
-}
-
 std::uint64_t pixel_count(const Tile& tile) {
     return static_cast<std::uint64_t>(tile.x_end - tile.x_begin) *
            static_cast<std::uint64_t>(tile.y_end - tile.y_begin);
@@ -194,4 +179,4 @@ image::LayeredImage to_layered_image(Frame&& frame, const scene::Film& film, con
     return result;
 }
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

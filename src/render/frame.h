@@ -4,13 +4,13 @@
 #include "image/image.h"
 #include "image/layers.h"
 #include "render/settings.h"
-#include "render_cpu/kernel.h"
+#include "render/tile.h"
 #include "scene/scene.h"
 
 #include <cstdint>
 #include <vector>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 /// All that a rendering stores of its pixels. What is not rendered is zero.
 struct Frame {
@@ -29,17 +29,6 @@ struct Frame {
 /// \throws std::runtime_error if no file could hold that many pixels, or if the machine does not have the memory
 Frame make_frame(const scene::Scene& scene, const RenderSettings& settings);
 
-/// Where a kernel stores the layers of a frame, valid as long as its layers are.
-class FrameTargets {
-public:
-    explicit FrameTargets(Frame& frame);
-    const LayerTargets& layers() const { return layers_; }
-
-private:
-    std::vector<float*> lights_;
-    LayerTargets layers_{};
-};
-
 std::uint64_t pixel_count(const Tile& tile);
 
 /// Share of the pixels of the part that are finished; 1 if there are none to render.
@@ -51,4 +40,4 @@ double finished_fraction(const Frame& frame);
 image::LayeredImage to_layered_image(Frame&& frame, const scene::Film& film, const RenderSettings& settings,
                                      image::Metadata metadata);
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render
