@@ -2,7 +2,13 @@
 
 #include "render_setup.h"
 
+#include "render_cpu/backend.h"
+#include "render_cpu/renderer.h"
+
+#include <fmt/core.h>
+
 #include <array>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -42,6 +48,37 @@ void check_backend_options(const RenderOptions& options) {
                                             std::pair("--display-server", options.display_server.has_value()),
                                             std::pair("--isa", options.isa.has_value())})
             if (is_used) refuse(name, "cpu");
+}
+
+namespace {
+
+/// Why --backend auto renders on the CPU; nothing if it does not.
+std::optional<std::string> why_on_cpu(const RenderOptions& options, const render::RenderSettings& settings) {
+    if (options.checkpoint || options.display_server || options.isa)
+        return "--checkpoint, --display-server and --isa need it";
+    return why_not_on_gpu(options, settings);
+}
+
+bool renders_on_cpu(const RenderOptions& options, const render::RenderSettings& settings) {
+    if (options.backend != "auto") return options.backend == "cpu";
+    const auto reason = why_on_cpu(options, settings);
+    if (reason && !options.quiet) fmt::print(stderr, "rendering on the CPU: {}\n", *reason);
+    return reason.has_value();
+}
+
+} // namespace
+
+std::unique_ptr<render::Backend> make_backend(const RenderOptions& options,
+                                              const render::RenderSettings& settings) {
+    std::unique_ptr<render::Backend> backend;
+    if (renders_on_cpu(options, settings))
+        backend = std::make_unique<render_cpu::CpuBackend>(
+            render_cpu::choose_isa(options.isa),
+            options.threads.value_or(render_cpu::default_thread_count()));
+    else
+        backend = make_gpu_backend(options);
+    if (const auto reason = backend->why_unsupported(settings)) throw std::invalid_argument(*reason);
+    return backend;
 }
 
 } // namespace nusselt::app

@@ -4,6 +4,7 @@
 #include "render/memory.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -108,7 +109,7 @@ std::vector<LayerFormat> layer_formats(const scene::Scene& scene, const RenderSe
 }
 
 /// The number of samples per pixel as a layer.
-image::Layer samples_layer(const Frame& frame, int samples) {
+image::Layer samples_layer(const Frame& frame, double samples) {
     image::Layer layer{"samples", {"Y"}, std::vector<float>(frame.image.pixels.size() / 3)};
     for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
         if (frame.is_finished[i] == 0) continue;
@@ -161,7 +162,7 @@ double finished_fraction(const Frame& frame) {
         all += pixel_count(frame.tiles[i]);
         if (frame.is_finished[i] != 0) finished += pixel_count(frame.tiles[i]);
     }
-    return all == 0 ? 1 : static_cast<double>(finished) / static_cast<double>(all);
+    return all == 0 ? 1 : frame.finished_share * static_cast<double>(finished) / static_cast<double>(all);
 }
 
 image::LayeredImage to_layered_image(Frame&& frame, const scene::Film& film, const RenderSettings& settings,
@@ -172,7 +173,7 @@ image::LayeredImage to_layered_image(Frame&& frame, const scene::Film& film, con
     result.metadata = std::move(metadata);
     const bool is_whole = settings.part.count == 1 && finished_fraction(frame) == 1;
     image::Layer samples;
-    if (!is_whole) samples = samples_layer(frame, settings.samples);
+    if (!is_whole) samples = samples_layer(frame, std::round(frame.finished_share * settings.samples));
     result.layers.push_back({"", kRgb, std::move(frame.image.pixels)});
     for (image::Layer& layer : frame.layers) result.layers.push_back(std::move(layer));
     if (!is_whole) result.layers.push_back(std::move(samples));

@@ -19,6 +19,8 @@ struct Frame {
     std::vector<image::Layer> layers;
     std::vector<Tile> tiles;               ///< those of the part to render
     std::vector<std::uint8_t> is_finished; ///< 1 for tiles whose pixels are final; one for each tile
+    /// Share of the samples that finished pixels have: below 1 if a backend was stopped that takes all pixels at once.
+    double finished_share = 1;
 };
 
 /// Takes the memory for an image and the layers of the settings.
@@ -31,7 +33,7 @@ Frame make_frame(const scene::Scene& scene, const RenderSettings& settings);
 
 std::uint64_t pixel_count(const Tile& tile);
 
-/// Share of the pixels of the part that are finished; 1 if there are none to render.
+/// Share of the samples of the part that are there; 1 if there are no pixels to render.
 double finished_fraction(const Frame& frame);
 
 /// The frame as it goes into files: with all layers, and one more with the number of samples per pixel unless that is the

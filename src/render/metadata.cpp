@@ -35,4 +35,11 @@ image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& s
     return metadata;
 }
 
+image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& settings,
+                              const Backend& backend) {
+    image::Metadata metadata = make_metadata(scene, settings);
+    metadata.merge(backend.metadata());
+    return metadata;
+}
+
 } // namespace nusselt::render

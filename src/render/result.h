@@ -3,7 +3,7 @@
 
 #include "image/image.h"
 #include "image/layers.h"
-#include "render/monitor.h"
+#include "render/frame.h"
 #include "render/statistics.h"
 
 #include <vector>
@@ -16,5 +16,8 @@ struct RenderResult {
     RenderStatistics statistics;
     double finished_fraction = 0; ///< of the work; below 1 if it was cancelled
 };
+
+/// \param frame is moved from
+RenderResult to_result(Frame&& frame, const RenderStatistics& statistics);
 
 } // namespace nusselt::render

@@ -2,7 +2,6 @@
 
 #include "render/film.h"
 #include "render/line_choice.h"
-#include "render/metadata.h"
 #include "render_cpu/flush_denormals.h"
 #include "render_cpu/frame_targets.h"
 
@@ -142,12 +141,8 @@ RenderResult Renderer::render(const RenderSettings& settings, Isa isa, const vis
                               const RenderMonitor& monitor) const {
     validate(settings);
     Frame frame = make_frame(scene_, settings);
-    RenderResult result;
-    result.statistics = render_into(frame, settings, isa, tracer, monitor);
-    result.finished_fraction = finished_fraction(frame);
-    result.image = std::move(frame.image);
-    result.layers = std::move(frame.layers);
-    return result;
+    const RenderStatistics statistics = render_into(frame, settings, isa, tracer, monitor);
+    return to_result(std::move(frame), statistics);
 }
 
 RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& settings, Isa isa,
@@ -225,12 +220,6 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     statistics.lines.shadow_tests = work.line_counters.line_tests;
     statistics.threads = thread_count_;
     return statistics;
-}
-
-image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& settings, Isa isa) {
-    image::Metadata metadata = render::make_metadata(scene, settings);
-    metadata["isa"] = std::string(name_of(isa));
-    return metadata;
 }
 
 } // namespace nusselt::render_cpu

@@ -3,6 +3,7 @@
 
 #include "image/image.h"
 #include "render/frame.h"
+#include "render/monitor.h"
 #include "render/result.h"
 #include "render/settings.h"
 #include "render_cpu/isa.h"
@@ -70,8 +71,5 @@ private:
 
 /// Number of threads that the machine runs at once.
 int default_thread_count();
-
-/// Settings, program version and a fingerprint of the scene, for the metadata of image files.
-image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& settings, Isa isa);
 
 } // namespace nusselt::render_cpu

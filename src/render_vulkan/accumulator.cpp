@@ -17,7 +17,7 @@ namespace {
 
 const render::RenderSettings& checked(const render::RenderSettings& settings) {
     validate(settings);
-    check_supported(settings);
+    if (const auto reason = why_unsupported(settings)) throw std::invalid_argument(*reason);
     return settings;
 }
 
@@ -154,14 +154,14 @@ FrameWork checked_work(const interface::WorkRecord& work, const std::string& dev
     return {joined(work.shadow_rays), joined(work.rejected_samples)};
 }
 
-void check_supported(const render::RenderSettings& settings) {
-    const auto refuse = [](const std::string& what) {
-        throw std::invalid_argument(what + " not supported on GPUs; use --backend cpu");
-    };
+std::optional<std::string> why_unsupported(const render::RenderSettings& settings) {
+    const std::string remedy = " not supported on GPUs; use --backend cpu";
     if (settings.light_samples != render::LightSamples::points)
-        refuse("--light-samples " + std::string(name_of(settings.light_samples)) + " is");
-    if (!settings.layers.empty()) refuse("layer " + std::string(name_of(settings.layers.front())) + " is");
-    if (settings.part.count > 1) refuse("--part is");
+        return "--light-samples " + std::string(name_of(settings.light_samples)) + " is" + remedy;
+    if (!settings.layers.empty())
+        return "layer " + std::string(name_of(settings.layers.front())) + " is" + remedy;
+    if (settings.part.count > 1) return "--part is" + remedy;
+    return std::nullopt;
 }
 
 } // namespace nusselt::render_vulkan

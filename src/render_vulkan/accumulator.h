@@ -36,7 +36,7 @@ FrameWork checked_work(const interface::WorkRecord& work, const std::string& dev
 class Accumulator {
 public:
     /// \param scene must outlive this.
-    /// \throws std::invalid_argument see validate() and check_supported()
+    /// \throws std::invalid_argument see validate(), and for settings that are not supported
     /// \throws gpu::Error if memory runs out
     Accumulator(const DeviceScene& scene, const render::RenderSettings& settings);
 
@@ -78,7 +78,7 @@ private:
     std::uint32_t frames_ = 0;
 };
 
-/// \throws std::invalid_argument naming the first setting that a GPU does not know.
-void check_supported(const render::RenderSettings& settings);
+/// Names the first setting that is not supported on GPUs; nothing if all are.
+std::optional<std::string> why_unsupported(const render::RenderSettings& settings);
 
 } // namespace nusselt::render_vulkan

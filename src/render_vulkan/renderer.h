@@ -2,6 +2,7 @@
 /// Renders direct light of a scene on a GPU.
 
 #include "gpu/device.h"
+#include "render/monitor.h"
 #include "render/result.h"
 #include "render/settings.h"
 #include "render_vulkan/accumulator.h"

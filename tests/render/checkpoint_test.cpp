@@ -3,6 +3,8 @@
 #include "scenes.h"
 
 #include "render/checkpoint.h"
+#include "render/metadata.h"
+#include "render_cpu/backend.h"
 #include "scene/content_hash.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +37,9 @@ protected:
     ~Checkpoint() override { std::filesystem::remove(path_); }
 
     image::Metadata run_of(const Frame& frame) const {
-        return describe_run(make_metadata(scene_, settings_, render_cpu::choose_isa()), frame);
+        return describe_run(
+            render::make_metadata(scene_, settings_, render_cpu::CpuBackend(render_cpu::choose_isa(), 1)),
+            frame);
     }
 
     /// A finished frame.

@@ -2,6 +2,9 @@
 
 #include "line_scenes.h"
 
+#include "render/metadata.h"
+#include "render_cpu/backend.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -344,7 +347,7 @@ TEST(LineSettings, OutOfRangeAreRefused) {
 TEST(LineSettings, AreInTheMetadata) {
     const scene::Scene scene = make_floor(2);
     const auto metadata_of = [&](const RenderSettings& settings) {
-        return make_metadata(scene, settings, render_cpu::choose_isa());
+        return render::make_metadata(scene, settings, render_cpu::CpuBackend(render_cpu::choose_isa(), 1));
     };
     const RenderSettings settings = line_settings(4);
     std::vector<RenderSettings> others(6, settings);
