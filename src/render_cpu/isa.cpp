@@ -65,16 +65,4 @@ Isa choose_isa(std::optional<std::string_view> name) {
     throw std::runtime_error("this processor lacks SSE 4.2 or POPCNT, which everything here needs");
 }
 
-RenderTile kernel_for(Isa isa) {
-    switch (isa) {
-    case Isa::sse42:
-        return render_tile_sse42;
-    case Isa::avx2:
-        return render_tile_avx2;
-    case Isa::avx512:
-        return render_tile_avx512;
-    }
-    return nullptr;
-}
-
 } // namespace nusselt::render_cpu

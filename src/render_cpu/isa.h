@@ -1,7 +1,5 @@
 #pragma once
-/// Choice of the kernel for this processor.
-
-#include "render_cpu/kernel.h"
+/// Choice of the instruction set for this processor.
 
 #include <optional>
 #include <string_view>
@@ -23,8 +21,5 @@ bool is_supported(Isa isa);
 ///             largest one that is supported
 /// \throws std::runtime_error if the name is unknown or the instruction set not supported
 Isa choose_isa(std::optional<std::string_view> name = {});
-
-/// The kernel, which must only be called where the instruction set is supported.
-RenderTile kernel_for(Isa isa);
 
 } // namespace nusselt::render_cpu

@@ -195,11 +195,8 @@ struct TileMemory {
 using RenderTile = void (*)(const RenderJob& job, const Tile& tile, const TileMemory& memory,
                             TileStatistics& statistics);
 
-void render_tile_sse42(const RenderJob& job, const Tile& tile, const TileMemory& memory,
-                       TileStatistics& statistics);
-void render_tile_avx2(const RenderJob& job, const Tile& tile, const TileMemory& memory,
-                      TileStatistics& statistics);
-void render_tile_avx512(const RenderJob& job, const Tile& tile, const TileMemory& memory,
-                        TileStatistics& statistics);
+/// Tells kernels apart that are compiled from the same source for different instruction sets.
+template <int kLanes>
+struct LaneCount {};
 
 } // namespace nusselt::render_cpu

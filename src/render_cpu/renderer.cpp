@@ -106,9 +106,10 @@ private:
 
 int default_thread_count() { return std::max(1, tbb::this_task_arena::max_concurrency()); }
 
-Renderer::Renderer(const scene::Scene& scene, int thread_count)
+Renderer::Renderer(const scene::Scene& scene, int thread_count, const Integrator& integrator)
     : scene_(scene),
       thread_count_(thread_count),
+      integrator_(&integrator),
       // By default oneTBB refuses more threads than the machine runs at once, with a message of its own.
       thread_limit_(tbb::global_control::max_allowed_parallelism,
                     static_cast<std::size_t>(std::max(thread_count, default_thread_count()))),
@@ -182,7 +183,7 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.has_layers = !frame.layers.empty();
     job.layers = targets.layers();
 
-    const RenderTile render_tile = kernel_for(isa);
+    const RenderTile render_tile = kernel_for(*integrator_, isa);
     const std::size_t summed_emitters = job.layers.lights == nullptr ? 0 : scene_.emitters.size();
     const std::size_t line_bytes = settings.light_samples == LightSamples::lines ? kLineMemoryBytes : 0;
     tbb::enumerable_thread_specific<ThreadMemory> memory(summed_emitters, line_bytes);

@@ -6,6 +6,7 @@
 #include "render/monitor.h"
 #include "render/result.h"
 #include "render/settings.h"
+#include "render_cpu/integrator.h"
 #include "render_cpu/isa.h"
 #include "render_cpu/kernel_arrays.h"
 #include "scene/scene.h"
@@ -26,8 +27,10 @@ public:
     /// Builds the bounding volume hierarchy.
     /// \param scene        must outlive the renderer; its film gives the size of images
     /// \param thread_count threads for building and rendering, at least 1
+    /// \param integrator   must outlive the renderer
     /// \throws std::runtime_error see EmbreeScene and KernelArrays
-    Renderer(const scene::Scene& scene, int thread_count);
+    Renderer(const scene::Scene& scene, int thread_count,
+             const Integrator& integrator = integrators().front());
 
     /// \throws std::invalid_argument see validate()
     /// \throws std::runtime_error see make_frame(), and LineBvh for line samples
@@ -61,6 +64,7 @@ private:
 
     const scene::Scene& scene_;
     int thread_count_;
+    const Integrator* integrator_;
     tbb::global_control thread_limit_;
     mutable tbb::task_arena arena_;
     double build_seconds_ = 0;

@@ -17,6 +17,7 @@ using render_cpu::Isa;
 
 scene::Scene lit_floor() {
     scene::Scene scene = render_test::make_floor(40);
+    render_test::set_camera(scene, {0, 0, 2}, {0, 0, 0}, {0, 1, 0}, 0.3, 40, 40);
     render_test::add_polygon_light(scene, {scene::Float3{-9, -9, 5}, {-9, 9, 5}, {9, 9, 5}, {9, -9, 5}},
                                    {1, 1, 1}, true, 0);
     render_test::set_radius(scene);
