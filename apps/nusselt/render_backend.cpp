@@ -70,15 +70,14 @@ bool renders_on_cpu(const RenderOptions& options, const render::RenderSettings& 
 
 std::unique_ptr<render::Backend> make_backend(const RenderOptions& options,
                                               const render::RenderSettings& settings) {
-    std::unique_ptr<render::Backend> backend;
     if (renders_on_cpu(options, settings))
-        backend = std::make_unique<render_cpu::CpuBackend>(
+        return std::make_unique<render_cpu::CpuBackend>(
             render_cpu::choose_isa(options.isa),
             options.threads.value_or(render_cpu::default_thread_count()));
-    else
-        backend = make_gpu_backend(options);
-    if (const auto reason = backend->why_unsupported(settings)) throw std::invalid_argument(*reason);
-    return backend;
+    std::unique_ptr<render::Backend> gpu = make_gpu_backend(options);
+    if (const auto reason = gpu->why_unsupported(settings)) throw std::invalid_argument(*reason);
+    if (!options.quiet) fmt::print(stderr, "rendering on {}\n", gpu->metadata().at("device"));
+    return gpu;
 }
 
 } // namespace nusselt::app

@@ -5,8 +5,6 @@
 #include "render_vulkan/accumulator.h"
 #include "render_vulkan/backend.h"
 
-#include <fmt/core.h>
-
 namespace nusselt::app {
 
 std::optional<std::string> why_not_on_gpu(const RenderOptions& options,
@@ -27,9 +25,7 @@ std::unique_ptr<render::Backend> make_gpu_backend(const RenderOptions& options) 
     if (const auto reason = gpu::why_no_device(device)) throw gpu::NoDevice(*reason);
     std::optional<render_vulkan::ShadowRays> shadow_rays;
     if (options.shadow_rays) shadow_rays = from_name(render_vulkan::kShadowRays, *options.shadow_rays);
-    auto backend = std::make_unique<render_vulkan::VulkanBackend>(device, shadow_rays);
-    if (!options.quiet) fmt::print(stderr, "rendering on {}\n", backend->metadata().at("device"));
-    return backend;
+    return std::make_unique<render_vulkan::VulkanBackend>(device, shadow_rays);
 }
 
 } // namespace nusselt::app
