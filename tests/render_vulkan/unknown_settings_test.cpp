@@ -31,8 +31,10 @@ protected:
         interface::FrameRecord frame = render_vulkan::FrameRecords(scene().film(), {}).make(0);
         frame.light_end = scene().light_count();
         frame.sample_end = frame.light_samples;
-        device().time_passes(
-            {[&](const gpu::Device::Commands& commands) { pass.record(commands, frame, kSide); }});
+        const gpu::Device::Record record = [&](const gpu::Device::Commands& commands) {
+            pass.record(commands, frame, kSide);
+        };
+        static_cast<void>(device().time_passes(std::span(&record, 1)));
         interface::WorkRecord work {};
         pixels.work.read(std::span(&work, 1));
         EXPECT_EQ(work.unfinished, 0u);
