@@ -29,6 +29,7 @@ function(nusselt_add_shader target name source)
     endif()
     cmake_path(ABSOLUTE_PATH source)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/shaders)
+    nusselt_shader_array(array ${name})
     set(spirv ${folder}/${name}.spv)
     set(header ${folder}/${name}.h)
     list(TRANSFORM arg_DEFINES PREPEND -D)
@@ -36,7 +37,7 @@ function(nusselt_add_shader target name source)
     add_custom_command(OUTPUT ${header} BYPRODUCTS ${spirv}
         COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env ${arg_ENVIRONMENT} -g0 -I${PROJECT_SOURCE_DIR}/shaders ${arg_DEFINES}
             --depfile ${spirv}.d -o ${spirv} ${source}
-        COMMAND ${CMAKE_COMMAND} -D INPUT=${spirv} -D OUTPUT=${header} -D NAME=${name}
+        COMMAND ${CMAKE_COMMAND} -D INPUT=${spirv} -D OUTPUT=${header} -D ARRAY=${array}
             -P ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake
         DEPENDS ${source} ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake
         DEPFILE ${spirv}.d
@@ -44,6 +45,19 @@ function(nusselt_add_shader target name source)
         VERBATIM)
     target_sources(${target} PRIVATE ${header})
     target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+endfunction()
+
+# nusselt_shader_array(variable name): the name of the array that nusselt_add_shader() makes of a shader.
+function(nusselt_shader_array variable name)
+    string(REGEX MATCHALL "[^_]+" words ${name})
+    set(array k)
+    foreach(word ${words})
+        string(SUBSTRING ${word} 0 1 first)
+        string(TOUPPER ${first} first)
+        string(SUBSTRING ${word} 1 -1 rest)
+        string(APPEND array ${first}${rest})
+    endforeach()
+    set(${variable} ${array} PARENT_SCOPE)
 endfunction()
 
 # nusselt_add_technique_shader(target name entry file struct [PREPARE function] [DEFINES define...]): likewise, for an

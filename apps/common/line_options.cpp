@@ -40,13 +40,25 @@ void add_line_kind_options(CLI::App& command, LineKindOptions& options) {
 }
 
 void add_line_options(CLI::App& command, LineOptions& options) {
+    CLI::Option* const light_samples =
+        command
+            .add_option(
+                "--light-samples", options.light_samples,
+                "What is sampled of polygonal lights: points, or lines with exact visibility. Tubes and\n"
+                "linear lights always get --spp points")
+            ->transform(to_name_of(render::kLightSamples))
+            ->capture_default_str()
+            ->group(kGroup);
+    constexpr const char* kHidden = "";
     command
-        .add_option("--integrator", options.integrator,
-                    "What is sampled of polygonal lights: points, or lines with exact visibility. Tubes and\n"
-                    "linear lights always get --spp points")
-        ->transform(to_name_of(render::kIntegrators))
-        ->capture_default_str()
-        ->group(kGroup);
+        .add_option_function<std::string>("--integrator",
+                                          [&options](const std::string& name) {
+                                              options.light_samples = name;
+                                              options.has_old_name = true;
+                                          })
+        ->transform(to_name_of(render::kLightSamples))
+        ->excludes(light_samples)
+        ->group(kHidden);
     command
         .add_option(
             "--lines", options.count,
@@ -74,7 +86,7 @@ void apply_line_kind_options(const LineKindOptions& options, render::LineSetting
 }
 
 void apply_line_options(const LineOptions& options, render::RenderSettings& settings) {
-    settings.integrator = from_name(render::kIntegrators, options.integrator);
+    settings.light_samples = from_name(render::kLightSamples, options.light_samples);
     render::LineSettings& lines = settings.lines;
     if (options.count) lines.count = *options.count;
     apply_line_kind_options(options, lines);

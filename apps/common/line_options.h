@@ -20,12 +20,13 @@ struct LineKindOptions {
 
 /// Whether there are line samples, and how. Defaults are those of render::RenderSettings.
 struct LineOptions : LineKindOptions {
-    std::string integrator = "points";
+    std::string light_samples = "points";
+    bool has_old_name = false; ///< whether they were chosen by the name of earlier versions, --integrator
     std::optional<int> count;
     std::optional<std::string> many_occluders;
 };
 
-/// Adds --integrator and all that goes with it.
+/// Adds --light-samples and all that goes with it.
 void add_line_options(CLI::App& command, LineOptions& options);
 
 /// Adds --orientation, --offsets and --line-shading.
@@ -35,7 +36,7 @@ void add_line_kind_options(CLI::App& command, LineKindOptions& options);
 /// \throws std::invalid_argument for values that the command line does not let through
 void apply_line_kind_options(const LineKindOptions& options, render::LineSettings& settings);
 
-/// The same for all options, and the integrator.
+/// The same for all options, and what is sampled.
 void apply_line_options(const LineOptions& options, render::RenderSettings& settings);
 
 /// What add_line_kind_options() can change, as an object.

@@ -9,7 +9,7 @@
 namespace nusselt::lab {
 
 render::RenderSettings with_count(render::RenderSettings settings, int count) {
-    (settings.integrator == render::Integrator::lines ? settings.lines.count : settings.samples) = count;
+    (settings.light_samples == render::LightSamples::lines ? settings.lines.count : settings.samples) = count;
     return settings;
 }
 
@@ -18,7 +18,7 @@ SeedStatistics render_seeds(const render_cpu::Renderer& renderer, base::Isa isa,
     std::vector<double> means, squares, seconds;
     SeedStatistics result;
     for (int i = 0; i < seeds; ++i, ++settings.seed) {
-        render_cpu::RenderResult frame = renderer.render(settings, isa);
+        render::RenderResult frame = renderer.render(settings, isa);
         seconds.push_back(frame.statistics.render_seconds);
         const std::vector<float>& pixels = frame.image.pixels;
         means.resize(pixels.size());

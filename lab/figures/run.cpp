@@ -153,7 +153,7 @@ VariantResult render_variant(const render_cpu::Renderer& renderer, base::Isa isa
     render::RenderSettings settings = variant.settings;
     for (int i = 0; i < experiment.frames; ++i) {
         settings.seed = seed_of_frame(i, false);
-        render_cpu::RenderResult rendered = renderer.render(settings, isa);
+        render::RenderResult rendered = renderer.render(settings, isa);
         errors.add(rendered.image);
         statistics.add(rendered.image);
         result.seconds += rendered.statistics.render_seconds / experiment.frames;

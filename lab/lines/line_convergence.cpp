@@ -13,7 +13,7 @@ namespace nusselt::lab {
 
 namespace {
 
-using render::Integrator;
+using render::LightSamples;
 using render::LineOrientation;
 using render::LineShading;
 using render::SampleOrder;
@@ -47,7 +47,7 @@ ConvergenceSeries importance_sampled_points(const std::string& label) {
 /// In parallel, by length, with closed forms alone, as in the paper.
 ConvergenceSeries lines(const std::string& label, SampleOrder order) {
     ConvergenceSeries series = {label, {}, powers_of_two(kMostLines), 4, kMostLines};
-    series.settings.integrator = Integrator::lines;
+    series.settings.light_samples = LightSamples::lines;
     series.settings.lines.shading = LineShading::analytic;
     series.settings.lines.offsets = render::LineOffsets::length;
     series.settings.lines.many_occluders = render::ManyOccluders::lines;

@@ -75,10 +75,10 @@ Plot error_plot(const LineConvergence& experiment, const SceneResult& scene, con
                 double (*x_of)(const CurvePoint&)) {
     Plot plot = {scene.scene, x_label, "mean squared error / mean squared", {}};
     for (std::size_t i = 0; i < experiment.series.size(); ++i) {
-        const auto integrator = experiment.series[i].settings.integrator;
+        const auto light_samples = experiment.series[i].settings.light_samples;
         PlotCurve curve = {experiment.series[i].label,
                            {},
-                           integrator == render::Integrator::lines ? Stroke::solid : Stroke::dashed};
+                           light_samples == render::LightSamples::lines ? Stroke::solid : Stroke::dashed};
         for (const CurvePoint& p : scene.series[i].curve)
             curve.points.emplace_back(x_of(p), p.variance / (scene.mean * scene.mean));
         plot.curves.push_back(std::move(curve));

@@ -59,7 +59,7 @@ LineEfficiency measure_line_efficiency(const render_cpu::Renderer& renderer, bas
                                        const LineEfficiencySettings& settings,
                                        const std::function<void(int round)>& progress) {
     render::RenderSettings with_lines = settings.points;
-    with_lines.integrator = render::Integrator::lines;
+    with_lines.light_samples = render::LightSamples::lines;
     with_lines.lines = settings.lines;
     with_lines.lines.many_occluders = render::ManyOccluders::lines;
     render::RenderSettings with_choice = with_lines;

@@ -12,7 +12,7 @@
 namespace nusselt::lab {
 
 struct LineEfficiencySettings {
-    render::RenderSettings points; ///< all that is not said below, with Integrator::points
+    render::RenderSettings points; ///< all that is not said below, with LightSamples::points
     render::LineSettings lines; ///< but for their number and for what is done where there are many occluders
     int most_points = 1024;     ///< per shading point and light, in powers of two from kFewestPoints
     int most_lines = 256;       ///< likewise, from 1

@@ -22,7 +22,7 @@ RenderSettings reference() {
 
 Variant lines(const std::string& label, LineOrientation orientation, LineOffsets offsets) {
     RenderSettings settings;
-    settings.integrator = render::Integrator::lines;
+    settings.light_samples = render::LightSamples::lines;
     settings.lines.count = kLines;
     settings.lines.orientation = orientation;
     settings.lines.offsets = offsets;

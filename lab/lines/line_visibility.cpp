@@ -9,8 +9,8 @@ namespace nusselt::lab {
 
 namespace {
 
+using render::LineStatistics;
 using render::RenderSettings;
-using render_cpu::LineStatistics;
 
 std::vector<LineScene> in_both_lights() {
     std::vector<LineScene> scenes;
@@ -55,7 +55,7 @@ LineVisibility table() {
 
 RenderSettings settings_of(const LineVisibility& experiment) {
     RenderSettings settings;
-    settings.integrator = render::Integrator::lines;
+    settings.light_samples = render::LightSamples::lines;
     settings.lines.count = experiment.lines;
     settings.lines.shading = render::LineShading::analytic;
     settings.lines.many_occluders = render::ManyOccluders::lines;
@@ -74,7 +74,7 @@ WorkPerLine work_of(const LineStatistics& statistics) {
 LineVisibilityScene run_scene(const LineVisibility& experiment, const std::string& name,
                               const scene::Scene& scene, int threads) {
     const render_cpu::Renderer renderer(scene, threads);
-    render_cpu::RenderResult rendered = renderer.render(settings_of(experiment), base::choose_isa());
+    render::RenderResult rendered = renderer.render(settings_of(experiment), base::choose_isa());
     LineVisibilityScene result;
     result.scene = name;
     result.statistics = rendered.statistics;

@@ -46,7 +46,7 @@ struct LineVisibilityScene {
     bool is_skipped = false; ///< it is not there
     image::Image image;
     image::Plane parts; ///< visible ones of each line, means over pixels
-    render_cpu::RenderStatistics statistics;
+    render::RenderStatistics statistics;
     WorkPerLine work;
 };
 

@@ -31,7 +31,7 @@ Table work_table(const LineVisibilityResult& result) {
             table.back().push_back("skipped");
             continue;
         }
-        const render_cpu::RenderStatistics& s = scene.statistics;
+        const render::RenderStatistics& s = scene.statistics;
         const auto boxes = static_cast<double>(s.lines.box_tests);
         const auto triangles = static_cast<double>(s.lines.triangle_tests);
         const auto lines = static_cast<double>(s.lines.lines);
@@ -82,7 +82,7 @@ std::string to_json(const LineVisibilityResult& result) {
     for (const LineVisibilityScene& scene : result.scenes) {
         Json entry = {{"scene", scene.scene}, {"skipped", scene.is_skipped}};
         if (!scene.is_skipped) {
-            const render_cpu::RenderStatistics& s = scene.statistics;
+            const render::RenderStatistics& s = scene.statistics;
             entry["render_seconds"] = s.render_seconds;
             entry["visibility_seconds"] = s.lines.visibility_seconds;
             entry["threads"] = s.threads;

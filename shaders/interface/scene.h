@@ -157,6 +157,7 @@ struct WorkRecord {
     uint shadow_rays[2];
     uint rejected_samples[2];
     uint unfinished; ///< shadings whose loops were ended by the driver
+    uint unknown_settings; ///< shadings with settings that the shader has no code for
 };
 
 #ifdef __cplusplus

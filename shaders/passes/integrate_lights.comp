@@ -20,6 +20,7 @@ vec3 reflected_share(GlossySurface surface, vec2 integrals, inout Counts counts)
 }
 
 vec3 reflected_light(Surface surface, ivec2 pixel, inout Counts counts) {
+    if (kTechnique != kTechniqueLtcAnalytic) note_unknown_setting();
     GlossySurface glossy = make_reflection(surface).glossy;
     vec3 radiance = vec3(0.0);
     for (uint i = frame.first_light; kHasPolygons && i < polygons_end(); ++i) {

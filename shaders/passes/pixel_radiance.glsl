@@ -9,6 +9,7 @@ void main() {
     if (!has_pixel(pixel)) return;
     uint number = drawn_numbers[pixel_index(pixel)];
     if (number == 0u) return;
+    check_settings();
     DrawnTriangle drawn = drawn_triangle(number - 1u);
     Ray ray = camera_ray(pixel);
     bool is_first = frame.first_light == 0u && frame.first_sample == 0u;
@@ -21,4 +22,5 @@ void main() {
     }
     add_to_pixel(pixel, frame.weight * radiance);
     note_unfinished();
+    report_unknown_setting();
 }

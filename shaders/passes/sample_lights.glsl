@@ -7,6 +7,22 @@
 #include "passes/shading.glsl"
 #include "passes/techniques.glsl"
 
+/// Heuristics and samplers have the same numbers here and in shaders/nusselt: otherwise an array has no elements, which does
+/// not compile.
+struct SameNumbers {
+    int balance[kMisBalance == kNusseltMisBalance ? 1 : 0];
+    int power[kMisPower == kNusseltMisPower ? 1 : 0];
+    int weighted_balance[kMisWeightedBalance == kNusseltMisWeightedBalance ? 1 : 0];
+    int clamped_optimal[kMisClampedOptimal == kNusseltMisClampedOptimal ? 1 : 0];
+    int optimal[kMisOptimal == kNusseltMisOptimal ? 1 : 0];
+    int one_sample[kMisOneSample == kNusseltMisOneSample ? 1 : 0];
+    int separate[kMisSeparate == kNusseltMisSeparate ? 1 : 0];
+    int independent[kSamplerIndependent == kNusseltSamplerIndependent ? 1 : 0];
+    int sobol[kSamplerSobol == kNusseltSamplerSobol ? 1 : 0];
+    int jittered[kSamplerJittered == kNusseltSamplerJittered ? 1 : 0];
+    int stratified[kSamplerStratified == kNusseltSamplerStratified ? 1 : 0];
+};
+
 /// As nusselt::kShadowEnd: occluders count up to this share of the way.
 const float kShadowEnd = 0.9999;
 

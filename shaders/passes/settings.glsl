@@ -1,27 +1,27 @@
 #ifndef NUSSELT_PASSES_SETTINGS_GLSL
 #define NUSSELT_PASSES_SETTINGS_GLSL
-/// What is chosen when a pipeline is made: the numbers of the enumerations in src/render/settings.h. Those of samplers and
-/// heuristics are in shaders/nusselt.
+/// What is chosen when a pipeline is made: numbers of shaders/interface/settings.h.
 
-// After those of scene_kinds.glsl.
-layout(constant_id = 7) const int kTechnique = 0;
-layout(constant_id = 8) const int kStrategies = 0;
-layout(constant_id = 9) const int kMis = 0;
-layout(constant_id = 10) const int kSampler = 0;
-layout(constant_id = 11) const int kBrdf = 0;
+#include "interface/settings.h"
 
-const int kTechniqueArea = 0;
-const int kTechniqueSolidAngle = 1;
-const int kTechniqueClippedSolidAngle = 2;
-const int kTechniqueProjectedSolidAngle = 3;
-const int kTechniqueProjectedSolidAngleBiased = 4;
-const int kTechniqueLtcAnalytic = 5;
+layout(constant_id = kTechniqueConstant) const int kTechnique = 0;
+layout(constant_id = kStrategiesConstant) const int kStrategies = 0;
+layout(constant_id = kMisConstant) const int kMis = 0;
+layout(constant_id = kSamplerConstant) const int kSampler = 0;
+layout(constant_id = kBrdfConstant) const int kBrdf = 0;
 
-const int kStrategiesDiffuse = 0;
-const int kStrategiesDiffuseLtc = 1;
-const int kStrategiesDiffuseGgx = 2;
-const int kStrategiesDiffuseGgxBounded = 3;
+/// Whether a branch had no code for a setting. The renderer then reports an error: see report_unknown_setting().
+bool has_unknown_setting = false;
 
-const int kBrdfLambert = 1;
+void note_unknown_setting() { has_unknown_setting = true; }
+
+bool is_known(int value, int count) { return value >= 0 && value < count; }
+
+/// Notes settings with numbers that are none of their values.
+void check_settings() {
+    bool all_known = is_known(kTechnique, kTechniqueCount) && is_known(kStrategies, kStrategiesCount) &&
+                     is_known(kMis, kMisCount) && is_known(kSampler, kSamplerCount) && is_known(kBrdf, kBrdfCount);
+    if (!all_known) note_unknown_setting();
+}
 
 #endif

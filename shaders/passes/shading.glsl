@@ -3,6 +3,7 @@
 /// What all ways to shade pixels share: which pixel, what it sees, and where the result goes.
 
 #include "passes/lights.glsl"
+#include "passes/settings.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -65,6 +66,11 @@ void note_unfinished() {
     uint rounds = 0u;
     while (rounds < frame.loop_probe) ++rounds;
     if (rounds != frame.loop_probe) atomicAdd(work.unfinished, 1u);
+}
+
+/// Counts pixels that were shaded with a setting that no branch knows.
+void report_unknown_setting() {
+    if (has_unknown_setting) atomicAdd(work.unknown_settings, 1u);
 }
 
 #endif

@@ -23,7 +23,20 @@
 #include "passes/reflection.glsl"
 
 const bool kIsBiased = kTechnique == kTechniqueProjectedSolidAngleBiased;
+const bool kIsProjected = kIsBiased || kTechnique == kTechniqueProjectedSolidAngle; ///< as lines see it
+const bool kHasBrdfSamples = kStrategies == kStrategiesDiffuseGgx || kStrategies == kStrategiesDiffuseGgxBounded;
 const bool kIsSolidAngle = kTechnique == kTechniqueSolidAngle || kTechnique == kTechniqueClippedSolidAngle;
+
+/// Where a setting has no code: black, and an error of the renderer.
+LightSample unknown_sample() {
+    note_unknown_setting();
+    return LightSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0));
+}
+
+float unknown_number() {
+    note_unknown_setting();
+    return 0.0;
+}
 
 struct PolygonTechniques {
     PolygonArea area;
@@ -45,13 +58,17 @@ PolygonTechniques polygon_techniques_prepare(ConvexPolygon light, GlossySurface 
         self.solid_angle = polygon_clipped_solid_angle_prepare(light);
     else if (kIsBiased)
         self.biased = polygon_projected_solid_angle_biased_prepare(light);
-    else
+    else if (kIsProjected)
         self.projected = polygon_projected_solid_angle_prepare(light);
+    else
+        note_unknown_setting();
     if (!is_paired) return self;
     if (kStrategies == kStrategiesDiffuseGgx)
         self.brdf = polygon_brdf_prepare(light, ggx_visible_normals_prepare(surface.wo, surface.alpha));
     else if (kStrategies == kStrategiesDiffuseGgxBounded)
         self.brdf = polygon_brdf_prepare(light, ggx_bounded_visible_normals_prepare(surface.wo, surface.alpha));
+    else if (kStrategies != kStrategiesDiffuseLtc)
+        note_unknown_setting();
     else if (kIsBiased)
         self.ltc = polygon_ltc_biased_prepare(light, surface.lobe);
     else
@@ -61,7 +78,8 @@ PolygonTechniques polygon_techniques_prepare(ConvexPolygon light, GlossySurface 
 
 LightSample polygon_techniques_sample(PolygonTechniques self, int technique, vec2 u) {
     if (technique == 1) {
-        if (kStrategies != kStrategiesDiffuseLtc) return polygon_brdf_sample(self.brdf, u);
+        if (kHasBrdfSamples) return polygon_brdf_sample(self.brdf, u);
+        if (kStrategies != kStrategiesDiffuseLtc) return unknown_sample();
         if (kIsBiased) return polygon_ltc_biased_sample(self.ltc, u);
         return polygon_ltc_sample(self.ltc, u);
     }
@@ -69,7 +87,8 @@ LightSample polygon_techniques_sample(PolygonTechniques self, int technique, vec
     if (kTechnique == kTechniqueSolidAngle) return polygon_solid_angle_sample(self.solid_angle, u);
     if (kTechnique == kTechniqueClippedSolidAngle) return polygon_clipped_solid_angle_sample(self.solid_angle, u);
     if (kIsBiased) return polygon_projected_solid_angle_biased_sample(self.biased, u);
-    return polygon_projected_solid_angle_sample(self.projected, u);
+    if (kIsProjected) return polygon_projected_solid_angle_sample(self.projected, u);
+    return unknown_sample();
 }
 
 /// Of both techniques. Pairs begin with a solid angle or a projected one.
@@ -79,9 +98,16 @@ vec2 polygon_techniques_pdf(PolygonTechniques self, vec3 wi) {
         pdf.x = polygon_solid_angle_pdf(self.solid_angle, wi);
     else if (kIsBiased)
         pdf.x = polygon_projected_solid_angle_biased_pdf(self.biased, wi);
-    else
+    else if (kIsProjected)
         pdf.x = polygon_projected_solid_angle_pdf(self.projected, wi);
-    pdf.y = kStrategies == kStrategiesDiffuseLtc ? polygon_ltc_pdf(self.ltc, wi) : polygon_brdf_pdf(self.brdf, wi);
+    else
+        pdf.x = unknown_number();
+    if (kStrategies == kStrategiesDiffuseLtc)
+        pdf.y = polygon_ltc_pdf(self.ltc, wi);
+    else if (kHasBrdfSamples)
+        pdf.y = polygon_brdf_pdf(self.brdf, wi);
+    else
+        pdf.y = unknown_number();
     return pdf;
 }
 
@@ -92,8 +118,10 @@ vec2 polygon_techniques_integrals(PolygonTechniques self) {
         measure = polygon_solid_angle_measure(self.solid_angle);
     else if (kIsBiased)
         measure = polygon_projected_solid_angle_biased_measure(self.biased);
-    else
+    else if (kIsProjected)
         measure = polygon_projected_solid_angle_measure(self.projected);
+    else
+        measure = unknown_number();
     return vec2((1.0 / kNusseltPi) * measure,
                 kStrategies == kStrategiesDiffuseLtc ? polygon_ltc_measure(self.ltc) : 0.0);
 }
@@ -114,8 +142,10 @@ LineTechniques line_techniques_prepare(LineSegment light, GlossySurface surface,
         self.solid_angle = line_solid_angle_prepare(light);
     else if (kTechnique == kTechniqueClippedSolidAngle)
         self.solid_angle = line_clipped_solid_angle_prepare(light);
-    else
+    else if (kIsProjected)
         self.projected = line_projected_solid_angle_prepare(light);
+    else
+        note_unknown_setting();
     if (is_paired) self.ltc = line_ltc_prepare(light, surface.lobe);
     return self;
 }
@@ -124,7 +154,8 @@ LightSample line_techniques_sample(LineTechniques self, int technique, float u) 
     if (technique == 1) return line_ltc_sample(self.ltc, u);
     if (kTechnique == kTechniqueArea) return line_area_sample(self.area, u);
     if (kIsSolidAngle) return line_solid_angle_sample(self.solid_angle, u);
-    return line_projected_solid_angle_sample(self.projected, u);
+    if (kIsProjected) return line_projected_solid_angle_sample(self.projected, u);
+    return unknown_sample();
 }
 
 /// Of both techniques. Pairs begin with a projected solid angle.
@@ -150,8 +181,10 @@ TubeTechniques tube_techniques_prepare(Cylinder light, GlossySurface surface, bo
         self.area = cylinder_area_prepare(light);
     else if (kIsSolidAngle)
         self.solid_angle = cylinder_solid_angle_prepare(light);
-    else
+    else if (kIsProjected)
         self.projected = cylinder_projected_solid_angle_prepare(light);
+    else
+        note_unknown_setting();
     if (is_paired) self.ltc = cylinder_ltc_prepare(light, surface.lobe);
     return self;
 }
@@ -160,7 +193,8 @@ LightSample tube_techniques_sample(TubeTechniques self, int technique, vec2 u) {
     if (technique == 1) return cylinder_ltc_sample(self.ltc, u);
     if (kTechnique == kTechniqueArea) return cylinder_area_sample(self.area, u);
     if (kIsSolidAngle) return cylinder_solid_angle_sample(self.solid_angle, u);
-    return cylinder_projected_solid_angle_sample(self.projected, u);
+    if (kIsProjected) return cylinder_projected_solid_angle_sample(self.projected, u);
+    return unknown_sample();
 }
 
 /// Of both techniques. Pairs begin with a projected solid angle.

@@ -17,8 +17,9 @@ image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& s
                                 {"sampler", std::string(name_of(settings.sample_order))},
                                 {"brdf", std::string(name_of(settings.brdf))},
                                 {"seed", std::to_string(settings.seed)}};
-    if (settings.integrator == Integrator::lines) {
-        metadata["integrator"] = std::string(name_of(settings.integrator));
+    if (settings.light_samples == LightSamples::lines) {
+        // The name that files have had from the beginning: images of older versions still merge with new ones.
+        metadata["integrator"] = std::string(name_of(settings.light_samples));
         metadata["lines"] = std::to_string(settings.lines.count);
         metadata["orientation"] = std::string(name_of(settings.lines.orientation));
         metadata["offsets"] = std::string(name_of(settings.lines.offsets));
@@ -31,6 +32,13 @@ image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& s
         metadata["mis"] = std::string(name_of(settings.mis));
         metadata["visibility_estimate"] = image::metadata_text(settings.visibility_estimate);
     }
+    return metadata;
+}
+
+image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& settings,
+                              const Backend& backend) {
+    image::Metadata metadata = make_metadata(scene, settings);
+    metadata.merge(backend.metadata());
     return metadata;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
-/// Values of enumerations by the names that users know them by; see settings.h.
+/// Enumerations whose values users know by names; see settings.h.
 
-#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -9,7 +10,37 @@
 
 namespace nusselt::render {
 
-/// \param values all values of an enumeration that has name_of()
+/// A row of the table behind an enumeration.
+template <class Value>
+struct Named {
+    Value value;
+    std::string_view name;
+};
+
+/// The table behind an enumeration: specialised for each one that has names.
+template <class Value>
+inline constexpr std::array<Named<Value>, 0> kNames = {};
+
+template <class Value>
+concept HasNames = !kNames<Value>.empty();
+
+/// The values of a table, in its order.
+template <class Value, std::size_t kCount>
+constexpr std::array<Value, kCount> values_of(const std::array<Named<Value>, kCount>& table) {
+    std::array<Value, kCount> values{};
+    for (std::size_t i = 0; i < kCount; ++i) values[i] = table[i].value;
+    return values;
+}
+
+/// \returns nothing for numbers that are no value of the enumeration
+template <HasNames Value>
+constexpr std::string_view name_of(Value value) {
+    for (const Named<Value>& row : kNames<Value>)
+        if (row.value == value) return row.name;
+    return {};
+}
+
+/// \param values of an enumeration that has name_of()
 template <class Values>
 std::vector<std::string> names_of(const Values& values) {
     std::vector<std::string> names;

@@ -30,7 +30,7 @@ bool allows(Strategies strategies, Mis mis) {
 
 bool uses_lobes(const RenderSettings& settings) {
     return settings.technique == Technique::ltc_analytic || settings.strategies != Strategies::diffuse ||
-           settings.integrator == Integrator::lines;
+           settings.light_samples == LightSamples::lines;
 }
 
 int camera_ray_count(const RenderSettings& settings) {
@@ -41,6 +41,29 @@ int camera_ray_count(const RenderSettings& settings) {
 bool has_variance(const RenderSettings& settings) { return camera_ray_count(settings) >= 2; }
 
 namespace {
+
+/// Numbers that are no value of their enumeration have no name.
+template <class Value>
+void check_value(const char* setting, Value value) {
+    if (name_of(value).empty())
+        throw std::invalid_argument("unknown " + std::string(setting) + ": number " +
+                                    std::to_string(static_cast<std::uint32_t>(value)));
+}
+
+void check_values(const RenderSettings& settings) {
+    check_value("light samples", settings.light_samples);
+    check_value("orientation of lines", settings.lines.orientation);
+    check_value("offsets of lines", settings.lines.offsets);
+    check_value("shading of lines", settings.lines.shading);
+    check_value("choice for many occluders", settings.lines.many_occluders);
+    check_value("technique", settings.technique);
+    check_value("strategies", settings.strategies);
+    check_value("heuristic of multiple importance sampling", settings.mis);
+    check_value("pixel position", settings.pixel_position);
+    check_value("sampler", settings.sample_order);
+    check_value("BRDF", settings.brdf);
+    for (const LayerKind layer : settings.layers) check_value("layer", layer);
+}
 
 void validate_lines(const RenderSettings& settings) {
     if (settings.technique == Technique::ltc_analytic)
@@ -59,6 +82,7 @@ void validate_lines(const RenderSettings& settings) {
 } // namespace
 
 void validate(const RenderSettings& settings) {
+    check_values(settings);
     if (settings.samples < 1 || settings.samples > kMaxSamples)
         throw std::invalid_argument("samples per light and pixel must lie between 1 and " +
                                     std::to_string(kMaxSamples) + ", found " +
@@ -77,176 +101,12 @@ void validate(const RenderSettings& settings) {
         throw std::invalid_argument("camera rays per pixel must divide the " +
                                     std::to_string(settings.samples) + " samples per light, found " +
                                     std::to_string(camera_rays));
-    if (settings.integrator == Integrator::lines) validate_lines(settings);
+    if (settings.light_samples == LightSamples::lines) validate_lines(settings);
     const Part& part = settings.part;
     if (part.count < 1 || part.count > kMaxParts || part.number < 1 || part.number > part.count)
         throw std::invalid_argument("parts are numbered from 1 to their count, which is at most " +
                                     std::to_string(kMaxParts) + ", found " + std::to_string(part.number) +
                                     " of " + std::to_string(part.count));
-}
-
-std::string_view name_of(Technique technique) {
-    switch (technique) {
-    case Technique::area:
-        return "area";
-    case Technique::solid_angle:
-        return "solid_angle";
-    case Technique::clipped_solid_angle:
-        return "clipped_solid_angle";
-    case Technique::projected_solid_angle:
-        return "projected_solid_angle";
-    case Technique::projected_solid_angle_biased:
-        return "projected_solid_angle_biased";
-    case Technique::ltc_analytic:
-        return "ltc_analytic";
-    }
-    return {};
-}
-
-std::string_view name_of(Strategies strategies) {
-    switch (strategies) {
-    case Strategies::diffuse:
-        return "diffuse";
-    case Strategies::diffuse_ltc:
-        return "diffuse+ltc";
-    case Strategies::diffuse_ggx:
-        return "diffuse+ggx";
-    case Strategies::diffuse_ggx_bounded:
-        return "diffuse+ggx_bounded";
-    }
-    return {};
-}
-
-std::string_view name_of(Mis mis) {
-    switch (mis) {
-    case Mis::balance:
-        return "balance";
-    case Mis::power:
-        return "power";
-    case Mis::weighted_balance:
-        return "weighted_balance";
-    case Mis::clamped_optimal:
-        return "clamped_optimal";
-    case Mis::optimal:
-        return "optimal";
-    case Mis::one_sample:
-        return "one_sample";
-    case Mis::separate:
-        return "separate";
-    }
-    return {};
-}
-
-std::string_view name_of(SampleOrder order) {
-    switch (order) {
-    case SampleOrder::independent:
-        return "independent";
-    case SampleOrder::sobol:
-        return "sobol";
-    case SampleOrder::jittered:
-        return "jittered";
-    case SampleOrder::stratified:
-        return "stratified";
-    }
-    return {};
-}
-
-std::string_view name_of(PixelPosition position) {
-    switch (position) {
-    case PixelPosition::jittered:
-        return "jittered";
-    case PixelPosition::center:
-        return "center";
-    }
-    return {};
-}
-
-std::string_view name_of(BrdfChoice brdf) {
-    switch (brdf) {
-    case BrdfChoice::material:
-        return "material";
-    case BrdfChoice::lambert:
-        return "lambert";
-    }
-    return {};
-}
-
-std::string_view name_of(LayerKind kind) {
-    switch (kind) {
-    case LayerKind::albedo:
-        return "albedo";
-    case LayerKind::normal:
-        return "normal";
-    case LayerKind::depth:
-        return "depth";
-    case LayerKind::emission:
-        return "emission";
-    case LayerKind::diffuse:
-        return "diffuse";
-    case LayerKind::specular:
-        return "specular";
-    case LayerKind::lights:
-        return "lights";
-    case LayerKind::pieces:
-        return "pieces";
-    case LayerKind::variance:
-        return "variance";
-    }
-    return {};
-}
-
-std::string_view name_of(Integrator integrator) {
-    switch (integrator) {
-    case Integrator::points:
-        return "points";
-    case Integrator::lines:
-        return "lines";
-    }
-    return {};
-}
-
-std::string_view name_of(LineOrientation orientation) {
-    switch (orientation) {
-    case LineOrientation::parallel:
-        return "parallel";
-    case LineOrientation::fixed:
-        return "fixed";
-    case LineOrientation::independent:
-        return "independent";
-    }
-    return {};
-}
-
-std::string_view name_of(LineOffsets offsets) {
-    switch (offsets) {
-    case LineOffsets::length:
-        return "length";
-    case LineOffsets::uniform:
-        return "uniform";
-    case LineOffsets::reflected:
-        return "reflected";
-    }
-    return {};
-}
-
-std::string_view name_of(LineShading shading) {
-    switch (shading) {
-    case LineShading::unbiased:
-        return "unbiased";
-    case LineShading::analytic:
-        return "analytic";
-    }
-    return {};
-}
-
-std::string_view name_of(ManyOccluders choice) {
-    switch (choice) {
-    case ManyOccluders::points:
-        return "points";
-    case ManyOccluders::lines:
-        return "lines";
-    }
-    return {};
 }
 
 } // namespace nusselt::render

@@ -1,56 +1,128 @@
 #pragma once
-/// What a user can choose about a rendering.
+/// What a user can choose about a rendering. The table behind each enumeration has all of its values, in the order in which
+/// they are listed to users.
+
+#include "interface/settings.h"
+#include "render/names.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 namespace nusselt::render {
 
 /// How directions towards lights are sampled.
 enum class Technique : std::uint32_t {
-    area,
-    solid_angle,
-    clipped_solid_angle,
-    projected_solid_angle,
-    projected_solid_angle_biased, ///< for line lights the same as projected_solid_angle
-    ltc_analytic,                 ///< integrals of linearly transformed cosines: no samples and no shadows
+    area = interface::kTechniqueArea,
+    solid_angle = interface::kTechniqueSolidAngle,
+    clipped_solid_angle = interface::kTechniqueClippedSolidAngle,
+    projected_solid_angle = interface::kTechniqueProjectedSolidAngle,
+    projected_solid_angle_biased =
+        interface::kTechniqueProjectedSolidAngleBiased, ///< for line lights the same as projected_solid_angle
+    ltc_analytic = interface::
+        kTechniqueLtcAnalytic, ///< integrals of linearly transformed cosines: no samples and no shadows
 };
+
+template <>
+inline constexpr auto kNames<Technique> = std::to_array<Named<Technique>>({
+    {Technique::area, "area"},
+    {Technique::solid_angle, "solid_angle"},
+    {Technique::clipped_solid_angle, "clipped_solid_angle"},
+    {Technique::projected_solid_angle, "projected_solid_angle"},
+    {Technique::projected_solid_angle_biased, "projected_solid_angle_biased"},
+    {Technique::ltc_analytic, "ltc_analytic"},
+});
+inline constexpr auto kTechniques = values_of(kNames<Technique>);
+static_assert(kTechniques.size() == interface::kTechniqueCount);
 
 /// Which techniques take samples of a light.
 enum class Strategies : std::uint32_t {
-    diffuse,     ///< one for all components of the BRDF: that of RenderSettings::technique
-    diffuse_ltc, ///< that one for the diffuse component, linearly transformed cosines for the specular one
+    diffuse = interface::
+        kStrategiesDiffuse, ///< one for all components of the BRDF: that of RenderSettings::technique
+    diffuse_ltc = interface::
+        kStrategiesDiffuseLtc, ///< that one for the diffuse component, linearly transformed cosines for the specular one
     // The same with GGX visible normals for the specular one. No such sample hits a linear light: they are left to the
     // technique for the diffuse component.
-    diffuse_ggx,
-    diffuse_ggx_bounded,
+    diffuse_ggx = interface::kStrategiesDiffuseGgx,
+    diffuse_ggx_bounded = interface::kStrategiesDiffuseGgxBounded,
 };
+
+template <>
+inline constexpr auto kNames<Strategies> = std::to_array<Named<Strategies>>({
+    {Strategies::diffuse, "diffuse"},
+    {Strategies::diffuse_ltc, "diffuse+ltc"},
+    {Strategies::diffuse_ggx, "diffuse+ggx"},
+    {Strategies::diffuse_ggx_bounded, "diffuse+ggx_bounded"},
+});
+inline constexpr auto kStrategies = values_of(kNames<Strategies>);
+static_assert(kStrategies.size() == interface::kStrategiesCount);
 
 /// How samples of several techniques are combined; see nusselt/estimate/mis.h.
 enum class Mis : std::uint32_t {
-    balance,
-    power,
-    weighted_balance,
-    clamped_optimal,
-    optimal,
-    one_sample, ///< one sample of either technique instead of one of each
-    separate,   ///< each technique estimates its own component of the BRDF only
+    balance = interface::kMisBalance,
+    power = interface::kMisPower,
+    weighted_balance = interface::kMisWeightedBalance,
+    clamped_optimal = interface::kMisClampedOptimal,
+    optimal = interface::kMisOptimal,
+    one_sample = interface::kMisOneSample, ///< one sample of either technique instead of one of each
+    separate = interface::kMisSeparate,    ///< each technique estimates its own component of the BRDF only
 };
 
+template <>
+inline constexpr auto kNames<Mis> = std::to_array<Named<Mis>>({
+    {Mis::balance, "balance"},
+    {Mis::power, "power"},
+    {Mis::weighted_balance, "weighted_balance"},
+    {Mis::clamped_optimal, "clamped_optimal"},
+    {Mis::optimal, "optimal"},
+    {Mis::one_sample, "one_sample"},
+    {Mis::separate, "separate"},
+});
+inline constexpr auto kMisHeuristics = values_of(kNames<Mis>);
+static_assert(kMisHeuristics.size() == interface::kMisCount);
+
 /// How the samples of a pixel and light relate to each other; see nusselt::Sampler.
-enum class SampleOrder : std::uint32_t { independent, sobol, jittered, stratified };
+enum class SampleOrder : std::uint32_t {
+    independent = interface::kSamplerIndependent,
+    sobol = interface::kSamplerSobol,
+    jittered = interface::kSamplerJittered,
+    stratified = interface::kSamplerStratified
+};
+
+template <>
+inline constexpr auto kNames<SampleOrder> = std::to_array<Named<SampleOrder>>({
+    {SampleOrder::independent, "independent"},
+    {SampleOrder::sobol, "sobol"},
+    {SampleOrder::jittered, "jittered"},
+    {SampleOrder::stratified, "stratified"},
+});
+inline constexpr auto kSampleOrders = values_of(kNames<SampleOrder>);
+static_assert(kSampleOrders.size() == interface::kSamplerCount);
 
 /// Where camera rays pass through their pixel.
 enum class PixelPosition : std::uint32_t { jittered, center };
 
+template <>
+inline constexpr auto kNames<PixelPosition> = std::to_array<Named<PixelPosition>>({
+    {PixelPosition::jittered, "jittered"},
+    {PixelPosition::center, "center"},
+});
+inline constexpr auto kPixelPositions = values_of(kNames<PixelPosition>);
+
 /// Which BRDF all surfaces have.
 enum class BrdfChoice : std::uint32_t {
-    material, ///< that of the scene file
-    lambert,  ///< diffuse albedo / pi
+    material = interface::kBrdfMaterial, ///< that of the scene file
+    lambert = interface::kBrdfLambert,   ///< diffuse albedo / pi
 };
+
+template <>
+inline constexpr auto kNames<BrdfChoice> = std::to_array<Named<BrdfChoice>>({
+    {BrdfChoice::material, "material"},
+    {BrdfChoice::lambert, "lambert"},
+});
+inline constexpr auto kBrdfChoices = values_of(kNames<BrdfChoice>);
+static_assert(kBrdfChoices.size() == interface::kBrdfCount);
 
 /// What images can show beside the radiance of their pixels; see make_frame().
 enum class LayerKind : std::uint32_t {
@@ -65,6 +137,20 @@ enum class LayerKind : std::uint32_t {
     variance,
 };
 
+template <>
+inline constexpr auto kNames<LayerKind> = std::to_array<Named<LayerKind>>({
+    {LayerKind::albedo, "albedo"},
+    {LayerKind::normal, "normal"},
+    {LayerKind::depth, "depth"},
+    {LayerKind::emission, "emission"},
+    {LayerKind::diffuse, "diffuse"},
+    {LayerKind::specular, "specular"},
+    {LayerKind::lights, "lights"},
+    {LayerKind::pieces, "pieces"},
+    {LayerKind::variance, "variance"},
+});
+inline constexpr auto kLayerKinds = values_of(kNames<LayerKind>);
+
 /// One of several shares of the tiles of an image, for work on several machines.
 struct Part {
     int number = 1; ///< 1 to count
@@ -73,10 +159,17 @@ struct Part {
 };
 
 /// What is sampled of polygonal lights. Linear lights always get points.
-enum class Integrator : std::uint32_t {
+enum class LightSamples : std::uint32_t {
     points,
     lines, ///< whole segments, with exact visibility
 };
+
+template <>
+inline constexpr auto kNames<LightSamples> = std::to_array<Named<LightSamples>>({
+    {LightSamples::points, "points"},
+    {LightSamples::lines, "lines"},
+});
+inline constexpr auto kLightSamples = values_of(kNames<LightSamples>);
 
 /// Directions of line samples in the plane of their light.
 enum class LineOrientation : std::uint32_t {
@@ -85,6 +178,14 @@ enum class LineOrientation : std::uint32_t {
     independent, ///< random for each line
 };
 
+template <>
+inline constexpr auto kNames<LineOrientation> = std::to_array<Named<LineOrientation>>({
+    {LineOrientation::parallel, "parallel"},
+    {LineOrientation::fixed, "fixed"},
+    {LineOrientation::independent, "independent"},
+});
+inline constexpr auto kLineOrientations = values_of(kNames<LineOrientation>);
+
 /// Density of the offsets of line samples.
 enum class LineOffsets : std::uint32_t {
     length, ///< in proportion to the length of the line on the light
@@ -92,17 +193,39 @@ enum class LineOffsets : std::uint32_t {
     reflected, ///< in proportion to what the surface would reflect of the line without shadows
 };
 
+template <>
+inline constexpr auto kNames<LineOffsets> = std::to_array<Named<LineOffsets>>({
+    {LineOffsets::length, "length"},
+    {LineOffsets::uniform, "uniform"},
+    {LineOffsets::reflected, "reflected"},
+});
+inline constexpr auto kLineOffsets = values_of(kNames<LineOffsets>);
+
 /// How the visible parts of a line sample are shaded.
 enum class LineShading : std::uint32_t {
     unbiased, ///< the integral of a fitted lobe, and one point for what the BRDF is beyond that
     analytic, ///< the integral of the fitted lobe alone
 };
 
+template <>
+inline constexpr auto kNames<LineShading> = std::to_array<Named<LineShading>>({
+    {LineShading::unbiased, "unbiased"},
+    {LineShading::analytic, "analytic"},
+});
+inline constexpr auto kLineShadings = values_of(kNames<LineShading>);
+
 /// What shading points take of lights with many occluders in between.
 enum class ManyOccluders : std::uint32_t {
     points, ///< point samples, where these are cheaper
     lines,  ///< line samples, as everywhere
 };
+
+template <>
+inline constexpr auto kNames<ManyOccluders> = std::to_array<Named<ManyOccluders>>({
+    {ManyOccluders::points, "points"},
+    {ManyOccluders::lines, "lines"},
+});
+inline constexpr auto kManyOccludersChoices = values_of(kNames<ManyOccluders>);
 
 struct LineSettings {
     int count = 16; ///< per shading point and light, 1 to kMaxLines
@@ -120,8 +243,8 @@ inline constexpr int kMaxSamples = 1 << 20;
 inline constexpr int kMaxParts = 1 << 20;
 
 struct RenderSettings {
-    Integrator integrator = Integrator::points;
-    LineSettings lines; ///< for Integrator::lines
+    LightSamples light_samples = LightSamples::points;
+    LineSettings lines; ///< for LightSamples::lines
     Technique technique = Technique::projected_solid_angle;
     Strategies strategies = Strategies::diffuse;
     Mis mis = Mis::clamped_optimal;
@@ -157,44 +280,5 @@ bool has_variance(const RenderSettings& settings);
 
 /// \throws std::invalid_argument naming the first setting out of range, its value and the range
 void validate(const RenderSettings& settings);
-
-// All values in the order in which they are listed to users, and their names.
-inline constexpr std::array kTechniques = {Technique::area,
-                                           Technique::solid_angle,
-                                           Technique::clipped_solid_angle,
-                                           Technique::projected_solid_angle,
-                                           Technique::projected_solid_angle_biased,
-                                           Technique::ltc_analytic};
-inline constexpr std::array kStrategies = {Strategies::diffuse, Strategies::diffuse_ltc,
-                                           Strategies::diffuse_ggx, Strategies::diffuse_ggx_bounded};
-inline constexpr std::array kMisHeuristics = {Mis::balance,         Mis::power,   Mis::weighted_balance,
-                                              Mis::clamped_optimal, Mis::optimal, Mis::one_sample,
-                                              Mis::separate};
-inline constexpr std::array kSampleOrders = {SampleOrder::independent, SampleOrder::sobol,
-                                             SampleOrder::jittered, SampleOrder::stratified};
-inline constexpr std::array kPixelPositions = {PixelPosition::jittered, PixelPosition::center};
-inline constexpr std::array kBrdfChoices = {BrdfChoice::material, BrdfChoice::lambert};
-inline constexpr std::array kLayerKinds = {LayerKind::albedo,   LayerKind::normal,  LayerKind::depth,
-                                           LayerKind::emission, LayerKind::diffuse, LayerKind::specular,
-                                           LayerKind::lights,   LayerKind::pieces,  LayerKind::variance};
-inline constexpr std::array kIntegrators = {Integrator::points, Integrator::lines};
-inline constexpr std::array kLineOrientations = {LineOrientation::parallel, LineOrientation::fixed,
-                                                 LineOrientation::independent};
-inline constexpr std::array kLineOffsets = {LineOffsets::length, LineOffsets::uniform,
-                                            LineOffsets::reflected};
-inline constexpr std::array kLineShadings = {LineShading::unbiased, LineShading::analytic};
-inline constexpr std::array kManyOccludersChoices = {ManyOccluders::points, ManyOccluders::lines};
-std::string_view name_of(Technique technique);
-std::string_view name_of(Strategies strategies);
-std::string_view name_of(Mis mis);
-std::string_view name_of(SampleOrder order);
-std::string_view name_of(PixelPosition position);
-std::string_view name_of(BrdfChoice brdf);
-std::string_view name_of(LayerKind kind);
-std::string_view name_of(Integrator integrator);
-std::string_view name_of(LineOrientation orientation);
-std::string_view name_of(LineOffsets offsets);
-std::string_view name_of(LineShading shading);
-std::string_view name_of(ManyOccluders choice);
 
 } // namespace nusselt::render

@@ -5,6 +5,7 @@
 #include "base/isa.h"
 #include "render/pixel_filter.h"
 #include "render/settings.h"
+#include "render/tile.h"
 #include "scene/model/scene.h"
 #include "visibility/line_bvh_view.h"
 #include "visibility/ray_packets.h"
@@ -140,7 +141,7 @@ struct LayerTargets {
 struct RenderJob {
     KernelScene scene;
     visibility::RayTracer tracer;
-    Integrator integrator;
+    LightSamples light_samples;
     LineSettings lines;
     const visibility::LineBvhView* line_bvh; ///< null without line samples
     std::int32_t most_occluders;             ///< see most_occluders_for_lines(); below 0: points everywhere
@@ -152,9 +153,9 @@ struct RenderJob {
     SampleOrder sample_order;
     PixelPosition pixel_position;
     std::uint32_t seed;
-    std::uint32_t camera_rays;   ///< per pixel
-    std::uint32_t light_samples; ///< per camera ray, light and technique
-    std::int32_t x_begin;        ///< the first pixel of the image, on the film
+    std::uint32_t camera_rays;       ///< per pixel
+    std::uint32_t samples_per_light; ///< per camera ray, light and technique
+    std::int32_t x_begin;            ///< the first pixel of the image, on the film
     std::int32_t y_begin;
     std::int32_t width; ///< of the image
     float* pixels;      ///< three floats for each, as image::Image
@@ -167,11 +168,6 @@ inline constexpr std::size_t kLightSumFloats = 2 * 3 * 16;
 
 /// Working memory that line samples take.
 inline constexpr std::size_t kLineMemoryBytes = std::size_t(1) << 16;
-
-/// Pixels x_begin <= x < x_end, y_begin <= y < y_end of the film.
-struct Tile {
-    std::int32_t x_begin, y_begin, x_end, y_end;
-};
 
 /// Work done for tiles. Times are ticks of the time stamp counter.
 struct TileStatistics {
@@ -200,8 +196,8 @@ struct TileMemory {
 using RenderTile = void (*)(const RenderJob& job, const Tile& tile, const TileMemory& memory,
                             TileStatistics& statistics);
 
-template <base::Isa>
-void render_tile(const RenderJob& job, const Tile& tile, const TileMemory& memory,
-                 TileStatistics& statistics);
+/// Tells kernels apart that are compiled from the same source for different instruction sets.
+template <int kLanes>
+struct LaneCount {};
 
 } // namespace nusselt::render_cpu

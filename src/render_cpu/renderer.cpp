@@ -2,8 +2,9 @@
 
 #include "base/flush_denormals.h"
 #include "render/film.h"
-#include "render/metadata.h"
-#include "render_cpu/line_choice.h"
+#include "render/line_choice.h"
+#include "base/flush_denormals.h"
+#include "render_cpu/frame_targets.h"
 
 #include "tables/ltc_table.h"
 
@@ -106,9 +107,10 @@ private:
 
 int default_thread_count() { return std::max(1, tbb::this_task_arena::max_concurrency()); }
 
-Renderer::Renderer(const scene::Scene& scene, int thread_count)
+Renderer::Renderer(const scene::Scene& scene, int thread_count, const Integrator& integrator)
     : scene_(scene),
       thread_count_(thread_count),
+      integrator_(&integrator),
       // By default oneTBB refuses more threads than the machine runs at once, with a message of its own.
       thread_limit_(tbb::global_control::max_allowed_parallelism,
                     static_cast<std::size_t>(std::max(thread_count, default_thread_count()))),
@@ -142,12 +144,8 @@ RenderResult Renderer::render(const RenderSettings& settings, base::Isa isa,
                               const visibility::RayTracer& tracer, const RenderMonitor& monitor) const {
     validate(settings);
     Frame frame = make_frame(scene_, settings);
-    RenderResult result;
-    result.statistics = render_into(frame, settings, isa, tracer, monitor);
-    result.finished_fraction = finished_fraction(frame);
-    result.image = std::move(frame.image);
-    result.layers = std::move(frame.layers);
-    return result;
+    const RenderStatistics statistics = render_into(frame, settings, isa, tracer, monitor);
+    return to_result(std::move(frame), statistics);
 }
 
 RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& settings, base::Isa isa,
@@ -162,9 +160,9 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
         job.scene.ltc = {ltc.entries.data(), ltc.roughnesses, ltc.inclinations, ltc.f0s};
     }
     job.tracer = tracer;
-    job.integrator = settings.integrator;
+    job.light_samples = settings.light_samples;
     job.lines = settings.lines;
-    if (settings.integrator == Integrator::lines && !scene_.polygon_lights.empty()) {
+    if (settings.light_samples == LightSamples::lines && !scene_.polygon_lights.empty()) {
         line_bvh = lines_.get(scene_, arena_);
         job.line_bvh = &line_bvh;
     }
@@ -177,7 +175,7 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.pixel_position = settings.pixel_position;
     job.seed = settings.seed;
     job.camera_rays = static_cast<std::uint32_t>(camera_ray_count(settings));
-    job.light_samples = static_cast<std::uint32_t>(settings.samples) / job.camera_rays;
+    job.samples_per_light = static_cast<std::uint32_t>(settings.samples) / job.camera_rays;
     job.points_in_place_of_lines = static_cast<std::uint32_t>(
         points_in_place_of_lines(settings.lines.count, camera_ray_count(settings)));
     job.x_begin = frame.bounds.x_begin;
@@ -187,10 +185,9 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.has_layers = !frame.layers.empty();
     job.layers = targets.layers();
 
-    const auto render_tile_here =
-        base::dispatch(isa, []<base::Isa chosen>() -> RenderTile { return render_tile<chosen>; });
+    const RenderTile render_tile = kernel_for(*integrator_, isa);
     const std::size_t summed_emitters = job.layers.lights == nullptr ? 0 : scene_.emitters.size();
-    const std::size_t line_bytes = settings.integrator == Integrator::lines ? kLineMemoryBytes : 0;
+    const std::size_t line_bytes = settings.light_samples == LightSamples::lines ? kLineMemoryBytes : 0;
     tbb::enumerable_thread_specific<ThreadMemory> memory(summed_emitters, line_bytes);
     Tally tally(frame, monitor);
     const TickClock clock;
@@ -226,12 +223,6 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     statistics.lines.shadow_tests = work.line_counters.line_tests;
     statistics.threads = thread_count_;
     return statistics;
-}
-
-image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& settings, base::Isa isa) {
-    image::Metadata metadata = render::make_metadata(scene, settings);
-    metadata["isa"] = std::string(name_of(isa));
-    return metadata;
 }
 
 } // namespace nusselt::render_cpu

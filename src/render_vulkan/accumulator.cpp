@@ -17,7 +17,7 @@ namespace {
 
 const render::RenderSettings& checked(const render::RenderSettings& settings) {
     validate(settings);
-    check_supported(settings);
+    if (const auto reason = why_unsupported(settings)) throw std::invalid_argument(*reason);
     return settings;
 }
 
@@ -137,26 +137,31 @@ image::Image Accumulator::mean() const {
 }
 
 FrameWork Accumulator::work() const {
+    interface::WorkRecord work {};
+    pixels_.work.read(std::span(&work, 1));
+    return checked_work(work, scene_.device().description().name);
+}
+
+FrameWork checked_work(const interface::WorkRecord& work, const std::string& device) {
+    if (work.unfinished > 0)
+        throw gpu::Error(
+            device + ": the driver ended a shader before it was done; use another device or --backend cpu");
+    if (work.unknown_settings > 0)
+        throw gpu::Error(device + ": a shader has no code for a setting; use --backend cpu");
     const auto joined = [](const std::uint32_t(&words)[2]) {
         return std::uint64_t{words[1]} << 32 | words[0];
     };
-    interface::WorkRecord work {};
-    pixels_.work.read(std::span(&work, 1));
-    if (work.unfinished > 0)
-        throw gpu::Error(
-            scene_.device().description().name +
-            ": the driver ended a shader before it was done; take another device or --backend cpu");
     return {joined(work.shadow_rays), joined(work.rejected_samples)};
 }
 
-void check_supported(const render::RenderSettings& settings) {
-    const auto refuse = [](const std::string& what) {
-        throw std::invalid_argument("there is no " + what + " on GPUs; take --backend cpu");
-    };
-    if (settings.integrator != render::Integrator::points)
-        refuse("integrator " + std::string(name_of(settings.integrator)));
-    if (!settings.layers.empty()) refuse("layer " + std::string(name_of(settings.layers.front())));
-    if (settings.part.count > 1) refuse("rendering of parts");
+std::optional<std::string> why_unsupported(const render::RenderSettings& settings) {
+    const std::string remedy = " not supported on GPUs; use --backend cpu";
+    if (settings.light_samples != render::LightSamples::points)
+        return "--light-samples " + std::string(name_of(settings.light_samples)) + " is" + remedy;
+    if (!settings.layers.empty())
+        return "layer " + std::string(name_of(settings.layers.front())) + " is" + remedy;
+    if (settings.part.count > 1) return "--part is" + remedy;
+    return std::nullopt;
 }
 
 } // namespace nusselt::render_vulkan

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace nusselt::render_vulkan {
@@ -27,11 +28,15 @@ struct FrameWork {
     std::uint64_t rejected_samples = 0;
 };
 
+/// \param device its name, for messages
+/// \throws gpu::Error if shaders were not done or did not know their settings, so that the image is wrong
+FrameWork checked_work(const interface::WorkRecord& work, const std::string& device);
+
 /// An image of a scene: the mean over frames.
 class Accumulator {
 public:
     /// \param scene must outlive this.
-    /// \throws std::invalid_argument see validate() and check_supported()
+    /// \throws std::invalid_argument see validate(), and for settings that are not supported
     /// \throws gpu::Error if memory runs out
     Accumulator(const DeviceScene& scene, const render::RenderSettings& settings);
 
@@ -52,7 +57,7 @@ public:
     std::uint32_t height() const { return pixels_.height; }
     /// Black without a frame.
     image::Image mean() const;
-    /// \throws gpu::Error if shaders were not done, so that the image is wrong
+    /// \throws gpu::Error see checked_work()
     FrameWork work() const;
     /// One interface::PixelSum per pixel: divided by frames() they are the image.
     const gpu::Buffer& sums() const { return pixels_.sums; }
@@ -73,7 +78,7 @@ private:
     std::uint32_t frames_ = 0;
 };
 
-/// \throws std::invalid_argument naming the first setting that a GPU does not know.
-void check_supported(const render::RenderSettings& settings);
+/// Names the first setting that is not supported on GPUs; nothing if all are.
+std::optional<std::string> why_unsupported(const render::RenderSettings& settings);
 
 } // namespace nusselt::render_vulkan

@@ -38,9 +38,10 @@ const gpu::Device& VulkanRenderer::device() const { return state_->scene.device(
 ShadowRays VulkanRenderer::shadow_rays() const { return state_->scene.shadows().way(); }
 TextureAccess VulkanRenderer::texture_access() const { return state_->scene.textures().access(); }
 
-RenderResult VulkanRenderer::render(const render::RenderSettings& settings, const RenderMonitor& monitor) {
-    RenderResult result;
-    RenderStatistics& statistics = result.statistics;
+render::RenderResult VulkanRenderer::render(const render::RenderSettings& settings,
+                                            const render::RenderMonitor& monitor) {
+    render::RenderResult result;
+    render::RenderStatistics& statistics = result.statistics;
     statistics.build_seconds = state_->build_seconds;
     const auto compile_begin = Clock::now();
     std::optional<Accumulator>& image = state_->image;
@@ -55,13 +56,15 @@ RenderResult VulkanRenderer::render(const render::RenderSettings& settings, cons
     const auto render_begin = Clock::now();
     while (image->frames() < frames.count() && !(monitor.cancel != nullptr && *monitor.cancel)) {
         const FrameTimes times = image->add(frames.make(image->frames()));
-        statistics.visibility_seconds += times.visibility;
+        statistics.primary_seconds += times.visibility;
         statistics.shading_seconds += times.shading;
         if (monitor.progress) monitor.progress(static_cast<double>(image->frames()) / frames.count());
     }
     statistics.render_seconds = seconds_since(render_begin);
     statistics.primary_rays = std::uint64_t{image->frames()} * image->width() * image->height();
-    statistics.work = image->work();
+    const FrameWork work = image->work();
+    statistics.shadow_rays = work.shadow_rays;
+    statistics.rejected_samples = work.rejected_samples;
     result.finished_fraction = static_cast<double>(image->frames()) / frames.count();
     result.image = image->mean();
     return result;

@@ -31,7 +31,7 @@ gpu::Buffer upload(const gpu::Device& device, std::span<const T> values, const c
         throw gpu::Error(device.description().name + ": the " + what + " of the scene take " +
                          gpu::size_text(bytes) + ", more than a buffer of this device may have (" +
                          gpu::size_text(device.limits().maxStorageBufferRange) +
-                         "); take another device or --backend cpu");
+                         "); use another device or --backend cpu");
     gpu::Buffer buffer(device, bytes, gpu::Residence::device_local);
     if (!values.empty()) buffer.write(values);
     return buffer;

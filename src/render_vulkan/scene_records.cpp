@@ -29,8 +29,7 @@ constexpr std::uint64_t kMostNumbers = std::numeric_limits<std::uint32_t>::max()
 std::uint32_t checked_count(std::uint64_t count, const std::string& what) {
     if (count > kMostNumbers)
         throw std::runtime_error(std::to_string(count) + " " + what + " are more than the " +
-                                 std::to_string(kMostNumbers) +
-                                 " that a GPU can address; take --backend cpu");
+                                 std::to_string(kMostNumbers) + " that a GPU can address; use --backend cpu");
     return static_cast<std::uint32_t>(count);
 }
 

@@ -20,7 +20,7 @@ struct SceneKinds {
     std::uint32_t textures = 0;
 };
 
-/// Specialisation constants in their order.
+/// Specialisation constants in the order of shaders/interface/settings.h.
 std::vector<std::uint32_t> constants_of(const SceneKinds& kinds);
 
 /// The arrays of shaders/interface/scene.h, but for textures.

@@ -1,9 +1,10 @@
 #include "render_vulkan/shading_pass.h"
 
 #include "gpu/fused_fma.h"
+#include "interface/settings.h"
 #include "render_vulkan/shading_shaders.h"
 
-#include <cassert>
+#include <algorithm>
 #include <vector>
 
 namespace nusselt::render_vulkan {
@@ -15,14 +16,12 @@ constexpr std::uint32_t kWorkGroupSide = 8;
 static_assert(kRowsTogether == kWorkGroupSide);
 constexpr std::uint32_t kShadingBuffers = 14; ///< all but those for shadow rays
 
-/// After those of the scene.
-constexpr std::size_t kTechniqueConstant = 7;
-
 std::uint32_t groups_for(std::uint32_t pixels) { return (pixels - 1) / kWorkGroupSide + 1; }
 
 /// Whether no light is sampled.
 bool is_analytic(const std::vector<std::uint32_t>& constants) {
-    return constants[kTechniqueConstant] == static_cast<std::uint32_t>(render::Technique::ltc_analytic);
+    return constants[interface::kTechniqueConstant] ==
+           static_cast<std::uint32_t>(render::Technique::ltc_analytic);
 }
 
 gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<std::uint32_t>& constants) {
@@ -34,10 +33,11 @@ gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<s
         .storage_buffers = kShadingBuffers, .images = textures.images(),
         .push_constant_size = sizeof(interface::FrameRecord), .constants = constants
     };
-    if (is_analytic(constants)) return {device, integration_shader(variant), interface};
+    if (is_analytic(constants))
+        return {device, shading_shader(ShadingPassKind::integrate_lights, variant), interface};
     interface.storage_buffers += static_cast<std::uint32_t>(shadows.buffers().size());
     interface.ray_scenes = shadows.structure() == nullptr ? 0 : 1;
-    return {device, sampling_shader(variant, shadows.way()), interface};
+    return {device, shading_shader(sampling_pass(shadows.way()), variant), interface};
 }
 
 std::size_t pixel_count(std::uint32_t width, std::uint32_t height) { return std::size_t{width} * height; }
@@ -61,14 +61,15 @@ void PixelBuffers::clear() {
 std::vector<std::uint32_t> shading_constants(const render::RenderSettings& settings,
                                              const SceneKinds& kinds) {
     std::vector<std::uint32_t> constants = constants_of(kinds);
-    const auto add = [&](auto value) { constants.push_back(static_cast<std::uint32_t>(value)); };
-    // As in shaders/passes/settings.glsl.
-    assert(constants.size() == kTechniqueConstant);
-    add(settings.technique);
-    add(settings.strategies);
-    add(settings.mis);
-    add(settings.sample_order);
-    add(settings.brdf);
+    const auto set = [&](int number, auto value) {
+        constants.resize(std::max(constants.size(), static_cast<std::size_t>(number) + 1));
+        constants[static_cast<std::size_t>(number)] = static_cast<std::uint32_t>(value);
+    };
+    set(interface::kTechniqueConstant, settings.technique);
+    set(interface::kStrategiesConstant, settings.strategies);
+    set(interface::kMisConstant, settings.mis);
+    set(interface::kSamplerConstant, settings.sample_order);
+    set(interface::kBrdfConstant, settings.brdf);
     return constants;
 }
 

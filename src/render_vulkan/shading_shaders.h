@@ -1,5 +1,5 @@
 #pragma once
-/// The variants of the shading pass.
+/// The variants of the shading passes.
 
 #include "render_vulkan/scene_textures.h"
 #include "render_vulkan/shadow_scene.h"
@@ -9,17 +9,35 @@
 
 namespace nusselt::render_vulkan {
 
+/// The passes of shaders/passes/<name>.comp.
+enum class ShadingPassKind {
+    integrate_lights,
+    sample_lights_bvh,
+    sample_lights_query,
+    sample_lights_unshadowed
+};
+
+/// The pass that samples lights and traces shadow rays in this way.
+ShadingPassKind sampling_pass(ShadowRays way);
+
 /// What a shader is compiled for.
 struct ShaderVariant {
     int polygon_slots; ///< 4 or 8, see SceneRecords
     bool fused_fma;    ///< see gpu::has_fused_fma()
     TextureAccess textures;
+    bool operator==(const ShaderVariant&) const = default;
 };
 
-/// shaders/passes/sample_lights_*.comp.
-std::span<const std::uint32_t> sampling_shader(const ShaderVariant& variant, ShadowRays way);
+struct ShadingShader {
+    ShadingPassKind pass;
+    ShaderVariant variant;
+    std::span<const std::uint32_t> words; ///< SPIR-V
+};
 
-/// shaders/passes/integrate_lights.comp.
-std::span<const std::uint32_t> integration_shader(const ShaderVariant& variant);
+/// All passes in all variants.
+std::span<const ShadingShader> shading_shaders();
+
+/// \throws std::logic_error if the pass is not compiled for the variant
+std::span<const std::uint32_t> shading_shader(ShadingPassKind pass, const ShaderVariant& variant);
 
 } // namespace nusselt::render_vulkan

@@ -1,4 +1,4 @@
-// `nusselt render --integrator lines` as a user sees it.
+// `nusselt render --light-samples lines` as a user sees it.
 
 #include "program.h"
 
@@ -23,10 +23,10 @@ nlohmann::json report_of(const Outcome& rendered) {
 
 TEST_F(CommandLine, RendersWithLines) {
     const auto report =
-        report_of(run(kRender + "--integrator lines --lines 3 --orientation fixed --offsets uniform "
+        report_of(run(kRender + "--light-samples lines --lines 3 --orientation fixed --offsets uniform "
                                 "--line-shading analytic --many-occluders lines --pixel-center "
                                 "-o lines.exr --json -"));
-    EXPECT_EQ(report["integrator"], "lines");
+    EXPECT_EQ(report["light_samples"], "lines");
     EXPECT_TRUE(report["rays_per_second"].is_null());
     const auto& lines = report["line_samples"];
     EXPECT_EQ(lines["lines"], 3);
@@ -48,7 +48,7 @@ TEST_F(CommandLine, RendersWithLines) {
     EXPECT_EQ(metadata.at("many_occluders"), "lines");
 
     const auto points = report_of(run(kRender + "-o points.exr --json -"));
-    EXPECT_EQ(points["integrator"], "points");
+    EXPECT_EQ(points["light_samples"], "points");
     EXPECT_GT(points["rays_per_second"], 0.0);
     EXPECT_TRUE(points["line_samples"].is_null());
     EXPECT_EQ(image::read_layers(path("points.exr")).metadata.count("lines"), 0u);
@@ -59,26 +59,38 @@ TEST_F(CommandLine, RefusesOptionsThatLinesHaveNoUseFor) {
                                "--line-shading analytic", "--many-occluders lines", "--layers pieces"}) {
         const Outcome wrong = run(kRender + option);
         EXPECT_EQ(wrong.exit_code, 2) << option;
-        expect_message(wrong.err, "--integrator lines");
+        expect_message(wrong.err, "--light-samples lines");
     }
-    const Outcome analytic = run(kRender + "--integrator lines --technique ltc_analytic");
+    const Outcome analytic = run(kRender + "--light-samples lines --technique ltc_analytic");
     EXPECT_EQ(analytic.exit_code, 2);
     expect_message(analytic.err, "ltc_analytic");
     for (const char* option : {"--lines 0", "--lines 65537", "--orientation up", "--offsets width"}) {
-        const Outcome wrong = run(kRender + "--integrator lines " + option);
+        const Outcome wrong = run(kRender + "--light-samples lines " + option);
         EXPECT_EQ(wrong.exit_code, 2) << option;
         expect_message(wrong.err, "--help");
     }
 }
 
+TEST_F(CommandLine, WarnsOfTheOldNameOfLightSamples) {
+    const std::string render = "render '" + kScenes + "/cornell-panel.pbrt' --resolution 8x8 -o old.exr ";
+    const Outcome old_name = run(render + "--integrator lines --lines 16");
+    EXPECT_EQ(old_name.exit_code, 0);
+    EXPECT_NE(old_name.err.find("--integrator is now called --light-samples"), std::string::npos)
+        << old_name.err;
+    EXPECT_EQ(image::read_layers(path("old.exr")).metadata.at("integrator"), "lines");
+    EXPECT_EQ(run(render + "--integrator lines --light-samples lines").exit_code, 2);
+    EXPECT_EQ(run(render + "--integrator planes").exit_code, 2);
+    EXPECT_EQ(run("render --help").out.find("--integrator"), std::string::npos);
+}
+
 TEST_F(CommandLine, WarnsThatFewLinesAreReplacedByPoints) {
     const std::string render = "render '" + kScenes + "/cornell-panel.pbrt' --resolution 8x8 -o few.exr ";
-    const std::string few = render + "--integrator lines --lines 8";
+    const std::string few = render + "--light-samples lines --lines 8";
     const Outcome warned = run(few);
     EXPECT_EQ(warned.exit_code, 0);
     EXPECT_NE(warned.err.find("--many-occluders lines keeps lines"), std::string::npos) << warned.err;
     EXPECT_EQ(run(few + " --many-occluders lines").err.find("warning"), std::string::npos);
-    EXPECT_EQ(run(render + "--integrator lines --lines 16").err.find("warning"), std::string::npos);
+    EXPECT_EQ(run(render + "--light-samples lines --lines 16").err.find("warning"), std::string::npos);
 }
 
 TEST_F(CommandLine, PrintsItsVersion) {
@@ -89,7 +101,7 @@ TEST_F(CommandLine, PrintsItsVersion) {
 
 TEST_F(CommandLine, PartsOfLineSamplesMergeToTheWholeImage) {
     const std::string lines =
-        kRender + "--integrator lines --lines 2 --many-occluders lines --layers all --spp 2 ";
+        kRender + "--light-samples lines --lines 2 --many-occluders lines --layers all --spp 2 ";
     ASSERT_EQ(run(lines + "-o whole.exr").exit_code, 0);
     ASSERT_EQ(run(lines + "--part 1/2 -o 1.exr").exit_code, 0);
     ASSERT_EQ(run(lines + "--part 2/2 -o 2.exr").exit_code, 0);

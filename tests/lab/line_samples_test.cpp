@@ -40,7 +40,7 @@ protected:
             settings.seed = static_cast<std::uint32_t>(first_seed + i);
             const auto result = renderer.render(settings, base::choose_isa());
             EXPECT_EQ(result.statistics.rejected_samples, 0u);
-            if (settings.integrator == render::Integrator::lines) {
+            if (settings.light_samples == render::LightSamples::lines) {
                 EXPECT_GT(result.statistics.lines.lines, 0u);
             }
             statistics.add(result.image);
@@ -50,7 +50,7 @@ protected:
 
     render::RenderSettings line_settings() const {
         render::RenderSettings settings = settings_;
-        settings.integrator = render::Integrator::lines;
+        settings.light_samples = render::LightSamples::lines;
         settings.lines.count = 16;
         return settings;
     }

@@ -20,7 +20,7 @@ namespace nusselt::lab {
 
 namespace {
 
-using render::Integrator;
+using render::LightSamples;
 using render::LineShading;
 using render::ManyOccluders;
 using render::RenderSettings;
@@ -41,7 +41,7 @@ RenderSettings point_settings() {
 RenderSettings line_settings(LineShading shading, ManyOccluders many_occluders) {
     RenderSettings settings = point_settings();
     settings.samples = 1;
-    settings.integrator = Integrator::lines;
+    settings.light_samples = LightSamples::lines;
     settings.lines.count = 16;
     settings.lines.shading = shading;
     settings.lines.many_occluders = many_occluders;
@@ -62,9 +62,9 @@ protected:
         const render_cpu::Renderer renderer(scene, render_cpu::default_thread_count());
         BiasStatistics statistics;
         for (int i = 0; i < kFrames; ++i, ++settings.seed) {
-            const render_cpu::RenderResult result = renderer.render(settings, base::choose_isa());
+            const render::RenderResult result = renderer.render(settings, base::choose_isa());
             EXPECT_EQ(result.statistics.rejected_samples, 0u);
-            if (settings.integrator == Integrator::lines) {
+            if (settings.light_samples == LightSamples::lines) {
                 EXPECT_GT(result.statistics.lines.lines, 0u);
                 if (settings.lines.many_occluders == ManyOccluders::points) {
                     EXPECT_GT(result.statistics.lines.point_lights, 0u);

@@ -2,7 +2,9 @@
 
 #include "scenes.h"
 
-#include "render_cpu/checkpoint.h"
+#include "render/checkpoint.h"
+#include "render/metadata.h"
+#include "render_cpu/backend.h"
 #include "scene/model/content_hash.h"
 
 #include <gtest/gtest.h>
@@ -21,8 +23,8 @@
 namespace nusselt::render_test {
 namespace {
 
+using render::Frame;
 using render::RenderSettings;
-using render_cpu::Frame;
 
 class Checkpoint : public testing::Test {
 protected:
@@ -35,12 +37,14 @@ protected:
     ~Checkpoint() override { std::filesystem::remove(path_); }
 
     image::Metadata run_of(const Frame& frame) const {
-        return describe_run(make_metadata(scene_, settings_, base::choose_isa()), frame);
+        return describe_run(
+            render::make_metadata(scene_, settings_, render_cpu::CpuBackend(base::choose_isa(), 1)),
+            frame);
     }
 
     /// A finished frame.
     Frame rendered() const {
-        Frame frame = render_cpu::make_frame(scene_, settings_);
+        Frame frame = render::make_frame(scene_, settings_);
         const render_cpu::Renderer renderer(scene_, 2);
         renderer.render_into(frame, settings_, base::choose_isa(), renderer.visibility().tracer(), {});
         return frame;
@@ -48,7 +52,7 @@ protected:
 
     /// The message of the error, or an empty one if there is none.
     std::string problem_with_file() const {
-        Frame frame = render_cpu::make_frame(scene_, settings_);
+        Frame frame = render::make_frame(scene_, settings_);
         try {
             load_checkpoint(path_, run_of(frame), frame);
         } catch (const std::runtime_error& error) {
@@ -75,7 +79,7 @@ protected:
 TEST_F(Checkpoint, GoesOnWithTheTilesItHas) {
     const Frame whole = rendered();
     save_checkpoint(path_, run_of(whole), whole, {3, 1});
-    Frame frame = render_cpu::make_frame(scene_, settings_);
+    Frame frame = render::make_frame(scene_, settings_);
     load_checkpoint(path_, run_of(frame), frame);
     EXPECT_EQ(frame.is_finished, (std::vector<std::uint8_t>{0, 1, 0, 1}));
     // 24 x 24 pixels: tile 1 begins at x = 16, tile 3 at (16, 16).
@@ -124,7 +128,7 @@ TEST_F(Checkpoint, NumbersThatDifferInTheLastBitAreOtherRuns) {
     settings_.strategies = render::Strategies::diffuse_ltc;
     settings_.mis = render::Mis::optimal;
     settings_.visibility_estimate = 0.3f;
-    const Frame frame = render_cpu::make_frame(scene_, settings_);
+    const Frame frame = render::make_frame(scene_, settings_);
     save_checkpoint(path_, run_of(frame), frame, {});
     EXPECT_EQ(problem_with_file(), "");
     settings_.visibility_estimate = std::nextafter(0.3f, 1.0f);
@@ -135,7 +139,7 @@ TEST_F(Checkpoint, LeavesNoOtherFiles) {
     const std::filesystem::path folder = path_.string() + "_folder";
     std::filesystem::create_directory(folder);
     std::ofstream(folder / "state.new") << "of the user";
-    const Frame frame = render_cpu::make_frame(scene_, settings_);
+    const Frame frame = render::make_frame(scene_, settings_);
     save_checkpoint(folder / "state", run_of(frame), frame, {});
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -185,7 +189,7 @@ private:
 };
 
 TEST_F(Checkpoint, ForgedNumbersDoNoHarm) {
-    const Frame frame = render_cpu::make_frame(scene_, settings_);
+    const Frame frame = render::make_frame(scene_, settings_);
     const image::Metadata run = run_of(frame);
     const std::function<void(Forgery&)> forgeries[] = {
         // Numbers of tiles: none there, beyond the last one, the largest of all.

@@ -185,7 +185,7 @@ TEST_P(ClosedForm, ProjectedSolidAngleHasNoVariance) {
 /// Along each line the integral is exact: what is left is how it changes from line to line.
 TEST_P(ClosedForm, ManyLinesHaveNextToNoVariance) {
     settings_.samples = 1;
-    settings_.integrator = render::Integrator::lines;
+    settings_.light_samples = render::LightSamples::lines;
     settings_.lines.count = 1024;
     for (const auto offsets : render::kLineOffsets) {
         settings_.lines.offsets = offsets;

@@ -35,7 +35,7 @@ std::vector<RenderSettings> all_settings() {
         for (const auto offsets : render::kLineOffsets)
             for (const auto shading : render::kLineShadings) {
                 RenderSettings settings;
-                settings.integrator = render::Integrator::lines;
+                settings.light_samples = render::LightSamples::lines;
                 settings.lines = {5, orientation, offsets, shading, render::ManyOccluders::lines};
                 all.push_back(settings);
             }
@@ -43,7 +43,7 @@ std::vector<RenderSettings> all_settings() {
 }
 
 std::string description_of(const RenderSettings& settings) {
-    if (settings.integrator == render::Integrator::lines)
+    if (settings.light_samples == render::LightSamples::lines)
         return std::string("lines, ")
             .append(name_of(settings.lines.orientation))
             .append(", ")
@@ -62,11 +62,11 @@ void expect_sane_images(const scene::Scene& scene) {
         if (!is_supported(isa)) continue;
         for (RenderSettings settings : all_settings()) {
             settings.samples = 4;
-            const bool has_lines = settings.integrator == render::Integrator::lines;
+            const bool has_lines = settings.light_samples == render::LightSamples::lines;
             const bool may_be_negative =
                 settings.mis == render::Mis::optimal ||
                 (has_lines && settings.lines.shading == render::LineShading::unbiased);
-            const render_cpu::RenderResult result = renderer.render(settings, isa);
+            const render::RenderResult result = renderer.render(settings, isa);
             ASSERT_EQ(result.statistics.rejected_samples, 0u)
                 << description_of(settings) << ", " << name_of(isa);
             for (const float value : result.image.pixels)

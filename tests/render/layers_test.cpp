@@ -2,7 +2,7 @@
 
 #include "scenes.h"
 
-#include "render_cpu/memory.h"
+#include "render/memory.h"
 
 #include <gtest/gtest.h>
 
@@ -15,10 +15,10 @@ namespace {
 
 using render::LayerKind;
 using render::Mis;
+using render::RenderResult;
 using render::RenderSettings;
 using render::Strategies;
 using render::Technique;
-using render_cpu::RenderResult;
 
 constexpr int kSize = 40;
 
@@ -40,7 +40,7 @@ struct Case {
     Technique technique;
     Strategies strategies;
     Mis mis;
-    render::Integrator integrator = render::Integrator::points;
+    render::LightSamples light_samples = render::LightSamples::points;
 };
 
 const Case kCases[] = {
@@ -55,7 +55,7 @@ const Case kCases[] = {
     {"ggx", Technique::projected_solid_angle, Strategies::diffuse_ggx, Mis::balance},
     {"analytic", Technique::ltc_analytic, Strategies::diffuse, Mis::balance},
     {"lines", Technique::projected_solid_angle, Strategies::diffuse_ltc, Mis::balance,
-     render::Integrator::lines},
+     render::LightSamples::lines},
 };
 
 class Layers : public testing::TestWithParam<Case> {
@@ -65,7 +65,7 @@ protected:
         settings.technique = GetParam().technique;
         settings.strategies = GetParam().strategies;
         settings.mis = GetParam().mis;
-        settings.integrator = GetParam().integrator;
+        settings.light_samples = GetParam().light_samples;
         settings.samples = 4;
         settings.camera_rays = 2;
         return settings;
@@ -345,17 +345,17 @@ TEST(LayersOfLights, HaveUniqueNames) {
 TEST(Frames, LargerThanAnyFileAreRefused) {
     scene::Scene scene = make_floor(8);
     scene.film.width = scene.film.height = 65536;
-    EXPECT_THROW(render_cpu::make_frame(scene, {}), std::runtime_error);
+    EXPECT_THROW(render::make_frame(scene, {}), std::runtime_error);
     scene.film.crop = scene::PixelBounds{60000, 65530, 60020, 65536};
-    const render_cpu::Frame frame = render_cpu::make_frame(scene, {});
+    const render::Frame frame = render::make_frame(scene, {});
     EXPECT_EQ(frame.image.width, 20);
     EXPECT_EQ(frame.image.height, 6);
 }
 
 TEST(Frames, LargerThanTheMemoryAreRefused) {
-    EXPECT_NO_THROW(render_cpu::check_memory(1000, "something", "ask for less"));
+    EXPECT_NO_THROW(render::check_memory(1000, "something", "ask for less"));
     try {
-        render_cpu::check_memory(std::size_t(1) << 60, "an image", "ask for less");
+        render::check_memory(std::size_t(1) << 60, "an image", "ask for less");
         FAIL() << "a machine with that much memory?";
     } catch (const std::runtime_error& error) {
         const std::string message = error.what();
@@ -373,10 +373,10 @@ TEST(Frames, PartsDivideAllPixels) {
         for (int number = 1; number <= count; ++number) {
             RenderSettings settings;
             settings.part = {number, count};
-            const render_cpu::Frame frame = render_cpu::make_frame(scene, settings);
+            const render::Frame frame = render::make_frame(scene, settings);
             fewest = std::min(fewest, frame.tiles.size());
             most = std::max(most, frame.tiles.size());
-            for (const render_cpu::Tile& tile : frame.tiles)
+            for (const render::Tile& tile : frame.tiles)
                 for (int y = tile.y_begin; y < tile.y_end; ++y)
                     for (int x = tile.x_begin; x < tile.x_end; ++x)
                         ++owners[static_cast<std::size_t>(100 * y + x)];

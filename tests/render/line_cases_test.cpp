@@ -1,7 +1,7 @@
 /// Line samples where it is easy to lose light, or to depend on what must not matter.
 
 #include "line_scenes.h"
-#include "render_cpu/line_choice.h"
+#include "render/line_choice.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@ namespace {
 
 using render::LineOrientation;
 using render::ManyOccluders;
+using render::RenderResult;
 using render::RenderSettings;
-using render_cpu::RenderResult;
 
 constexpr float kSlatShare = 0.16f; ///< of each period
 
@@ -127,19 +127,19 @@ TEST(LineOrPoints, HaveTheMeanOfPointsWithManyCameraRays) {
 }
 
 TEST(LineOrPoints, TakesMoreOccludersForMoreLines) {
-    EXPECT_EQ(render_cpu::most_occluders_for_lines(15), -1);
-    EXPECT_EQ(render_cpu::most_occluders_for_lines(16), 24);
-    EXPECT_EQ(render_cpu::most_occluders_for_lines(32), 96);
+    EXPECT_EQ(render::most_occluders_for_lines(15), -1);
+    EXPECT_EQ(render::most_occluders_for_lines(16), 24);
+    EXPECT_EQ(render::most_occluders_for_lines(32), 96);
 }
 
 /// Stratified samples are made for 2^22 of a pixel.
 TEST(LineOrPoints, TakesNoMorePointsThanThereAreRandomNumbersFor) {
-    EXPECT_EQ(render_cpu::points_in_place_of_lines(1, 1), 1);
-    EXPECT_EQ(render_cpu::points_in_place_of_lines(16, 1), 64);
-    EXPECT_EQ(render_cpu::points_in_place_of_lines(16, 1 << 10), 64);
-    EXPECT_EQ(render_cpu::points_in_place_of_lines(render::kMaxLines, 1), render::kMaxSamples);
-    EXPECT_EQ(render_cpu::points_in_place_of_lines(render::kMaxLines, 1 << 12), 1 << 10);
-    EXPECT_EQ(render_cpu::points_in_place_of_lines(1 << 11, render::kMaxSamples), 4);
+    EXPECT_EQ(render::points_in_place_of_lines(1, 1), 1);
+    EXPECT_EQ(render::points_in_place_of_lines(16, 1), 64);
+    EXPECT_EQ(render::points_in_place_of_lines(16, 1 << 10), 64);
+    EXPECT_EQ(render::points_in_place_of_lines(render::kMaxLines, 1), render::kMaxSamples);
+    EXPECT_EQ(render::points_in_place_of_lines(render::kMaxLines, 1 << 12), 1 << 10);
+    EXPECT_EQ(render::points_in_place_of_lines(1 << 11, render::kMaxSamples), 4);
 }
 
 /// A regular polygon that faces the floor, with a triangle in front.

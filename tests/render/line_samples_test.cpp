@@ -2,6 +2,9 @@
 
 #include "line_scenes.h"
 
+#include "render/metadata.h"
+#include "render_cpu/backend.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,14 +14,14 @@
 namespace nusselt::render_test {
 namespace {
 
-using render::Integrator;
+using render::LightSamples;
 using render::LineOffsets;
 using render::LineOrientation;
 using render::LineShading;
 using render::ManyOccluders;
+using render::RenderResult;
 using render::RenderSettings;
 using render::Technique;
-using render_cpu::RenderResult;
 
 /// Not seen from its axis: the centres of pixels would be on the edges between walls, where rounding decides whether a
 /// wall hides the light from points of its neighbour.
@@ -198,14 +201,16 @@ TEST(LineChoice, TakesPointsBehindManyOccluders) {
     const render_cpu::Renderer renderer(scene, 2);
     const auto tracer = renderer.visibility().tracer();
     RenderSettings settings = line_settings(16);
-    const auto statistics_of = [&] { return renderer.render(settings, base::choose_isa()).statistics.lines; };
-    const render_cpu::LineStatistics lines_only = statistics_of();
+    const auto statistics_of = [&] {
+        return renderer.render(settings, base::choose_isa()).statistics.lines;
+    };
+    const render::LineStatistics lines_only = statistics_of();
     EXPECT_EQ(lines_only.point_lights, 0u);
     EXPECT_EQ(lines_only.lines, 16 * lines_only.line_lights);
 
     settings.lines.orientation = LineOrientation::fixed;
     settings.lines.many_occluders = ManyOccluders::points;
-    const render_cpu::LineStatistics both = statistics_of();
+    const render::LineStatistics both = statistics_of();
     EXPECT_GT(both.point_lights, 0u);
     EXPECT_GT(both.line_lights, 0u);
     EXPECT_EQ(both.line_lights + both.point_lights, lines_only.line_lights);
@@ -251,7 +256,7 @@ TEST(LinePieces, AreTheVisiblePartsPerLine) {
     EXPECT_EQ(*std::max_element(halves.begin(), halves.end()), 2);
     EXPECT_GT(std::count(halves.begin(), halves.end(), 2.0f), kSize * kSize / 2);
 
-    settings.integrator = Integrator::points;
+    settings.light_samples = LightSamples::points;
     EXPECT_TRUE(render(scene, settings).layers.empty());
 }
 
@@ -286,7 +291,7 @@ TEST(LineSurfaces, AreNotNeededWithoutPolygonalLights) {
     scene::Scene scene = make_floor(kSize);
     add_line_light(scene, "tube", {0, {0, 0, 1}, {1, 0, 1}, 0.01f, {9, 9, 9}, scene::TubeModel::linear});
     RenderSettings points = line_settings(4);
-    points.integrator = Integrator::points;
+    points.light_samples = LightSamples::points;
     EXPECT_EQ(render(scene, line_settings(4)).image.pixels, render(scene, points).image.pixels);
 }
 
@@ -341,11 +346,11 @@ TEST(LineSettings, OutOfRangeAreRefused) {
 TEST(LineSettings, AreInTheMetadata) {
     const scene::Scene scene = make_floor(2);
     const auto metadata_of = [&](const RenderSettings& settings) {
-        return make_metadata(scene, settings, base::choose_isa());
+        return render::make_metadata(scene, settings, render_cpu::CpuBackend(base::choose_isa(), 1));
     };
     const RenderSettings settings = line_settings(4);
     std::vector<RenderSettings> others(6, settings);
-    others[0].integrator = Integrator::points;
+    others[0].light_samples = LightSamples::points;
     others[1].lines.count = 5;
     others[2].lines.orientation = LineOrientation::fixed;
     others[3].lines.offsets = LineOffsets::uniform;

@@ -8,7 +8,7 @@ using render::RenderSettings;
 
 RenderSettings line_settings(int lines) {
     RenderSettings settings;
-    settings.integrator = render::Integrator::lines;
+    settings.light_samples = render::LightSamples::lines;
     settings.lines.count = lines;
     settings.lines.many_occluders = render::ManyOccluders::lines;
     // Seeds of render_region_means() depend on it: references have another one.
@@ -21,7 +21,7 @@ RenderSettings line_settings(int lines) {
 
 RenderSettings point_settings() {
     RenderSettings settings = line_settings(1);
-    settings.integrator = render::Integrator::points;
+    settings.light_samples = render::LightSamples::points;
     settings.technique = render::Technique::projected_solid_angle;
     return settings;
 }

@@ -1,6 +1,6 @@
 /// Images of several parts or seeds together: means by numbers of samples, and what is refused.
 
-#include "render_cpu/merge.h"
+#include "render/merge.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace nusselt::render_test {
 namespace {
 
 using image::LayeredImage;
-using render_cpu::Merger;
+using render::Merger;
 
 /// Two pixels with a value each. \param samples per pixel, as a layer
 LayeredImage make_input(const char* seed, float a, float b, float samples_a, float samples_b) {

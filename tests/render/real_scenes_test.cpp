@@ -59,7 +59,7 @@ TEST_P(RealSceneWithRig, EachTechniqueGivesValidPixels) {
     for (const Technique technique : render::kTechniques) {
         render::RenderSettings settings;
         settings.technique = technique;
-        const render_cpu::RenderResult result = renderer.render(settings, base::choose_isa());
+        const render::RenderResult result = renderer.render(settings, base::choose_isa());
         EXPECT_EQ(image::compare(result.image, result.image).invalid_a.count, 0)
             << render::name_of(technique);
         EXPECT_TRUE(std::any_of(result.image.pixels.begin(), result.image.pixels.end(), [](float value) {
@@ -84,7 +84,7 @@ TEST_P(RealScene, EachTechniqueGivesValidPixels) {
     for (const Technique technique : render::kTechniques) {
         render::RenderSettings settings;
         settings.technique = technique;
-        const render_cpu::RenderResult result = renderer.render(settings, base::choose_isa());
+        const render::RenderResult result = renderer.render(settings, base::choose_isa());
         EXPECT_EQ(result.statistics.rejected_samples, 0u) << render::name_of(technique);
         EXPECT_EQ(image::compare(result.image, result.image).invalid_a.count, 0)
             << render::name_of(technique);

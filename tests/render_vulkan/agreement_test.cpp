@@ -37,9 +37,9 @@ class Agreement : public parity::GpuTest {
 protected:
     void expect_agreement(const scene::Scene& scene, VulkanRenderer& renderer,
                           const render::RenderSettings& settings) {
-        const render_vulkan::RenderResult result = renderer.render(settings);
+        const render::RenderResult result = renderer.render(settings);
         EXPECT_LT(differing_share(result.image, render_on_cpu(scene, settings)), kLargestShare);
-        EXPECT_EQ(result.statistics.work.rejected_samples, 0u);
+        EXPECT_EQ(result.statistics.rejected_samples, 0u);
         EXPECT_EQ(result.finished_fraction, 1);
     }
 };

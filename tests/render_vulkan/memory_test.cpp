@@ -140,7 +140,7 @@ TEST_F(Memory, LackOfItForAScenesBufferNamesWhatIsTooLarge) {
         EXPECT_EQ(error.what(), counted().description().name + ": the texels of the scene take " +
                                     gpu::size_text(limit + 4) +
                                     ", more than a buffer of this device may have (" + gpu::size_text(limit) +
-                                    "); take another device or --backend cpu");
+                                    "); use another device or --backend cpu");
     }
     EXPECT_EQ(settled(), before);
 }

@@ -32,11 +32,11 @@ TEST_F(Renderer, GivesTheSameImageAgain) {
     render::RenderSettings settings;
     settings.samples = 4;
     const auto first = renderer.render(settings);
-    EXPECT_GT(first.statistics.work.shadow_rays, 0u);
+    EXPECT_GT(first.statistics.shadow_rays, 0u);
     EXPECT_EQ(first.statistics.primary_rays, 4u * 32 * 24);
     const auto second = renderer.render(settings);
     EXPECT_EQ(first.image.pixels, second.image.pixels);
-    EXPECT_EQ(first.statistics.work.shadow_rays, second.statistics.work.shadow_rays);
+    EXPECT_EQ(first.statistics.shadow_rays, second.statistics.shadow_rays);
 }
 
 TEST_F(Renderer, TakesNoMoreMemoryOverFrames) {
@@ -60,7 +60,7 @@ TEST_F(Renderer, ScalesSumsByFramesThatWereFinished) {
     render::RenderSettings settings;
     settings.samples = 8;
     std::atomic<bool> stop = false;
-    render_vulkan::RenderMonitor monitor;
+    render::RenderMonitor monitor;
     monitor.cancel = &stop;
     monitor.progress = [&](double fraction) { stop = fraction >= 0.25; };
     const auto part = renderer.render(settings, monitor);
@@ -90,7 +90,7 @@ TEST_F(Renderer, RefusesSettingsOfTheCpuAlone) {
     const scene::Scene scene = make_rich_scene(8, 8);
     VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
     render::RenderSettings lines;
-    lines.integrator = render::Integrator::lines;
+    lines.light_samples = render::LightSamples::lines;
     EXPECT_THROW(static_cast<void>(renderer.render(lines)), std::invalid_argument);
     render::RenderSettings layers;
     layers.layers = {render::LayerKind::normal};
@@ -108,7 +108,7 @@ TEST_F(Renderer, NamesRayQueriesThatTheDeviceDoesNotHave) {
         FAIL() << "no error";
     } catch (const gpu::Error& error) {
         EXPECT_EQ(error.what(),
-                  device().description().name + ": the device has no ray queries; take --shadow-rays bvh");
+                  device().description().name + ": the device has no ray queries; use --shadow-rays bvh");
     }
 }
 

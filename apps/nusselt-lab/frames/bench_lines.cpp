@@ -23,7 +23,7 @@ namespace {
 /// Many lines per shading point and light.
 struct LinesRow {
     render::RenderSettings settings;
-    render_cpu::LineStatistics work = {};
+    render::LineStatistics work = {};
     std::vector<double> visibility_over_ray = {}; ///< for each repetition
     std::vector<double> line_over_point = {};
     std::vector<double> visible_parts = {}; ///< [s]
@@ -45,7 +45,7 @@ struct LinesTable {
 double per(double seconds, std::uint64_t count) { return seconds / static_cast<double>(count); }
 
 struct MeasuredFrame {
-    render_cpu::RenderStatistics work;
+    render::RenderStatistics work;
     double seconds;            ///< that threads ran for, in all
     double visibility_seconds; ///< of these, for visible parts of lines
 };
@@ -54,7 +54,7 @@ struct MeasuredFrame {
 MeasuredFrame render(const render_cpu::Renderer& renderer, const render::RenderSettings& settings,
                      base::Isa isa) {
     const double begin = base::process_seconds();
-    const render_cpu::RenderStatistics work = renderer.render(settings, isa).statistics;
+    const render::RenderStatistics work = renderer.render(settings, isa).statistics;
     const double seconds = base::process_seconds() - begin;
     const double ticked =
         work.primary_seconds + work.shading_seconds + work.shadow_seconds + work.lines.visibility_seconds;
@@ -72,7 +72,7 @@ LinesTable measure(const render_cpu::Renderer& renderer, const BenchLinesOptions
         render::RenderSettings lines = points;
         lines.samples = 1;
         apply_line_kind_options(options.lines, lines.lines);
-        lines.integrator = render::Integrator::lines;
+        lines.light_samples = render::LightSamples::lines;
         lines.lines.count = count;
         lines.lines.many_occluders = render::ManyOccluders::lines;
         table.rows.push_back({lines});

@@ -43,7 +43,7 @@ void measure(std::vector<StrategiesRow>& rows, const render_cpu::Renderer& rende
              int repetitions) {
     for (int i = 0; i < repetitions; ++i) {
         for (StrategiesRow& row : rows) {
-            const render_cpu::RenderStatistics statistics = renderer.render(row.settings, isa).statistics;
+            const render::RenderStatistics statistics = renderer.render(row.settings, isa).statistics;
             row.shadow_rays = statistics.shadow_rays;
             row.render_seconds.push_back(statistics.render_seconds);
             row.shading_seconds.push_back(statistics.shading_seconds);

@@ -18,8 +18,7 @@ class PacketsOfRays : public RecordedRays {
 public:
     PacketsOfRays(const render_cpu::Renderer& renderer, const render::RenderSettings& settings, base::Isa isa)
         : recorder_(renderer.visibility()) {
-        const render_cpu::RenderStatistics work =
-            renderer.render(settings, isa, recorder_.tracer()).statistics;
+        const render::RenderStatistics work = renderer.render(settings, isa, recorder_.tracer()).statistics;
         primary_count = work.primary_rays;
         shadow_count = work.shadow_rays;
     }

@@ -1,6 +1,6 @@
 #include "checkpointer.h"
 
-#include "render_cpu/checkpoint.h"
+#include "render/checkpoint.h"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 
 namespace nusselt::app {
 
-Checkpointer::Checkpointer(std::filesystem::path path, image::Metadata run, const render_cpu::Frame& frame,
+Checkpointer::Checkpointer(std::filesystem::path path, image::Metadata run, const render::Frame& frame,
                            std::chrono::duration<double> interval)
     : path_(std::move(path)), run_(std::move(run)), frame_(frame) {
     for (std::size_t i = 0; i < frame.tiles.size(); ++i)
@@ -28,7 +28,7 @@ void Checkpointer::add(std::size_t tile) {
 std::optional<std::string> Checkpointer::save_all() {
     stop();
     try {
-        render_cpu::save_checkpoint(path_, run_, frame_, finished_);
+        render::save_checkpoint(path_, run_, frame_, finished_);
     } catch (const std::exception& error) {
         return error.what();
     }
@@ -43,7 +43,7 @@ void Checkpointer::save_at_intervals(std::chrono::duration<double> interval, std
         const std::vector<std::size_t> tiles = finished_;
         lock.unlock();
         try {
-            render_cpu::save_checkpoint(path_, run_, frame_, tiles);
+            render::save_checkpoint(path_, run_, frame_, tiles);
             saved = tiles.size();
         } catch (const std::exception& error) {
             // The disk may have space again at the next time; the rendering itself is well.

@@ -2,7 +2,7 @@
 /// Checkpoints while a rendering runs.
 
 #include "image/image.h"
-#include "render_cpu/frame.h"
+#include "render/frame.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -18,9 +18,9 @@ namespace nusselt::app {
 /// Stores finished tiles every now and then, in a thread of its own.
 class Checkpointer {
 public:
-    /// \param run   see render_cpu::save_checkpoint()
+    /// \param run   see render::save_checkpoint()
     /// \param frame must outlive the object; finished tiles count as stored
-    Checkpointer(std::filesystem::path path, image::Metadata run, const render_cpu::Frame& frame,
+    Checkpointer(std::filesystem::path path, image::Metadata run, const render::Frame& frame,
                  std::chrono::duration<double> interval);
     /// Stores nothing.
     ~Checkpointer();
@@ -41,7 +41,7 @@ private:
 
     std::filesystem::path path_;
     image::Metadata run_;
-    const render_cpu::Frame& frame_;
+    const render::Frame& frame_;
     std::mutex mutex_; ///< of the following
     std::condition_variable stopped_;
     bool stop_ = false;

@@ -7,7 +7,7 @@ namespace nusselt::app {
 namespace {
 
 /// As EXR files name them.
-std::vector<std::string> channel_names(const render_cpu::Frame& frame) {
+std::vector<std::string> channel_names(const render::Frame& frame) {
     std::vector<std::string> names = {"R", "G", "B"};
     for (const image::Layer& layer : frame.layers)
         for (const std::string& channel : layer.channels) names.push_back(layer.name + "." + channel);
@@ -16,7 +16,7 @@ std::vector<std::string> channel_names(const render_cpu::Frame& frame) {
 
 /// All channels of a pixel side by side.
 /// \param pixel number in the image
-void append_pixel(const render_cpu::Frame& frame, std::size_t pixel, std::vector<float>& values) {
+void append_pixel(const render::Frame& frame, std::size_t pixel, std::vector<float>& values) {
     const auto append = [&](const std::vector<float>& data, std::size_t channels) {
         const float* first = data.data() + channels * pixel;
         values.insert(values.end(), first, first + channels);
@@ -27,7 +27,7 @@ void append_pixel(const render_cpu::Frame& frame, std::size_t pixel, std::vector
 
 } // namespace
 
-FrameDisplay::FrameDisplay(const std::string& address, std::string name, const render_cpu::Frame& frame,
+FrameDisplay::FrameDisplay(const std::string& address, std::string name, const render::Frame& frame,
                            image::DisplayClient::Warn warn)
     : name_(std::move(name)), frame_(frame), client_(address, std::move(warn)) {
     client_.create(name_, frame.image.width, frame.image.height, channel_names(frame));
@@ -37,7 +37,7 @@ FrameDisplay::FrameDisplay(const std::string& address, std::string name, const r
 
 void FrameDisplay::show(std::size_t tile) {
     if (!client_.connected()) return;
-    const render_cpu::Tile& bounds = frame_.tiles[tile];
+    const render::Tile& bounds = frame_.tiles[tile];
     const int x_begin = bounds.x_begin - frame_.bounds.x_begin;
     const int y_begin = bounds.y_begin - frame_.bounds.y_begin;
     const int width = bounds.x_end - bounds.x_begin;

@@ -2,7 +2,7 @@
 /// Shows a frame in a viewer while it is rendered.
 
 #include "image/tev_client.h"
-#include "render_cpu/frame.h"
+#include "render/frame.h"
 
 #include <cstddef>
 #include <string>
@@ -17,7 +17,7 @@ public:
     /// \param name    of the image in the viewer
     /// \param frame   must outlive the object
     /// \param warn    see image::DisplayClient
-    FrameDisplay(const std::string& address, std::string name, const render_cpu::Frame& frame,
+    FrameDisplay(const std::string& address, std::string name, const render::Frame& frame,
                  image::DisplayClient::Warn warn);
 
     /// Sends the pixels of a finished tile.
@@ -25,7 +25,7 @@ public:
 
 private:
     std::string name_;
-    const render_cpu::Frame& frame_;
+    const render::Frame& frame_;
     image::DisplayClient client_;
 };
 

@@ -2,7 +2,7 @@
 
 #include "image/io.h"
 #include "image/layers.h"
-#include "render_cpu/merge.h"
+#include "render/merge.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -31,7 +31,7 @@ void setup_merge(CLI::App& app, int& exit_code) {
 
 int run_merge(const MergeOptions& options) {
     image::check_writable_image(options.output);
-    render_cpu::Merger merger;
+    render::Merger merger;
     for (const std::filesystem::path& path : options.inputs) merger.add(image::read_layers(path), path);
     const image::LayeredImage result = merger.result();
     image::write_layers(options.output, result);

@@ -14,9 +14,9 @@
 
 #include "image/io.h"
 #include "image/layers.h"
-#include "render_cpu/checkpoint.h"
-#include "render_cpu/frame.h"
-#include "render_cpu/renderer.h"
+#include "render/checkpoint.h"
+#include "render/frame.h"
+#include "render/metadata.h"
 #include "scene/rig/camera_file.h"
 
 #include <CLI/CLI.hpp>
@@ -29,6 +29,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace nusselt::app {
@@ -43,7 +44,7 @@ double seconds_since(Clock::time_point begin) {
 
 /// Writes the frame to all files. EXR files get all that is known, others the image.
 void write_outputs(const RenderOptions& options, const render::RenderSettings& settings,
-                   const scene::Film& film, render_cpu::Frame&& frame, const image::Metadata& metadata) {
+                   const scene::Film& film, render::Frame&& frame, const image::Metadata& metadata) {
     const std::vector<std::filesystem::path> paths = output_paths(options, film);
     for (const std::filesystem::path& path : paths)
         if (!image::is_exr(path)) image::write_image(path, frame.image, metadata, options.exposure);
@@ -62,9 +63,15 @@ std::string check_display_address(const std::string& text) {
     }
 }
 
-/// Tells that the image is incomplete.
-void print_stop(const RenderOptions& options, double finished) {
-    fmt::print(stderr, "stopped after {:.1f} % of the pixels", 100 * finished);
+/// \returns the exit code
+int stop_without_image(const RenderOptions& options) {
+    if (!options.quiet) fmt::print(stderr, "stopped before the first pixel; no image is written\n");
+    return kInterruptedExitCode;
+}
+
+/// Tells that the image is incomplete. \param work what the share of it is of
+void print_stop(const RenderOptions& options, double finished, const std::string& work) {
+    fmt::print(stderr, "stopped after {:.1f} % of the {}", 100 * finished, work);
     if (options.checkpoint)
         fmt::print(stderr, "; the same command goes on from '{}'", options.checkpoint->string());
     fmt::print(stderr, "\n");
@@ -142,10 +149,8 @@ void setup_render(CLI::App& app, int& exit_code) {
 int run_render(const RenderOptions& options) {
     const auto begin = Clock::now();
     const render::RenderSettings settings = make_settings(options);
-    const base::Isa isa = base::choose_isa(options.isa);
     check_outputs(options);
-
-    const bool on_gpu = renders_on_gpu(options, settings);
+    const std::unique_ptr<render::Backend> backend = make_backend(options, settings);
 
     const InterruptGuard guard;
     scene::Scene scene = load_scene(options.scene, options.rigs);
@@ -155,10 +160,9 @@ int run_render(const RenderOptions& options) {
     Times times;
     times.load = seconds_since(begin);
     if (!options.quiet) print_warnings(options, settings, scene);
-    if (on_gpu) return render_on_gpu(options, settings, scene, times, begin);
 
-    render_cpu::Frame frame = render_cpu::make_frame(scene, settings);
-    image::Metadata metadata = make_metadata(scene, settings, isa);
+    render::Frame frame = render::make_frame(scene, settings);
+    image::Metadata metadata = render::make_metadata(scene, settings, *backend);
     if (!options.rigs.empty()) metadata["light_rigs"] = rig_names(options.rigs);
     std::optional<Checkpointer> checkpointer;
     if (options.checkpoint) {
@@ -168,15 +172,11 @@ int run_render(const RenderOptions& options) {
                              std::chrono::duration<double>(options.checkpoint_interval));
     }
 
-    const int threads = options.threads.value_or(render_cpu::default_thread_count());
-    const render_cpu::Renderer renderer(scene, threads);
-    if (interrupted) {
-        if (!options.quiet) fmt::print(stderr, "stopped before the first pixel; no image is written\n");
-        return kInterruptedExitCode;
-    }
+    const std::unique_ptr<render::PreparedScene> prepared = backend->prepare(scene);
+    if (interrupted) return stop_without_image(options);
 
     Progress progress(finished_fraction(frame));
-    render_cpu::RenderMonitor monitor;
+    render::RenderMonitor monitor;
     monitor.cancel = &interrupted;
     if (!options.quiet) monitor.progress = [&](double fraction) { progress.update(fraction); };
     std::optional<FrameDisplay> display;
@@ -190,17 +190,18 @@ int run_render(const RenderOptions& options) {
         if (checkpointer) checkpointer->add(tile);
         if (display) display->show(tile);
     };
-    const render_cpu::RenderStatistics statistics =
-        renderer.render_into(frame, settings, isa, renderer.visibility().tracer(), monitor);
+    const render::RenderStatistics statistics = prepared->render_into(frame, settings, monitor);
     progress.finish();
+    const double finished = finished_fraction(frame);
+    if (finished == 0) return stop_without_image(options);
 
     const auto write_begin = Clock::now();
     // Also where the image is finished: it may fail to be written.
     const std::optional<std::string> unsaved = checkpointer ? checkpointer->save_all() : std::nullopt;
-    const double finished = finished_fraction(frame);
     metadata["scene"] = options.scene.filename().string();
     metadata["render_seconds"] = image::metadata_text(statistics.render_seconds);
     metadata["finished_fraction"] = image::metadata_text(finished);
+    const std::string unfinished_work = frame.finished_share < 1 ? "camera rays" : "pixels";
     write_outputs(options, settings, scene.film, std::move(frame), metadata);
     if (unsaved && finished < 1) throw std::runtime_error(*unsaved);
     if (options.checkpoint && finished == 1) {
@@ -210,9 +211,9 @@ int run_render(const RenderOptions& options) {
     times.write = seconds_since(write_begin);
     times.total = seconds_since(begin);
     if (options.json)
-        write_report(*options.json, report_json(options, settings, isa, scene, statistics, times));
+        write_report(*options.json, report_json(options, settings, scene, *backend, statistics, times));
     if (finished == 1) return 0;
-    if (!options.quiet) print_stop(options, finished);
+    if (!options.quiet) print_stop(options, finished, unfinished_work);
     return kInterruptedExitCode;
 }
 

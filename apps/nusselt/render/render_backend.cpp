@@ -2,7 +2,13 @@
 
 #include "apps/common/render_setup.h"
 
+#include "render_cpu/backend.h"
+#include "render_cpu/renderer.h"
+
+#include <fmt/core.h>
+
 #include <array>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -42,6 +48,36 @@ void check_backend_options(const RenderOptions& options) {
                                             std::pair("--display-server", options.display_server.has_value()),
                                             std::pair("--isa", options.isa.has_value())})
             if (is_used) refuse(name, "cpu");
+}
+
+namespace {
+
+/// Why --backend auto renders on the CPU; nothing if it does not.
+std::optional<std::string> why_on_cpu(const RenderOptions& options, const render::RenderSettings& settings) {
+    if (options.checkpoint || options.display_server || options.isa)
+        return "--checkpoint, --display-server and --isa need it";
+    return why_not_on_gpu(options, settings);
+}
+
+bool renders_on_cpu(const RenderOptions& options, const render::RenderSettings& settings) {
+    if (options.backend != "auto") return options.backend == "cpu";
+    const auto reason = why_on_cpu(options, settings);
+    if (reason && !options.quiet) fmt::print(stderr, "rendering on the CPU: {}\n", *reason);
+    return reason.has_value();
+}
+
+} // namespace
+
+std::unique_ptr<render::Backend> make_backend(const RenderOptions& options,
+                                              const render::RenderSettings& settings) {
+    if (renders_on_cpu(options, settings))
+        return std::make_unique<render_cpu::CpuBackend>(
+            base::choose_isa(options.isa),
+            options.threads.value_or(render_cpu::default_thread_count()));
+    std::unique_ptr<render::Backend> gpu = make_gpu_backend(options);
+    if (const auto reason = gpu->why_unsupported(settings)) throw std::invalid_argument(*reason);
+    if (!options.quiet) fmt::print(stderr, "rendering on {}\n", gpu->metadata().at("device"));
+    return gpu;
 }
 
 } // namespace nusselt::app

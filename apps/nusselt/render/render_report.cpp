@@ -3,7 +3,7 @@
 #include "apps/common/line_options.h"
 #include "base/json_output.h"
 
-#include "render_cpu/line_choice.h"
+#include "render/line_choice.h"
 #include "scene/model/scene_size.h"
 
 #include <fmt/core.h>
@@ -17,8 +17,8 @@ namespace {
 
 /// Null without line samples.
 nlohmann::ordered_json line_samples_json(const render::RenderSettings& settings,
-                                         const render_cpu::LineStatistics& work) {
-    if (settings.integrator != render::Integrator::lines) return nullptr;
+                                         const render::LineStatistics& work) {
+    if (settings.light_samples != render::LightSamples::lines) return nullptr;
     const render::LineSettings& lines = settings.lines;
     const auto per_line = [&](std::uint64_t count) {
         return work.lines > 0 ? static_cast<double>(count) / static_cast<double>(work.lines) : 0.0;
@@ -38,11 +38,51 @@ nlohmann::ordered_json line_samples_json(const render::RenderSettings& settings,
     return json;
 }
 
+/// Scene and settings.
+nlohmann::ordered_json settings_json(const RenderOptions& options, const render::RenderSettings& settings,
+                                     const scene::Scene& scene) {
+    nlohmann::ordered_json rigs = nlohmann::ordered_json::array();
+    for (const std::filesystem::path& rig : options.rigs) rigs.push_back(rig.string());
+    const bool is_combined = settings.strategies != render::Strategies::diffuse;
+    return {
+        {"scene", options.scene.string()},
+        {"light_rigs", rigs},
+        {"triangles", scene.triangles.size()},
+        {"scene_bytes", scene::array_bytes(scene)},
+        {"width", scene.film.width},
+        {"height", scene.film.height},
+        {"light_samples", render::name_of(settings.light_samples)},
+        {"technique", render::name_of(settings.technique)},
+        {"strategies", render::name_of(settings.strategies)},
+        {"mis", is_combined ? nlohmann::ordered_json(render::name_of(settings.mis)) : nullptr},
+        {"visibility_estimate", is_combined ? nlohmann::ordered_json(settings.visibility_estimate) : nullptr},
+        {"samples", settings.samples},
+        {"camera_rays", render::camera_ray_count(settings)},
+        {"pixel_position", render::name_of(settings.pixel_position)},
+        {"sampler", render::name_of(settings.sample_order)},
+        {"brdf", render::name_of(settings.brdf)},
+        {"seed", settings.seed},
+        {"part", fmt::format("{}/{}", settings.part.number, settings.part.count)}};
+}
+
+nlohmann::ordered_json to_json(const render::NamedSeconds& times) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    for (const auto& [name, seconds] : times) json[name] = seconds;
+    return json;
+}
+
+double rate(std::uint64_t rays, double seconds) {
+    return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
+}
+
 } // namespace
 
 void print_warnings(const RenderOptions& options, const render::RenderSettings& settings,
                     const scene::Scene& scene) {
     for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    if (options.lines.has_old_name)
+        fmt::print(stderr, "warning: --integrator is now called --light-samples; the next version will not "
+                           "know the old name\n");
     if (scene.emitters.empty())
         fmt::print(stderr, "warning: there are no area lights, the image is black; --lights adds some\n");
     if (samples_visible_normals(settings.strategies) && !scene.line_lights.empty())
@@ -51,9 +91,9 @@ void print_warnings(const RenderOptions& options, const render::RenderSettings& 
             "warning: {} tubes and lines are sampled by {} alone: visible normals are for polygons, no "
             "sample ever hits a line\n",
             scene.line_lights.size(), name_of(settings.technique));
-    if (settings.integrator == render::Integrator::lines &&
+    if (settings.light_samples == render::LightSamples::lines &&
         settings.lines.many_occluders == render::ManyOccluders::points &&
-        render_cpu::most_occluders_for_lines(settings.lines.count) < 0)
+        render::most_occluders_for_lines(settings.lines.count) < 0)
         fmt::print(
             stderr,
             "warning: --lines {}: points are faster than fewer than 16 lines and are taken in their place; "
@@ -68,66 +108,33 @@ void print_warnings(const RenderOptions& options, const render::RenderSettings& 
                    options.camera_rays ? " and --camera-rays" : "");
 }
 
-nlohmann::ordered_json settings_json(const RenderOptions& options, const render::RenderSettings& settings,
-                                     const scene::Scene& scene) {
-    nlohmann::ordered_json rigs = nlohmann::ordered_json::array();
-    for (const std::filesystem::path& rig : options.rigs) rigs.push_back(rig.string());
-    const bool is_combined = settings.strategies != render::Strategies::diffuse;
-    return {
-        {"scene", options.scene.string()},
-        {"light_rigs", rigs},
-        {"triangles", scene.triangles.size()},
-        {"scene_bytes", scene::array_bytes(scene)},
-        {"width", scene.film.width},
-        {"height", scene.film.height},
-        {"integrator", render::name_of(settings.integrator)},
-        {"technique", render::name_of(settings.technique)},
-        {"strategies", render::name_of(settings.strategies)},
-        {"mis", is_combined ? nlohmann::ordered_json(render::name_of(settings.mis)) : nullptr},
-        {"visibility_estimate", is_combined ? nlohmann::ordered_json(settings.visibility_estimate) : nullptr},
-        {"samples", settings.samples},
-        {"camera_rays", render::camera_ray_count(settings)},
-        {"pixel_position", render::name_of(settings.pixel_position)},
-        {"sampler", render::name_of(settings.sample_order)},
-        {"brdf", render::name_of(settings.brdf)},
-        {"seed", settings.seed},
-        {"part", fmt::format("{}/{}", settings.part.number, settings.part.count)}};
-}
-
 nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,
-                                   base::Isa isa, const scene::Scene& scene,
-                                   const render_cpu::RenderStatistics& statistics, const Times& times) {
-    const auto rate = [](std::uint64_t rays, double seconds) {
-        return seconds > 0 ? static_cast<double>(rays) / seconds : 0.0;
-    };
-    // Most time goes into lines then.
-    const bool has_lines = settings.integrator == render::Integrator::lines;
+                                   const scene::Scene& scene, const render::Backend& backend,
+                                   const render::RenderStatistics& statistics, const Times& times) {
+    const render::TimeReport spent = backend.times(statistics);
+    nlohmann::ordered_json seconds = {{"load", times.load}};
+    seconds.update(to_json(spent.preparation));
+    seconds.update({{"render", statistics.render_seconds}, {"write", times.write}, {"total", times.total}});
+
     nlohmann::ordered_json json = settings_json(options, settings, scene);
-    json.update({
-        {"backend", "cpu"},
-        {"isa", name_of(isa)},
-        {"threads", statistics.threads},
-        {"seconds",
-         {{"load", times.load},
-          {"bvh", statistics.build_seconds},
-          {"render", statistics.render_seconds},
-          {"write", times.write},
-          {"total", times.total}}},
-        {"thread_seconds",
-         {{"primary_rays", statistics.primary_seconds},
-          {"shading", statistics.shading_seconds},
-          {"shadow_rays", statistics.shadow_seconds}}},
-        {"rays", {{"primary", statistics.primary_rays}, {"shadow", statistics.shadow_rays}}},
-        {"line_samples", line_samples_json(settings, statistics.lines)},
-        {"rejected_samples", statistics.rejected_samples},
-        {"rays_per_thread_second",
-         {{"primary", rate(statistics.primary_rays, statistics.primary_seconds)},
-          {"shadow", rate(statistics.shadow_rays, statistics.shadow_seconds)}}},
-        {"rays_per_second",
-         has_lines ? nullptr
-                   : nlohmann::ordered_json(
-                         rate(statistics.primary_rays + statistics.shadow_rays, statistics.render_seconds))},
-    });
+    json["backend"] = backend.name();
+    for (const auto& [name, value] : backend.properties()) json[name] = value;
+    if (statistics.threads > 0) json["threads"] = statistics.threads;
+    json["seconds"] = seconds;
+    json[spent.work_name] = to_json(spent.work);
+    json["rays"] = {{"primary", statistics.primary_rays}, {"shadow", statistics.shadow_rays}};
+    json["line_samples"] = line_samples_json(settings, statistics.lines);
+    json["rejected_samples"] = statistics.rejected_samples;
+    if (statistics.threads > 0)
+        json["rays_per_thread_second"] = {
+            {"primary", rate(statistics.primary_rays, statistics.primary_seconds)},
+            {"shadow", rate(statistics.shadow_rays, statistics.shadow_seconds)}};
+    // Most time goes into lines then.
+    const bool has_lines = settings.light_samples == render::LightSamples::lines;
+    json["rays_per_second"] =
+        has_lines ? nullptr
+                  : nlohmann::ordered_json(
+                        rate(statistics.primary_rays + statistics.shadow_rays, statistics.render_seconds));
     return json;
 }
 

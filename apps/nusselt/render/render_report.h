@@ -3,7 +3,8 @@
 
 #include "render.h"
 
-#include "render_cpu/renderer.h"
+#include "render/backend.h"
+#include "render/statistics.h"
 #include "scene/model/scene.h"
 
 #include <nlohmann/json.hpp>
@@ -23,13 +24,9 @@ struct Times {
 void print_warnings(const RenderOptions& options, const render::RenderSettings& settings,
                     const scene::Scene& scene);
 
-/// What both backends have in common: scene and settings.
-nlohmann::ordered_json settings_json(const RenderOptions& options, const render::RenderSettings& settings,
-                                     const scene::Scene& scene);
-
 nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,
-                                   base::Isa isa, const scene::Scene& scene,
-                                   const render_cpu::RenderStatistics& statistics, const Times& times);
+                                   const scene::Scene& scene, const render::Backend& backend,
+                                   const render::RenderStatistics& statistics, const Times& times);
 
 /// \param target a file, or "-" for the standard output. \throws std::runtime_error if it cannot be written
 void write_report(const std::string& target, const nlohmann::ordered_json& report);

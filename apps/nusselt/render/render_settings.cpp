@@ -51,10 +51,10 @@ void check_exr_only(const RenderOptions& options) {
 /// Throws CLI::ValidationError if options for line samples are given without these, or for what these cannot be.
 void check_line_options(const RenderOptions& options, render::Technique technique) {
     const LineOptions& lines = options.lines;
-    if (from_name(render::kIntegrators, lines.integrator) == render::Integrator::lines) {
+    if (from_name(render::kLightSamples, lines.light_samples) == render::LightSamples::lines) {
         if (technique == render::Technique::ltc_analytic)
             throw CLI::ValidationError(
-                "--integrator", "lines have shadows, --technique ltc_analytic has none; take another one");
+                "--light-samples", "lines have shadows, --technique ltc_analytic has none; use another one");
         return;
     }
     const auto wants_pieces =
@@ -65,7 +65,7 @@ void check_line_options(const RenderOptions& options, render::Technique techniqu
                                          std::pair("--line-shading", lines.shading.has_value()),
                                          std::pair("--many-occluders", lines.many_occluders.has_value()),
                                          std::pair("--layers pieces", wants_pieces)})
-        if (is_given) throw CLI::ValidationError(name, "is for --integrator lines, which is not given");
+        if (is_given) throw CLI::ValidationError(name, "is for --light-samples lines, which is not given");
 }
 
 } // namespace

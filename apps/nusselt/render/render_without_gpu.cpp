@@ -4,16 +4,18 @@
 
 namespace nusselt::app {
 
-bool renders_on_gpu(const RenderOptions& options, const render::RenderSettings&) {
-    if (options.backend != "vulkan") return false;
-    throw std::runtime_error("this program was built without its GPU side: install libvulkan-dev and "
-                             "glslang-tools, then configure "
-                             "and build again");
+namespace {
+
+constexpr const char* kReason =
+    "this program was built without its GPU side: install libvulkan-dev and glslang-tools, then configure "
+    "and build again";
+
+} // namespace
+
+std::optional<std::string> why_not_on_gpu(const RenderOptions&, const render::RenderSettings&) {
+    return kReason;
 }
 
-int render_on_gpu(const RenderOptions&, const render::RenderSettings&, const scene::Scene&, Times,
-                  std::chrono::steady_clock::time_point) {
-    throw std::logic_error("there is no GPU side");
-}
+std::unique_ptr<render::Backend> make_gpu_backend(const RenderOptions&) { throw std::runtime_error(kReason); }
 
 } // namespace nusselt::app

@@ -64,19 +64,20 @@ int run_techniques() {
     fmt::print(kFormat, "technique", "light", "density proportional to", "paper", "nusselt/sampling/");
     for (const TechniqueRow& row : kRows)
         fmt::print(kFormat, render::name_of(row.technique), row.light, row.density, row.paper, row.header);
-    fmt::print("\n"
-               "Tubes are linear lights with their radius; lines the limit of a small one, for\n"
-               "Shape \"line\" with \"bool finite\" false. The samples of the specular component\n"
-               "(--strategies diffuse+ltc) are those of polygon_ltc.h, line_ltc.h and cylinder_ltc.h.\n"
-               "--integrator lines samples whole lines of polygons, by what surfaces reflect of them or by\n"
-               "their length (Billen 2016; ../line_samples/line_family.h, ../estimate/line_light.h).\n\n"
-               "Turk 1992     G. Turk, Generating Random Points in Triangles, Graphics Gems I\n"
-               "Peters 2021a  C. Peters, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4),\n"
-               "              doi:10.1145/3450626.3459672\n"
-               "Peters 2021b  C. Peters, BRDF Importance Sampling for Linear Lights, CGF 40(8),\n"
-               "              doi:10.1111/cgf.14379\n"
-               "Billen 2016   N. Billen, P. Dutre, Line Sampling for Direct Illumination, CGF 35(4),\n"
-               "              doi:10.1111/cgf.12948\n");
+    fmt::print(
+        "\n"
+        "Tubes are linear lights with their radius; lines the limit of a small one, for\n"
+        "Shape \"line\" with \"bool finite\" false. The samples of the specular component\n"
+        "(--strategies diffuse+ltc) are those of polygon_ltc.h, line_ltc.h and cylinder_ltc.h.\n"
+        "--light-samples lines samples whole lines of polygons, by what surfaces reflect of them or by\n"
+        "their length (Billen 2016; ../line_samples/line_family.h, ../estimate/line_light.h).\n\n"
+        "Turk 1992     G. Turk, Generating Random Points in Triangles, Graphics Gems I\n"
+        "Peters 2021a  C. Peters, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4),\n"
+        "              doi:10.1145/3450626.3459672\n"
+        "Peters 2021b  C. Peters, BRDF Importance Sampling for Linear Lights, CGF 40(8),\n"
+        "              doi:10.1111/cgf.14379\n"
+        "Billen 2016   N. Billen, P. Dutre, Line Sampling for Direct Illumination, CGF 35(4),\n"
+        "              doi:10.1111/cgf.12948\n");
     return 0;
 }
 

@@ -40,7 +40,7 @@ inline LightFunctions point_functions(const render_cpu::RenderJob& job) noexcept
 /// \copydoc LightFunctions
 inline LightFunctions light_functions(const render_cpu::RenderJob& job) noexcept {
     const LightFunctions points = point_functions(job);
-    return job.integrator == render::Integrator::lines ? line_functions(points) : points;
+    return job.light_samples == render::LightSamples::lines ? line_functions(points) : points;
 }
 
 } // namespace kernel

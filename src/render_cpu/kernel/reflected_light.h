@@ -54,7 +54,7 @@ public:
           surface_(surface),
           camera_ray_(camera_ray),
           lanes_(surface.valid),
-          light_samples_(job.light_samples),
+          samples_per_light_(job.samples_per_light),
           layers_(layers),
           line_memory_(line_memory),
           statistics_(statistics) {}
@@ -67,10 +67,10 @@ public:
 
     /// For some of the shading points, with another number of samples of each light. Layers and statistics are the same, the
     /// radiance begins at 0: see add().
-    ReflectedLight with(LaneMask lanes, std::uint32_t light_samples) const noexcept {
+    ReflectedLight with(LaneMask lanes, std::uint32_t samples_per_light) const noexcept {
         ReflectedLight result = *this;
         result.lanes_ &= lanes;
-        result.light_samples_ = light_samples;
+        result.samples_per_light_ = samples_per_light;
         result.radiance_ = {Real(0), Real(0), Real(0)};
         return result;
     }
@@ -131,9 +131,9 @@ public:
     template <class Shape, class Sample>
     void add(const LocalLight<Shape>& light, const Sample& sample) noexcept {
         SampleSum sum;
-        const std::uint32_t first = camera_ray_ * light_samples_;
-        for (std::uint32_t i = 0; i < light_samples_; ++i) sample(first + i, sum);
-        const float scale = 1.0f / static_cast<float>(light_samples_);
+        const std::uint32_t first = camera_ray_ * samples_per_light_;
+        for (std::uint32_t i = 0; i < samples_per_light_; ++i) sample(first + i, sum);
+        const float scale = 1.0f / static_cast<float>(samples_per_light_);
         add_for(light, light.lit, scale * light.emission, {sum.all.sum, sum.diffuse.sum});
     }
 
@@ -157,7 +157,8 @@ public:
     /// \param pair of the technique that they are for
     template <class Shape>
     Vec2<Real> random(const LocalLight<Shape>& light, std::uint32_t sample, RandomPair pair) const noexcept {
-        return random_for_light(job_, block_, sample, job_.camera_rays * light_samples_, light.number, pair);
+        return random_for_light(job_, block_, sample, job_.camera_rays * samples_per_light_, light.number,
+                                pair);
     }
 
     /// Random numbers for all lines of a shading point and polygonal light together.
@@ -247,7 +248,7 @@ private:
     const Surface& surface_;
     std::uint32_t camera_ray_;
     LaneMask lanes_; ///< shading points that get light
-    std::uint32_t light_samples_;
+    std::uint32_t samples_per_light_;
     LayerSums* layers_;
     void* line_memory_;
     render_cpu::TileStatistics& statistics_;

@@ -1,13 +1,11 @@
 #pragma once
-/// Rendering of a tile: camera rays, what they hit, and what that emits and reflects.
+/// Rendering of a tile: camera rays, whose radiance an integrator finds, and sums over them.
 
 #include "render_cpu/kernel.h"
+#include "render_cpu/kernel/camera_packet.h"
 #include "render_cpu/kernel/lanes.h"
 #include "render_cpu/kernel/layers.h"
-#include "render_cpu/kernel/light_functions.h"
 #include "render_cpu/kernel/pixel_output.h"
-#include "render_cpu/kernel/surface.h"
-#include "render_cpu/kernel/tick_timer.h"
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
@@ -16,6 +14,9 @@ namespace kernel {
 inline constexpr int kBlockWidth = kLanes >= 8 ? 4 : 2;
 inline constexpr int kBlockHeight = kLanes / kBlockWidth;
 
+/// \tparam Integrator made of a job once per tile; radiance(packet, rays) is what arrives along rays, one per lane of the
+///                    packet. See kernel/integrators.
+template <class Integrator>
 class TileRenderer {
 public:
     TileRenderer(const render_cpu::RenderJob& job, const render_cpu::Tile& tile,
@@ -23,7 +24,7 @@ public:
         : job_(job),
           tile_(tile),
           statistics_(statistics),
-          functions_(light_functions(job)),
+          integrator_(job),
           line_memory_(memory.lines),
           layer_sums_(job, memory.light_sums),
           layers_(job.has_layers ? &layer_sums_ : nullptr) {}
@@ -94,93 +95,25 @@ private:
         const Vector origin = linear(samples.raster, camera.origin, camera.origin_right, camera.origin_down);
         const Vector direction = linear(samples.raster, camera.corner, camera.right, camera.down);
         if (layers_ != nullptr) layers_->begin_ray(samples.weight);
-        return samples.weight * radiance(block, camera_ray, origin, direction);
-    }
-
-    Vector radiance(const PixelBlock& block, std::uint32_t camera_ray, const Vector& origin,
-                    const Vector& direction) noexcept {
-        const visibility::HitPacket<kLanes> hits = trace(block.traced.bits(), origin, direction);
-        std::uint32_t on_triangle = 0;
-        std::uint32_t on_tube = 0;
-        for (int i = 0; i < kLanes; ++i) {
-            on_triangle |= static_cast<std::uint32_t>(hits.triangle[i] >= 0) << i;
-            on_tube |= static_cast<std::uint32_t>(hits.tube[i] >= 0) << i;
-        }
-        const Vector emitted = emission(hits, direction);
-        if (layers_ != nullptr) {
-            layers_->add_hits(hits, LaneMask::from_bits(on_triangle | on_tube), direction);
-            layers_->add_emission(hits, emitted);
-        }
-        if (on_triangle == 0) return emitted;
-
-        const Surface surface =
-            make_surface(job_.scene, hits, LaneMask::from_bits(on_triangle), -normalize(direction));
-        if (layers_ != nullptr) layers_->add_surface(surface);
-        ReflectedLight reflected(job_, block, surface, camera_ray, layers_, line_memory_, statistics_);
-        for (std::int32_t i = 0; i < job_.scene.polygon_light_count; ++i) {
-            const bool is_small = job_.scene.polygon_lights[i].slots == 4;
-            (is_small ? functions_.add_polygon4 : functions_.add_polygon8)(reflected, i);
-        }
-        for (std::int32_t i = 0; i < job_.scene.line_light_count; ++i) {
-            const bool is_solid = job_.scene.line_lights[i].model == scene::TubeModel::solid;
-            (is_solid ? functions_.add_tube : functions_.add_line)(reflected, i);
-        }
-        return emitted + reflected.radiance();
-    }
-
-    visibility::HitPacket<kLanes> trace(std::uint32_t active, const Vector& origin,
-                                        const Vector& direction) noexcept {
-        visibility::RayPacket<kLanes> rays;
-        origin.x.store(rays.origin[0]);
-        origin.y.store(rays.origin[1]);
-        origin.z.store(rays.origin[2]);
-        direction.x.store(rays.direction[0]);
-        direction.y.store(rays.direction[1]);
-        direction.z.store(rays.direction[2]);
-        constexpr float kInfinity = std::numeric_limits<float>::infinity();
-        Real(kInfinity).store(rays.t_far);
-        visibility::HitPacket<kLanes> hits;
-        const visibility::PacketTracer<kLanes>& tracer = job_.tracer;
-        statistics_.primary_rays += static_cast<std::uint64_t>(__builtin_popcount(active));
-        const TickTimer timer(statistics_.primary_ticks);
-        tracer.intersect(job_.tracer.context, active, rays, hits);
-        return hits;
-    }
-
-    /// Radiance that the camera sees of lights themselves.
-    Vector emission(const visibility::HitPacket<kLanes>& hits, const Vector& direction) const noexcept {
-        Indices polygon;
-        bool any_light = false;
-        for (int i = 0; i < kLanes; ++i) {
-            polygon.lane[i] = hits.triangle[i] < 0 ? -1 : job_.scene.triangle_light[hits.triangle[i]];
-            any_light |= (polygon.lane[i] >= 0) | (hits.tube[i] >= 0);
-        }
-        Lanes result{};
-        if (!any_light) return load(result);
-        const Lanes d = store(direction);
-        for (int i = 0; i < kLanes; ++i) {
-            scene::Float3 emitted{0, 0, 0};
-            if (hits.tube[i] >= 0) emitted = job_.scene.line_lights[hits.tube[i]].radiance;
-            if (polygon.lane[i] >= 0) {
-                const render_cpu::PolygonLightRecord& light = job_.scene.polygon_lights[polygon.lane[i]];
-                const Vec3<float> ray{d.x[i], d.y[i], d.z[i]};
-                if (light.two_sided != 0 || dot(to_vec(light.normal), ray) < 0) emitted = light.radiance;
-            }
-            result.x[i] = emitted.x;
-            result.y[i] = emitted.y;
-            result.z[i] = emitted.z;
-        }
-        return load(result);
+        const CameraPacket packet{job_, block, camera_ray, layers_, line_memory_, statistics_};
+        return samples.weight * integrator_.radiance(packet, {block.traced.bits(), origin, direction});
     }
 
     const render_cpu::RenderJob& job_;
     render_cpu::Tile tile_;
     render_cpu::TileStatistics& statistics_;
-    LightFunctions functions_;
+    Integrator integrator_;
     void* line_memory_;
     LayerSums layer_sums_;
     LayerSums* layers_; ///< null if the job has none
 };
+
+/// What kernels are: see render_cpu::RenderTile.
+template <class Integrator>
+void render_tile(const render_cpu::RenderJob& job, const render_cpu::Tile& tile,
+                 const render_cpu::TileMemory& memory, render_cpu::TileStatistics& statistics) {
+    TileRenderer<Integrator>(job, tile, memory, statistics).render();
+}
 
 } // namespace kernel
 NUSSELT_NAMESPACE_END

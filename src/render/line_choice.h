@@ -4,7 +4,7 @@
 
 #include "render/settings.h"
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 /// Bound on the blocks of triangles in the pyramid of a shading point and a light (see has_many_occluders()): beyond it,
 /// points reach the same error in less time.
@@ -18,4 +18,4 @@ int most_occluders_for_lines(int lines);
 /// \param camera_rays per pixel
 int points_in_place_of_lines(int lines, int camera_rays);
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

@@ -1,4 +1,4 @@
-#include "render_cpu/checkpoint.h"
+#include "render/checkpoint.h"
 
 #include "base/atomic_file.h"
 #include "scene/model/content_hash.h"
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 namespace {
 
@@ -192,4 +192,4 @@ void load_checkpoint(const std::filesystem::path& path, const image::Metadata& r
     }
 }
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

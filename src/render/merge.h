@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <memory>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 /// Adds up images that this program has written. Pixels are means over the samples of all images, weighted by their
 /// numbers; where only one image has samples, its floats are kept bit by bit. The variance becomes that of the mean of
@@ -34,4 +34,4 @@ private:
     std::unique_ptr<State> state_;
 };
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

@@ -1,9 +1,9 @@
-#include "render_cpu/line_choice.h"
+#include "render/line_choice.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 namespace {
 
@@ -33,4 +33,4 @@ int points_in_place_of_lines(int lines, int camera_rays) {
     return 1 << std::min(exponent, std::lround(std::floor(std::log2(most))));
 }
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

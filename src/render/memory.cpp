@@ -1,4 +1,4 @@
-#include "render_cpu/memory.h"
+#include "render/memory.h"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 namespace {
 
@@ -40,4 +40,4 @@ void check_memory(std::size_t bytes, const std::string& what, const std::string&
                              remedy);
 }
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

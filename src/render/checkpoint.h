@@ -2,13 +2,13 @@
 /// Renderings that go on after the program was stopped.
 
 #include "image/image.h"
-#include "render_cpu/frame.h"
+#include "render/frame.h"
 
 #include <cstddef>
 #include <filesystem>
 #include <vector>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 /// All that the bits of an image depend on, by name.
 /// \param settings from make_metadata()
@@ -29,4 +29,4 @@ void save_checkpoint(const std::filesystem::path& path, const image::Metadata& r
 ///                            message then says what differs
 void load_checkpoint(const std::filesystem::path& path, const image::Metadata& run, Frame& frame);
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 /// Refuses to take more memory than the machine has. Without this, Linux would grant it and end the program once it is
 /// used.
@@ -12,4 +12,4 @@ namespace nusselt::render_cpu {
 /// \throws std::runtime_error
 void check_memory(std::size_t bytes, const std::string& what, const std::string& remedy);
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

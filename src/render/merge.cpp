@@ -1,4 +1,4 @@
-#include "render_cpu/merge.h"
+#include "render/merge.h"
 
 #include <algorithm>
 #include <charconv>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 namespace {
 
@@ -291,4 +291,4 @@ image::LayeredImage Merger::result() const {
     return result;
 }
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

@@ -4,13 +4,13 @@
 #include "image/image.h"
 #include "image/layers.h"
 #include "render/settings.h"
-#include "render_cpu/kernel.h"
+#include "render/tile.h"
 #include "scene/model/scene.h"
 
 #include <cstdint>
 #include <vector>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 /// All that a rendering stores of its pixels. What is not rendered is zero.
 struct Frame {
@@ -19,6 +19,8 @@ struct Frame {
     std::vector<image::Layer> layers;
     std::vector<Tile> tiles;               ///< those of the part to render
     std::vector<std::uint8_t> is_finished; ///< 1 for tiles whose pixels are final; one for each tile
+    /// Share of the samples that finished pixels have: below 1 if a backend was stopped that takes all pixels at once.
+    double finished_share = 1;
 };
 
 /// Takes the memory for an image and the layers of the settings.
@@ -29,20 +31,9 @@ struct Frame {
 /// \throws std::runtime_error if no file could hold that many pixels, or if the machine does not have the memory
 Frame make_frame(const scene::Scene& scene, const RenderSettings& settings);
 
-/// Where a kernel stores the layers of a frame, valid as long as its layers are.
-class FrameTargets {
-public:
-    explicit FrameTargets(Frame& frame);
-    const LayerTargets& layers() const { return layers_; }
-
-private:
-    std::vector<float*> lights_;
-    LayerTargets layers_{};
-};
-
 std::uint64_t pixel_count(const Tile& tile);
 
-/// Share of the pixels of the part that are finished; 1 if there are none to render.
+/// Share of the samples of the part that are there; 1 if there are no pixels to render.
 double finished_fraction(const Frame& frame);
 
 /// The frame as it goes into files: with all layers, and one more with the number of samples per pixel unless that is the
@@ -51,4 +42,4 @@ double finished_fraction(const Frame& frame);
 image::LayeredImage to_layered_image(Frame&& frame, const scene::Film& film, const RenderSettings& settings,
                                      image::Metadata metadata);
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

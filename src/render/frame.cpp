@@ -1,16 +1,17 @@
-#include "render_cpu/frame.h"
+#include "render/frame.h"
 
 #include "render/film.h"
-#include "render_cpu/memory.h"
+#include "render/memory.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <sstream>
 #include <string>
 #include <utility>
 
-namespace nusselt::render_cpu {
+namespace nusselt::render {
 
 namespace {
 
@@ -101,14 +102,14 @@ std::vector<LayerFormat> layer_formats(const scene::Scene& scene, const RenderSe
     if (wants_specular) formats.push_back({"specular", kRgb});
     if (wanted(LayerKind::lights))
         for (const std::string& name : light_layer_names(scene.emitters)) formats.push_back({name, kRgb});
-    if (wanted(LayerKind::pieces) && settings.integrator == Integrator::lines)
+    if (wanted(LayerKind::pieces) && settings.light_samples == LightSamples::lines)
         formats.push_back({"pieces", {"Y"}});
     if (wanted(LayerKind::variance) && has_variance(settings)) formats.push_back({"variance", kRgb});
     return formats;
 }
 
 /// The number of samples per pixel as a layer.
-image::Layer samples_layer(const Frame& frame, int samples) {
+image::Layer samples_layer(const Frame& frame, double samples) {
     image::Layer layer{"samples", {"Y"}, std::vector<float>(frame.image.pixels.size() / 3)};
     for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
         if (frame.is_finished[i] == 0) continue;
@@ -149,21 +150,6 @@ Frame make_frame(const scene::Scene& scene, const RenderSettings& settings) {
     return frame;
 }
 
-FrameTargets::FrameTargets(Frame& frame) {
-    const std::pair<const char*, float * LayerTargets::*> targets[] = {
-        {"albedo", &LayerTargets::albedo},     {"normal", &LayerTargets::normal},
-        {"depth", &LayerTargets::depth},       {"coverage", &LayerTargets::coverage},
-        {"emission", &LayerTargets::emission}, {"diffuse", &LayerTargets::diffuse},
-        {"specular", &LayerTargets::specular}, {"pieces", &LayerTargets::pieces},
-        {"variance", &LayerTargets::variance}};
-    for (image::Layer& layer : frame.layers) {
-        if (layer.name.starts_with("light.")) lights_.push_back(layer.data.data());
-        for (const auto& [name, member] : targets)
-            if (layer.name == name) layers_.*member = layer.data.data();
-    }
-    if (!lights_.empty()) layers_.lights = lights_.data();
-}
-
 std::uint64_t pixel_count(const Tile& tile) {
     return static_cast<std::uint64_t>(tile.x_end - tile.x_begin) *
            static_cast<std::uint64_t>(tile.y_end - tile.y_begin);
@@ -176,7 +162,7 @@ double finished_fraction(const Frame& frame) {
         all += pixel_count(frame.tiles[i]);
         if (frame.is_finished[i] != 0) finished += pixel_count(frame.tiles[i]);
     }
-    return all == 0 ? 1 : static_cast<double>(finished) / static_cast<double>(all);
+    return all == 0 ? 1 : frame.finished_share * static_cast<double>(finished) / static_cast<double>(all);
 }
 
 image::LayeredImage to_layered_image(Frame&& frame, const scene::Film& film, const RenderSettings& settings,
@@ -187,11 +173,11 @@ image::LayeredImage to_layered_image(Frame&& frame, const scene::Film& film, con
     result.metadata = std::move(metadata);
     const bool is_whole = settings.part.count == 1 && finished_fraction(frame) == 1;
     image::Layer samples;
-    if (!is_whole) samples = samples_layer(frame, settings.samples);
+    if (!is_whole) samples = samples_layer(frame, std::round(frame.finished_share * settings.samples));
     result.layers.push_back({"", kRgb, std::move(frame.image.pixels)});
     for (image::Layer& layer : frame.layers) result.layers.push_back(std::move(layer));
     if (!is_whole) result.layers.push_back(std::move(samples));
     return result;
 }
 
-} // namespace nusselt::render_cpu
+} // namespace nusselt::render

@@ -1,0 +1,81 @@
+#pragma once
+/// What renders, as programs see it: the processor or a GPU.
+
+#include "image/image.h"
+#include "render/frame.h"
+#include "render/monitor.h"
+#include "render/result.h"
+#include "render/settings.h"
+#include "render/statistics.h"
+#include "scene/model/scene.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace nusselt::render {
+
+/// A scene that is ready for rendering. One rendering at a time.
+class PreparedScene {
+public:
+    PreparedScene() = default;
+    virtual ~PreparedScene() = default;
+    PreparedScene(const PreparedScene&) = delete;
+    PreparedScene& operator=(const PreparedScene&) = delete;
+
+    /// Renders the tiles of a frame that are not finished, and marks them as finished.
+    /// \param frame    from make_frame() with this scene and these settings
+    /// \param settings valid, and supported by the backend
+    /// \throws std::runtime_error if the scene is too large for these settings, or a device is lost
+    virtual RenderStatistics render_into(Frame& frame, const RenderSettings& settings,
+                                         const RenderMonitor& monitor) = 0;
+};
+
+/// Names and values in the order in which reports list them.
+using NamedTexts = std::vector<std::pair<std::string, std::string>>;
+using NamedSeconds = std::vector<std::pair<std::string, double>>;
+
+/// Where the time of a rendering went.
+struct TimeReport {
+    NamedSeconds preparation; ///< wall clock, before the first piece of work
+    std::string work_name;    ///< whose times the following are
+    NamedSeconds work;        ///< sums over all threads or passes
+};
+
+class Backend {
+public:
+    Backend() = default;
+    virtual ~Backend() = default;
+    Backend(const Backend&) = delete;
+    Backend& operator=(const Backend&) = delete;
+
+    /// What users choose it by.
+    virtual std::string_view name() const = 0;
+
+    /// Why settings are not supported, with what to do; nothing if they are. \param settings valid
+    virtual std::optional<std::string> why_unsupported(const RenderSettings& settings) const = 0;
+
+    /// \param scene must outlive the result; its film gives the size of images
+    /// \throws std::runtime_error if the backend cannot hold the scene
+    virtual std::unique_ptr<PreparedScene> prepare(const scene::Scene& scene) const = 0;
+
+    /// What image files say about the backend, beside make_metadata(): the bits of images depend on it.
+    virtual image::Metadata metadata() const = 0;
+
+    /// What reports say about it.
+    virtual NamedTexts properties() const = 0;
+
+    /// \param statistics of one of its renderings
+    virtual TimeReport times(const RenderStatistics& statistics) const = 0;
+};
+
+/// Makes a frame and renders it.
+/// \throws std::invalid_argument see validate(), and for settings that the backend does not support
+/// \throws std::runtime_error see make_frame(), Backend::prepare() and PreparedScene::render_into()
+RenderResult render(const Backend& backend, const scene::Scene& scene, const RenderSettings& settings,
+                    const RenderMonitor& monitor = {});
+
+} // namespace nusselt::render

@@ -1,0 +1,20 @@
+#pragma once
+/// How a rendering talks to its surroundings.
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+
+namespace nusselt::render {
+
+/// All members may be left empty.
+struct RenderMonitor {
+    /// Called with the share of the work that is finished, in (0, 1], from any thread, never by two at once.
+    std::function<void(double fraction)> progress;
+    /// Called with the number in Frame::tiles of each tile once its pixels are final. As above; its caller waits.
+    std::function<void(std::size_t tile)> tile_finished;
+    /// Once this is true, no further piece of work is begun.
+    const std::atomic<bool>* cancel = nullptr;
+};
+
+} // namespace nusselt::render

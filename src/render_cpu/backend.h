@@ -1,0 +1,27 @@
+#pragma once
+/// The processor as a backend.
+
+#include "render/backend.h"
+#include "base/isa.h"
+
+namespace nusselt::render_cpu {
+
+class CpuBackend final : public render::Backend {
+public:
+    /// \param isa     supported by the processor
+    /// \param threads at least 1
+    CpuBackend(base::Isa isa, int threads) : isa_(isa), threads_(threads) {}
+
+    std::string_view name() const override { return "cpu"; }
+    std::optional<std::string> why_unsupported(const render::RenderSettings& settings) const override;
+    std::unique_ptr<render::PreparedScene> prepare(const scene::Scene& scene) const override;
+    image::Metadata metadata() const override;
+    render::NamedTexts properties() const override;
+    render::TimeReport times(const render::RenderStatistics& statistics) const override;
+
+private:
+    base::Isa isa_;
+    int threads_;
+};
+
+} // namespace nusselt::render_cpu

@@ -1,0 +1,32 @@
+#include "render_cpu/kernel/direct_light.h"
+#include "render_cpu/kernel/tile.h"
+
+NUSSELT_NAMESPACE_BEGIN
+namespace kernel {
+namespace {
+
+/// Light that reaches the camera from lights, directly or over one surface.
+class DirectLightIntegrator {
+public:
+    explicit DirectLightIntegrator(const render_cpu::RenderJob& job) noexcept
+        : functions_(light_functions(job)) {}
+
+    Vector radiance(const CameraPacket& packet, const Rays& rays) const noexcept {
+        return emitted_and_direct_light(packet, rays, functions_, AllLights());
+    }
+
+private:
+    LightFunctions functions_;
+};
+
+} // namespace
+} // namespace kernel
+NUSSELT_NAMESPACE_END
+
+namespace nusselt::render_cpu {
+
+RenderTile direct_light(LaneCount<kernel::kLanes>) {
+    return &kernel::render_tile<kernel::DirectLightIntegrator>;
+}
+
+} // namespace nusselt::render_cpu

@@ -1,0 +1,36 @@
+/// The table of shaders that the build writes.
+
+#include "render_vulkan/shading_shaders.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace nusselt::render_vulkan_test {
+namespace {
+
+using render_vulkan::ShadingPassKind;
+using render_vulkan::TextureAccess;
+
+TEST(ShadingShaders, AreCompiledOnceForAllVariants) {
+    EXPECT_EQ(render_vulkan::shading_shaders().size(), 4u * 2 * 2 * 2);
+    for (const auto pass : {ShadingPassKind::integrate_lights, ShadingPassKind::sample_lights_bvh,
+                            ShadingPassKind::sample_lights_query, ShadingPassKind::sample_lights_unshadowed})
+        for (const int slots : {4, 8})
+            for (const bool fused : {false, true})
+                for (const auto textures : {TextureAccess::images, TextureAccess::buffer}) {
+                    const render_vulkan::ShaderVariant variant{slots, fused, textures};
+                    const auto words = render_vulkan::shading_shader(pass, variant);
+                    EXPECT_EQ(words.front(), 0x07230203u) << "not SPIR-V";
+                    for (const auto& other : render_vulkan::shading_shaders()) {
+                        const bool is_same = other.pass == pass && other.variant == variant;
+                        EXPECT_EQ(other.words.data() == words.data(), is_same);
+                    }
+                }
+    EXPECT_THROW(static_cast<void>(render_vulkan::shading_shader(ShadingPassKind::integrate_lights,
+                                                                 {5, true, TextureAccess::images})),
+                 std::logic_error);
+}
+
+} // namespace
+} // namespace nusselt::render_vulkan_test
