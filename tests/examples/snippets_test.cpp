@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -50,7 +51,7 @@ TEST(Snippets, MultipleImportanceSamplingIsUnbiased) {
 }
 
 TEST(Snippets, GlossyLightIsUnbiased) {
-    std::ifstream file(std::string(nusselt_test::kSourceFolder) + "/data/ltc-frostbite.bin",
+    std::ifstream file(std::filesystem::path(nusselt_test::kSourceFolder) / "data/ltc-frostbite.bin",
                        std::ios::binary);
     const Lobes lobes = load_lobes({std::istreambuf_iterator<char>(file), {}});
     const auto light = make_polygon<4>(kCorners, 4);
