@@ -1,8 +1,8 @@
 #pragma once
 /// The processor as a backend.
 
-#include "render/backend.h"
 #include "base/isa.h"
+#include "render/backend.h"
 
 namespace nusselt::render_cpu {
 

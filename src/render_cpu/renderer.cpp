@@ -3,7 +3,6 @@
 #include "base/flush_denormals.h"
 #include "render/film.h"
 #include "render/line_choice.h"
-#include "base/flush_denormals.h"
 #include "render_cpu/frame_targets.h"
 
 #include "tables/ltc_table.h"
@@ -196,7 +195,7 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
             if (frame.is_finished[i] != 0 || (monitor.cancel != nullptr && *monitor.cancel)) return;
             const base::FlushDenormals flush_denormals;
             TileStatistics work{};
-            render_tile_here(job, frame.tiles[i], memory.local().view(), work);
+            render_tile(job, frame.tiles[i], memory.local().view(), work);
             tally.add(i, work);
         });
     });

@@ -8,7 +8,6 @@
 #include "render/result.h"
 #include "render/settings.h"
 #include "render_cpu/integrator.h"
-#include "base/isa.h"
 #include "render_cpu/kernel_arrays.h"
 #include "scene/model/scene.h"
 #include "visibility/embree_scene.h"

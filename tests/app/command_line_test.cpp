@@ -358,8 +358,7 @@ int run_until_interrupted(const char* program, std::vector<const char*> argument
 TEST_F(CommandLine, CtrlCWritesWhatIsThere) {
     const std::string output = path("stopped.exr");
     const std::string scene = kScenes + "/room.pbrt";
-    EXPECT_EQ(run_until_interrupted(kProgram,
-                                    {"render", scene.c_str(), "--spp", "64", "-o", output.c_str()}),
+    EXPECT_EQ(run_until_interrupted(kProgram, {"render", scene.c_str(), "--spp", "64", "-o", output.c_str()}),
               130);
     EXPECT_EQ(image::read_image(output).width, 1280);
     EXPECT_LT(std::stod(image::read_exr_metadata(output).at("finished_fraction")), 1.0);
@@ -367,9 +366,9 @@ TEST_F(CommandLine, CtrlCWritesWhatIsThere) {
 
 TEST_F(CommandLine, CtrlCKeepsWorstCases) {
     const std::string state = path("stopped.json");
-    EXPECT_EQ(run_until_interrupted(kLabProgram,
-                                    {"bench", "worst-case", "--time", "15", "--state", state.c_str()}),
-              130);
+    EXPECT_EQ(
+        run_until_interrupted(kLabProgram, {"bench", "worst-case", "--time", "15", "--state", state.c_str()}),
+        130);
     const auto targets = nlohmann::json::parse(read("stopped.json")).at("targets");
     EXPECT_GT(targets.at("lines").at("starts"), 0);
     EXPECT_EQ(targets.at("lines").at("parameters").size(), 4u);
@@ -412,8 +411,8 @@ TEST_F(CommandLine, FitFindsOutEarlyThatItCannotWrite) {
 
 TEST_F(CommandLine, CtrlCKeepsFittedColumns) {
     const std::string output = path("table"), state = path("state");
-    EXPECT_EQ(run_until_interrupted(kLabProgram, {"fit-ltc", "--size", "64x4x51", "-o",
-                                                          output.c_str(), "--checkpoint", state.c_str()}),
+    EXPECT_EQ(run_until_interrupted(kLabProgram, {"fit-ltc", "--size", "64x4x51", "-o", output.c_str(),
+                                                  "--checkpoint", state.c_str()}),
               130);
     EXPECT_FALSE(std::filesystem::exists(output + ".bin"));
     const std::string title = "nusselt ltc fit, version 1, frostbite-specular, 64x4x51\n";

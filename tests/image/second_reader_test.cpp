@@ -189,8 +189,8 @@ TEST_F(SecondReader, BmpOfEveryKind) {
 TEST_F(SecondReader, CommittedFiles) {
     int count = 0;
     for (const char* folder : {"docs/images", "tests/fuzz/corpus/image", "tests/scene/corpus/textures"})
-        for (const auto& entry :
-             std::filesystem::directory_iterator(std::filesystem::path(nusselt_test::kSourceFolder) / folder)) {
+        for (const auto& entry : std::filesystem::directory_iterator(
+                 std::filesystem::path(nusselt_test::kSourceFolder) / folder)) {
             const std::string extension = entry.path().extension().string();
             if (extension != ".png" && extension != ".tga" && extension != ".bmp") continue;
             const std::string file = read_bytes(entry.path());

@@ -12,8 +12,8 @@
 namespace nusselt {
 namespace {
 
-using render_cpu::CpuBackend;
 using base::Isa;
+using render_cpu::CpuBackend;
 
 scene::Scene lit_floor() {
     scene::Scene scene = render_test::make_floor(40);

@@ -38,8 +38,7 @@ protected:
 
     image::Metadata run_of(const Frame& frame) const {
         return describe_run(
-            render::make_metadata(scene_, settings_, render_cpu::CpuBackend(base::choose_isa(), 1)),
-            frame);
+            render::make_metadata(scene_, settings_, render_cpu::CpuBackend(base::choose_isa(), 1)), frame);
     }
 
     /// A finished frame.

@@ -17,8 +17,8 @@
 namespace nusselt {
 namespace {
 
-using render_cpu::Integrator;
 using base::Isa;
+using render_cpu::Integrator;
 
 std::vector<const Integrator*> all_integrators() {
     std::vector<const Integrator*> all;

@@ -201,9 +201,7 @@ TEST(LineChoice, TakesPointsBehindManyOccluders) {
     const render_cpu::Renderer renderer(scene, 2);
     const auto tracer = renderer.visibility().tracer();
     RenderSettings settings = line_settings(16);
-    const auto statistics_of = [&] {
-        return renderer.render(settings, base::choose_isa()).statistics.lines;
-    };
+    const auto statistics_of = [&] { return renderer.render(settings, base::choose_isa()).statistics.lines; };
     const render::LineStatistics lines_only = statistics_of();
     EXPECT_EQ(lines_only.point_lights, 0u);
     EXPECT_EQ(lines_only.lines, 16 * lines_only.line_lights);

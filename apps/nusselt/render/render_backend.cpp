@@ -72,8 +72,7 @@ std::unique_ptr<render::Backend> make_backend(const RenderOptions& options,
                                               const render::RenderSettings& settings) {
     if (renders_on_cpu(options, settings))
         return std::make_unique<render_cpu::CpuBackend>(
-            base::choose_isa(options.isa),
-            options.threads.value_or(render_cpu::default_thread_count()));
+            base::choose_isa(options.isa), options.threads.value_or(render_cpu::default_thread_count()));
     std::unique_ptr<render::Backend> gpu = make_gpu_backend(options);
     if (const auto reason = gpu->why_unsupported(settings)) throw std::invalid_argument(*reason);
     if (!options.quiet) fmt::print(stderr, "rendering on {}\n", gpu->metadata().at("device"));

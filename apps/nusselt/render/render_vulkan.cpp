@@ -1,5 +1,5 @@
-#include "render_backend.h"
 #include "apps/common/render_setup.h"
+#include "render_backend.h"
 
 #include "gpu/device.h"
 #include "render_vulkan/accumulator.h"
