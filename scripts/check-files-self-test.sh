@@ -4,7 +4,7 @@ set -euo pipefail
 scripts=$(cd "$(dirname "$0")" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-mkdir -p "$tree"/{include,src,apps,tests,examples,shaders,scripts,cmake}
+mkdir -p "$tree"/{include,src,proof,lab,apps,tests,examples,shaders,scripts,cmake}
 cp "$scripts/../.clang-format" "$tree"
 good=$'#include "/usr/include/math.h"\nint sum(int a, int b) { return a + b; } // and/or\n'
 
@@ -15,7 +15,7 @@ expect() {
     [ "$result" = "$2" ] || { echo "check '$1' $result on: ${3:0:100}"; exit 1; }
 }
 
-for check in format length paths; do expect "$check" passes "$good"; done
+for check in format length folders paths; do expect "$check" passes "$good"; done
 expect format fails $'int  sum(int a,int b) { return a+b; }\n'
 expect length passes "$(yes '// line' | head -n 600)"
 expect length fails "$(yes '// line' | head -n 601)"
@@ -24,6 +24,11 @@ for file in shaders/a.glsl shaders/a.comp scripts/a.py scripts/a.sh cmake/a.cmak
     expect length fails "$good"
     rm "$tree/$file"
 done
+for i in $(seq 30); do touch "$tree/src/$i.h"; done
+expect folders fails "$good"
+rm "$tree/src/30.h"
+expect folders passes "$good"
+rm "$tree"/src/*.h
 root=/somewhere
 expect paths fails "const char* file = \"$root/else/file.txt\";"
 expect paths fails "// see $root/notes.txt"

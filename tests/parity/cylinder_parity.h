@@ -1,7 +1,7 @@
 #pragma once
 /// Techniques for cylinders, with and without lobes.
 
-#include "cylinder_lights.h"
+#include "inputs/cylinder_lights.h"
 #include "ltc_parity.h"
 
 #include <algorithm>

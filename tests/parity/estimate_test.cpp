@@ -1,6 +1,7 @@
 // What makes estimates of direct light from the techniques: heuristics, visible normals, and all of it together.
 
 #include "function_parity.h"
+#include "inputs/table_words.h"
 #include "render/settings.h"
 #include "shaders/brdf_direct_light_fused.h"
 #include "shaders/brdf_direct_light_split.h"
@@ -16,7 +17,6 @@
 #include "shaders/unbounded_normals.h"
 #include "shaders/visible_normals_fused.h"
 #include "shaders/visible_normals_split.h"
-#include "table_words.h"
 
 #include <nusselt/estimate/direct_light.h>
 

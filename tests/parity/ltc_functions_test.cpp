@@ -1,7 +1,8 @@
 // Functions on linearly transformed cosines below the techniques.
 
 #include "function_parity.h"
-#include "lobes.h"
+#include "inputs/lobes.h"
+#include "inputs/table_words.h"
 #include "shaders/engine_table_fused.h"
 #include "shaders/engine_table_split.h"
 #include "shaders/line_shading_fused.h"
@@ -16,7 +17,6 @@
 #include "shaders/seamed_table.h"
 #include "shaders/shading_frame_fused.h"
 #include "shaders/shading_frame_split.h"
-#include "table_words.h"
 #include "tables/engine_table.h"
 
 #include <nusselt/ltc/line_shading.h>

@@ -1,7 +1,7 @@
 #pragma once
 /// Techniques for linearly transformed cosines: lights of the accuracy tables, each with a lobe of the shipped table.
 
-#include "lobes.h"
+#include "inputs/lobes.h"
 #include "technique_parity.h"
 
 #include <random>

@@ -4,7 +4,7 @@
 #include "common/effort.h"
 #include "gpu/fused_fma.h"
 #include "gpu_test.h"
-#include "hostile_inputs.h"
+#include "inputs/hostile_inputs.h"
 #include "parity_check.h"
 #include "proof/accuracy/cases.h"
 #include "proof/hostile/techniques.h"

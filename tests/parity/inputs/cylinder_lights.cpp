@@ -1,4 +1,4 @@
-#include "cylinder_lights.h"
+#include "inputs/cylinder_lights.h"
 
 #include "proof/tube_lights.h"
 
