@@ -54,7 +54,9 @@ interface::FrameRecord FrameRecords::make(std::uint32_t number) const {
     }
     record.number = number;
     record.count = count_;
-    record.light_samples = static_cast<std::uint32_t>(settings_.samples) / count_;
+    // Integrals are the same for all samples.
+    const bool is_analytic = settings_.technique == render::Technique::ltc_analytic;
+    record.light_samples = is_analytic ? 1 : static_cast<std::uint32_t>(settings_.samples) / count_;
     record.seed = settings_.seed;
     record.visibility_estimate = settings_.visibility_estimate;
     record.loop_probe = 2;

@@ -100,7 +100,7 @@ TEST_F(Files, AnExceptionOfTheWriterLeavesTheOldFileAndNoOther) {
         stream << "half of the new";
         throw std::logic_error("from the writer");
     };
-    EXPECT_THROW(write_atomically(in_folder("a.json"), throwing_writer), std::logic_error);
+    EXPECT_THROW(base::write_atomically(in_folder("a.json"), throwing_writer), std::logic_error);
     EXPECT_EQ(read_bytes(in_folder("a.json")), "old");
     EXPECT_EQ(file_names(), std::set<std::string>{"a.json"});
 }

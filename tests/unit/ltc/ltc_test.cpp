@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/adaptive_quadrature.h"
-#include "inputs/lobes.h"
+#include "lobes.h"
 #include "reference.h"
 #include "sampling/contract.h"
 #include "sampling/lights.h"
