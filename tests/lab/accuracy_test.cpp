@@ -14,6 +14,8 @@
 
 namespace nusselt::lab {
 
+using proof::AccuracyRow;
+
 namespace {
 
 const std::filesystem::path kDocs = std::filesystem::path(nusselt_test::kSourceFolder) / "docs";

@@ -7,6 +7,9 @@
 
 namespace nusselt::lab {
 
+using proof::TubeLight;
+using proof::tube_lights;
+
 namespace {
 
 TEST(TubeNoise, IsBelowThatOfRejectionForEveryLight) {

@@ -13,6 +13,11 @@
 
 namespace nusselt::lab {
 
+using proof::LineCase;
+using proof::RandomCoordinates;
+using proof::kReach;
+using proof::share_of;
+
 namespace {
 
 using Real = long double;
