@@ -45,10 +45,16 @@ TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
 
 /// Users of the renderer get no commands of the laboratory, and the other way round.
 TEST_F(CommandLine, ProgramsKeepToTheirOwnCommands) {
-    for (const char* command : {"bench", "fuzz", "map", "reproduce", "fit-ltc"})
-        EXPECT_EQ(run(std::string(command) + " --help").exit_code, 2) << command;
-    for (const char* command : {"render", "merge", "info", "compare"})
-        EXPECT_EQ(run_lab(std::string(command) + " --help").exit_code, 2) << command;
+    for (const char* command : {"bench", "fuzz", "map", "reproduce", "fit-ltc"}) {
+        const Outcome outcome = run(command);
+        EXPECT_EQ(outcome.exit_code, 2) << command;
+        expect_message(outcome.err, "subcommand");
+    }
+    for (const char* command : {"render", "view", "merge", "info", "compare", "convert"}) {
+        const Outcome outcome = run_lab(std::string(command) + " a b");
+        EXPECT_EQ(outcome.exit_code, 2) << command;
+        expect_lab_message(outcome.err, "subcommand");
+    }
 }
 
 TEST_F(CommandLine, WrongUsageExitsWithTwo) {
