@@ -7,8 +7,8 @@
 
 namespace nusselt::lab {
 
-using proof::TubeLight;
 using proof::tube_lights;
+using proof::TubeLight;
 
 namespace {
 

@@ -13,9 +13,9 @@
 
 namespace nusselt::lab {
 
+using proof::kReach;
 using proof::LineCase;
 using proof::RandomCoordinates;
-using proof::kReach;
 using proof::share_of;
 
 namespace {

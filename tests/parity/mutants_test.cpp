@@ -15,8 +15,9 @@ using ProjectedPair = PolygonProjectedSolidAnglePair<4>;
 class MutantParity : public GpuTest {
 protected:
     template <class Pair>
-    std::vector<std::string> excesses_of(std::span<const std::uint32_t> shader) const {
-        return judge_twin<Pair>(device(), shader, kMutantLights).excesses;
+    std::vector<std::string> excesses_of(std::span<const std::uint32_t> shader,
+                                         int lights = kMutantLights) const {
+        return judge_twin<Pair>(device(), shader, lights).excesses;
     }
 };
 
@@ -53,7 +54,9 @@ TEST_F(MutantParity, MissingClippingIsFound) {
 
 TEST_F(MutantParity, TheVariantForAFusedFmaIsRejectedWhereFmaRoundsTwice) {
     if (gpu::has_fused_fma(device())) GTEST_SKIP() << "the device fuses fma";
-    EXPECT_FALSE(excesses_of<ProjectedPair>(shader_of<ProjectedPair>(Variant::fused)).empty());
+    // It errs in the extremes only, which are compared in classes of 30 000 lights and more.
+    constexpr int kManyLights = 1'000'000;
+    EXPECT_FALSE(excesses_of<ProjectedPair>(shader_of<ProjectedPair>(Variant::fused), kManyLights).empty());
 }
 
 TEST_F(MutantParity, InfiniteDensitiesAreFound) {
