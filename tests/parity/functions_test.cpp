@@ -1,6 +1,7 @@
 // Functions below the techniques: on the device, in C++ with float, and in C++ with long double.
 
 #include "function_parity.h"
+#include "gpu/fused_fma.h"
 #include "shaders/arithmetic_fused.h"
 #include "shaders/arithmetic_split.h"
 #include "shaders/bsdf_fused.h"
@@ -337,6 +338,11 @@ TEST_F(FunctionMutant, DifferencesThatCancelAreFound) {
     ASSERT_FALSE(excesses.empty());
     for (const std::string& excess : excesses)
         EXPECT_EQ(excess.rfind("difference_of_products, ", 0), 0u) << excess;
+}
+
+TEST_F(FunctionMutant, TheVariantForAFusedFmaIsRejectedWhereFmaRoundsTwice) {
+    if (gpu::has_fused_fma(device())) GTEST_SKIP() << "the device fuses fma";
+    EXPECT_FALSE(judge_group<Arithmetic>(device(), shaders::kArithmeticFused, kMutantCalls).excesses.empty());
 }
 
 class RandomParity : public GpuTest {};

@@ -15,9 +15,8 @@ using ProjectedPair = PolygonProjectedSolidAnglePair<4>;
 class MutantParity : public GpuTest {
 protected:
     template <class Pair>
-    std::vector<std::string> excesses_of(std::span<const std::uint32_t> shader,
-                                         int lights = kMutantLights) const {
-        return judge_twin<Pair>(device(), shader, lights).excesses;
+    std::vector<std::string> excesses_of(std::span<const std::uint32_t> shader) const {
+        return judge_twin<Pair>(device(), shader, kMutantLights).excesses;
     }
 };
 
@@ -50,13 +49,6 @@ TEST_F(MutantParity, MissingClippingIsFound) {
     const auto excesses = excesses_of<Clipped>(shader_of<PolygonSolidAnglePair<4>>(Variant::split));
     EXPECT_GT(count_of(excesses, "crossing the horizon:"), 0);
     EXPECT_EQ(count_of(excesses, "decentral:"), 0) << "above the horizon nothing is missing";
-}
-
-TEST_F(MutantParity, TheVariantForAFusedFmaIsRejectedWhereFmaRoundsTwice) {
-    if (gpu::has_fused_fma(device())) GTEST_SKIP() << "the device fuses fma";
-    // It errs in the extremes only, which are compared in classes of 30 000 lights and more.
-    constexpr int kManyLights = 1'000'000;
-    EXPECT_FALSE(excesses_of<ProjectedPair>(shader_of<ProjectedPair>(Variant::fused), kManyLights).empty());
 }
 
 TEST_F(MutantParity, InfiniteDensitiesAreFound) {
