@@ -4,13 +4,13 @@
 #include "apps/common/validators.h"
 
 #include "base/isa.h"
+#include "base/stopwatch.h"
 #include "lab/fuzzing/shadow_fuzz.h"
 #include "render_cpu/renderer.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-#include <chrono>
 #include <memory>
 
 namespace nusselt::app {
@@ -19,12 +19,12 @@ int run_bench_shadows(const BenchShadowsOptions& options) {
     const std::string isa(name_of(base::choose_isa(options.isa)));
     const lab::ShadowFuzzSettings settings{options.seed, options.first, options.count,
                                            options.threads.value_or(render_cpu::default_thread_count())};
-    const auto begin = std::chrono::steady_clock::now();
+    const base::Stopwatch stopwatch;
     Progress progress;
     const auto rows = lab::fuzz_shadows(lab::choose_shadow_checks(isa), settings,
                                         [&](double fraction) { progress.update(fraction); });
     progress.finish();
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const double seconds = stopwatch.seconds();
 
     std::uint64_t violations = 0;
     fmt::print("{:<26}{:>14}{:>16}{:>12}\n", "cases", "segments", "triangles", "violations");

@@ -12,6 +12,7 @@
 #include "render_report.h"
 #include "render_settings.h"
 
+#include "base/stopwatch.h"
 #include "image/io.h"
 #include "image/layers.h"
 #include "render/checkpoint.h"
@@ -35,12 +36,6 @@
 namespace nusselt::app {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 /// Writes the frame to all files. EXR files get all that is known, others the image.
 void write_outputs(const RenderOptions& options, const render::RenderSettings& settings,
@@ -147,7 +142,7 @@ void setup_render(CLI::App& app, int& exit_code) {
 }
 
 int run_render(const RenderOptions& options) {
-    const auto begin = Clock::now();
+    const base::Stopwatch stopwatch;
     const render::RenderSettings settings = make_settings(options);
     check_outputs(options);
     const std::unique_ptr<render::Backend> backend = make_backend(options, settings);
@@ -158,7 +153,7 @@ int run_render(const RenderOptions& options) {
     check_names(options, scene.film);
     apply_resolution(options.resolution, scene);
     Times times;
-    times.load = seconds_since(begin);
+    times.load = stopwatch.seconds();
     if (!options.quiet) print_warnings(options, settings, scene);
 
     render::Frame frame = render::make_frame(scene, settings);
@@ -195,7 +190,7 @@ int run_render(const RenderOptions& options) {
     const double finished = finished_fraction(frame);
     if (finished == 0) return stop_without_image(options);
 
-    const auto write_begin = Clock::now();
+    const base::Stopwatch writing;
     // Also where the image is finished: it may fail to be written.
     const std::optional<std::string> unsaved = checkpointer ? checkpointer->save_all() : std::nullopt;
     metadata["scene"] = options.scene.filename().string();
@@ -208,8 +203,8 @@ int run_render(const RenderOptions& options) {
         std::error_code ignored;
         std::filesystem::remove(*options.checkpoint, ignored);
     }
-    times.write = seconds_since(write_begin);
-    times.total = seconds_since(begin);
+    times.write = writing.seconds();
+    times.total = stopwatch.seconds();
     if (options.json)
         write_report(*options.json, report_json(options, settings, scene, *backend, statistics, times));
     if (finished == 1) return 0;
