@@ -52,7 +52,7 @@ BEGIN {
     # Structures that C++ and shaders share: shaders/interface.
     allow("src/interface", "")
     allow("src/gpu", "library src/shaders")
-    allow("src/render_vulkan", "library src/image src/scene/model src/visibility src/tables src/render src/gpu src/shaders src/interface")
+    allow("src/render_vulkan", "library src/base src/image src/scene/model src/visibility src/tables src/render src/gpu src/shaders src/interface")
     below = "library src/base src/image " scene " src/visibility src/render src/render_cpu src/render_vulkan src/gpu"
     below = below " src/shaders src/tables"
     allow("apps/common", below)

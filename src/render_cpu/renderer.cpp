@@ -1,6 +1,7 @@
 #include "render_cpu/renderer.h"
 
 #include "base/flush_denormals.h"
+#include "base/stopwatch.h"
 #include "render/film.h"
 #include "render/line_choice.h"
 #include "render_cpu/frame_targets.h"
@@ -22,22 +23,16 @@ namespace nusselt::render_cpu {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
 /// Converts ticks of the time stamp counter by comparing it with the clock.
 class TickClock {
 public:
-    double seconds() const { return seconds_since(begin_); }
+    double seconds() const { return stopwatch_.seconds(); }
     double seconds_per_tick() const {
         return seconds() / static_cast<double>(std::max<std::uint64_t>(__rdtsc() - begin_ticks_, 1));
     }
 
 private:
-    Clock::time_point begin_ = Clock::now();
+    base::Stopwatch stopwatch_;
     std::uint64_t begin_ticks_ = __rdtsc();
 };
 
@@ -116,10 +111,10 @@ Renderer::Renderer(const scene::Scene& scene, int thread_count, const Integrator
       arena_(thread_count),
       arrays_(scene),
       embree_([&] {
-          const auto begin = Clock::now();
+          const base::Stopwatch stopwatch;
           return arena_.execute([&] {
               visibility::EmbreeScene result(scene);
-              build_seconds_ = seconds_since(begin);
+              build_seconds_ = stopwatch.seconds();
               return result;
           });
       }()) {}
@@ -127,9 +122,9 @@ Renderer::Renderer(const scene::Scene& scene, int thread_count, const Integrator
 visibility::LineBvhView Renderer::Lines::get(const scene::Scene& scene, tbb::task_arena& arena) {
     // With an exception, the next rendering tries again.
     std::call_once(once_, [&] {
-        const auto begin = Clock::now();
+        const base::Stopwatch stopwatch;
         arena.execute([&] { bvh_.emplace(scene); });
-        build_seconds_ = seconds_since(begin);
+        build_seconds_ = stopwatch.seconds();
     });
     return bvh_->view();
 }

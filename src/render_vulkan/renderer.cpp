@@ -1,27 +1,17 @@
 #include "render_vulkan/renderer.h"
 
+#include "base/stopwatch.h"
 #include "render_vulkan/accumulator.h"
 #include "render_vulkan/frame_records.h"
 
-#include <chrono>
 #include <optional>
 
 namespace nusselt::render_vulkan {
 
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-} // namespace
-
 struct VulkanRenderer::State {
     State(const gpu::Device& device, const scene::Scene& scene_to_render, ShadowRays shadow_rays,
-          std::optional<TextureAccess> textures, Clock::time_point begin)
-        : scene(device, scene_to_render, shadow_rays, textures), build_seconds(seconds_since(begin)) {}
+          std::optional<TextureAccess> textures, const base::Stopwatch& stopwatch)
+        : scene(device, scene_to_render, shadow_rays, textures), build_seconds(stopwatch.seconds()) {}
 
     DeviceScene scene;
     double build_seconds;
@@ -30,7 +20,7 @@ struct VulkanRenderer::State {
 
 VulkanRenderer::VulkanRenderer(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays,
                                std::optional<TextureAccess> textures)
-    : state_(std::make_unique<State>(device, scene, shadow_rays, textures, Clock::now())) {}
+    : state_(std::make_unique<State>(device, scene, shadow_rays, textures, base::Stopwatch())) {}
 
 VulkanRenderer::~VulkanRenderer() = default;
 
@@ -43,24 +33,24 @@ render::RenderResult VulkanRenderer::render(const render::RenderSettings& settin
     render::RenderResult result;
     render::RenderStatistics& statistics = result.statistics;
     statistics.build_seconds = state_->build_seconds;
-    const auto compile_begin = Clock::now();
+    const base::Stopwatch compiling;
     std::optional<Accumulator>& image = state_->image;
     if (image)
         image->restart(settings);
     else
         image.emplace(state_->scene, settings);
     image->compile();
-    statistics.compile_seconds = seconds_since(compile_begin);
+    statistics.compile_seconds = compiling.seconds();
 
     const FrameRecords frames(state_->scene.film(), settings);
-    const auto render_begin = Clock::now();
+    const base::Stopwatch rendering;
     while (image->frames() < frames.count() && !(monitor.cancel != nullptr && *monitor.cancel)) {
         const FrameTimes times = image->add(frames.make(image->frames()));
         statistics.primary_seconds += times.visibility;
         statistics.shading_seconds += times.shading;
         if (monitor.progress) monitor.progress(static_cast<double>(image->frames()) / frames.count());
     }
-    statistics.render_seconds = seconds_since(render_begin);
+    statistics.render_seconds = rendering.seconds();
     statistics.primary_rays = std::uint64_t{image->frames()} * image->width() * image->height();
     const FrameWork work = image->work();
     statistics.shadow_rays = work.shadow_rays;

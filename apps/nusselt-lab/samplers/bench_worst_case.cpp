@@ -4,6 +4,7 @@
 #include "apps/common/validators.h"
 
 #include "base/atomic_file.h"
+#include "base/stopwatch.h"
 #include "image/io.h"
 #include "lab/fuzzing/convergence.h"
 #include "lab/fuzzing/worst_case.h"
@@ -26,7 +27,6 @@ namespace nusselt::app {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using lab::ConvergenceRow;
 using lab::WorstCaseSearch;
 
@@ -34,10 +34,6 @@ constexpr double kDefaultSeconds = 60;
 constexpr double kSecondsBetweenSaves = 30;
 /// Some tenths of a second, which is how long Ctrl-C waits.
 constexpr std::uint64_t kStartsPerThread = 32;
-
-double seconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 /// The searches that were asked for, and the file that remembers them.
 class Session {
@@ -90,8 +86,8 @@ void search(const BenchWorstCaseOptions& options, Session& session) {
     const double unlimited = std::numeric_limits<double>::infinity();
     const double seconds = options.seconds.value_or(options.starts ? unlimited : kDefaultSeconds);
 
-    const auto begin = Clock::now();
-    auto saved = begin;
+    const base::Stopwatch stopwatch;
+    base::Stopwatch since_saving;
     Progress progress;
     double fraction = 0;
     while (fraction < 1 && !interrupted) {
@@ -102,12 +98,12 @@ void search(const BenchWorstCaseOptions& options, Session& session) {
             arena.execute([&] { one.run(std::min(block, left)); });
             least = std::min(least, one.starts());
         }
-        fraction = std::max(seconds_since(begin) / seconds,
-                            static_cast<double>(least) / static_cast<double>(starts));
+        fraction =
+            std::max(stopwatch.seconds() / seconds, static_cast<double>(least) / static_cast<double>(starts));
         progress.update(std::min(fraction, 1.0));
-        if (seconds_since(saved) > kSecondsBetweenSaves) {
+        if (since_saving.seconds() > kSecondsBetweenSaves) {
             session.save();
-            saved = Clock::now();
+            since_saving = base::Stopwatch();
         }
     }
     progress.finish();
