@@ -1,11 +1,11 @@
-# What all our own programs, modules and tests are compiled with. The installed library imposes none of it.
+# Compiler options of our programs, modules and tests. The installed library imposes none of them.
 if(PROJECT_IS_TOP_LEVEL)
     if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CXX_FLAGS)
         set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo or MinSizeRel" FORCE)
     endif()
     find_program(CCACHE ccache)
     if(CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
-        # Without these ccache leaves units with precompiled headers alone.
+        # Without these, ccache does not cache units with precompiled headers.
         set(CMAKE_CXX_COMPILER_LAUNCHER
             ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
     endif()
@@ -13,18 +13,19 @@ endif()
 
 add_library(nusselt_build_flags INTERFACE)
 target_compile_features(nusselt_build_flags INTERFACE cxx_std_20)
-# Modules of src/ are included as "module/file.h", all else by its path from the root, such as "proof/hostile/lights.h".
-target_include_directories(nusselt_build_flags INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+# Modules of src/ are included as "module/file.h", other files by their path from the root, such as "proof/hostile/lights.h".
+target_include_directories(nusselt_build_flags INTERFACE
+    ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
 target_compile_options(nusselt_build_flags INTERFACE
     # The baseline. The packet kernels add AVX2 and AVX-512 units of their own, chosen at run time.
     -march=x86-64-v2
-    # fma is written where it is meant: scalars, packs and GPUs shall round alike.
+    # The code calls fma explicitly, so that scalars, packs and GPUs round alike.
     -ffp-contract=off
-    # Nobody reads errno; without this a sqrt is a call.
+    # Our code does not read errno. Without this option, sqrt is a function call.
     -fno-math-errno
-    # It packs neighbouring scalars of long chains, which costs more than it saves (docs/performance.md, entry 16).
+    # The vectoriser packs neighbouring scalars of long chains, which costs more than it saves (docs/performance.md, entry 16).
     $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
-    # ccache needs it for units with precompiled headers.
+    # ccache needs this option for units with precompiled headers.
     $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
     -Wall -Wextra -Wpedantic -Wshadow
     # GCC 12 warns of every `"text" + std::string` (GCC bug 105651).

@@ -1,8 +1,8 @@
 # Finds the packages that the renderer and the tests use, and names all missing ones in one message.
 
-# Appends to `missing` what is not found; arguments are the name for find_package and that of the Debian package.
+# Appends packages that are not found to `missing`; arguments are the name for find_package and that of the Debian package.
 macro(nusselt_find name debian_package)
-    # Debian's Imath reports Python bindings, which nobody asked for, as not installed.
+    # Debian's Imath reports that Python bindings, which we do not use, are not installed.
     set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
     find_package(${name} ${ARGN} CONFIG QUIET)
     unset(CMAKE_MESSAGE_LOG_LEVEL)
@@ -11,7 +11,7 @@ macro(nusselt_find name debian_package)
     endif()
 endmacro()
 
-# The same for packages that come without CMake files of their own.
+# The same for packages without CMake files.
 macro(nusselt_find_system name debian_package)
     find_package(${name} QUIET)
     if(NOT ${name}_FOUND)
@@ -22,7 +22,7 @@ endmacro()
 function(nusselt_report_missing what alternative missing)
     if(missing)
         list(JOIN missing " " packages)
-        message(FATAL_ERROR "${what} cannot be built, these Debian packages are missing: ${packages}\n"
+        message(FATAL_ERROR "${what} cannot be built because these Debian packages are missing: ${packages}\n"
             "`make test` and `make demo` install what they need on Debian 12 and 13. ${alternative}")
     endif()
 endfunction()
@@ -32,7 +32,7 @@ macro(nusselt_require_renderer_dependencies)
     # Each version of Embree calls itself compatible with its own major version only.
     nusselt_find(embree libembree-dev)
     if(embree_FOUND AND (embree_VERSION VERSION_LESS 3.13 OR embree_VERSION VERSION_GREATER_EQUAL 5))
-        message(FATAL_ERROR "Embree ${embree_VERSION} in ${embree_DIR} cannot be used; 3.13 or 4 is needed "
+        message(FATAL_ERROR "Embree ${embree_VERSION} in ${embree_DIR} is not supported; 3.13 or 4 is needed "
             "(Debian: libembree-dev). -Dembree_DIR=FOLDER names the folder of another embree-config.cmake.")
     endif()
     nusselt_find(TBB libtbb-dev)
@@ -53,7 +53,7 @@ endmacro()
 macro(nusselt_require_test_dependencies)
     set(missing)
     nusselt_find(GTest libgtest-dev)
-    # Another reader and writer of images, to compare with.
+    # A second reader and writer of images, for comparison.
     find_library(STB_LIBRARY stb)
     if(NOT STB_LIBRARY)
         list(APPEND missing libstb-dev)

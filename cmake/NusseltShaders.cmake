@@ -1,6 +1,6 @@
-# Finds what the GPU side needs and compiles shaders to SPIR-V that is embedded into programs.
+# Finds the dependencies of the GPU side and compiles shaders to SPIR-V that is embedded into programs.
 
-# NUSSELT_BUILD_GPU tells whether the GPU side can be built. Everything else can without it.
+# NUSSELT_BUILD_GPU is true if the GPU side can be built. Everything else does not need it.
 find_path(Vulkan_INCLUDE_DIR vulkan/vulkan_raii.hpp)
 find_program(GLSLANG_VALIDATOR glslangValidator)
 set(missing_gpu_packages)
@@ -13,7 +13,7 @@ endif()
 if(missing_gpu_packages)
     set(NUSSELT_BUILD_GPU OFF)
     list(JOIN missing_gpu_packages " " missing_gpu_packages)
-    message(WARNING "Without the GPU side and its tests: these Debian packages are missing: ${missing_gpu_packages}")
+    message(WARNING "The GPU side and its tests are not built because these Debian packages are missing: ${missing_gpu_packages}")
 else()
     set(NUSSELT_BUILD_GPU ON)
 endif()
@@ -49,26 +49,23 @@ endfunction()
 
 # nusselt_shader_array(variable name): the name of the array that nusselt_add_shader() makes of a shader.
 function(nusselt_shader_array variable name)
-    string(REGEX MATCHALL "[^_]+" words ${name})
-    set(array k)
-    foreach(word ${words})
-        string(SUBSTRING ${word} 0 1 first)
-        string(TOUPPER ${first} first)
-        string(SUBSTRING ${word} 1 -1 rest)
-        string(APPEND array ${first}${rest})
-    endforeach()
-    set(${variable} ${array} PARENT_SCOPE)
+    nusselt_pascal_case(array ${name})
+    set(${variable} k${array} PARENT_SCOPE)
 endfunction()
 
-# nusselt_add_technique_shader(target name entry file struct [PREPARE function] [DEFINES define...]): likewise, for an
-# entry point that runs any technique. shaders/<entry>.glsl calls the technique by the names Technique,
+# nusselt_add_technique_shader(target name entry file struct [PREPARE function] [QUERIES prefix] [DEFINES define...]):
+# likewise, for an entry point that runs any technique. shaders/<entry>.glsl calls the technique by the names Technique,
 # technique_prepare and so on; shaders/<file>.glsl has functions on a struct that begin with the name of the file.
-# PREPARE names that of a variant that shares the rest.
+# PREPARE names that of a variant that shares the rest, QUERIES how the names of pdf, invert and measure begin in a variant
+# that shares these.
 function(nusselt_add_technique_shader target name entry file struct)
-    cmake_parse_arguments(arg "" "PREPARE" "DEFINES" ${ARGN})
+    cmake_parse_arguments(arg "" "PREPARE;QUERIES" "DEFINES" ${ARGN})
     cmake_path(GET file STEM prefix)
     if(NOT arg_PREPARE)
         set(arg_PREPARE ${prefix}_prepare)
+    endif()
+    if(NOT arg_QUERIES)
+        set(arg_QUERIES ${prefix})
     endif()
     set(source ${CMAKE_CURRENT_BINARY_DIR}/shaders/${name}.comp)
     configure_file(${PROJECT_SOURCE_DIR}/cmake/technique_shader.comp.in ${source} @ONLY)

@@ -1,5 +1,5 @@
-# Finds what the viewer needs beside the GPU side. NUSSELT_BUILD_VIEWER tells whether it can be built; everything else
-# can without it.
+# Finds the dependencies of the viewer beside the GPU side. NUSSELT_BUILD_VIEWER is true if it can be built; everything
+# else does not need it.
 
 find_package(glfw3 3.3 CONFIG QUIET)
 find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui)
@@ -17,5 +17,5 @@ set(NUSSELT_BUILD_VIEWER ${NUSSELT_BUILD_GPU})
 if(NUSSELT_BUILD_GPU AND missing_viewer_packages)
     set(NUSSELT_BUILD_VIEWER OFF)
     list(JOIN missing_viewer_packages " " missing_viewer_packages)
-    message(WARNING "Without the viewer: these Debian packages are missing: ${missing_viewer_packages}")
+    message(WARNING "The viewer is not built because these Debian packages are missing: ${missing_viewer_packages}")
 endif()

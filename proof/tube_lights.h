@@ -9,14 +9,15 @@
 
 namespace nusselt::proof {
 
-/// In shading space: the shading point is the origin, the normal +z.
+/// A light in shading space: the shading point is the origin, the normal +z.
 struct TubeLight {
     std::string name;
     Vec3<double> begin, end; ///< of the axis [m]
     double radius;           ///< [m]
 };
 
-/// From outside, from before a cap, and cut by the horizon in each way. Exact in float but for "close".
+/// Lights seen from the side, from before a cap, and cut by the horizon in each way. All but "close" are exact in
+/// float.
 inline std::vector<TubeLight> tube_lights() {
     return {
         {"above", {-1, 2, 0.5}, {1.5, 1, 1.25}, 0.3125},

@@ -32,7 +32,7 @@ public:
     /// \param index of the sequence.
     RandomCoordinates(std::uint64_t seed, std::uint64_t index) : generator_(start_of(seed, index)) {}
 
-    /// Uniform in what the coordinate stands for.
+    /// Uniform in the quantity of the coordinate.
     double uniform() {
         const double u = (generator_() + 0.5) * 0x1p-32;
         return std::fmin(std::fmax(std::log(u / (1 - u)), -kReach), kReach);
@@ -55,7 +55,7 @@ private:
 };
 
 /// A sector between two great circles, which a decentral polygon is cut into, and a random number. Everything
-/// that the method knows of a sector: a trapezoid with two vertical edges has exactly one, and any azimuth of
+/// that the method has of a sector: a trapezoid with two vertical edges has exactly one, and any azimuth of
 /// its begin is as good as another one.
 template <class Real>
 struct SectorCase {
@@ -104,7 +104,7 @@ struct LineCase {
     std::array<Real, kDimension> parameters;
 
     static LineCase at(const std::array<Real, kDimension>& coordinates) {
-        // Of lines that are shorter or closer to their own axis, one would see the rounding of directions.
+        // Shorter lines, or lines seen closer to their own axis, would show the rounding of directions.
         const Real shortest = Real(1e-3L);
         const Real steepest = kPi<Real> / 2 - Real(1e-6L);
         const Real last_begin = steepest - shortest;

@@ -6,7 +6,7 @@ cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/one-file.cmake")
 set(roots nusselt/nusselt.h nusselt/simd/pack.h)
 if(NOT OUTPUT)
-    message(FATAL_ERROR "amalgamate: name the file to write: cmake -D OUTPUT=FILE -P scripts/amalgamate.cmake")
+    message(FATAL_ERROR "amalgamate: OUTPUT is missing; use cmake -D OUTPUT=FILE -P scripts/amalgamate.cmake")
 endif()
 
 # Appends the text of a header to `body` after that of the headers it includes. System headers that no block of

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the programs in build/release, without the tests unless that folder is set up for them already.
+# Builds the programs in build/release, without the tests unless that folder is already configured for them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

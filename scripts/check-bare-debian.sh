@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Shows that targets of the Makefile need nothing but a bare Debian 12 or 13 with git and make: creates one in a
+# Shows that targets of the Makefile need only a bare Debian 12 or 13 with git and make: creates one in a
 # folder, copies the tree there, runs the targets twice and prints the times. Needs root, debootstrap and the network.
 # Usage: scripts/check-bare-debian.sh FOLDER bookworm|trixie TARGET...      (trixie is Debian 13)
 #   FOLDER   where the root is created; must not exist. About 3 GB; remove it afterwards.
@@ -14,10 +14,10 @@ shift 2
 mirror=${MIRROR:-$(apt-get indextargets --format '$(REPO_URI) $(RELEASE)' 'Created-By: Packages' |
     awk '$2 ~ /^(bookworm|trixie)$/ && !found { print $1; found = 1 }')}
 
-[ "$(id -u)" -eq 0 ] || { echo "needs root, for debootstrap and chroot" >&2; exit 1; }
-[[ $suite =~ ^(bookworm|trixie)$ ]] || { echo "bookworm and trixie are known, not $suite" >&2; exit 2; }
-[ -n "$mirror" ] || { echo "apt knows no mirror of Debian; give one as MIRROR=..." >&2; exit 1; }
-[ ! -e "$root" ] || { echo "$root exists; give a folder that does not" >&2; exit 1; }
+[ "$(id -u)" -eq 0 ] || { echo "must run as root, for debootstrap and chroot" >&2; exit 1; }
+[[ $suite =~ ^(bookworm|trixie)$ ]] || { echo "unknown suite $suite; use bookworm or trixie" >&2; exit 2; }
+[ -n "$mirror" ] || { echo "apt has no mirror of Debian; set MIRROR=..." >&2; exit 1; }
+[ ! -e "$root" ] || { echo "$root exists; use a folder that does not" >&2; exit 1; }
 
 trap '! mountpoint -q "$root/proc" || umount -l "$root/proc"' EXIT
 
@@ -36,7 +36,7 @@ cp /etc/resolv.conf "$root/etc/"
 mount -t proc proc "$root/proc"
 
 mkdir "$root/nusselt"
-# Files that git knows or would add: what a commit of this tree holds, without build folders.
+# Files that git tracks or would add, that is, the content of a commit of this tree, without build folders.
 git -C "$tree" ls-files -z --cached --others --exclude-standard --deduplicate |
     tar -C "$tree" --null --ignore-failed-read -cf - -T - | tar -C "$root/nusselt" --no-same-owner -xf -
 

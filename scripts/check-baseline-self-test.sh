@@ -7,7 +7,7 @@ emulator=("${@:2}")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# Whether a program with the given body of main() ends well.
+# Whether a program with the given body of main() exits with 0.
 runs() {
     echo "int main() { $1 }" | "$compiler" -x c++ - -o "$folder/program"
     "${emulator[@]}" "$folder/program" >/dev/null 2>&1

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Checks of the documentation. Usage: scripts/check-docs.py code|regions|links ROOT, or pictures ROOT PROGRAM
+"""Checks of the documentation. Usage: scripts/check-docs.py code|links ROOT, or pictures ROOT PROGRAM
   code      each paragraph of C++ in README.md and docs/ is part of a file in examples/, which the tests compile;
             comments and white space do not count
-  regions   each page of docs/techniques but the index and those named below has tables of accuracy and cost, and none
-            is empty
   links     files that README.md and docs/ link to exist
   pictures  docs/techniques/images/NAME.svg is what `PROGRAM map NAME` draws
+scripts/fill-docs.py checks tables.
 """
 import pathlib
 import re
@@ -28,34 +27,14 @@ def code(root):
         for block in re.findall(r"^```cpp\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL):
             for paragraph in block.split("\n\n"):
                 if not any(bare(paragraph) in example for example in examples):
-                    yield f"{page}: not in any file of examples/:\n{paragraph}"
-
-
-# The benchmarks of polygons and lines do not measure these; their numbers come from tests.
-UNMEASURED = ["cylinder.md", "ggx_visible_normals.md", "line_samples.md", "ltc.md", "mis.md"]
-
-
-def regions(root):
-    for page in sorted((root / "docs/techniques").glob("*.md")):
-        if page.name in ["README.md", *UNMEASURED]:
-            continue
-        text = page.read_text()
-        found = re.findall(r"<!-- generated: (\w+) \w+ -->\n(.*?)<!-- end -->", text, re.DOTALL)
-        if len(found) != text.count("<!-- generated:"):
-            yield f"{page}: a generated region without an end"
-        for kind in ("accuracy", "cost"):
-            tables = [content for region, content in found if region == kind]
-            if not tables:
-                yield f"{page}: no generated region for {kind}"
-            if any(content.count("\n|") < 2 for content in tables):
-                yield f"{page}: an empty region; run scripts/update-docs.sh"
+                    yield f"{page}: missing in the files of examples/:\n{paragraph}"
 
 
 def links(root):
     for page in pages(root):
         for target in re.findall(r"\]\(([^)#]+)[^)]*\)", page.read_text()):
             if "://" not in target and not (page.parent / target).exists():
-                yield f"{page}: no file {target}"
+                yield f"{page}: the file {target} is missing"
 
 
 def pictures(root, program):
@@ -64,10 +43,10 @@ def pictures(root, program):
             drawn = pathlib.Path(folder, "map.svg")
             subprocess.run([program, "map", picture.stem, drawn], check=True)
             if drawn.read_bytes() != picture.read_bytes():
-                yield f"{picture}: not what is drawn today; run scripts/update-docs.sh pictures"
+                yield f"{picture}: outdated; run scripts/update-docs.sh pictures"
 
 
-CHECKS = {"code": code, "regions": regions, "links": links, "pictures": pictures}
+CHECKS = {"code": code, "links": links, "pictures": pictures}
 
 if __name__ == "__main__":
     if len(sys.argv) < 3 or sys.argv[1] not in CHECKS:

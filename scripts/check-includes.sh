@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Fails where an #include runs against the arrows of the design: a layer includes only itself, what the table
-# below allows, and system headers; the library includes nothing but the standard library and itself. Folders of
+# below allows, and system headers; the library includes only the standard library and itself. Folders of
 # shaders/nusselt obey the arrows of the same folders of include/nusselt.
 # Usage: scripts/check-includes.sh [ROOT]
 set -euo pipefail
@@ -25,14 +25,14 @@ BEGIN {
     allow("include/estimate", below)
     allow("include/all", below " include/estimate")
 
-    # What proves: right above the library; tests, fuzzers and the laboratory share it.
+    # Proofs are right above the library; tests, fuzzers and the laboratory share them.
     allow("proof", "library src/visibility")
     allow("src/base", "")
     allow("src/image", "library src/base")
-    # The scene: renderers see its model, which knows no format. Importers describe what is in a file, the builder makes
-    # the model of it, rigs change it.
+    # The scene: renderers see its model, which does not depend on formats. Importers describe the content of a file, the
+    # builder makes the model from it, rigs change it.
     allow("src/scene/input", "")
-    allow("src/scene/model", "src/scene/input")
+    allow("src/scene/model", "library src/scene/input")
     allow("src/scene/colour", "src/scene/input src/scene/model")
     allow("src/scene/build", "src/image src/scene/input src/scene/model")
     allow("src/scene/rig", "src/scene/input src/scene/model src/scene/colour")
@@ -47,7 +47,7 @@ BEGIN {
     allow("src/fit", "library src/base src/image")
     allow("src/render", "src/base src/image src/scene/model src/interface")
     allow("src/render_cpu", "library src/base src/image src/scene/model src/visibility src/tables src/render src/interface")
-    # SPIR-V as arrays, which the build makes. The two renderers never see each other.
+    # The build generates SPIR-V as arrays. The two renderers never see each other.
     allow("src/shaders", "")
     # Structures that C++ and shaders share: shaders/interface.
     allow("src/interface", "")

@@ -15,7 +15,7 @@ reset() {
     "$check" --root "$tree" --update shaders/nusselt/core/sine.glsl
 }
 
-# Expects that the check succeeds or fails ($1) and, for a failure, says $2.
+# Expects that the check succeeds or fails ($1) and, for a failure, prints $2.
 expect() {
     local result
     if "$check" --root "$tree" >"$tree/log" 2>&1; then result=passes; else result=fails; fi
@@ -43,11 +43,11 @@ sed -i 's|// x|// y|' "$header"
 expect fails 'has changed'
 reset
 sed -i 1d "$shader"
-expect fails 'needs either'
+expect fails 'must have either'
 sed -i '1i // Follows no header: the built-in function' "$shader"
 expect passes
 sed -i '1i // Follows include/nusselt/core/sine.h @ 0' "$shader"
-expect fails 'needs either'
+expect fails 'must have either'
 reset
 sed -i 's|core/sine.h|core/cosine.h|' "$shader"
 expect fails 'does not exist'
@@ -59,7 +59,7 @@ sed -i 's/return -/return /' "$shader"
 expect fails '0.166666'
 reset
 printf '%s\n' 'float again(float x) { return -1.66666e-1 * x; }' >>"$shader"
-expect fails 'stands here 1'
+expect fails 'appears here 1 times'
 reset
 sed -i 's/1.66666e-1f/1.66667e-1f/' "$header"
 "$check" --root "$tree" --update shaders/nusselt/core/sine.glsl >/dev/null && exit 1

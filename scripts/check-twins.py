@@ -21,7 +21,7 @@ import sys
 
 STAMP = re.compile(r"^// Follows (include/nusselt/\S+\.h) @ (\S+)$", re.MULTILINE)
 EXEMPT = re.compile(r"^// Follows no header: \S.*$", re.MULTILINE)
-# Strings stay, whatever they hold; comments go.
+# Strings stay, whatever their content; comments go.
 COMMENT = re.compile(r'("(?:\\.|[^"\\\n])*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
 NUMBER = re.compile(r"(-?)(?<![\w.])(\d+\.\d*|\.\d+|\d+(?=e))(e[-+]?\d+)?(f?)(?![\w.])", re.IGNORECASE)
 
@@ -40,7 +40,7 @@ def as_float(text):
 
 
 def numbers(text, suffix):
-    """How often each number with five digits or more stands in the text."""
+    """Counts each number with five digits or more in the text."""
     found = collections.Counter()
     for match in NUMBER.finditer(code_of(text)):
         sign, mantissa, exponent, ending = match.groups(default="")
@@ -50,10 +50,10 @@ def numbers(text, suffix):
 
 
 def check_stamps(root, shader, text):
-    """Yields what is wrong with the stamps of a shader."""
+    """Yields the defects of the stamps of a shader."""
     stamps = STAMP.findall(text)
     if bool(stamps) == bool(EXEMPT.search(text)):
-        yield f"{shader}: needs either lines '// Follows include/nusselt/FILE.h @ STAMP' or '// Follows no header: REASON'"
+        yield f"{shader}: must have either lines '// Follows include/nusselt/FILE.h @ STAMP' or '// Follows no header: REASON'"
     for header, stamp in stamps:
         path = root / header
         if not path.exists():
@@ -64,7 +64,7 @@ def check_stamps(root, shader, text):
 
 
 def check_coefficients(root, shaders):
-    """Yields which coefficients differ; shaders is a dictionary of their texts."""
+    """Yields the coefficients that differ; shaders is a dictionary of their texts."""
     followers = collections.defaultdict(list)
     for shader, text in shaders.items():
         for header, _ in STAMP.findall(text):
@@ -76,7 +76,7 @@ def check_coefficients(root, shaders):
         there = sum((numbers(shaders[name], "") for name in names), collections.Counter())
         for value, count in here.items():
             if there[value] != count:
-                yield f"{header}: {value:.9g} stands here {count} and in {', '.join(names)} {there[value]} times"
+                yield f"{header}: {value:.9g} appears here {count} times and in {', '.join(names)} {there[value]} times"
 
 
 def update(root, name):

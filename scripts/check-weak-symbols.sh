@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fails if an object file compiled for one instruction set defines a weak symbol whose name does not tell the
+# Fails if an object file compiled for one instruction set defines a weak symbol whose name lacks the
 # instruction set (the inline namespace isa_*). The linker keeps one copy of such a symbol for the whole program:
 # an AVX-512 copy would crash the baseline. Usage: scripts/check-weak-symbols.sh OBJECT...
 set -euo pipefail

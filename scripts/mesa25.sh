@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Runs a command with the software Vulkan driver of Debian 13 (Mesa 25), beside the system, which stays as it is.
+# Runs a command with the software Vulkan driver of Debian 13 (Mesa 25), without changes to the system.
 # Usage: scripts/mesa25.sh COMMAND [ARGUMENT...]
 # The first call downloads the driver and the libraries that it needs, from the mirror in the system's apt
-# configuration, to build/mesa25. Needs no root. Exit code 77 if they cannot be had, else that of the command.
+# configuration, to build/mesa25. Needs no root. Exit code 77 if they are not available, else that of the command.
 set -euo pipefail
 [ $# -gt 0 ] || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
 folder=$(cd "$(dirname "$0")/.." && pwd)/build/mesa25
@@ -22,7 +22,7 @@ download() {
     echo "deb $trusted $mirror trixie main" >"$folder/sources.list"
     local options=(-qq -o Dir::Etc::SourceList="$folder/sources.list" -o Dir::Etc::SourceParts=- -o Dir::Cache="$folder"
         -o Dir::State="$folder" -o Dir::State::Lists="$folder/lists" -o Dir::Cache::Archives="$folder/archives"
-        # As if nothing were installed: its libraries must fit each other.
+        # The empty status makes apt download all libraries, which must fit each other.
         -o Dir::State::status=/dev/null -o Debug::NoLocking=1)
     echo "mesa25: downloading the driver" >&2
     apt-get "${options[@]}" update >&2 || unavailable "no package lists of Debian 13 from the mirror"
@@ -38,6 +38,6 @@ download() {
 }
 
 [ -e "$folder/complete" ] || download
-# Its own C library goes with it. What it lacks comes from the system.
+# The driver comes with its own C library. Missing libraries come from the system.
 exec env VK_ICD_FILENAMES="$folder/root/usr/share/vulkan/icd.d/lvp_icd.json" \
     "$libraries/ld-linux-x86-64.so.2" --library-path "$libraries:/usr/lib/x86_64-linux-gnu" "$(command -v "$1")" "${@:2}"

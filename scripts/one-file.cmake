@@ -1,4 +1,4 @@
-# What the scripts that write several files into one share.
+# Functions that the scripts that write several files into one share.
 get_filename_component(root "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
 
 # Moves the first line of the text in one variable to another one, without its end. Works on strings:

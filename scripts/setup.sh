@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Installs the Debian packages of scripts/debian-packages.txt that are missing, on Debian 12 and Debian 13.
 # Usage: scripts/setup.sh check|build|test
-#   check  what the library and its tests need
-#   build  also what the programs need
-#   test   also what all tests need
+#   check  packages for the library and its tests
+#   build  also packages for the programs
+#   test   also packages for all tests
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -22,7 +22,7 @@ esac
 system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-}") || system=unknown
 case "$system" in
     "debian 12" | "debian 13") ;;
-    *) fail "this set-up knows Debian 12 and Debian 13, not '$system'. Install the equivalents of" \
+    *) fail "'$system' is not supported; use Debian 12 or Debian 13. Or install the equivalents of" \
         "the packages listed in scripts/debian-packages.txt, then run: cmake --preset release && cmake --build --preset release" ;;
 esac
 
@@ -38,11 +38,11 @@ done <debian-packages.txt
 
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || fail "missing packages, and neither root nor sudo to install them." \
+    command -v sudo >/dev/null || fail "packages are missing, and installing them needs root or sudo." \
         "As root: apt-get update && apt-get install ${missing[*]}"
     as_root=(sudo)
 fi
-echo "setup: installing ${#missing[@]} Debian packages and what they depend on: ${missing[*]}"
+echo "setup: installing ${#missing[@]} Debian packages and their dependencies: ${missing[*]}"
 "${as_root[@]}" apt-get update -qq || fail "apt-get update failed (see above); the packages cannot be installed"
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq -o Dpkg::Use-Pty=0 --no-install-recommends "${missing[@]}" >/dev/null ||

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds and runs tests, stage by stage; docs/testing.md says what each stage proves.
+# Builds and runs tests, stage by stage; docs/testing.md lists what each stage proves.
 # Usage: scripts/test.sh [check|all|full]    (check: the library, for this processor; full: also the tests of portability)
-# NUSSELT_TEST_EFFORT is the effort of the tests: quick, unless it says full.
+# NUSSELT_TEST_EFFORT is the effort of the tests, quick (the default) or full.
 # The last line sums up: `N passed, N failed`, with `, N skipped` where tests were skipped.
 # With CI=true in the environment compiler warnings are errors.
 set -uo pipefail
@@ -20,13 +20,24 @@ mkdir -p "$results"
 passed=0 failed=0 skipped=0
 times=()
 
-# Runs a command as a stage and notes its time.
+# The CPU time of the commands that have ended, from the output of the builtin `times` in a file [s].
+cpu_seconds() {
+    awk 'NR == 2 { split($1, user, /[ms]/); split($2, kernel, /[ms]/)
+                   print 60 * (user[1] + kernel[1]) + user[2] + kernel[2] }' "$1"
+}
+
+# Runs a command as a stage and records its time.
 stage() {
-    local name=$1 start=$SECONDS status=0
+    local name=$1 start=$SECONDS status=0 cpu
     shift
     echo "== $name"
+    times >"$results/times"
+    cpu=$(cpu_seconds "$results/times")
     "$@" || status=$?
-    times+=("$(printf '%5d s  %s' $((SECONDS - start)) "$name")")
+    times >"$results/times"
+    cpu=$(awk -v before="$cpu" -v after="$(cpu_seconds "$results/times")" 'BEGIN { print after - before }')
+    times+=("$(printf '%5d s, %5.0f s of CPU time  %s' $((SECONDS - start)) "$cpu" "$name")")
+    echo "$name $cpu" >>"$results/cpu-times"
     return $status
 }
 
@@ -68,12 +79,16 @@ if [ "${1:-all}" = check ]; then
     build_and_test check "$warnings_as_errors"
 else
     build_and_test release "$warnings_as_errors"
-    # GCC's sanitizers cause false warnings of their own, so warnings are no errors here.
+    # GCC's sanitizers cause false warnings, so warnings are not errors here.
     build_and_test asan-ubsan OFF
 fi
 
 echo "== times"
 printf '%s\n' "${times[@]}"
+# A stage that is far above its budget counts as a failed test. The full effort has none.
+if [ "${NUSSELT_TEST_EFFORT:-quick}" = quick ] && [ "$portability" = OFF ]; then
+    tests/budget/check_budget.sh tests/budget/budget.txt <"$results/cpu-times" || failed=$((failed + 1))
+fi
 summary="$passed passed, $failed failed"
 [ "$skipped" -eq 0 ] || summary+=", $skipped skipped"
 echo "$summary" | tee "$results/summary"

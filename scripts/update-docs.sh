@@ -1,29 +1,54 @@
 #!/usr/bin/env bash
-# Draws the pictures of docs/techniques again and fills in the tables of accuracy and cost.
-# Usage: scripts/update-docs.sh [pictures|lines]
-#   pictures  only the pictures, which are the same on every machine; the tables take some minutes
-#   lines     only the tables and plots of docs/line-samples.md, which take half an hour and a machine that is idle;
+# Measures what the documentation shows and fills it in again: docs/data, the tables of all pages, and pictures.
+# Usage: scripts/update-docs.sh [tables|pictures|lines]
+#   tables    only fills the tables of pages from docs/data, which takes a second
+#   pictures  only the pictures of docs/techniques, which are the same on every machine
+#   lines     only the numbers and plots of docs/line-samples.md, which take half an hour and an idle machine;
 #             NUSSELT_SCENES must name the folder with sponza/
+# Without an argument, pictures, accuracy and cost of the samplers. Other files of docs/data name the command that wrote
+# them; run it again with `--json docs/data/FILE` and then `scripts/update-docs.sh tables`.
 # NUSSELT names the program; default: build/release/apps/nusselt-lab/nusselt-lab
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=${NUSSELT:-build/release/apps/nusselt-lab/nusselt-lab}
 
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cpu=$(sed -nE 's/^model name\s*: (.*)/\1/p' /proc/cpuinfo | head -n 1)
-if [ "${1:-}" = lines ]; then
-    experiments=(lines-orientation lines-offsets lines-pieces lines-large lines-small lines-visibility)
-    # The exit code is that of an error, too; reports that were not written stop the other program.
-    "$program" reproduce "${experiments[@]}" -o "$work" || echo "an expectation does not hold, or an error" >&2
-    python3 scripts/fill-line-samples.py "$work" "$cpu"
-    exit
-fi
-for picture in docs/techniques/images/*.svg; do
-    "$program" map "$(basename "$picture" .svg)" "$picture"
-done
-if [ "${1:-}" = pictures ]; then exit; fi
+draw_pictures() {
+    for picture in docs/techniques/images/*.svg; do
+        "$program" map "$(basename "$picture" .svg)" "$picture"
+    done
+}
 
-"$program" bench accuracy --json "$work/accuracy.json" >"$work/log"
-"$program" bench samplers --json "$work/samplers.json" >"$work/log"
-python3 scripts/fill-docs.py "$work/accuracy.json" "$work/samplers.json" "$cpu"
+measure_lines() {
+    local reports=build/reproduce name plot
+    [ -f "${NUSSELT_SCENES:-}/sponza/sponza.pbrt" ] || {
+        echo "a scene would be skipped: set NUSSELT_SCENES to the folder that has sponza/sponza.pbrt" >&2
+        return 1
+    }
+    rm -rf "$reports"
+    # The exit code for broken expectations is that of an error too; missing reports stop the copies.
+    "$program" reproduce lines-orientation lines-offsets lines-pieces lines-large lines-small lines-visibility \
+        -o "$reports" || echo "an expectation does not hold, or an error occurred" >&2
+    for name in lines-orientation lines-offsets lines-pieces lines-large lines-small lines-visibility; do
+        cp "$reports/$name/numbers.json" "docs/data/$name.json"
+    done
+    for plot in docs/images/lines-large-*.svg; do
+        cp "$reports/lines-large/${plot#docs/images/lines-large-}" "$plot"
+    done
+}
+
+case ${1:-} in
+tables) ;;
+pictures) draw_pictures ;;
+lines) measure_lines ;;
+'')
+    draw_pictures
+    for bench in accuracy samplers; do
+        "$program" bench $bench --json docs/data/$bench.json >/dev/null
+    done
+    ;;
+*)
+    sed -n '3,10s/^# //p' "$0" >&2
+    exit 2
+    ;;
+esac
+python3 scripts/fill-docs.py

@@ -20,21 +20,23 @@ void add_line_kind_options(CLI::App& command, LineKindOptions& options) {
     command
         .add_option(
             "--orientation", options.orientation,
-            "Directions of lines: parallel, random but the same for all lines of a shading point and\n"
-            "light; fixed, along the longest edge of the light; independent. Default: parallel")
+            "Directions of lines: parallel (random, but the same for all lines of a shading point and a\n"
+            "light), fixed (along the longest edge of the light) or independent. Default: parallel")
         ->transform(to_name_of(render::kLineOrientations))
         ->group(kGroup);
     command
-        .add_option("--offsets", options.offsets,
-                    "Density of lines: by their length on the light, uniform, or by what the surface would\n"
-                    "reflect of them without shadows. Default: reflected")
+        .add_option(
+            "--offsets", options.offsets,
+            "Density of lines: length (proportional to their length on the light), uniform, or reflected\n"
+            "(proportional to what the surface would reflect of them without shadows). Default: reflected")
         ->transform(to_name_of(render::kLineOffsets))
         ->group(kGroup);
     command
-        .add_option("--line-shading", options.shading,
-                    "unbiased: the integral of a linearly transformed cosine over what is visible of a\n"
-                    "line, and one point for the difference to the BRDF; analytic: without that.\n"
-                    "Default: unbiased")
+        .add_option(
+            "--line-shading", options.shading,
+            "unbiased: the integral of a linearly transformed cosine over the visible parts of a line,\n"
+            "plus one point for the difference from the BRDF; analytic: the integral alone.\n"
+            "Default: unbiased")
         ->transform(to_name_of(render::kLineShadings))
         ->group(kGroup);
 }
@@ -44,7 +46,7 @@ void add_line_options(CLI::App& command, LineOptions& options) {
         command
             .add_option(
                 "--light-samples", options.light_samples,
-                "What is sampled of polygonal lights: points, or lines with exact visibility. Tubes and\n"
+                "How polygonal lights are sampled: by points, or by lines with exact visibility. Tubes and\n"
                 "linear lights always get --spp points")
             ->transform(to_name_of(render::kLightSamples))
             ->capture_default_str()
@@ -63,7 +65,7 @@ void add_line_options(CLI::App& command, LineOptions& options) {
         .add_option(
             "--lines", options.count,
             fmt::format(
-                "Lines per shading point and polygon of a light, 1 to {}; 16 or more pay. Default: {}",
+                "Lines per shading point and polygon of a light, 1 to {}; use 16 or more. Default: {}",
                 render::kMaxLines, render::LineSettings().count))
         ->check(CLI::Range(1, render::kMaxLines))
         ->group(kGroup);
@@ -71,9 +73,9 @@ void add_line_options(CLI::App& command, LineOptions& options) {
     command
         .add_option(
             "--many-occluders", options.many_occluders,
-            "What shading points take where many triangles may hide a light: the power of two next to N^1.4\n"
-            "points in place of N lines, of the technique and strategies of the other options, which are\n"
-            "faster there (with fewer than 16 lines everywhere); or lines all the same. Default: points")
+            "What shading points use where many triangles may hide a light: points, faster there than\n"
+            "N lines (for fewer than 16 lines everywhere), as many as the power of two next to N^1.4,\n"
+            "with the given technique and strategies; or lines nevertheless. Default: points")
         ->transform(to_name_of(render::kManyOccludersChoices))
         ->group(kGroup);
 }

@@ -11,14 +11,14 @@
 
 namespace nusselt::app {
 
-/// Of line samples, whatever their number. Defaults are those of render::LineSettings.
+/// Options for line samples that do not depend on their number. Defaults are those of render::LineSettings.
 struct LineKindOptions {
     std::optional<std::string> orientation;
     std::optional<std::string> offsets;
     std::optional<std::string> shading;
 };
 
-/// Whether there are line samples, and how. Defaults are those of render::RenderSettings.
+/// All options for line samples. Defaults are those of render::RenderSettings.
 struct LineOptions : LineKindOptions {
     std::string light_samples = "points";
     bool has_old_name = false; ///< whether they were chosen by the name of earlier versions, --integrator
@@ -26,7 +26,7 @@ struct LineOptions : LineKindOptions {
     std::optional<std::string> many_occluders;
 };
 
-/// Adds --light-samples and all that goes with it.
+/// Adds --light-samples and the options that depend on it.
 void add_line_options(CLI::App& command, LineOptions& options);
 
 /// Adds --orientation, --offsets and --line-shading.
@@ -36,10 +36,10 @@ void add_line_kind_options(CLI::App& command, LineKindOptions& options);
 /// \throws std::invalid_argument for values that the command line does not let through
 void apply_line_kind_options(const LineKindOptions& options, render::LineSettings& settings);
 
-/// The same for all options, and what is sampled.
+/// Changes the choice of light samples too.
 void apply_line_options(const LineOptions& options, render::RenderSettings& settings);
 
-/// What add_line_kind_options() can change, as an object.
+/// The settings that add_line_kind_options() can change, as an object.
 nlohmann::ordered_json line_kind_json(const render::LineSettings& settings);
 
 } // namespace nusselt::app

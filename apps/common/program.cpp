@@ -14,14 +14,17 @@ namespace nusselt::app {
 
 namespace {
 
+int report_lost_output(const Program& program) {
+    fmt::print(stderr, "{}: error: the standard output cannot be written (is its disk full?)\n",
+               program.name);
+    return 1;
+}
+
 /// The exit code, or that of an error if text for the standard output was lost, whichever command wrote it.
 int finished(const Program& program, int exit_code) {
     std::cout.flush();
     const bool written = std::cout.good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-    if (written || exit_code != 0) return exit_code;
-    fmt::print(stderr, "{}: error: the standard output cannot be written (is its disk full?)\n",
-               program.name);
-    return 1;
+    return written || exit_code != 0 ? exit_code : report_lost_output(program);
 }
 
 } // namespace
@@ -47,10 +50,13 @@ int run_program(const Program& program, int argc, char** argv) {
         app.exit(error);
         return is_help ? finished(program, 0) : 2;
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "{}: error: not enough memory; take a smaller scene, image or number of layers\n",
+        fmt::print(stderr,
+                   "{}: error: not enough memory; use a smaller scene, a smaller image or fewer layers\n",
                    program.name);
         return 1;
     } catch (const std::exception& error) {
+        // Texts longer than the buffer of the stream are written, and lost, before the end of the command.
+        if (std::ferror(stdout) != 0) return report_lost_output(program);
         fmt::print(stderr, "{}: error: {}\n", program.name, scene::message_line(error.what()));
         return 1;
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// What the programs have in common: how they read their command line and report errors.
+/// Code that the programs share: they read their command line and report errors in the same way.
 
 #include <CLI/CLI.hpp>
 

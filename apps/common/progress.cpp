@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kBarWidth = 40;
 constexpr std::chrono::milliseconds kRedrawInterval{100};
-/// Shorter work is over before anyone would have read how long it takes.
+/// Shorter work finishes before anyone can read the time left.
 constexpr double kFirstReport = 0.5;
 
 int whole_tenths(double fraction) { return static_cast<int>(fraction * 10 + 1e-9); }

@@ -5,7 +5,7 @@
 
 namespace nusselt::app {
 
-/// A bar with the time left on a terminal, a line for every tenth elsewhere. One thread at a time.
+/// Shows a bar with the time left on a terminal, and a line for every tenth elsewhere. Not thread-safe.
 class Progress {
 public:
     /// \param begin share of the work that is done already, in [0, 1]

@@ -28,16 +28,16 @@ std::optional<Resolution> parse_resolution(const std::string& text) {
 std::string check_part(const std::string& text) {
     if (parse_part(text)) return "";
     return "'" + text +
-           "' is not of the form NUMBER/COUNT, such as 1/4, with a number from 1 to the count, at most " +
+           "' must have the form NUMBER/COUNT, such as 1/4, with a NUMBER from 1 to COUNT and a COUNT of at "
+           "most " +
            std::to_string(render::kMaxParts);
 }
 
 std::string check_resolution(const std::string& text) {
     const std::optional<Resolution> size = parse_resolution(text);
-    if (!size) return "'" + text + "' is not of the form WIDTHxHEIGHT, such as 640x480";
+    if (!size) return "'" + text + "' must have the form WIDTHxHEIGHT, such as 640x480";
     if (std::min(size->width, size->height) < 1 || std::max(size->width, size->height) > scene::kMaxFilmSize)
-        return "'" + text + "' has a side that does not lie between 1 and " +
-               std::to_string(scene::kMaxFilmSize);
+        return "'" + text + "' must have sides from 1 to " + std::to_string(scene::kMaxFilmSize);
     return "";
 }
 
@@ -53,17 +53,18 @@ void add_machine_options(CLI::App& command, std::optional<int>& threads, std::op
 
 void add_isa_option(CLI::App& command, std::optional<std::string>& isa) {
     command
-        .add_option("--isa", isa,
-                    "Instruction set. Default: the environment variable NUSSELT_ISA, else the best one that\n"
-                    "the processor supports")
+        .add_option(
+            "--isa", isa,
+            "Instruction set. Default: the environment variable NUSSELT_ISA if set, else the best one\n"
+            "that the processor supports")
         ->check(CLI::IsMember({"sse42", "avx2", "avx512"}));
 }
 
 void add_resolution_option(CLI::App& command, std::optional<std::string>& resolution) {
     command
         .add_option("--resolution", resolution,
-                    "Image size WIDTHxHEIGHT in pixels, each 1 to 65536, keeping the field of view of the\n"
-                    "shorter axis. Default: as in the scene")
+                    "Image size WIDTHxHEIGHT in pixels, each 1 to 65536. Keeps the field of view along the\n"
+                    "shorter axis. Default: the size in the scene")
         ->check(check_resolution, "WIDTHxHEIGHT");
 }
 
@@ -80,10 +81,10 @@ void add_layers_option(CLI::App& command, std::vector<std::string>& layers) {
     command
         .add_option(
             "--layers", layers,
-            "Layers that EXR files have beside the image, separated by commas: albedo, normal, depth,\n"
-            "emission, diffuse, specular, lights (the light of each lamp alone), pieces (visible parts\n"
-            "per line sample), variance (of the mean of each pixel; with two or more camera rays), or\n"
-            "all. Default: none")
+            "Layers to store in EXR files beside the image, separated by commas: albedo, normal, depth,\n"
+            "emission, diffuse, specular, lights (each lamp alone), pieces (visible parts per line\n"
+            "sample), variance (of the mean of each pixel; needs two or more camera rays per pixel),\n"
+            "or all. Default: none")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->check(CLI::IsMember(names));
@@ -93,7 +94,7 @@ void add_part_option(CLI::App& command, std::optional<std::string>& part) {
     command
         .add_option(
             "--part", part,
-            "Render the tiles of this part only, such as 1/4, into an EXR file; `nusselt merge` joins\n"
+            "Render only the tiles of this part, such as 1/4, into an EXR file; `nusselt merge` joins\n"
             "all parts to the whole image. Default: 1/1")
         ->check(check_part, "NUMBER/COUNT");
 }

@@ -31,7 +31,7 @@ CLI::Validator to_name_of(const Values& values) {
 /// Adds --threads and --isa.
 /// \param default_threads for the help: how many threads there are without the option
 void add_machine_options(CLI::App& command, std::optional<int>& threads, std::optional<std::string>& isa,
-                         const std::string& default_threads = "as many as the machine runs at once");
+                         const std::string& default_threads = "one per hardware thread");
 
 /// Adds --isa.
 void add_isa_option(CLI::App& command, std::optional<std::string>& isa);
@@ -39,7 +39,7 @@ void add_isa_option(CLI::App& command, std::optional<std::string>& isa);
 /// Adds --resolution.
 void add_resolution_option(CLI::App& command, std::optional<std::string>& resolution);
 
-/// Resizes the film as --resolution asks, if it is given.
+/// Resizes the film to --resolution, if it is set.
 void apply_resolution(const std::optional<std::string>& resolution, scene::Scene& scene);
 
 inline constexpr const char* kAllLayers = "all";
@@ -50,7 +50,7 @@ void add_layers_option(CLI::App& command, std::vector<std::string>& layers);
 /// Adds --part.
 void add_part_option(CLI::App& command, std::optional<std::string>& part);
 
-/// From "2/3". \returns nothing if that is no part
+/// Parses a part such as "2/3". \returns nothing if the text is invalid
 std::optional<render::Part> parse_part(const std::string& text);
 
 } // namespace nusselt::app

@@ -11,7 +11,7 @@
 
 namespace nusselt::app {
 
-/// The number that a text spells, if it is one from the first character to the last.
+/// The number that the whole text spells, if it does.
 template <class Number>
 std::optional<Number> parsed(const std::string& text) {
     Number value{};
@@ -25,7 +25,7 @@ inline CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
     const auto check = [low, high](const std::string& text) -> std::string {
         const auto value = parsed<std::uint64_t>(text);
         if (value && *value >= low && *value <= high) return {};
-        return fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
+        return fmt::format("'{}' must be a whole number from {} to {}", text, low, high);
     };
     return CLI::Validator(check, fmt::format("in [{}, {}]", low, high), "whole number");
 }
@@ -35,27 +35,27 @@ inline CLI::Validator number(double low, double high) {
     const auto check = [low, high](const std::string& text) -> std::string {
         const auto value = parsed<double>(text);
         if (value && *value >= low && *value <= high) return {};
-        return fmt::format("'{}' is not a number from {} to {}", text, low, high);
+        return fmt::format("'{}' must be a number from {} to {}", text, low, high);
     };
     return CLI::Validator(check, fmt::format("in [{}, {}]", low, high), "number");
 }
 
-/// Seconds of a time budget, more than none and finite.
+/// The seconds of a time budget, positive and finite.
 inline CLI::Validator seconds() {
     const auto check = [](const std::string& text) -> std::string {
         const auto value = parsed<double>(text);
         if (value && *value > 0 && *value <= 1e9) return {};
-        return fmt::format("'{}' is not a number of seconds, above 0 and up to 1e9", text);
+        return fmt::format("'{}' must be a number of seconds above 0, at most 1e9", text);
     };
     return CLI::Validator(check, "above 0", "seconds");
 }
 
-/// Numbers above 0, up to the highest. NaN and infinities are none of them.
+/// Numbers above 0, up to a limit, without NaN and infinities.
 inline CLI::Validator number_above_zero(double high) {
     const auto check = [high](const std::string& text) -> std::string {
         const auto value = parsed<double>(text);
         if (value && *value > 0 && *value <= high) return {};
-        return fmt::format("'{}' is not a number above 0 and up to {:g}", text, high);
+        return fmt::format("'{}' must be a number above 0, at most {:g}", text, high);
     };
     return CLI::Validator(check, fmt::format("in (0, {:g}]", high), "number above 0");
 }
@@ -65,7 +65,7 @@ inline CLI::Validator exposure() {
     const auto check = [](const std::string& text) -> std::string {
         const auto value = parsed<double>(text);
         if (value && std::abs(*value) <= 64) return {};
-        return fmt::format("'{}' is not a number of stops from -64 to 64", text);
+        return fmt::format("'{}' must be a number of stops from -64 to 64", text);
     };
     return CLI::Validator(check, "in [-64, 64]", "exposure");
 }

@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
     using namespace nusselt::app;
     return run_program(
         {"nusselt-lab",
-         "Nusselt's laboratory: measures, proves and reproduces what the library and the renderer claim.\n"
+         "Nusselt's laboratory: measures, tests and reproduces the claims of the library and the renderer.\n"
          "`nusselt-lab COMMAND --help` explains a command.",
          "Exit codes: 0 success, 1 error or broken expectation, 2 wrong usage, 130 stopped by Ctrl-C.",
          {setup_reproduce, setup_bench, setup_map, setup_fuzz, setup_fit_ltc}},

@@ -10,7 +10,7 @@ namespace {
 
 using scene::Double3;
 
-/// How close to the upright axis one can look [rad].
+/// The smallest angle between the viewing direction and the upright axis [rad].
 constexpr double kSmallestAngle = 0.01;
 
 Double3 closest_axis(const Double3& v) {
@@ -21,7 +21,7 @@ Double3 closest_axis(const Double3& v) {
     return x >= z ? Double3{std::copysign(1, v.x), 0, 0} : Double3{0, 0, std::copysign(1, v.z)};
 }
 
-/// What of a vector is along the image plane, for the axes of cameras that show the scene distorted.
+/// The part of a vector that is parallel to the image plane, for cameras with skewed axes.
 Double3 orthogonal_to(const Double3& axis, const Double3& v) { return normalized(v - dot(axis, v) * axis); }
 
 } // namespace

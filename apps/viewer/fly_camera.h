@@ -15,7 +15,7 @@ public:
     /// Angles by which the view turns to the right and upwards [rad]. It never passes the upright axis.
     void turn(double right, double up);
 
-    /// How far to go along the image: to the right, downwards, and into it [m].
+    /// Moves to the right, downwards and into the image [m].
     void move(const scene::Double3& by);
 
     scene::Camera camera() const;
@@ -29,7 +29,7 @@ private:
     void rotate(const scene::Double3& axis, double angle);
 
     double width_, height_;
-    // As in scene::Camera.
+    // The same members as in scene::Camera.
     scene::Double3 origin_, origin_right_, origin_down_, corner_, right_, down_;
     scene::Double3 up_; ///< unit
 };

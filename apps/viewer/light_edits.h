@@ -1,5 +1,5 @@
 #pragma once
-/// What a person did to the lights of a scene.
+/// Edits of the lights of a scene by the user.
 
 #include "scene/model/scene.h"
 #include "scene/rig/rig.h"
@@ -10,7 +10,7 @@
 
 namespace nusselt::viewer {
 
-/// Of one light. The defaults change nothing.
+/// The edit of one light. The defaults change nothing.
 struct LightEdit {
     scene::Double3 move = {0, 0, 0}; ///< [m]
     double size = 1;                 ///< factor on all lengths, about the centroid
@@ -23,7 +23,7 @@ struct LightEdit {
 /// Edits by the index of the light in Scene::emitters, as the scene was loaded.
 class LightEdits {
 public:
-    /// What was done to a light; the defaults if that is nothing.
+    /// The edit of a light; the defaults if it is unchanged.
     LightEdit get(std::size_t light) const;
     void set(std::size_t light, const LightEdit& edit);
     bool empty() const { return edits_.empty(); }

@@ -53,7 +53,7 @@ void draw_side(render::RenderSettings& settings) {
            [&](render::Mis mis) { choose_mis(mis, settings); });
     ImGui::SliderFloat("v", &settings.visibility_estimate, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("rough share of lights that is visible, for the optimal heuristics");
+        ImGui::SetTooltip("approximate fraction of the lights that is visible, for the optimal heuristics");
     choice("sequence", render::kSampleOrders, settings.sample_order,
            [&](render::SampleOrder order) { settings.sample_order = order; });
     ImGui::SliderInt("samples", &settings.samples, 1, kMostFrameSamples, "%d",
@@ -109,7 +109,7 @@ void Panels::draw_settings(Viewer& viewer) {
     choice("show", render_vulkan::kShown, state.shown,
            [&](render_vulkan::Shown shown) { state.shown = shown; });
     if (state.shown == render_vulkan::Shown::error && viewer.session.reference_frames() == 0)
-        ImGui::TextWrapped("There is no reference to compare with: tick `reference`.");
+        ImGui::TextWrapped("No reference to compare with: tick `reference`.");
     for (const Side side : kSides) {
         if (side == Side::right && !state.is_split) continue;
         const char* const title = !state.is_split      ? "image"
@@ -139,7 +139,7 @@ void Panels::draw_lights(Viewer& viewer) {
         ImGui::EndListBox();
     }
     if (!state.selected_light) {
-        ImGui::TextWrapped("Click at a light to select it; drag it to move it.");
+        ImGui::TextWrapped("Click a light to select it; drag it to move it.");
         return;
     }
     const bool is_being_edited = edited_light_ == state.selected_light;
@@ -156,7 +156,7 @@ void Panels::draw_lights(Viewer& viewer) {
                 ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic));
     note(slider("brightness", edit_.brightness, 0.01, 100, "%.2f",
                 ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic));
-    if (ImGui::Button("as it was")) {
+    if (ImGui::Button("reset")) {
         edit_ = LightEdit();
         is_final = true;
     }
@@ -184,7 +184,7 @@ void Panels::draw_files(Viewer& viewer) {
     });
     if (!command_.empty()) {
         ImGui::SameLine();
-        if (ImGui::Button("copy its command")) ImGui::SetClipboardText(command_.c_str());
+        if (ImGui::Button("copy the command")) ImGui::SetClipboardText(command_.c_str());
     }
     // A JSON file that was typed, else those beside the screenshot.
     const bool is_json = std::filesystem::path(file_).extension() == ".json";
@@ -208,7 +208,7 @@ void Panels::draw(Viewer& viewer) {
         draw_errors(viewer);
         ImGui::Separator();
         draw_settings(viewer);
-        // What was clicked is there to be edited.
+        // A click on a light opens the section in which it can be edited.
         if (std::exchange(last_light_, viewer.state.selected_light) != viewer.state.selected_light)
             ImGui::SetNextItemOpen(true);
         if (ImGui::CollapsingHeader("lights")) draw_lights(viewer);

@@ -11,7 +11,7 @@ namespace nusselt::viewer {
 
 class Panels {
 public:
-    /// Describes the panels to Dear ImGui, and does what the person asks for there.
+    /// Describes the panels to Dear ImGui, and carries out the actions of the user there.
     void draw(Viewer& viewer);
 
 private:
@@ -21,7 +21,7 @@ private:
 
     std::string file_ = "view.png";
     std::optional<std::size_t> last_light_; ///< selected in the last frame
-    // Of the selected light, while it is changed.
+    // The edit of the selected light while the user changes it.
     std::optional<std::size_t> edited_light_;
     LightEdit edit_;
     std::string command_; ///< that renders the last screenshot

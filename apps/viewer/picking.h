@@ -1,5 +1,5 @@
 #pragma once
-/// Which light is at a place of the image, and how it follows the mouse.
+/// Finds the light at a place of the image, and lets it follow the mouse.
 
 #include "fly_camera.h"
 #include "light_edits.h"
@@ -21,7 +21,7 @@ struct FilmPosition {
 std::optional<std::size_t> light_at(const scene::Scene& loaded, const LightEdits& edits,
                                     const scene::Camera& camera, FilmPosition position);
 
-/// How far a light moves for its centroid to follow the mouse, in a plane parallel to the image [m]. Zero if the
+/// The motion of a light whose centroid follows the mouse, in a plane parallel to the image [m]. Zero if the
 /// centroid is behind the camera.
 scene::Double3 drag_of(const scene::Scene& loaded, const LightEdits& edits, std::size_t light,
                        const scene::Camera& camera, FilmPosition from, FilmPosition to);

@@ -27,7 +27,7 @@ Number to_number(const std::string& word, Number low, Number high) {
     Number value{};
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size() || !(value >= low && value <= high))
-        throw std::invalid_argument(fmt::format("'{}' is not a number from {} to {}", word, low, high));
+        throw std::invalid_argument(fmt::format("'{}' must be a number from {} to {}", word, low, high));
     return value;
 }
 
@@ -39,14 +39,14 @@ double to_coordinate(const std::string& word) {
 bool to_switch(const std::string& word) {
     if (word == "on") return true;
     if (word == "off") return false;
-    throw std::invalid_argument("'" + word + "' is neither on nor off");
+    throw std::invalid_argument("'" + word + "' must be on or off");
 }
 
 scene::Double3 to_vector(const Arguments& words) {
     return {to_coordinate(words[0]), to_coordinate(words[1]), to_coordinate(words[2])};
 }
 
-/// What a command needs, and what it does.
+/// The number of arguments of a command, and its action.
 struct Command {
     std::size_t arguments;
     std::function<void(Viewer&, const Arguments&)> run;
@@ -90,7 +90,7 @@ std::map<std::string, std::function<void(Settings&, const std::string&)>> settin
 
 void edit_light(Viewer& viewer, const std::function<void(LightEdit&)>& change) {
     if (!viewer.state.selected_light)
-        throw std::invalid_argument("no light is selected; `light N` does that");
+        throw std::invalid_argument("no light is selected; select one with `light N`");
     const std::size_t light = *viewer.state.selected_light;
     LightEdit edit = viewer.state.edits.get(light);
     change(edit);
@@ -175,7 +175,7 @@ std::map<std::string, Command> make_commands() {
           [](Viewer& viewer, const Arguments&) {
               const render_vulkan::DisplayErrors& errors = viewer.session.errors();
               if (viewer.session.reference_frames() == 0)
-                  throw std::invalid_argument("there is no reference; `reference on` renders one");
+                  throw std::invalid_argument("no reference to compare with; start one with `reference on`");
               fmt::print("RMSE {}", errors.left);
               if (viewer.state.is_split) fmt::print(" left, {} right", errors.right);
               fmt::print(" against {} reference frames\n", viewer.session.reference_frames());
@@ -198,7 +198,7 @@ const std::map<std::string, Command>& commands() {
     return all;
 }
 
-/// What follows the first word, without spaces at either end and comments.
+/// The text after the first word, without spaces at either end and without comments.
 std::string rest_of(const std::string& text) {
     constexpr const char* kSpaces = " \t\r";
     const std::size_t end = text.find_last_not_of(kSpaces, text.find('#') - 1) + 1;

@@ -51,7 +51,7 @@ public:
     /// \throws std::runtime_error as scene::apply_rig() does; the scene is as before then
     void apply(const scene::Rig& rig);
 
-    // Of the last show(), after the first frame.
+    // The results of the last show(), valid after the first frame.
     const render_vulkan::DisplayPass& picture() const;
     const render_vulkan::DisplayErrors& errors() const { return errors_; }
 

@@ -70,7 +70,7 @@ std::string command_of(const Session& session, const ViewState& state, const Sce
         command += fmt::format(" --mis {} --visibility-estimate {}", name_of(settings.mis),
                                settings.visibility_estimate);
     command += fmt::format(" --sampler {} --brdf {}", name_of(settings.sample_order), name_of(settings.brdf));
-    // Of a single frame the same image but for rounding; of several but for noise.
+    // The image of a single frame is reproduced up to rounding, that of several frames up to noise.
     const std::int64_t frames = std::max<std::int64_t>(session.frames(Side::left), 1);
     const std::int64_t samples = std::min<std::int64_t>(frames * settings.samples, render::kMaxSamples);
     command += fmt::format(" --spp {}", samples);
@@ -83,7 +83,7 @@ std::string command_of(const Session& session, const ViewState& state, const Sce
 std::string write_screenshot(const std::filesystem::path& path, const Session& session,
                              const ViewState& state, const SceneFiles& files) {
     if (session.frames(Side::left) == 0)
-        throw std::runtime_error(path.string() + ": no frame was rendered yet, there is nothing to write");
+        throw std::runtime_error(path.string() + ": no frame is rendered yet; run `frames 1` first");
     if (image::lower_case_extension(path) == ".png") {
         image::write_image(path, to_linear(session.picture()));
     } else {

@@ -1,5 +1,5 @@
 #pragma once
-/// What the viewer writes and reads: screenshots, cameras, light rigs, and the command that renders the same.
+/// Files of the viewer: screenshots, cameras, light rigs, and the command that renders the same image.
 
 #include "session.h"
 #include "view_state.h"
@@ -11,11 +11,11 @@
 
 namespace nusselt::viewer {
 
-/// What the viewer was started with, and which rigs were loaded since.
+/// The files with which the viewer started, and the rigs that it loaded since.
 struct SceneFiles {
     std::filesystem::path scene;
     std::vector<std::filesystem::path> rigs; ///< in the order in which they are applied
-    std::optional<std::string> device;       ///< as it was asked for
+    std::optional<std::string> device;       ///< as given by the user
 };
 
 /// Writes what is seen. A PNG file gets the picture of the window, without panels; other formats, see

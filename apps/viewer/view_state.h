@@ -1,5 +1,5 @@
 #pragma once
-/// What a person sets in the viewer.
+/// Settings of the user in the viewer.
 
 #include "fly_camera.h"
 #include "light_edits.h"
@@ -13,12 +13,12 @@
 
 namespace nusselt::viewer {
 
-/// Which of the two images, if the screen is split.
+/// One of the two images of a split screen.
 enum class Side : std::size_t { left, right };
 
 inline constexpr std::array kSides = {Side::left, Side::right};
 
-// For what is interactive: beyond that, frames take too long or are all black or white.
+// Limits for interactive use: beyond them, frames take too long or are all black or white.
 inline constexpr int kMostFrameSamples = 64;
 inline constexpr double kLargestExposure = 32; ///< [stops]
 
@@ -27,7 +27,7 @@ struct ViewState {
     std::array<render::RenderSettings, 2> settings; ///< by Side; `samples` are those of a frame
     bool is_split = false;
     double wipe = 0.5; ///< the right image begins at this share of the width
-    /// Whether frames add up; else each one is shown by itself, as a game would.
+    /// Whether frames are averaged; otherwise each frame is shown by itself, as in a game.
     bool accumulates = true;
     bool renders_reference = false; ///< with every frame one of the reference
     double exposure = 0;            ///< [stops]

@@ -15,7 +15,7 @@ namespace nusselt::viewer {
 
 namespace {
 
-/// What GLFW said last.
+/// The last error message of GLFW.
 std::string last_error() {
     const char* text = nullptr;
     glfwGetError(&text);
@@ -24,9 +24,9 @@ std::string last_error() {
 
 [[noreturn]] void fail_without_display(const std::string& reason) {
     const bool has_display = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
-    throw std::runtime_error(
-        "no window can be opened (" + (has_display ? reason : "neither DISPLAY nor WAYLAND_DISPLAY is set") +
-        "); without a display, `nusselt render SCENE --backend auto -o image.png` renders");
+    throw std::runtime_error("no window can be opened (" +
+                             (has_display ? reason : "neither DISPLAY nor WAYLAND_DISPLAY is set") +
+                             "); without a display, use `nusselt render SCENE --backend auto -o image.png`");
 }
 
 /// OpenGL 1.1, which is not linked: programs open the library of the display at run time.
@@ -45,7 +45,7 @@ private:
     template <class Function>
     static Function find(const char* name) {
         const auto function = reinterpret_cast<Function>(glfwGetProcAddress(name));
-        if (function == nullptr) fail_without_display(std::string("OpenGL has no ") + name);
+        if (function == nullptr) fail_without_display(std::string("OpenGL lacks ") + name);
         return function;
     }
 };
@@ -67,7 +67,7 @@ GLFWwindow* make_window(const std::string& title, int width, int height) {
     return window;
 }
 
-/// As large as fits into the window, beside the panels if there is room, else in its middle.
+/// The largest place that fits into the window, beside the panels if there is room, else in the middle.
 PicturePlace place_of(float width, float height, const ImVec2& window) {
     float scale = std::min(window.x / width, window.y / height);
     // Enlarged by a whole number, all pixels have the same size.

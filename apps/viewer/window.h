@@ -11,10 +11,10 @@ struct GLFWwindow;
 
 namespace nusselt::viewer {
 
-/// What panels take of the window, at the left [pixels].
+/// The width of the panels at the left of the window [pixels].
 inline constexpr float kPanelWidth = 350;
 
-/// Where the picture is in the window [pixels of the window].
+/// The place of the picture in the window [pixels of the window].
 struct PicturePlace {
     float x = 0, y = 0, width = 1, height = 1;
 };

@@ -20,6 +20,8 @@
 #include <nusselt/ltc/polygon_shading.h>
 #include <nusselt/ltc/table_file.h>
 #include <nusselt/random/light_random.h>
+
+// All techniques, by scripts/check-techniques.py.
 #include <nusselt/sampling/cylinder_area.h>
 #include <nusselt/sampling/cylinder_ltc.h>
 #include <nusselt/sampling/cylinder_projected_solid_angle.h>
@@ -33,3 +35,5 @@
 #include <nusselt/sampling/polygon_ltc.h>
 #include <nusselt/sampling/polygon_projected_solid_angle.h>
 #include <nusselt/sampling/polygon_solid_angle.h>
+#include <nusselt/sampling/rectangle_solid_angle.h>
+// End of techniques.

@@ -2,6 +2,7 @@
 
 #include "base/isa.h"
 #include "lab/accuracy/accuracy_packs.h"
+#include "lab/accuracy/lobe_lights.h"
 #include "proof/accuracy/cases.h"
 
 #include <tbb/parallel_for.h>
@@ -94,7 +95,7 @@ std::vector<Method<Technique, Real>> methods(const typename Technique::Class& li
     using Plain = typename Technique::template Plain<Real>;
     using Ours = typename Technique::template Ours<Real>;
     std::vector<Method<Technique, Real>> all;
-    if constexpr (!std::is_same_v<Plain, proof::Absent>)
+    if constexpr (!std::is_same_v<Plain, hostile::Absent>)
         if (Technique::fits_plain(lights)) all.push_back(scalar_method<Technique, Real, Plain>("plain"));
     all.push_back(scalar_method<Technique, Real, Ours>("ours"));
     if constexpr (std::is_same_v<Real, float>) all.push_back(packed_method<Technique>(isa));
@@ -161,7 +162,7 @@ std::vector<proof::AccuracyRow> measure_class(const typename Technique::Class& l
     std::vector<proof::AccuracyRow> rows;
     measure(lights, count, methods<Technique, float>(lights, isa), rows);
     measure(lights, count, methods<Technique, double>(lights, isa), rows);
-    if constexpr (!std::is_same_v<typename Technique::TwoSteps, proof::Absent>)
+    if constexpr (!std::is_same_v<typename Technique::TwoSteps, hostile::Absent>)
         if (!proof::is_dark<Technique>(lights)) measure(lights, count, exact_methods<Technique>(), rows);
     return rows;
 }
@@ -170,24 +171,22 @@ std::vector<proof::AccuracyRow> measure_class(const typename Technique::Class& l
 using Task = std::function<std::vector<proof::AccuracyRow>(int count, base::Isa isa)>;
 
 template <class Technique>
-void add_task(const typename Technique::Class& lights, std::vector<Task>& tasks) {
-    tasks.push_back(
-        [&lights](int count, base::Isa isa) { return measure_class<Technique>(lights, count, isa); });
+void add_classes(std::vector<Task>& tasks) {
+    for (const auto& lights : classes_of(static_cast<const typename Technique::Class*>(nullptr)))
+        if (fits_bound(lights, Technique::kVertexBound))
+            tasks.push_back(
+                [&lights](int count, base::Isa isa) { return measure_class<Technique>(lights, count, isa); });
 }
 
-template <template <int> class Technique>
-void add_polygons(std::vector<Task>& tasks) {
-    for (const proof::PolygonClass& lights : proof::polygon_classes()) {
-        if (lights.vertex_count <= 4)
-            add_task<Technique<4>>(lights, tasks);
-        else
-            add_task<Technique<8>>(lights, tasks);
-    }
+/// Each technique on the classes for the bounds of 4 and of more vertices.
+template <class... Few, class... Many>
+void add_polygons(hostile::KindList<Few...>, hostile::KindList<Many...>, std::vector<Task>& tasks) {
+    ((add_classes<proof::Judged<Few>>(tasks), add_classes<proof::Judged<Many>>(tasks)), ...);
 }
 
-template <class Technique>
-void add_lines(std::vector<Task>& tasks) {
-    for (const proof::LineClass& lights : proof::line_classes()) add_task<Technique>(lights, tasks);
+template <class... Kinds>
+void add_others(hostile::KindList<Kinds...>, std::vector<Task>& tasks) {
+    (add_classes<proof::Judged<Kinds>>(tasks), ...);
 }
 
 } // namespace
@@ -195,15 +194,13 @@ void add_lines(std::vector<Task>& tasks) {
 AccuracyTable measure_accuracy(const AccuracySettings& settings) {
     const base::Isa isa = base::choose_isa(settings.isa);
     std::vector<Task> tasks;
-    add_polygons<proof::PolygonProjectedSolidAngleTraits>(tasks);
-    add_polygons<proof::PolygonProjectedSolidAngleBiasedTraits>(tasks);
-    add_polygons<proof::PolygonSolidAngleTraits>(tasks);
-    add_polygons<proof::PolygonClippedSolidAngleTraits>(tasks);
-    add_polygons<proof::PolygonAreaTraits>(tasks);
-    add_lines<proof::LineProjectedSolidAngleTraits>(tasks);
-    add_lines<proof::LineSolidAngleTraits>(tasks);
-    add_lines<proof::LineClippedSolidAngleTraits>(tasks);
-    add_lines<proof::LineAreaTraits>(tasks);
+    using namespace hostile;
+    add_polygons(TestedBy<AccuracySuite, PolygonKinds<4>>(), TestedBy<AccuracySuite, PolygonKinds<8>>(),
+                 tasks);
+    add_others(TestedBy<AccuracySuite, LineKinds, RectangleKinds>(), tasks);
+    add_polygons(TestedBy<AccuracySuite, PolygonOnLobeKinds<4>>(),
+                 TestedBy<AccuracySuite, PolygonOnLobeKinds<8>>(), tasks);
+    add_others(TestedBy<AccuracySuite, LineOnLobeKinds, CylinderKinds, CylinderOnLobeKinds>(), tasks);
 
     std::vector<std::vector<proof::AccuracyRow>> results(tasks.size());
     tbb::parallel_for(std::size_t{0}, tasks.size(),

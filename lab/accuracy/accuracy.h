@@ -5,9 +5,15 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nusselt::lab {
+
+/// As techniques.json names the suite.
+struct AccuracySuite {
+    static constexpr std::string_view kName = "accuracy";
+};
 
 struct AccuracySettings {
     int count = 1;                  ///< lights per class, at least 1; each gets one sample

@@ -1,10 +1,13 @@
 #include "lab/accuracy/accuracy_json.h"
 
+#include "lab/accuracy/accuracy_targets.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <stdexcept>
 
 namespace nusselt::lab {
@@ -13,47 +16,87 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const proof::ErrorQuantiles& e) { return {e.median, e.p99, e.p999, e.max}; }
+constexpr const char* kRows = "rows";
 
-proof::ErrorQuantiles quantiles(const Json& json) {
-    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>(),
-            json.at(3).get<double>()};
+/// A column of the table of rows.
+struct RowColumn {
+    const char* name;
+    std::function<Cell(const proof::AccuracyRow&)> get;
+    std::function<void(const Json&, proof::AccuracyRow&)> set;
+};
+
+template <class Value>
+RowColumn member(const char* name, Value proof::AccuracyRow::*value) {
+    return {name, [value](const proof::AccuracyRow& row) { return Cell(row.*value); },
+            [value](const Json& cell, proof::AccuracyRow& row) { cell.get_to(row.*value); }};
 }
 
-Json to_json(const proof::AccuracyRow& r) {
-    return {{"technique", r.technique},
-            {"scalar", r.scalar},
-            {"lights", r.lights},
-            {"method", r.method},
-            {"count", r.count},
-            {"dark", r.dark},
-            {"backward", to_json(r.backward)},
-            {"measure", to_json(r.measure)},
-            {"off_the_light", r.off_the_light},
-            {"no_sample", r.no_sample},
-            {"spurious", r.spurious},
-            {"nan", r.nan},
-            {"infinite", r.infinite},
-            {"negative", r.negative}};
+RowColumn quantile(const char* name, proof::ErrorQuantiles proof::AccuracyRow::*error,
+                   double proof::ErrorQuantiles::*value) {
+    return {name, [=](const proof::AccuracyRow& row) { return Cell(row.*error.*value); },
+            [=](const Json& cell, proof::AccuracyRow& row) { cell.get_to(row.*error.*value); }};
 }
 
-proof::AccuracyRow row(const Json& json) {
-    proof::AccuracyRow r;
-    json.at("technique").get_to(r.technique);
-    json.at("scalar").get_to(r.scalar);
-    json.at("lights").get_to(r.lights);
-    json.at("method").get_to(r.method);
-    json.at("count").get_to(r.count);
-    json.at("dark").get_to(r.dark);
-    r.backward = quantiles(json.at("backward"));
-    r.measure = quantiles(json.at("measure"));
-    json.at("off_the_light").get_to(r.off_the_light);
-    json.at("no_sample").get_to(r.no_sample);
-    json.at("spurious").get_to(r.spurious);
-    json.at("nan").get_to(r.nan);
-    json.at("infinite").get_to(r.infinite);
-    json.at("negative").get_to(r.negative);
-    return r;
+const std::vector<RowColumn>& row_columns() {
+    using Row = proof::AccuracyRow;
+    using Error = proof::ErrorQuantiles;
+    static const std::vector<RowColumn> columns = {
+        member("technique", &Row::technique),
+        member("scalar", &Row::scalar),
+        member("lights", &Row::lights),
+        member("method", &Row::method),
+        member("count", &Row::count),
+        member("dark", &Row::dark),
+        quantile("backward_median", &Row::backward, &Error::median),
+        quantile("backward_p99", &Row::backward, &Error::p99),
+        quantile("backward_p999", &Row::backward, &Error::p999),
+        quantile("backward_max", &Row::backward, &Error::max),
+        quantile("measure_median", &Row::measure, &Error::median),
+        quantile("measure_p99", &Row::measure, &Error::p99),
+        quantile("measure_p999", &Row::measure, &Error::p999),
+        quantile("measure_max", &Row::measure, &Error::max),
+        member("off_the_light", &Row::off_the_light),
+        member("no_sample", &Row::no_sample),
+        member("spurious", &Row::spurious),
+        member("nan", &Row::nan),
+        member("infinite", &Row::infinite),
+        member("negative", &Row::negative)};
+    return columns;
+}
+
+ResultTable row_table(const std::vector<proof::AccuracyRow>& rows) {
+    ResultTable table = {kRows, {}};
+    for (const RowColumn& column : row_columns()) table.columns.push_back({column.name});
+    table.columns.insert(table.columns.end(), {{"p99_over_floor"}, {"p999_over_floor"}});
+    for (const proof::AccuracyRow& row : rows) {
+        std::vector<Cell>& cells = table.rows.emplace_back();
+        for (const RowColumn& column : row_columns()) cells.push_back(column.get(row));
+        const FloorRatios over_floor = row.dark ? FloorRatios{} : floor_ratios(rows, row);
+        cells.push_back(cell_of(over_floor.p99));
+        cells.push_back(cell_of(over_floor.p999));
+    }
+    return table;
+}
+
+ResultTable target_table(const std::vector<proof::AccuracyRow>& rows) {
+    ResultTable table = {"targets",
+                         {{"technique"}, {"scalar"}, {"lights"}, {"target"}, {"measured"}, {"met"}}};
+    for (const AccuracyVerdict& v : check_targets(rows)) {
+        const AccuracyTarget& t = v.target;
+        table.rows.push_back({std::string(t.technique), std::string(t.scalar), where(v),
+                              describe(t.quantity, t.other, t.limit), v.value, v.met});
+    }
+    return table;
+}
+
+proof::AccuracyRow read_row(const Json& columns, const Json& cells) {
+    proof::AccuracyRow row;
+    for (const RowColumn& column : row_columns()) {
+        const auto found = std::find_if(columns.begin(), columns.end(),
+                                        [&](const Json& c) { return c.at("name") == column.name; });
+        column.set(cells.at(static_cast<std::size_t>(found - columns.begin())), row);
+    }
+    return row;
 }
 
 bool is_ours(const proof::AccuracyRow& row) { return row.method.rfind("ours", 0) == 0; }
@@ -77,34 +120,34 @@ void report_missing(const AccuracyTable& from, const AccuracyTable& in, const ch
 
 } // namespace
 
-std::string to_json(const AccuracyTable& table) {
-    std::string text = fmt::format("{{\"count\": {}, \"isa\": \"{}\", \"rows\": [\n", table.count, table.isa);
-    const char* separator = "";
-    for (const proof::AccuracyRow& r : table.rows) {
-        text += separator + to_json(r).dump();
-        separator = ",\n";
-    }
-    return text + "\n]}\n";
+Results results_of(const AccuracyTable& table) {
+    return {"accuracy",
+            {{"count", table.count}, {"isa", table.isa}},
+            {target_table(table.rows), row_table(table.rows)}};
 }
 
 AccuracyTable read_accuracy_json(const std::filesystem::path& path) {
     std::ifstream file(path);
-    if (!file) throw std::runtime_error(path.string() + ": cannot be read");
+    if (!file) throw std::runtime_error(path.string() + ": cannot read the file");
     try {
         const Json json = Json::parse(file);
-        AccuracyTable table{json.at("count").get<int>(), json.at("isa").get<std::string>(), {}};
-        for (const Json& r : json.at("rows")) table.rows.push_back(row(r));
+        const Json& settings = json.at("settings");
+        AccuracyTable table{settings.at("count").get<int>(), settings.at("isa").get<std::string>(), {}};
+        for (const Json& part : json.at("tables"))
+            if (part.at("name") == kRows)
+                for (const Json& cells : part.at("rows"))
+                    table.rows.push_back(read_row(part.at("columns"), cells));
         return table;
     } catch (const Json::exception& error) {
-        throw std::runtime_error(path.string() + ": no table of accuracies; " + error.what());
+        throw std::runtime_error(path.string() + ": the file is not a table of accuracies: " + error.what());
     }
 }
 
 std::vector<std::string> compare_with_baseline(const AccuracyTable& baseline, const AccuracyTable& measured,
                                                const AccuracyMargin& margin) {
     std::vector<std::string> complaints;
-    report_missing(baseline, measured, "was not measured", complaints);
-    report_missing(measured, baseline, "is not in the baseline", complaints);
+    report_missing(baseline, measured, "is missing in the measurement", complaints);
+    report_missing(measured, baseline, "is missing in the baseline", complaints);
     for (const proof::AccuracyRow& now : measured.rows) {
         if (!is_ours(now)) continue;
         const auto before = std::find_if(baseline.rows.begin(), baseline.rows.end(),
@@ -120,7 +163,8 @@ std::vector<std::string> compare_with_baseline(const AccuracyTable& baseline, co
             compare(error + ", median", value.median, reference.median, margin.quantiles);
             compare(error + ", 99 %", value.p99, reference.p99, margin.quantiles);
             compare(error + ", 99.9 %", value.p999, reference.p999, margin.quantiles);
-            compare(error + ", largest", value.max, reference.max, margin.max);
+            compare(error + ", largest", value.max, reference.max,
+                    now.scalar == "long double" ? margin.max_of_long_double : margin.max);
         };
         compare_quantiles("backward error", now.backward, before->backward);
         compare_quantiles("error of the measure", now.measure, before->measure);
@@ -135,7 +179,7 @@ std::vector<std::string> compare_with_baseline(const AccuracyTable& baseline, co
         compare_count("infinite", &proof::AccuracyRow::infinite);
         compare_count("negative", &proof::AccuracyRow::negative);
         if (now.count != before->count || now.dark != before->dark)
-            complaints.push_back(name(now) + ": other lights than in the baseline");
+            complaints.push_back(name(now) + ": the lights differ from the baseline");
     }
     return complaints;
 }

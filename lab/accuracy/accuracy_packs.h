@@ -7,9 +7,9 @@ namespace nusselt::lab {
 
 inline constexpr int kPackedLights = 256;
 
-/// A column per number of a light, in the order of declaration in ConvexPolygon<float, N> or LineSegment<float>.
+/// A column per number of a light, in the order of declaration.
 struct LightColumns {
-    static constexpr int kLargest = 3 * (2 * 8 + 1);
+    static constexpr int kLargest = 3 * (2 * 8 + 1) + 6; ///< an octagon on a lobe
     float light[kLargest][kPackedLights];
     float u[2][kPackedLights];
 };
@@ -22,7 +22,7 @@ struct SampleColumns {
 
 struct PackedTechnique {
     const char* name;
-    int vertex_bound;                                 ///< 2 for lines
+    int vertex_bound;                                 ///< 2 for lines and cylinders
     void (*run)(const LightColumns&, SampleColumns&); ///< prepares for each light and takes one sample
 };
 

@@ -150,4 +150,19 @@ std::vector<AccuracyVerdict> check_targets(const std::vector<proof::AccuracyRow>
     return verdicts;
 }
 
+std::string where(const AccuracyVerdict& verdict) {
+    const bool one_is_worst = verdict.lights != verdict.target.lights && verdict.value > 0;
+    return one_is_worst ? fmt::format("{}; worst: {}", verdict.target.lights, verdict.lights)
+                        : verdict.target.lights;
+}
+
+FloorRatios floor_ratios(const std::vector<proof::AccuracyRow>& rows, const proof::AccuracyRow& row) {
+    const proof::AccuracyRow* const floor = find(rows, row, row.lights, "floor");
+    if (floor == nullptr) return {};
+    const auto ratio = [](double error, double least) {
+        return least > 0 ? std::optional(error / least) : std::nullopt;
+    };
+    return {ratio(row.backward.p99, floor->backward.p99), ratio(row.backward.p999, floor->backward.p999)};
+}
+
 } // namespace nusselt::lab

@@ -3,6 +3,10 @@
 
 #include "lab/accuracy/accuracy.h"
 
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace nusselt::lab {
 
 enum class AccuracyQuantity {
@@ -40,5 +44,14 @@ struct AccuracyVerdict {
 
 /// Each target against the rows, in the order of their table.
 std::vector<AccuracyVerdict> check_targets(const std::vector<proof::AccuracyRow>& rows);
+
+/// The lights of the target, and which of them are worst if it concerns every class.
+std::string where(const AccuracyVerdict& verdict);
+
+/// Backward errors of a row over those of the floor, for the same lights; none without a floor.
+struct FloorRatios {
+    std::optional<double> p99, p999;
+};
+FloorRatios floor_ratios(const std::vector<proof::AccuracyRow>& rows, const proof::AccuracyRow& row);
 
 } // namespace nusselt::lab

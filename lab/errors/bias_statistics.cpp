@@ -48,7 +48,7 @@ struct Difference {
     double variance[2] = {0, 0};
     double freedom[2] = {0, 0}; ///< of the variances
 
-    /// Of something independent.
+    /// Adds an independent difference.
     void add(const Difference& other) {
         value += other.value;
         reference += other.reference;
@@ -145,7 +145,7 @@ BiasTest BiasStatistics::compare(const BiasStatistics& reference) const {
     test.largest_cell = largest_magnitude(cells);
     double squares = 0;
     for (const double z : cells) squares += z * z;
-    // The variance of a squared normal variable is 2. The three channels of a cell may be equal but for a factor.
+    // The variance of a squared normal variable is 2. The three channels of a cell may be equal up to a factor.
     const double count = std::max(1.0, static_cast<double>(cells.size()));
     test.chi_square = (squares - count) / std::sqrt(6 * count);
     const std::vector<double> pixels = pixels_.z_scores(reference.pixels_);

@@ -17,9 +17,9 @@ public:
     /// \param frame of the same size as those before.
     void add(const image::Image& frame);
 
-    /// How far the means of two renderers are apart in standard deviations, for each cell and channel: Welch's t, brought
-    /// to a normal distribution. Cells without noise are left out unless they differ. Cells darker than a hundredth
-    /// of the image are taken together. Differences below 1e-5 of the mean are taken for rounding.
+    /// The distance between the means of two renderers in standard deviations, for each cell and channel: Welch's t,
+    /// brought to a normal distribution. Cells without noise are left out unless they differ. Cells darker than a
+    /// hundredth of the image are taken together. Differences below 1e-5 of the mean are taken for rounding.
     /// \param other with cells of the same side, of images of the same size; both with at least two frames.
     std::vector<double> z_scores(const CellStatistics& other) const;
 

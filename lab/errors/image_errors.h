@@ -9,7 +9,7 @@
 
 namespace nusselt::lab {
 
-/// Of the whole image or of an inset.
+/// The errors of the whole image or of an inset.
 struct RegionErrors {
     double rmse = 0;
     double rmse_clamped = 0;  ///< see Measure::rmse_clamped

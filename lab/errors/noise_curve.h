@@ -18,13 +18,13 @@ struct CurvePoint {
     int seeds = 0;       ///< images that were rendered
 };
 
-/// From few to many samples.
+/// The points of a curve, from few to many samples.
 using NoiseCurve = std::vector<CurvePoint>;
 
 /// The settings with this many lines if there are line samples, else with this many point samples.
 render::RenderSettings with_count(render::RenderSettings settings, int count);
 
-/// What several seeds say about an image.
+/// Statistics of an image over several seeds.
 struct SeedStatistics {
     image::Image mean;
     double variance = 0; ///< of one image, mean over pixels and channels; unbiased

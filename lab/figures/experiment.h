@@ -22,7 +22,7 @@ struct Inset {
     double left, top, right, bottom;
 };
 
-/// What is measured against the reference.
+/// The error that is measured against the reference.
 enum class Measure {
     rmse,                   ///< root mean square error [radiance]
     rmse_clamped,           ///< of images with all values above 1 replaced by 1, as on a screen
@@ -59,7 +59,8 @@ struct Falling {
     std::vector<std::string> variants;
 };
 
-/// That the mean over all frames of each variant is that of the reference, see bias_statistics.h. Needs several frames of both.
+/// Expects the mean over all frames of each variant to be that of the reference, see bias_statistics.h. Both need
+/// several frames.
 struct Unbiased {
     std::vector<std::string> variants;
 };
@@ -75,9 +76,9 @@ struct Experiment {
     std::vector<Variant> variants;
     std::vector<Expectation> expectations;
     std::vector<Inset> insets = {};
-    /// How many images of each variant, with seeds of their own; errors are root mean squares over all of them.
+    /// The number of images of each variant, each with its own seed; errors are root mean squares over them.
     int frames = 1;
-    int reference_frames = 1; ///< how many images the reference is the mean of
+    int reference_frames = 1; ///< number of images whose mean is the reference
 };
 
 /// All experiments, in the order of the papers.

@@ -22,7 +22,7 @@ using Surface = GlossySurface<Real>;
 using render::Mis;
 using render::Strategies;
 
-/// Of the light, at a height of 1 [m].
+/// Half the side of the light, which is at a height of 1 [m].
 constexpr Real kHalfSide = 0.5;
 
 std::vector<NoiseTable> make_noise_tables() {
@@ -185,7 +185,7 @@ double largest_noise(const NoiseTableResult& result, const NoiseLimit& limit) {
             row.surface->name == limit.surface)
             largest =
                 std::max(largest, row.noise[static_cast<std::size_t>(angle - angles.begin())].*limit.noise);
-    if (largest < 0) throw std::logic_error("table " + result.table->name + " lacks what a limit is for");
+    if (largest < 0) throw std::logic_error("table " + result.table->name + " has no value for a limit");
     return largest;
 }
 

@@ -2,6 +2,7 @@
 /// Tables of the noise of one light on a plane, computed without images.
 
 #include "lab/figures/report_table.h"
+#include "lab/results/results.h"
 #include "render/settings.h"
 
 #include <filesystem>
@@ -18,7 +19,7 @@ struct NoiseEstimator {
     double visibility_estimate = 0.5;
 };
 
-/// With the Frostbite BRDF, grey.
+/// A grey surface with the Frostbite BRDF.
 struct NoiseSurface {
     std::string name;
     double albedo; ///< of the diffuse component
@@ -32,7 +33,7 @@ struct Noise {
     double largest = 0;
 };
 
-/// At one angle and for all roughnesses, the noise is at most this.
+/// The largest noise at one angle over all roughnesses.
 struct NoiseLimit {
     double Noise::*noise;
     std::string estimator;
@@ -82,7 +83,10 @@ NoiseTableResult measure_noise(const NoiseTable& table, const NoiseSettings& set
 /// The tables and what became of the limits, as text.
 std::string to_text(const NoiseTableResult& result);
 
-/// Writes a page index.html into a folder, which is created.
+/// The numbers alone.
+Results results_of(const NoiseTableResult& result);
+
+/// Writes index.html and numbers.json into a folder, which is created.
 void write_report(const NoiseTableResult& result, const std::filesystem::path& folder);
 
 } // namespace nusselt::lab

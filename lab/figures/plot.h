@@ -11,7 +11,7 @@ enum class Stroke { solid, dashed };
 
 struct PlotCurve {
     std::string label;
-    std::vector<std::pair<double, double>> points; ///< those that are not positive and finite are left out
+    std::vector<std::pair<double, double>> points; ///< points that are not positive and finite are left out
     Stroke stroke = Stroke::solid;
 };
 

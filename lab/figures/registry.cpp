@@ -112,7 +112,7 @@ Experiment planes_image() {
         "planes.pbrt",
         both(Mis::clamped_optimal, 1024, SampleOrder::sobol),
         variants,
-        // Where nothing casts a shadow, analytic shading is off by what fits of lobes are.
+        // Where nothing casts a shadow, the error of analytic shading is that of the fitted lobes.
         {Falling{{Measure::rmse},
                  {"projected_solid_angle", "balance", "clamped_optimal", "weighted_balance"}},
          AtMost{{Measure::relative_rmse}, "ltc_analytic", 0.05}}};
@@ -134,7 +134,7 @@ Experiment wall() {
     for (const Technique technique : {Technique::solid_angle, Technique::projected_solid_angle})
         experiment.variants.push_back(with_visible_normals(technique));
     const std::vector<std::string> two_rays = labels_of(experiment.variants);
-    // One technique is unbiased without any weights; with many samples it says so of the reference.
+    // One technique is unbiased without any weights; with many samples it confirms the reference.
     experiment.variants.push_back(
         {"projected_solid_angle_64",
          noise_measurement(Technique::projected_solid_angle, 64, SampleOrder::sobol)});

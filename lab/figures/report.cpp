@@ -3,6 +3,7 @@
 #include "base/atomic_file.h"
 #include "image/difference.h"
 #include "image/io.h"
+#include "lab/figures/report_results.h"
 #include "lab/figures/report_table.h"
 
 #include <fmt/format.h>
@@ -70,6 +71,28 @@ std::string to_text(const ExperimentResult& result) {
     return text + "\n" + to_text(result.expectations);
 }
 
+Results results_of(const ExperimentResult& result) {
+    ResultTable errors = {
+        "errors",
+        {{"variant"}, {"region"}, {"rmse"}, {"rmse_clamped"}, {"relative_rmse"}, {"relative_bias"}}};
+    ResultTable variants = {"variants",
+                            {{"variant"}, {"rmse_outside_penumbrae"}, {"invalid_pixels"}, {"seconds", "s"}}};
+    for (const VariantResult& v : result.variants) {
+        const auto append = [&](const std::string& region, const RegionErrors& e) {
+            errors.rows.push_back(
+                {v.label, region, e.rmse, e.rmse_clamped, e.relative_rmse, e.relative_bias});
+        };
+        append("image", v.errors.frame);
+        for (std::size_t i = 0; i < v.errors.insets.size(); ++i)
+            append(result.experiment->insets[i].name, v.errors.insets[i]);
+        variants.rows.push_back(
+            {v.label, v.errors.rmse_outside_penumbrae, v.errors.invalid_pixels, v.seconds});
+    }
+    return {result.experiment->name,
+            {{"mean", result.mean}, {"share_outside_penumbrae", result.share_outside_penumbrae}},
+            {std::move(errors), std::move(variants), expectation_table(result.expectations)}};
+}
+
 void write_report(const ExperimentResult& result, const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);
     const Experiment& experiment = *result.experiment;
@@ -104,7 +127,8 @@ void write_report(const ExperimentResult& result, const std::filesystem::path& f
                     scale) +
         differences;
     base::write_atomically(folder / "index.html", [&](std::ofstream& file) { file << html; });
-    base::write_atomically(folder / "numbers.json", [&](std::ofstream& file) { file << to_json(result); });
+    base::write_atomically(folder / "numbers.json",
+                           [&](std::ofstream& file) { file << to_json(results_of(result)); });
 }
 
 } // namespace nusselt::lab

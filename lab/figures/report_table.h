@@ -1,5 +1,5 @@
 #pragma once
-/// What reports consist of, as text and as HTML.
+/// The parts of reports, as text and as HTML.
 
 #include <string>
 #include <vector>

@@ -31,8 +31,8 @@ visibility::RayTracer without_shadows(visibility::RayTracer tracer) {
 /// Shares of a light below a thousandth may go unnoticed.
 constexpr int kPenumbraSamples = 1024;
 
-/// Which pixels see each light entirely or not at all. Uniform samples of the area of the lights decide, with
-/// and without shadows: outside of penumbrae both images agree to the bit, or that with shadows is black.
+/// Finds the pixels that see each light entirely or not at all. Uniform samples of the area of the lights decide, with
+/// and without shadows: outside penumbrae both images agree to the bit, or that with shadows is black.
 /// Independent of the techniques under test except area sampling.
 std::vector<bool> outside_penumbrae(const render_cpu::Renderer& renderer, base::Isa isa,
                                     const render::RenderSettings& reference) {
@@ -56,8 +56,8 @@ const VariantResult& variant_of(const ExperimentResult& result, const std::strin
     const auto found = std::find_if(result.variants.begin(), result.variants.end(),
                                     [&](const VariantResult& v) { return v.label == label; });
     if (found == result.variants.end())
-        throw std::logic_error("experiment " + result.experiment->name + " expects something of " + label +
-                               ", which it does not render");
+        throw std::logic_error("experiment " + result.experiment->name + " has an expectation about " +
+                               label + ", which it does not render");
     return *found;
 }
 
@@ -110,7 +110,7 @@ bool holds(const ExperimentResult& result, const Unbiased& expected) {
         const VariantResult& variant = variant_of(result, label);
         if (!variant.bias)
             throw std::logic_error("experiment " + result.experiment->name +
-                                   " needs several frames to find out about bias");
+                                   " needs several frames to detect bias");
         return variant.bias->passes();
     });
 }
@@ -120,7 +120,7 @@ std::uint32_t seed_of_frame(int frame, bool is_reference) {
     return 2 * static_cast<std::uint32_t>(frame) + (is_reference ? 1u : 0u);
 }
 
-/// What all frames of all variants are compared with.
+/// The reference for all frames of all variants.
 struct Reference {
     image::Image image;
     BiasStatistics statistics;

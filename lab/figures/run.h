@@ -6,6 +6,7 @@
 #include "lab/errors/image_errors.h"
 #include "lab/figures/experiment.h"
 #include "lab/figures/report_table.h"
+#include "lab/results/results.h"
 
 #include <filesystem>
 #include <functional>
@@ -34,9 +35,9 @@ struct ExperimentResult {
 
 struct RunSettings {
     std::filesystem::path scenes; ///< folder with the shipped scenes
-    int reference_samples = 0;    ///< per pixel, light and frame of the reference; 0: as the experiment says
-    int width = 0;                ///< of the images in pixels; 0: as the scene says
-    int threads = 0;              ///< 0: all cores
+    int reference_samples = 0; ///< per pixel, light and frame of the reference; 0: as the experiment defines
+    int width = 0;             ///< of the images in pixels; 0: as the scene defines
+    int threads = 0;           ///< 0: all cores
 };
 
 /// \param progress called with a line about each step before it is taken.
@@ -48,7 +49,7 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunSettings&
 std::string to_text(const ExperimentResult& result);
 
 /// The numbers alone.
-std::string to_json(const ExperimentResult& result);
+Results results_of(const ExperimentResult& result);
 
 /// Writes a page index.html with a table, the images as PNG and EXR, and numbers.json into a folder, which is created.
 void write_report(const ExperimentResult& result, const std::filesystem::path& folder);

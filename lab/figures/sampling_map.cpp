@@ -58,7 +58,7 @@ std::vector<LineView> line_views() {
             {"across the horizon", make_line(Direction{0.9, -1.0, -0.5}, Direction{0.2, 0.9, 1.0})}};
 }
 
-/// From the first colour to the second as u goes from 0 to 1.
+/// Blends from the first colour to the second as u goes from 0 to 1.
 std::string colour(double u) {
     const auto mix = [&](double a, double b) { return static_cast<int>(std::lround(a + u * (b - a))); };
     return fmt::format("#{:02x}{:02x}{:02x}", mix(0x1f, 0xe0), mix(0x5f, 0x7a), mix(0xb4, 0x10));
@@ -341,8 +341,8 @@ std::vector<std::string> mapped_techniques() {
 std::string draw_sampling_map(std::string_view technique) {
     for (const Map& map : kMaps)
         if (map.technique == technique) return map.draw();
-    throw std::runtime_error(
-        fmt::format("no technique '{}'; known: {}", technique, fmt::join(mapped_techniques(), ", ")));
+    throw std::runtime_error(fmt::format("unknown technique '{}'; use one of {}", technique,
+                                         fmt::join(mapped_techniques(), ", ")));
 }
 
 std::vector<Point> blue_noise_points(int count) {

@@ -9,7 +9,7 @@
 
 namespace nusselt::lab {
 
-/// Class names of the techniques that draw_sampling_map() knows.
+/// Class names of the techniques that draw_sampling_map() supports.
 std::vector<std::string> mapped_techniques();
 
 /// An SVG with a panel per kind of configuration, as seen from the shading point: directions are projected to the

@@ -37,7 +37,7 @@ WeightStatistics weigh_samples(const Technique& technique, const Importance& imp
     double squares = 0;
     int hits = 0;
     for (std::uint32_t i = 0; i < kCount; ++i) {
-        // In the middle between the coordinates of the net: the first point is not a corner.
+        // Use the middle between the coordinates of the net, so that the first point is not a corner.
         const UInt2 bits = sobol(i);
         const auto s = technique.sample(
             {to_unit<double>(bits.x) + 0.5 / kCount, to_unit<double>(bits.y) + 0.5 / kCount});

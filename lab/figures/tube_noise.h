@@ -1,5 +1,5 @@
 #pragma once
-/// Noise and cost of sampling closed cylinders, next to rejection sampling (M. N. Gamito 2016).
+/// Noise and cost of sampling closed cylinders, compared with rejection sampling (M. N. Gamito 2016).
 
 #include "proof/tube_lights.h"
 
@@ -15,7 +15,7 @@ struct TubeNoise {
     double rejection;             ///< CylinderRejectionGamito, the cosine at the surface; misses weigh 0
 };
 
-/// With 2^16 points of Sobol's sequence, in double. Deterministic.
+/// Uses 2^16 points of Sobol's sequence, in double, and is deterministic.
 TubeNoise measure_tube_noise(const proof::TubeLight& light);
 
 /// Time for preparing the light and taking one sample with CylinderProjectedSolidAngle over that with

@@ -15,20 +15,20 @@ inline constexpr int kConvergenceSteps = 4;
 /// Backward errors of one light and random number after 0, 1, ... steps.
 using ErrorSequence = std::array<long double, kConvergenceSteps + 1>;
 
-/// What one more step does to the error.
+/// The effect of one more step on the error.
 struct ConvergenceRow {
     int steps = 0;           ///< that were made
     double median_error = 0; ///< after them
     /// Median of log(e_k) / log(e_{k-1}): how many times more digits are right. The constant factor of the
     /// convergence spoils it as long as errors are large.
     double digit_factor = 0;
-    std::size_t digit_cases = 0; ///< that tell; 0: the factor has no meaning
+    std::size_t digit_cases = 0; ///< conclusive cases; 0: the factor has no meaning
     /// Median of log(e_k / e_{k-1}) / log(e_{k-1} / e_{k-2}): the order, without the constant factor.
     double order = 0;
     std::size_t order_cases = 0;
 };
 
-/// A row for each number of steps. Only errors well above rounding and below 0.1 tell the order.
+/// A row for each number of steps. Only errors well above rounding and below 0.1 determine the order.
 std::vector<ConvergenceRow> convergence_of(const std::vector<ErrorSequence>& errors);
 
 /// Errors of random lines whose projected solid angle per radius, times the distance, is at least 1e-2.

@@ -19,7 +19,7 @@ namespace nusselt::lab {
 
 namespace {
 
-/// Of each technique in each floating-point mode.
+/// The number of reports for each technique in each floating-point mode.
 constexpr std::size_t kReports = FuzzBlockResult<float>::kKept;
 
 /// A configuration as the generator makes it. Packs take the vertices by column.
@@ -113,7 +113,7 @@ FuzzReport report(const FuzzTechnique<T>& technique, std::uint64_t seed, const F
     return {v.index, flushed, text};
 }
 
-/// What one thread found out about one technique.
+/// The findings of one thread on one technique.
 template <class T>
 struct Tally {
     const FuzzTechnique<T>* technique;

@@ -23,16 +23,16 @@ struct FuzzSettings {
 struct FuzzReport {
     std::uint64_t index; ///< FuzzSettings::first of a run that finds it alone
     bool flushed;        ///< found with denormals flushed to zero
-    std::string text;    ///< what is wrong; light, random numbers and outputs as literals
+    std::string text;    ///< the defect; light, random numbers and outputs as literals
 };
 
-/// How one technique did, with denormal numbers as they are and flushed to zero.
+/// The results of one technique, with denormal numbers and with denormals flushed to zero.
 struct FuzzRow {
     std::string technique; ///< class name
     FuzzLight light;
     std::uint64_t violations = 0;
     double nanoseconds = 0;          ///< per configuration and thread, without making the light
-    std::vector<FuzzReport> reports; ///< those of lowest index in each mode
+    std::vector<FuzzReport> reports; ///< the reports of lowest index in each mode
 };
 
 /// Called with the share of the work that is done, by one thread at a time.

@@ -65,7 +65,7 @@ typename Kind::template Light<Real> light_of(const FuzzBlock<scalar_t<Real>>& bl
         return {geometry_of<Kind, Real>(block, i),
                 {entry(0), entry(1), entry(2), entry(3), entry(4), Real(1)}};
     } else {
-        return geometry_of<Kind, Real>(block, i);
+        return Kind::from(geometry_of<Kind, Real>(block, i));
     }
 }
 template <class Kind, class Real>
@@ -119,36 +119,25 @@ template <class Kind, class Real>
 constexpr FuzzTechnique<scalar_t<Real>> technique() {
     FuzzLight light = FuzzLight::line;
     if constexpr (hostile::kIsPolygon<Kind>)
-        light = Kind::kVertices == 4 ? FuzzLight::quadrilateral : FuzzLight::octagon;
+        light = Kind::kVertices == 4 ? FuzzLight::quadrilateral : FuzzLight::octagon; // 7 or 8 vertices
     if constexpr (hostile::kIsCylinder<Kind>) light = FuzzLight::cylinder;
     return {Kind::kName, light, check<Kind, Real>, hostile::kHasLobe<Kind>};
 }
 
-template <class Real>
-inline constexpr FuzzTechnique<scalar_t<Real>> kTechniques[] = {
-    technique<hostile::PolygonAreaKindOf<4>, Real>(),
-    technique<hostile::PolygonSolidAngleKindOf<4>, Real>(),
-    technique<hostile::PolygonClippedSolidAngleKindOf<4>, Real>(),
-    technique<hostile::PolygonProjectedSolidAngleKindOf<4>, Real>(),
-    technique<hostile::PolygonBiasedKindOf<4>, Real>(),
-    technique<hostile::PolygonLtcKindOf<4>, Real>(),
-    technique<hostile::PolygonClippedLtcKindOf<4>, Real>(),
-    technique<hostile::PolygonAreaKindOf<8>, Real>(),
-    technique<hostile::PolygonSolidAngleKindOf<8>, Real>(),
-    technique<hostile::PolygonClippedSolidAngleKindOf<8>, Real>(),
-    technique<hostile::PolygonProjectedSolidAngleKindOf<8>, Real>(),
-    technique<hostile::PolygonBiasedKindOf<8>, Real>(),
-    technique<hostile::PolygonLtcKindOf<8>, Real>(),
-    technique<hostile::LineAreaKind, Real>(),
-    technique<hostile::LineSolidAngleKind, Real>(),
-    technique<hostile::LineClippedSolidAngleKind, Real>(),
-    technique<hostile::LineProjectedSolidAngleKind, Real>(),
-    technique<hostile::LineLtcKind, Real>(),
-    technique<hostile::LineClippedLtcKind, Real>(),
-    technique<hostile::CylinderSolidAngleKind, Real>(),
-    technique<hostile::CylinderProjectedSolidAngleKind, Real>(),
-    technique<hostile::CylinderLtcKind, Real>(),
+/// As techniques.json names the suite.
+struct FuzzSuite {
+    static constexpr std::string_view kName = "fuzz";
 };
+
+template <class Real, class List>
+inline constexpr FuzzTechnique<scalar_t<Real>> kTechniquesOf[1] = {};
+template <class Real, class... Kinds>
+inline constexpr FuzzTechnique<scalar_t<Real>>
+    kTechniquesOf<Real, hostile::KindList<Kinds...>>[sizeof...(Kinds)] = {technique<Kinds, Real>()...};
+
+template <class Real>
+inline constexpr auto& kTechniques =
+    kTechniquesOf<Real, hostile::TestedBy<FuzzSuite, hostile::KindsWithBounds<4, 8>>>;
 
 template <class Real>
 constexpr FuzzTable<scalar_t<Real>> table() {

@@ -20,7 +20,7 @@ void keep_lowest(std::vector<ShadowReport>& reports) {
     reports.resize(std::min(reports.size(), kReports));
 }
 
-/// What one thread found out about cases of one kind.
+/// The findings of one thread on cases of one kind.
 struct Tally {
     proof::ShadowCase (*make)(std::uint64_t seed, std::uint64_t index, std::vector<proof::Occluder>& storage);
     const char* (*check)(const proof::ShadowCase& test);

@@ -13,7 +13,7 @@
 
 namespace nusselt::lab {
 
-/// What the units compiled per instruction set offer. Each returns what is wrong with a case, or null.
+/// The interface of the units compiled per instruction set. Each function returns the defect of a case, or null.
 struct ShadowChecks {
     const char* (*leak)(const proof::ShadowCase& test);         ///< for a point in a closed mesh
     const char* (*broken_parts)(const proof::ShadowCase& test); ///< for any case
@@ -34,12 +34,12 @@ struct ShadowReport {
     std::string text;
 };
 
-/// How the cases of one kind did, each with denormal numbers as they are and flushed to zero.
+/// The results of one kind of cases, each with denormal numbers and with denormals flushed to zero.
 struct ShadowFuzzRow {
     std::string kind;
     std::uint64_t violations = 0;
     std::uint64_t triangles = 0;       ///< of all cases
-    std::vector<ShadowReport> reports; ///< those of lowest index
+    std::vector<ShadowReport> reports; ///< the reports of lowest index
 };
 
 /// Called with the share of the work that is done, by one thread at a time.

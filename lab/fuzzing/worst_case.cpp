@@ -16,9 +16,9 @@ namespace nusselt::lab {
 
 namespace {
 
-/// Of which the worst begins the climb.
+/// The climb starts at the worst of these random cases.
 constexpr int kRandomCases = 64;
-/// As in the papers.
+/// The papers use the same number.
 constexpr int kIterations = 100;
 
 /// The search space of one target in one precision.
@@ -37,7 +37,7 @@ struct Space {
         return box;
     }
 
-    /// What is maximised: the backward error, -infinity for lights that are too small.
+    /// The objective: the backward error, or -infinity for lights that are too small.
     Real operator()(const Coordinates& coordinates) const {
         const Light light = Light::at(coordinates);
         const typename Light::template Technique<Iterations> technique(light.light());
@@ -107,7 +107,7 @@ const std::vector<WorstCaseTarget>& worst_case_targets() {
 const WorstCaseTarget& worst_case_target(const std::string& name) {
     for (const WorstCaseTarget& target : worst_case_targets())
         if (target.name == name) return target;
-    throw std::invalid_argument("there is no search for the worst case of '" + name + "'");
+    throw std::invalid_argument("unknown search for the worst case of '" + name + "'");
 }
 
 void WorstCaseSearch::resume(std::uint64_t starts, const std::vector<long double>& parameters) {
@@ -123,7 +123,7 @@ void WorstCaseSearch::run(std::uint64_t more_starts) {
     std::vector<Summit> summits(more_starts);
     tbb::parallel_for(std::uint64_t(0), more_starts,
                       [&](std::uint64_t i) { summits[i] = target_->climb(seed_, starts_ + i); });
-    // In order: what is refined depends on the worst case so far.
+    // The order matters: the refinement depends on the worst case so far.
     for (const Summit& summit : summits) {
         if (summit.coordinates.empty() || summit.error <= worst_.error) continue;
         WorstCase refined = target_->refine(summit);

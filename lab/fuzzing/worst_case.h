@@ -5,7 +5,7 @@
 ///
 /// A start is the worst of some random cases, from which Nelder-Mead climbs in double precision, since long
 /// double is slower by two orders of magnitude (there is no instruction for its fma). A start that beats all
-/// before it climbs on in long double, and only what long double says counts.
+/// before it climbs on in long double, and only the result in long double counts.
 
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +32,7 @@ struct WorstCaseTarget {
     std::string name;
     std::string description;
     std::vector<std::string> parameter_names;
-    /// What the documentation promises: no start may exceed it.
+    /// The bound in the documentation, which no start may exceed.
     long double bound;
     /// The climb of one start. Depends on nothing but seed and index.
     std::function<Summit(std::uint64_t seed, std::uint64_t index)> climb;

@@ -19,13 +19,13 @@ long double number_of(const std::string& text) {
     char* end = nullptr;
     const long double x = std::strtold(text.c_str(), &end);
     if (text.empty() || *end != '\0' || !std::isfinite(x))
-        throw std::runtime_error("'" + text + "' is not a number");
+        throw std::runtime_error("'" + text + "' must be a number");
     return x;
 }
 
 /// nlohmann-json alone converts negative and broken numbers silently.
 std::uint64_t whole_number_of(const nlohmann::json& json) {
-    if (!json.is_number_unsigned()) throw std::runtime_error(json.dump() + " is not a whole number");
+    if (!json.is_number_unsigned()) throw std::runtime_error(json.dump() + " must be a whole number");
     return json.get<std::uint64_t>();
 }
 
@@ -41,7 +41,7 @@ std::optional<SearchState> load_search_state(const std::filesystem::path& path) 
     if (!std::filesystem::exists(path)) return {};
     std::ifstream stream(path);
     try {
-        if (!stream) throw std::runtime_error("cannot be read");
+        if (!stream) throw std::runtime_error("cannot read the file");
         const auto json = nlohmann::json::parse(stream);
         SearchState state;
         state.seed = whole_number_of(json.at("seed"));
@@ -54,7 +54,7 @@ std::optional<SearchState> load_search_state(const std::filesystem::path& path) 
         return state;
     } catch (const std::exception& error) {
         throw std::runtime_error(
-            fmt::format("{}: not the state of a search for worst cases: {}; choose another file",
+            fmt::format("{}: the file is not the state of a search for worst cases: {}; choose another file",
                         path.string(), error.what()));
     }
 }

@@ -10,7 +10,7 @@
 
 namespace nusselt::lab {
 
-/// What a search needs to continue.
+/// The state from which a search continues.
 struct SearchProgress {
     std::uint64_t starts = 0;
     std::vector<long double> parameters; ///< of the worst case, empty: none yet

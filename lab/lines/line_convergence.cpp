@@ -44,7 +44,7 @@ ConvergenceSeries importance_sampled_points(const std::string& label) {
     return series;
 }
 
-/// In parallel, by length, with closed forms alone, as in the paper.
+/// Parallel lines, sampled by length and shaded with closed forms alone, as in the paper.
 ConvergenceSeries lines(const std::string& label, SampleOrder order) {
     ConvergenceSeries series = {label, {}, powers_of_two(kMostLines), 4, kMostLines};
     series.settings.light_samples = LightSamples::lines;

@@ -1,10 +1,11 @@
 #pragma once
-/// How fast the noise of point samples and of line samples falls: N. Billen and P. Dutre 2016, Line Sampling for Direct
-/// Illumination, Figures 7 to 9 and 11 to 13.
+/// The rates at which the noise of point samples and of line samples falls: N. Billen and P. Dutre 2016, Line Sampling
+/// for Direct Illumination, Figures 7 to 9 and 11 to 13.
 
 #include "lab/errors/noise_curve.h"
 #include "lab/figures/report_table.h"
 #include "lab/lines/line_scenes.h"
+#include "lab/results/results.h"
 
 #include <filesystem>
 #include <functional>
@@ -23,7 +24,7 @@ struct ConvergenceSeries {
     int fit_first, fit_last; ///< the order is fitted to these counts
 };
 
-/// That the order of a series is in a range, in all scenes but a few.
+/// Expects the order of a series to be in a range, in all scenes but a few.
 struct OrderBetween {
     std::string series;
     double low = -std::numeric_limits<double>::infinity();
@@ -31,7 +32,7 @@ struct OrderBetween {
     int exceptions = 0;
 };
 
-/// That a series has less noise than another with as many samples, in all scenes but a few.
+/// Expects a series to have less noise than another with as many samples, in all scenes but a few.
 struct LessNoise {
     std::string series;
     std::string than;
@@ -80,7 +81,7 @@ struct LineConvergenceResult {
     std::vector<ExpectationResult> expectations;
 };
 
-/// How many seeds the noise of so many samples is measured with: few samples are cheap, and have the heaviest tails.
+/// The number of seeds for measuring the noise of a number of samples: few samples are cheap and have heavy tails.
 int seeds_for(const LineConvergence& experiment, int count);
 
 /// \param settings as for run_experiment(); references have no meaning
@@ -88,8 +89,8 @@ int seeds_for(const LineConvergence& experiment, int count);
 LineConvergenceResult run_line_convergence(const LineConvergence& experiment, const RunSettings& settings,
                                            const std::function<void(std::string_view)>& progress);
 
-/// What became of the expectations; scenes that were skipped count neither way. Those are left out whose exceptions are
-/// half of the remaining scenes or more: nothing much would be expected.
+/// The outcomes of the expectations, over the scenes that were not skipped. Expectations whose exceptions are at least
+/// half of these scenes are left out, because they would expect next to nothing.
 std::vector<ExpectationResult> check_expectations(const LineConvergence& experiment,
                                                   const std::vector<SceneResult>& scenes);
 
@@ -97,7 +98,7 @@ std::vector<ExpectationResult> check_expectations(const LineConvergence& experim
 std::string to_text(const LineConvergenceResult& result);
 
 /// All numbers.
-std::string to_json(const LineConvergenceResult& result);
+Results results_of(const LineConvergenceResult& result);
 
 /// Writes index.html with plots of the error over the number of samples and over time, and numbers.json into a folder,
 /// which is created.

@@ -2,10 +2,9 @@
 
 #include "base/atomic_file.h"
 #include "lab/figures/plot.h"
-#include "lab/figures/report_json.h"
+#include "lab/figures/report_results.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -28,7 +27,7 @@ Table order_table(const LineConvergenceResult& result) {
     return table;
 }
 
-/// Of the series with the most counts.
+/// Every other count of the series with the most counts.
 std::vector<int> every_other_count(const std::vector<ConvergenceSeries>& series) {
     const auto longest = std::max_element(series.begin(), series.end(), [](const auto& a, const auto& b) {
         return a.counts.size() < b.counts.size();
@@ -112,33 +111,35 @@ std::string to_text(const LineConvergenceResult& result) {
     return text + "\n" + to_text(result.expectations);
 }
 
-std::string to_json(const LineConvergenceResult& result) {
-    using Json = nlohmann::ordered_json;
+Results results_of(const LineConvergenceResult& result) {
+    ResultTable scenes = {"scenes", {{"scene"}, {"skipped"}, {"mean"}, {"reference_error"}}};
+    ResultTable all = {"series",
+                       {{"scene"},
+                        {"series"},
+                        {"samples"},
+                        {"fit_first"},
+                        {"fit_last"},
+                        {"order"},
+                        {"bias"},
+                        {"pixel_bias"}}};
+    ResultTable curves = {"curves", curve_columns({{"scene"}, {"series"}})};
     const std::vector<ConvergenceSeries>& series = result.experiment->series;
-    Json scenes = Json::array();
     for (const SceneResult& scene : result.scenes) {
-        Json all = Json::array();
+        scenes.rows.push_back({scene.scene, scene.is_skipped, scene.mean, scene.reference_error});
         for (std::size_t i = 0; i < scene.series.size(); ++i) {
-            all.push_back({{"series", series[i].label},
-                           {"order", scene.series[i].order},
-                           {"fit", {series[i].fit_first, series[i].fit_last}},
-                           {"bias", scene.series[i].bias},
-                           {"pixel_bias", scene.series[i].pixel_bias},
-                           {"curve", to_json(scene.series[i].curve)}});
+            const SeriesResult& s = scene.series[i];
+            all.rows.push_back({scene.scene, series[i].label,
+                                std::string(name_of(series[i].settings.light_samples)), series[i].fit_first,
+                                series[i].fit_last, s.order, s.bias, s.pixel_bias});
+            append_curve({scene.scene, series[i].label}, s.curve, scene.mean, curves);
         }
-        scenes.push_back({{"scene", scene.scene},
-                          {"skipped", scene.is_skipped},
-                          {"mean", scene.mean},
-                          {"reference_error", scene.reference_error},
-                          {"series", std::move(all)}});
     }
-    const Json document = {{"experiment", result.experiment->name},
-                           {"width", result.width},
-                           {"threads", result.threads},
-                           {"reference", result.experiment->reference},
-                           {"scenes", std::move(scenes)},
-                           {"expectations", to_json(result.expectations)}};
-    return document.dump(1) + "\n";
+    return {result.experiment->name,
+            {{"width", result.width},
+             {"threads", result.threads},
+             {"seeds", result.experiment->seeds},
+             {"reference", result.experiment->reference}},
+            {std::move(scenes), std::move(all), std::move(curves), expectation_table(result.expectations)}};
 }
 
 void write_report(const LineConvergenceResult& result, const std::filesystem::path& folder) {
@@ -158,7 +159,8 @@ void write_report(const LineConvergenceResult& result, const std::filesystem::pa
                                       [](const CurvePoint& p) { return p.seconds; }));
     }
     base::write_atomically(folder / "index.html", [&](std::ofstream& file) { file << html; });
-    base::write_atomically(folder / "numbers.json", [&](std::ofstream& file) { file << to_json(result); });
+    base::write_atomically(folder / "numbers.json",
+                           [&](std::ofstream& file) { file << to_json(results_of(result)); });
 }
 
 } // namespace nusselt::lab

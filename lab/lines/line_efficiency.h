@@ -12,8 +12,8 @@
 namespace nusselt::lab {
 
 struct LineEfficiencySettings {
-    render::RenderSettings points; ///< all that is not said below, with LightSamples::points
-    render::LineSettings lines; ///< but for their number and for what is done where there are many occluders
+    render::RenderSettings points; ///< all other settings, with LightSamples::points
+    render::LineSettings lines; ///< except for their number and for the choice where there are many occluders
     int most_points = 1024;     ///< per shading point and light, in powers of two from kFewestPoints
     int most_lines = 256;       ///< likewise, from 1
     int rounds = 5;             ///< of kSeedsPerRound images of each kind; all kinds take turns
@@ -48,11 +48,11 @@ struct EqualErrorRow {
     bool lines_are_extrapolated = false, choice_is_extrapolated = false;
 
     double lines_over_points() const { return lines_seconds / points_seconds; }
-    /// How much longer the choice takes than the better one of lines and points.
+    /// The time of the choice over that of the better of lines and points.
     double loss() const { return choice_seconds / std::min(points_seconds, lines_seconds); }
 };
 
-/// For each number of points. Where a single line is exact enough, its time counts: none takes less.
+/// One row for each number of points. Where a single line is exact enough, its time counts: fewer lines do not exist.
 std::vector<EqualErrorRow> equal_error_rows(const LineEfficiency& efficiency);
 
 /// The fewest points that lines beat in time to the same error, if they beat all larger numbers too. Rows in which lines

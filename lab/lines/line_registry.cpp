@@ -71,7 +71,7 @@ Experiment offsets() {
                                              "are uniform or as likely as lines are long.");
     experiment.variants = {lines("uniform", LineOrientation::parallel, LineOffsets::uniform),
                            lines("length", LineOrientation::parallel, LineOffsets::length)};
-    // Without stratification the difference is that of the lengths of lines.
+    // Without stratification, the lengths of lines make the difference.
     for (Variant variant : {experiment.variants[0], experiment.variants[1]}) {
         variant.label += ", independent";
         variant.settings.sample_order = SampleOrder::independent;

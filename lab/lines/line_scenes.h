@@ -18,7 +18,7 @@ enum class SceneOrigin {
 };
 
 struct LineScene {
-    std::string name; ///< as in tables and names of files
+    std::string name; ///< in tables and names of files
     std::string file;
     std::string rig = {}; ///< below scenes/rigs; empty: none
     SceneOrigin origin = SceneOrigin::shipped;
@@ -30,13 +30,13 @@ std::vector<LineScene> scenes_with_large_lights();
 /// The same under lights a tenth as wide.
 std::vector<LineScene> scenes_with_small_lights();
 
-/// With a film of this width, or of its own width if it is 0.
+/// Loads a scene with a film of this width, or of its own width if the width is 0.
 /// \returns nothing if the scene is a published one and NUSSELT_SCENES is not set
 /// \throws std::runtime_error if it cannot be loaded
 std::optional<scene::Scene> load_line_scene(const LineScene& line_scene, const RunSettings& settings,
                                             int width);
 
-/// Those of the settings, or as many as the machine runs at once.
+/// The number of threads in the settings, or one per hardware thread.
 int thread_count(const RunSettings& settings);
 
 /// Loads one scene after the other.
@@ -54,7 +54,7 @@ std::vector<Result> for_each_scene(const std::vector<LineScene>& scenes, const R
             results.push_back(run(line_scene, *scene));
             continue;
         }
-        progress(line_scene.name + " is skipped: set NUSSELT_SCENES to the folder that has it");
+        progress(line_scene.name + " is skipped; set NUSSELT_SCENES to the folder with this scene");
         Result& skipped = results.emplace_back();
         skipped.scene = line_scene.name;
         skipped.is_skipped = true;

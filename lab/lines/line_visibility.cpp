@@ -91,7 +91,7 @@ const LineVisibilityScene& find(const std::vector<LineVisibilityScene>& scenes, 
     const auto found = std::find_if(scenes.begin(), scenes.end(),
                                     [&](const LineVisibilityScene& s) { return s.scene == name; });
     if (found == scenes.end())
-        throw std::logic_error("an expectation about " + name + ", which is not rendered");
+        throw std::logic_error("an expectation names " + name + ", which is not rendered");
     return *found;
 }
 

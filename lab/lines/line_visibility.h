@@ -1,10 +1,11 @@
 #pragma once
-/// What the visibility of line samples costs and into how many parts occluders cut them: N. Billen and P. Dutre 2016, Line
-/// Sampling for Direct Illumination, Figure 5 and Table 1.
+/// The cost of the visibility of line samples, and the number of parts into which occluders cut them: N. Billen and P.
+/// Dutre 2016, Line Sampling for Direct Illumination, Figure 5 and Table 1.
 
 #include "image/planes.h"
 #include "lab/figures/report_table.h"
 #include "lab/lines/line_scenes.h"
+#include "lab/results/results.h"
 #include "render_cpu/renderer.h"
 
 #include <filesystem>
@@ -22,7 +23,7 @@ struct WorkPerLine {
     double triangle_tests = 0;
 };
 
-/// That lines are more work in one scene than in another.
+/// Expects lines to be more work in one scene than in another.
 struct MoreWork {
     double WorkPerLine::*work;
     std::string scene;
@@ -62,7 +63,7 @@ struct LineVisibilityResult {
 LineVisibilityResult run_line_visibility(const LineVisibility& experiment, const RunSettings& settings,
                                          const std::function<void(std::string_view)>& progress);
 
-/// What became of the expectations; those about scenes that were skipped are left out.
+/// The outcomes of the expectations, without those on scenes that were skipped.
 std::vector<ExpectationResult> check_expectations(const LineVisibility& experiment,
                                                   const std::vector<LineVisibilityScene>& scenes);
 
@@ -70,7 +71,7 @@ std::vector<ExpectationResult> check_expectations(const LineVisibility& experime
 std::string to_text(const LineVisibilityResult& result);
 
 /// All numbers.
-std::string to_json(const LineVisibilityResult& result);
+Results results_of(const LineVisibilityResult& result);
 
 /// Writes index.html with the tables, the images and the parts in false colours, and numbers.json into a folder, which is
 /// created.

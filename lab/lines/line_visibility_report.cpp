@@ -3,10 +3,9 @@
 #include "base/atomic_file.h"
 #include "image/difference.h"
 #include "image/io.h"
-#include "lab/figures/report_json.h"
+#include "lab/figures/report_results.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -76,30 +75,35 @@ std::string to_text(const LineVisibilityResult& result) {
                        to_text(line_table(result)), to_text(result.expectations));
 }
 
-std::string to_json(const LineVisibilityResult& result) {
-    using Json = nlohmann::ordered_json;
-    Json scenes = Json::array();
+Results results_of(const LineVisibilityResult& result) {
+    ResultTable scenes = {"scenes",
+                          {{"scene"},
+                           {"render_seconds", "s"},
+                           {"visibility_share"},
+                           {"lines"},
+                           {"box_tests"},
+                           {"triangle_tests"},
+                           {"boxes_per_second", "1/s"},
+                           {"triangles_per_second", "1/s"},
+                           {"lines_per_second", "1/s"},
+                           {"parts_per_line"},
+                           {"most_parts"}}};
+    ResultTable skipped = {"skipped", {{"scene"}}};
     for (const LineVisibilityScene& scene : result.scenes) {
-        Json entry = {{"scene", scene.scene}, {"skipped", scene.is_skipped}};
-        if (!scene.is_skipped) {
-            const render::RenderStatistics& s = scene.statistics;
-            entry["render_seconds"] = s.render_seconds;
-            entry["visibility_seconds"] = s.lines.visibility_seconds;
-            entry["threads"] = s.threads;
-            entry["lines"] = s.lines.lines;
-            entry["box_tests"] = s.lines.box_tests;
-            entry["triangle_tests"] = s.lines.triangle_tests;
-            entry["parts_per_line"] = scene.work.parts;
-            entry["most_parts"] = largest(scene.parts);
+        if (scene.is_skipped) {
+            skipped.rows.push_back({scene.scene});
+            continue;
         }
-        scenes.push_back(std::move(entry));
+        const render::RenderStatistics& s = scene.statistics;
+        const auto rate = [&](std::uint64_t count) { return static_cast<double>(count) / s.render_seconds; };
+        scenes.rows.push_back(
+            {scene.scene, s.render_seconds, s.lines.visibility_seconds / (s.render_seconds * s.threads),
+             s.lines.lines, s.lines.box_tests, s.lines.triangle_tests, rate(s.lines.box_tests),
+             rate(s.lines.triangle_tests), rate(s.lines.lines), scene.work.parts, largest(scene.parts)});
     }
-    const Json document = {{"experiment", result.experiment->name},
-                           {"width", result.width},
-                           {"lines", result.experiment->lines},
-                           {"scenes", std::move(scenes)},
-                           {"expectations", to_json(result.expectations)}};
-    return document.dump(1) + "\n";
+    return {result.experiment->name,
+            {{"width", result.width}, {"lines", result.experiment->lines}},
+            {std::move(scenes), std::move(skipped), expectation_table(result.expectations)}};
 }
 
 void write_report(const LineVisibilityResult& result, const std::filesystem::path& folder) {
@@ -125,7 +129,8 @@ void write_report(const LineVisibilityResult& result, const std::filesystem::pat
         html += figure(scene.scene, name + ".png") + figure(scene.scene + ", parts", name + "-parts.png");
     }
     base::write_atomically(folder / "index.html", [&](std::ofstream& file) { file << html; });
-    base::write_atomically(folder / "numbers.json", [&](std::ofstream& file) { file << to_json(result); });
+    base::write_atomically(folder / "numbers.json",
+                           [&](std::ofstream& file) { file << to_json(results_of(result)); });
 }
 
 } // namespace nusselt::lab

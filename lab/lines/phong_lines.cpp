@@ -25,7 +25,7 @@ PhongEvaluation evaluation_for(base::Isa isa) {
     return base::dispatch(isa, []<base::Isa chosen> { return phong_evaluation<chosen>(); });
 }
 
-/// In long double, by 16 pieces: far more precise than what is measured.
+/// The integral in long double over 16 pieces, which is far more precise than the functions under test.
 double reference(const LineSegment<long double>& line, const Vec3<long double>& mirror, int exponent) {
     constexpr int kPieces = 16;
     long double sum = 0;

@@ -8,7 +8,7 @@ namespace nusselt::lab {
 /// One way to integrate, in float on one thread.
 struct PhongMethod {
     double nanoseconds = 0; ///< per part of a line, median
-    /// Of parts of lines, over the integral of the lobe over the whole line.
+    /// Errors for parts of lines, over the integral of the lobe along the whole line.
     double median_error = 0, largest_error = 0;
 };
 
@@ -17,7 +17,7 @@ struct PhongLineComparison {
     PhongMethod packed_quadrature, quadrature, table, recursion;
 };
 
-/// For 256 random lines, each hit by the mirrored direction, and random parts of them.
+/// Uses 256 random lines, each hit by the mirrored direction, and random parts of them.
 /// \param exponent    at least 1.
 /// \param repetitions at least 1, of the interleaved series.
 PhongLineComparison compare_phong_lines(int exponent, int repetitions, base::Isa isa);

@@ -1,5 +1,5 @@
 #pragma once
-/// What the units compiled per instruction set offer to phong_lines.cpp: plain data and functions.
+/// The interface of the units compiled per instruction set to phong_lines.cpp: plain data and functions.
 
 #include "base/isa.h"
 

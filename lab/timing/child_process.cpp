@@ -78,7 +78,7 @@ ChildResult run_child(const std::vector<std::string>& command) {
     rusage usage{};
     while (::wait4(child, &status, 0, &usage) < 0)
         if (errno != EINTR) fail(command[0], std::strerror(errno));
-    if (WIFEXITED(status) && WEXITSTATUS(status) == kNotStarted) fail(command[0], "it cannot be started");
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kNotStarted) fail(command[0], "it does not start");
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail(command[0], "it failed");
     result.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
     return result;

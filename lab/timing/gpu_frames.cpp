@@ -52,7 +52,7 @@ double median_ratio(const std::vector<double>& times, const std::vector<double>&
 }
 
 /// Removes all lights but one, which gets another shape.
-scene::Scene with_only_light(const scene::Scene& scene, std::uint32_t emitter, scene::LightShape shape) {
+scene::Scene with_only_light(const scene::Scene& scene, std::uint32_t emitter, scene::Lights shape) {
     scene::Rig rig;
     for (std::size_t i = 0; i < scene.emitters.size(); ++i) {
         scene::RigLight& light =
@@ -60,7 +60,7 @@ scene::Scene with_only_light(const scene::Scene& scene, std::uint32_t emitter, s
         light.changes.remove = i != emitter;
     }
     scene::LightChanges& changes = rig.lights[emitter].changes;
-    if (!std::holds_alternative<scene::TubeShape>(shape)) changes.two_sided = true;
+    if (!std::as_const(shape).of<scene::PolygonLight>().empty()) changes.two_sided = true;
     changes.shape = std::move(shape);
     scene::Scene changed = scene;
     apply_rig(rig, changed);
@@ -68,16 +68,16 @@ scene::Scene with_only_light(const scene::Scene& scene, std::uint32_t emitter, s
 }
 
 /// As wide as the tube.
-std::vector<scene::Float3> quad_in_place(const scene::LineLight& tube) {
+scene::PolygonLight quad_in_place(const scene::LineLight& tube) {
     const scene::Double3 begin = scene::to_double(tube.start), end = scene::to_double(tube.end);
     const scene::Double3 axis = normalized(end - begin);
     const bool is_upright = std::fabs(axis.y) > 0.9;
     const scene::Double3 front = is_upright ? scene::Double3{1, 0, 0} : scene::Double3{0, 1, 0};
     const scene::Double3 half = static_cast<double>(tube.radius) * normalized(cross(axis, front));
-    std::vector<scene::Float3> corners;
+    scene::PolygonLight quad;
     for (const scene::Double3& corner : {begin - half, end - half, end + half, begin + half})
-        corners.push_back(scene::to_float(corner));
-    return corners;
+        quad.vertices.push_back(scene::to_float(corner));
+    return quad;
 }
 
 } // namespace
@@ -134,11 +134,12 @@ bool is_same(const render::RenderSettings& a, const render::RenderSettings& b) {
 }
 
 std::optional<LineAndQuad> line_and_quad(const scene::Scene& scene) {
-    if (scene.line_lights.empty()) return std::nullopt;
-    const scene::LineLight& tube = scene.line_lights.front();
-    const scene::TubeShape line{tube.start, tube.end, tube.radius, scene::TubeModel::linear};
-    return LineAndQuad{with_only_light(scene, tube.emitter, line),
-                       with_only_light(scene, tube.emitter, quad_in_place(tube))};
+    if (scene.lights.of<scene::LineLight>().empty()) return std::nullopt;
+    const scene::LineLight& tube = scene.lights.of<scene::LineLight>().front();
+    scene::LineLight line = tube;
+    line.model = scene::TubeModel::linear;
+    return LineAndQuad{with_only_light(scene, tube.emitter, only(line)),
+                       with_only_light(scene, tube.emitter, only(quad_in_place(tube)))};
 }
 
 } // namespace nusselt::lab

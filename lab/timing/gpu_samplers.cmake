@@ -1,53 +1,61 @@
-# The shaders of `nusselt-lab bench gpu-samplers`, and the table of them. Polygons have their exact number of vertices as
-# bound, as in a renderer whose lights have that many.
+# The shaders of `nusselt-lab bench gpu-samplers`, and the table of them: those of the registry of techniques, the
+# published methods and a baseline for each kind of light. Polygons have their exact number of vertices as bound, as in a
+# renderer whose lights have that many.
 set(includes)
 set(rows)
 
-# For devices whose fma rounds twice or once. For further arguments see nusselt_add_technique_shader().
-function(add_timed_shaders name kind vertex_count file struct)
-    string(REGEX REPLACE "([A-Z])" "_\\1" shader ${name})
-    string(TOLOWER bench${shader}_${kind}_${vertex_count} shader)
-    set(bound)
-    if(kind STREQUAL polygon)
-        set(bound NUSSELT_MAX_VERTICES=${vertex_count})
-    endif()
+# For devices whose fma rounds twice or once. Polygons have room for the vertices that `technique` needs. For further
+# arguments see nusselt_add_technique_shader().
+function(add_timed_shaders name technique light vertex_count file struct)
+    nusselt_snake_case(shader ${name})
+    set(shader bench_${shader}_${light}_${vertex_count})
+    nusselt_vertex_defines(vertices ${technique} ${vertex_count})
     foreach(fused 0 1)
-        nusselt_add_technique_shader(nusselt_lab ${shader}_${fused} bench/${kind} ${file} ${struct} ${ARGN}
-            DEFINES ${bound} NUSSELT_FUSED_FMA=${fused})
-        string(TOUPPER ${kind} upper_kind)
-        string(SUBSTRING ${kind} 1 -1 rest)
-        string(SUBSTRING ${upper_kind} 0 1 initial)
+        nusselt_add_technique_shader(nusselt_lab ${shader}_${fused} bench/${light} ${file} ${struct} ${ARGN}
+            DEFINES ${vertices} NUSSELT_FUSED_FMA=${fused})
+        nusselt_shader_array(array ${shader}_${fused})
         list(APPEND includes "#include \"shaders/${shader}_${fused}.h\"\n")
-        list(APPEND rows "    {\"${name}\", LightKind::${kind}, ${vertex_count}, ${fused} == 1, shaders::kBench${name}${initial}${rest}${vertex_count}${fused}},\n")
+        list(APPEND rows "    {\"${name}\", LightKind::${light}, ${vertex_count}, ${fused} == 1, shaders::${array}},\n")
     endforeach()
     set(includes ${includes} PARENT_SCOPE)
     set(rows ${rows} PARENT_SCOPE)
 endfunction()
 
+# All techniques for a kind of light, each after the formulas that it replaces, and before all of them the baseline.
+macro(add_timed_light light vertex_count)
+    set(has_baseline)
+    foreach(name IN LISTS nusselt_techniques)
+        set(row nusselt_technique_${name})
+        nusselt_geometry_of(geometry ${name})
+        if(NOT geometry STREQUAL ${light} OR gpu_timing IN_LIST ${row}_exempt)
+            continue()
+        endif()
+        if(${row}_light STREQUAL rectangle AND NOT ${vertex_count} EQUAL 4)
+            continue()
+        endif()
+        if(NOT has_baseline)
+            nusselt_pascal_case(struct ${light})
+            string(REPLACE "OnLobe" "" struct ${struct})
+            add_timed_shaders(Baseline ${name} ${light} ${vertex_count} bench/baseline_${light} Baseline${struct})
+            set(has_baseline ON)
+        endif()
+        if(${row}_published)
+            nusselt_snake_case(file ${${row}_published})
+            add_timed_shaders(${${row}_published} ${name} ${light} ${vertex_count}
+                nusselt/related/${file} ${${row}_published})
+        endif()
+        nusselt_shader_arguments(arguments ${name})
+        add_timed_shaders(${name} ${name} ${light} ${vertex_count} ${arguments})
+    endforeach()
+endmacro()
+
 foreach(count 3 4 5 6 7)
-    add_timed_shaders(Baseline polygon ${count} bench/baseline_polygon BaselinePolygon)
-    add_timed_shaders(PolygonArea polygon ${count} nusselt/sampling/polygon_area PolygonArea)
-    add_timed_shaders(PolygonSolidAnglePeters polygon ${count}
-        nusselt/related/polygon_solid_angle_peters PolygonSolidAnglePeters)
-    add_timed_shaders(PolygonSolidAngle polygon ${count} nusselt/sampling/polygon_solid_angle PolygonSolidAngle)
-    add_timed_shaders(PolygonClippedSolidAngle polygon ${count}
-        nusselt/sampling/polygon_clipped_solid_angle PolygonSolidAngle)
-    add_timed_shaders(PolygonProjectedSolidAnglePeters polygon ${count}
-        nusselt/related/polygon_projected_solid_angle_peters PolygonProjectedSolidAnglePeters)
-    add_timed_shaders(PolygonProjectedSolidAngle polygon ${count}
-        nusselt/sampling/polygon_projected_solid_angle PolygonProjectedSolidAngle)
-    add_timed_shaders(PolygonProjectedSolidAngleBiased polygon ${count}
-        nusselt/sampling/polygon_projected_solid_angle_biased PolygonProjectedSolidAngleBiased)
+    add_timed_light(polygon ${count})
 endforeach()
-add_timed_shaders(Baseline line 2 bench/baseline_line BaselineLine)
-add_timed_shaders(LineArea line 2 nusselt/sampling/line_area LineArea)
-add_timed_shaders(LineSolidAngle line 2 nusselt/sampling/line_solid_angle LineSolidAngle)
-add_timed_shaders(LineClippedSolidAngle line 2 nusselt/sampling/line_solid_angle LineSolidAngle
-    PREPARE line_clipped_solid_angle_prepare)
-add_timed_shaders(LineProjectedSolidAnglePeters line 2
-    nusselt/related/line_projected_solid_angle_peters LineProjectedSolidAnglePeters)
-add_timed_shaders(LineProjectedSolidAngle line 2
-    nusselt/sampling/line_projected_solid_angle LineProjectedSolidAngle)
+add_timed_light(polygon_on_lobe 4)
+foreach(light line line_on_lobe cylinder cylinder_on_lobe)
+    add_timed_light(${light} 2)
+endforeach()
 
 list(JOIN includes "" includes)
 list(JOIN rows "" rows)

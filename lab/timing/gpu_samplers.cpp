@@ -1,6 +1,8 @@
 #include "lab/timing/gpu_samplers.h"
 
+#include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <memory>
 
 #include <nusselt/geometry/convex_polygon.h>
@@ -19,7 +21,7 @@ namespace {
 constexpr std::uint32_t kWorkGroup = 64; // as in shaders/bench/workload.glsl
 constexpr std::uint32_t kRepeats = 128;  // lights or samples of each thread
 constexpr std::uint32_t kMostGroups = 1 << 15;
-constexpr std::size_t kMostColumns = 6 * kLargestVertexCount + 3;
+constexpr std::size_t kMostColumns = 6 * kLargestVertexCount + 3 + 6; // a polygon and a lobe
 
 /// The lights of a run, a column for each number of a light.
 using Columns = std::vector<float>;
@@ -35,8 +37,8 @@ void add(Columns& columns, std::size_t index, int light, const Vec3<float>& v) {
         columns[(index + axis) * kTimedLights + static_cast<std::size_t>(light)] = components[axis];
 }
 
-Columns polygon_columns(const TimedLights& lights, int count) {
-    Columns columns(kMostColumns * kTimedLights);
+/// \return the number of columns
+std::size_t add_polygons(Columns& columns, const TimedLights& lights, int count) {
     const auto n = static_cast<std::size_t>(count);
     for (int i = 0; i < kTimedLights; ++i) {
         Vec3<float> v[kLargestVertexCount];
@@ -48,17 +50,33 @@ Columns polygon_columns(const TimedLights& lights, int count) {
         }
         add(columns, 6 * n, i, polygon.normal);
     }
-    return columns;
+    return 6 * n + 3;
 }
 
-Columns line_columns(const TimedLights& lights) {
-    Columns columns(kMostColumns * kTimedLights);
+/// \copydoc add_polygons
+std::size_t add_lines(Columns& columns, const TimedLights& lights) {
     for (int i = 0; i < kTimedLights; ++i) {
         const auto line = make_line(position(lights, i, 0), position(lights, i, 1));
         add(columns, 0, i, line.p0);
         add(columns, 3, i, line.s);
         columns[6 * kTimedLights + static_cast<std::size_t>(i)] = line.length;
     }
+    return 7;
+}
+
+void add_column(Columns& columns, std::size_t index, const float (&values)[kTimedLights]) {
+    std::copy(std::begin(values), std::end(values),
+              columns.begin() + static_cast<std::ptrdiff_t>(index * kTimedLights));
+}
+
+/// As shaders/bench reads them.
+Columns columns_of(const TimedConfiguration& c, const TimedLights& lights) {
+    Columns columns(kMostColumns * kTimedLights);
+    std::size_t count =
+        is_polygon(c.kind) ? add_polygons(columns, lights, c.vertex_count) : add_lines(columns, lights);
+    if (is_cylinder(c.kind)) add_column(columns, count++, lights.radius);
+    if (has_lobe(c.kind))
+        for (const auto& values : lights.lobe) add_column(columns, count++, values);
     return columns;
 }
 
@@ -174,8 +192,7 @@ GpuSamplerTable time_gpu_samplers(const GpuSamplerSettings& settings) {
 
     const auto upload = [&](const TimedConfiguration& c) {
         make_timed_lights(c, *lights);
-        columns.write<float>(c.kind == LightKind::line ? line_columns(*lights)
-                                                       : polygon_columns(*lights, c.vertex_count));
+        columns.write<float>(columns_of(c, *lights));
     };
     for (int repetition = 0; repetition < settings.repetitions; ++repetition) {
         const TimedConfiguration* uploaded = nullptr;

@@ -52,7 +52,7 @@ std::vector<SamplerTiming> time_samplers(const SamplerTimingSettings& settings) 
     std::vector<Series> series;
     for (const TimedConfiguration& c : all_configurations)
         for (const TimedTechnique& t : techniques) {
-            const int bound = c.kind == LightKind::line ? 2 : c.vertex_count <= 4 ? 4 : 8;
+            const int bound = !is_polygon(c.kind) ? 2 : c.vertex_count <= 4 ? 4 : 8;
             if (t.kind == c.kind && t.vertex_bound == bound) series.push_back({&t, &c, {}, {}, {}});
         }
 

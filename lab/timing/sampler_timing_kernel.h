@@ -11,19 +11,34 @@ inline constexpr int kTimedLights = 256;
 inline constexpr int kLargestVertexCount = 8;
 
 /// Lights in shading space and random numbers, one column per light. Polygons with fewer vertices repeat the
-/// last one; lines have two.
+/// last one; lines and the axes of cylinders have two.
 struct TimedLights {
     float coordinates[kLargestVertexCount][3][kTimedLights];
+    float radius[kTimedLights];  ///< of cylinders [m]
+    float lobe[6][kTimedLights]; ///< the members of LtcCoefficients in order
     float u[2][kTimedLights];
 };
 
-enum class LightKind { polygon, line };
+/// As techniques.json names them.
+enum class LightKind { polygon, polygon_on_lobe, line, line_on_lobe, cylinder, cylinder_on_lobe };
+
+constexpr bool is_polygon(LightKind kind) {
+    return kind == LightKind::polygon || kind == LightKind::polygon_on_lobe;
+}
+
+constexpr bool is_cylinder(LightKind kind) {
+    return kind == LightKind::cylinder || kind == LightKind::cylinder_on_lobe;
+}
+constexpr bool has_lobe(LightKind kind) {
+    return kind == LightKind::polygon_on_lobe || kind == LightKind::line_on_lobe ||
+           kind == LightKind::cylinder_on_lobe;
+}
 
 struct TimedTechnique {
     const char* name;
     LightKind kind;
     int lanes;
-    int vertex_bound; ///< largest vertex count, 2 for lines
+    int vertex_bound; ///< largest vertex count, 2 for lines and cylinders
     void (*load)(
         const TimedLights&); ///< to be called first: converts the lights to the type of the technique
     /// Prepares every light. Returns a number that depends on the results, as the others.

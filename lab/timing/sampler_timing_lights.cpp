@@ -1,8 +1,11 @@
 #include "lab/timing/sampler_timing_lights.h"
 
+#include "proof/tube_lights.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <random>
 
@@ -16,8 +19,14 @@ std::vector<TimedConfiguration> timed_configurations() {
         result.push_back({"central" + vertices, LightKind::polygon, n, 1.0, 1.0, 0.5, true});
         result.push_back({"crossing the horizon" + vertices, LightKind::polygon, n, -0.1, 0.1, 0.4, false});
     }
-    result.push_back({"above the horizon", LightKind::line, 2, 0.5, 0.7, 0.4, false});
-    result.push_back({"crossing the horizon", LightKind::line, 2, -0.1, 0.1, 0.4, false});
+    result.push_back({"decentral, 4 vertices", LightKind::polygon_on_lobe, 4, 0.5, 0.7, 0.3, false});
+    result.push_back(
+        {"crossing the horizon, 4 vertices", LightKind::polygon_on_lobe, 4, -0.1, 0.1, 0.4, false});
+    for (const LightKind kind :
+         {LightKind::line, LightKind::line_on_lobe, LightKind::cylinder, LightKind::cylinder_on_lobe}) {
+        result.push_back({"above the horizon", kind, 2, 0.5, 0.7, 0.4, false});
+        result.push_back({"crossing the horizon", kind, 2, -0.1, 0.1, 0.4, false});
+    }
     return result;
 }
 
@@ -45,6 +54,11 @@ void make_timed_lights(const TimedConfiguration& c, TimedLights& lights) {
                 lights.coordinates[j][axis][i] = static_cast<float>(
                     centre[axis] + c.radius * (std::cos(angle) * a[axis] + std::sin(angle) * b[axis]));
         }
+        lights.radius[i] = static_cast<float>(c.radius / 4);
+        const auto& lobe = proof::kGlossyLobe;
+        const double entries[] = {lobe.m00, lobe.m02, lobe.m11, lobe.m20, lobe.m22, lobe.albedo};
+        for (std::size_t k = 0; k < std::size(entries); ++k)
+            lights.lobe[k][i] = static_cast<float>(entries[k]);
         for (auto& dimension : lights.u) dimension[i] = uniform(generator);
     }
 }

@@ -21,7 +21,8 @@ struct TimedConfiguration {
 /// Everything that is timed.
 std::vector<TimedConfiguration> timed_configurations();
 
-/// Regular polygons (or segments) of random orientation; those at the zenith lie flat.
+/// Regular polygons (or segments) of random orientation; those at the zenith lie flat. The radius of cylinders is an
+/// eighth of their length. All lights are on the same glossy lobe.
 void make_timed_lights(const TimedConfiguration& c, TimedLights& lights);
 
 /// The given share of the sorted values lies below the result.

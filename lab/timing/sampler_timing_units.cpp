@@ -1,20 +1,12 @@
 /// Compiled once per instruction set; see sampler_timing_kernel.h.
 
-#include <nusselt/related/line_projected_solid_angle_peters.h>
-#include <nusselt/related/polygon_projected_solid_angle_peters.h>
-#include <nusselt/related/polygon_solid_angle_peters.h>
-#include <nusselt/sampling/line_area.h>
-#include <nusselt/sampling/line_projected_solid_angle.h>
-#include <nusselt/sampling/line_solid_angle.h>
-#include <nusselt/sampling/polygon_area.h>
-#include <nusselt/sampling/polygon_projected_solid_angle.h>
-#include <nusselt/sampling/polygon_solid_angle.h>
 #include <nusselt/simd/pack.h>
 
 #include <optional>
 #include <vector>
 
 #include "lab/timing/sampler_timing_kernel.h"
+#include "proof/techniques/registry.h"
 
 NUSSELT_NAMESPACE_BEGIN
 namespace timing {
@@ -66,40 +58,56 @@ Technique<Real> of_one_light(const Light& light) {
     }
 }
 
-/// The lights and random numbers of a run in the type that the technique takes.
-template <int N>
-struct PolygonInput {
-    static constexpr LightKind kKind = LightKind::polygon;
-    static constexpr int kVertexBound = N;
+/// The lights and random numbers of a run in the type that a technique takes.
+template <class Kind>
+struct Input {
+    static constexpr bool kIsPolygon = hostile::kIsPolygon<Kind>;
+    static constexpr bool kIsCylinder = hostile::kIsCylinder<Kind>;
+    static constexpr bool kHasLobe = hostile::kHasLobe<Kind>;
+    static constexpr LightKind kKind =
+        kIsPolygon    ? (kHasLobe ? LightKind::polygon_on_lobe : LightKind::polygon)
+        : kIsCylinder ? (kHasLobe ? LightKind::cylinder_on_lobe : LightKind::cylinder)
+                      : (kHasLobe ? LightKind::line_on_lobe : LightKind::line);
+    static constexpr int kVertexBound = [] {
+        if constexpr (kIsPolygon) return Kind::kVertices;
+        return 2;
+    }();
     template <class Real>
-    using Light = ConvexPolygon<Real, N>;
+    using Light = typename Kind::template Light<Real>;
     template <class Real>
-    using Random = Vec2<Real>;
+    using Random = typename Kind::template Random<Real>;
+
     template <class Real>
     static Light<Real> light(const TimedLights& lights, int i) {
-        Vec3<Real> vertices[N];
-        for (int j = 0; j < N; ++j) vertices[j] = vertex<Real>(lights, i, j);
-        return make_polygon<N>(vertices, N);
+        if constexpr (kHasLobe) {
+            const auto entry = [&](int k) { return column<Real>(lights.lobe[k], i); };
+            return {geometry<Real>(lights, i), {entry(0), entry(1), entry(2), entry(3), entry(4), entry(5)}};
+        } else {
+            return Kind::from(geometry<Real>(lights, i));
+        }
     }
     template <class Real>
     static Random<Real> random(const TimedLights& lights, int i) {
-        return {column<Real>(lights.u[0], i), column<Real>(lights.u[1], i)};
+        if constexpr (hostile::kTakesPairs<Kind>)
+            return {column<Real>(lights.u[0], i), column<Real>(lights.u[1], i)};
+        else
+            return column<Real>(lights.u[0], i);
     }
-};
-struct LineInput {
-    static constexpr LightKind kKind = LightKind::line;
-    static constexpr int kVertexBound = 2;
+
+private:
     template <class Real>
-    using Light = LineSegment<Real>;
-    template <class Real>
-    using Random = Real;
-    template <class Real>
-    static Light<Real> light(const TimedLights& lights, int i) {
-        return make_line(vertex<Real>(lights, i, 0), vertex<Real>(lights, i, 1));
-    }
-    template <class Real>
-    static Random<Real> random(const TimedLights& lights, int i) {
-        return column<Real>(lights.u[0], i);
+    static auto geometry(const TimedLights& lights, int i) {
+        if constexpr (kIsPolygon) {
+            Vec3<Real> vertices[kVertexBound];
+            for (int j = 0; j < kVertexBound; ++j) vertices[j] = vertex<Real>(lights, i, j);
+            return make_polygon<kVertexBound>(vertices, kVertexBound);
+        } else {
+            const auto line = make_line(vertex<Real>(lights, i, 0), vertex<Real>(lights, i, 1));
+            if constexpr (kIsCylinder)
+                return Cylinder<Real>{line, column<Real>(lights.radius, i)};
+            else
+                return line;
+        }
     }
 };
 
@@ -127,6 +135,7 @@ struct Baseline {
     template <int N>
     explicit Baseline(const ConvexPolygon<Real, N>& light) : v(light.vertex[0] + light.normal) {}
     explicit Baseline(const LineSegment<Real>& light) : v(light.p0 + light.s) {}
+    explicit Baseline(const Cylinder<Real>& light) : v(light.axis.p0 + light.axis.s) {}
     template <class Single>
     explicit Baseline(const Baseline<Single>& single) : v(broadcast<Real>(single.v)) {}
     LightSample<Real> sample(const Real& u) const { return {v, u, v}; }
@@ -195,28 +204,6 @@ constexpr TimedTechnique timed(const char* name) {
             sample_one<Technique, Input, Real>};
 }
 
-template <int N>
-struct Polygons {
-    template <class Real>
-    using Area = PolygonArea<Real, N>;
-    template <class Real>
-    using SolidAngle = PolygonSolidAngle<Real, N>;
-    template <class Real>
-    using SolidAnglePlain = PolygonSolidAnglePeters<Real, N>;
-    template <class Real>
-    using ClippedSolidAngle = PolygonClippedSolidAngle<Real, N>;
-    template <class Real>
-    using ProjectedSolidAngle = PolygonProjectedSolidAngle<Real, N>;
-    template <class Real>
-    using ProjectedSolidAnglePlain = PolygonProjectedSolidAnglePeters<Real, N>;
-    template <class Real>
-    using Biased = PolygonProjectedSolidAngleBiased<Real, N>;
-};
-template <class Real>
-using LineProjected = LineProjectedSolidAngle<Real>;
-template <class Real>
-using LineProjectedPlain = LineProjectedSolidAnglePeters<Real>;
-
 using Native = Pack<float, kNativeLanes<float>>;
 using Pair = Pack<float, 2 * kNativeLanes<float>>;
 
@@ -228,32 +215,35 @@ void add(std::vector<TimedTechnique>& techniques, const char* name) {
     techniques.push_back(timed<Technique, Input, Pair>(name));
 }
 
-template <int N>
-void add_polygons(std::vector<TimedTechnique>& techniques) {
-    using Input = PolygonInput<N>;
-    add<Baseline, Input>(techniques, "Baseline");
-    add<Polygons<N>::template Area, Input>(techniques, "PolygonArea");
-    techniques.push_back(
-        timed<Polygons<N>::template SolidAnglePlain, Input, float>("PolygonSolidAnglePeters"));
-    add<Polygons<N>::template SolidAngle, Input>(techniques, "PolygonSolidAngle");
-    add<Polygons<N>::template ClippedSolidAngle, Input>(techniques, "PolygonClippedSolidAngle");
-    techniques.push_back(timed<Polygons<N>::template ProjectedSolidAnglePlain, Input, float>(
-        "PolygonProjectedSolidAnglePeters"));
-    add<Polygons<N>::template ProjectedSolidAngle, Input>(techniques, "PolygonProjectedSolidAngle");
-    add<Polygons<N>::template Biased, Input>(techniques, "PolygonProjectedSolidAngleBiased");
+/// As techniques.json names the suite.
+struct TimingSuite {
+    static constexpr std::string_view kName = "timing";
+};
+
+/// The techniques of a list, each after the formulas that it replaces, and before all of them the baseline.
+template <class First, class... Rest>
+void add_all(hostile::KindList<First, Rest...> list, std::vector<TimedTechnique>& techniques) {
+    add<Baseline, Input<First>>(techniques, "Baseline");
+    list.for_each([&]<class Kind> {
+        using Published = typename Kind::template Published<float>;
+        if constexpr (!std::is_same_v<Published, hostile::Absent>)
+            techniques.push_back(timed<Kind::template Published, Input<Kind>, float>(Kind::kPublishedName));
+        add<Kind::template Technique, Input<Kind>>(techniques, Kind::kName);
+    });
 }
 
 /// Everything that is timed.
 inline std::vector<TimedTechnique> techniques() {
+    using namespace hostile;
     std::vector<TimedTechnique> result;
-    add_polygons<4>(result);
-    add_polygons<8>(result);
-    add<Baseline, LineInput>(result, "Baseline");
-    add<LineArea, LineInput>(result, "LineArea");
-    add<LineSolidAngle, LineInput>(result, "LineSolidAngle");
-    add<LineClippedSolidAngle, LineInput>(result, "LineClippedSolidAngle");
-    result.push_back(timed<LineProjectedPlain, LineInput, float>("LineProjectedSolidAnglePeters"));
-    add<LineProjected, LineInput>(result, "LineProjectedSolidAngle");
+    // Baselines are those of the light that functions take: rectangles are polygons.
+    add_all(TestedBy<TimingSuite, PolygonKinds<4>, RectangleKinds>(), result);
+    add_all(TestedBy<TimingSuite, PolygonKinds<8>>(), result);
+    add_all(TestedBy<TimingSuite, PolygonOnLobeKinds<4>>(), result);
+    add_all(TestedBy<TimingSuite, LineKinds>(), result);
+    add_all(TestedBy<TimingSuite, LineOnLobeKinds>(), result);
+    add_all(TestedBy<TimingSuite, CylinderKinds>(), result);
+    add_all(TestedBy<TimingSuite, CylinderOnLobeKinds>(), result);
     return result;
 }
 

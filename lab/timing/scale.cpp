@@ -93,18 +93,27 @@ std::optional<double> memory_exponent(const std::vector<ScaleRow>& rows) {
     return exponent(rows, [](const ScaleRow& row) { return static_cast<double>(row.render_bytes); });
 }
 
-std::string scale_json(const std::vector<ScaleRow>& rows) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+ResultTable scale_table(const std::vector<ScaleRow>& rows) {
+    ResultTable table = {"scale",
+                         {{"scene"},
+                          {"triangles"},
+                          {"array_bytes", "B"},
+                          {"load_seconds", "s"},
+                          {"hierarchy_seconds", "s"},
+                          {"render_seconds", "s"},
+                          {"load_bytes", "B"},
+                          {"render_bytes", "B"},
+                          {"load_over_arrays"},
+                          {"render_over_arrays"}}};
+    const auto ratio = [](std::uint64_t a, std::uint64_t b) {
+        return static_cast<double>(a) / static_cast<double>(b);
+    };
     for (const ScaleRow& row : rows)
-        json.push_back({{"scene", name_of(row.scene)},
-                        {"triangles", row.triangles},
-                        {"array_bytes", row.array_bytes},
-                        {"load_seconds", row.load_seconds},
-                        {"hierarchy_seconds", row.hierarchy_seconds},
-                        {"render_seconds", row.render_seconds},
-                        {"load_bytes", row.load_bytes},
-                        {"render_bytes", row.render_bytes}});
-    return json.dump(2);
+        table.rows.push_back({name_of(row.scene), row.triangles, row.array_bytes, row.load_seconds,
+                              row.hierarchy_seconds, row.render_seconds, row.load_bytes, row.render_bytes,
+                              ratio(row.load_bytes, row.array_bytes),
+                              ratio(row.render_bytes, row.array_bytes)});
+    return table;
 }
 
 } // namespace nusselt::lab

@@ -1,6 +1,8 @@
 #pragma once
 /// How time and memory grow with the size of scenes.
 
+#include "lab/results/results.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -47,6 +49,7 @@ std::optional<double> time_exponent(const std::vector<ScaleRow>& rows);
 /// Likewise of the memory for rendering.
 std::optional<double> memory_exponent(const std::vector<ScaleRow>& rows);
 
-std::string scale_json(const std::vector<ScaleRow>& rows);
+/// The rows with all numbers.
+ResultTable scale_table(const std::vector<ScaleRow>& rows);
 
 } // namespace nusselt::lab

@@ -3,9 +3,13 @@
 /// same light; those without area and those seen edge-on are so exactly.
 
 #include <nusselt/geometry/convex_polygon.h>
+#include <nusselt/geometry/cylinder.h>
 #include <nusselt/geometry/line_segment.h>
+#include <nusselt/ltc/coefficients.h>
 
+#include <functional>
 #include <random>
+#include <string_view>
 #include <vector>
 
 namespace nusselt::proof {
@@ -39,7 +43,49 @@ struct LineClass {
     LineSegment<float> (*make)(Engine& engine);
 };
 
+struct CylinderClass {
+    const char* name;
+    Visibility visibility;
+    std::function<Cylinder<float>(Engine&)> make;
+};
+
 const std::vector<PolygonClass>& polygon_classes();
 const std::vector<LineClass>& line_classes();
+/// Those of proof/tube_lights.h, turned around the normal and moved a little, distant ones, ones that almost touch
+/// the point, and dark ones.
+const std::vector<CylinderClass>& cylinder_classes();
+
+/// Draws a lobe, for example of a fitted table.
+using LobeSource = LtcCoefficients<float> (*)(Engine&);
+
+/// A class of lights, each with a lobe.
+template <class Base>
+struct OnLobes {
+    const Base* base;
+    LobeSource lobe;
+    const char* name = base->name;
+    Visibility visibility = base->visibility;
+
+    auto make(Engine& engine) const {
+        struct Light {
+            decltype(base->make(engine)) light;
+            LtcCoefficients<float> lobe;
+        };
+        const auto light = base->make(engine);
+        return Light{light, lobe(engine)};
+    }
+};
+
+template <class Base>
+std::vector<OnLobes<Base>> on_lobes(const std::vector<Base>& bases, LobeSource lobe) {
+    std::vector<OnLobes<Base>> result;
+    for (const Base& base : bases) {
+        result.push_back({&base, lobe});
+        // These lie in front of the eye, from where lobes lean.
+        if (base.name == std::string_view("in the horizon plane"))
+            result.back().visibility = Visibility::no_one;
+    }
+    return result;
+}
 
 } // namespace nusselt::proof

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "proof/hostile/techniques.h"
+#include "proof/techniques/registry.h"
 
 NUSSELT_NAMESPACE_BEGIN
 namespace hostile {
@@ -88,7 +88,7 @@ mask_t<Real> is_off(const Light&, const Bounds<Real>& bounds, const Vec3<Real>& 
                     const Real& slack) noexcept {
     return !bounds.contain(p, slack);
 }
-/// A point of a cylinder is on its mantle or a cap.
+/// A point of a cylinder is on its lateral surface or on a cap.
 template <class Real>
 mask_t<Real> is_off(const Cylinder<Real>& light, const Bounds<Real>&, const Vec3<Real>& p,
                     const Real& slack) noexcept {
@@ -115,13 +115,11 @@ Real relative_width(const ConvexPolygon<Real, N>& light, const Real& extent) noe
     return min(area / select(longest > Real(0), longest, Real(1)), Real(1));
 }
 
-/// What the angles of a technique are wrong by apart from rounding: the bound on the error of FastAngles.
+/// The error of the angles of a technique apart from rounding: the bound on the error of FastAngles.
 template <class Kind>
-inline constexpr double kAngleError = 0;
-template <int N>
-inline constexpr double kAngleError<PolygonBiasedKindOf<N>> = 1.3e-5;
+inline constexpr double kAngleError = Kind::kBiased ? 1.3e-5 : 0;
 
-/// How far vertices are from the plane of a polygon [m]: rounding, in the precision in which they were made.
+/// The distance of vertices from the plane of a polygon [m]: rounding, in the precision in which they were made.
 template <class Real, int N>
 Real warp(const ConvexPolygon<Real, N>& light) noexcept {
     const Real distance = plane_distance(light);
@@ -130,9 +128,9 @@ Real warp(const ConvexPolygon<Real, N>& light) noexcept {
     return largest;
 }
 
-/// How far a hit point may be from the ray along wi [m]. A tilt of the plane turns the directions to a light seen
-/// edge-on; then the point where a ray meets the plane moves the more the flatter it does. Of wi and the way to p the
-/// flatter one counts: rounding may have turned wi away from the plane.
+/// The largest distance of a hit point from the ray along wi [m]. A tilt of the plane turns the directions to a light
+/// seen edge-on; then the point where a ray meets the plane moves the more the flatter it does. Of wi and the way to p
+/// the flatter one counts: rounding may have turned wi away from the plane.
 template <class Real, int N>
 Real aim_slack(const ConvexPolygon<Real, N>& light, const Vec3<Real>& wi, const Vec3<Real>& p,
                const Real& extent, const Real& slack) noexcept {
@@ -158,9 +156,9 @@ Real aim_slack(const Cylinder<Real>&, const Vec3<Real>&, const Vec3<Real>&, cons
     return slack;
 }
 
-/// By how much the density of a sample of the area of a light may differ from that of its direction, relative to the
-/// density: rounding moves the point where the direction meets the light, the more the flatter it does. Infinite where
-/// the density is nothing but rounding.
+/// The largest difference between the density of a sample of the area of a light and that of its direction, relative to
+/// the density: rounding moves the point where the direction meets the light, the more the flatter it does. Infinite
+/// where the density is nothing but rounding.
 template <class Real, int N>
 Real area_pdf_tolerance(const ConvexPolygon<Real, N>& light, const Vec3<Real>& p, const Real& extent,
                         const Real& slack) noexcept {
@@ -173,8 +171,8 @@ Real area_pdf_tolerance(const LineSegment<Real>& light, const Vec3<Real>& p, con
     return Real(4) * slack / length(cross(light.s, p));
 }
 
-/// On the mantle the cosine itself changes, the more the flatter the direction is. Next to a rim the direction may meet
-/// either side of it.
+/// On the lateral surface the cosine itself changes, the more the flatter the direction is. Next to a rim the direction
+/// may meet either side of it.
 template <class Real>
 Real area_pdf_tolerance(const Cylinder<Real>& light, const Vec3<Real>& p, const Real&,
                         const Real& slack) noexcept {
@@ -184,13 +182,13 @@ Real area_pdf_tolerance(const Cylinder<Real>& light, const Vec3<Real>& p, const 
     const Vec3<Real> across = cross(light.axis.s, cross(from_begin, light.axis.s));
     const Real rho = length(across);
     const Real to_ends = min(abs(along), abs(light.axis.length - along));
-    const Real to_mantle = abs(light.radius - rho);
-    const auto on_mantle = to_mantle <= to_ends;
-    const Vec3<Real> normal = select(on_mantle, normalize(across), light.axis.s);
+    const Real to_side = abs(light.radius - rho);
+    const auto on_side = to_side <= to_ends;
+    const Vec3<Real> normal = select(on_side, normalize(across), light.axis.s);
     const Real cosine = abs(dot(normalize(p), normal));
     const Real moved = slack / cosine;
     const Real smallest = min(light.radius, length(p));
-    const auto inside_one_part = max(to_ends, to_mantle) > Real(4) * moved;
+    const auto inside_one_part = max(to_ends, to_side) > Real(4) * moved;
     return select(inside_one_part, Real(4) * moved / (cosine * smallest),
                   Real(std::numeric_limits<T>::max()));
 }
@@ -212,7 +210,7 @@ void check_contract(const typename Kind::template Light<Real>& light,
     report(!in_unit_interval(out.inverse), "invert(wi) leaves [0, 1)");
 
     const auto sampled = pdf > Real(0);
-    report(sampled & !(out.measure > Real(0)), "a density without measure");
+    report(sampled & !(out.measure > Real(0)), "the density is positive without a measure");
     report(sampled & !(abs(dot(wi, wi) - Real(1)) <= Real(kTolerance)), "wi is not a unit vector");
     report(sampled & !all_finite(p), "p is not finite");
     const Bounds<Real> bounds(light);
@@ -225,7 +223,7 @@ void check_contract(const typename Kind::template Light<Real>& light,
     const auto on_line = largest_coordinate(cross(wi, p)) <= aim;
     const auto ahead = dot(wi, p) >= -aim;
     report(sampled & !(on_line & ahead), "wi does not lead to p");
-    if constexpr (Kind::kMeasure == Measure::kArea) {
+    if constexpr (Kind::kMeasure == Measure::area) {
         // Larger tolerances mean that the density is noise.
         const Real tolerance = area_pdf_tolerance(light, p, bounds.extent, slack);
         report(sampled & (tolerance < Real(0.1)) & !(abs(out.pdf / pdf - Real(1)) <= tolerance),

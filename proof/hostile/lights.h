@@ -128,7 +128,7 @@ public:
         if (choice == 3) radius = extent * random_.between(0.1, 1);
         if (choice == 4) radius = extent * random_.log_between(1e-9, 1e3);
         if (choice == 5) radius = random_.index(2) == 0 ? 0 : kSmallest * random_.log_between(1, 1e9);
-        // As the coordinates of the ends.
+        // The coordinates of the ends have the same limit.
         return static_cast<T>(std::min(radius, 1e15));
     }
     Cylinder<T> cylinder() {
@@ -260,7 +260,7 @@ private:
         case 4: // point on an edge or its carrier line
             translate(v, -(v.at[j] + random_.between(-1, 2) * (v.at[next] - v.at[j])));
             break;
-        case 5: // point in the plane, inside of the polygon or not
+        case 5: // point in the plane, inside the polygon or not
             translate(v, -(random_.between(0, 2) * v.at[0] + random_.between(0, 2) * v.at[1] +
                            random_.between(0, 2) * v.at[2]));
             break;

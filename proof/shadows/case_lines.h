@@ -19,7 +19,7 @@ using Lines = Pack<float, kLinesPerCase>;
 
 inline Vec3<float> vector_of(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
 
-/// Sorts corners as make_triangle_shadow() asks for.
+/// Sorts corners as make_triangle_shadow() requires.
 inline Occluder in_order_of_position(Occluder triangle) {
     const auto swap_if_after = [&](int i, int j) {
         auto& a = triangle.corner[i];

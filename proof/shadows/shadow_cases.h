@@ -18,7 +18,7 @@ using proof::ShadowCase;
 
 namespace detail {
 
-/// How far a point can go before it meets the mesh, in units of the direction.
+/// The distance at which a ray meets the mesh, in units of the direction.
 inline double distance_to_surface(const Mesh& mesh, const Vec3<double>& direction) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const auto& [i, j, k] : mesh.triangles) {

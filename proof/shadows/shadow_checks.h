@@ -1,5 +1,5 @@
 #pragma once
-/// What must hold for any case, and for points in closed meshes.
+/// Checks for all cases, and for points in closed meshes.
 
 #include <algorithm>
 #include <vector>
@@ -51,7 +51,7 @@ inline int count_visible(const ShadowCase& test) {
     return visible;
 }
 
-/// For a point in a closed mesh and a light outside.
+/// Checks a point in a closed mesh and a light outside.
 /// \returns what is wrong, or null
 inline const char* leak(const ShadowCase& test) {
     if (count_leaks(test, in_order_of_position, [](const auto& part) { return part; }) > 0)
@@ -79,7 +79,7 @@ inline const char* broken_parts(const ShadowCase& test, float (&visible)[kLinesP
     const Lines whole_length = whole.end - whole.begin;
     const Lines rounding = Lines(1e-5f) * whole_length;
     Lines before = visible_length();
-    if (any(before > whole_length)) problem = "more is visible than there is";
+    if (any(before > whole_length)) problem = "more than the whole line is visible";
     lines.for_each_occluder(in_order_of_position, [&](const Interval<Lines>& hidden) {
         parts.cut(hidden);
         const Lines after = visible_length();

@@ -1,20 +1,10 @@
-// Columns: begin, direction and length.
-#include "bench/workload.glsl"
+// Runs a technique for lines.
+#include "bench/line_columns.glsl"
 
-void main() {
-    const uint thread = gl_GlobalInvocationID.x;
-    uint state = thread;
-    vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < kLightCount; ++i) {
-        const uint index = (thread + i) % kLights;
-        LineSegment light;
-        light.p0 = column_vec3(0u, index);
-        light.s = column_vec3(3u, index);
-        light.len = column(6u, index);
-        sum += vec4(light.p0 + light.s, light.len); // so that nobody saves the loads of what a technique does not need
-
-        Technique technique = technique_prepare(light);
-        for (uint k = 0u; k < kSampleCount; ++k) sum += summary(technique_sample(technique, next_random(state)));
-    }
-    sums[thread] = sum;
+Technique prepared(uint index, inout vec4 sum) {
+    return technique_prepare(column_line(index, sum));
 }
+
+LightSample sample_of(Technique technique, inout uint state) { return technique_sample(technique, next_random(state)); }
+
+#include "bench/run.glsl"

@@ -1,4 +1,5 @@
-// How often a technique is timed in each thread. Included by the entry points after the technique.
+// Columns with the numbers of lights, and how often a technique is timed in each thread. Included by the entry points
+// after the technique.
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kLightCount = 1u;  // prepared by each thread
@@ -6,7 +7,7 @@ layout(constant_id = 1) const uint kSampleCount = 1u; // of each light
 layout(set = 0, binding = 0, std430) readonly buffer Lights { float columns[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer Sums { vec4 sums[]; };
 
-// As kTimedLights of src/experiments: columns have a value for each of them.
+// As kTimedLights in C++: columns have a value for each light.
 const uint kLights = 256u;
 
 float column(uint index, uint light) { return columns[kLights * index + light]; }

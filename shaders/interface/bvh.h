@@ -11,9 +11,9 @@ namespace nusselt::interface {
 using uint = std::uint32_t;
 #endif
 
-// What BvhNode::link is: two bits say the kind, the others an index.
+// BvhNode::link has the kind of a child in two bits, and an index in the others.
 const uint kBvhKindMask = 3u << 30;
-const uint kBvhInner = 0u;           ///< node to go on with where the ray misses the box
+const uint kBvhInner = 0u;           ///< next node where the ray misses the box
 const uint kBvhTriangles = 1u << 30; ///< first triangle of a leaf
 const uint kBvhInstance = 2u << 30;  ///< an instance
 

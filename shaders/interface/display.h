@@ -1,6 +1,6 @@
 #ifndef NUSSELT_INTERFACE_DISPLAY_H
 #define NUSSELT_INTERFACE_DISPLAY_H
-/// What shaders/passes/display.comp is told, for C++ and GLSL alike.
+/// The inputs of shaders/passes/display.comp, for C++ and GLSL alike.
 
 #ifdef __cplusplus
 #include <cstdint>

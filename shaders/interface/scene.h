@@ -35,7 +35,7 @@ struct VertexRecord {
 struct TriangleRecord {
     uint vertex[3];
     uint material;
-    int light; ///< number of the polygonal light that the triangle belongs to, -1 for none
+    int light; ///< number of the light that the triangle belongs to, -1 for none
 };
 
 /// Triangles of instances are drawn after those of the world, in the order of instances.
@@ -45,10 +45,10 @@ struct InstanceRecord {
     float world_from_object[12];
     float normal_from_object[9]; ///< rows of three: inverse transpose of the linear part, times a number above 0
     float handedness;            ///< -1 for mirror images, else 1
-    float rounding;              ///< how many times rounding errors grow on the way to the object and back
+    float rounding;              ///< factor by which rounding errors grow on the way to the object and back
 };
 
-/// Where a material looks up a texture: at scale * uv + offset.
+/// The lookup of a texture by a material, at scale * uv + offset.
 struct TextureLookup {
     uint texture; ///< or kNoTexture
     float scale[2];
@@ -100,7 +100,7 @@ struct LineLightRecord {
     float radiance[3];
 };
 
-/// What is one number or vector per scene.
+/// Data with one number or vector per scene.
 struct SceneRecord {
     // The camera, in pixels of the whole film; see scene::Camera.
     float origin[3];
@@ -120,15 +120,14 @@ struct SceneRecord {
     float radius; ///< half the diagonal of all that there is [m]
     uint world_triangles;
     uint instances;
-    uint first_tube_drawn;    ///< number of the first triangle of tubes among all that are drawn
-    uint first_tube_triangle; ///< the same triangle among all records
-    uint triangles_per_tube;
+    uint first_light_drawn;    ///< number of the first triangle of lights that are no surfaces, among all that are drawn
+    uint first_light_triangle; ///< the same triangle among all records
     uint polygon_lights;
     uint line_lights;
     int ltc_samples[3]; ///< of the table of lobes: f0, inclination, roughness
 };
 
-/// What changes from one camera ray per pixel to the next.
+/// Data that changes from one camera ray per pixel to the next.
 struct FrameRecord {
     float offset[2]; ///< of camera rays from the centres of their pixels [pixels]
     float weight;    ///< of what they see
@@ -137,7 +136,7 @@ struct FrameRecord {
     uint light_samples; ///< per frame, light and technique
     uint seed;
     float visibility_estimate;
-    // What of it is shaded at once; the rest follows.
+    // The part of the frame that is shaded at once; the rest follows.
     uint first_row; ///< of pixels
     uint first_light;
     uint light_end;
@@ -149,7 +148,7 @@ struct FrameRecord {
 /// Sum over frames with the error of a single rounding (Kahan).
 struct PixelSum {
     float sum[3];
-    float excess[3]; ///< what `sum` has too much
+    float excess[3]; ///< the excess of `sum`
 };
 
 /// Counters with 64 bits: low and high words.

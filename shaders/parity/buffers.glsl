@@ -9,7 +9,7 @@ layout(push_constant) uniform Push {
 layout(set = 0, binding = 0, std430) readonly buffer Inputs { float inputs[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer Outputs { float outputs[]; };
 
-// As nusselt::parity::kOutputSize.
+// The value of nusselt::parity::kOutputSize.
 const uint kOutputSize = 12u;
 
 vec3 input_vec3(uint at) { return vec3(inputs[at], inputs[at + 1u], inputs[at + 2u]); }

@@ -1,7 +1,7 @@
-// What the twins of a technique return for each light. Included by the entry points after the technique.
+// The results of the twins of a technique for each light. Included by the entry points after the technique.
 #include "parity/buffers.glsl"
 
-// As nusselt::parity::DeviceOutputs.
+// The layout of nusselt::parity::DeviceOutputs.
 void write_outputs(uint i, LightSample s, float pdf, vec2 inverse, float measure) {
     uint at = kOutputSize * i;
     write_vec3(at, s.wi);

@@ -1,5 +1,5 @@
 #version 450
-// For the tests of buffers, push constants and specialisation constants: scale (a + b) + offset + step i.
+// Computes, for the tests of buffers, push constants and specialisation constants, scale (a + b) + offset + step i.
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const float offset = 0.0;

@@ -13,7 +13,7 @@ LtcTableEntry sample_at(ivec3 corner, ivec3 samples) {
     return ltc_table_entry(uvec3(words[at], words[at + 1u], words[at + 2u]), index);
 }
 
-// What the table has at a cell: interpolated between its corners, and the albedos of a black and of a white f0.
+// The values of the table in a cell: interpolated between its corners, and the albedos of a black and of a white f0.
 struct TableSums {
     LtcTableEntry entry;
     float of_black, of_white;

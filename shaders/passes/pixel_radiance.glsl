@@ -14,7 +14,7 @@ void main() {
     Ray ray = camera_ray(pixel);
     bool is_first = frame.first_light == 0u && frame.first_sample == 0u;
     vec3 radiance = is_first ? emission_of(drawn, ray) : vec3(0.0);
-    if (drawn.tube < 0) {
+    if (drawn.is_surface) {
         Surface surface = make_surface(drawn, ray);
         Counts counts = Counts(0u, 0u);
         if (surface.valid) radiance += reflected_light(surface, pixel, counts);

@@ -1,11 +1,11 @@
-/// Reflected light by samples of all lights, as src/render_cpu/kernel/paired_techniques.cpp. The entry point includes one of
+/// Reflected light by samples of all lights, as src/render_cpu/kernel/paired_techniques.h. The entry point includes one of
 /// the ways to trace shadow rays before this file.
 
 #include "nusselt/estimate/direct_light.glsl"
 #include "nusselt/random/light_random.glsl"
 #include "passes/lights.glsl"
+#include "passes/lights/techniques.glsl"
 #include "passes/shading.glsl"
-#include "passes/techniques.glsl"
 
 /// Heuristics and samplers have the same numbers here and in shaders/nusselt: otherwise an array has no elements, which does
 /// not compile.
@@ -26,11 +26,12 @@ struct SameNumbers {
 /// As nusselt::kShadowEnd: occluders count up to this share of the way.
 const float kShadowEnd = 0.9999;
 
-/// A shading point, and the sum over samples of one light.
+/// A shading point, the light that it reflects, and the sum over samples of one light.
 struct Estimate {
     Surface surface;
     Reflection reflection;
     ivec2 pixel;
+    vec3 radiance;
     CompensatedSum sum;
     Counts counts;
 };
@@ -114,73 +115,8 @@ vec2 random_for_light(ivec2 pixel, uint index, uint light, int pair) {
                         uint(pair));
 }
 
-void sample_polygon(inout Estimate estimate, LocalPolygon light) {
-    GlossySurface glossy = estimate.reflection.glossy;
-    bool is_paired = kStrategies != kStrategiesDiffuse && glossy_surface_is_glossy(glossy);
-    PolygonTechniques techniques = polygon_techniques_prepare(light.shape, glossy, is_paired);
-    TechniquePair pair;
-    if (is_paired) pair = make_technique_pair(glossy, polygon_techniques_integrals(techniques));
-    for (uint i = frame.first_sample; i < frame.sample_end; ++i) {
-        for (int k = 0; k < samples_per_number(is_paired); ++k) {
-            vec2 u = random_for_light(estimate.pixel, i, light.role.number, k);
-            Draw draw = choose_technique(is_paired, pair, k, u);
-            LightSample s = polygon_techniques_sample(techniques, draw.technique, draw.u);
-            DirectLightSample result;
-            if (is_paired)
-                result = combine(pair, estimate.reflection, draw.technique, s, polygon_techniques_pdf(techniques, s.wi));
-            else
-                result = reflect_sample(estimate.reflection, s);
-            add_sample(estimate, result);
-        }
-    }
-}
-
-/// Whether lines and tubes have a second technique: no sample of the BRDF hits a line.
-bool is_line_paired(GlossySurface surface) {
-    return kStrategies == kStrategiesDiffuseLtc && glossy_surface_is_glossy(surface);
-}
-
-void sample_line(inout Estimate estimate, LocalLine light) {
-    GlossySurface glossy = estimate.reflection.glossy;
-    bool is_paired = is_line_paired(glossy);
-    LineTechniques techniques = line_techniques_prepare(light.shape, glossy, is_paired);
-    TechniquePair pair;
-    if (is_paired) pair = make_technique_pair(glossy, line_techniques_integrals(techniques));
-    for (uint i = frame.first_sample; i < frame.sample_end; ++i) {
-        for (int k = 0; k < samples_per_number(is_paired); ++k) {
-            vec2 u = random_for_light(estimate.pixel, i, light.role.number, k);
-            Draw draw = choose_technique(is_paired, pair, k, u);
-            LightSample s = line_techniques_sample(techniques, draw.technique, draw.u.x);
-            DirectLightSample result;
-            if (is_paired)
-                result = combine(pair, estimate.reflection, draw.technique, s, line_techniques_pdf(techniques, s.wi));
-            else
-                result = reflect_sample(estimate.reflection, s);
-            add_sample(estimate, result);
-        }
-    }
-}
-
-void sample_tube(inout Estimate estimate, LocalLine light) {
-    GlossySurface glossy = estimate.reflection.glossy;
-    bool is_paired = is_line_paired(glossy);
-    TubeTechniques techniques = tube_techniques_prepare(Cylinder(light.shape, light.radius), glossy, is_paired);
-    TechniquePair pair;
-    if (is_paired) pair = make_technique_pair(glossy, tube_techniques_integrals(techniques));
-    for (uint i = frame.first_sample; i < frame.sample_end; ++i) {
-        for (int k = 0; k < samples_per_number(is_paired); ++k) {
-            vec2 u = random_for_light(estimate.pixel, i, light.role.number, k);
-            Draw draw = choose_technique(is_paired, pair, k, u);
-            LightSample s = tube_techniques_sample(techniques, draw.technique, draw.u);
-            DirectLightSample result;
-            if (is_paired)
-                result = combine(pair, estimate.reflection, draw.technique, s, tube_techniques_pdf(techniques, s.wi));
-            else
-                result = reflect_sample(estimate.reflection, s);
-            add_sample(estimate, result);
-        }
-    }
-}
+#include "passes/lights/line_samples.glsl"
+#include "passes/lights/polygon_samples.glsl"
 
 vec3 reflected_light(Surface surface, ivec2 pixel, inout Counts counts) {
     Estimate estimate;
@@ -188,27 +124,11 @@ vec3 reflected_light(Surface surface, ivec2 pixel, inout Counts counts) {
     estimate.reflection = make_reflection(surface);
     estimate.pixel = pixel;
     estimate.counts = counts;
-    float scale = 1.0 / float(frame.light_samples);
-    vec3 radiance = vec3(0.0);
-    for (uint i = frame.first_light; kHasPolygons && i < polygons_end(); ++i) {
-        LocalPolygon light = local_polygon(surface, i);
-        if (!light.role.is_lit) continue;
-        estimate.sum = CompensatedSum(vec3(0.0), vec3(0.0));
-        sample_polygon(estimate, light);
-        radiance += (scale * light.role.emission) * estimate.sum.sum;
-    }
-    for (uint i = first_line(); (kHasLines || kHasTubes) && i < lines_end(); ++i) {
-        LocalLine light = local_line(surface, i);
-        if (!light.role.is_lit) continue;
-        estimate.sum = CompensatedSum(vec3(0.0), vec3(0.0));
-        if (kHasTubes && light.is_solid)
-            sample_tube(estimate, light);
-        else if (kHasLines)
-            sample_line(estimate, light);
-        radiance += (scale * light.role.emission) * estimate.sum.sum;
-    }
+    estimate.radiance = vec3(0.0);
+    add_polygons(estimate);
+    add_lines(estimate);
     counts = estimate.counts;
-    return radiance;
+    return estimate.radiance;
 }
 
 #include "passes/pixel_radiance.glsl"

@@ -20,16 +20,14 @@ vec3 to_vec(float v[3]) { return vec3(v[0], v[1], v[2]); }
 struct DrawnTriangle {
     uint triangle; ///< among all records
     int instance;  ///< that it is part of, -1 for none
-    int tube;      ///< that it is part of, -1 for none
+    bool is_surface; ///< or of a light that is none
 };
 
 /// \param number among all that are drawn.
 DrawnTriangle drawn_triangle(uint number) {
-    if ((kHasLines || kHasTubes) && number >= scene.first_tube_drawn) {
-        uint behind = number - scene.first_tube_drawn;
-        return DrawnTriangle(scene.first_tube_triangle + behind, -1, int(behind / scene.triangles_per_tube));
-    }
-    if (!kHasInstances || number < scene.world_triangles) return DrawnTriangle(number, -1, -1);
+    if (number >= scene.first_light_drawn)
+        return DrawnTriangle(scene.first_light_triangle + (number - scene.first_light_drawn), -1, false);
+    if (!kHasInstances || number < scene.world_triangles) return DrawnTriangle(number, -1, true);
     // The last instance that begins at this number or before.
     uint first = 0u;
     uint end = scene.instances;
@@ -40,7 +38,7 @@ DrawnTriangle drawn_triangle(uint number) {
         else
             end = middle;
     }
-    return DrawnTriangle(instances[first].first_triangle + (number - instances[first].first_drawn), int(first), -1);
+    return DrawnTriangle(instances[first].first_triangle + (number - instances[first].first_drawn), int(first), true);
 }
 
 vec3 vertex_position(uint vertex) { return to_vec(vertices[vertex].position); }

@@ -12,7 +12,7 @@ layout(location = 0) out uint number;
 
 bool is_there(Ray ray) {
     DrawnTriangle drawn = drawn_triangle(drawn_number);
-    if (drawn.tube >= 0) return true;
+    if (!drawn.is_surface) return true;
     MaterialRecord material = materials[triangles[drawn.triangle].material];
     vec2 at = barycentrics(drawn, triangle_edges(drawn.triangle), ray);
     float alpha = alpha_of(material, interpolated_uv(drawn.triangle, at));

@@ -55,18 +55,18 @@ void write_atomically(const std::filesystem::path& path, const std::function<voi
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
     const std::filesystem::file_status folder_status = std::filesystem::status(folder, error);
     if (!std::filesystem::status_known(folder_status)) {
-        fail(path, "the folder '" + folder.string() + "' cannot be reached (" + error.message() +
+        fail(path, "the folder '" + folder.string() + "' is not accessible (" + error.message() +
                        "); check the permissions of the folders above it or choose another path");
     }
     if (!std::filesystem::is_directory(folder_status))
-        fail(path, "there is no folder '" + folder.string() + "'; create it or choose another path");
+        fail(path, "the folder '" + folder.string() + "' does not exist; create it or choose another path");
     if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
-        fail(path, "this is a folder or a device; give the name of a file");
+        fail(path, "this is a folder or a device; use the name of a file");
 
     const std::filesystem::path temporary = temporary_path(path);
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
     if (!stream) {
-        fail(path, "no file can be created in '" + folder.string() + "' (" + std::strerror(errno) +
+        fail(path, "cannot create a file in '" + folder.string() + "' (" + std::strerror(errno) +
                        "); check its permissions or choose another folder");
     }
     const RemoveAtExit remove_temporary(temporary);
@@ -76,14 +76,13 @@ void write_atomically(const std::filesystem::path& path, const std::function<voi
         if (stream) throw; // what a failed stream made `write` throw is reported below
     }
     stream.close();
-    if (!stream) fail(path, "the data did not fit or could not be stored; check the free space of the disk");
+    if (!stream) fail(path, "cannot store the data; check the free space of the disk");
     // Without this, a crash of the machine could leave the new name with the bytes of neither file.
     if (const int problem = store(temporary); problem != 0)
-        fail(path,
-             std::string("the data could not be stored (") + std::strerror(problem) + "); check the disk");
+        fail(path, std::string("cannot store the data (") + std::strerror(problem) + "); check the disk");
     std::filesystem::rename(temporary, path, error);
-    if (error) fail(path, "the finished file could not be renamed (" + error.message() + ")");
-    // Where the folder lacks the permission to be read, the system decides when the name is stored.
+    if (error) fail(path, "cannot rename the temporary file (" + error.message() + ")");
+    // Errors are ignored: without read permission for the folder, the system decides when the name is stored.
     store(folder);
 }
 

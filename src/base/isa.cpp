@@ -15,11 +15,12 @@ Isa parse_isa(std::string_view name, const std::string& origin) {
     for (const Isa isa : kAllIsas) {
         if (name != name_of(isa)) continue;
         if (!is_supported(isa))
-            throw std::runtime_error(origin + ": this processor does not support " + std::string(name));
+            throw std::runtime_error(origin + ": " + std::string(name) +
+                                     " is not supported by this processor");
         return isa;
     }
     throw std::runtime_error(origin + ": unknown instruction set '" + std::string(name) +
-                             "', choose sse42, avx2 or avx512");
+                             "'; use sse42, avx2 or avx512");
 }
 
 } // namespace
@@ -62,7 +63,7 @@ Isa choose_isa(std::optional<std::string_view> name) {
         return parse_isa(variable, "NUSSELT_ISA");
     for (auto isa = kAllIsas.rbegin(); isa != kAllIsas.rend(); ++isa)
         if (is_supported(*isa)) return *isa;
-    throw std::runtime_error("this processor lacks SSE 4.2 or POPCNT, which everything here needs");
+    throw std::runtime_error("this processor is not supported because it lacks SSE 4.2 or POPCNT");
 }
 
 void report_unknown_isa() { throw std::logic_error("this instruction set has no kernels"); }

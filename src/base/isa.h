@@ -6,7 +6,7 @@
 
 namespace nusselt::base {
 
-/// From few to many lanes.
+/// Instruction sets, ordered from few to many lanes.
 enum class Isa { sse42, avx2, avx512 };
 
 /// "sse42", "avx2" or "avx512".

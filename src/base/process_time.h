@@ -3,7 +3,7 @@
 
 namespace nusselt::base {
 
-/// For which all threads of this program ran so far, on processors of their own or not [s].
+/// The processor time of all threads of this program so far [s].
 double process_seconds();
 
 } // namespace nusselt::base

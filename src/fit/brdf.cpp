@@ -165,7 +165,7 @@ const Brdf& find_brdf(const std::string& name) {
         if (one.name == name) return one;
         names += (names.empty() ? "" : ", ") + std::string(one.name);
     }
-    throw std::runtime_error("no BRDF '" + name + "'; there are " + names);
+    throw std::runtime_error("unknown BRDF '" + name + "'; use one of " + names);
 }
 
 } // namespace nusselt::fit

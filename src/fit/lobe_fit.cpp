@@ -14,8 +14,8 @@ namespace nusselt::fit {
 
 namespace {
 
-/// Of the difference in the objective. 3 as in Heitz et al. 2016 weighs the peak more, 1 the tail; the variance of
-/// sampling hardly depends on it.
+/// The exponent of the difference in the objective. 3 as in Heitz et al. 2016 favours the peak, 1 the tail; the
+/// variance of sampling hardly depends on it.
 constexpr int kExponent = 2;
 
 constexpr double kLargestAngle = kPi<double> / 2 - 1e-6;
@@ -38,7 +38,7 @@ struct Problem {
     }
 };
 
-/// Which numbers of a lobe are optimised. Fewer ones are the start for more.
+/// The parameters of a lobe that are optimised. The optimum with fewer parameters is the start for more.
 enum class Freedom {
     width,        ///< isotropic around the normal
     fixed_tilt,   ///< widths and peak; the horizon is perpendicular to the mean direction
@@ -110,8 +110,8 @@ Optimum optimise(const Problem& problem, const Lobe& start, Freedom freedom) {
     return search.best;
 }
 
-/// How much narrower lobes are across the plane of incidence than in it: reflection about normals that vary turns
-/// directions by an angle proportional to the cosine, which the roughness limits from below.
+/// The ratio by which lobes are narrower across the plane of incidence than in it: reflection about normals that vary
+/// turns directions by an angle proportional to the cosine, which the roughness limits from below.
 double foreshortening(const Slice& slice) {
     const double alpha = ggx_alpha(slice.roughness);
     return std::hypot(std::cos(slice.inclination), alpha);

@@ -1,5 +1,5 @@
 #pragma once
-/// What one entry of a table is fitted to.
+/// The data to which one entry of a table is fitted.
 
 namespace nusselt::fit {
 

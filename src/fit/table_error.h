@@ -1,5 +1,5 @@
 #pragma once
-/// How well lobes describe a BRDF.
+/// The errors of lobes as an approximation of a BRDF.
 
 #include "fit/brdf.h"
 

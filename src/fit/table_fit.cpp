@@ -41,8 +41,9 @@ void TableFit::resume(const std::filesystem::path& checkpoint) {
     std::string title;
     std::getline(file, title);
     if (title != title_of(*brdf_, size_))
-        throw std::runtime_error(fmt::format("{}: not a checkpoint of '{}'; choose another file or remove it",
-                                             checkpoint.string(), title_of(*brdf_, size_)));
+        throw std::runtime_error(
+            fmt::format("{}: the file is not a checkpoint of '{}'; choose another file or remove it",
+                        checkpoint.string(), title_of(*brdf_, size_)));
     int finished = 0;
     file >> finished;
     file.get();

@@ -13,7 +13,7 @@ using Use = vk::BufferUsageFlagBits;
 
 constexpr vk::BufferUsageFlags kInputUse =
     Use::eAccelerationStructureBuildInputReadOnlyKHR | Use::eShaderDeviceAddress | Use::eTransferDst;
-/// What Vulkan aligns acceleration structures in buffers to [bytes].
+/// The alignment of acceleration structures in buffers [bytes].
 constexpr std::size_t kAlignment = 256;
 
 std::uint64_t aligned(std::uint64_t x, std::uint64_t alignment) {
@@ -29,7 +29,7 @@ Buffer make_input(const Device& device, std::span<const T> values) {
 
 } // namespace
 
-/// What one structure is made of.
+/// The input of one structure.
 struct AccelerationStructure::Input {
     std::vector<vk::AccelerationStructureGeometryKHR> geometries;
     std::vector<std::uint32_t> counts;       ///< of primitives
@@ -90,8 +90,9 @@ AccelerationStructure::Levels AccelerationStructure::build_bottom(const Device& 
         for (const auto& indices : {part.opaque, part.partial})
             all_indices.insert(all_indices.end(), indices.begin(), indices.end());
     if (all_indices.size() > std::numeric_limits<std::uint32_t>::max() / sizeof(std::uint32_t))
-        throw Error(device.description().name + ": ray queries know at most 357 million triangles, not " +
-                    std::to_string(all_indices.size() / 3) + "; trace shadow rays without them");
+        throw Error(device.description().name +
+                    ": ray queries support at most 357 million triangles, found " +
+                    std::to_string(all_indices.size() / 3) + "; use --shadow-rays bvh");
     const Buffer vertex_buffer = make_input(device, positions);
     const Buffer index_buffer = make_input(device, std::span<const std::uint32_t>(all_indices));
     const auto vertex_count = static_cast<std::uint32_t>(std::max<std::size_t>(positions.size() / 3, 1));
@@ -119,8 +120,8 @@ AccelerationStructure::Levels AccelerationStructure::build_top(const Device& dev
                                                                std::span<const RayTriangles> triangles,
                                                                std::span<const RayInstance> instances) const {
     if (instances.size() >= 1u << 24)
-        throw Error(device.description().name + ": ray queries know fewer than 2^24 instances, not " +
-                    std::to_string(instances.size()) + "; trace shadow rays without them");
+        throw Error(device.description().name + ": ray queries support fewer than 2^24 instances, found " +
+                    std::to_string(instances.size()) + "; use --shadow-rays bvh");
     std::vector<vk::AccelerationStructureInstanceKHR> records;
     for (std::uint32_t i = 0; i < instances.size(); ++i) {
         const RayInstance& instance = instances[i];

@@ -7,19 +7,19 @@ namespace nusselt::gpu {
 
 namespace {
 
-/// For messages.
+/// The name of a buffer in messages.
 std::string name_of(const Device& device, std::size_t bytes) {
     return device.description().name + ": a buffer of " + size_text(bytes);
 }
 
 vk::raii::Buffer make_buffer(const Device& device, std::size_t bytes, vk::BufferUsageFlags use) {
     assert(bytes > 0);
-    // What shaders and builders reach by address knows no limit.
+    // Memory that shaders and builders reach by address has no limit.
     const bool is_bound = (use & vk::BufferUsageFlagBits::eStorageBuffer) &&
                           !(use & vk::BufferUsageFlagBits::eShaderDeviceAddress);
     if (is_bound && bytes > device.limits().maxStorageBufferRange)
-        throw Error(name_of(device, bytes) + " is too large, the limit is " +
-                    size_text(device.limits().maxStorageBufferRange) + "; ask for less");
+        throw Error(name_of(device, bytes) + " exceeds the limit of " +
+                    size_text(device.limits().maxStorageBufferRange) + "; use a smaller scene or image");
     const vk::BufferCreateInfo info({}, bytes, use);
     return guarded(name_of(device, bytes), [&] { return vk::raii::Buffer(device.handle(), info); });
 }

@@ -13,7 +13,7 @@ inline constexpr vk::BufferUsageFlags kStorageUse = vk::BufferUsageFlagBits::eSt
                                                     vk::BufferUsageFlagBits::eTransferSrc |
                                                     vk::BufferUsageFlagBits::eTransferDst;
 
-/// Where a buffer lives.
+/// The memory of a buffer.
 enum class Residence {
     host_visible, ///< memory that both sides see: for what is written or read once
     read_back,    ///< likewise, for what the host reads often: in its caches if the device has such memory
@@ -30,7 +30,7 @@ public:
 
     std::size_t size() const { return size_; }
     vk::Buffer handle() const { return *buffer_; }
-    /// Of the first byte on the device. Only with the use eShaderDeviceAddress.
+    /// The address of the first byte on the device. Requires the use eShaderDeviceAddress.
     vk::DeviceAddress address() const;
 
     /// Overwrites the beginning. \param values at most as large as the buffer.

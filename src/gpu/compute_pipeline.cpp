@@ -25,7 +25,7 @@ vk::raii::Pipeline make_pipeline(const Device& device, std::span<const std::uint
     return {device.handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage.description(), layout)};
 }
 
-/// Of all that a compiled shader depends on.
+/// A key of everything on which a compiled shader depends.
 std::string key_of(std::span<const std::uint32_t> spirv, const ComputeInterface& interface) {
     std::string key(reinterpret_cast<const char*>(spirv.data()), spirv.size_bytes());
     for (const std::uint64_t number :

@@ -10,7 +10,7 @@
 
 namespace nusselt::gpu {
 
-/// What a shader expects from outside.
+/// The inputs of a shader.
 struct ComputeInterface {
     std::uint32_t storage_buffers = 0;         ///< bindings 0 to this, exclusive, of set 0
     std::uint32_t ray_scenes = 0;              ///< acceleration structures: the bindings after those

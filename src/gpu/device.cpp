@@ -79,8 +79,9 @@ std::optional<std::size_t> find(const std::vector<vk::raii::PhysicalDevice>& dev
 vk::raii::PhysicalDevice choose(const Instance& instance, const DeviceOptions& options) {
     std::vector<vk::raii::PhysicalDevice> devices = instance.devices();
     if (devices.empty())
-        throw NoDevice("no device with Vulkan 1.1; install the driver of your GPU, or the software device "
-                       "(mesa-vulkan-drivers)");
+        throw NoDevice(
+            "no device supports Vulkan 1.1; install the driver of your GPU, or the software device "
+            "(mesa-vulkan-drivers)");
     std::optional<std::string> choice = options.choice;
     if (const char* variable = std::getenv("NUSSELT_DEVICE");
         !choice && variable != nullptr && *variable != '\0')
@@ -92,7 +93,7 @@ vk::raii::PhysicalDevice choose(const Instance& instance, const DeviceOptions& o
     std::string known;
     for (std::size_t i = 0; i < devices.size(); ++i)
         known += (i > 0 ? "; " : "") + std::to_string(i) + ": " + describe(devices[i]).name;
-    throw NoDevice("no Vulkan device '" + *choice + "'; the devices are " + known);
+    throw NoDevice("unknown Vulkan device '" + *choice + "'; use one of " + known);
 }
 
 /// A queue for compute shaders: one that also draws if there is any, with timestamps if there are any.
@@ -123,7 +124,7 @@ std::uint32_t indexed_images_of(const vk::raii::PhysicalDevice& device) {
     const auto limits =
         device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDescriptorIndexingProperties>()
             .get<vk::PhysicalDeviceDescriptorIndexingProperties>();
-    // With more buffers beside them than any shader has.
+    // Leaves room for more buffers than any shader has.
     constexpr std::uint32_t kOtherResources = 64;
     return std::min({limits.maxPerStageDescriptorUpdateAfterBindSampledImages,
                      limits.maxDescriptorSetUpdateAfterBindSampledImages,
@@ -288,7 +289,7 @@ std::vector<double> Device::time_passes(std::span<const Record> passes) const {
         const auto [result, ticks] = timestamps.getResults<std::uint64_t>(
             0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
             vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
-        // Of a counter with fewer bits, the difference is right if it lasts less than one period.
+        // With fewer bits, the counter wraps around; differences of less than one period stay right.
         const std::uint32_t bits = physical_.getQueueFamilyProperties()[queue_family_].timestampValidBits;
         for (std::uint32_t i = 1; i < count; ++i) {
             const std::uint64_t elapsed = (ticks[i] - ticks[i - 1]) << (64 - bits) >> (64 - bits);

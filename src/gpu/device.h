@@ -19,7 +19,7 @@ struct DeviceOptions {
     /// software device last.
     std::optional<std::string> choice = {};
     Validation validation = Validation::off;
-    /// What the driver shall keep its objects in, on the host; it must outlive the device. Null: its own allocator.
+    /// The allocator of the driver for objects on the host, which must outlive the device. Null for its own one.
     const vk::AllocationCallbacks* allocator = nullptr;
 };
 
@@ -31,7 +31,7 @@ struct DeviceDescription {
     std::string api_version; ///< of Vulkan
 };
 
-/// What a device can do beyond Vulkan 1.1. All of it is switched on.
+/// Features of a device beyond Vulkan 1.1. All of them are switched on.
 struct DeviceFeatures {
     bool buffer_addresses = false;    ///< buffers that shaders and builders reach by address
     bool ray_queries = false;         ///< with acceleration structures, see acceleration_structure.h
@@ -42,15 +42,15 @@ struct DeviceFeatures {
 /// \throws Error if a driver does not start.
 std::vector<DeviceDescription> list_devices();
 
-/// What Device(options) would run on.
+/// The device that Device(options) would use.
 /// \throws NoDevice, Error as that does.
 DeviceDescription chosen_device(const DeviceOptions& options = {});
 
-/// Why Device(options) would throw NoDevice; nothing if it would not.
+/// The reason for which Device(options) would throw NoDevice; nothing if it would succeed.
 /// \throws Error if a driver does not start.
 std::optional<std::string> why_no_device(const DeviceOptions& options = {});
 
-/// What time() measures with.
+/// The clock of time().
 enum class Clock {
     timestamps, ///< of the device: what the commands take
     wall,       ///< of the processor, where the device has none: with submission and waiting
@@ -71,9 +71,9 @@ public:
     const DeviceDescription& description() const { return description_; }
     const vk::PhysicalDeviceLimits& limits() const { return limits_; }
     const DeviceFeatures& features() const { return features_; }
-    /// What time_passes() measures several passes with.
+    /// The clock of time_passes() for several passes.
     Clock pass_clock() const;
-    /// What the scratch memory for building acceleration structures is aligned to [bytes]; 1 without them.
+    /// The alignment of the scratch memory for building acceleration structures [bytes]; 1 without them.
     std::uint32_t scratch_alignment() const { return scratch_alignment_; }
     const vk::raii::Device& handle() const { return device_; }
     ShaderCache& shaders() const { return shaders_; }

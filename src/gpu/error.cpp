@@ -14,14 +14,15 @@ std::string size_text(std::uint64_t bytes) {
 std::string describe(const std::string& activity, vk::Result result) {
     switch (result) {
     case vk::Result::eErrorOutOfDeviceMemory:
-        return activity + ": out of memory on the device; close other programs or ask for less";
+        return activity +
+               ": out of memory on the device; close other programs, or use a smaller scene or image";
     case vk::Result::eErrorOutOfHostMemory:
-        return activity + ": out of memory; close other programs or ask for less";
+        return activity + ": out of memory; close other programs, or use a smaller scene or image";
     case vk::Result::eErrorDeviceLost:
-        return activity + ": the device was lost, its driver crashed or stopped a command that took too "
-                          "long; start again";
+        return activity + ": the device is lost because its driver crashed or stopped a command that took "
+                          "too long; run the program again";
     case vk::Result::eErrorInitializationFailed:
-        return activity + ": the driver does not start; is it installed completely?";
+        return activity + ": the driver does not start; install it again";
     default:
         return activity + ": Vulkan reports " + vk::to_string(result) +
                "; update the driver, or choose another device with NUSSELT_DEVICE";

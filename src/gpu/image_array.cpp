@@ -9,9 +9,9 @@ namespace {
 
 /// Drivers allow 4096 allocations, scenes have more textures: they share memory, in blocks of this size [bytes].
 constexpr std::uint64_t kBlockSize = std::uint64_t{256} << 20;
-/// What all devices allocate at once [bytes].
+/// The largest allocation that all devices support [bytes].
 constexpr std::uint64_t kLargestImage = std::uint64_t{1} << 30;
-/// What is copied at once, if images are not larger [bytes].
+/// The size of a copy, unless a single image is larger [bytes].
 constexpr std::size_t kBatchSize = std::size_t{64} << 20;
 /// A multiple of the size of all texels [bytes].
 constexpr std::size_t kTexelAlignment = 16;
@@ -68,16 +68,16 @@ std::optional<std::string> ImageArray::why_impossible(const Device& device,
                                                       std::span<const ImageDescription> images) {
     const std::string& name = device.description().name;
     const std::uint32_t most = device.features().indexed_images;
-    if (most == 0) return name + ": shaders of the device cannot choose from images";
+    if (most == 0) return name + ": the device does not support arrays of images in shaders";
     if (images.size() > most)
-        return name + ": shaders choose from at most " + std::to_string(most) + " images, not " +
+        return name + ": shaders support at most " + std::to_string(most) + " images, found " +
                std::to_string(images.size());
     const std::uint32_t side = device.limits().maxImageDimension2D;
     for (const ImageDescription& image : images) {
         if (image.width <= side && image.height <= side && bytes_of(image) <= kLargestImage) continue;
         return name + ": an image of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-               " texels (" + size_text(bytes_of(image)) + ") is too large, the limit is " +
-               std::to_string(side) + " x " + std::to_string(side) + " and " + size_text(kLargestImage);
+               " texels (" + size_text(bytes_of(image)) + ") exceeds the limit of " + std::to_string(side) +
+               " x " + std::to_string(side) + " and " + size_text(kLargestImage);
     }
     return std::nullopt;
 }

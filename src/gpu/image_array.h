@@ -23,7 +23,7 @@ struct ImageDescription {
 /// compute and fragment shaders.
 class ImageArray {
 public:
-    /// Why the constructor would throw, but for memory; nothing if it would not.
+    /// The reason for which the constructor would throw, apart from memory; nothing if it would not.
     static std::optional<std::string> why_impossible(const Device& device,
                                                      std::span<const ImageDescription> images);
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kNoDriver =
-    "no Vulkan driver found; install that of your GPU, or the software device (mesa-vulkan-drivers)";
+    "no Vulkan driver found; install the driver of your GPU, or the software device (mesa-vulkan-drivers)";
 
 vk::raii::Context load() {
     try {

@@ -27,7 +27,7 @@ vk::raii::Image make_image(const Device& device, vk::Format format, vk::ImageUsa
     const std::uint32_t height =
         std::min({limits.maxImageDimension2D, limits.maxFramebufferHeight, limits.maxViewportDimensions[1]});
     if (size.width > width || size.height > height)
-        throw Error(name + " is too large, the limit is " + size_name({width, height}) + "; ask for less");
+        throw Error(name + " exceeds the limit of " + size_name({width, height}) + "; use a smaller image");
     const vk::ImageCreateInfo info({}, vk::ImageType::e2D, format, {size.width, size.height, 1}, 1, 1,
                                    vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage);
     return guarded(name, [&] { return vk::raii::Image(device.handle(), info); });
@@ -124,7 +124,7 @@ vk::raii::Framebuffer make_framebuffer(const Device& device, vk::RenderPass rend
 const Device& checked(const Device& device) {
     if (!device.draws())
         throw Error(device.description().name +
-                    ": the device computes but does not draw; choose another one with NUSSELT_DEVICE");
+                    ": the device does not support drawing; choose another one with NUSSELT_DEVICE");
     return device;
 }
 

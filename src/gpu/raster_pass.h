@@ -10,7 +10,7 @@
 
 namespace nusselt::gpu {
 
-/// What the shaders of a RasterPass expect from outside.
+/// The inputs of the shaders of a RasterPass.
 struct RasterInterface {
     std::uint32_t storage_buffers = 0;    ///< bindings 0 to this, exclusive, of set 0, in both stages
     const ImageArray* images = nullptr;   ///< set 1, or none; must outlive the pass

@@ -14,8 +14,8 @@ vk::raii::DescriptorSetLayout make_layout(const Device& device, std::uint32_t st
     const std::uint32_t limit = std::min(device.limits().maxPerStageDescriptorStorageBuffers,
                                          device.limits().maxDescriptorSetStorageBuffers);
     if (storage_buffers > limit)
-        throw Error(device.description().name + ": the device binds at most " + std::to_string(limit) +
-                    " storage buffers to a shader, not " + std::to_string(storage_buffers) +
+        throw Error(device.description().name + ": the device supports at most " + std::to_string(limit) +
+                    " storage buffers per shader, found " + std::to_string(storage_buffers) +
                     "; choose another one with NUSSELT_DEVICE");
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (std::uint32_t i = 0; i < storage_buffers; ++i)

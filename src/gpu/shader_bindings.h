@@ -1,5 +1,5 @@
 #pragma once
-/// What shaders see of the memory of a device.
+/// The memory of a device that shaders access.
 
 #include "gpu/acceleration_structure.h"
 #include "gpu/buffer.h"
@@ -22,7 +22,7 @@ public:
     ShaderBindings(const Device& device, std::uint32_t storage_buffers, std::uint32_t ray_scenes,
                    const ImageArray* images, vk::ShaderStageFlags stages);
 
-    /// Of all sets, in order.
+    /// The layouts and the handles of all sets, in order.
     std::vector<vk::DescriptorSetLayout> layouts() const;
     std::vector<vk::DescriptorSet> handles() const;
 

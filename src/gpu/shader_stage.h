@@ -9,7 +9,7 @@
 
 namespace nusselt::gpu {
 
-/// What a pipeline needs of a shader while it is made.
+/// The data of a shader that a pipeline needs while it is created.
 class ShaderStage {
 public:
     /// \param spirv     a shader with the entry point `main`.

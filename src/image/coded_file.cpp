@@ -37,7 +37,7 @@ constexpr CodedFormat kFormats[] = {
 const CodedFormat& format_of(std::string_view file) {
     for (const CodedFormat& format : kFormats)
         if (format.matches(file)) return format;
-    throw std::runtime_error("this is neither PNG, JPG, TGA nor BMP; check its name or convert it");
+    throw std::runtime_error("the file is not PNG, JPG, TGA or BMP; check its name or convert it");
 }
 
 } // namespace
@@ -55,7 +55,7 @@ std::vector<float> decode_codes(std::string_view file, int channels,
 Image decode_srgb(std::istream& stream) {
     const std::string file(std::istreambuf_iterator<char>(stream), {});
     if (file.starts_with(kBmpMark))
-        throw std::runtime_error("this is neither PNG, JPG nor TGA; check its name or convert it");
+        throw std::runtime_error("the file is not PNG, JPG or TGA; check its name or convert it");
     const CodedHeader header = read_coded_header(file);
     return {header.width, header.height, decode_codes(file, 3, linear_from_srgb)};
 }

@@ -140,7 +140,7 @@ Plane seen_blue_yellow(const Plane& channel, double pixels_per_degree) {
     return wide;
 }
 
-/// What colours an observer sees, in Hunt-adjusted CIELAB.
+/// The colours that an observer sees, in Hunt-adjusted CIELAB.
 Planes seen_colors(const Planes& ycxcz, double pixels_per_degree) {
     static const std::array<Color, 3> rgb_from_xyz = rgb_from_relative_xyz();
     Planes planes = {seen(ycxcz[0], 0.0047, pixels_per_degree), seen(ycxcz[1], 0.0053, pixels_per_degree),

@@ -27,10 +27,10 @@ namespace {
 std::ifstream open_for_reading(const std::filesystem::path& path) {
     std::error_code error;
     if (std::filesystem::is_directory(path, error))
-        fail_to_read(path, "this is a folder; give the name of a file");
+        fail_to_read(path, "this is a folder; use the name of a file");
     // Devices and pipes have no size to check, and some never end.
     if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
-        fail_to_read(path, "this is a device or a pipe; give the name of a file");
+        fail_to_read(path, "this is a device or a pipe; use the name of a file");
     std::ifstream stream(path, std::ios::binary);
     if (!stream)
         fail_to_read(path, std::string(std::strerror(errno)) + "; check the path and its permissions");
@@ -44,7 +44,7 @@ auto decode_file(const std::filesystem::path& path, const Decoder& decode) {
     try {
         return decode(stream);
     } catch (const std::bad_alloc&) {
-        fail_to_read(path, "the image needs more memory than there is");
+        fail_to_read(path, "not enough memory for the image");
     } catch (const std::exception& error) {
         fail_to_read(path, error.what());
     }
@@ -127,7 +127,7 @@ void check_writable(const std::filesystem::path& path) {
     try {
         base::write_atomically(path, [](std::ofstream&) { throw Abandoned(); });
     } catch (const Abandoned&) {
-        // As it should be: a temporary file could be created and is gone again.
+        // The exception shows success: the temporary file could be created, and is removed again.
     }
 }
 

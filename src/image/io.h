@@ -9,10 +9,10 @@
 
 namespace nusselt::image {
 
-/// With the dot: ".exr" of "Image.EXR".
+/// The extension in lower case with the dot: ".exr" for "Image.EXR".
 [[nodiscard]] std::string lower_case_extension(const std::filesystem::path& path);
 
-/// By the extension.
+/// Whether the extension is that of EXR files.
 [[nodiscard]] bool is_exr(const std::filesystem::path& path);
 
 /// Writes an image in the format that the extension names (upper or lower case):

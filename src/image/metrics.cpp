@@ -30,7 +30,7 @@ bool is_valid_pixel(const float* rgb) {
 void require_same_size(const Image& a, const Image& reference) {
     if (a.width == reference.width && a.height == reference.height) return;
     throw std::runtime_error("the images differ in size: " + size_text(a) + " pixels against " +
-                             size_text(reference) + " of the reference; render both at one size");
+                             size_text(reference) + " of the reference; render both at the same size");
 }
 
 Comparison compare(const Image& a, const Image& reference) {

@@ -1,5 +1,5 @@
 #pragma once
-/// How far is an image from a reference?
+/// Metrics for the difference between an image and a reference.
 
 #include "image/image.h"
 

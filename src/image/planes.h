@@ -30,7 +30,7 @@ void for_each_row(int height, const std::function<void(int)>& f);
 [[nodiscard]] Plane filtered(const Plane& plane, const std::vector<double>& row,
                              const std::vector<double>& column);
 
-/// For each pixel, whether no channel of it is NaN or infinite in either image.
+/// Whether all channels of each pixel are finite in both images.
 /// \throws std::runtime_error  if the sizes differ
 [[nodiscard]] std::vector<char> valid_in_both(const Image& a, const Image& b);
 

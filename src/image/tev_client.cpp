@@ -74,7 +74,7 @@ std::string timeout_text() { return "no answer for " + std::to_string(kTimeoutSe
 DisplayAddress parse_display_address(const std::string& text) {
     const auto fail = [&](const std::string& problem) {
         throw std::runtime_error("display server '" + text + "': " + problem +
-                                 "; give HOST, HOST:PORT or [IPV6]:PORT, such as localhost:14158");
+                                 "; use HOST, HOST:PORT or [IPV6]:PORT, such as localhost:14158");
     };
     std::string host = text;
     std::string port = kDefaultPort;
@@ -144,7 +144,7 @@ void DisplayClient::give_up(const std::string& problem) {
     if (socket_ >= 0) ::close(socket_);
     socket_ = -1;
     warn_("the display server '" + address_ + "' cannot be reached (" + problem +
-          "); the image is not shown there, everything else goes on");
+          "); rendering continues without it");
 }
 
 void DisplayClient::send_packet(const std::string& body) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What renders, as programs see it: the processor or a GPU.
+/// The face of both renderers for programs: the processor or a GPU.
 
 #include "image/image.h"
 #include "render/frame.h"
@@ -38,7 +38,7 @@ public:
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 using NamedSeconds = std::vector<std::pair<std::string, double>>;
 
-/// Where the time of a rendering went.
+/// The times of the phases of a rendering.
 struct TimeReport {
     NamedSeconds preparation; ///< wall clock, before the first piece of work
     std::string work_name;    ///< whose times the following are
@@ -52,20 +52,20 @@ public:
     Backend(const Backend&) = delete;
     Backend& operator=(const Backend&) = delete;
 
-    /// What users choose it by.
+    /// The name by which users choose the backend.
     virtual std::string_view name() const = 0;
 
-    /// Why settings are not supported, with what to do; nothing if they are. \param settings valid
+    /// The reason for which settings are not supported, and the remedy; nothing if they are. \param settings valid
     virtual std::optional<std::string> why_unsupported(const RenderSettings& settings) const = 0;
 
     /// \param scene must outlive the result; its film gives the size of images
     /// \throws std::runtime_error if the backend cannot hold the scene
     virtual std::unique_ptr<PreparedScene> prepare(const scene::Scene& scene) const = 0;
 
-    /// What image files say about the backend, beside make_metadata(): the bits of images depend on it.
+    /// Metadata about the backend for image files, beside make_metadata(): the bits of images depend on it.
     virtual image::Metadata metadata() const = 0;
 
-    /// What reports say about it.
+    /// The description of the backend in reports.
     virtual NamedTexts properties() const = 0;
 
     /// \param statistics of one of its renderings

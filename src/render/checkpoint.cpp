@@ -66,7 +66,7 @@ public:
 
     void bytes(void* data, std::size_t size) {
         if (size > left_ || !stream_.read(static_cast<char*>(data), static_cast<std::streamsize>(size)))
-            throw std::runtime_error("it is damaged or cut off");
+            throw std::runtime_error("the file is damaged or truncated");
         left_ -= size;
         hash_.add_bytes(data, size);
     }
@@ -77,17 +77,17 @@ public:
     }
     std::string text() {
         const std::uint64_t size = number();
-        if (size > left_) throw std::runtime_error("it is damaged or cut off");
+        if (size > left_) throw std::runtime_error("the file is damaged or truncated");
         std::string result(size, '\0');
         bytes(result.data(), size);
         return result;
     }
     void check_hash() {
         const std::uint64_t expected = hash_.value();
-        if (number() != expected) throw std::runtime_error("it is damaged or cut off");
+        if (number() != expected) throw std::runtime_error("the file is damaged or truncated");
     }
     void check_end() const {
-        if (left_ != 0) throw std::runtime_error("it is damaged: there is something behind its end");
+        if (left_ != 0) throw std::runtime_error("the file is damaged: unexpected data follow its end");
     }
 
 private:
@@ -100,17 +100,17 @@ private:
 void check_same_run(const image::Metadata& stored, const image::Metadata& run) {
     for (const auto& [key, value] : run) {
         const auto found = stored.find(key);
-        const std::string there = found == stored.end() ? "not there" : "'" + found->second + "'";
+        const std::string there = found == stored.end() ? "missing" : "'" + found->second + "'";
         const std::string hint =
-            key == "scene_fingerprint" ? "; the scene, a file that it uses or a light rig was changed" : "";
+            key == "scene_fingerprint" ? "; the scene, a file that it uses or a light rig has changed" : "";
         if (there != "'" + value + "'")
-            throw std::runtime_error("it is of another run: " + key + " is " + there + " in the file, but '" +
-                                     value + "' now" + hint);
+            throw std::runtime_error("it belongs to another run: " + key + " is " + there +
+                                     " in the file, but '" + value + "' now" + hint);
     }
     for (const auto& [key, value] : stored)
         if (run.count(key) == 0)
-            throw std::runtime_error("it is of another run: " + key + " is '" + value +
-                                     "' in the file, but not set now");
+            throw std::runtime_error("it belongs to another run: " + key + " is '" + value +
+                                     "' in the file, but missing now");
 }
 
 void read_tiles(Reader& reader, Frame& frame) {
@@ -118,7 +118,7 @@ void read_tiles(Reader& reader, Frame& frame) {
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::uint64_t number = reader.number();
         if (number >= frame.tiles.size() || frame.is_finished[number] != 0)
-            throw std::runtime_error("it is damaged or cut off");
+            throw std::runtime_error("the file is damaged or truncated");
         for_each_row(frame, frame.tiles[number],
                      [&](float* row, std::size_t size) { reader.bytes(row, size * sizeof(float)); });
         frame.is_finished[number] = 1;
@@ -129,7 +129,7 @@ void read_file(std::ifstream& stream, std::uint64_t size, const image::Metadata&
     Reader reader(stream, size);
     std::array<char, kMagic.size()> magic{};
     reader.bytes(magic.data(), magic.size());
-    if (magic != kMagic) throw std::runtime_error("it is no checkpoint");
+    if (magic != kMagic) throw std::runtime_error("the file is not a checkpoint");
     image::Metadata stored;
     const std::uint64_t entries = reader.number();
     for (std::uint64_t i = 0; i < entries; ++i) {
@@ -181,14 +181,14 @@ void load_checkpoint(const std::filesystem::path& path, const image::Metadata& r
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (status.type() == std::filesystem::file_type::not_found) return;
     try {
-        if (!std::filesystem::is_regular_file(status)) throw std::runtime_error("it is no file");
+        if (!std::filesystem::is_regular_file(status)) throw std::runtime_error("it is not a regular file");
         std::ifstream stream(path, std::ios::binary);
-        if (!stream) throw std::runtime_error("it cannot be opened; check its permissions");
+        if (!stream) throw std::runtime_error("cannot open the file; check its permissions");
         read_file(stream, std::filesystem::file_size(path), run, frame);
     } catch (const std::exception& problem) {
-        throw std::runtime_error("cannot go on with the checkpoint '" + path.string() +
+        throw std::runtime_error("cannot continue from the checkpoint '" + path.string() +
                                  "': " + problem.what() +
-                                 "; delete the file to begin anew, or give --checkpoint another name");
+                                 "; delete the file to start again, or use another name for --checkpoint");
     }
 }
 

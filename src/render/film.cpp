@@ -47,7 +47,7 @@ scene::PixelBounds rendered_pixels(const scene::Film& film) {
 void resize_film(scene::Scene& scene, int width, int height) {
     for (const int size : {width, height})
         if (size < 1 || size > scene::kMaxFilmSize)
-            throw std::invalid_argument("image sizes lie between 1 and " +
+            throw std::invalid_argument("image sizes must lie between 1 and " +
                                         std::to_string(scene::kMaxFilmSize) + ", found " +
                                         std::to_string(size));
     const Size from = {scene.film.width, scene.film.height};

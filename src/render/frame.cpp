@@ -139,7 +139,7 @@ Frame make_frame(const scene::Scene& scene, const RenderSettings& settings) {
     check_memory(sizeof(float) * channel_count * pixels,
                  "an image of " + std::to_string(width) + " x " + std::to_string(height) + " pixels with " +
                      std::to_string(channel_count) + " channels",
-                 "lower --resolution or ask for fewer --layers");
+                 "use a lower --resolution or fewer --layers");
 
     frame.image = image::make_image(width, height);
     for (const auto& [name, channels] : formats)

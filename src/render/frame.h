@@ -17,7 +17,7 @@ struct Frame {
     scene::PixelBounds bounds; ///< pixels of the film that the image holds
     image::Image image;
     std::vector<image::Layer> layers;
-    std::vector<Tile> tiles;               ///< those of the part to render
+    std::vector<Tile> tiles;               ///< the tiles of the part to render
     std::vector<std::uint8_t> is_finished; ///< 1 for tiles whose pixels are final; one for each tile
     /// Share of the samples that finished pixels have: below 1 if a backend was stopped that takes all pixels at once.
     double finished_share = 1;

@@ -26,7 +26,7 @@ InstanceTransform make_instance_transform(const scene::Scene& scene, const scene
     }
     if (determinant == 0 || !std::isfinite(determinant))
         throw std::runtime_error("object " + scene.objects[instance.object].name +
-                                 ": the transform of an instance cannot be inverted");
+                                 ": the transform of an instance is not invertible");
     const double handedness = determinant < 0 ? -1 : 1;
     transform.handedness = static_cast<float>(handedness);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -12,10 +12,11 @@ namespace {
 constexpr double kBlocksPerSquaredLine = 24.0 / (16 * 16);
 constexpr double kPointsExponent = 1.4;
 
-/// With AVX-512, fewer lines take as long as this many. The same everywhere, so that images take points in the same places.
+/// With AVX-512, fewer lines take as long as this many. All instruction sets use the same number, so that their images
+/// use points in the same places.
 constexpr int kFewestLines = 16;
 
-/// Of a pixel and light: what stratified samples are made for.
+/// The number of points per pixel and light for which stratified samples are designed.
 constexpr int kMostPoints = 1 << 22;
 
 } // namespace

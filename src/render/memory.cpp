@@ -16,7 +16,7 @@ double machine_memory() {
     return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
 }
 
-/// What a container may use, if there is such a limit.
+/// The limit on the memory of a container, if it has one.
 double allowed_memory() {
     double memory = machine_memory();
     std::ifstream limit_file("/sys/fs/cgroup/memory.max");

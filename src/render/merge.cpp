@@ -17,7 +17,7 @@ namespace {
 const std::set<std::string> kFreeKeys = {"seed", "samples",        "camera_rays",      "isa",
                                          "part", "render_seconds", "finished_fraction"};
 
-/// Beyond this doubles are no longer exact.
+/// Doubles represent whole numbers exactly up to this one.
 constexpr double kMaxSampleCount = 0x1p53;
 
 const char* const kSamplesLayer = "samples";
@@ -27,7 +27,7 @@ const char* const kCoverageLayer = "coverage";
     throw std::runtime_error("cannot merge '" + path.string() + "': " + problem);
 }
 
-/// How the values of a layer become those of the merged one.
+/// The rule by which the values of a layer are merged.
 enum class Rule { mean, mean_over_hits, variance_of_mean };
 
 Rule rule_of(const image::Layer& layer) {
@@ -38,16 +38,15 @@ Rule rule_of(const image::Layer& layer) {
 
 std::vector<double> samples_of(const image::LayeredImage& image, const std::filesystem::path& path) {
     if (image.metadata.count(image::kConvertedKey) != 0)
-        refuse(
-            path,
-            "it comes from `nusselt convert`, which may have changed it; merge what `nusselt render` wrote");
+        refuse(path, "it was converted by `nusselt convert`, which may have changed its pixels; merge the "
+                     "output of `nusselt render`");
     const std::size_t pixels =
         static_cast<std::size_t>(image.data.width) * static_cast<std::size_t>(image.data.height);
     if (const image::Layer* layer = image::find_layer(image, kSamplesLayer)) {
         std::vector<double> samples(layer->data.begin(), layer->data.end());
         const auto is_bad = [](double n) { return !(n >= 0 && n <= kMaxSampleCount); };
         if (layer->channels.size() != 1 || std::any_of(samples.begin(), samples.end(), is_bad))
-            refuse(path, "its layer 'samples' does not hold numbers of samples");
+            refuse(path, "its layer 'samples' must contain numbers of samples");
         return samples;
     }
     const auto found = image.metadata.find("samples");
@@ -55,8 +54,8 @@ std::vector<double> samples_of(const image::LayeredImage& image, const std::file
     if (found != image.metadata.end())
         std::from_chars(found->second.data(), found->second.data() + found->second.size(), count);
     if (!(count > 0 && count <= kMaxSampleCount))
-        refuse(path, "it does not say how many samples its pixels have; only images of `nusselt render` and "
-                     "`nusselt merge` in EXR files do");
+        refuse(path, "its number of samples per pixel is missing; merge only EXR files of `nusselt render` "
+                     "and `nusselt merge`");
     return std::vector<double>(pixels, count);
 }
 
@@ -79,7 +78,7 @@ std::string size_text(const image::Window& window) {
            std::to_string(window.x) + ", " + std::to_string(window.y) + ")";
 }
 
-/// Names and channels of layers, but for the number of samples.
+/// Names and channels of all layers except for the number of samples.
 std::string layers_text(const image::LayeredImage& image) {
     std::string text;
     for (const image::Layer& layer : image.layers) {
@@ -97,7 +96,7 @@ void check_same_metadata(const image::Metadata& first, const image::Metadata& ot
             if (kFreeKeys.count(key) != 0) continue;
             const auto found = b.find(key);
             if (found == b.end() || found->second != value)
-                refuse(path, "it is of another rendering than the first image: '" + key + "' differs");
+                refuse(path, "it belongs to another rendering than the first image: '" + key + "' differs");
         }
     };
     compare(first, other);
@@ -112,7 +111,7 @@ struct LayerSum {
 
 using Pixels = std::vector<bool>;
 
-/// Which pixels have samples of which seeds.
+/// The pixels with samples, and their seeds.
 struct Origin {
     std::set<std::string> seeds;
     Pixels has_samples;
@@ -186,11 +185,11 @@ void Merger::State::begin(const image::LayeredImage& first) {
 
 void Merger::State::check(const image::LayeredImage& other, const std::filesystem::path& path) const {
     if (!(other.data == image.data) || !(other.display == image.display))
-        refuse(path, "it shows " + size_text(other.data) + " of the film, the first image " +
+        refuse(path, "it shows " + size_text(other.data) + " of the film, but the first image shows " +
                          size_text(image.data));
     if (layers_text(other) != layers_text(image))
-        refuse(path,
-               "its channels are " + layers_text(other) + ", those of the first image " + layers_text(image));
+        refuse(path, "its channels are " + layers_text(other) + ", but those of the first image are " +
+                         layers_text(image));
     check_same_metadata(image.metadata, other.metadata, path);
 }
 
@@ -217,7 +216,7 @@ void Merger::State::refuse_repetition(const Origin& origin, const std::string& s
                             "', which would count twice; render with another --seed or --part");
 }
 
-/// Of what was added so far; empty without that layer.
+/// The coverage of the images added so far; empty without that layer.
 std::vector<double> Merger::State::coverage() const {
     for (std::size_t i = 0; i < layers.size(); ++i)
         if (image.layers[i].name == kCoverageLayer) return layers[i].values;
@@ -262,7 +261,7 @@ void Merger::add(const image::LayeredImage& image, const std::filesystem::path& 
 }
 
 image::LayeredImage Merger::result() const {
-    if (!state_) throw std::logic_error("there is no image to merge");
+    if (!state_) throw std::logic_error("no image to merge");
     const State& state = *state_;
     image::LayeredImage result = state.image;
     for (std::size_t i = 0; i < result.layers.size(); ++i)

@@ -1,5 +1,5 @@
 #pragma once
-/// What image files say about how they were made.
+/// Metadata of image files about their origin.
 
 #include "image/image.h"
 #include "render/backend.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// How a rendering talks to its surroundings.
+/// The communication of a rendering with the program.
 
 #include <atomic>
 #include <cstddef>

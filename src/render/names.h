@@ -55,7 +55,7 @@ auto from_name(const Values& values, std::string_view name) {
         if (name_of(value) == name) return value;
     std::string known;
     for (const std::string& other : names_of(values)) known += (known.empty() ? "" : ", ") + other;
-    throw std::invalid_argument("unknown setting '" + std::string(name) + "'; there are " + known);
+    throw std::invalid_argument("unknown setting '" + std::string(name) + "'; use one of " + known);
 }
 
 } // namespace nusselt::render

@@ -8,7 +8,7 @@ namespace nusselt::render {
 
 namespace {
 
-/// Distance from the centre of a Gaussian in standard deviations beyond which float cannot tell it from zero.
+/// Distance from the centre of a Gaussian in standard deviations beyond which float cannot distinguish it from zero.
 constexpr double kGaussianReach = 8;
 
 /// exp(-x^2 / (2 sigma^2)) minus its value at the radius, without cancellation where both are close.
@@ -62,8 +62,9 @@ PixelFilterTable make_filter_table(const scene::PixelFilter& filter, float radiu
         total_magnitude += magnitude[i];
     }
     if (!(total_integral > 0))
-        throw std::runtime_error("the integral of the pixel filter is not positive with a radius of " +
-                                 std::to_string(radius));
+        throw std::runtime_error(
+            "the integral of the pixel filter must be positive, but is not with a radius of " +
+            std::to_string(radius));
 
     PixelFilterTable table;
     table.reach = static_cast<float>(reach);

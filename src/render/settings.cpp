@@ -67,7 +67,8 @@ void check_values(const RenderSettings& settings) {
 
 void validate_lines(const RenderSettings& settings) {
     if (settings.technique == Technique::ltc_analytic)
-        throw std::invalid_argument("technique ltc_analytic has no shadows and does not fit line samples");
+        throw std::invalid_argument(
+            "technique ltc_analytic has no shadows and does not support line samples");
     const int count = settings.lines.count;
     if (count < 1 || count > kMaxLines)
         throw std::invalid_argument("lines per shading point and light must lie between 1 and " +
@@ -89,10 +90,12 @@ void validate(const RenderSettings& settings) {
                                     std::to_string(settings.samples));
     if (!allows(settings.technique, settings.strategies))
         throw std::invalid_argument("strategies " + std::string(name_of(settings.strategies)) +
-                                    " do not fit technique " + std::string(name_of(settings.technique)));
+                                    " are not supported with technique " +
+                                    std::string(name_of(settings.technique)));
     if (!allows(settings.strategies, settings.mis))
         throw std::invalid_argument("multiple importance sampling by " + std::string(name_of(settings.mis)) +
-                                    " does not fit strategies " + std::string(name_of(settings.strategies)));
+                                    " is not supported with strategies " +
+                                    std::string(name_of(settings.strategies)));
     if (!(settings.visibility_estimate >= 0 && settings.visibility_estimate <= 1))
         throw std::invalid_argument("the visibility estimate must lie between 0 and 1, found " +
                                     std::to_string(settings.visibility_estimate));

@@ -1,5 +1,5 @@
 #pragma once
-/// What a user can choose about a rendering. The table behind each enumeration has all of its values, in the order in which
+/// The settings of a rendering. The table behind each enumeration has all of its values, in the order in which
 /// they are listed to users.
 
 #include "interface/settings.h"
@@ -12,7 +12,7 @@
 
 namespace nusselt::render {
 
-/// How directions towards lights are sampled.
+/// Techniques that sample directions towards lights.
 enum class Technique : std::uint32_t {
     area = interface::kTechniqueArea,
     solid_angle = interface::kTechniqueSolidAngle,
@@ -36,7 +36,7 @@ inline constexpr auto kNames<Technique> = std::to_array<Named<Technique>>({
 inline constexpr auto kTechniques = values_of(kNames<Technique>);
 static_assert(kTechniques.size() == interface::kTechniqueCount);
 
-/// Which techniques take samples of a light.
+/// The set of techniques that take samples of a light.
 enum class Strategies : std::uint32_t {
     diffuse = interface::
         kStrategiesDiffuse, ///< one for all components of the BRDF: that of RenderSettings::technique
@@ -58,7 +58,7 @@ inline constexpr auto kNames<Strategies> = std::to_array<Named<Strategies>>({
 inline constexpr auto kStrategies = values_of(kNames<Strategies>);
 static_assert(kStrategies.size() == interface::kStrategiesCount);
 
-/// How samples of several techniques are combined; see nusselt/estimate/mis.h.
+/// Heuristics that combine samples of several techniques; see nusselt/estimate/mis.h.
 enum class Mis : std::uint32_t {
     balance = interface::kMisBalance,
     power = interface::kMisPower,
@@ -82,7 +82,7 @@ inline constexpr auto kNames<Mis> = std::to_array<Named<Mis>>({
 inline constexpr auto kMisHeuristics = values_of(kNames<Mis>);
 static_assert(kMisHeuristics.size() == interface::kMisCount);
 
-/// How the samples of a pixel and light relate to each other; see nusselt::Sampler.
+/// The pattern of the samples of a pixel and light; see nusselt::Sampler.
 enum class SampleOrder : std::uint32_t {
     independent = interface::kSamplerIndependent,
     sobol = interface::kSamplerSobol,
@@ -100,7 +100,7 @@ inline constexpr auto kNames<SampleOrder> = std::to_array<Named<SampleOrder>>({
 inline constexpr auto kSampleOrders = values_of(kNames<SampleOrder>);
 static_assert(kSampleOrders.size() == interface::kSamplerCount);
 
-/// Where camera rays pass through their pixel.
+/// The position at which camera rays pass through their pixel.
 enum class PixelPosition : std::uint32_t { jittered, center };
 
 template <>
@@ -110,7 +110,7 @@ inline constexpr auto kNames<PixelPosition> = std::to_array<Named<PixelPosition>
 });
 inline constexpr auto kPixelPositions = values_of(kNames<PixelPosition>);
 
-/// Which BRDF all surfaces have.
+/// The choice of the BRDF for all surfaces.
 enum class BrdfChoice : std::uint32_t {
     material = interface::kBrdfMaterial, ///< that of the scene file
     lambert = interface::kBrdfLambert,   ///< diffuse albedo / pi
@@ -124,7 +124,7 @@ inline constexpr auto kNames<BrdfChoice> = std::to_array<Named<BrdfChoice>>({
 inline constexpr auto kBrdfChoices = values_of(kNames<BrdfChoice>);
 static_assert(kBrdfChoices.size() == interface::kBrdfCount);
 
-/// What images can show beside the radiance of their pixels; see make_frame().
+/// Layers of an image beside the radiance of its pixels; see make_frame().
 enum class LayerKind : std::uint32_t {
     albedo,
     normal,
@@ -158,7 +158,7 @@ struct Part {
     bool operator==(const Part&) const = default;
 };
 
-/// What is sampled of polygonal lights. Linear lights always get points.
+/// Samples of polygonal lights: points or lines. Linear lights always get points.
 enum class LightSamples : std::uint32_t {
     points,
     lines, ///< whole segments, with exact visibility
@@ -201,7 +201,7 @@ inline constexpr auto kNames<LineOffsets> = std::to_array<Named<LineOffsets>>({
 });
 inline constexpr auto kLineOffsets = values_of(kNames<LineOffsets>);
 
-/// How the visible parts of a line sample are shaded.
+/// The estimator for the visible parts of a line sample.
 enum class LineShading : std::uint32_t {
     unbiased, ///< the integral of a fitted lobe, and one point for what the BRDF is beyond that
     analytic, ///< the integral of the fitted lobe alone
@@ -214,7 +214,7 @@ inline constexpr auto kNames<LineShading> = std::to_array<Named<LineShading>>({
 });
 inline constexpr auto kLineShadings = values_of(kNames<LineShading>);
 
-/// What shading points take of lights with many occluders in between.
+/// Samples of lights behind many potential occluders.
 enum class ManyOccluders : std::uint32_t {
     points, ///< point samples, where these are cheaper
     lines,  ///< line samples, as everywhere

@@ -26,7 +26,7 @@ struct RenderStatistics {
     // Sums over all threads, or over all passes of a GPU [s].
     double primary_seconds = 0; ///< to find what camera rays hit
     double shading_seconds = 0; ///< all else but tracing; on a GPU with shadow rays
-    double shadow_seconds = 0;  ///< tracing of shadow rays, which a GPU does not tell apart
+    double shadow_seconds = 0;  ///< tracing of shadow rays, which a GPU does not measure separately
     std::uint64_t primary_rays = 0;
     std::uint64_t shadow_rays = 0;
     /// Light samples that count as black because their direction, density or reflected radiance is NaN or

@@ -1,5 +1,6 @@
 #pragma once
-/// What images are rendered in, piece by piece. Plain data: kernels for all instruction sets read this.
+/// Tiles, the pieces in which images are rendered. They are plain data because kernels for all instruction sets read
+/// them.
 
 #include <cstdint>
 

@@ -8,7 +8,7 @@
 
 namespace nusselt::render_cpu {
 
-/// Where a kernel stores the layers of a frame, valid as long as its layers are.
+/// The arrays in which a kernel stores the layers of a frame, valid as long as these layers.
 class FrameTargets {
 public:
     explicit FrameTargets(Frame& frame);

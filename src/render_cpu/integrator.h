@@ -1,5 +1,5 @@
 #pragma once
-/// What is rendered: which light arrives along camera rays.
+/// Integrators compute the light that arrives along camera rays.
 
 #include "base/isa.h"
 #include "render_cpu/kernel.h"

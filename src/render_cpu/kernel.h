@@ -54,25 +54,37 @@ enum TextureKind : std::uint32_t {
     kBumpTexture = 16,
 };
 
-/// A polygon in the form of ConvexPolygon<float, 4> or <float, 8>. Its vertices and then its edges are in
-/// KernelScene::polygon_corners.
-struct PolygonLightRecord {
-    scene::Float3 normal;
-    scene::Float3 radiance;
-    std::uint32_t first_corner;
-    std::int32_t slots; ///< of vertices, and as many of edges: 4 or 8
-    std::int32_t two_sided;
+struct RenderJob;
+struct LightSet;
+
+/// A packet of shading points that get light. Each instruction set derives its own from it.
+struct LitPacket {};
+
+/// Adds the radiance that a packet reflects of one light.
+/// \param index among the lights of the set
+using AddLight = void (*)(LitPacket& packet, const LightSet& lights, std::int32_t index) noexcept;
+
+/// Lights of one kind may have up to so many shapes, each with code of its own.
+inline constexpr int kMostShapes = 2;
+
+/// What kernels know of a kind of light, compiled for one instruction set.
+struct LightCode {
+    /// How a job takes the light of each shape.
+    void (*choose)(const RenderJob& job, AddLight (&add)[kMostShapes]) noexcept;
+    /// Which shape a light has.
+    std::int32_t (*shape_of)(const LightSet& lights, std::int32_t index) noexcept;
+    /// The radiance that a ray sees of a light that it meets.
+    scene::Float3 (*emission)(const LightSet& lights, std::int32_t index,
+                              const scene::Float3& direction) noexcept;
 };
 
-/// A tube, its axis in the form of LineSegment<float>.
-struct LineLightRecord {
-    scene::Float3 begin;
-    scene::Float3 direction;
-    float length;
-    float radius;
-    scene::TubeModel model;
-    scene::Float3 radiance;
-    scene::Float3 radiance_times_radius;
+/// The lights of one kind.
+struct LightSet {
+    const void* records; ///< in the form that the code of this kind knows
+    std::int32_t first;  ///< number of its first light among all lights of the scene
+    std::int32_t count;
+    LightCode code;
+    AddLight add[kMostShapes];
 };
 
 /// As LtcTableView, of the specular Frostbite BRDF; no entries if the job has no use for them.
@@ -104,19 +116,17 @@ struct KernelScene {
     const scene::Float2* uvs;
     const scene::Triangle* triangles;
     const std::uint32_t* triangle_material;
-    const std::int32_t* triangle_light;
+    const std::int32_t* triangle_light; ///< among all lights of the scene, -1 for none
     const MaterialRow* materials;
     const std::uint32_t* material_texture_kinds; ///< TextureKind
     const MaterialTextures* material_textures;
     const TextureView* textures;
-    const PolygonLightRecord* polygon_lights;
-    const scene::Float3* polygon_corners;
-    const LineLightRecord* line_lights;
-    const InstanceRecord* instances;    ///< null if there are none
-    const std::uint32_t* light_emitter; ///< of polygonal lights, then of line lights
+    const InstanceRecord* instances; ///< null if there are none
+    const LightSet* light_sets;
+    std::int32_t light_set_count;
+    std::int32_t light_count;           ///< of all sets
+    const std::uint32_t* light_emitter; ///< of each of them
     std::uint32_t emitter_count;
-    std::int32_t polygon_light_count;
-    std::int32_t line_light_count;
     LtcTableRecord ltc;
     scene::Camera camera;
     FilterAxis filter_x, filter_y;

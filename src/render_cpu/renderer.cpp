@@ -36,7 +36,7 @@ private:
     std::uint64_t begin_ticks_ = __rdtsc();
 };
 
-/// What finished tiles add up to; shared by all threads.
+/// Sums over finished tiles, shared by all threads.
 class Tally {
 public:
     Tally(Frame& frame, const RenderMonitor& monitor) : frame_(frame), monitor_(monitor) {
@@ -101,7 +101,8 @@ private:
 
 int default_thread_count() { return std::max(1, tbb::this_task_arena::max_concurrency()); }
 
-Renderer::Renderer(const scene::Scene& scene, int thread_count, const Integrator& integrator)
+Renderer::Renderer(const scene::Scene& scene, int thread_count, const Integrator& integrator,
+                   std::span<const LightKernel> kernels)
     : scene_(scene),
       thread_count_(thread_count),
       integrator_(&integrator),
@@ -109,7 +110,7 @@ Renderer::Renderer(const scene::Scene& scene, int thread_count, const Integrator
       thread_limit_(tbb::global_control::max_allowed_parallelism,
                     static_cast<std::size_t>(std::max(thread_count, default_thread_count()))),
       arena_(thread_count),
-      arrays_(scene),
+      arrays_(scene, kernels),
       embree_([&] {
           const base::Stopwatch stopwatch;
           return arena_.execute([&] {
@@ -120,7 +121,7 @@ Renderer::Renderer(const scene::Scene& scene, int thread_count, const Integrator
       }()) {}
 
 visibility::LineBvhView Renderer::Lines::get(const scene::Scene& scene, tbb::task_arena& arena) {
-    // With an exception, the next rendering tries again.
+    // After an exception, the next rendering tries again.
     std::call_once(once_, [&] {
         const base::Stopwatch stopwatch;
         arena.execute([&] { bvh_.emplace(scene); });
@@ -156,7 +157,7 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.tracer = tracer;
     job.light_samples = settings.light_samples;
     job.lines = settings.lines;
-    if (settings.light_samples == LightSamples::lines && !scene_.polygon_lights.empty()) {
+    if (settings.light_samples == LightSamples::lines && !scene_.lights.of<scene::PolygonLight>().empty()) {
         line_bvh = lines_.get(scene_, arena_);
         job.line_bvh = &line_bvh;
     }
@@ -178,6 +179,11 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.pixels = frame.image.pixels.data();
     job.has_layers = !frame.layers.empty();
     job.layers = targets.layers();
+
+    std::vector<LightSet> light_sets = arrays_.light_sets(isa);
+    for (LightSet& set : light_sets) set.code.choose(job, set.add);
+    job.scene.light_sets = light_sets.data();
+    job.scene.light_set_count = static_cast<std::int32_t>(light_sets.size());
 
     const RenderTile render_tile = kernel_for(*integrator_, isa);
     const std::size_t summed_emitters = job.layers.lights == nullptr ? 0 : scene_.emitters.size();

@@ -9,6 +9,7 @@
 #include "render/settings.h"
 #include "render_cpu/integrator.h"
 #include "render_cpu/kernel_arrays.h"
+#include "render_cpu/lights/light_kernel.h"
 #include "scene/model/scene.h"
 #include "visibility/embree_scene.h"
 #include "visibility/line_bvh.h"
@@ -18,6 +19,7 @@
 
 #include <mutex>
 #include <optional>
+#include <span>
 
 namespace nusselt::render_cpu {
 
@@ -28,16 +30,18 @@ public:
     /// \param scene        must outlive the renderer; its film gives the size of images
     /// \param thread_count threads for building and rendering, at least 1
     /// \param integrator   must outlive the renderer
+    /// \param kernels      likewise
     /// \throws std::runtime_error see EmbreeScene and KernelArrays
     Renderer(const scene::Scene& scene, int thread_count,
-             const Integrator& integrator = integrators().front());
+             const Integrator& integrator = integrators().front(),
+             std::span<const LightKernel> kernels = light_kernels());
 
     /// \throws std::invalid_argument see validate()
     /// \throws std::runtime_error see make_frame(), and LineBvh for line samples
     RenderResult render(const RenderSettings& settings, base::Isa isa,
                         const RenderMonitor& monitor = {}) const;
 
-    /// As above with another way to trace rays, which must behave like that of the scene.
+    /// Renders with another ray tracer, which must behave like that of the scene.
     RenderResult render(const RenderSettings& settings, base::Isa isa, const visibility::RayTracer& tracer,
                         const RenderMonitor& monitor = {}) const;
 
@@ -74,7 +78,7 @@ private:
     mutable Lines lines_;
 };
 
-/// Number of threads that the machine runs at once.
+/// The number of hardware threads.
 int default_thread_count();
 
 } // namespace nusselt::render_cpu

@@ -145,9 +145,9 @@ FrameWork Accumulator::work() const {
 FrameWork checked_work(const interface::WorkRecord& work, const std::string& device) {
     if (work.unfinished > 0)
         throw gpu::Error(
-            device + ": the driver ended a shader before it was done; use another device or --backend cpu");
+            device + ": the driver stopped a shader before it finished; use another device or --backend cpu");
     if (work.unknown_settings > 0)
-        throw gpu::Error(device + ": a shader has no code for a setting; use --backend cpu");
+        throw gpu::Error(device + ": a setting is not supported by a shader; use --backend cpu");
     const auto joined = [](const std::uint32_t(&words)[2]) {
         return std::uint64_t{words[1]} << 32 | words[0];
     };

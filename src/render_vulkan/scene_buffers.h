@@ -15,7 +15,7 @@ namespace nusselt::render_vulkan {
 template <class T>
 gpu::Buffer upload(const gpu::Device& device, std::span<const T> values, const char* what);
 
-/// The buffers of shaders/passes/scene.glsl and lights.glsl, but for textures.
+/// The buffers of shaders/passes/scene.glsl and lights, but for textures.
 struct SceneBuffers {
     /// \throws gpu::Error as upload() does.
     SceneBuffers(const gpu::Device& device, const SceneRecords& records);
@@ -29,9 +29,9 @@ gpu::Buffer upload(const gpu::Device& device, std::span<const T> values, const c
     const std::size_t bytes = std::max(values.size_bytes(), sizeof(T));
     if (bytes > device.limits().maxStorageBufferRange)
         throw gpu::Error(device.description().name + ": the " + what + " of the scene take " +
-                         gpu::size_text(bytes) + ", more than a buffer of this device may have (" +
+                         gpu::size_text(bytes) + ", but buffers of this device are limited to " +
                          gpu::size_text(device.limits().maxStorageBufferRange) +
-                         "); use another device or --backend cpu");
+                         "; use another device or --backend cpu");
     gpu::Buffer buffer(device, bytes, gpu::Residence::device_local);
     if (!values.empty()) buffer.write(values);
     return buffer;

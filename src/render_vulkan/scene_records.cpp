@@ -2,10 +2,10 @@
 
 #include "render/film.h"
 #include "render/instance_transform.h"
+#include "scene/model/lights/light_geometry.h"
 #include "scene/model/scene_size.h"
 #include "scene/model/vector_math.h"
 #include "visibility/alpha.h"
-#include "visibility/tube_mesh.h"
 
 #include <nusselt/geometry/convex_polygon.h>
 #include <nusselt/geometry/line_segment.h>
@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -28,8 +29,8 @@ constexpr std::uint64_t kMostNumbers = std::numeric_limits<std::uint32_t>::max()
 /// Throws std::runtime_error if 32 bits cannot number that many things.
 std::uint32_t checked_count(std::uint64_t count, const std::string& what) {
     if (count > kMostNumbers)
-        throw std::runtime_error(std::to_string(count) + " " + what + " are more than the " +
-                                 std::to_string(kMostNumbers) + " that a GPU can address; use --backend cpu");
+        throw std::runtime_error(std::to_string(count) + " " + what + " exceed the limit of " +
+                                 std::to_string(kMostNumbers) + " on GPUs; use --backend cpu");
     return static_cast<std::uint32_t>(count);
 }
 
@@ -42,8 +43,8 @@ void copy(const scene::Float3& from, float (&to)[3]) {
 Vec3<float> to_vec(const scene::Float3& v) { return {v.x, v.y, v.z}; }
 scene::Float3 to_float3(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
 
-void add_vertices(const scene::Scene& scene, const visibility::TubeMesh& tubes, SceneRecords& records) {
-    records.vertices.reserve(scene.positions.size() + tubes.positions.size());
+void add_vertices(const scene::Scene& scene, const scene::LightMesh& lights, SceneRecords& records) {
+    records.vertices.reserve(scene.positions.size() + lights.positions.size());
     const auto add = [&](const scene::Float3& position, const scene::Float3& normal,
                          const scene::Float2& uv) {
         interface::VertexRecord& record = records.vertices.emplace_back();
@@ -54,20 +55,22 @@ void add_vertices(const scene::Scene& scene, const visibility::TubeMesh& tubes, 
     };
     for (std::size_t i = 0; i < scene.positions.size(); ++i)
         add(scene.positions[i], scene.normals[i], scene.uvs[i]);
-    for (const scene::Float3& position : tubes.positions) add(position, {0, 0, 0}, {0, 0});
+    for (const scene::Float3& position : lights.positions) add(position, {0, 0, 0}, {0, 0});
 }
 
-void add_triangles(const scene::Scene& scene, const visibility::TubeMesh& tubes, SceneRecords& records) {
-    records.triangles.reserve(scene.triangles.size() + tubes.triangles.size());
+void add_triangles(const scene::Scene& scene, const scene::LightMesh& lights, SceneRecords& records) {
+    records.triangles.reserve(scene.triangles.size() + lights.triangles.size());
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const auto& vertex = scene.triangles[i].vertex;
         records.triangles.push_back(
             {{vertex[0], vertex[1], vertex[2]}, scene.triangle_material[i], scene.triangle_light[i]});
     }
     const auto first = static_cast<std::uint32_t>(scene.positions.size());
-    for (const scene::Triangle& triangle : tubes.triangles) {
-        const auto& vertex = triangle.vertex;
-        records.triangles.push_back({{first + vertex[0], first + vertex[1], first + vertex[2]}, 0, -1});
+    for (std::size_t i = 0; i < lights.triangles.size(); ++i) {
+        const auto& vertex = lights.triangles[i].vertex;
+        records.triangles.push_back({{first + vertex[0], first + vertex[1], first + vertex[2]},
+                                     0,
+                                     static_cast<std::int32_t>(lights.lights[i])});
     }
 }
 
@@ -130,18 +133,30 @@ void add_polygon(const scene::PolygonLight& light, SceneRecords& records) {
     record.is_two_sided = light.two_sided ? 1 : 0;
 }
 
-void add_lights(const scene::Scene& scene, SceneRecords& records) {
-    const bool are_small = std::all_of(scene.polygon_lights.begin(), scene.polygon_lights.end(),
+/// Adds lights. \returns whether the list is one of polygons
+bool add_polygons(const scene::LightList& list, SceneRecords& records) {
+    const auto* const polygons = dynamic_cast<const scene::LightsOf<scene::PolygonLight>*>(&list);
+    if (polygons == nullptr) return false;
+    const std::vector<scene::PolygonLight>& lights = polygons->lights;
+    const bool are_small = std::all_of(lights.begin(), lights.end(),
                                        [](const auto& light) { return light.vertices.size() <= 4; });
     records.polygon_slots = are_small ? 4 : 8;
-    checked_count(6 * scene.polygon_lights.size() * 8, "coordinates of lights");
-    for (const scene::PolygonLight& light : scene.polygon_lights) {
+    checked_count(6 * lights.size() * 8, "coordinates of lights");
+    for (const scene::PolygonLight& light : lights) {
         if (are_small)
             add_polygon<4>(light, records);
         else
             add_polygon<8>(light, records);
     }
-    for (const scene::LineLight& light : scene.line_lights) {
+    records.kinds.polygons = !lights.empty();
+    return true;
+}
+
+/// Likewise.
+bool add_lines(const scene::LightList& list, SceneRecords& records) {
+    const auto* const lines = dynamic_cast<const scene::LightsOf<scene::LineLight>*>(&list);
+    if (lines == nullptr) return false;
+    for (const scene::LineLight& light : lines->lights) {
         const auto line = make_line(to_vec(light.start), to_vec(light.end));
         interface::LineLightRecord& record = records.line_lights.emplace_back();
         copy(to_float3(line.p0), record.begin);
@@ -152,6 +167,20 @@ void add_lights(const scene::Scene& scene, SceneRecords& records) {
         record.is_solid = is_solid ? 1 : 0;
         (is_solid ? records.kinds.tubes : records.kinds.lines) = true;
         copy(light.radiance, record.radiance);
+    }
+    return true;
+}
+
+/// The kinds of light that shaders know: each row has a file in shaders/passes/lights.
+constexpr bool (*kLightKinds[])(const scene::LightList& list, SceneRecords& records) = {add_polygons,
+                                                                                        add_lines};
+
+void add_lights(const scene::Scene& scene, SceneRecords& records) {
+    for (const scene::LightList& list : scene.lights) {
+        const auto has_added = [&](const auto& add) { return add(list, records); };
+        if (!std::any_of(std::begin(kLightKinds), std::end(kLightKinds), has_added) && list.size() > 0)
+            throw std::runtime_error(std::string(list.name()) +
+                                     " lights are not supported on GPUs; use --backend cpu");
     }
 }
 
@@ -228,14 +257,14 @@ std::vector<std::uint32_t> constants_of(const SceneKinds& kinds) {
 }
 
 SceneRecords make_scene_records(const scene::Scene& scene) {
-    const visibility::TubeMesh tubes = visibility::make_tube_mesh(scene.line_lights);
-    checked_count(scene.positions.size() + tubes.positions.size(), "vertices");
-    checked_count(3 * (scene.triangles.size() + tubes.triangles.size()), "corners of triangles");
+    const scene::LightMesh lights = make_light_mesh(scene);
+    checked_count(scene.positions.size() + lights.positions.size(), "vertices");
+    checked_count(3 * (scene.triangles.size() + lights.triangles.size()), "corners of triangles");
     SceneRecords records{};
-    add_vertices(scene, tubes, records);
-    add_triangles(scene, tubes, records);
-    const std::uint64_t first_tube = add_instances(scene, records);
-    const std::uint64_t drawn = first_tube + tubes.triangles.size();
+    add_vertices(scene, lights, records);
+    add_triangles(scene, lights, records);
+    const std::uint64_t first_light = add_instances(scene, records);
+    const std::uint64_t drawn = first_light + lights.triangles.size();
     records.drawn_triangles = checked_count(3 * drawn, "corners of triangles") / 3;
     for (const scene::Material& material : scene.materials) {
         records.materials.push_back(make_record(material));
@@ -244,7 +273,6 @@ SceneRecords make_scene_records(const scene::Scene& scene) {
         records.kinds.textures |= records.materials.back().texture_kinds;
     }
     add_lights(scene, records);
-    records.kinds.polygons = !scene.polygon_lights.empty();
     records.kinds.instances = !scene.instances.empty();
 
     interface::SceneRecord& record = records.scene;
@@ -252,11 +280,10 @@ SceneRecords make_scene_records(const scene::Scene& scene) {
     record.radius = static_cast<float>(scene.radius);
     record.world_triangles = static_cast<std::uint32_t>(world_triangle_count(scene));
     record.instances = static_cast<std::uint32_t>(scene.instances.size());
-    record.first_tube_drawn = static_cast<std::uint32_t>(first_tube);
-    record.first_tube_triangle = static_cast<std::uint32_t>(scene.triangles.size());
-    record.triangles_per_tube = visibility::kTrianglesPerTube;
-    record.polygon_lights = static_cast<std::uint32_t>(scene.polygon_lights.size());
-    record.line_lights = static_cast<std::uint32_t>(scene.line_lights.size());
+    record.first_light_drawn = static_cast<std::uint32_t>(first_light);
+    record.first_light_triangle = static_cast<std::uint32_t>(scene.triangles.size());
+    record.polygon_lights = static_cast<std::uint32_t>(records.polygon_lights.size());
+    record.line_lights = static_cast<std::uint32_t>(records.line_lights.size());
     return records;
 }
 

@@ -26,12 +26,12 @@ std::vector<std::uint32_t> constants_of(const SceneKinds& kinds);
 /// The arrays of shaders/interface/scene.h, but for textures.
 struct SceneRecords {
     interface::SceneRecord scene;
-    std::vector<interface::VertexRecord> vertices;    ///< of the scene, then of tubes
+    std::vector<interface::VertexRecord> vertices;    ///< of the scene, then of lights that are no surfaces
     std::vector<interface::TriangleRecord> triangles; ///< likewise
     std::vector<interface::InstanceRecord> instances;
     std::vector<interface::MaterialRecord> materials;
     std::vector<interface::PolygonLightRecord> polygon_lights;
-    std::vector<scene::Float3> polygon_corners; ///< see shaders/passes/lights.glsl
+    std::vector<scene::Float3> polygon_corners; ///< see shaders/passes/lights/polygon.glsl
     std::vector<interface::LineLightRecord> line_lights;
     std::uint32_t drawn_triangles = 0;
     int polygon_slots = 0; ///< vertices that each polygonal light has room for, 4 or 8

@@ -62,8 +62,8 @@ std::uint32_t append(std::span<const std::byte> bytes, std::vector<std::uint32_t
     const std::size_t first = words.size();
     words.resize(first + (bytes.size() + sizeof(std::uint32_t) - 1) / sizeof(std::uint32_t));
     if (words.size() > std::numeric_limits<std::uint32_t>::max())
-        throw std::runtime_error("the textures of the scene take more words than a GPU can address; take "
-                                 "--backend cpu");
+        throw std::runtime_error(
+            "the textures of the scene exceed the limit of 2^32 words on GPUs; use --backend cpu");
     if (!bytes.empty()) std::memcpy(words.data() + first, bytes.data(), bytes.size());
     return static_cast<std::uint32_t>(first);
 }

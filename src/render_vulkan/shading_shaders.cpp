@@ -13,13 +13,13 @@ ShadingPassKind sampling_pass(ShadowRays way) {
     case ShadowRays::none:
         return ShadingPassKind::sample_lights_unshadowed;
     }
-    throw std::logic_error("no shader traces shadow rays in this way");
+    throw std::logic_error("this way of tracing shadow rays has no shader");
 }
 
 std::span<const std::uint32_t> shading_shader(ShadingPassKind pass, const ShaderVariant& variant) {
     for (const ShadingShader& shader : shading_shaders())
         if (shader.pass == pass && shader.variant == variant) return shader.words;
-    throw std::logic_error("no shader is compiled for this variant");
+    throw std::logic_error("this variant has no compiled shader");
 }
 
 } // namespace nusselt::render_vulkan

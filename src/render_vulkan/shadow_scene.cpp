@@ -46,7 +46,7 @@ ShadowRays default_shadow_rays(const gpu::Device& device) {
 ShadowScene::ShadowScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays way) : way_(way) {
     if (way == ShadowRays::query && !device.features().ray_queries)
         throw gpu::Error(device.description().name +
-                         ": the device has no ray queries; use --shadow-rays bvh");
+                         ": the device does not support ray queries; use --shadow-rays bvh");
     if (way == ShadowRays::none) return;
     const auto add = [&](const auto& values, const char* what) {
         buffers_.push_back(upload(device, std::span(values), what));

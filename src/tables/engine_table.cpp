@@ -52,7 +52,7 @@ LtcTable decode_for_engines(std::string_view bytes, int roughnesses, int inclina
     const auto count = static_cast<std::size_t>(roughnesses * inclinations);
     if (bytes.size() != count * kHalves * 2)
         throw std::runtime_error(
-            fmt::format("{}: {} bytes instead of {}", name, bytes.size(), count * kHalves * 2));
+            fmt::format("{}: found {} bytes, expected {}", name, bytes.size(), count * kHalves * 2));
     LtcTable table{roughnesses, inclinations, 2, {}};
     for (std::size_t i = 0; i < count; ++i) {
         float halves[kHalves];

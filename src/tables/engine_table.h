@@ -13,7 +13,7 @@ namespace nusselt::tables {
 /// 64 x 64 samples take 48 KiB. \param f0 whose lobe it is, the nearest one of the table.
 std::string encode_for_engines(const LtcTable& table, float f0);
 
-/// What an engine reconstructs, as a table with two samples of f0.
+/// The table that an engine reconstructs, with two samples of f0.
 /// \throws std::runtime_error naming the source if its length is not that of such numbers of samples
 LtcTable decode_for_engines(std::string_view bytes, int roughnesses, int inclinations,
                             const std::string& name);

@@ -34,7 +34,7 @@ public:
         return {space, block, shadows.shadow, others, whole.bits() & others, partial.bits() & others};
     }
 
-    /// How many triangles there are, without those of the light.
+    /// The number of triangles, without those of the light.
     NUSSELT_HD std::uint64_t count() const noexcept {
         return static_cast<std::uint64_t>(__builtin_popcount(others_));
     }

@@ -32,7 +32,7 @@ Box transformed(const std::array<float, 12>& m, const Box& box);
 /// World space to object space. \param m as Instance::world_from_object
 std::array<float, 12> inverse_of(const std::array<float, 12>& m);
 
-/// Of all trees.
+/// Limits for all trees.
 inline constexpr unsigned kLargestTreeWidth = 8;
 inline constexpr unsigned kLargestLeafSize = 8;
 
@@ -44,7 +44,7 @@ struct TreeShape {
     unsigned block_size = 1;    ///< primitives that cost as much as one
 };
 
-/// What the builder makes, in memory of its own.
+/// The tree of the builder, in its own memory.
 struct BuiltNode {
     bool is_leaf;
     std::uint32_t count; ///< of children or primitives

@@ -10,7 +10,8 @@ namespace {
 [[noreturn]] void throw_embree_error(RTCError code) {
     if (code == RTC_ERROR_OUT_OF_MEMORY)
         throw std::runtime_error("not enough memory for the bounding volume hierarchy of the scene");
-    if (code == RTC_ERROR_UNSUPPORTED_CPU) throw std::runtime_error("Embree does not support this processor");
+    if (code == RTC_ERROR_UNSUPPORTED_CPU)
+        throw std::runtime_error("this processor is not supported by Embree");
     throw std::runtime_error("Embree reports error " + std::to_string(code) + " while it builds the scene");
 }
 

@@ -14,7 +14,7 @@ namespace nusselt::visibility {
 
 // Bits of the ray masks.
 inline constexpr unsigned kSurfaceMask = 1;
-inline constexpr unsigned kTubeMask = 2;
+inline constexpr unsigned kLightMask = 2;
 
 /// The scene behind RayTracer::context of EmbreeScene::tracer().
 inline RTCScene embree_scene(const void* context) { return static_cast<const TracedScene*>(context)->embree; }
@@ -54,7 +54,7 @@ inline void copy_rays(const RayPacket<N>& rays, unsigned mask, EmbreeRays& targe
     }
 }
 
-/// What differs between the packet widths of Embree.
+/// The differences between the packet widths of Embree.
 template <int N>
 struct Embree;
 template <>
@@ -84,7 +84,7 @@ template <int N>
 struct ClosestHitQuery {
     ClosestHitQuery(std::uint32_t active, const RayPacket<N>& rays) {
         mark_valid_lanes(active, rays, valid);
-        copy_rays(rays, kSurfaceMask | kTubeMask, packet.ray);
+        copy_rays(rays, kSurfaceMask | kLightMask, packet.ray);
         for (int i = 0; i < N; ++i) packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
 

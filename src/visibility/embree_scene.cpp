@@ -1,10 +1,10 @@
 #include "visibility/embree_scene.h"
 
+#include "scene/model/lights/light_geometry.h"
 #include "visibility/alpha.h"
 #include "visibility/embree_device.h"
 #include "visibility/embree_packets.h"
 #include "visibility/scene_parts.h"
-#include "visibility/tube_mesh.h"
 
 #include <nusselt/random/pcg.h>
 #include <nusselt/random/unit_interval.h>
@@ -36,11 +36,12 @@ using Geometry = std::unique_ptr<RTCGeometryTy, GeometryDeleter>;
 Device make_ray_device() {
     Device device = make_device();
     if (rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) == 0)
-        throw std::runtime_error("this Embree was built without ray masks (EMBREE_RAY_MASK)");
+        throw std::runtime_error(
+            "the installed Embree lacks ray masks; install one built with EMBREE_RAY_MASK");
     return device;
 }
 
-/// A number in [0, 1) that depends on nothing but the ray and the triangle: no two hits of a ray share it.
+/// A number in [0, 1) that depends only on the ray and the triangle: each hit of a ray gets its own.
 float random_of(RTCRayN* ray, RTCHitN* hit, unsigned n, unsigned i, std::uint32_t triangle) {
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
     const UInt4 place = pcg4d({bits(RTCRayN_org_x(ray, n, i)), bits(RTCRayN_org_y(ray, n, i)),
@@ -111,12 +112,12 @@ SceneHandle make_scene(RTCDevice device, std::size_t triangle_count) {
 }
 
 void commit(RTCDevice device, RTCScene scene) {
-    // Unlike rtcCommitScene() this keeps to the arena of the caller.
+    // Unlike rtcCommitScene(), this function stays in the arena of the caller.
     rtcJoinCommitScene(scene);
     check_for_error(device);
 }
 
-/// Where on their triangles the hits are.
+/// Copies the positions of hits on their triangles.
 template <int N>
 void copy_places(const ClosestHitQuery<N>& query, HitPacket<N>& hits) {
     std::memcpy(hits.u, query.packet.hit.u, sizeof hits.u);
@@ -124,12 +125,13 @@ void copy_places(const ClosestHitQuery<N>& query, HitPacket<N>& hits) {
     std::memcpy(hits.t, query.packet.ray.tfar, sizeof hits.t);
 }
 
-/// For scenes without instances and without surfaces that are partly there.
+/// Intersects scenes without instances and without partially opaque surfaces.
 template <int N>
 void intersect_plain(const void* context, std::uint32_t active, const RayPacket<N>& rays,
                      HitPacket<N>& hits) {
+    const auto& scene = *static_cast<const TracedScene*>(context);
     ClosestHitQuery<N> query(active, rays);
-    query.trace(embree_scene(context));
+    query.trace(scene.embree);
     copy_places(query, hits);
     const auto& hit = query.packet.hit;
     for (int i = 0; i < N; ++i) {
@@ -137,7 +139,7 @@ void intersect_plain(const void* context, std::uint32_t active, const RayPacket<
         const unsigned geometry = hit.geomID[i];
         hits.triangle[i] = geometry == kFullGeometry ? primitive : -1;
         hits.instance[i] = -1;
-        hits.tube[i] = geometry == kTubeGeometry ? primitive / kTrianglesPerTube : -1;
+        hits.light[i] = geometry == kLightGeometry ? scene.light_of(hit.primID[i]) : -1;
     }
 }
 
@@ -149,13 +151,13 @@ void intersect(const void* context, std::uint32_t active, const RayPacket<N>& ra
     copy_places(query, hits);
     const auto& hit = query.packet.hit;
     for (int i = 0; i < N; ++i) {
-        hits.triangle[i] = hits.instance[i] = hits.tube[i] = -1;
+        hits.triangle[i] = hits.instance[i] = hits.light[i] = -1;
         const unsigned geometry = hit.geomID[i];
         const unsigned primitive = hit.primID[i];
         const unsigned instance = hit.instID[0][i];
         if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
-        if (geometry == kTubeGeometry) {
-            hits.tube[i] = static_cast<std::int32_t>(primitive) / kTrianglesPerTube;
+        if (geometry == kLightGeometry) {
+            hits.light[i] = scene.light_of(primitive);
             continue;
         }
         const ScenePart& part = scene.part_of(instance);
@@ -184,7 +186,7 @@ struct EmbreeScene::State {
     explicit State(const scene::Scene& scene_to_trace);
 
     void attach_part(RTCScene target, const ScenePart& part);
-    void attach_tubes();
+    void attach_lights();
     void attach_instances();
 
     const scene::Scene& scene;
@@ -207,7 +209,7 @@ EmbreeScene::State::State(const scene::Scene& scene_to_trace) : scene(scene_to_t
     }
     world = make_scene(device.get(), scene.triangles.size());
     attach_part(world.get(), traced.parts[0]);
-    attach_tubes();
+    attach_lights();
     attach_instances();
     commit(device.get(), world.get());
     traced.embree = world.get();
@@ -237,17 +239,18 @@ void EmbreeScene::State::attach_part(RTCScene target, const ScenePart& part) {
     attach(device.get(), target, geometry.get(), kPartialGeometry);
 }
 
-void EmbreeScene::State::attach_tubes() {
-    const TubeMesh tubes = make_tube_mesh(scene.line_lights);
-    if (tubes.triangles.empty()) return;
-    const Buffer tube_positions = make_position_buffer(device.get(), tubes.positions);
+void EmbreeScene::State::attach_lights() {
+    scene::LightMesh mesh = make_light_mesh(scene);
+    if (mesh.triangles.empty()) return;
+    const Buffer mesh_positions = make_position_buffer(device.get(), mesh.positions);
     const Geometry geometry =
-        make_triangle_geometry(device.get(), tube_positions.get(), tubes.positions.size(), kTubeMask);
+        make_triangle_geometry(device.get(), mesh_positions.get(), mesh.positions.size(), kLightMask);
     void* indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                            sizeof(scene::Triangle), tubes.triangles.size());
+                                            sizeof(scene::Triangle), mesh.triangles.size());
     check_for_error(device.get());
-    std::memcpy(indices, tubes.triangles.data(), tubes.triangles.size() * sizeof(scene::Triangle));
-    attach(device.get(), world.get(), geometry.get(), kTubeGeometry);
+    std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * sizeof(scene::Triangle));
+    attach(device.get(), world.get(), geometry.get(), kLightGeometry);
+    traced.lights = std::move(mesh.lights);
 }
 
 void EmbreeScene::State::attach_instances() {

@@ -13,7 +13,7 @@ namespace nusselt::visibility {
 inline constexpr float kLargestRayCoordinate = 1e18f;
 
 /// The bounding volume hierarchy of a scene. Shadow rays see all triangles (emitters included), camera rays
-/// also the tubes of line lights. Surfaces with an alpha below 1 are there with that probability, independently for
+/// also the lights that are no surfaces. Surfaces with an alpha below 1 are there with that probability, independently for
 /// each ray and triangle: what happens is a hash of both. Immutable, usable from several threads at once.
 class EmbreeScene {
 public:

@@ -36,7 +36,7 @@ Corners corners_of(const scene::Scene& scene, std::uint32_t triangle) {
 struct LineBvh::State {
     explicit State(const scene::Scene& scene);
 
-    /// What a hierarchy begins with.
+    /// The start of a hierarchy.
     struct Root {
         std::uint32_t reference = kEmptyBvh;
         Box bounds;

@@ -8,11 +8,11 @@ namespace nusselt::visibility {
 
 /// Children of a node, and triangles of a block.
 inline constexpr int kBvhWidth = 8;
-/// Of the hierarchy of the world or of an object, in nodes. Halving 2^32 triangles eight ways needs 11, triangles whose
-/// sizes are a geometric series over the range of float need 36.
+/// The largest depth of the hierarchy of the world or of an object, in nodes. Halving 2^32 triangles eight ways needs
+/// 11, triangles whose sizes are a geometric series over the range of float need 36.
 inline constexpr int kLargestBvhDepth = 40;
 
-/// What a child is, as the two upmost bits of its reference; the rest is an index.
+/// The kind of a child, in the two highest bits of its reference; the rest is an index.
 inline constexpr std::uint32_t kBvhNode = 0;
 inline constexpr std::uint32_t kBvhBlock = std::uint32_t{1} << 30;
 inline constexpr std::uint32_t kBvhInstance = std::uint32_t{2} << 30;
@@ -29,7 +29,8 @@ inline constexpr std::int32_t kNoTriangle = -2;
 
 /// Triangles. Unused slots hold finite coordinates.
 struct alignas(64) TriangleBlock {
-    /// Of the first, second and third corner x, y, z [m], in lexicographic order: the same for all that share them.
+    /// x, y, z of the first, second and third corner [m], in lexicographic order: the same for all triangles that share
+    /// them.
     float corner[9][kBvhWidth];
     std::int32_t light[kBvhWidth]; ///< index into Scene::polygon_lights, -1 for surfaces that do not emit
 };
@@ -37,7 +38,7 @@ struct alignas(64) TriangleBlock {
 /// No reference: nothing is there.
 inline constexpr std::uint32_t kEmptyBvh = ~std::uint32_t{0};
 
-/// Where traversal starts. References to what is in world space, or kEmptyBvh.
+/// The start of traversal: references to hierarchies in world space, or kEmptyBvh.
 struct LineBvhRoots {
     std::uint32_t triangles; ///< of the world
     std::uint32_t instances;
@@ -56,7 +57,7 @@ struct LineBvhView {
     const LineBvhInstance* instances;
     LineBvhRoots full;    ///< surfaces that rays always hit
     LineBvhRoots partial; ///< surfaces that rays hit with a probability, see alpha.h
-    /// Of surfaces that rays always hit, objects as often as there are instances.
+    /// The number of blocks of surfaces that rays always hit, counted once per instance of an object.
     std::uint64_t full_block_count;
 };
 

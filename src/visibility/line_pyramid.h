@@ -11,7 +11,7 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// Of the children of a node, or the triangles of a block.
+/// A lane for each child of a node, or for each triangle of a block.
 using BvhReal = Pack<float, visibility::kBvhWidth>;
 using BvhMask = Mask<float, visibility::kBvhWidth>;
 
@@ -64,11 +64,12 @@ NUSSELT_HD inline SeenLight see_light(const ConvexPolygon<float, N>& polygon,
 
 /// Coordinates of the world or of an object, as traversal needs them.
 struct TracedSpace {
-    /// With the point in these coordinates, and axes that lead from differences of them to the coordinates of the light.
+    /// The frame has the point in these coordinates, and axes that map their differences to the coordinates of the
+    /// light.
     ShadowFrame<float> frame;
     float apex; ///< largest coordinate of the point
 
-    /// In the axes of the frame and its unit.
+    /// A point in the axes of the frame and in its unit.
     template <class Real>
     NUSSELT_INLINE Vec3<Real> seen(const Vec3<Real>& p) const noexcept {
         const Vec3<Real> d = p - broadcast<Real>(frame.point);
@@ -78,7 +79,7 @@ struct TracedSpace {
         return {row(frame.across), row(frame.along), row(frame.normal)};
     }
 
-    /// From a linear function of the axes of the frame to one of these coordinates.
+    /// Converts a linear function of the axes of the frame to one of these coordinates.
     NUSSELT_INLINE Vec3<float> gradient(const Vec3<float>& m) const noexcept {
         return m.x * frame.across + m.y * frame.along + m.z * frame.normal;
     }

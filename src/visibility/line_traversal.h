@@ -1,5 +1,5 @@
 #pragma once
-/// What triangles of a scene hide of the lines of a light. Compiled for each instruction set, like
+/// The visible parts of the lines of a light. Compiled for each instruction set, like
 /// src/render_cpu/kernel: neither standard containers nor algorithms.
 ///
 /// All lines that start at one shading point lie in one pyramid: the hierarchy is traversed once for all of them, close
@@ -11,14 +11,14 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// A line per lane and what is visible of it. Lanes without a line have no parts.
+/// A line per lane and its visible parts. Lanes without a line have no parts.
 template <class Real>
 struct TracedLines {
     Real offset; ///< [m]
     VisibleParts<Real> parts;
 };
 
-/// What shadows hide of a pack of lines, to be taken from them at once: neighbours in a mesh share edges, so that most
+/// The shadows on a pack of lines, subtracted at once: neighbours in a mesh share edges, so that most
 /// shadows of a block join.
 template <class Real>
 class JoinedShadows {
@@ -59,7 +59,7 @@ private:
 
 enum class VisitOrder {
     any,
-    closest_first, ///< what is close hides most
+    closest_first, ///< close triangles hide most
 };
 
 /// Visits the blocks of triangles that a light may have in its pyramid.
@@ -72,8 +72,8 @@ public:
 
     /// \param visitor with functions
     ///        `void enter(space)`: what follows is in these coordinates
-    ///        `bool touched(node, bits)`: takes children that are not of interest from the bits; whether to go on
-    ///        `bool visit(pyramid, space, block)`: whether to go on
+    ///        `bool touched(node, bits)`: takes children that are not of interest from the bits; whether to continue
+    ///        `bool visit(pyramid, space, block)`: whether to continue
     template <class Visitor>
     NUSSELT_HD void run(const visibility::LineBvhRoots& roots, Visitor& visitor) const noexcept {
         const TracedSpace world = world_space(seen_);
@@ -85,7 +85,7 @@ public:
 private:
     static constexpr int kStackSize = visibility::kLargestBvhDepth * (visibility::kBvhWidth - 1) + 1;
 
-    /// \returns whether to go on
+    /// \returns whether to continue
     template <class Visitor>
     NUSSELT_HD bool walk(std::uint32_t root, const TracedSpace& space, Visitor& visitor) const noexcept {
         const LightPyramid pyramid(seen_, space);
@@ -114,7 +114,7 @@ private:
         return true;
     }
 
-    /// \returns whether to go on
+    /// \returns whether to continue
     template <class Visitor>
     NUSSELT_INLINE bool push_children(const visibility::LineBvhNode& node, const LightPyramid& pyramid,
                                       const TracedSpace& space, Visitor& visitor, std::uint32_t* stack,
@@ -171,7 +171,7 @@ private:
         }
     }
 
-    /// Twice the depths of the centres of boxes, but for a constant.
+    /// Twice the depths of the centres of boxes, up to a constant.
     NUSSELT_INLINE static BvhReal depths(const visibility::LineBvhNode& node,
                                          const TracedSpace& space) noexcept {
         const auto sum = [&](int axis) {
@@ -217,9 +217,9 @@ NUSSELT_HD inline bool has_many_occluders(const visibility::LineBvhView& bvh, co
     return counter.count > bound;
 }
 
-/// Whether a light has surfaces in its pyramid that are only partly there (an alpha below 1): lines cannot tell what is
-/// visible, take points. Depends on the direction of lines, as triangles count that reach into the rectangle around the
-/// light along it: take the same fixed direction as for has_many_occluders().
+/// Whether a light has surfaces in its pyramid that are partially opaque (an alpha below 1): lines cannot decide what
+/// is visible, take points. Depends on the direction of lines, as triangles count that reach into the rectangle around
+/// the light along it: take the same fixed direction as for has_many_occluders().
 NUSSELT_HD inline bool has_partial_surfaces(const visibility::LineBvhView& bvh, const SeenLight& seen,
                                             visibility::LineCounters& counters) noexcept {
     struct Finder {

@@ -16,10 +16,10 @@ struct QueryPart {
     std::vector<std::uint32_t> partial; ///< likewise: alpha decides whether a ray hits these
 };
 
-/// What shaders/passes/trace_query.glsl traces: the surfaces of TriangleBvh.
+/// The geometry of shaders/passes/trace_query.glsl: the surfaces of TriangleBvh.
 struct QueryGeometry {
     std::vector<QueryPart> parts; ///< the world, then the objects
-    /// Number 0 is the world, number i + 1 Scene::instances[i]; shaders know them by these numbers.
+    /// Number 0 is the world, number i + 1 Scene::instances[i]; shaders use these numbers for them.
     std::vector<interface::QueryInstance> instances;
     std::vector<std::uint32_t> partial_triangles; ///< indices into Scene::triangles
 };

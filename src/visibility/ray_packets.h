@@ -15,12 +15,13 @@ struct RayPacket {
     float t_far[N];
 };
 
-/// The closest hits of N rays. A ray meets a triangle of the scene, the tube of a line light or neither.
+/// The closest hits of N rays. A ray meets a triangle of the scene, a light that is no
+/// surface, or neither.
 template <int N>
 struct HitPacket {
     std::int32_t triangle[N]; ///< index into Scene::triangles, -1 for none
     std::int32_t instance[N]; ///< index into Scene::instances that the triangle is part of, -1 for none
-    std::int32_t tube[N];     ///< index into Scene::line_lights, -1 for none
+    std::int32_t light[N];    ///< that is no surface: its number among all lights of the scene, -1 for none
     /// Barycentric coordinates: the hit is v0 + u (v1 - v0) + v (v2 - v0). Meaningless without a triangle.
     alignas(4 * N) float u[N];
     float v[N];
@@ -31,7 +32,7 @@ struct HitPacket {
 /// ray is invalid (see EmbreeScene), hit nothing.
 template <int N>
 struct PacketTracer {
-    /// Closest hits of coherent rays that see tubes.
+    /// Closest hits of coherent rays that see all lights.
     void (*intersect)(const void* context, std::uint32_t active, const RayPacket<N>& rays,
                       HitPacket<N>& hits);
     /// Bits of those active lanes whose ray meets a triangle; invalid rays count as blocked.

@@ -20,7 +20,7 @@ struct RayBatch {
     std::vector<ShadowQuery<N>> shadow;
 };
 
-/// Times of Embree's functions alone, without what other programs take from the thread [s].
+/// Times of Embree's functions alone, without the time that other programs take from the thread [s].
 struct ReplaySeconds {
     double closest_hit = 0;
     double shadow = 0;
@@ -47,7 +47,7 @@ public:
         return result;
     }
 
-    /// What was recorded so far; not while something is recorded.
+    /// The rays recorded so far. Must not be called during recording.
     std::vector<const RayBatch<N>*> batches() const {
         std::vector<const RayBatch<N>*> result;
         for (const auto& of_thread : batches_)
@@ -70,14 +70,14 @@ public:
 private:
     const PacketTracer<N>& inner() const { return inner_; }
 
-    /// For which the calling thread ran so far.
+    /// The processor time of the calling thread so far.
     static double thread_seconds() {
         timespec time;
         ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
         return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
     }
 
-    /// Where the calling thread records its next query.
+    /// The batch in which the calling thread records its next query.
     RayBatch<N>& current_batch() {
         std::vector<RayBatch<N>>& batches = batches_.local();
         if (batches.empty() ||

@@ -1,5 +1,5 @@
 #pragma once
-/// How the triangles of a scene are distributed over geometries of Embree, and from there back.
+/// The map between the triangles of a scene and the geometries of Embree.
 
 #include "scene/model/scene.h"
 #include "visibility/embree_api.h"
@@ -11,7 +11,7 @@ namespace nusselt::visibility {
 
 // Numbers of geometries in the world and in objects.
 inline constexpr unsigned kFullGeometry = 0;
-inline constexpr unsigned kTubeGeometry = 1;
+inline constexpr unsigned kLightGeometry = 1;   ///< lights that are no surfaces
 inline constexpr unsigned kPartialGeometry = 2; ///< surfaces with an alpha below 1: hits pass a filter
 inline constexpr unsigned kFirstInstance = 3;
 
@@ -33,12 +33,14 @@ struct ScenePart {
 /// The world, then the objects. \param scene must outlive the result
 std::vector<ScenePart> make_parts(const scene::Scene& scene);
 
-/// What RayTracer::context of EmbreeScene::tracer() points to.
+/// The target of RayTracer::context of EmbreeScene::tracer().
 struct TracedScene {
     RTCScene embree = nullptr;
     const scene::Scene* scene = nullptr;
     std::vector<ScenePart> parts;
+    std::vector<std::uint32_t> lights; ///< of each triangle of kLightGeometry: see scene::LightMesh
 
+    std::int32_t light_of(unsigned primitive) const { return static_cast<std::int32_t>(lights[primitive]); }
     /// \param instance RTC_INVALID_GEOMETRY_ID for hits on the world
     const ScenePart& part_of(unsigned instance) const {
         if (instance == RTC_INVALID_GEOMETRY_ID) return parts[0];

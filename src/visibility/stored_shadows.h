@@ -1,5 +1,5 @@
 #pragma once
-/// From shadows in packs of triangles to single ones for packs of lines.
+/// Converts shadows in packs of triangles to single shadows for packs of lines.
 
 #include <nusselt/line_samples/triangle_shadow.h>
 #include <nusselt/simd/pack.h>

@@ -15,11 +15,12 @@ namespace nusselt::visibility {
 
 namespace {
 
-/// As fast as others or faster, see docs/performance.md.
+/// This shape is at least as fast as others, see docs/performance.md.
 constexpr TreeShape kShape = {.width = 4, .min_leaf_size = 1, .max_leaf_size = 4};
 
-/// By how much of their size boxes of triangles grow. Shaders find the edges of a triangle with rounding errors that are
-/// proportional to the distance of its corners from the ray; that of the box from the ray they take into account.
+/// The fraction of their size by which boxes of triangles grow. Shaders find the edges of a triangle with rounding
+/// errors that are proportional to the distance of its corners from the ray; that of the box from the ray they take
+/// into account.
 constexpr float kGrowth = 4 * std::numeric_limits<float>::epsilon();
 
 using Corners = std::array<std::array<float, 3>, 3>;
@@ -81,7 +82,7 @@ private:
 
 TriangleBvh Builder::build() {
     if (scene_.triangles.size() > interface::kBvhNumberMask)
-        throw std::runtime_error("a GPU traces at most 2^30 triangles; this scene has " +
+        throw std::runtime_error("GPUs support at most 2^30 triangles; this scene has " +
                                  std::to_string(scene_.triangles.size()));
     bvh_.instances.resize(1 + scene_.instances.size());
     std::vector<Box> bounds;
@@ -151,7 +152,7 @@ void Builder::flatten(const BuiltNode& built, const RTCBounds& b, const Leaf& le
     const auto& inner = static_cast<const BuiltInner&>(built);
     std::array<std::uint32_t, kLargestTreeWidth> order = {};
     std::iota(order.begin(), order.end(), 0u);
-    // What is large is hit most often, and a hit ends the search.
+    // Large children are hit most often, and a hit ends the search.
     std::stable_sort(order.begin(), order.begin() + inner.count,
                      [&](auto i, auto j) { return area_of(inner.bounds[i]) > area_of(inner.bounds[j]); });
     for (std::uint32_t i = 0; i < inner.count; ++i)

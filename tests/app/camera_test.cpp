@@ -37,14 +37,14 @@ TEST_F(CameraFiles, ErrorsNameTheFile) {
     std::ofstream(path("broken.json")) << "{\"version\": 1}";
     const Outcome broken = run("render " + room_ + " --camera broken.json");
     EXPECT_EQ(broken.exit_code, 1);
-    expect_message(broken.err, "broken.json: needs the field \"film\"");
+    expect_message(broken.err, "broken.json: must have the field \"film\"");
 }
 
 TEST_F(CameraFiles, AreNotOverwritten) {
     std::ofstream(path("view.exr")) << run("camera " + room_).out;
     const Outcome outcome = run("render " + room_ + " --camera view.exr -o view.exr");
     EXPECT_EQ(outcome.exit_code, 1);
-    expect_message(outcome.err, "would be written and is also read");
+    expect_message(outcome.err, "is an output and also an input");
 }
 
 } // namespace

@@ -2,11 +2,12 @@
 
 #include "program.h"
 
+#include "common/results_json.h"
+
 #include "image/io.h"
 #include "image/metrics.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -110,15 +111,12 @@ TEST_F(CommandLine, ErrorsExitWithOneAndOneLine) {
         EXPECT_EQ(early.exit_code, 1) << output;
         expect_message(early.err, "cannot write");
     }
-    for (const char* command :
-         {"bench accuracy --markdown", "bench samplers --json", "bench worst-case --json"}) {
-        const Outcome early = run_lab(std::string(command) + " no/such/folder/a");
+    for (const char* command : {"bench accuracy", "bench samplers", "bench worst-case", "bench tubes",
+                                "bench rays no-such-scene.pbrt", "fuzz", "fit-ltc -o table"}) {
+        const Outcome early = run_lab(std::string(command) + " --json no/such/folder/a");
         EXPECT_EQ(early.exit_code, 1) << command;
         expect_lab_message(early.err, "cannot write");
     }
-    const Outcome same = run_lab("bench accuracy --json a --markdown a");
-    EXPECT_EQ(same.exit_code, 1);
-    expect_lab_message(same.err, "same file");
 }
 
 TEST_F(CommandLine, LostOutputIsAnError) {
@@ -229,6 +227,36 @@ TEST_F(CommandLine, ReproduceWritesAPage) {
     EXPECT_EQ(reproduce.exit_code, 0) << reproduce.out << reproduce.err;
     EXPECT_NE(read("pages/index.html").find("line-diffuse/index.html"), std::string::npos);
     EXPECT_NE(read("pages/line-diffuse/index.html").find("reference.png"), std::string::npos);
+    const auto json = nlohmann::json::parse(read("pages/line-diffuse/numbers.json"));
+    EXPECT_EQ(json.at("bench"), "line-diffuse");
+    const auto errors = nusselt_test::records(json, "errors");
+    ASSERT_FALSE(errors.empty());
+    EXPECT_EQ(errors[0].at("region"), "image");
+    EXPECT_GT(errors[0].at("rmse"), 0.0);
+}
+
+TEST_F(CommandLine, EveryBenchWritesOneFormat) {
+    const std::string frame = " '" + kScenes + "/cornell-panel.pbrt' --resolution 16x16 --repetitions 1";
+    for (const std::string& command :
+         {"bench rays" + frame, "bench strategies" + frame, std::string("bench tubes --repetitions 1"),
+          std::string("bench phong-lines --repetitions 1"), std::string("bench samplers --repetitions 1"),
+          std::string("bench accuracy --count 20"), std::string("bench shadows --count 5"),
+          std::string("bench worst-case --target lines --starts 2 --convergence 10"),
+          std::string("fuzz --count 64 --technique LineArea"),
+          std::string("fit-ltc --size 2x2x2 --brdf lambert -o lambert")}) {
+        const Outcome outcome = run_lab(command + " --json -");
+        ASSERT_EQ(outcome.exit_code, 0) << command << ": " << outcome.err;
+        const auto json = nlohmann::json::parse(outcome.out);
+        EXPECT_NE(command.find(json.at("bench").get<std::string>()), std::string::npos) << command;
+        const std::string typed = "nusselt-lab " + command.substr(0, command.find(" '"));
+        EXPECT_EQ(json.at("command").get<std::string>().find(typed), 0u) << json.at("command");
+        for (const char* key : {"version", "machine", "settings"})
+            EXPECT_FALSE(json.at(key).empty()) << command << ", " << key;
+        ASSERT_FALSE(json.at("tables").empty()) << command;
+        for (const auto& table : json.at("tables"))
+            EXPECT_FALSE(nusselt_test::records(json, table.at("name")).empty())
+                << command << ", " << table.at("name");
+    }
 }
 
 TEST_F(CommandLine, TimesASecondTechnique) {
@@ -244,14 +272,16 @@ TEST_F(CommandLine, MeasuresWhatLinesCost) {
         "/cornell-panel.pbrt' --resolution 32x32 --repetitions 1 --lines 4,16 --offsets length --json -");
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
     const nlohmann::json json = nlohmann::json::parse(bench.out);
-    EXPECT_GT(json["shadow_rays"], 0);
-    EXPECT_GT(json["shadow_ray_nanoseconds"], 0.0);
-    EXPECT_EQ(json["offsets"], "length");
-    ASSERT_EQ(json["rows"].size(), 2u);
-    EXPECT_EQ(json["rows"][1]["lines"], 16);
-    EXPECT_EQ(json["rows"][1]["traced_lines"].get<int>(), 4 * json["rows"][0]["traced_lines"].get<int>());
+    const auto ray = nusselt_test::records(json, "shadow_ray");
+    EXPECT_GT(ray[0]["shadow_rays"], 0);
+    EXPECT_GT(ray[0]["time"], 0.0);
+    EXPECT_EQ(json["settings"]["offsets"], "length");
+    const auto rows = nusselt_test::records(json, "lines");
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[1]["lines"], 16);
+    EXPECT_EQ(rows[1]["traced_lines"].get<int>(), 4 * rows[0]["traced_lines"].get<int>());
     for (const char* key : {"visibility_over_shadow_ray", "line_over_point", "triangles_per_light"})
-        EXPECT_GT(json["rows"][0][key], 0.0) << key;
+        EXPECT_GT(rows[0][key], 0.0) << key;
     EXPECT_EQ(run_lab("bench lines a.pbrt --lines 0").exit_code, 2);
 }
 
@@ -262,17 +292,17 @@ TEST_F(CommandLine, MeasuresHowLongLinesTakeToTheErrorOfPoints) {
                 "--roughness 0.5 --strategies diffuse+ltc --orientation fixed --threads 2 --json -");
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
     const nlohmann::json json = nlohmann::json::parse(bench.out);
-    EXPECT_EQ(json["roughness"], 0.5);
-    EXPECT_EQ(json["orientation"], "fixed");
-    EXPECT_EQ(json["most_points"], 16);
-    ASSERT_EQ(json["results"].size(), 1u);
-    const nlohmann::json& result = json["results"][0];
-    EXPECT_EQ(result["points"].size(), 3u);
-    EXPECT_EQ(result["points"][0]["seeds"], 4);
-    EXPECT_EQ(result["lines"].size(), 3u);
-    EXPECT_EQ(result["equal_error"].size(), 3u);
-    EXPECT_LT(result["points"][2]["variance"], result["points"][0]["variance"]);
-    EXPECT_LT(result["lines"][2]["variance"], result["lines"][0]["variance"]);
+    EXPECT_EQ(json["settings"]["roughness"], 0.5);
+    EXPECT_EQ(json["settings"]["orientation"], "fixed");
+    EXPECT_EQ(json["settings"]["most_points"], 16);
+    const auto curves = nusselt_test::records(json, "curves");
+    ASSERT_EQ(curves.size(), 9u) << "three points of three curves";
+    EXPECT_EQ(curves[0]["samples"], "points");
+    EXPECT_EQ(curves[0]["seeds"], 4);
+    EXPECT_EQ(nusselt_test::records(json, "equal_error").size(), 3u);
+    EXPECT_LT(curves[2]["variance"], curves[0]["variance"]);
+    EXPECT_EQ(curves[3]["samples"], "lines");
+    EXPECT_LT(curves[5]["variance"], curves[3]["variance"]);
     EXPECT_EQ(run_lab("bench line-efficiency a.pbrt --roughness 2").exit_code, 2);
 }
 
@@ -294,7 +324,10 @@ TEST_F(CommandLine, WorstCaseSearchGoesOnWhereItStopped) {
     const std::string search = "bench worst-case --target lines --convergence 0 --json - ";
     const auto found = [](const Outcome& outcome) {
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        return nlohmann::json::parse(outcome.out).at("targets").at(0);
+        const auto json = nlohmann::json::parse(outcome.out);
+        auto target = nusselt_test::records(json, "targets").at(0);
+        target["parameters"] = nusselt_test::records(json, "parameters");
+        return target;
     };
     const auto at_once = found(run_lab(search + "--starts 30 --seed 5"));
     EXPECT_EQ(found(run_lab(search + "--starts 10 --seed 5 --state search.json")).at("starts"), 10);

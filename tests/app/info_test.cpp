@@ -1,4 +1,4 @@
-// What `nusselt info` says about scenes.
+// The output of `nusselt info` for scenes.
 
 #include "program.h"
 

@@ -88,7 +88,7 @@ TEST_F(CommandLine, WarnsThatFewLinesAreReplacedByPoints) {
     const std::string few = render + "--light-samples lines --lines 8";
     const Outcome warned = run(few);
     EXPECT_EQ(warned.exit_code, 0);
-    EXPECT_NE(warned.err.find("--many-occluders lines keeps lines"), std::string::npos) << warned.err;
+    EXPECT_NE(warned.err.find("use --many-occluders lines to keep lines"), std::string::npos) << warned.err;
     EXPECT_EQ(run(few + " --many-occluders lines").err.find("warning"), std::string::npos);
     EXPECT_EQ(run(render + "--light-samples lines --lines 16").err.find("warning"), std::string::npos);
 }

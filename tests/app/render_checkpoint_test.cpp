@@ -1,4 +1,4 @@
-// Renderings that are stopped, killed, and go on.
+// Renderings that are stopped, killed and continued.
 
 #include "program.h"
 
@@ -136,7 +136,7 @@ TEST_F(RenderCheckpoint, OfAnotherCommandIsRefused) {
     std::ofstream(path("state")) << "no checkpoint at all";
     const Outcome foreign = run(render);
     EXPECT_EQ(foreign.exit_code, 1);
-    expect_message(foreign.err, "it is no checkpoint");
+    expect_message(foreign.err, "the file is not a checkpoint");
 
     std::filesystem::remove(path("state"));
     EXPECT_EQ(end_when_stored(SIGKILL), -1);
@@ -152,7 +152,7 @@ TEST_F(RenderCheckpoint, OfOtherLightsIsRefused) {
     set_rig("other.json", "0.5");
     expect_message(run(command()).err, "light_rigs is 'dim.json' in the file, but 'other.json' now");
     set_rig("dim.json", "0.25");
-    expect_message(run(command()).err, "' now; the scene, a file that it uses or a light rig was changed");
+    expect_message(run(command()).err, "' now; the scene, a file that it uses or a light rig has changed");
     set_rig("dim.json", "0.5");
     EXPECT_EQ(run(command()).exit_code, 0);
 }
@@ -163,7 +163,7 @@ TEST_F(RenderCheckpoint, IsNoOutput) {
                               "-o a.exr --json state --checkpoint state"}) {
         const Outcome clash = run(render + names);
         EXPECT_EQ(clash.exit_code, 1) << names;
-        expect_message(clash.err, "would be written and is also another output");
+        expect_message(clash.err, "is an output and also another output");
     }
 }
 

@@ -54,7 +54,7 @@ TEST_F(RenderParts, MergedAreTheWholeImageBitByBit) {
     // Two thirds of the image are an image as well.
     const Outcome some = run("merge some.exr part1.exr part2.exr");
     EXPECT_EQ(some.exit_code, 0);
-    EXPECT_EQ(some.err.rfind("warning: only a share of 0.", 0), 0u) << some.err;
+    EXPECT_EQ(some.err.rfind("warning: only a fraction of 0.", 0), 0u) << some.err;
     expect_success("merge again.exr some.exr part3.exr");
     expect_same_layers(layers("again.exr"), whole);
 }
@@ -100,7 +100,7 @@ TEST_F(RenderParts, ConvertedImagesAreNotMerged) {
     const Outcome outcome = run("merge merged.exr bright.exr two.exr");
     EXPECT_EQ(outcome.exit_code, 1);
     expect_message(outcome.err, "bright.exr");
-    expect_message(outcome.err, "it comes from `nusselt convert`");
+    expect_message(outcome.err, "it was converted by `nusselt convert`");
 }
 
 TEST_F(RenderParts, OutputsDoNotOverwriteEachOtherOrWhatIsRead) {
@@ -113,7 +113,7 @@ TEST_F(RenderParts, OutputsDoNotOverwriteEachOtherOrWhatIsRead) {
     const Outcome outcome =
         run("render '" + kScenes + "/room.pbrt' -o a.exr --json '" + kScenes + "/room.pbrt'");
     EXPECT_EQ(outcome.exit_code, 1);
-    expect_message(outcome.err, "read");
+    expect_message(outcome.err, "an input");
 }
 
 TEST_F(RenderParts, MayComeFromScenesInOtherFolders) {
@@ -166,7 +166,7 @@ TEST_F(RenderParts, SaysThatOneCameraRayHasNoVariance) {
     const Outcome outcome =
         run("render '" + kScenes + "/room.pbrt' --resolution 16x9 --layers variance,albedo -o a.exr");
     EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_NE(outcome.err.find("warning: there is no layer of the variance"), std::string::npos)
+    EXPECT_NE(outcome.err.find("warning: the layer of the variance is missing"), std::string::npos)
         << outcome.err;
     EXPECT_EQ(image::find_layer(layers("a.exr"), "variance"), nullptr);
     EXPECT_NE(image::find_layer(layers("a.exr"), "albedo"), nullptr);

@@ -1,10 +1,10 @@
-// Large scenes, in small: the benchmark of scale, and what `info` says of emitters with many polygons.
+// Large scenes, in small: the benchmark of scale, and the output of `info` for emitters with many polygons.
 
 #include "program.h"
 
-#include "lab/timing/scale.h"
+#include "common/results_json.h"
 
-#include <nlohmann/json.hpp>
+#include "lab/timing/scale.h"
 
 #include <cmath>
 
@@ -21,7 +21,7 @@ class Scale : public CommandLine {};
 TEST_F(Scale, BenchmarkMeasuresGrowingScenes) {
     const Outcome bench = run_lab("bench scale --triangles 80000 --emissive 2000 --json -");
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
-    const nlohmann::json rows = nlohmann::json::parse(bench.out);
+    const auto rows = nusselt_test::records(nlohmann::json::parse(bench.out), "scale");
     ASSERT_EQ(rows.size(), 8u);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const nlohmann::json& row = rows[i];
@@ -40,7 +40,7 @@ TEST_F(Scale, BenchmarkMeasuresGrowingScenes) {
 TEST_F(Scale, MemoryHoldsTheArraysAndGrowsLinearly) {
     const Outcome bench = run_lab("bench scale --triangles 800000 --emissive 0 --json -");
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
-    const nlohmann::json rows = nlohmann::json::parse(bench.out);
+    const auto rows = nusselt_test::records(nlohmann::json::parse(bench.out), "scale");
     ASSERT_EQ(rows.size(), 4u);
     // Resident memory differs by some 100 kB from run to run: of this scene, loading takes 3 MB more than the arrays.
     EXPECT_GT(rows[3]["load_bytes"], rows[3]["array_bytes"]);
@@ -64,7 +64,7 @@ TEST(ScaleExponents, AreThoseOfPowers) {
     EXPECT_NEAR(time_exponent(terrain).value(), 1, 1e-9);
     EXPECT_NEAR(memory_exponent(terrain).value(), 1.5, 1e-5);
     const std::vector<ScaleRow> light = {row(ScaleScene::light, 1e3), row(ScaleScene::light, 1e5)};
-    // From 0.003 + 0.001 to 0.3 + 10 seconds.
+    // The time grows from 0.003 + 0.001 to 0.3 + 10 seconds.
     EXPECT_NEAR(time_exponent(light).value(), std::log(10.3 / 0.004) / std::log(100), 1e-9);
 }
 

@@ -17,7 +17,7 @@ class View : public CommandLine {
 protected:
     void SetUp() override {
         const bool has_display = std::system("command -v xvfb-run >/dev/null 2>&1") == 0;
-        const bool has_viewer = run("view").err.find("without its viewer") == std::string::npos;
+        const bool has_viewer = run("view").err.find("without the viewer") == std::string::npos;
         const char* const ci = std::getenv("CI");
         if (has_display && has_viewer) {
             const Outcome quick =
@@ -83,7 +83,7 @@ TEST_F(View, OffersTheHeadlessCommandWithoutADisplay) {
 TEST_F(View, NamesADeviceThatIsMissing) {
     const Outcome viewed = run(kView + "--device 'Voodoo 2'", kDisplay);
     EXPECT_EQ(viewed.exit_code, 1);
-    expect_message(viewed.err, "no Vulkan device 'Voodoo 2'");
+    expect_message(viewed.err, "unknown Vulkan device 'Voodoo 2'");
 }
 
 } // namespace

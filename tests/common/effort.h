@@ -1,12 +1,12 @@
 #pragma once
-/// How much work the tests do. Sample sizes follow from the effort, and significances and quantiles from the sample sizes;
-/// tolerances do not depend on it.
+/// The amount of work of the tests. Sample sizes follow from the effort, and significances and quantiles from the
+/// sample sizes; tolerances do not depend on it.
 
 namespace nusselt_test {
 
 enum class Effort {
-    quick, ///< what proves a change: `make test`
-    full,  ///< what finds rarer errors: `make test-full`
+    quick, ///< sufficient to prove a change: `make test`
+    full,  ///< finds rarer errors: `make test-full`
 };
 
 /// The value of the environment variable NUSSELT_TEST_EFFORT, "quick" or "full"; quick where it is not set.

@@ -1,6 +1,6 @@
 #pragma once
-/// Where the tests find scenes, tables and documents: objects that do not know the path of the checkout can be shared
-/// between checkouts by a compiler cache.
+/// The folder of scenes, tables and documents for tests. Objects that do not contain the path of the checkout can be
+/// shared between checkouts by a compiler cache.
 
 namespace nusselt_test {
 

@@ -1,36 +1,6 @@
-/// Kernels that use the library on a device: closed forms, each technique, BRDFs, line samples and random numbers.
+/// Kernels that use the library on a device: closed forms, BRDFs, line samples and random numbers.
 
-#include <nusselt/nusselt.h>
-
-/// One shading point and two random numbers per thread.
-struct Inputs {
-    const nusselt::Vec3<float>* corners;
-    const nusselt::Vec3<float>* points;
-    const nusselt::Vec3<float>* normals;
-    const nusselt::Vec2<float>* u;
-};
-
-__device__ inline int thread_index() { return static_cast<int>(__nvvm_read_ptx_sreg_tid_x()); }
-
-__device__ inline nusselt::ConvexPolygon<float, 4> local_polygon(const Inputs& inputs, int i) {
-    const auto frame = nusselt::Frame<float>::from_normal(inputs.normals[i]);
-    return nusselt::to_shading_space(nusselt::make_polygon<4>(inputs.corners, 4), inputs.points[i], frame);
-}
-
-__device__ inline nusselt::LineSegment<float> local_line(const Inputs& inputs, int i) {
-    const auto frame = nusselt::Frame<float>::from_normal(inputs.normals[i]);
-    return nusselt::to_shading_space(nusselt::make_line(inputs.corners[0], inputs.corners[1]),
-                                     inputs.points[i], frame);
-}
-
-/// Everything that the contract of a technique has.
-template <class Technique, class Light, class Random>
-__device__ float use(const Light& light, const Random& u) {
-    const Technique technique(light);
-    const auto sample = technique.sample(u);
-    return nusselt::backward_error(technique, u, sample.wi) + technique.pdf(sample.wi) - sample.pdf +
-           sample.p.z + technique.measure();
-}
+#include "cuda_inputs.h"
 
 __global__ void measures(Inputs inputs, float* result) {
     const int i = thread_index();
@@ -39,54 +9,6 @@ __global__ void measures(Inputs inputs, float* result) {
     result[i] = nusselt::area(polygon) + nusselt::solid_angle(polygon) +
                 nusselt::projected_solid_angle(polygon) + nusselt::solid_angle(line) +
                 nusselt::projected_solid_angle(line);
-}
-
-template <class Technique>
-__device__ void use_polygon(const Inputs& inputs, float* result) {
-    const int i = thread_index();
-    result[i] = use<Technique>(local_polygon(inputs, i), inputs.u[i]);
-}
-
-template <class Technique>
-__device__ void use_line(const Inputs& inputs, float* result) {
-    const int i = thread_index();
-    result[i] = use<Technique>(local_line(inputs, i), inputs.u[i].x);
-}
-
-__global__ void polygon_area(Inputs inputs, float* result) {
-    use_polygon<nusselt::PolygonArea<float, 4>>(inputs, result);
-}
-
-__global__ void polygon_solid_angle(Inputs inputs, float* result) {
-    use_polygon<nusselt::PolygonSolidAngle<float, 4>>(inputs, result);
-}
-
-__global__ void polygon_clipped_solid_angle(Inputs inputs, float* result) {
-    use_polygon<nusselt::PolygonClippedSolidAngle<float, 4>>(inputs, result);
-}
-
-__global__ void polygon_projected_solid_angle(Inputs inputs, float* result) {
-    use_polygon<nusselt::PolygonProjectedSolidAngle<float, 4>>(inputs, result);
-}
-
-__global__ void polygon_projected_solid_angle_biased(Inputs inputs, float* result) {
-    use_polygon<nusselt::PolygonProjectedSolidAngleBiased<float, 4>>(inputs, result);
-}
-
-__global__ void line_area(Inputs inputs, float* result) {
-    use_line<nusselt::LineArea<float>>(inputs, result);
-}
-
-__global__ void line_solid_angle(Inputs inputs, float* result) {
-    use_line<nusselt::LineSolidAngle<float>>(inputs, result);
-}
-
-__global__ void line_clipped_solid_angle(Inputs inputs, float* result) {
-    use_line<nusselt::LineClippedSolidAngle<float>>(inputs, result);
-}
-
-__global__ void line_projected_solid_angle(Inputs inputs, float* result) {
-    use_line<nusselt::LineProjectedSolidAngle<float>>(inputs, result);
 }
 
 __global__ void shade(Inputs inputs, float* result) {

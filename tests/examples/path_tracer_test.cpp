@@ -1,5 +1,5 @@
-// The example as a user compiles it, but for its main function. Its picture is compared with a path tracer that samples
-// the area of the lights by itself.
+// The example as a user compiles it, except for its main function. Its picture is compared with a path tracer that
+// samples the area of the lights by itself.
 #define main path_tracer_main
 #include "examples/path_tracer/path_tracer.cpp"
 #undef main
@@ -42,7 +42,7 @@ Vec tube_by_length(const Scene& scene, const Vec& point, const Vec& normal, Engi
     return (cosine * area / dot(to_light, to_light) / nusselt::kPi<float>)*scene.tube.radiance;
 }
 
-/// As radiance() of the example, with other techniques for the lights and for directions.
+/// Does the same as radiance() of the example, with other techniques for the lights and for directions.
 Vec reference_radiance(const Scene& scene, Vec origin, Vec direction, int bounces, Engine& engine) {
     Hit hit = scene.closest(origin, direction);
     const Vec light = seen_light(scene, origin, direction, hit.distance);
@@ -70,7 +70,7 @@ struct Mean {
     double standard_error;
 };
 
-/// Of independent, equally good estimates.
+/// The mean of independent, equally good estimates.
 Mean mean_of(const std::vector<double>& values) {
     double sum = 0, squares = 0;
     for (const double x : values) sum += x;
@@ -136,7 +136,7 @@ TEST(PathTracerExample, PictureShowsTheRadiance) {
     }
 }
 
-// What the technique is for: without occluders, every sample gives the same.
+// The benefit of the technique: without occluders, all samples give the same result.
 TEST(PathTracerExample, DirectLightHasNoNoise) {
     Scene scene = make_scene();
     scene.spheres.clear();

@@ -26,7 +26,7 @@ bool operator==(const FittedLobe& a, const FittedLobe& b) {
            a.lobe.width_y == b.lobe.width_y && a.albedo == b.albedo && a.error == b.error;
 }
 
-/// Density of a lobe [1/sr] from the matrix, as the documentation of LtcCoefficients says.
+/// Density of a lobe [1/sr] from the matrix, as the documentation of LtcCoefficients defines it.
 double density(const LtcCoefficients<double>& m, const test::Direction& w) {
     const double x = m.m00 * w.x + m.m02 * w.z, y = m.m11 * w.y, z = m.m20 * w.x + m.m22 * w.z;
     const double determinant = m.m11 * (m.m00 * m.m22 - m.m02 * m.m20);
@@ -37,7 +37,7 @@ TEST(LobeFit, TheCosineIsALobe) {
     for (const FittedLobe& entry : fit_column(find_brdf("lambert"), 0.5, 0.5, 4)) {
         EXPECT_NEAR(entry.albedo, 1, 1e-4);
         EXPECT_LT(entry.error, 2e-3);
-        // What the tilt does to a cosine the peak can undo: the matrix is what counts.
+        // The peak can undo the effect of the tilt on a cosine, so compare the matrices.
         const auto m = coefficients_of(entry.lobe, 1);
         EXPECT_NEAR(density(m, {0, 0, 1}) * std::acos(-1.0), 1, 5e-3);
         EXPECT_NEAR(density(m, {0.6, 0, 0.8}) * std::acos(-1.0), 0.8, 5e-3);
@@ -137,7 +137,7 @@ TEST(Brdfs, AreFoundByName) {
         FAIL();
     } catch (const std::runtime_error& error) {
         EXPECT_STREQ(error.what(),
-                     "no BRDF 'velvet'; there are frostbite-specular, frostbite-diffuse, lambert");
+                     "unknown BRDF 'velvet'; use one of frostbite-specular, frostbite-diffuse, lambert");
     }
 }
 
@@ -182,7 +182,7 @@ TEST_F(TableFitTest, DoesNotDependOnTheNumberOfThreads) {
     tbb::task_arena(5).execute([&] { several.run(several.columns()); });
     EXPECT_EQ(one.finished_columns(), 12);
     expect_equal(one, several);
-    // The columns are where entry() says.
+    // The columns are in the order of entry().
     const auto column = fit_column(specular_brdf(), 2.0 / 3, 0.5, 3);
     EXPECT_TRUE(one.entry(2, 1, 1) == column[1]);
 }

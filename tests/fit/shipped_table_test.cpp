@@ -68,8 +68,8 @@ std::vector<Slice> published_slices() {
     return slices;
 }
 
-/// Of the matrices in the npm package three 0.160.0 (examples/jsm/lights/RectAreaLightUniformsLib.js) on all those
-/// slices, by fit_error().
+/// The errors of the matrices in the npm package three 0.160.0 (examples/jsm/lights/RectAreaLightUniformsLib.js) on all
+/// those slices, by fit_error().
 constexpr double kPublishedError = 0.12470;
 
 TEST(ShippedLtcTable, FitsBetterThanPublishedOnes) {

@@ -10,8 +10,9 @@ harness=$1 seconds=$2
 shift 2
 corpora=("tests/fuzz/corpus/$harness")
 dictionary=$harness longest=8192
-# Compressed images are shorter: the largest that a file can hold is to stay below the limit of an allocation.
+# Cylinders start from lines. Compressed images are shorter: the largest that a file can hold is to stay below the limit of an allocation.
 case "$harness" in
+    cylinder) corpora=(tests/fuzz/corpus/line) ;;
     pbrt) corpora+=(tests/scene/corpus) ;;
     image) longest=2048 ;;
     texture) corpora=(tests/fuzz/corpus/image) dictionary=image longest=2048 ;;

@@ -26,7 +26,7 @@ protected:
         if (device().features().ray_queries) return;
         const std::string& driver = device().description().driver;
         EXPECT_EQ(driver.find("Mesa 25"), std::string::npos) << driver << " has ray queries";
-        GTEST_SKIP() << driver << " has no ray queries";
+        GTEST_SKIP() << driver << " does not support ray queries";
     }
 
     std::vector<std::uint32_t> trace(const scene::Scene& scene, const std::vector<Ray>& rays) const {
@@ -39,7 +39,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Ways, GpuShadows, testing::Values(Way::bvh, Way::query),
                          [](const auto& of) { return of.param == Way::bvh ? "bvh" : "query"; });
 
-/// How results compare with what all triangles say in double precision.
+/// The comparison of results with a test of all triangles in double precision.
 struct Comparison {
     std::size_t wrong = 0;
     std::size_t undecided = 0; ///< within rounding of an edge or an end
@@ -108,7 +108,7 @@ TEST_P(GpuShadows, HaveNoGapsAtAxisAlignedEdges) {
     scene::Scene scene = make_empty_scene();
     visibility_test::add_box(scene, {-1, -1, -1}, {1, 1, 1});
     std::vector<Ray> rays;
-    // To corners, along axes, and along diagonals of sides, where products vanish.
+    // Rays go to corners, along axes, and along diagonals of sides, where products vanish.
     for (int i = 0; i < 27; ++i) {
         const std::array<float, 3> direction = {
             static_cast<float>(i % 3 - 1), static_cast<float>(i / 3 % 3 - 1), static_cast<float>(i / 9 - 1)};
@@ -133,7 +133,7 @@ TEST_P(GpuShadows, OfInstances) {
     EXPECT_LE(gpu.undecided, rays.size() / 50);
     EXPECT_GT(gpu.blocked, rays.size() / 20);
     EXPECT_LT(gpu.blocked, rays.size() * 19 / 20);
-    // What is in the world alone, and in instances alone, is found.
+    // Surfaces are found in the world alone, and in instances alone.
     scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 20);
     scene.triangle_material.resize(200);
     scene.triangle_light.resize(200);

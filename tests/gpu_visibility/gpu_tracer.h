@@ -16,8 +16,8 @@ inline std::ostream& operator<<(std::ostream& stream, Way way) {
     return stream << (way == Way::bvh ? "bvh" : "query");
 }
 
-/// What shaders/parity/trace_rays.glsl knows of alpha: the coordinates of each triangle of a scene, and its material's
-/// alpha; triangles without an alpha texture lie in its bright half.
+/// The data about alpha for shaders/parity/trace_rays.glsl: the coordinates of each triangle of a scene, and its
+/// material's alpha; triangles without an alpha texture lie in its bright half.
 std::vector<float> alphas_of(const scene::Scene& scene);
 
 /// A scene on a device.

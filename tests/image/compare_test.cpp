@@ -195,12 +195,12 @@ TEST_F(CompareCommand, BrokenLimitsExitWithThree) {
     EXPECT_EQ(json.at("broken_limits").at(0).at("value"), mse);
     EXPECT_EQ(json.at("broken_limits").at(1).at("limit"), 0.999);
 
-    // Of several images, those that break it.
+    // With several images, only those that break the limit are listed.
     const Outcome second = run_command_line({b_, a_, b_, "--max", "mse=0"});
     EXPECT_EQ(second.exit_code, 3);
     EXPECT_EQ(std::count(second.errors.begin(), second.errors.end(), '\n'), 1) << second.errors;
 
-    // No valid pixel: nothing can be said, hence no limit is kept.
+    // Without a valid pixel, metrics are undefined and all limits are broken.
     Image invalid = make_image(13, 12);
     for (float& value : invalid.pixels) value = std::numeric_limits<float>::quiet_NaN();
     write_image(in_folder("n.exr"), invalid);

@@ -1,4 +1,4 @@
-/// What happens to files: complete or absent, and clear errors for whatever is no image.
+/// Files are complete or absent, and files other than images cause clear errors.
 
 #include "base/atomic_file.h"
 #include "image/io.h"

@@ -163,7 +163,7 @@ TEST_F(RoundTrip, PngIsWithinHalfACodeValue) {
 }
 
 TEST_F(RoundTrip, PngCodesAreKnown) {
-    // By hand from the definition of sRGB: 0.2158605 is the linear value of the code 128.
+    // Computed by hand from the definition of sRGB: 0.2158605 is the linear value of the code 128.
     Image image = make_image(3, 1);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinity = std::numeric_limits<float>::infinity();

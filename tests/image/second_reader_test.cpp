@@ -178,7 +178,7 @@ TEST_F(SecondReader, BmpOfEveryKind) {
                         "header " + std::to_string(header_size) + ", " + std::to_string(bits));
         expect_same(bmp(header_size, 32, {}, without_fourth_bytes(noise)), "fourth bytes zero");
     }
-    // From 5, 6 and 5 bits, from fewer, and in unusual places.
+    // Colours have 5, 6 and 5 bits, fewer bits, and bits in unusual places.
     expect_same(bmp(40, 16, {0xf800, 0x07e0, 0x001f}, noise), "565");
     expect_same(bmp(40, 16, {0x0007, 0x0008, 0x0030}, noise), "312");
     expect_same(bmp(108, 16, {0xf00, 0xf0, 0xf, 0xf000}, noise), "4444");

@@ -24,7 +24,7 @@ struct ShownImage {
     std::map<std::string, std::vector<float>> planes;
 };
 
-/// Reads numbers and texts of a packet one after the other, as the documentation of the protocol says.
+/// Reads numbers and texts of a packet one after the other, as the documentation of the protocol defines.
 class PacketReader {
 public:
     explicit PacketReader(std::string packet) : packet_(std::move(packet)) {}
@@ -53,7 +53,7 @@ private:
     std::size_t position_ = 0;
 };
 
-/// What a viewer does with packets.
+/// A viewer that receives packets.
 class Viewer {
 public:
     std::map<std::string, ShownImage> images;

@@ -32,7 +32,7 @@ BiasStatistics frames_of(const Noise& noise, int count, std::uint64_t seed) {
     return statistics;
 }
 
-/// What one shadow ray tells of a penumbra over the whole image: mean x / width, and rarely a bright spot.
+/// The estimate of one shadow ray in a penumbra over the whole image: its mean is x / width, and bright spots are rare.
 double penumbra(int x, int /*y*/, std::mt19937_64& engine) {
     std::uniform_real_distribution<double> uniform;
     const double spot = uniform(engine) < 0.01 ? 10 : 0;
@@ -87,7 +87,7 @@ TEST(BiasTest, NeedsNoNoise) {
     EXPECT_FALSE(frames_of(constant(0.3 * (1 + 1e-4)), 3, 1).compare(reference).passes());
 }
 
-// What next to no sample finds makes no cell suspicious that has no sample of it, but counts in the sum.
+// Rare bright samples make no cell suspicious that has none of them, but they count in the sum.
 TEST(BiasTest, TakesDarkCellsTogether) {
     const auto rare = [](double probability) {
         return [probability](int x, int, std::mt19937_64& engine) {

@@ -40,7 +40,7 @@ bool all_hold(const ExperimentResult& result) {
                        [](const ExpectationResult& e) { return e.holds; });
 }
 
-// What an expectation is about: these variants, and this metric.
+// The variants and the metric of an expectation.
 std::vector<std::string> variants_of(const AtMost& e) { return {e.variant}; }
 std::vector<std::string> variants_of(const AtMostTimes& e) {
     std::vector<std::string> variants = e.others;

@@ -85,7 +85,8 @@ struct TrippedByDenormals : LineSolidAngle<Real> {
     mask_t<Real> tripped;
 };
 
-template <template <class> class Mutant, hostile::Measure kOfMeasure = hostile::Measure::kProjectedSolidAngle>
+template <template <class> class Mutant,
+          hostile::Measure kOfMeasure = hostile::Measure::projected_solid_angle>
 struct MutantKind : hostile::PolygonKind<4> {
     template <class Real>
     using Technique = Mutant<Real>;
@@ -94,7 +95,7 @@ struct MutantKind : hostile::PolygonKind<4> {
 struct LineMutantKind : hostile::LineKind {
     template <class Real>
     using Technique = TrippedByDenormals<Real>;
-    static constexpr hostile::Measure kMeasure = hostile::Measure::kSolidAngle;
+    static constexpr hostile::Measure kMeasure = hostile::Measure::solid_angle;
 };
 
 struct MutantCase {
@@ -113,10 +114,11 @@ const MutantCase kMutants[] = {
     {quadrilateral_mutant<MutantKind<OffTheRay>>("OffTheRay"), "wi does not lead to p"},
     {quadrilateral_mutant<MutantKind<OtherDensity>>("OtherDensity"),
      "the density of the sample is not pdf(wi)"},
-    {quadrilateral_mutant<MutantKind<OtherAreaDensity, hostile::Measure::kArea>>("OtherAreaDensity"),
+    {quadrilateral_mutant<MutantKind<OtherAreaDensity, hostile::Measure::area>>("OtherAreaDensity"),
      "the density of the sample is not pdf(wi)"},
     {quadrilateral_mutant<MutantKind<InvertsToOne>>("InvertsToOne"), "invert(wi) leaves [0, 1)"},
-    {quadrilateral_mutant<MutantKind<DarkButSampled>>("DarkButSampled"), "a density without measure"},
+    {quadrilateral_mutant<MutantKind<DarkButSampled>>("DarkButSampled"),
+     "the density is positive without a measure"},
     {{"TrippedByDenormals", FuzzLight::line, fuzz::check<LineMutantKind, Lanes>},
      "measure is negative or not finite"},
 };

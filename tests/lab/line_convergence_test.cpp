@@ -1,8 +1,8 @@
 #include "common/source_folder.h"
 #include "lab/lines/line_convergence.h"
 
+#include "common/results_json.h"
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 
 const std::filesystem::path kScenes = std::filesystem::path(nusselt_test::kSourceFolder) / "scenes";
 
-/// Without the counts and scenes that take long. The first scene is no exception to anything.
+/// The experiment without slow counts and scenes. The first scene is no exception to anything.
 LineConvergence small(const LineConvergence& full) {
     LineConvergence experiment = full;
     experiment.scenes.resize(1);
@@ -124,7 +124,7 @@ TEST(LineConvergence, CountsExceptionsAndLeavesOutSkippedScenes) {
     EXPECT_TRUE(check_expectations(experiment, scenes)[0].holds);
     scenes[0] = scene_of_order(experiment, std::nan(""));
     EXPECT_FALSE(check_expectations(experiment, scenes)[0].holds);
-    // Two scenes with an exception say nothing.
+    // Two scenes with an exception are not conclusive.
     scenes.pop_back();
     scenes[1].is_skipped = true;
     EXPECT_TRUE(check_expectations(experiment, scenes).empty());
@@ -175,14 +175,18 @@ TEST_F(LineReport, HasPlotsTablesAndAllNumbers) {
     }
     std::ifstream file(std::filesystem::path(name_) / "numbers.json");
     const auto numbers = nlohmann::json::parse(file);
-    EXPECT_EQ(numbers["scenes"][1]["skipped"], true);
-    EXPECT_EQ(numbers["scenes"][0]["series"].size(), 2u);
-    EXPECT_EQ(numbers["scenes"][0]["series"][1]["curve"].size(), 5u);
-    EXPECT_EQ(numbers["scenes"][0]["series"][1]["curve"][0]["count"], 4);
-    EXPECT_EQ(numbers["scenes"][0]["series"][1]["curve"][0]["seeds"], 32);
-    EXPECT_EQ(numbers["scenes"][0]["series"][1]["curve"][4]["seeds"], 16);
-    EXPECT_EQ(numbers["scenes"][0]["series"][1]["bias"], 0);
-    EXPECT_GT(numbers["scenes"][0]["reference_error"], 0);
+    const auto scenes = nusselt_test::records(numbers, "scenes");
+    EXPECT_EQ(scenes[1]["skipped"], true);
+    EXPECT_GT(scenes[0]["reference_error"], 0);
+    const auto series = nusselt_test::records(numbers, "series");
+    ASSERT_EQ(series.size(), 2u);
+    EXPECT_EQ(series[1]["bias"], 0);
+    const auto curves = nusselt_test::records(numbers, "curves");
+    ASSERT_EQ(curves.size(), 10u);
+    EXPECT_EQ(curves[5]["series"], series[1]["series"]);
+    EXPECT_EQ(curves[5]["count"], 4);
+    EXPECT_EQ(curves[5]["seeds"], 32);
+    EXPECT_EQ(curves[9]["seeds"], 16);
 }
 
 } // namespace

@@ -60,7 +60,7 @@ TEST(LineEfficiency, SaysWhereLinesAreExtrapolated) {
     LineEfficiency efficiency = example(3);
     efficiency.lines = curve(1, 16, 1.2, 3); // as good as 64 points
     for (const EqualErrorRow& row : equal_error_rows(efficiency)) {
-        // At 64 itself rounding decides.
+        // At 64, rounding decides.
         if (row.points != 64) {
             EXPECT_EQ(row.lines_are_extrapolated, row.points > 64) << row.points;
         }

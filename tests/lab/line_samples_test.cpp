@@ -86,7 +86,7 @@ TEST_P(LineSamplesOfScene, HaveTheMeanOfPoints) {
 /// The test of the test: lights that are two per cent darker.
 TEST_P(LineSamplesOfScene, ThatAreTooDarkAreRejected) {
     scene::Scene dark = scene_;
-    for (scene::PolygonLight& light : dark.polygon_lights)
+    for (scene::PolygonLight& light : dark.lights.of<scene::PolygonLight>())
         for (float* channel : {&light.radiance.x, &light.radiance.y, &light.radiance.z}) *channel *= 0.98f;
     const render_cpu::Renderer mutant(dark, render_cpu::default_thread_count());
     render::RenderSettings settings = line_settings();

@@ -1,8 +1,8 @@
 #include "common/source_folder.h"
 #include "lab/lines/line_visibility.h"
 
+#include "common/results_json.h"
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -15,7 +15,7 @@ namespace nusselt::lab {
 
 namespace {
 
-/// Without the published scenes.
+/// The experiment without the published scenes.
 LineVisibility shipped_only(const LineVisibility& full) {
     LineVisibility experiment = full;
     const auto is_published = [](const LineScene& s) { return s.origin == SceneOrigin::published; };
@@ -97,9 +97,10 @@ TEST(LineVisibility, ReportHasAnImageOfPartsPerScene) {
         EXPECT_GT(std::filesystem::file_size(folder / file), 100u) << file;
     std::ifstream file(folder / "numbers.json");
     const auto numbers = nlohmann::json::parse(file);
-    ASSERT_EQ(numbers["scenes"].size(), experiment.scenes.size());
-    EXPECT_GT(numbers["scenes"][0]["lines"], 0);
-    EXPECT_GT(numbers["scenes"][0]["parts_per_line"], numbers["scenes"][1]["parts_per_line"]);
+    const auto scenes = nusselt_test::records(numbers, "scenes");
+    ASSERT_EQ(scenes.size(), experiment.scenes.size());
+    EXPECT_GT(scenes[0]["lines"], 0);
+    EXPECT_GT(scenes[0]["parts_per_line"], scenes[1]["parts_per_line"]);
     std::filesystem::remove_all(folder);
 }
 

@@ -54,7 +54,7 @@ TYPED_TEST(NelderMeadTest, FindsMaximaOnFacesOfTheBox) {
         return -(p[0] - 3) * (p[0] - 3) - (p[1] - Real(0.5)) * (p[1] - Real(0.5)) - (p[2] + 1) * (p[2] + 1);
     };
     const auto best = maximize<Real, 3>(paraboloid, cube<Real, 3>(2), {1, -1, 1}, 1, 400);
-    // As above, with a value of -1 and the eigenvalue 2.
+    // The tolerance is derived as above, with a value of -1 and the eigenvalue 2.
     const Real tolerance = 4 * std::sqrt(std::numeric_limits<Real>::epsilon());
     EXPECT_EQ(best.at[0], Real(2));
     EXPECT_NEAR(best.at[1], Real(0.5), tolerance);

@@ -97,7 +97,7 @@ TEST_P(RealSceneLines, HaveTheMeanOfPoints) {
 TEST_P(RealSceneLines, AreRejectedForAnotherLight) {
     const BiasStatistics points = frames(scene_, point_settings());
     scene::Scene other = scene_;
-    for (scene::PolygonLight& light : other.polygon_lights) {
+    for (scene::PolygonLight& light : other.lights.of<scene::PolygonLight>()) {
         const scene::Float3 a = light.vertices[0];
         const scene::Float3 b = light.vertices[1];
         for (scene::Float3& v : light.vertices) {

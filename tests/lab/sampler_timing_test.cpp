@@ -1,4 +1,5 @@
 #include "lab/timing/sampler_timing.h"
+#include "proof/techniques/registry.h"
 
 #include <gtest/gtest.h>
 
@@ -12,15 +13,14 @@ namespace {
 
 TEST(SamplerTiming, HasARowForEachTechniqueInScalarAndPackCode) {
     const auto rows = time_samplers({3, "sse42"});
-    for (const char* technique :
-         {"PolygonArea", "PolygonSolidAngle", "PolygonClippedSolidAngle", "PolygonProjectedSolidAngle",
-          "PolygonProjectedSolidAngleBiased", "LineArea", "LineSolidAngle", "LineClippedSolidAngle",
-          "LineProjectedSolidAngle"})
+    using namespace hostile;
+    KindsWithBounds<4>::for_each([&]<class Kind> {
         for (const int lanes : {1, 4})
             EXPECT_TRUE(std::any_of(
                 rows.begin(), rows.end(),
-                [&](const SamplerTiming& r) { return r.technique == technique && r.lanes == lanes; }))
-                << technique << " with " << lanes << " lanes";
+                [&](const SamplerTiming& r) { return r.technique == Kind::kName && r.lanes == lanes; }))
+                << Kind::kName << " with " << lanes << " lanes";
+    });
     for (const SamplerTiming& r : rows) {
         EXPECT_TRUE(std::isfinite(r.prepare_ns) && std::isfinite(r.sample_ns)) << r.technique;
         EXPECT_EQ(r.isa, "sse42");

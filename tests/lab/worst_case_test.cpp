@@ -28,7 +28,7 @@ WorstCaseSearch search_of(const char* target, std::uint64_t starts) {
     return search;
 }
 
-/// What long searches found; see docs/performance.md.
+/// Results of long searches; see docs/performance.md.
 struct Known {
     const char* target;
     Real error;
@@ -103,7 +103,7 @@ TEST(Convergence, LinesHaveOrderThree) { expect_cubic(line_errors(4000, 1)); }
 
 TEST(Convergence, SectorsHaveOrderThree) { expect_cubic(sector_errors(500, 1)); }
 
-/// What the technique would be with Newton's method instead of Laguerre's, from the integral of the paper.
+/// The errors of the technique with Newton's method instead of Laguerre's, from the integral of the paper.
 ErrorSequence newton_errors(const LineCase<Real>& light) {
     const auto& [tilt, begin, end, u] = light.parameters;
     const Real n_s = std::sin(tilt);

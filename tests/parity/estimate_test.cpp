@@ -338,7 +338,7 @@ struct LineDirectLight {
     }
 };
 
-/// Densities that are told by hand, and samples that may miss the light.
+/// Densities that the test sets, and samples that may miss the light.
 struct BrdfDirectLight {
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kBrdfDirectLightSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kBrdfDirectLightFused;

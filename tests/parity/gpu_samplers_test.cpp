@@ -1,5 +1,6 @@
 #include "gpu_test.h"
 #include "lab/timing/gpu_samplers.h"
+#include "proof/techniques/registry.h"
 
 #include <cmath>
 #include <map>
@@ -50,13 +51,19 @@ TEST_F(GpuSamplers, HaveARowForEachTechniqueAndClassOfLights) {
         EXPECT_TRUE(lights[row.technique].insert(row.configuration).second) << "twice";
         EXPECT_TRUE(std::isfinite(row.light_ns) && std::isfinite(row.sample_ns)) << row.technique;
     }
-    for (const char* technique :
-         {"PolygonArea", "PolygonSolidAngle", "PolygonClippedSolidAngle", "PolygonProjectedSolidAngle",
-          "PolygonProjectedSolidAngleBiased", "PolygonSolidAnglePeters", "PolygonProjectedSolidAnglePeters"})
-        EXPECT_EQ(lights[technique].size(), 15u) << technique << ": three classes with 3 to 7 vertices";
-    for (const char* technique : {"LineArea", "LineSolidAngle", "LineClippedSolidAngle",
-                                  "LineProjectedSolidAngle", "LineProjectedSolidAnglePeters"})
-        EXPECT_EQ(lights[technique].size(), 2u) << technique;
+    const auto expect_rows = [&](auto list, std::size_t count, const char* what) {
+        list.for_each([&]<class Kind> {
+            EXPECT_EQ(lights[Kind::kName].size(), count) << Kind::kName << ": " << what;
+            if (*Kind::kPublishedName != '\0') {
+                EXPECT_EQ(lights[Kind::kPublishedName].size(), count) << Kind::kPublishedName;
+            }
+        });
+    };
+    using namespace hostile;
+    expect_rows(PolygonKinds<4>(), 15, "three classes with 3 to 7 vertices");
+    expect_rows(RectangleKinds(), 3, "three classes with 4 vertices");
+    expect_rows(Join<PolygonOnLobeKinds<4>, LineKinds, LineOnLobeKinds, CylinderKinds, CylinderOnLobeKinds>(),
+                2, "two classes");
 }
 
 TEST_F(GpuSamplers, NameAnUnknownDevice) {

@@ -1,8 +1,8 @@
 // Functions on linearly transformed cosines below the techniques.
 
 #include "function_parity.h"
-#include "inputs/lobes.h"
 #include "inputs/table_words.h"
+#include "lab/accuracy/lobe_lights.h"
 #include "shaders/engine_table_fused.h"
 #include "shaders/engine_table_split.h"
 #include "shaders/line_shading_fused.h"
@@ -32,7 +32,7 @@ void draw_lobe(RandomSource& random, std::vector<float>& inputs) {
     if (is_degenerate(random))
         c = hostile::HostileLights<float>(1, static_cast<std::uint64_t>(random.uniform() * 0x1p53)).lobe();
     else
-        c = lobe_of_table([&] { return random.uniform(); });
+        c = lab::lobe_of_table([&] { return random.uniform(); });
     for (const float x : {c.m00, c.m02, c.m11, c.m20, c.m22, c.albedo}) inputs.push_back(x);
 }
 

@@ -10,7 +10,7 @@ namespace nusselt::parity {
 
 namespace {
 
-using ProjectedPair = PolygonProjectedSolidAnglePair<4>;
+using ProjectedPair = TechniquePair<hostile::PolygonProjectedSolidAngleKindOf<4>>;
 
 class MutantParity : public GpuTest {
 protected:
@@ -45,8 +45,9 @@ TEST_F(MutantParity, WrongSecondInversesAreFound) {
 }
 
 TEST_F(MutantParity, MissingClippingIsFound) {
-    using Clipped = PolygonClippedSolidAnglePair<4>;
-    const auto excesses = excesses_of<Clipped>(shader_of<PolygonSolidAnglePair<4>>(Variant::split));
+    using Clipped = TechniquePair<hostile::PolygonClippedSolidAngleKindOf<4>>;
+    const auto excesses =
+        excesses_of<Clipped>(shader_of<TechniquePair<hostile::PolygonSolidAngleKindOf<4>>>(Variant::split));
     EXPECT_GT(count_of(excesses, "crossing the horizon:"), 0);
     EXPECT_EQ(count_of(excesses, "decentral:"), 0) << "above the horizon nothing is missing";
 }

@@ -8,10 +8,14 @@ namespace nusselt::parity {
 
 namespace {
 
-/// A competitor of the technique that the traits describe. Its twin has no invert().
-template <class AnyTraits>
+/// The published method that a technique replaces. Its twin has no invert(). The one of PolygonProjectedSolidAngle
+/// follows chains of edges in C++ and sorts in GLSL: they may take sums in different order, so that only errors can be
+/// compared.
+template <class AnyKind>
 struct RelatedPair {
-    using Traits = AnyTraits;
+    using Kind = AnyKind;
+    using Traits = proof::Judged<Kind>;
+    static constexpr const char* kName = Kind::kPublishedName;
     static constexpr Images kImages = Images::same;
     using Outputs = typename Twin<Traits>::Outputs;
 
@@ -25,24 +29,26 @@ struct RelatedPair {
     }
 };
 
-// Named types, for the names of tests.
-struct PolygonSolidAnglePeters : RelatedPair<proof::PolygonSolidAngleTraits<4>> {
-    static constexpr const char* kName = "PolygonSolidAnglePeters";
-};
-/// The one in C++ follows chains of edges where the twin sorts: they may take sums in different order, so that only
-/// errors can be compared.
-struct PolygonProjectedSolidAnglePeters : RelatedPair<proof::PolygonProjectedSolidAngleTraits<4>> {
-    static constexpr const char* kName = "PolygonProjectedSolidAnglePeters";
-};
-struct LineProjectedSolidAnglePeters : RelatedPair<proof::LineProjectedSolidAngleTraits> {
-    static constexpr const char* kName = "LineProjectedSolidAnglePeters";
-};
+/// The pairs of all techniques that replace a published method.
+template <class... Kinds>
+auto related_pairs(hostile::KindList<Kinds...>) {
+    const auto list = []<class Kind>(const Kind*) {
+        using Published = typename Kind::template Published<float>;
+        if constexpr (std::is_same_v<Published, hostile::Absent>)
+            return hostile::KindList<>();
+        else
+            return hostile::KindList<RelatedPair<Kind>>();
+    };
+    return hostile::Join<decltype(list(static_cast<const Kinds*>(nullptr)))...>();
+}
+template <class... Pairs>
+testing::Types<Pairs...> types_of(hostile::KindList<Pairs...>);
 
 template <class Pair>
 class RelatedParity : public GpuTest {};
 using Techniques =
-    testing::Types<PolygonSolidAnglePeters, PolygonProjectedSolidAnglePeters, LineProjectedSolidAnglePeters>;
-TYPED_TEST_SUITE(RelatedParity, Techniques);
+    decltype(types_of(related_pairs(hostile::Join<hostile::PolygonKinds<4>, hostile::LineKinds>())));
+TYPED_TEST_SUITE(RelatedParity, Techniques, PairNames);
 
 TYPED_TEST(RelatedParity, IsAsAccurateAsCppOnOrdinaryLights) {
     const std::set<std::string> ordinary{"decentral", "central", "ordinary"};

@@ -5,9 +5,10 @@
 #include "gpu/fused_fma.h"
 #include "gpu_test.h"
 #include "inputs/hostile_inputs.h"
+#include "lab/accuracy/lobe_lights.h"
 #include "parity_check.h"
 #include "proof/accuracy/cases.h"
-#include "proof/hostile/techniques.h"
+#include "proof/techniques/registry.h"
 #include "shaders/twins.h"
 #include "twin.h"
 
@@ -24,12 +25,11 @@
 namespace nusselt::parity {
 
 /// A technique of ours.
-/// \tparam AnyTraits of proof/accuracy/references.h.
-/// \tparam AnyKind   of proof/hostile/techniques.h, the same technique.
-template <class AnyTraits, class AnyKind>
+/// \tparam AnyKind of the registry.
+template <class AnyKind>
 struct TechniquePair {
-    using Traits = AnyTraits;
     using Kind = AnyKind;
+    using Traits = proof::Judged<Kind>;
     static constexpr const char* kName = Traits::kName;
     static constexpr Images kImages = hostile::kHasLobe<Kind> ? Images::rounded : Images::same;
     using Outputs = typename Twin<Traits>::Outputs;
@@ -38,24 +38,55 @@ struct TechniquePair {
         return hostile::outputs_of<Kind, float>(in.light, in.u);
     }
     static void judge(const proof::Case<Traits, float>& c, bool dark, const Outputs& out, Errors& errors) {
-        parity::judge(c, dark, out, errors);
+        if constexpr (hostile::kIsCylinder<Kind> && Kind::kMeasure == hostile::Measure::area) {
+            const auto facing = cosine_of_sample(c);
+            // Where rounding decides which side a point is on, nothing is asked.
+            if (!dark && std::fabs(facing) < kGrazing) return;
+            // Samples on the side that faces away are no samples.
+            parity::judge(c, dark || facing < 0, out, errors);
+        } else {
+            parity::judge(c, dark, out, errors);
+        }
+    }
+
+private:
+    static constexpr proof::Exact kGrazing = 1e-3L;
+
+    /// Between the ray to the sample of a cylinder, backwards, and the normal there.
+    static proof::Exact cosine_of_sample(const proof::Case<Traits, float>& c) {
+        const auto& [axis, radius] = c.exact_light;
+        const auto p = c.exact.sample(Traits::template widened<proof::Exact>(c.u)).p;
+        const auto from_start = p - axis.p0;
+        const auto along = dot(from_start, axis.s);
+        const auto across = from_start - along * axis.s;
+        const auto to_ends = std::min(along, axis.length - along);
+        const auto on_cap = along < axis.length / 2 ? -axis.s : axis.s;
+        const auto normal = radius - length(across) < to_ends ? normalize(across) : on_cap;
+        return -dot(normalize(p), normal);
     }
 };
 
-template <int N>
-using PolygonAreaPair = TechniquePair<proof::PolygonAreaTraits<N>, hostile::PolygonAreaKindOf<N>>;
-template <int N>
-using PolygonSolidAnglePair =
-    TechniquePair<proof::PolygonSolidAngleTraits<N>, hostile::PolygonSolidAngleKindOf<N>>;
-template <int N>
-using PolygonClippedSolidAnglePair =
-    TechniquePair<proof::PolygonClippedSolidAngleTraits<N>, hostile::PolygonClippedSolidAngleKindOf<N>>;
-template <int N>
-using PolygonProjectedSolidAnglePair =
-    TechniquePair<proof::PolygonProjectedSolidAngleTraits<N>, hostile::PolygonProjectedSolidAngleKindOf<N>>;
-template <int N>
-using PolygonProjectedSolidAngleBiasedPair =
-    TechniquePair<proof::PolygonProjectedSolidAngleBiasedTraits<N>, hostile::PolygonBiasedKindOf<N>>;
+/// The pairs of lists, for TYPED_TEST_SUITE.
+struct ParitySuite {
+    static constexpr std::string_view kName = "parity"; ///< in techniques.json
+};
+namespace detail {
+template <class... Kinds>
+testing::Types<TechniquePair<Kinds>...> pairs_of(hostile::KindList<Kinds...>);
+}
+template <class... Lists>
+using PairsOf = decltype(detail::pairs_of(hostile::TestedBy<ParitySuite, Lists...>()));
+
+/// Names the tests of a pair by its technique and the bound on the number of vertices.
+struct PairNames {
+    template <class Pair>
+    static std::string GetName(int) {
+        const std::string name = Pair::kName;
+        if constexpr (hostile::kIsPolygon<typename Pair::Kind>)
+            return name + std::to_string(Pair::Traits::kVertexBound);
+        return name;
+    }
+};
 
 /// The shader of a technique.
 template <class Pair>
@@ -72,9 +103,6 @@ inline std::vector<Variant> variants_for(const gpu::Device& device) {
     if (gpu::has_fused_fma(device)) return {Variant::split, Variant::fused};
     return {Variant::split};
 }
-
-inline const auto& classes_of(const proof::PolygonClass*) { return proof::polygon_classes(); }
-inline const auto& classes_of(const proof::LineClass*) { return proof::line_classes(); }
 
 /// Judges the twin on at least `count` lights of a class.
 template <class Pair>
@@ -130,7 +158,7 @@ Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> sha
     using Class = typename Pair::Traits::Class;
     Twin<typename Pair::Traits> twin(device, shader);
     std::vector<const Class*> judged;
-    for (const auto& lights : classes_of(static_cast<const Class*>(nullptr)))
+    for (const auto& lights : lab::classes_of(static_cast<const Class*>(nullptr)))
         if (is_judged(lights)) judged.push_back(&lights);
     const int per_class = (count + static_cast<int>(judged.size()) - 1) / static_cast<int>(judged.size());
     Verdict verdict;
@@ -139,17 +167,11 @@ Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> sha
     return verdict;
 }
 
-/// Polygons with more vertices need the larger bound; all fit into it.
-inline bool is_judged_with_bound(const proof::PolygonClass& lights, int bound) {
-    return bound == (lights.vertex_count <= 4 ? 4 : 8);
-}
-inline bool is_judged_with_bound(const proof::LineClass&, int) { return true; }
-
 /// Likewise, on the classes for the bound of the technique: 4 or 8 vertices, or lines.
 template <class Pair>
 Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> shader, int count) {
     return judge_twin<Pair>(device, shader, count, [](const auto& lights) {
-        return is_judged_with_bound(lights, Pair::Traits::kVertexBound);
+        return lab::fits_bound(lights, Pair::Traits::kVertexBound);
     });
 }
 
@@ -160,7 +182,7 @@ void expect_parity(const Verdict& verdict);
 inline int random_lights() { return nusselt_test::at_effort(100'000, 1'000'000); }
 template <class Pair>
 int random_lights_of() {
-    return kIsPolygonal<typename Pair::Traits> ? random_lights() / 2 : random_lights();
+    return hostile::kIsPolygon<typename Pair::Kind> ? random_lights() / 2 : random_lights();
 }
 inline int hostile_lights() { return nusselt_test::at_effort(20'000, 100'000); }
 
@@ -176,6 +198,7 @@ std::string first_violation(const gpu::Device& device, std::span<const std::uint
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         hostile::HostileLights<float> source(1, i);
         draw(source, inputs[i].light, inputs[i].u);
+        inputs[i].light = Pair::Kind::from(inputs[i].light);
     }
     const auto outputs = twin.run(inputs);
     std::string first;

@@ -8,30 +8,25 @@ namespace {
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(HostileTest);
 
-template <class Kind>
+template <class Test>
 class FewHostileLights : public ::testing::Test {};
 
-using Kinds =
-    ::testing::Types<PolygonAreaKind, PolygonSolidAngleKind, PolygonClippedSolidAngleKind,
-                     PolygonProjectedSolidAngleKind, PolygonProjectedSolidAngleKindOf<8>, LineAreaKind,
-                     LineSolidAngleKind, LineClippedSolidAngleKind, LineProjectedSolidAngleKind,
-                     PolygonLtcKind, PolygonClippedLtcKind, LineLtcKind, LineClippedLtcKind,
-                     CylinderSolidAngleKind, CylinderProjectedSolidAngleKind, CylinderLtcKind>;
-TYPED_TEST_SUITE(FewHostileLights, Kinds);
+using Types = Instances<TestedBy<ContractSuite, KindsWithBounds<4, 8>>, float>;
+TYPED_TEST_SUITE(FewHostileLights, Types, InstanceNames);
 
 TYPED_TEST(FewHostileLights, PacksNeverFail) {
-    expect_contract<Instance<TypeParam, NativeFloat>>(5, 20'000);
-    expect_contract<Instance<TypeParam, NativeDouble>>(6, 4000);
+    expect_contract<Instance<typename TypeParam::Kind, NativeFloat>>(5, 20'000);
+    expect_contract<Instance<typename TypeParam::Kind, NativeDouble>>(6, 4000);
 }
 
 TYPED_TEST(FewHostileLights, ScalarsNeverFail) {
-    expect_contract<Instance<TypeParam, float>>(7, 20'000);
-    expect_contract<Instance<TypeParam, long double>>(8, 1000);
+    expect_contract<Instance<typename TypeParam::Kind, float>>(7, 20'000);
+    expect_contract<Instance<typename TypeParam::Kind, long double>>(8, 1000);
 }
 
 TYPED_TEST(FewHostileLights, NeverFailWithDenormalsFlushed) {
     const FlushDenormalsToZero flush;
-    expect_contract<Instance<TypeParam, NativeFloat>>(9, 20'000);
+    expect_contract<Instance<typename TypeParam::Kind, NativeFloat>>(9, 20'000);
 }
 
 } // namespace

@@ -91,7 +91,7 @@ Answers trace(const scene::Scene& scene, const std::vector<scene::Float2>& point
 }
 
 constexpr std::size_t kRays = 1 << 16;
-/// A binomial share is within five standard deviations but for one in 2 million.
+/// A binomial share is within five standard deviations except in one case in 2 million.
 double tolerance(double share) { return 5 * std::sqrt(share * (1 - share) / kRays); }
 
 /// Shares of rays that hit something, by camera rays and by shadow rays.
@@ -271,7 +271,7 @@ std::vector<std::vector<double>> screen_means(float alpha, render::Technique tec
     return render_region_means(renderer, settings, seeds, renderer.visibility().tracer());
 }
 
-/// Each shadow ray crosses the screen at most once: the image is linear in alpha. Another alpha is told apart.
+/// Each shadow ray crosses the screen at most once: the image is linear in alpha. The test detects another alpha.
 TEST(Alpha, ShadowsAreLinearInIt) {
     const auto technique = render::Technique::projected_solid_angle;
     const auto mean = [](const std::vector<std::vector<double>>& rows) {
@@ -298,7 +298,7 @@ TEST(Alpha, ShadowsAreLinearInIt) {
 TEST(Alpha, LightsWithoutSurfacesShine) {
     const scene::Scene with_surface = [] {
         scene::Scene scene = make_box_scene(64);
-        scene.line_lights.clear();
+        scene.lights.of<scene::LineLight>().clear();
         return scene;
     }();
     scene::Scene invisible = with_surface;
@@ -325,7 +325,7 @@ TEST(Alpha, LightsWithoutSurfacesShine) {
     EXPECT_LT(share, 0.1);
 }
 
-/// Both sides of a light shine if it says so.
+/// Both sides of a light emit if it is two-sided.
 TEST(Alpha, TwoSidedLightsShineUpwardsToo) {
     for (const bool two_sided : {false, true}) {
         scene::Scene scene = make_floor(32);

@@ -96,7 +96,7 @@ TEST_P(Analytic, MatteFloorIsExactUpToTheModelOfTheLight) {
     EXPECT_LT(largest_error(analytic(scene_), converged(scene_)), GetParam().matte_limit);
 }
 
-/// That of the fits of the specular component, and of a diffuse component that is not quite Lambertian.
+/// The misfit of lobes for the specular component, and for a diffuse component that is not quite Lambertian.
 constexpr double kLargestMisfit = 0.06;
 
 TEST_P(Analytic, GlossyFloorIsAsGoodAsFits) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What every backend has to fulfil; the tests of each one run it.
+/// The contract of every backend. The tests of each backend run these checks.
 
 #include "render/backend.h"
 #include "render/metadata.h"
@@ -63,7 +63,7 @@ inline void expect_backend_contract(const render::Backend& backend, const scene:
             ASSERT_GT(whole.image.pixels[3 * pixel], 0) << x << ", " << y;
         }
 
-    // Nothing is begun once a rendering is cancelled.
+    // No work starts once a rendering is cancelled.
     const std::atomic<bool> cancel = true;
     render::Frame none = render::make_frame(scene, settings);
     prepared->render_into(none, settings, {.progress = {}, .tile_finished = {}, .cancel = &cancel});

@@ -108,7 +108,7 @@ TEST(ResizedCrop, KeepsItsShareOfTheFilm) {
     EXPECT_EQ(resized({10, 6, 50, 60}, 33, 20), (std::array{3, 17, 2, 20}));
     // Neighbours stay neighbours.
     EXPECT_EQ(resized({50, 0, 100, 60}, 33, 20), (std::array{17, 33, 0, 20}));
-    // At least one pixel.
+    // At least one pixel is left.
     EXPECT_EQ(resized({99, 30, 100, 31}, 3, 3), (std::array{2, 3, 2, 3}));
     EXPECT_EQ(resized({0, 0, 1, 1}, 1, 1), (std::array{0, 1, 0, 1}));
     EXPECT_THROW(resized({0, 0, 1, 1}, 0, 1), std::invalid_argument);

@@ -106,7 +106,7 @@ bool meets_tube(const scene::LineLight& light, const Vec& origin, const Vec& dir
     return enter <= leave && leave > 0 && enter < t_max;
 }
 
-/// What the reference knows about a pixel.
+/// The reference for a pixel.
 struct Pixel {
     bool sees_light = false;
     bool in_penumbra = false; ///< a light is visible in parts
@@ -125,7 +125,7 @@ public:
         const Vec direction =
             to_vec(camera.corner) + (x + 0.5) * to_vec(camera.right) + (y + 0.5) * to_vec(camera.down);
         const auto hit = tracer_.closest(origin, direction);
-        for (const scene::LineLight& light : scene_.line_lights)
+        for (const scene::LineLight& light : scene_.lights.of<scene::LineLight>())
             if (meets_tube(light, origin, direction, hit.t)) return {.sees_light = true};
         if (hit.t == kInfinity) return {};
         if (scene_.triangle_light[hit.triangle] >= 0) return {.sees_light = true};
@@ -133,9 +133,9 @@ public:
         const Vec point = origin + hit.t * direction;
         const Rgb albedo = to_rgb(scene_.materials[scene_.triangle_material[hit.triangle]].diffuse);
         Pixel result;
-        for (const scene::LineLight& light : scene_.line_lights)
+        for (const scene::LineLight& light : scene_.lights.of<scene::LineLight>())
             add(line_integral(light, point, normal), light.radius, to_rgb(light.radiance), albedo, result);
-        for (const scene::PolygonLight& light : scene_.polygon_lights)
+        for (const scene::PolygonLight& light : scene_.lights.of<scene::PolygonLight>())
             add(panel_integral(light, point, normal), 1, to_rgb(light.radiance), albedo, result);
         return result;
     }
@@ -172,7 +172,7 @@ private:
         return sum;
     }
 
-    /// Of a parallelogram.
+    /// The integral over a parallelogram.
     Integral panel_integral(const scene::PolygonLight& light, const Vec& point, const Vec& normal) const {
         constexpr int kPieces = 96;
         const Vec corner = to_vec(light.vertices.at(0));
@@ -207,7 +207,8 @@ protected:
     ///               room
     void load(const char* file, int height) {
         scene_ = scene::load_scene(std::string(nusselt_test::kSourceFolder) + "/scenes/" + file);
-        for (scene::LineLight& light : scene_.line_lights) light.model = scene::TubeModel::linear;
+        for (scene::LineLight& light : scene_.lights.of<scene::LineLight>())
+            light.model = scene::TubeModel::linear;
         render::resize_film(scene_, height + 1, height);
         const Quadrature quadrature(scene_);
         for (int y = 0; y < height; ++y)
@@ -261,7 +262,7 @@ TEST_F(CornellQuadrature, BoxWithPanel) {
     EXPECT_LT(relative_rmse_to_quadrature(render(1024)), 0.005);
 }
 
-/// Fig. 6 of the paper on linear lights: outside of penumbrae, a single sample is as good as a thousand.
+/// Fig. 6 of the paper on linear lights: outside penumbrae, a single sample is as good as a thousand.
 TEST_F(CornellQuadrature, OneSampleSufficesOutsideOfPenumbrae) {
     load("cornell-tube.pbrt", 96);
     const image::Image reference = render(1024);

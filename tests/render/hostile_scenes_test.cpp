@@ -98,7 +98,7 @@ TEST(HostileScenes, DegenerateLights) {
     const Float3 p{0, 0, 1};
     add_polygon_light(scene, {p, p, p, p}, radiance, true, 0);
     add_polygon_light(scene, {p, Float3{0.5f, 0, 1}, Float3{1, 0, 1}, Float3{0.2f, 0, 1}}, radiance, true, 0);
-    // On the floor, and through it.
+    // One light lies on the floor, the other one passes through it.
     add_polygon_light(
         scene,
         {Float3{-0.5f, -0.5f, 0}, Float3{0.5f, -0.5f, 0}, Float3{0.5f, 0.5f, 0}, Float3{-0.5f, 0.5f, 0}},
@@ -127,7 +127,7 @@ TEST(HostileScenes, LightWithEightCornersOneOfThemRepeated) {
     light.radiance = {1, 1, 1};
     light.two_sided = true;
     scene.emitters.push_back({"octagon"});
-    scene.polygon_lights.push_back(light);
+    scene.lights.of<scene::PolygonLight>().push_back(light);
     expect_sane_images(scene);
 }
 

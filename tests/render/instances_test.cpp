@@ -99,7 +99,7 @@ float handedness(const Matrix& m) {
     return std::copysign(1.0f, determinant);
 }
 
-/// The inverse transpose times n, but for its length.
+/// The inverse transpose times n, except for its length.
 Float3 transformed_normal(const Matrix& m, const Float3& n) {
     const auto row = [&](int i) {
         return handedness(m) * (cofactor(m, i, 0) * n.x + cofactor(m, i, 1) * n.y + cofactor(m, i, 2) * n.z);
@@ -232,7 +232,7 @@ TEST(InstanceHits, NameTriangleAndInstance) {
     const visibility::EmbreeScene embree(scene);
     const visibility::RayTracer tracer = embree.tracer();
     const visibility::PacketTracer<4>& trace = tracer;
-    // At the middle of the first body, the second one, a tube, the back wall.
+    // The targets are the middles of the first body, of the second one, of a tube, and of the back wall.
     const Float3 targets[] = {{0.5f, -0.3f, 1.2f}, {-0.4f, -0.6f, 1.4f}, {-0.7f, -0.2f, 1.35f}, {0, 1, 1.7f}};
     visibility::RayPacket<4> rays{};
     for (int i = 0; i < 4; ++i) {
@@ -264,7 +264,7 @@ TEST(InstanceHits, NameTriangleAndInstance) {
         EXPECT_NEAR(p.x + m[3], t * rays.direction[0][i], 1e-5f);
         EXPECT_NEAR(p.z + m[11] - 1, t * rays.direction[2][i], 1e-5f);
     }
-    EXPECT_EQ(hits.tube[2], 1);
+    EXPECT_EQ(hits.light[2], 2); // behind the panel and the other tube
     EXPECT_EQ(hits.triangle[2], -1);
     EXPECT_GE(hits.triangle[3], 0);
     EXPECT_EQ(hits.instance[3], -1);

@@ -1,4 +1,4 @@
-/// What must not change the image: threads, instruction sets, the unit of length.
+/// Threads, instruction sets and the unit of length do not change the image.
 
 #include "scenes.h"
 

@@ -1,4 +1,4 @@
-/// Layers beside the image: they add up to it, show what they say, and do not change it.
+/// Layers beside the image add up to it, have the documented contents, and do not change it.
 
 #include "scenes.h"
 
@@ -130,8 +130,8 @@ TEST_P(Layers, LightsAreThoseOfTheSceneWithThatLightAlone) {
     with_layers.layers = {LayerKind::lights};
     const RenderResult result = render(scene, with_layers);
     scene::Scene dark = scene;
-    dark.polygon_lights[0].radiance = {0, 0, 0};
-    dark.line_lights[1].radiance = {0, 0, 0};
+    dark.lights.of<scene::PolygonLight>()[0].radiance = {0, 0, 0};
+    dark.lights.of<scene::LineLight>()[1].radiance = {0, 0, 0};
     const image::Image alone = render(dark, settings()).image;
     const std::vector<float>& tube = data_of(result, "light.tube");
     for (std::size_t i = 0; i < tube.size(); ++i)
@@ -171,7 +171,7 @@ std::vector<std::vector<double>> layer_means(const render_cpu::Renderer& rendere
     return rows;
 }
 
-/// How samples are weighed must not shift light from one component to the other.
+/// The weights of samples must not shift light from one component to the other.
 TEST(LayersStatistics, ComponentsDoNotDependOnTheHeuristic) {
     const scene::Scene scene = make_box_scene(kSize);
     const render_cpu::Renderer renderer(scene, 2);
@@ -353,14 +353,14 @@ TEST(Frames, LargerThanAnyFileAreRefused) {
 }
 
 TEST(Frames, LargerThanTheMemoryAreRefused) {
-    EXPECT_NO_THROW(render::check_memory(1000, "something", "ask for less"));
+    EXPECT_NO_THROW(render::check_memory(1000, "something", "use a smaller image"));
     try {
-        render::check_memory(std::size_t(1) << 60, "an image", "ask for less");
+        render::check_memory(std::size_t(1) << 60, "an image", "use a smaller image");
         FAIL() << "a machine with that much memory?";
     } catch (const std::runtime_error& error) {
         const std::string message = error.what();
         EXPECT_EQ(message.rfind("an image needs 1152921504.6 GB of memory", 0), 0u) << message;
-        EXPECT_NE(message.find("; ask for less"), std::string::npos) << message;
+        EXPECT_NE(message.find("; use a smaller image"), std::string::npos) << message;
     }
 }
 

@@ -59,7 +59,7 @@ TEST(LineParts, NoneIsLost) {
     }
 }
 
-/// Where the points that correct fitted lobes are taken from parts of lines.
+/// Points on parts of lines correct the fitted lobes.
 TEST(LineParts, HaveTheMeanOfPointsOnGlossySurfaces) {
     constexpr int kImage = kRegionsPerAxis;
     scene::Scene scene = make_slats(800, kImage);
@@ -154,7 +154,7 @@ scene::Scene make_polygon_light(int vertices, bool two_sided) {
         light.vertices.push_back(
             {static_cast<float>(0.5 * std::cos(angle)), static_cast<float>(0.4 * std::sin(angle)), 1});
     }
-    scene.polygon_lights.push_back(light);
+    scene.lights.of<scene::PolygonLight>().push_back(light);
     for (std::size_t i = 2; i < light.vertices.size(); ++i)
         add_quad(scene, {light.vertices[0], light.vertices[i - 1], light.vertices[i], light.vertices[i]}, 0,
                  0);
@@ -183,7 +183,7 @@ TEST(LinePolygons, OfAnyNumberOfVerticesHaveTheMeanOfPoints) {
         }
 }
 
-/// As those of points, see hostile_scenes_test.cpp.
+/// The same holds for points, see hostile_scenes_test.cpp.
 TEST(LineRejections, AreCounted) {
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
     const auto rejected = [&](const scene::Scene& scene) {
@@ -193,7 +193,7 @@ TEST(LineRejections, AreCounted) {
     };
     EXPECT_EQ(rejected(make_soup(4)), 0u);
     scene::Scene light = make_soup(4);
-    light.polygon_lights[0].vertices[0].x = kNaN;
+    light.lights.of<scene::PolygonLight>()[0].vertices[0].x = kNaN;
     EXPECT_GT(rejected(light), 0u);
 }
 

@@ -100,7 +100,7 @@ TEST_F(LineSamples, RejectOtherLights) {
     const auto reference = rows(point_settings());
     for (const bool is_wider : {true, false}) {
         scene::Scene other = scene_;
-        for (Float3& corner : other.polygon_lights[0].vertices)
+        for (Float3& corner : other.lights.of<scene::PolygonLight>()[0].vertices)
             if (!is_wider || corner.x > 0) corner.x += 0.02f;
         const render_cpu::Renderer renderer(other, 2);
         const auto mutant =
@@ -268,7 +268,7 @@ TEST(LineSurfaces, InstancesCastTheShadowsOfTheirTriangles) {
     EXPECT_LE(differing_share(render(flat, settings).image, render(copied, settings).image, 1e-3), 2e-3);
 }
 
-/// No line says whether a surface that is there with a probability hides it: points do.
+/// Lines cannot decide whether a partially opaque surface hides them, but points can.
 TEST(LineSurfaces, PointsGoThroughPartlyPresentOnes) {
     scene::Scene scene = make_soup(40);
     scene.materials.push_back({.name = "gauze", .diffuse = {0.5f, 0.5f, 0.5f}});
@@ -340,7 +340,7 @@ TEST(LineSettings, OutOfRangeAreRefused) {
     expect_refused(settings);
 }
 
-/// Checkpoints and images to merge are those of one rendering if their metadata say so.
+/// Checkpoints and images to merge belong to one rendering if their metadata agree.
 TEST(LineSettings, AreInTheMetadata) {
     const scene::Scene scene = make_floor(2);
     const auto metadata_of = [&](const RenderSettings& settings) {

@@ -1,11 +1,11 @@
 #pragma once
-/// What tests of line samples share.
+/// Scenes that tests of line samples share.
 
 #include "scenes.h"
 
 namespace nusselt::render_test {
 
-/// Of images, along each axis [pixels].
+/// The size of images along each axis [pixels].
 inline constexpr int kSize = 32;
 /// Points per pixel and light.
 inline constexpr int kSamples = 16;

@@ -46,7 +46,7 @@ TEST(Merge, WeighsBySamples) {
         merged({make_input("0", 1, 5, 8, 8), make_input("1", 4, 1, 4, 8), make_input("2", 10, 3, 4, 0)});
     EXPECT_EQ(result.layers[0].data[0], (8.0 * 1 + 4 * 4 + 4 * 10) / 16);
     EXPECT_EQ(result.layers[0].data[3], 3);
-    // All pixels have 16 samples: the metadata say it.
+    // The metadata state that all pixels have 16 samples.
     EXPECT_EQ(result.layers.size(), 1u);
     EXPECT_EQ(result.metadata.at("samples"), "16");
     EXPECT_EQ(result.metadata.at("seed"), "0 1 2");
@@ -86,7 +86,7 @@ TEST(Merge, OfEmptyPartsStaysAPart) {
 }
 
 TEST(Merge, NamesTheCulpritAmongMany) {
-    // Of one pixel each in turn; images of two seeds block both.
+    // The parts have one pixel each in turn; images of two seeds block both.
     const LayeredImage both = merged({make_input("0", 1, 0, 8, 0), make_input("1", 1, 0, 8, 0)});
     const LayeredImage third = make_input("2", 1, 1, 8, 8);
     const LayeredImage rest = make_input("1", 0, 1, 0, 8);
@@ -105,7 +105,7 @@ TEST(Merge, CombinesVariances) {
     };
     const LayeredImage result =
         merged({with_variance("0", 3, 4), with_variance("1", 6, 4), with_variance("2", 2, 8)});
-    // Of (x0 + x1 + 2 x2) / 4.
+    // The variance of (x0 + x1 + 2 x2) / 4.
     EXPECT_NEAR(result.layers[1].data[0], (3 + 6 + 4 * 2) / 16.0, 1e-6);
 }
 

@@ -149,8 +149,8 @@ protected:
     AxisFunction magnitude_function() const {
         return [this](double radius, double x) { return std::fabs(value(filter(), radius, x)); };
     }
-    /// Of the mean of many samples from the convolution with a filter, in standard deviations at most: the mean square
-    /// of a sample is the square of its weight times the probability of the bright area.
+    /// The largest deviation of the mean of many samples from the convolution with a filter, in standard deviations:
+    /// the mean square of a sample is the square of its weight times the probability of the bright area.
     double largest_deviation(const AxisFunction& f) const {
         constexpr int kSamples = 512;
         constexpr int kImages = 64;

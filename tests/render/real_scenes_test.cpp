@@ -1,4 +1,4 @@
-/// Published scenes at full size, where they are at hand: the environment variable NUSSELT_SCENES names the
+/// Published scenes at full size, where they are available: the environment variable NUSSELT_SCENES names the
 /// folder with bathroom/ and sponza/.
 
 #include "common/source_folder.h"

@@ -82,15 +82,15 @@ void add_polygon_light(scene::Scene& scene, const std::array<Float3, 4>& corners
     light.vertices.assign(corners.begin(), corners.end());
     light.radiance = radiance;
     light.two_sided = two_sided;
-    const int index = static_cast<int>(scene.polygon_lights.size());
-    scene.polygon_lights.push_back(light);
+    const int index = static_cast<int>(scene.lights.of<scene::PolygonLight>().size());
+    scene.lights.of<scene::PolygonLight>().push_back(light);
     add_quad(scene, corners, material, index);
 }
 
 void add_line_light(scene::Scene& scene, const char* name, scene::LineLight light) {
     light.emitter = static_cast<std::uint32_t>(scene.emitters.size());
     scene.emitters.push_back({name});
-    scene.line_lights.push_back(light);
+    scene.lights.of<scene::LineLight>().push_back(light);
 }
 
 void set_camera(scene::Scene& scene, const Float3& eye, const Float3& target, const Float3& up,
@@ -116,7 +116,7 @@ void set_radius(scene::Scene& scene) {
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     };
     for (const Float3& p : scene.positions) include(p);
-    for (const scene::LineLight& light : scene.line_lights) {
+    for (const scene::LineLight& light : scene.lights.of<scene::LineLight>()) {
         include(light.start);
         include(light.end);
     }
@@ -127,9 +127,9 @@ void set_radius(scene::Scene& scene) {
 
 scene::Scene scaled(scene::Scene scene, float factor) {
     for (Float3& p : scene.positions) p = times(factor, p);
-    for (scene::PolygonLight& light : scene.polygon_lights)
+    for (scene::PolygonLight& light : scene.lights.of<scene::PolygonLight>())
         for (Float3& p : light.vertices) p = times(factor, p);
-    for (scene::LineLight& light : scene.line_lights) {
+    for (scene::LineLight& light : scene.lights.of<scene::LineLight>()) {
         light.start = times(factor, light.start);
         light.end = times(factor, light.end);
         light.radius *= factor;

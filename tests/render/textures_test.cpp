@@ -62,7 +62,7 @@ image::Image render(const scene::Scene& scene) {
 
 Point to_vec(const Float3& v) { return {v.x, v.y, v.z}; }
 
-/// Where the ray through the centre of a pixel meets the floor.
+/// The point where the ray through the centre of a pixel meets the floor.
 std::optional<Point> floor_point(const scene::Camera& camera, int x, int y) {
     const Point direction =
         to_vec(camera.corner) + (x + 0.5) * to_vec(camera.right) + (y + 0.5) * to_vec(camera.down);
@@ -185,7 +185,7 @@ TEST_P(TextureLookups, MatchTheirDefinition) {
     };
     EXPECT_LT(largest_error(scene, expected_for(scene.textures[0])), kTolerance);
 
-    // The test of the test: any other kind of lookup is told apart.
+    // The test of the test: it detects any other kind of lookup.
     for (const TextureWrap other : {TextureWrap::repeat, TextureWrap::clamp, TextureWrap::black})
         if (other != wrap) {
             EXPECT_GT(largest_error(scene, expected_for(make_texture(channels, other, filter))), 0.1);
@@ -332,7 +332,7 @@ void make_instance(scene::Scene& scene, double scale_x, double scale_y) {
         {0, {static_cast<float>(scale_x), 0, 0, 0, 0, static_cast<float>(scale_y), 0, 0, 0, 0, 1, 0}}};
 }
 
-/// What pbrt v3 makes of heights with the given derivatives: unit tangents in the object, moved along the normal.
+/// The normal of pbrt v3 for heights with the given derivatives: unit tangents in the object, moved along the normal.
 Point normal_of_pbrt3(const UvMap& map, double scale_x, double scale_y, double by_u, double by_v) {
     const Point n = {0, 0, 1};
     const double determinant = map.u_x * map.v_y - map.u_y * map.v_x;

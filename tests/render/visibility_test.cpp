@@ -2,8 +2,8 @@
 
 #include "scenes.h"
 
+#include "scene/model/lights/light_geometry.h"
 #include "visibility/embree_scene.h"
-#include "visibility/tube_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -65,10 +65,10 @@ TYPED_TEST_SUITE(Visibility, Widths);
 
 TYPED_TEST(Visibility, CameraRaysSeeTubesAndSurfaces) {
     const auto hits = this->intersect(this->kAll, this->rays_down(2));
-    EXPECT_EQ(hits.tube[0], 0);
+    EXPECT_EQ(hits.light[0], 0);
     EXPECT_EQ(hits.triangle[0], -1);
     for (int i = 1; i < this->kWidth; ++i) {
-        EXPECT_EQ(hits.tube[i], -1);
+        EXPECT_EQ(hits.light[i], -1);
         ASSERT_GE(hits.triangle[i], 0);
         // The barycentric coordinates give the point back.
         const scene::Triangle& triangle = this->scene_.triangles[static_cast<std::size_t>(hits.triangle[i])];
@@ -94,7 +94,7 @@ TYPED_TEST(Visibility, InactiveLanesAreLeftAlone) {
     const auto rays = this->rays_down(2);
     EXPECT_EQ(this->occluded(0b1010, rays), 0b1010u);
     const auto hits = this->intersect(0b0100, rays);
-    for (int i = 0; i < this->kWidth; ++i) EXPECT_EQ(hits.triangle[i] >= 0 || hits.tube[i] >= 0, i == 2);
+    for (int i = 0; i < this->kWidth; ++i) EXPECT_EQ(hits.triangle[i] >= 0 || hits.light[i] >= 0, i == 2);
 }
 
 /// Debian's Embree aborts the process if an active lane holds such a ray.
@@ -109,8 +109,8 @@ TYPED_TEST(Visibility, InvalidLanesMissAndDoNotDisturbOthers) {
             if (axis == 6) rays.t_far[1] = poison > 0 ? nan : -1;
             const auto hits = this->intersect(this->kAll, rays);
             EXPECT_EQ(hits.triangle[1], -1) << poison << " in " << axis;
-            EXPECT_EQ(hits.tube[1], -1);
-            EXPECT_EQ(hits.tube[0], 0);
+            EXPECT_EQ(hits.light[1], -1);
+            EXPECT_EQ(hits.light[0], 0);
             for (int i = 2; i < this->kWidth; ++i) EXPECT_GE(hits.triangle[i], 0);
             EXPECT_EQ(this->occluded(this->kAll, rays), this->kAll);
         }
@@ -177,9 +177,12 @@ TYPED_TEST(Visibility, NoRayPassesBetweenTriangles) {
     EXPECT_EQ(escaped, 0) << "of " << targets.size() << " rays";
 }
 
-TEST(TubeMesh, HasTheCrossSectionOfTheCylinder) {
-    const auto mesh = visibility::make_tube_mesh({{0, {1, 2, 3}, {1, 2, 5}, 0.5f, {1, 1, 1}}});
-    ASSERT_EQ(mesh.triangles.size(), static_cast<std::size_t>(visibility::kTrianglesPerTube));
+TEST(LightMesh, HasTheCrossSectionOfTheCylinder) {
+    scene::Scene scene;
+    add_line_light(scene, "tube", {0, {1, 2, 3}, {1, 2, 5}, 0.5f, {1, 1, 1}});
+    const scene::LightMesh mesh = make_light_mesh(scene);
+    ASSERT_EQ(mesh.triangles.size(), static_cast<std::size_t>(scene::kTrianglesPerTube));
+    EXPECT_EQ(mesh.lights, std::vector<std::uint32_t>(mesh.triangles.size(), 0));
     // Closed, oriented outwards: the divergence theorem gives the volume.
     double volume = 0;
     for (const scene::Triangle& triangle : mesh.triangles) {

@@ -23,7 +23,7 @@ using render_vulkan::VulkanRenderer;
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 
-/// Of pixels along edges. Measured: up to 1.5 % on shipped scenes at this size.
+/// The fraction of pixels along edges. Measured: up to 1.5 % on shipped scenes at this size.
 constexpr double kLargestShare = 0.03;
 
 render::RenderSettings centred(int samples) {
@@ -102,7 +102,7 @@ TEST_F(Agreement, OfEveryTechnique) {
 TEST_F(Agreement, OfEveryHeuristic_Strategy_AndSampler) {
     scene::Scene scene = make_plain_scene(kWidth / 2, kHeight / 2);
     // All kinds of lights share what is tested, and drivers take the longer for each.
-    scene.line_lights.clear();
+    scene.lights.of<scene::LineLight>().clear();
     VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
     std::vector<render::RenderSettings> all;
     for (const render::Mis mis : render::kMisHeuristics) {
@@ -163,7 +163,7 @@ TEST_F(Agreement, OfManySamplesAndLightsInAFrame) {
     render_test::set_radius(scene);
     VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
     expect_agreement(scene, renderer, centred(1));
-    scene.polygon_lights.resize(1);
+    scene.lights.of<scene::PolygonLight>().resize(1);
     VulkanRenderer with_few(device(), scene, ShadowRays::bvh);
     render::RenderSettings many = centred(16384);
     expect_agreement(scene, with_few, many);
@@ -180,7 +180,7 @@ TEST_F(Agreement, RejectsOtherRandomNumbers_AndALightThatIsALittleBrighter) {
     VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
     EXPECT_GT(differing_share(renderer.render(settings).image, reference), 2 * kLargestShare);
     settings.seed = 0;
-    for (scene::PolygonLight& light : scene.polygon_lights) light.radiance.y *= 1.01f;
+    for (scene::PolygonLight& light : scene.lights.of<scene::PolygonLight>()) light.radiance.y *= 1.01f;
     VulkanRenderer brighter(device(), scene, ShadowRays::bvh);
     EXPECT_GT(differing_share(brighter.render(settings).image, reference), 2 * kLargestShare);
 }

@@ -50,7 +50,7 @@ BiasStatistics of_cpu(const scene::Scene& scene) {
 
 class Bias : public parity::GpuTest {
 protected:
-    /// With each way to trace shadow rays that the device has.
+    /// Compares with each way to trace shadow rays that the device supports.
     std::vector<lab::BiasTest> compare(const scene::Scene& scene) const {
         std::vector<lab::BiasTest> tests;
         const BiasStatistics expected = of_cpu(scene);
@@ -72,8 +72,8 @@ void expect_none(const std::vector<lab::BiasTest>& tests) {
 
 const scene::PixelFilter kWideFilter = {.kind = scene::FilterKind::mitchell, .radius_x = 2, .radius_y = 2};
 
-/// With a wide filter, what all pixels of a frame share, its offset, is most of the noise: cells are not independent, and
-/// their sum of squares means nothing. The others hold all the same.
+/// With a wide filter, the offset that all pixels of a frame share causes most of the noise: cells are not independent,
+/// and their sum of squares means nothing. The others hold all the same.
 void leave_out_sum_of_squares(lab::BiasTest& test) { test.chi_square = 0; }
 
 TEST_F(Bias, OfShippedScenes_ThereIsNone) {
@@ -105,13 +105,13 @@ TEST_F(Bias, OfBathroom_ThereIsNone) {
 
 /// The test of the test.
 TEST_F(Bias, OfADimmedLight_IsFound) {
-    // With a wide filter and without the sum of squares less is found.
+    // With a wide filter and without the sum of squares, the test is less sensitive.
     for (const auto& [filter, factor] :
          {std::pair(scene::PixelFilter(), 0.97f), std::pair(kWideFilter, 0.8f)}) {
         scene::Scene scene = make_rich_scene(kWidth, kHeight);
         scene.film.filter = filter;
         const BiasStatistics reference = of_cpu(scene);
-        for (scene::PolygonLight& light : scene.polygon_lights)
+        for (scene::PolygonLight& light : scene.lights.of<scene::PolygonLight>())
             for (float* channel : {&light.radiance.x, &light.radiance.y, &light.radiance.z})
                 *channel *= factor;
         lab::BiasTest test = of_gpu(VulkanRenderer(device(), scene, ShadowRays::bvh)).compare(reference);

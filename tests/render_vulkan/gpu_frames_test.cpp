@@ -1,4 +1,4 @@
-/// What `nusselt-lab bench gpu` measures.
+/// The measurements of `nusselt-lab bench gpu`.
 
 #include "common/source_folder.h"
 #include "lab/timing/gpu_frames.h"
@@ -59,13 +59,13 @@ TEST(LineAndQuad, HaveTheSamePlaceAndSize) {
         const scene::Scene scene = load_small(name);
         const auto both = lab::line_and_quad(scene);
         ASSERT_TRUE(both) << name;
-        ASSERT_EQ(both->line.line_lights.size(), 1u);
-        EXPECT_TRUE(both->line.polygon_lights.empty());
-        ASSERT_EQ(both->quad.polygon_lights.size(), 1u);
-        EXPECT_TRUE(both->quad.line_lights.empty());
-        const scene::LineLight& line = both->line.line_lights[0];
+        ASSERT_EQ(both->line.lights.of<scene::LineLight>().size(), 1u);
+        EXPECT_TRUE(both->line.lights.of<scene::PolygonLight>().empty());
+        ASSERT_EQ(both->quad.lights.of<scene::PolygonLight>().size(), 1u);
+        EXPECT_TRUE(both->quad.lights.of<scene::LineLight>().empty());
+        const scene::LineLight& line = both->line.lights.of<scene::LineLight>()[0];
         EXPECT_EQ(line.model, scene::TubeModel::linear);
-        const scene::PolygonLight& quad = both->quad.polygon_lights[0];
+        const scene::PolygonLight& quad = both->quad.lights.of<scene::PolygonLight>()[0];
         EXPECT_TRUE(quad.two_sided);
         ASSERT_EQ(quad.vertices.size(), 4u);
         const auto corner = [&](std::size_t i) { return scene::to_double(quad.vertices[i]); };
@@ -77,20 +77,20 @@ TEST(LineAndQuad, HaveTheSamePlaceAndSize) {
         const scene::Double3 expected = 0.5 * (scene::to_double(line.start) + scene::to_double(line.end));
         EXPECT_LT(scene::length(middle - expected), 1e-5);
         EXPECT_EQ(quad.radiance.y, line.radiance.y);
-        EXPECT_EQ(line.radiance.y, scene.line_lights[0].radiance.y);
+        EXPECT_EQ(line.radiance.y, scene.lights.of<scene::LineLight>()[0].radiance.y);
     }
     EXPECT_FALSE(lab::line_and_quad(load_small("cornell-panel.pbrt")));
 }
 
 TEST(LineAndQuad, TurnsQuadsOfUprightTubes) {
     scene::Scene scene = load_small("cornell-tube.pbrt");
-    scene.line_lights[0].start = {0, 0.5f, 0};
-    scene.line_lights[0].end = {0, 1.5f, 0};
+    scene.lights.of<scene::LineLight>()[0].start = {0, 0.5f, 0};
+    scene.lights.of<scene::LineLight>()[0].end = {0, 1.5f, 0};
     const auto both = lab::line_and_quad(scene);
     ASSERT_TRUE(both);
-    for (const scene::Float3& vertex : both->quad.polygon_lights[0].vertices) {
+    for (const scene::Float3& vertex : both->quad.lights.of<scene::PolygonLight>()[0].vertices) {
         EXPECT_EQ(vertex.x, 0);
-        EXPECT_NEAR(std::fabs(vertex.z), scene.line_lights[0].radius, 1e-6);
+        EXPECT_NEAR(std::fabs(vertex.z), scene.lights.of<scene::LineLight>()[0].radius, 1e-6);
     }
 }
 

@@ -1,4 +1,4 @@
-/// What the renderer leaves behind, and what it does without memory.
+/// The memory that the renderer leaks, and its behaviour without memory.
 
 #include "debug_allocator.h"
 #include "gpu_test.h"
@@ -47,7 +47,7 @@ protected:
     }
 
     const gpu::Device& counted() const { return *counted_; }
-    /// What is live when nothing goes on any more: threads of drivers tidy up after they have told that they are done.
+    /// The live memory once all work has ended: threads of drivers clean up after they have reported the end.
     std::size_t settled() const {
         std::size_t live = allocator_.live();
         for (int unchanged = 0; unchanged < 50; ++unchanged) {
@@ -120,7 +120,8 @@ TEST_F(Memory, LackOfItIsAMessage) {
         } catch (const gpu::Error& error) {
             const std::string text = error.what();
             EXPECT_EQ(text.rfind(counted().description().name + ": ", 0), 0u) << text;
-            EXPECT_NE(text.find("out of memory; close other programs or ask for less"), std::string::npos)
+            EXPECT_NE(text.find("out of memory; close other programs, or use a smaller scene or image"),
+                      std::string::npos)
                 << text;
         }
         allocator().allow_all();
@@ -139,8 +140,8 @@ TEST_F(Memory, LackOfItForAScenesBufferNamesWhatIsTooLarge) {
     } catch (const gpu::Error& error) {
         EXPECT_EQ(error.what(), counted().description().name + ": the texels of the scene take " +
                                     gpu::size_text(limit + 4) +
-                                    ", more than a buffer of this device may have (" + gpu::size_text(limit) +
-                                    "); use another device or --backend cpu");
+                                    ", but buffers of this device are limited to " + gpu::size_text(limit) +
+                                    "; use another device or --backend cpu");
     }
     EXPECT_EQ(settled(), before);
 }

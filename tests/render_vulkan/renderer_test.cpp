@@ -1,4 +1,4 @@
-/// How the renderer behaves, whatever the image.
+/// The behaviour of the renderer apart from the image.
 
 #include "comparison.h"
 #include "gpu_test.h"
@@ -107,8 +107,8 @@ TEST_F(Renderer, NamesRayQueriesThatTheDeviceDoesNotHave) {
         VulkanRenderer(device(), scene, ShadowRays::query);
         FAIL() << "no error";
     } catch (const gpu::Error& error) {
-        EXPECT_EQ(error.what(),
-                  device().description().name + ": the device has no ray queries; use --shadow-rays bvh");
+        EXPECT_EQ(error.what(), device().description().name +
+                                    ": the device does not support ray queries; use --shadow-rays bvh");
     }
 }
 

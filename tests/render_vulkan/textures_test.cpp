@@ -18,10 +18,10 @@ using render_vulkan::TextureAccess;
 using render_vulkan::VulkanRenderer;
 using scene::Float3;
 
-/// Of pixels along edges: as in agreement_test.cpp.
+/// The fraction of pixels along edges, as in agreement_test.cpp.
 constexpr double kLargestShare = 0.03;
 
-/// Without light samples: what is seen is textures.
+/// Settings without light samples: the image shows textures.
 render::RenderSettings unshadowed() {
     render::RenderSettings settings;
     settings.technique = Technique::ltc_analytic;
@@ -102,7 +102,7 @@ scene::Scene make_wall(int columns, int rows) {
     return scene;
 }
 
-/// What is seen by the camera: whether a shadow ray meets what is partly there depends on all bits of the ray.
+/// Compares surfaces seen by the camera: whether a shadow ray meets a partially opaque surface depends on all its bits.
 TEST_P(Textures, OfEveryWrap_Filter_AndUse_AreThoseOfTheCpu) {
     const scene::Scene scene = make_rich_scene(64, 48);
     EXPECT_LT(differing_share(render(scene, unshadowed()), render_on_cpu(scene, unshadowed())),
@@ -183,13 +183,13 @@ TEST_F(TextureChoice, TakesImagesWhereTheDeviceHasThem) {
     }
 }
 
-/// With the same bits of shadow rays on one device, these meet the same surfaces that are partly there.
+/// On one device, the same bits of shadow rays meet the same partially opaque surfaces.
 TEST_F(TextureChoice, ChangesNothing) {
     if (device().features().indexed_images == 0)
         GTEST_SKIP() << device().description().name << " does not index images";
     scene::Scene scene = make_rich_scene(64, 48);
     // Drivers take long for all kinds of lights.
-    scene.line_lights.clear();
+    scene.lights.of<scene::LineLight>().clear();
     render::RenderSettings settings;
     settings.samples = 2;
     for (const ShadowRays way : {ShadowRays::query, ShadowRays::bvh}) {

@@ -86,10 +86,11 @@ TEST(CheckedWork, ReportsWrongImages) {
     EXPECT_EQ(counted.shadow_rays, (std::uint64_t{1} << 32) + 5);
     EXPECT_EQ(counted.rejected_samples, 3u);
     work.unknown_settings = 1;
-    EXPECT_EQ(error_of(work), "a device: a shader has no code for a setting; use --backend cpu");
+    EXPECT_EQ(error_of(work), "a device: a setting is not supported by a shader; use --backend cpu");
     work.unfinished = 1;
-    EXPECT_EQ(error_of(work),
-              "a device: the driver ended a shader before it was done; use another device or --backend cpu");
+    EXPECT_EQ(
+        error_of(work),
+        "a device: the driver stopped a shader before it finished; use another device or --backend cpu");
 }
 
 } // namespace

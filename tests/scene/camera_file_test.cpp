@@ -66,7 +66,7 @@ TEST(CameraFile, ReplacesTheCropToo) {
 
 TEST(CameraFile, SaysWhatIsWrong) {
     const std::string camera = R"("camera": {"origin": [0, 0, 0], "corner": [0, 0, 1], )";
-    EXPECT_EQ(message_of("{\"version\": 1, \"film\": [64, 48]}"), ": needs the field \"camera\"");
+    EXPECT_EQ(message_of("{\"version\": 1, \"film\": [64, 48]}"), ": must have the field \"camera\"");
     EXPECT_NE(message_of("{\"version\": 1, \"film\": [64], " + camera +
                          "\"right\": [1, 0, 0], \"down\": [0, 1, 0]}}")
                   .find("film: must be width and height"),
@@ -80,7 +80,7 @@ TEST(CameraFile, SaysWhatIsWrong) {
                   .find("must not be parallel"),
               std::string::npos);
     EXPECT_NE(message_of("{\"version\": 1, \"film\": [64, 48], " + camera + "\"down\": [-2, 0, 0]}}")
-                  .find("needs the field \"right\""),
+                  .find("must have the field \"right\""),
               std::string::npos);
 }
 

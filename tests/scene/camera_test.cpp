@@ -120,22 +120,22 @@ TEST_F(CameraDirectives, Errors) {
     EXPECT_EQ(error("Camera \"perspective\"\n\"float fov\" 180"),
               "scene.pbrt:2: camera: fov must lie between 0 and 180 degrees, found 180");
     EXPECT_EQ(error("Camera \"perspective\" \"float screenwindow\" [1 2 3]"),
-              "scene.pbrt:1: camera: screenwindow takes x min, x max, y min, y max");
+              "scene.pbrt:1: camera: screenwindow must be x min, x max, y min, y max");
     EXPECT_EQ(error("Camera \"perspective\" \"float frameaspectratio\" -2"),
               "scene.pbrt:1: camera: frameaspectratio must be positive, found -2");
     EXPECT_EQ(error("Scale 1 1 0 Camera \"perspective\""),
-              "scene.pbrt:1: camera: its transform cannot be inverted");
+              "scene.pbrt:1: camera: the transform is not invertible");
     EXPECT_EQ(error("Translate 1e20 0 0 Camera \"perspective\""),
-              "scene.pbrt:1: camera: its position lies more than 1e15 m from the origin");
+              "scene.pbrt:1: camera: the position must be within 1e15 m of the origin");
     EXPECT_EQ(error("Film \"rgb\" \"integer yresolution\" 0"),
               "scene.pbrt:1: film: yresolution must lie between 1 and 65536, found 0");
 }
 
 TEST_F(CameraDirectives, Warnings) {
     EXPECT_EQ(warning(load(std::string(kTriangle))),
-              "scene.pbrt:1: there is no Camera, it looks from the origin along +z");
+              "scene.pbrt:1: Camera is missing; the default camera looks from the origin along +z");
     EXPECT_EQ(warning(load("Camera \"perspective\" \"float lensradius\" 0.1\n" + std::string(kTriangle))),
-              "scene.pbrt:1: camera: lensradius is ignored, everything is in focus");
+              "scene.pbrt:1: camera: lensradius is ignored; everything is in focus");
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-/// Loads each scene of tests/scene/corpus and compares with what its comments say, see docs/testing.md.
+/// Loads each scene of tests/scene/corpus and compares it with its comments, see docs/testing.md.
 
 #include "common/source_folder.h"
 #include "scene/import/importers.h"
@@ -24,7 +24,7 @@ namespace {
 const std::filesystem::path kCorpus =
     std::filesystem::path(nusselt_test::kSourceFolder) / "tests/scene/corpus";
 
-/// What a file says about itself, in lines "# expect KEY: VALUE".
+/// The expected outcome in each file, in lines "# expect KEY: VALUE".
 struct Expectations {
     std::optional<std::string> error;
     std::vector<std::string> warnings;
@@ -79,7 +79,7 @@ Double3 transformed(const std::array<float, 12>& rows, const Float3& p) {
     return {row(0), row(4), row(8)};
 }
 
-/// Of all visible triangles.
+/// The bounds of all visible triangles.
 Numbers bounds(const Scene& scene) {
     Box box;
     const auto add = [&](std::size_t begin, std::size_t end, const auto& place) {
@@ -99,14 +99,14 @@ Numbers bounds(const Scene& scene) {
 /// Emitted by all lights [W].
 Numbers power(const Scene& scene) {
     Double3 sum;
-    for (const PolygonLight& light : scene.polygon_lights) {
+    for (const PolygonLight& light : scene.lights.of<PolygonLight>()) {
         std::vector<Double3> vertices;
         for (const Float3& p : light.vertices) vertices.push_back(to_double(p));
         const double sides = light.two_sided ? 2 : 1;
         sum = sum +
               (sides * std::numbers::pi * 0.5 * length(area_vector(vertices))) * to_double(light.radiance);
     }
-    for (const LineLight& light : scene.line_lights) {
+    for (const LineLight& light : scene.lights.of<LineLight>()) {
         const double extent = length(to_double(light.end) - to_double(light.start));
         const double radius = light.radius;
         const double caps = light.model == TubeModel::solid ? 2 * std::numbers::pi * radius * radius : 0;
@@ -181,8 +181,8 @@ std::map<std::string, Numbers> facts(const Scene& scene) {
                                              {"materials", count(scene.materials)},
                                              {"textures", count(scene.textures)},
                                              {"emitters", count(scene.emitters)},
-                                             {"polygon lights", count(scene.polygon_lights)},
-                                             {"line lights", count(scene.line_lights)},
+                                             {"polygon lights", count(scene.lights.of<PolygonLight>())},
+                                             {"line lights", count(scene.lights.of<LineLight>())},
                                              {"bounds", bounds(scene)},
                                              {"power", power(scene)}};
     for (const Material& material : scene.materials) {

@@ -1,4 +1,4 @@
-// Which side emits, and what an emitter is.
+// Emitting sides, and the definition of emitters.
 
 #include "scene_fixture.h"
 
@@ -14,8 +14,8 @@ protected:
     /// z component of the emitting side's normal; also checks that the triangles are oriented alike.
     float side(const std::string& state, const std::string& shape) const {
         const Scene scene = light(state, shape);
-        EXPECT_EQ(scene.polygon_lights.size(), 1u);
-        const Float3 normal = emitting_normal(scene.polygon_lights.at(0));
+        EXPECT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
+        const Float3 normal = emitting_normal(scene.lights.of<PolygonLight>().at(0));
         for (const Triangle& triangle : scene.triangles) {
             PolygonLight as_light;
             for (const std::uint32_t vertex : triangle.vertex)
@@ -72,17 +72,17 @@ TEST_F(Emitters, RadianceIsColourTimesScale) {
         "AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] \"float scale\" 10 \"bool twosided\" true\n" +
         std::string(kTriangle) + "AreaLightSource \"diffuse\" \"color L\" [1 2 3] \"rgb scale\" [3 2 1]\n" +
         std::string(kTriangle) + "AreaLightSource \"diffuse\"\n" + std::string(kTriangle));
-    ASSERT_EQ(scene.polygon_lights.size(), 3u);
-    expect_near(scene.polygon_lights[0].radiance, {10, 20, 30}, 0);
-    EXPECT_TRUE(scene.polygon_lights[0].two_sided);
-    expect_near(scene.polygon_lights[1].radiance, {3, 4, 3}, 0);
-    expect_near(scene.polygon_lights[2].radiance, {1, 1, 1}, 0);
-    EXPECT_FALSE(scene.polygon_lights[2].two_sided);
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 3u);
+    expect_near(scene.lights.of<PolygonLight>()[0].radiance, {10, 20, 30}, 0);
+    EXPECT_TRUE(scene.lights.of<PolygonLight>()[0].two_sided);
+    expect_near(scene.lights.of<PolygonLight>()[1].radiance, {3, 4, 3}, 0);
+    expect_near(scene.lights.of<PolygonLight>()[2].radiance, {1, 1, 1}, 0);
+    EXPECT_FALSE(scene.lights.of<PolygonLight>()[2].two_sided);
 }
 
 TEST_F(Emitters, BlackOnesAreSurfaces) {
     const Scene scene = load("AreaLightSource \"diffuse\" \"rgb L\" [0 0 0]\n" + std::string(kTriangle));
-    EXPECT_TRUE(scene.polygon_lights.empty());
+    EXPECT_TRUE(scene.lights.of<PolygonLight>().empty());
     ASSERT_EQ(scene.triangles.size(), 1u);
     EXPECT_EQ(scene.triangle_light[0], -1);
 }
@@ -94,7 +94,7 @@ TEST_F(Emitters, OnInvisibleSurfacesAreBlackSurfaces) {
     ASSERT_EQ(scene.triangles.size(), 2u);
     ASSERT_EQ(scene.materials.size(), 1u);
     EXPECT_EQ(scene.materials[0].diffuse.x, 0);
-    EXPECT_EQ(scene.polygon_lights.size(), 2u);
+    EXPECT_EQ(scene.lights.of<PolygonLight>().size(), 2u);
 }
 
 TEST_F(Emitters, ErrorsAndWarnings) {
@@ -102,8 +102,10 @@ TEST_F(Emitters, ErrorsAndWarnings) {
               "scene.pbrt:2: AreaLightSource: radiance must be finite and not negative, found -1");
     const std::string rest = "\nCamera \"perspective\"\n" + std::string(kTriangle);
     EXPECT_EQ(warning(load("AreaLightSource \"diffuse\" AreaLightSource \"laser\"" + rest)),
-              "scene.pbrt:1: AreaLightSource \"laser\" is not supported: its shapes do not emit");
-    EXPECT_TRUE(load("AreaLightSource \"diffuse\" AreaLightSource \"laser\"" + rest).polygon_lights.empty());
+              "scene.pbrt:1: AreaLightSource \"laser\" is not supported; its shapes do not emit light");
+    EXPECT_TRUE(load("AreaLightSource \"diffuse\" AreaLightSource \"laser\"" + rest)
+                    .lights.of<PolygonLight>()
+                    .empty());
     // The area of the triangle overflows nothing, but the radiance does.
     EXPECT_EQ(error("AreaLightSource \"diffuse\" \"float power\" 1e38 Scale 1e-2 1e-2 1" + rest),
               "scene.pbrt:3: AreaLightSource: radiance must be finite and not negative, found inf");

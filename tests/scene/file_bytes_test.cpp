@@ -59,7 +59,7 @@ TEST(Gzip, TheLimitIsExact) {
     // Beyond what is free, a limit for the ratio holds.
     const std::string larger = gzipped(std::string(2 << 20, '\0'));
     EXPECT_EQ(reason(larger, kPlenty),
-              "decompresses to more than 100 times its size; decompress it (gunzip) if that is meant");
+              "decompresses to more than 100 times its size; decompress it (gunzip) if this is intended");
 }
 
 class CompressedScene : public SceneTest {};

@@ -1,4 +1,4 @@
-// A fingerprint tells scenes apart, whatever differs.
+// A fingerprint distinguishes scenes, whatever differs.
 
 #include "scene/model/fingerprint.h"
 
@@ -24,8 +24,8 @@ Scene make_scene() {
     scene.materials = {{}};
     scene.textures = {{"wood.png", 1, 1, {0.1f, 0.2f, 0.3f}}};
     scene.emitters = {{"lamp"}, {"tube"}};
-    scene.polygon_lights = {{0, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}, {1, 1, 1}, false}};
-    scene.line_lights = {{1, {0, 0, 1}, {1, 0, 1}, 0.1f, {2, 2, 2}, TubeModel::solid}};
+    scene.lights.of<PolygonLight>() = {{0, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}, {1, 1, 1}, false}};
+    scene.lights.of<LineLight>() = {{1, {0, 0, 1}, {1, 0, 1}, 0.1f, {2, 2, 2}, TubeModel::solid}};
     return scene;
 }
 
@@ -44,13 +44,13 @@ const std::function<void(Scene&)> kChanges[] = {
     [](Scene& s) { s.materials[0].diffuse_texture.texture = 0; },
     [](Scene& s) { s.materials[0].bump_unit = BumpUnit::texture_coordinate; },
     [](Scene& s) { s.textures[0].texels[1] = 0.25f; },
-    [](Scene& s) { s.polygon_lights[0].two_sided = true; },
-    [](Scene& s) { s.polygon_lights[0].vertices[1].x = 2; },
+    [](Scene& s) { s.lights.of<PolygonLight>()[0].two_sided = true; },
+    [](Scene& s) { s.lights.of<PolygonLight>()[0].vertices[1].x = 2; },
     [](Scene& s) {
-        s.polygon_lights[0].vertices.push_back({0, 0, 2});
+        s.lights.of<PolygonLight>()[0].vertices.push_back({0, 0, 2});
     },
-    [](Scene& s) { s.line_lights[0].radius = 0.2f; },
-    [](Scene& s) { s.line_lights[0].model = TubeModel::linear; },
+    [](Scene& s) { s.lights.of<LineLight>()[0].radius = 0.2f; },
+    [](Scene& s) { s.lights.of<LineLight>()[0].model = TubeModel::linear; },
     [](Scene& s) { s.camera.origin_right.x = 1; },
     [](Scene& s) { s.camera.corner.z = 2; },
     [](Scene& s) { s.film.width = 641; },
@@ -60,7 +60,7 @@ const std::function<void(Scene&)> kChanges[] = {
     [](Scene& s) { s.film.filter.radius_x = 1; },
     // The same numbers in other places.
     [](Scene& s) { std::swap(s.positions, s.normals); },
-    [](Scene& s) { s.line_lights[0].emitter = 0; },
+    [](Scene& s) { s.lights.of<LineLight>()[0].emitter = 0; },
 };
 
 TEST(Fingerprint, AnyChangeGivesAnotherOne) {

@@ -77,7 +77,7 @@ protected:
         }
         return "no error";
     }
-    /// Of a toy scene with this line only.
+    /// The error of a toy scene with this line only.
     std::string error_of_line(const std::string& line) const {
         return error_of("scene.toy", "toy\n\n" + line + "\n");
     }
@@ -97,11 +97,11 @@ TEST_F(Importers, AnotherFormatGivesTheSameModel) {
     EXPECT_TRUE(toy.warnings.empty());
     EXPECT_EQ(toy.film.width, 40);
     EXPECT_EQ(world_triangle_count(toy), 6u);
-    ASSERT_EQ(toy.polygon_lights.size(), 3u);
-    EXPECT_EQ(toy.polygon_lights[0].vertices.size(), 4u); // merged
-    EXPECT_EQ(emitting_normal(toy.polygon_lights[0]).y, -1);
-    ASSERT_EQ(toy.line_lights.size(), 1u);
-    EXPECT_EQ(toy.line_lights[0].radius, 0.125f);
+    ASSERT_EQ(toy.lights.of<PolygonLight>().size(), 3u);
+    EXPECT_EQ(toy.lights.of<PolygonLight>()[0].vertices.size(), 4u); // merged
+    EXPECT_EQ(emitting_normal(toy.lights.of<PolygonLight>()[0]).y, -1);
+    ASSERT_EQ(toy.lights.of<LineLight>().size(), 1u);
+    EXPECT_EQ(toy.lights.of<LineLight>()[0].radius, 0.125f);
     ASSERT_EQ(toy.objects.size(), 1u);
     EXPECT_EQ(toy.instances.size(), 2u);
     EXPECT_EQ(toy.materials.back().name, "black");
@@ -126,21 +126,21 @@ TEST_F(Importers, TheExtensionTellsTheFormat) {
 }
 
 TEST_F(Importers, ContentsTellTheFormatOfFilesWithOtherExtensions) {
-    EXPECT_EQ(load_file("scene", kToyScene).line_lights.size(), 1u);
-    EXPECT_EQ(load_file("scene.txt", kToyScene).line_lights.size(), 1u);
-    EXPECT_EQ(load_file("scene.gz", gzipped(std::string(kToyScene))).line_lights.size(), 1u);
+    EXPECT_EQ(load_file("scene", kToyScene).lights.of<LineLight>().size(), 1u);
+    EXPECT_EQ(load_file("scene.txt", kToyScene).lights.of<LineLight>().size(), 1u);
+    EXPECT_EQ(load_file("scene.gz", gzipped(std::string(kToyScene))).lights.of<LineLight>().size(), 1u);
     EXPECT_EQ(load_file("scene.bak", "# a comment\n\n  " + std::string(kTriangle)).triangles.size(), 1u);
     EXPECT_EQ(load_file("pbrt.gz", gzipped(std::string(kTriangle))).triangles.size(), 1u);
 }
 
 TEST_F(Importers, UnknownFormatsAreNamedWithTheKnownOnes) {
     const std::string expected =
-        "scene file 'scene.obj': its format is unknown; supported formats: pbrt (.pbrt), toy (.toy)";
+        "scene file 'scene.obj': unknown format; use one of pbrt (.pbrt), toy (.toy)";
     EXPECT_EQ(error_of("scene.obj", "v 0 0 0\n"), expected);
     EXPECT_EQ(error_of("scene.obj", ""), expected);
     EXPECT_EQ(error_of("scene.obj", "# only a comment"), expected);
     EXPECT_EQ(error_of("scene.obj", std::string("\0\xff", 2)), expected);
-    // The program itself does not know the format of the tests.
+    // The program itself does not support the format of the tests.
     write("scene.toy", kToyScene);
     EXPECT_THROW(load_scene(folder_ / "scene.toy"), std::runtime_error);
 }
@@ -172,24 +172,24 @@ TEST_F(Importers, ErrorsNameFileAndLine) {
 
 TEST_F(Importers, ErrorsOfTheBuilderNameFileAndLine) {
     EXPECT_EQ(error_of_line("mesh 1 1 1  0 0 0  1 0 0  0 1e16 0"),
-              "scene.toy:3: shape \"mesh\": vertex 2 at (0, 10000000272564224, 0) is not finite or "
-              "beyond 1e15 m");
+              "scene.toy:3: shape \"mesh\": vertex 2 at (0, 10000000272564224, 0) must be finite and "
+              "within 1e15 m");
     EXPECT_EQ(error_of_line("tube 1 1 1  0 0 0  0 0 0  1"),
-              "scene.toy:3: shape \"tube\": both end points are equal");
+              "scene.toy:3: shape \"tube\": the end points must differ");
     EXPECT_EQ(error_of_line("tube 1 1 1  0 0 0  0 0 1  0"),
               "scene.toy:3: shape \"tube\": radius must be positive and at most 1e15 m after the transform, "
               "found 0");
     EXPECT_EQ(error_of_line("object a\nmesh 1 1 1  0 0 0  1 0 0  0 1 0\nend\ninstance a 0 0 1e16"),
-              "scene.toy:6: instance: the transform of object \"a\" cannot be inverted or exceeds 1e15");
+              "scene.toy:6: instance: the transform of object \"a\" is not invertible or exceeds 1e15");
     EXPECT_EQ(error_of_line("camera 1e16 0 0"),
-              "scene.toy:3: camera: its position lies more than 1e15 m from the origin");
+              "scene.toy:3: camera: the position must be within 1e15 m of the origin");
 }
 
 TEST_F(Importers, WarningsOfTheBuilderNameFileAndLine) {
     EXPECT_EQ(warning(load_file("scene.toy", "toy\n")), "scene.toy:1: the scene is empty");
     EXPECT_EQ(warning(load_file("scene.toy",
                                 "toy\nmesh 1 1 1  0 0 0  1 0 0  2 0 0\nmesh 1 1 1  0 0 0  1 0 0  0 1 0\n")),
-              "scene.toy:2: 1 degenerate triangles are left out, the first ones here");
+              "scene.toy:2: 1 degenerate triangles are skipped, starting here");
 }
 
 TEST_F(Importers, DamagedFilesLoadOrNameALine) {

@@ -1,4 +1,4 @@
-// What files of a scene may hold together.
+// Limits on all files of a scene together.
 
 #include "gzip.h"
 #include "scene/build/textures/emission_images.h"
@@ -79,10 +79,9 @@ TEST_F(Limits, MeshesThatAreReadAgain) {
     // It claims 3 GiB.
     write("mesh.ply", gzipped("ply\n").substr(0, 20) + std::string("\0\0\0\xc0", 4));
     const std::string shape = "Shape \"plymesh\" \"string filename\" \"mesh.ply\"\n";
-    EXPECT_EQ(
-        error(shape + shape + shape),
-        "scene.pbrt:3: mesh files are read again for more than 4294967296 bytes in all, the last one is "
-        "'mesh.ply'; use ObjectInstance for copies");
+    EXPECT_EQ(error(shape + shape + shape),
+              "scene.pbrt:3: repeated mesh files exceed 4294967296 bytes in total; the last one is "
+              "'mesh.ply'; use ObjectInstance for copies");
     EXPECT_NE(error(shape + shape).find("scene.pbrt:1: mesh file 'mesh.ply'"), std::string::npos);
 }
 
@@ -92,7 +91,7 @@ TEST_F(Limits, CopiesOfLightsFromCompressedMeshes) {
     EXPECT_EQ(error("ObjectBegin \"lamp\" AreaLightSource \"diffuse\"\n"
                     "Shape \"plymesh\" \"string filename\" \"mesh.ply\" ObjectEnd\nObjectInstance \"lamp\""),
               "scene.pbrt:3: instances have more than 131072 shapes that emit light, or more than 67108864 "
-              "numbers in these; leave lights out of objects");
+              "numbers in these; move lights out of objects");
 }
 
 TEST_F(Limits, ImagesShareABudgetOfTexels) {
@@ -140,9 +139,9 @@ TEST_F(Limits, ImagesOfLightsAreDecodedOnce) {
 TEST_F(Limits, CountsThatIndicesTellApart) {
     check_counts(kMaxVertices, kMaxTriangles, "ObjectInstance");
     EXPECT_EQ(reason([] { check_counts(kMaxVertices + 1, 1, "ObjectInstance"); }),
-              "the scene has more than 4294967294 vertices; use ObjectInstance for copies or fewer details");
+              "the scene has more than 4294967294 vertices; use ObjectInstance for copies, or simplify it");
     EXPECT_EQ(reason([] { check_counts(3, std::size_t{1} << 31, "ObjectInstance"); }),
-              "the scene has more than 2147483647 triangles; use ObjectInstance for copies or fewer details");
+              "the scene has more than 2147483647 triangles; use ObjectInstance for copies, or simplify it");
 }
 
 } // namespace

@@ -112,7 +112,7 @@ TEST_F(Materials, InvisibleSurfacesAreLeftOut) {
     EXPECT_TRUE(uber.materials.empty());
     ASSERT_EQ(uber.warnings.size(), 2u);
     EXPECT_EQ(without_folder(uber.warnings[0]),
-              "scene.pbrt:3: material \"uber\": opacity 0 makes surfaces invisible, they are left out");
+              "scene.pbrt:3: material \"uber\": surfaces with opacity 0 are invisible and skipped");
     for (const std::string type : {"interface", "none", ""})
         EXPECT_TRUE(with("Material \"" + type + "\"").triangles.empty()) << type;
 }
@@ -136,7 +136,7 @@ TEST_F(Materials, Metals) {
     const Material copper = silently("Material \"metal\""); // the default
     expect_near(copper.f0, {0.955f, 0.638f, 0.538f}, 0.045f);
     EXPECT_NEAR(copper.roughness, std::sqrt(alpha_from_roughness_v3(0.01)), 1e-6);
-    const std::string joined = "\"coatedconductor\": its coating is joined with the metal to one lobe";
+    const std::string joined = "\"coatedconductor\": the coating and the metal are combined into one lobe";
     const Material coated = warned("Material \"coatedconductor\" \"float conductor.roughness\" 0.0625 "
                                    "\"rgb conductor.eta\" [3 1.5 1.5] \"rgb conductor.k\" [0 0 1.5]",
                                    joined);
@@ -152,12 +152,12 @@ TEST_F(Materials, Metals) {
 }
 
 TEST_F(Materials, MirrorsAndGlass) {
-    const Material mirror =
-        warned("Material \"mirror\"", "\"mirror\": mirrors show only the lights, as a polished metal");
+    const Material mirror = warned("Material \"mirror\"",
+                                   "\"mirror\": mirrors are polished metals, which reflect only the lights");
     expect_near(mirror.f0, {0.9f, 0.9f, 0.9f}, 0);
     expect_near(mirror.diffuse, {0, 0, 0}, 0);
     EXPECT_FLOAT_EQ(mirror.roughness, 0.1f);
-    const std::string opaque = ": transmission is ignored, the surface is opaque and reflects only";
+    const std::string opaque = ": transmission is ignored; the surface is opaque and only reflects";
     const Material glass = warned("Material \"glass\" \"float eta\" 2", "\"glass\"" + opaque);
     expect_near(glass.f0, {1 / 9.0f, 1 / 9.0f, 1 / 9.0f}, 1e-6f);
     EXPECT_FLOAT_EQ(glass.roughness, 0.1f);
@@ -179,7 +179,7 @@ TEST_F(Materials, Disney) {
 }
 
 TEST_F(Materials, Transmission) {
-    const std::string reflection = ": transmission is ignored, only its reflection is left";
+    const std::string reflection = ": transmission is ignored; the surface only reflects";
     const Material translucent =
         warned("Material \"translucent\" \"rgb Kd\" [0 0 1] \"rgb reflect\" [1 1 0.25]",
                "\"translucent\"" + reflection);
@@ -193,9 +193,8 @@ TEST_F(Materials, Transmission) {
 }
 
 TEST_F(Materials, MediaBecomeDiffuse) {
-    const std::string message =
-        ": light does not travel below the surface, which is diffuse under a clear coat";
-    // Without absorption everything comes back, without scattering nothing.
+    const std::string message = ": subsurface scattering is replaced by a diffuse surface under a clear coat";
+    // Without absorption all light comes back, without scattering none.
     EXPECT_EQ(medium_albedo(0, 3), 1);
     EXPECT_EQ(medium_albedo(3, 0), 0);
     EXPECT_EQ(medium_albedo(0, 0), 0);
@@ -216,7 +215,7 @@ TEST_F(Materials, MediaBecomeDiffuse) {
 }
 
 TEST_F(Materials, UnknownOnesBecomeLambertian) {
-    const std::string message = ": not supported, replaced by a Lambertian surface";
+    const std::string message = ": not supported; a Lambertian surface replaces it";
     const Material hair = warned("Material \"hair\" \"float beta_m\" 0.3", "\"hair\"" + message);
     EXPECT_EQ(hair.model, BrdfModel::lambert);
     expect_near(hair.diffuse, {0.5f, 0.5f, 0.5f}, 0);

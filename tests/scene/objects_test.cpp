@@ -1,4 +1,4 @@
-// Objects, their instances, and lights inside of them.
+// Objects, their instances, and lights inside them.
 
 #include "scene/build/placed_shape.h"
 #include "scene_fixture.h"
@@ -73,23 +73,23 @@ TEST_F(Objects, LightsAreCopiedToTheWorld) {
     EXPECT_EQ(world_triangle_count(scene), 2u);
     ASSERT_EQ(scene.objects.size(), 1u);
     EXPECT_EQ(scene.objects[0].triangle_count, 1u);
-    ASSERT_EQ(scene.polygon_lights.size(), 2u);
-    EXPECT_EQ(scene.polygon_lights[1].emitter, 1u);
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 2u);
+    EXPECT_EQ(scene.lights.of<PolygonLight>()[1].emitter, 1u);
     EXPECT_EQ(scene.triangle_light[0], 0);
     EXPECT_EQ(scene.triangle_light[1], 1);
     expect_near(scene.positions.at(0), {10, 0, 1}, 0);
     expect_near(scene.positions.at(4), {8, 0, 2}, 0);
-    // As in pbrt, reflections carry the emitting side along.
-    EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).z, 1);
-    EXPECT_EQ(emitting_normal(scene.polygon_lights[1]).z, 1);
+    // Reflections move the emitting side too, as in pbrt.
+    EXPECT_EQ(emitting_normal(scene.lights.of<PolygonLight>()[0]).z, 1);
+    EXPECT_EQ(emitting_normal(scene.lights.of<PolygonLight>()[1]).z, 1);
 }
 
 TEST_F(Objects, CylindersThatInstancesFlattenAreBlackSurfacesThatEmit) {
     const Scene scene = load("Camera \"perspective\"\n" + std::string(kTriangle) +
                              "ObjectBegin \"lamp\" AreaLightSource \"diffuse\" Shape \"cylinder\" ObjectEnd\n"
                              "ObjectInstance \"lamp\" Translate 5 0 0 Scale 1 2 1 ObjectInstance \"lamp\"\n");
-    EXPECT_EQ(scene.line_lights.size(), 1u);
-    EXPECT_EQ(scene.polygon_lights.size(), 16u);
+    EXPECT_EQ(scene.lights.of<LineLight>().size(), 1u);
+    EXPECT_EQ(scene.lights.of<PolygonLight>().size(), 16u);
     ASSERT_EQ(scene.materials.size(), 2u);
     EXPECT_EQ(scene.materials[1].name, "black");
     expect_near(scene.materials[1].diffuse, {0, 0, 0}, 0);
@@ -109,7 +109,7 @@ TEST_F(Objects, CopiesOfLargeLightsAreLimited) {
     // 360000 numbers each, 2^26 in all.
     EXPECT_EQ(error(text),
               "scene.pbrt:188: instances have more than 131072 shapes that emit light, or more than "
-              "67108864 numbers in these; leave lights out of objects");
+              "67108864 numbers in these; move lights out of objects");
 }
 
 TEST(InstanceRows, NeedAnAffineInverse) {

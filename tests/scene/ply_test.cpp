@@ -98,7 +98,7 @@ void expect_binary_mesh(const std::string& format, bool big_endian) {
     for (std::size_t i = 0; i < expected.size(); ++i)
         for (std::size_t j = 0; j < 3; ++j) EXPECT_EQ(mesh.triangles[i].vertex[j], expected[i][j]);
 
-    // Whatever is missing at the end, the reader says so and stays within the file.
+    // The reader reports a truncated file, and does not read beyond its end.
     for (std::size_t size = 0; size < data.text().size(); ++size)
         EXPECT_EQ(failure(header + data.text().substr(0, size)).substr(0, 29),
                   "PLY file ends before the last")
@@ -138,9 +138,9 @@ TEST(Ply, BadHeaders) {
     EXPECT_EQ(failure(kAsciiHeader + "element vertex\n"),
               "PLY header: expected 'element NAME COUNT': 'element vertex'");
     EXPECT_EQ(failure(kAsciiHeader + "element vertex -3\n"),
-              "PLY header: bad number of elements: 'element vertex -3'");
+              "PLY header: invalid number of elements: 'element vertex -3'");
     EXPECT_EQ(failure(kAsciiHeader + "element vertex 99999999999999999999999\n"),
-              "PLY header: bad number of elements: 'element vertex 99999999999999999999999'");
+              "PLY header: invalid number of elements: 'element vertex 99999999999999999999999'");
     EXPECT_EQ(failure(kAsciiHeader + "property float x\n"),
               "PLY header: property before the first element: 'property float x'");
     EXPECT_EQ(failure(kAsciiHeader + "element vertex 1\nproperty half x\n"),
@@ -148,13 +148,13 @@ TEST(Ply, BadHeaders) {
     EXPECT_EQ(failure(kAsciiHeader + "element vertex 1\nproperty list float int x\n"),
               "PLY header: the length of a list must be an integer: 'property list float int x'");
     EXPECT_EQ(failure(kAsciiHeader + "element vertex 1\nproperty x\n"),
-              "PLY header: malformed property: 'property x'");
+              "PLY header: invalid property: 'property x'");
     EXPECT_EQ(failure(kAsciiHeader + "colour blue\n"), "PLY header: unknown line: 'colour blue'");
     EXPECT_EQ(failure(kAsciiHeader + "element vertex 1\nproperty float x\nelement face 0\nproperty int x\n"
                                      "end_header\n0\n"),
-              "PLY header: element vertex lacks x, y or z");
+              "PLY header: x, y or z is missing in element 'vertex'");
     EXPECT_EQ(failure(kAsciiHeader + kVertexHeader + "end_header\n0 0 0 0 0 0 0 0 0\n"),
-              "PLY header: there is no element 'face'");
+              "PLY header: element 'face' is missing");
     EXPECT_EQ(failure(kAsciiHeader +
                       "element face 1\nproperty list uchar int vertex_indices\nend_header\n3 0 1 2\n"),
               "PLY header: element 'face' must follow element 'vertex'");
@@ -195,11 +195,11 @@ TEST(Ply, BadData) {
     EXPECT_EQ(failure(header + "0 0 0 1 0 0 0 1.0.0 0 3 0 1 2"),
               "PLY data: vertex 2: expected a number, found '1.0.0'");
     EXPECT_EQ(failure(header + "0 0 0 1 0 0 0 1 0 3 0 1 3"),
-              "PLY data: face 0: vertex index 3, but there are 3 vertices");
+              "PLY data: face 0: vertex index 3 is out of range for 3 vertices");
     EXPECT_EQ(failure(header + "0 0 0 1 0 0 0 1 0 3 0 1 -1"),
-              "PLY data: face 0: vertex index -1, but there are 3 vertices");
+              "PLY data: face 0: vertex index -1 is out of range for 3 vertices");
     EXPECT_EQ(failure(header + "0 0 0 1 0 0 0 1 0 3 0 1 nan"),
-              "PLY data: face 0: vertex index nan, but there are 3 vertices");
+              "PLY data: face 0: vertex index nan is out of range for 3 vertices");
     for (std::size_t size = header.size(); size + 2 < kAscii.size(); ++size)
         EXPECT_EQ(failure(kAscii.substr(0, size)).substr(0, 29), "PLY file ends before the last");
 }
@@ -213,7 +213,7 @@ TEST_F(PlyInScene, IsTransformedAndLit) {
     EXPECT_TRUE(scene.warnings.empty());
     ASSERT_EQ(scene.triangles.size(), 1u);
     EXPECT_EQ(scene.positions[1].z, 7);
-    EXPECT_EQ(scene.polygon_lights.size(), 1u);
+    EXPECT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
 }
 
 TEST_F(PlyInScene, ErrorsNameSceneLineAndMesh) {
@@ -226,7 +226,7 @@ TEST_F(PlyInScene, ErrorsNameSceneLineAndMesh) {
               "scene.pbrt:1: shape \"plymesh\": parameter \"string filename\" is missing");
     write("far.ply", kAsciiHeader + kVertexHeader + kFaceHeader + "0 0 0 nan 0 0 0 1 0 3 0 1 2");
     EXPECT_EQ(error("Shape \"plymesh\" \"string filename\" \"far.ply\""),
-              "scene.pbrt:1: shape \"plymesh\": vertex 1 at (nan, 0, 0) is not finite or beyond 1e15 m");
+              "scene.pbrt:1: shape \"plymesh\": vertex 1 at (nan, 0, 0) must be finite and within 1e15 m");
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Published scenes, where they are at hand: the environment variable NUSSELT_SCENES names the folder with
+// Published scenes, where they are available: the environment variable NUSSELT_SCENES names the folder with
 // bathroom/ and sponza/.
 
 #include "common/source_folder.h"
@@ -50,12 +50,12 @@ protected:
 };
 
 TEST_F(RealScenes, Rigs) {
-    EXPECT_EQ(lit_by("bathroom", "panel").polygon_lights.size(), 2u);
-    EXPECT_EQ(lit_by("bathroom", "tube").line_lights.size(), 1u);
-    EXPECT_EQ(lit_by("bathroom", "hundred").polygon_lights.size(), 100u);
-    EXPECT_EQ(lit_by("sponza", "panel").polygon_lights.size(), 1u);
-    EXPECT_EQ(lit_by("sponza", "tube").line_lights.size(), 1u);
-    EXPECT_EQ(lit_by("sponza", "hundred").line_lights.size(), 100u);
+    EXPECT_EQ(lit_by("bathroom", "panel").lights.of<PolygonLight>().size(), 2u);
+    EXPECT_EQ(lit_by("bathroom", "tube").lights.of<LineLight>().size(), 1u);
+    EXPECT_EQ(lit_by("bathroom", "hundred").lights.of<PolygonLight>().size(), 100u);
+    EXPECT_EQ(lit_by("sponza", "panel").lights.of<PolygonLight>().size(), 1u);
+    EXPECT_EQ(lit_by("sponza", "tube").lights.of<LineLight>().size(), 1u);
+    EXPECT_EQ(lit_by("sponza", "hundred").lights.of<LineLight>().size(), 100u);
 }
 
 TEST_F(RealScenes, Bathroom) {
@@ -65,8 +65,8 @@ TEST_F(RealScenes, Bathroom) {
     EXPECT_EQ(scene.materials.size(), 30u);
     // Two of them serve as bumps and as a mask, one both as bumps and as colour.
     EXPECT_EQ(scene.textures.size(), 11u);
-    ASSERT_EQ(scene.polygon_lights.size(), 1u);
-    const PolygonLight& window = scene.polygon_lights[0];
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
+    const PolygonLight& window = scene.lights.of<PolygonLight>()[0];
     EXPECT_EQ(window.vertices.size(), 4u);
     const Double3 normal = cross(to_double(window.vertices[1]) - to_double(window.vertices[0]),
                                  to_double(window.vertices[2]) - to_double(window.vertices[0]));
@@ -80,11 +80,12 @@ TEST_F(RealScenes, Sponza) {
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_EQ(scene.triangles.size(), 66447u);
     EXPECT_EQ(scene.textures.size(), 10u);
-    ASSERT_EQ(scene.polygon_lights.size(), 1u);
-    EXPECT_EQ(scene.polygon_lights[0].vertices.size(), 4u);
-    const Double3 normal = cross(
-        to_double(scene.polygon_lights[0].vertices[1]) - to_double(scene.polygon_lights[0].vertices[0]),
-        to_double(scene.polygon_lights[0].vertices[2]) - to_double(scene.polygon_lights[0].vertices[0]));
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
+    EXPECT_EQ(scene.lights.of<PolygonLight>()[0].vertices.size(), 4u);
+    const Double3 normal = cross(to_double(scene.lights.of<PolygonLight>()[0].vertices[1]) -
+                                     to_double(scene.lights.of<PolygonLight>()[0].vertices[0]),
+                                 to_double(scene.lights.of<PolygonLight>()[0].vertices[2]) -
+                                     to_double(scene.lights.of<PolygonLight>()[0].vertices[0]));
     EXPECT_LT(normal.y, 0); // down to the courtyard
 }
 

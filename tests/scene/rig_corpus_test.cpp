@@ -54,7 +54,7 @@ std::string text(const Numbers&... numbers) {
 
 std::string text(const Float3& v) { return text(v.x, v.y, v.z); }
 
-/// Of triangles of which `is_counted` holds.
+/// The bounds of the triangles for which `is_counted` holds.
 template <class Predicate>
 std::string bounds(const Scene& scene, const Predicate& is_counted) {
     Float3 low = {1e30f, 1e30f, 1e30f};
@@ -80,11 +80,12 @@ void add_light_facts(const Scene& scene, std::map<std::string, std::string>& fac
         facts["material" + of_light] = text(lights[i].material);
         facts["bounds" + of_light] = bounds(scene, [&](std::size_t triangle) {
             const std::int32_t polygon = scene.triangle_light[triangle];
-            return polygon >= 0 && scene.polygon_lights[static_cast<std::size_t>(polygon)].emitter == i;
+            return polygon >= 0 &&
+                   scene.lights.of<PolygonLight>()[static_cast<std::size_t>(polygon)].emitter == i;
         });
     }
-    for (std::size_t i = 0; i < scene.polygon_lights.size(); ++i) {
-        const PolygonLight& light = scene.polygon_lights[i];
+    for (std::size_t i = 0; i < scene.lights.of<PolygonLight>().size(); ++i) {
+        const PolygonLight& light = scene.lights.of<PolygonLight>()[i];
         const std::string index = std::to_string(i);
         for (const Float3& p : light.vertices) facts["polygon " + index] += text(p);
         const Double3 p0 = to_double(light.vertices[0]);
@@ -93,8 +94,8 @@ void add_light_facts(const Scene& scene, std::map<std::string, std::string>& fac
         facts["polygon radiance " + index] = text(light.radiance);
         facts["sides " + index] = light.two_sided ? "2" : "1";
     }
-    for (std::size_t i = 0; i < scene.line_lights.size(); ++i) {
-        const LineLight& light = scene.line_lights[i];
+    for (std::size_t i = 0; i < scene.lights.of<LineLight>().size(); ++i) {
+        const LineLight& light = scene.lights.of<LineLight>()[i];
         const std::string index = std::to_string(i);
         facts["tube " + index] = text(light.start) + text(light.end) + text(light.radius);
         facts["tube radiance " + index] = text(light.radiance);
@@ -107,14 +108,15 @@ std::map<std::string, std::string> facts(const Scene& scene) {
     const auto emits = [&](std::size_t triangle) { return scene.triangle_light[triangle] >= 0; };
     std::size_t emitting = 0;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) emitting += emits(i) ? 1 : 0;
-    std::map<std::string, std::string> result = {{"emitters", text(scene.emitters.size())},
-                                                 {"polygon lights", text(scene.polygon_lights.size())},
-                                                 {"line lights", text(scene.line_lights.size())},
-                                                 {"triangles", text(scene.triangles.size())},
-                                                 {"emitting triangles", text(emitting)},
-                                                 {"vertices", text(scene.positions.size())},
-                                                 {"materials", text(scene.materials.size())},
-                                                 {"bounds", bounds(scene, [](std::size_t) { return true; })}};
+    std::map<std::string, std::string> result = {
+        {"emitters", text(scene.emitters.size())},
+        {"polygon lights", text(scene.lights.of<PolygonLight>().size())},
+        {"line lights", text(scene.lights.of<LineLight>().size())},
+        {"triangles", text(scene.triangles.size())},
+        {"emitting triangles", text(emitting)},
+        {"vertices", text(scene.positions.size())},
+        {"materials", text(scene.materials.size())},
+        {"bounds", bounds(scene, [](std::size_t) { return true; })}};
     for (const Material& material : scene.materials) {
         result["diffuse " + material.name] = text(material.diffuse);
         result["f0 " + material.name] = text(material.f0);

@@ -1,4 +1,4 @@
-// Light rigs: what tests/scene/rigs cannot say in numbers.
+// Light rigs: cases that tests/scene/rigs cannot express in numbers.
 
 #include "common/source_folder.h"
 #include "scene/colour/colour_space.h"
@@ -22,7 +22,7 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
 
 bool same(const Float3& a, const Float3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/// That two scenes are equal bit by bit, but for names, materials, textures and warnings.
+/// Expects two scenes to be equal bit by bit, apart from names, materials, textures and warnings.
 void expect_same_geometry(const Scene& a, const Scene& b) {
     EXPECT_TRUE(same_bytes(a.positions, b.positions));
     EXPECT_TRUE(same_bytes(a.normals, b.normals));
@@ -32,11 +32,11 @@ void expect_same_geometry(const Scene& a, const Scene& b) {
     EXPECT_TRUE(same_bytes(a.triangle_light, b.triangle_light));
     EXPECT_EQ(a.radius, b.radius);
     EXPECT_EQ(a.emitters.size(), b.emitters.size());
-    ASSERT_EQ(a.polygon_lights.size(), b.polygon_lights.size());
-    ASSERT_EQ(a.line_lights.size(), b.line_lights.size());
-    for (std::size_t i = 0; i < a.polygon_lights.size(); ++i) {
-        const PolygonLight& p = a.polygon_lights[i];
-        const PolygonLight& q = b.polygon_lights[i];
+    ASSERT_EQ(a.lights.of<PolygonLight>().size(), b.lights.of<PolygonLight>().size());
+    ASSERT_EQ(a.lights.of<LineLight>().size(), b.lights.of<LineLight>().size());
+    for (std::size_t i = 0; i < a.lights.of<PolygonLight>().size(); ++i) {
+        const PolygonLight& p = a.lights.of<PolygonLight>()[i];
+        const PolygonLight& q = b.lights.of<PolygonLight>()[i];
         EXPECT_EQ(p.emitter, q.emitter);
         EXPECT_EQ(p.two_sided, q.two_sided);
         EXPECT_TRUE(same(p.radiance, q.radiance)) << i;
@@ -44,9 +44,9 @@ void expect_same_geometry(const Scene& a, const Scene& b) {
             std::equal(p.vertices.begin(), p.vertices.end(), q.vertices.begin(), q.vertices.end(), same))
             << i;
     }
-    for (std::size_t i = 0; i < a.line_lights.size(); ++i) {
-        const LineLight& p = a.line_lights[i];
-        const LineLight& q = b.line_lights[i];
+    for (std::size_t i = 0; i < a.lights.of<LineLight>().size(); ++i) {
+        const LineLight& p = a.lights.of<LineLight>()[i];
+        const LineLight& q = b.lights.of<LineLight>()[i];
         EXPECT_TRUE(same(p.start, q.start) && same(p.end, q.end) && same(p.radiance, q.radiance)) << i;
         EXPECT_EQ(p.radius, q.radius);
         EXPECT_EQ(p.model, q.model);
@@ -130,15 +130,15 @@ TEST_F(RigTest, PrintedNumbersAreExact) {
         tube.end = {number(), number(), number()};
         tube.radius = std::fabs(number());
         tube.radiance = {std::fabs(number()), std::fabs(number()), std::fabs(number())};
-        original.line_lights.push_back(tube);
+        original.lights.of<LineLight>().push_back(tube);
     }
     Scene scene = original;
-    scene.line_lights.clear();
-    for (LineLight tube : original.line_lights) {
+    scene.lights.of<LineLight>().clear();
+    for (LineLight tube : original.lights.of<LineLight>()) {
         tube.radius = 1;
         tube.start = {1, 2, 3};
         tube.radiance = {1, 1, 1};
-        scene.line_lights.push_back(tube);
+        scene.lights.of<LineLight>().push_back(tube);
     }
     apply_text(to_rig_text(original), scene);
     original.radius = scene.radius;
@@ -186,7 +186,8 @@ TEST_F(RigTest, TurnedAndScaledLightsEqualThoseOfASceneFile) {
     }
     EXPECT_TRUE(same_bytes(scene.triangles, expected.triangles));
     for (std::size_t i = 0; i < 4; ++i)
-        expect_near(scene.polygon_lights[0].vertices[i], expected.polygon_lights[0].vertices[i], 1e-6f);
+        expect_near(scene.lights.of<PolygonLight>()[0].vertices[i],
+                    expected.lights.of<PolygonLight>()[0].vertices[i], 1e-6f);
 }
 
 TEST_F(RigTest, SeveralRigsActOnWhatThoseBeforeLeave) {
@@ -195,7 +196,7 @@ TEST_F(RigTest, SeveralRigsActOnWhatThoseBeforeLeave) {
     apply(R"({"light": 1, "radiance": 7})", scene);
     ASSERT_EQ(scene.emitters.size(), 2u);
     EXPECT_EQ(scene.emitters[1].name, "glow");
-    EXPECT_EQ(scene.polygon_lights[1].radiance.x, 7);
+    EXPECT_EQ(scene.lights.of<PolygonLight>()[1].radiance.x, 7);
 }
 
 TEST_F(RigTest, RemovedLightsDoNotCountForTheSizeOfTheScene) {
@@ -220,7 +221,7 @@ TEST_F(RigTest, InstancesCountForTheSizeOfTheScene) {
     scene.triangle_light.push_back(-1);
     scene.instances = {{0, {2, 0, 0, -200, 0, 2, 0, 0, 0, 0, 2, -196}}};
     apply(R"({"light": 0, "move": [0, 0.5, 0]})", scene);
-    // From (-2, 0, -2) to (2, 2, 6).
+    // The scene extends from (-2, 0, -2) to (2, 2, 6).
     EXPECT_DOUBLE_EQ(scene.radius, 0.5 * std::sqrt(16.0 + 4 + 64));
 }
 
@@ -241,7 +242,7 @@ Scene scene_with_shared_vertices() {
         light.radiance = {1, 1, 1};
         for (const std::uint32_t vertex : scene.triangles[i].vertex)
             light.vertices.push_back(scene.positions[vertex]);
-        scene.polygon_lights.push_back(light);
+        scene.lights.of<PolygonLight>().push_back(light);
     }
     return scene;
 }
@@ -256,7 +257,7 @@ TEST_F(RigTest, VerticesThatOthersUseStayWhereTheyAre) {
     for (std::size_t i = 0; i < 3; ++i) {
         const Float3 before = position(original, 0, i);
         EXPECT_TRUE(same(position(scene, 0, i), {before.x, before.y, before.z + 6})) << i;
-        EXPECT_TRUE(same(position(scene, 0, i), scene.polygon_lights[0].vertices[i])) << i;
+        EXPECT_TRUE(same(position(scene, 0, i), scene.lights.of<PolygonLight>()[0].vertices[i])) << i;
         EXPECT_EQ(scene.uvs[scene.triangles[0].vertex[i]].x, before.x);
         for (const std::size_t other : {1u, 2u})
             EXPECT_TRUE(same(position(scene, other, i), position(original, other, i))) << other << " " << i;
@@ -329,9 +330,9 @@ TEST_F(RigTest, KelvinKeepsTheLuminance) {
     Scene scene = load_scene(kScenes / "room.pbrt");
     const auto luminances = [&] {
         std::vector<double> result;
-        for (const PolygonLight& light : scene.polygon_lights)
+        for (const PolygonLight& light : scene.lights.of<PolygonLight>())
             result.push_back(luminance(to_double(light.radiance)));
-        for (const LineLight& light : scene.line_lights)
+        for (const LineLight& light : scene.lights.of<LineLight>())
             result.push_back(luminance(to_double(light.radiance)));
         return result;
     };
@@ -339,7 +340,8 @@ TEST_F(RigTest, KelvinKeepsTheLuminance) {
     apply(R"({"light": "*", "kelvin": 2700})", scene);
     const std::vector<double> after = luminances();
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(after[i], before[i], 1e-6 * before[i]);
-    EXPECT_GT(scene.polygon_lights[0].radiance.x, 2 * scene.polygon_lights[0].radiance.z);
+    EXPECT_GT(scene.lights.of<PolygonLight>()[0].radiance.x,
+              2 * scene.lights.of<PolygonLight>()[0].radiance.z);
 }
 
 TEST_F(RigTest, ColoursOfBlackBodiesLieOnThePlanckianLocus) {
@@ -348,7 +350,7 @@ TEST_F(RigTest, ColoursOfBlackBodiesLieOnThePlanckianLocus) {
         apply(R"({"add": "lamp", "polygon": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "radiance": 1, "kelvin": )" +
                   std::to_string(kelvin) + "}",
               scene);
-        return to_double(scene.polygon_lights.at(0).radiance);
+        return to_double(scene.lights.of<PolygonLight>().at(0).radiance);
     };
     // Chromaticities by the tables of CIE 1931; the fit of the colour matching functions is off by a few thousandths.
     for (const auto& [kelvin, x, y] : {std::array{2000.0, 0.5267, 0.4133}, std::array{2856.0, 0.4476, 0.4074},
@@ -382,9 +384,11 @@ TEST_F(RigTest, PowerIsThatOfSceneFiles) {
         const Scene imported = scene_with("\"float power\" 7" + std::string(sides));
         Scene rigged = scene_with("\"rgb L\" [2 2 2]" + std::string(sides));
         apply(R"({"light": "*", "power": 7})", rigged);
-        expect_near(rigged.polygon_lights.at(0).radiance, imported.polygon_lights.at(0).radiance, 1e-6f);
+        expect_near(rigged.lights.of<PolygonLight>().at(0).radiance,
+                    imported.lights.of<PolygonLight>().at(0).radiance, 1e-6f);
         for (std::size_t i = 0; i < 2; ++i)
-            expect_near(rigged.line_lights.at(i).radiance, imported.line_lights.at(i).radiance, 1e-6f);
+            expect_near(rigged.lights.of<LineLight>().at(i).radiance,
+                        imported.lights.of<LineLight>().at(i).radiance, 1e-6f);
     }
 }
 
@@ -395,7 +399,7 @@ TEST_F(RigTest, AHundredThousandLightsAreAdded) {
           scene);
     EXPECT_EQ(scene.emitters.size(), 100000u);
     EXPECT_EQ(scene.emitters.back().name, "dot 99999");
-    expect_near(scene.polygon_lights.back().vertices[0], {99, 99, 9}, 0);
+    expect_near(scene.lights.of<PolygonLight>().back().vertices[0], {99, 99, 9}, 0);
 }
 
 TEST_F(RigTest, HostileFilesAreRefused) {
@@ -411,7 +415,8 @@ TEST_F(RigTest, HostileFilesAreRefused) {
         read_rig(folder_ / "rig.json");
         ADD_FAILURE() << "is read";
     } catch (const std::runtime_error& error) {
-        EXPECT_EQ(without_folder(error.what()), "rig.json: has 268435457 bytes; at most 268435456 are read");
+        EXPECT_EQ(without_folder(error.what()),
+                  "rig.json: has 268435457 bytes; at most 268435456 are supported");
     }
     for (const auto& [path, message] : {std::pair(folder_, "not a regular file"),
                                         {folder_ / "missing.json", "no such file"},

@@ -55,8 +55,8 @@ TEST_F(Shapes, MeshesAreJoined) {
     }
     EXPECT_EQ(scene.normals[0].z, 0); // none given
     EXPECT_EQ(scene.normals[3].z, 1);
-    EXPECT_EQ(scene.polygon_lights[1].vertices[0].z, 2);
-    EXPECT_EQ(scene.polygon_lights[1].radiance.z, 3);
+    EXPECT_EQ(scene.lights.of<PolygonLight>()[1].vertices[0].z, 2);
+    EXPECT_EQ(scene.lights.of<PolygonLight>()[1].radiance.z, 3);
 }
 
 TEST_F(Shapes, TriangleMeshErrors) {
@@ -66,15 +66,15 @@ TEST_F(Shapes, TriangleMeshErrors) {
               "scene.pbrt:1: shape \"trianglemesh\": parameter \"integer indices\" is missing");
     EXPECT_EQ(
         error("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]\n\"integer indices\" [0 1 2 2 3 0]"),
-        "scene.pbrt:2: parameter \"integer indices\": index 3 at position 4 is not an integer from 0 to 3 - "
+        "scene.pbrt:2: parameter \"integer indices\": index 3 at position 4 must be an integer from 0 to 3 - "
         "1, "
         "the number of vertices");
     EXPECT_EQ(error("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 -2]"),
-              "scene.pbrt:1: parameter \"integer indices\": index -2 at position 2 is not an integer from 0 "
+              "scene.pbrt:1: parameter \"integer indices\": index -2 at position 2 must be an integer from 0 "
               "to 3 - 1, "
               "the number of vertices");
     EXPECT_EQ(error("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2 0]"),
-              "scene.pbrt:1: shape \"trianglemesh\": the number of indices, 4, is not a multiple of 3");
+              "scene.pbrt:1: shape \"trianglemesh\": the number of indices, 4, must be a multiple of 3");
     EXPECT_EQ(error("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]\n\n\"normal N\" [0 0 1]"),
               "scene.pbrt:3: shape \"trianglemesh\": 1 values of \"N\" for 3 vertices");
     EXPECT_EQ(error("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"float uv\" [0 0 1]"),
@@ -83,10 +83,11 @@ TEST_F(Shapes, TriangleMeshErrors) {
 
 TEST_F(Shapes, HugeCoordinatesAreRefused) {
     EXPECT_EQ(error("\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 2e15 0]"),
-              "scene.pbrt:2: shape \"trianglemesh\": vertex 2 at (0, 1999999973982208, 0) is not finite or "
-              "beyond 1e15 m");
-    EXPECT_EQ(error("Scale 1e30 1 1 Shape \"trianglemesh\" \"point3 P\" [0 0 0 1e30 0 0 0 1 0]"),
-              "scene.pbrt:1: shape \"trianglemesh\": vertex 1 at (inf, 0, 0) is not finite or beyond 1e15 m");
+              "scene.pbrt:2: shape \"trianglemesh\": vertex 2 at (0, 1999999973982208, 0) must be finite and "
+              "within 1e15 m");
+    EXPECT_EQ(
+        error("Scale 1e30 1 1 Shape \"trianglemesh\" \"point3 P\" [0 0 0 1e30 0 0 0 1 0]"),
+        "scene.pbrt:1: shape \"trianglemesh\": vertex 1 at (inf, 0, 0) must be finite and within 1e15 m");
     // A perspective transform that sends a vertex to infinity.
     EXPECT_EQ(error("Transform [1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 0] Shape \"trianglemesh\" \"point3 P\" [0 0 0 "
                     "1 0 0 0 1 0]")
@@ -99,7 +100,7 @@ TEST_F(Shapes, DegenerateTrianglesAreLeftOut) {
         Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0 2 0 0] "integer indices" [0 1 2 0 1 3 0 0 1 2 2 2]
         Shape "trianglemesh" "point3 P" [0 0 0 0 0 0 0 0 0])");
     EXPECT_EQ(scene.triangles.size(), 1u);
-    EXPECT_EQ(warning(scene), "scene.pbrt:4: 4 degenerate triangles are left out, the first ones here");
+    EXPECT_EQ(warning(scene), "scene.pbrt:4: 4 degenerate triangles are skipped, starting here");
 }
 
 TEST_F(Shapes, BrokenNormalsBecomeNone) {
@@ -118,12 +119,12 @@ TEST_F(Shapes, Quad) {
     EXPECT_EQ(scene.triangles.size(), 2u);
     expect_near(scene.positions[2], {3, 2, 2}, 0);
     EXPECT_EQ(scene.uvs[2].y, 1);
-    ASSERT_EQ(scene.polygon_lights.size(), 1u);
-    ASSERT_EQ(scene.polygon_lights[0].vertices.size(), 4u);
-    expect_near(emitting_normal(scene.polygon_lights[0]), {0, 1, 0}, 1e-6f); // u x v
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
+    ASSERT_EQ(scene.lights.of<PolygonLight>()[0].vertices.size(), 4u);
+    expect_near(emitting_normal(scene.lights.of<PolygonLight>()[0]), {0, 1, 0}, 1e-6f); // u x v
     EXPECT_EQ(
         error("\nShape \"quad\" \"point o\" [0 0 0] \"vector u\" [1 0 0]"),
-        "scene.pbrt:2: shape \"quad\": needs the parameters \"point o\", \"vector u\" and \"vector v\"");
+        "scene.pbrt:2: shape \"quad\": must have the parameters \"point o\", \"vector u\" and \"vector v\"");
 }
 
 TEST_F(Shapes, Polygon) {
@@ -131,10 +132,10 @@ TEST_F(Shapes, Polygon) {
                                "Shape \"polygon\" \"point3 P\" [0 0 0 2 0 0 3 1 0 2 2 0 0 2 0]");
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_EQ(scene.triangles.size(), 3u);
-    ASSERT_EQ(scene.polygon_lights.size(), 1u);
-    EXPECT_EQ(scene.polygon_lights[0].vertices.size(), 5u);
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
+    EXPECT_EQ(scene.lights.of<PolygonLight>()[0].vertices.size(), 5u);
     for (const int light : scene.triangle_light) EXPECT_EQ(light, 0);
-    EXPECT_EQ(scene.emitters[scene.polygon_lights[0].emitter].name.substr(0, 11), "polygon at ");
+    EXPECT_EQ(scene.emitters[scene.lights.of<PolygonLight>()[0].emitter].name.substr(0, 11), "polygon at ");
     EXPECT_EQ(shapes("Shape \"polygon\" \"point3 P\" [0 0 0 2 0 0 3 1 0 2 2 0]").triangles.size(), 2u);
 }
 
@@ -152,7 +153,7 @@ TEST_F(Shapes, PolygonErrors) {
     EXPECT_EQ(error(polygon("0 0 0 1 0 0 1 1 0.4 0 1 0")).substr(0, begin.size() + 17),
               begin + "vertex 3 is 0.371");
     EXPECT_EQ(error(polygon("0 0 0 2 0 0 3 1 0.25 2 2 0 0 2 0")),
-              begin + "vertex 2 is 0.25 m off the plane of the others");
+              begin + "vertex 2 is 0.25 m away from the plane of the others");
     // Vertex 3 lies beyond the line through 1 and 2, which turns inwards at 2.
     EXPECT_EQ(error(polygon("0 0 0 4 0 0 1 1 0 0 4 0")),
               begin +
@@ -178,45 +179,46 @@ TEST_F(Shapes, Line) {
                "Shape \"line\" \"point3 P\" [0 0 0 1 0 0] \"float radius\" 0.02 AttributeEnd\n");
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_TRUE(scene.triangles.empty());
-    ASSERT_EQ(scene.line_lights.size(), 2u);
-    const LineLight& line = scene.line_lights[0];
+    ASSERT_EQ(scene.lights.of<LineLight>().size(), 2u);
+    const LineLight& line = scene.lights.of<LineLight>()[0];
     expect_near(line.start, {1, 0, 2}, 0);
     expect_near(line.end, {1, 6, 2}, 0);
     EXPECT_NEAR(line.radius, 0.02, 1e-8);
     EXPECT_EQ(line.radiance.z, 7);
-    expect_near(scene.line_lights[1].end, {3, 0, 0}, 0);
-    EXPECT_NEAR(scene.line_lights[1].radius, 0.04, 1e-8);
+    expect_near(scene.lights.of<LineLight>()[1].end, {3, 0, 0}, 0);
+    EXPECT_NEAR(scene.lights.of<LineLight>()[1].radius, 0.04, 1e-8);
     // Bounding box from (0.96, -0.04, -0.04) to (3.04, 6.02, 2.02).
     EXPECT_NEAR(scene.radius, 0.5 * std::sqrt(2.08 * 2.08 + 6.06 * 6.06 + 2.06 * 2.06), 1e-6);
 }
 
 TEST_F(Shapes, LineErrors) {
-    EXPECT_EQ(error("\nShape \"line\" \"point3 p0\" [0 0 0] \"float radius\" 1"),
-              "scene.pbrt:2: shape \"line\": needs the parameters \"point3 p0\", \"point3 p1\" and \"float "
-              "radius\"");
+    EXPECT_EQ(
+        error("\nShape \"line\" \"point3 p0\" [0 0 0] \"float radius\" 1"),
+        "scene.pbrt:2: shape \"line\": must have the parameters \"point3 p0\", \"point3 p1\" and \"float "
+        "radius\"");
     EXPECT_EQ(error("Shape \"line\" \"point3 P\" [0 0 0 1 0 0]"),
               "scene.pbrt:1: shape \"line\": radius must be positive, found 0");
     EXPECT_EQ(error("Shape \"line\" \"point3 P\" [0 0 0 1 0 0]\n\"float radius\" -1"),
               "scene.pbrt:2: shape \"line\": radius must be positive, found -1");
     EXPECT_EQ(error("Shape \"line\" \"point3 P\" [1 0 0 1 0 0] \"float radius\" 1"),
-              "scene.pbrt:1: shape \"line\": both end points are equal");
+              "scene.pbrt:1: shape \"line\": the end points must differ");
     EXPECT_EQ(error("Shape \"line\" \"point3 P\" [1e16 0 0 1 0 0] \"float radius\" 1"),
-              "scene.pbrt:1: shape \"line\": an end point is not finite or beyond 1e15 m");
+              "scene.pbrt:1: shape \"line\": the end points must be finite and within 1e15 m");
     const Scene dark = load("Camera \"perspective\"\n" + std::string(kTriangle) +
                             "Shape \"line\" \"point3 P\" [0 0 0 1 0 0] \"float radius\" 1");
-    EXPECT_TRUE(dark.line_lights.empty());
-    EXPECT_EQ(warning(dark), "scene.pbrt:3: shape \"line\": ignored where it does not emit light");
+    EXPECT_TRUE(dark.lights.of<LineLight>().empty());
+    EXPECT_EQ(warning(dark), "scene.pbrt:3: shape \"line\": skipped because it does not emit light");
 }
 
 TEST_F(Shapes, FiniteLine) {
     const std::string line = "AreaLightSource \"diffuse\" \"rgb L\" [5 6 7]\n"
                              "Shape \"line\" \"point3 P\" [0 0 0 1 0 0] \"float radius\" 0.5 ";
-    EXPECT_EQ(shapes(line).line_lights.at(0).model, TubeModel::solid);
-    EXPECT_EQ(shapes(line + "\"bool finite\" false").line_lights.at(0).model, TubeModel::linear);
+    EXPECT_EQ(shapes(line).lights.of<LineLight>().at(0).model, TubeModel::solid);
+    EXPECT_EQ(shapes(line + "\"bool finite\" false").lights.of<LineLight>().at(0).model, TubeModel::linear);
     const Scene scene = shapes(line + "\"bool finite\" true");
     EXPECT_TRUE(scene.warnings.empty());
-    EXPECT_EQ(scene.line_lights.at(0).model, TubeModel::solid);
-    EXPECT_EQ(scene.line_lights.at(0).radius, 0.5f);
+    EXPECT_EQ(scene.lights.of<LineLight>().at(0).model, TubeModel::solid);
+    EXPECT_EQ(scene.lights.of<LineLight>().at(0).radius, 0.5f);
 }
 
 TEST_F(Shapes, Cylinder) {
@@ -227,8 +229,8 @@ TEST_F(Shapes, Cylinder) {
         "Shape \"cylinder\" AttributeEnd\n");
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_TRUE(scene.triangles.empty());
-    ASSERT_EQ(scene.line_lights.size(), 2u);
-    const LineLight& tube = scene.line_lights[0];
+    ASSERT_EQ(scene.lights.of<LineLight>().size(), 2u);
+    const LineLight& tube = scene.lights.of<LineLight>()[0];
     EXPECT_EQ(tube.model, TubeModel::solid);
     expect_near(tube.start, {1, 0, 0}, 1e-6f);
     expect_near(tube.end, {7, 0, 0}, 1e-6f);
@@ -236,9 +238,9 @@ TEST_F(Shapes, Cylinder) {
     EXPECT_EQ(tube.radiance.y, 6);
     EXPECT_EQ(scene.emitters[tube.emitter].name.substr(0, 12), "cylinder at ");
     // The defaults of pbrt.
-    expect_near(scene.line_lights[1].start, {-2, 0, 0}, 1e-6f);
-    expect_near(scene.line_lights[1].end, {4, 0, 0}, 1e-6f);
-    EXPECT_NEAR(scene.line_lights[1].radius, 2, 1e-6);
+    expect_near(scene.lights.of<LineLight>()[1].start, {-2, 0, 0}, 1e-6f);
+    expect_near(scene.lights.of<LineLight>()[1].end, {4, 0, 0}, 1e-6f);
+    EXPECT_NEAR(scene.lights.of<LineLight>()[1].radius, 2, 1e-6);
 }
 
 TEST_F(Shapes, CylinderErrors) {
@@ -249,9 +251,9 @@ TEST_F(Shapes, CylinderErrors) {
         error(light + "Shape \"cylinder\" \"float radius\" 1e20").find("at most 1e15 m after the transform"),
         std::string::npos);
     EXPECT_EQ(error(light + "Shape \"cylinder\" \"float zmin\" 1"),
-              "scene.pbrt:2: shape \"cylinder\": both end points are equal");
+              "scene.pbrt:2: shape \"cylinder\": the end points must differ");
     EXPECT_EQ(warning(shapes(light + "ReverseOrientation Shape \"cylinder\"")),
-              "scene.pbrt:4: shape \"cylinder\": ReverseOrientation is ignored, it emits outwards");
+              "scene.pbrt:4: shape \"cylinder\": ReverseOrientation is ignored; tubes emit outwards");
 }
 
 TEST_F(Shapes, CylindersThatAreNoTubesBecomeSurfaces) {
@@ -260,10 +262,10 @@ TEST_F(Shapes, CylindersThatAreNoTubesBecomeSurfaces) {
          {"Shape \"cylinder\" \"float phimax\" 180", "Scale 1 2 1 Shape \"cylinder\"",
           "ConcatTransform [1 0 0 0 0 1 0 0 0.5 0 1 0 0 0 0 1] Shape \"cylinder\""}) {
         const Scene scene = shapes(light + cylinder);
-        EXPECT_TRUE(scene.line_lights.empty()) << cylinder;
-        EXPECT_GE(scene.polygon_lights.size(), 8u) << cylinder;
+        EXPECT_TRUE(scene.lights.of<LineLight>().empty()) << cylinder;
+        EXPECT_GE(scene.lights.of<PolygonLight>().size(), 8u) << cylinder;
     }
-    EXPECT_TRUE(shapes("Shape \"cylinder\"").polygon_lights.empty());
+    EXPECT_TRUE(shapes("Shape \"cylinder\"").lights.of<PolygonLight>().empty());
 }
 
 } // namespace

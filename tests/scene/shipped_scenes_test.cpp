@@ -1,4 +1,4 @@
-// The scenes that come with the project load silently and are built as their comments say.
+// The scenes that come with the project load silently and agree with their comments.
 
 #include "common/source_folder.h"
 #include "scene/rig/rig.h"
@@ -35,7 +35,7 @@ void expect_facing(const Scene& scene, std::size_t begin, std::size_t end, const
     }
 }
 
-/// Volume inside of a closed surface, positive if its normals point outwards.
+/// Volume inside a closed surface, positive if its normals point outwards.
 double volume(const Scene& scene) {
     double result = 0;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i)
@@ -50,7 +50,7 @@ TEST_F(Parts, AreClosedAndPointOutwards) {
     EXPECT_NEAR(volume(load(include + (kFolder / "shapes/box.pbrt").string() + '"')), 1, 1e-6);
     // An octagon of circumscribed radius 1/2 has the area 2 sqrt(2) / 4.
     EXPECT_NEAR(volume(load(include + (kFolder / "shapes/prism.pbrt").string() + '"')), std::sqrt(0.5), 1e-5);
-    // A torus has the volume 2 pi^2 R r^2; polygons of 48 and 24 sides inside of its circles lose 1.7 percent.
+    // A torus has the volume 2 pi^2 R r^2; polygons of 48 and 24 sides inside its circles lose 1.7 percent.
     const Scene torus = load("Camera \"perspective\" WorldBegin Shape \"plymesh\" \"string filename\" \"" +
                              (kFolder / "shapes/torus.ply").string() + '"');
     const double ideal = 2 * std::pow(std::numbers::pi * 0.35, 2);
@@ -63,10 +63,10 @@ TEST(ShippedScenes, CornellTube) {
     expect_facing(scene, 0, 10, {0, 1, 0.9});
     EXPECT_EQ(scene.triangles.size(), 10u + 2 * 12u);
     for (const Material& material : scene.materials) EXPECT_EQ(material.model, BrdfModel::lambert);
-    ASSERT_EQ(scene.line_lights.size(), 1u);
-    EXPECT_TRUE(scene.polygon_lights.empty());
-    EXPECT_GT(scene.line_lights[0].start.y, 1.9f);
-    EXPECT_LT(scene.line_lights[0].start.y + scene.line_lights[0].radius, 2.0f);
+    ASSERT_EQ(scene.lights.of<LineLight>().size(), 1u);
+    EXPECT_TRUE(scene.lights.of<PolygonLight>().empty());
+    EXPECT_GT(scene.lights.of<LineLight>()[0].start.y, 1.9f);
+    EXPECT_LT(scene.lights.of<LineLight>()[0].start.y + scene.lights.of<LineLight>()[0].radius, 2.0f);
     EXPECT_EQ(scene.film.width, 512);
     // The red wall is on the left of the image: there the camera looks to smaller x.
     EXPECT_LT(scene.camera.corner.x, 0);
@@ -81,9 +81,9 @@ TEST(ShippedScenes, CornellPanel) {
         EXPECT_EQ(material.model, BrdfModel::frostbite);
         EXPECT_EQ(material.roughness, 1);
     }
-    ASSERT_EQ(scene.polygon_lights.size(), 1u);
-    EXPECT_EQ(scene.polygon_lights[0].vertices.size(), 4u);
-    EXPECT_TRUE(scene.polygon_lights[0].two_sided);
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
+    EXPECT_EQ(scene.lights.of<PolygonLight>()[0].vertices.size(), 4u);
+    EXPECT_TRUE(scene.lights.of<PolygonLight>()[0].two_sided);
 }
 
 TEST(ShippedScenes, GridPlanes) {
@@ -95,8 +95,8 @@ TEST(ShippedScenes, GridPlanes) {
             EXPECT_GT(vertex(scene, i, k).y, 0);
             EXPECT_LT(vertex(scene, i, k).y, 4);
         }
-    ASSERT_EQ(scene.polygon_lights.size(), 1u);
-    EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).y, -1);
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
+    EXPECT_EQ(emitting_normal(scene.lights.of<PolygonLight>()[0]).y, -1);
 }
 
 /// Whether the segment from a to b cuts the triangle.
@@ -128,22 +128,22 @@ TEST(ShippedScenes, Logo) {
     const Scene scene = shipped("logo.pbrt");
     EXPECT_NEAR(scene.materials[0].roughness, 0.2, 1e-6);
     // The panel shines past the letters towards the camera.
-    ASSERT_EQ(scene.polygon_lights.size(), 1u);
-    EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).z, 1);
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
+    EXPECT_EQ(emitting_normal(scene.lights.of<PolygonLight>()[0]).z, 1);
 }
 
 TEST(ShippedScenes, Ring) {
     const Scene scene = shipped("ring.pbrt");
-    ASSERT_EQ(scene.polygon_lights.size(), 1u);
-    EXPECT_EQ(scene.polygon_lights[0].vertices.size(), 3u);
-    EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).y, -1);
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
+    EXPECT_EQ(scene.lights.of<PolygonLight>()[0].vertices.size(), 3u);
+    EXPECT_EQ(emitting_normal(scene.lights.of<PolygonLight>()[0]).y, -1);
 }
 
 TEST(ShippedScenes, Bollards) {
     const Scene scene = shipped("bollards.pbrt");
     // Ground, puddle and wall come first; the camera sees their right-hand sides.
     expect_facing(scene, 0, 9, to_double(scene.camera.origin));
-    EXPECT_EQ(scene.line_lights.size(), 1u);
+    EXPECT_EQ(scene.lights.of<LineLight>().size(), 1u);
     EXPECT_EQ(scene.film.width, 1280);
     EXPECT_EQ(scene.film.height, 720);
 }
@@ -153,8 +153,8 @@ TEST(ShippedScenes, Wall) {
     expect_facing(scene, 0, 4, to_double(scene.camera.origin));
     EXPECT_EQ(scene.materials[0].roughness, 1);
     EXPECT_NEAR(scene.materials[1].roughness, 0.3, 1e-6);
-    ASSERT_EQ(scene.polygon_lights.size(), 1u);
-    EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).x, 1);
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
+    EXPECT_EQ(emitting_normal(scene.lights.of<PolygonLight>()[0]).x, 1);
 }
 
 TEST(ShippedScenes, Planes) {
@@ -162,25 +162,25 @@ TEST(ShippedScenes, Planes) {
     expect_facing(scene, 0, 6, to_double(scene.camera.origin));
     for (std::size_t i = 0; i < 3; ++i)
         EXPECT_NEAR(scene.materials[i].roughness, 0.2 * (static_cast<double>(i) + 1), 1e-6);
-    ASSERT_EQ(scene.polygon_lights.size(), 1u);
-    EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).y, -1);
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
+    EXPECT_EQ(emitting_normal(scene.lights.of<PolygonLight>()[0]).y, -1);
 }
 
 TEST(ShippedScenes, Biased) {
     const Scene scene = shipped("biased.pbrt");
     expect_facing(scene, 0, 2, to_double(scene.camera.origin));
     EXPECT_NEAR(scene.materials[0].roughness, 0.15, 1e-6);
-    ASSERT_EQ(scene.polygon_lights.size(), 1u);
-    EXPECT_GT(emitting_normal(scene.polygon_lights[0]).z, 0);
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
+    EXPECT_GT(emitting_normal(scene.lights.of<PolygonLight>()[0]).z, 0);
 }
 
 TEST(ShippedScenes, Room) {
     const Scene scene = shipped("room.pbrt");
     expect_facing(scene, 0, 12, to_double(scene.camera.origin));
-    ASSERT_EQ(scene.line_lights.size(), 1u);
-    ASSERT_EQ(scene.polygon_lights.size(), 2u);
-    EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).y, -1);
-    EXPECT_EQ(emitting_normal(scene.polygon_lights[1]).y, 1);
+    ASSERT_EQ(scene.lights.of<LineLight>().size(), 1u);
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 2u);
+    EXPECT_EQ(emitting_normal(scene.lights.of<PolygonLight>()[0]).y, -1);
+    EXPECT_EQ(emitting_normal(scene.lights.of<PolygonLight>()[1]).y, 1);
     // Nothing sticks out of the room.
     for (const Float3& p : scene.positions) {
         EXPECT_LE(std::fabs(p.x), 2.4f);
@@ -198,16 +198,16 @@ TEST(ShippedRigs, LightTheRoom) {
         return scene;
     };
     const Scene panel = lit_by("room-panel.json");
-    EXPECT_TRUE(panel.line_lights.empty());
-    ASSERT_EQ(panel.polygon_lights.size(), 1u);
-    EXPECT_EQ(emitting_normal(panel.polygon_lights[0]).y, -1);
+    EXPECT_TRUE(panel.lights.of<LineLight>().empty());
+    ASSERT_EQ(panel.lights.of<PolygonLight>().size(), 1u);
+    EXPECT_EQ(emitting_normal(panel.lights.of<PolygonLight>()[0]).y, -1);
     const Scene tube = lit_by("room-tube.json");
-    EXPECT_EQ(tube.line_lights.size(), 1u);
-    EXPECT_TRUE(tube.polygon_lights.empty());
+    EXPECT_EQ(tube.lights.of<LineLight>().size(), 1u);
+    EXPECT_TRUE(tube.lights.of<PolygonLight>().empty());
     const Scene hundred = lit_by("room-hundred.json");
-    EXPECT_TRUE(hundred.line_lights.empty());
-    ASSERT_EQ(hundred.polygon_lights.size(), 100u);
-    for (const PolygonLight& light : hundred.polygon_lights) {
+    EXPECT_TRUE(hundred.lights.of<LineLight>().empty());
+    ASSERT_EQ(hundred.lights.of<PolygonLight>().size(), 100u);
+    for (const PolygonLight& light : hundred.lights.of<PolygonLight>()) {
         EXPECT_EQ(emitting_normal(light).y, -1);
         for (const Float3& p : light.vertices) EXPECT_TRUE(p.y < 2.5f && std::fabs(p.x) < 2.4f && p.z > -2);
     }
@@ -221,8 +221,8 @@ TEST_F(Parts, OfTheManualAreGoodRigs) {
     write("rig.json", text.substr(begin, text.find("```", begin) - begin));
     Scene scene = shipped("room.pbrt");
     apply_rig(read_rig(folder_ / "rig.json"), scene);
-    EXPECT_TRUE(scene.line_lights.empty());
-    EXPECT_EQ(scene.polygon_lights.size(), 2u + 4u);
+    EXPECT_TRUE(scene.lights.of<LineLight>().empty());
+    EXPECT_EQ(scene.lights.of<PolygonLight>().size(), 2u + 4u);
     EXPECT_EQ(scene.emitters.back().name, "spot 3");
 }
 
@@ -240,9 +240,9 @@ TEST(ShippedRigs, SmallLightsHaveThePowerOfLargeOnes) {
         const Scene large = shipped(name);
         Scene small = shipped(name);
         apply_rig(read_rig(kFolder / "rigs/small-light.json"), small);
-        ASSERT_EQ(small.polygon_lights.size(), 1u) << name;
-        const PolygonLight& before = large.polygon_lights[0];
-        const PolygonLight& after = small.polygon_lights[0];
+        ASSERT_EQ(small.lights.of<PolygonLight>().size(), 1u) << name;
+        const PolygonLight& before = large.lights.of<PolygonLight>()[0];
+        const PolygonLight& after = small.lights.of<PolygonLight>()[0];
         const auto side = [](const PolygonLight& light) {
             return length(to_double(light.vertices[1]) - to_double(light.vertices[0]));
         };

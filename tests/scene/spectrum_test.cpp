@@ -48,7 +48,7 @@ TEST(ColourSpaces, ConvertLikePublishedMatrices) {
         expect_matrix("dci-p3", use, {1.2249, -0.0421, -0.0196}, {-0.2249, 1.0421, -0.0786}, {0, 0, 1.0983},
                       2e-4);
     }
-    // With Bradford adaptation from the white of ACES, as in its reference implementation.
+    // The values include Bradford adaptation from the white of ACES, as in its reference implementation.
     expect_matrix("aces2065-1", SpectrumUse::albedo, {2.5217, -0.2765, -0.0154}, {-1.1341, 1.3727, -0.1530},
                   {-0.3876, -0.0962, 1.1683}, 2e-4);
     EXPECT_EQ(find_colour_space("adobe"), nullptr);

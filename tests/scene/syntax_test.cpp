@@ -72,8 +72,8 @@ TEST_F(Syntax, BooleansOfBothVersions) {
     for (const std::string value : {"true", "[ true ]", "\"true\"", "[ \"true\" ]"}) {
         const Scene scene =
             load("AreaLightSource \"diffuse\" \"bool twosided\" " + value + "\n" + std::string(kTriangle));
-        ASSERT_EQ(scene.polygon_lights.size(), 1u);
-        EXPECT_TRUE(scene.polygon_lights[0].two_sided) << value;
+        ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
+        EXPECT_TRUE(scene.lights.of<PolygonLight>()[0].two_sided) << value;
     }
 }
 
@@ -94,11 +94,12 @@ TEST_F(Syntax, UnknownThingsAreWarnedOfOnceWithTheirLine) {
              "Shape \"cone\" \"float radius\" 3\n" +
              std::string(kTriangle) + "\"float fuzz\" 3 \"spline knots\" [1 2]\n");
     ASSERT_EQ(scene.warnings.size(), 5u);
-    EXPECT_EQ(without_folder(scene.warnings[0]), "scene.pbrt:2: directive 'Mystery' is unknown and skipped");
+    EXPECT_EQ(without_folder(scene.warnings[0]), "scene.pbrt:2: directive 'Mystery' is unknown and ignored");
     EXPECT_EQ(without_folder(scene.warnings[1]),
-              "scene.pbrt:7: shapes that are not supported are left out, the first one here: 2 \"cone\"");
-    EXPECT_EQ(without_folder(scene.warnings[2]), "scene.pbrt:6: light sources that are no area lights are "
-                                                 "left out, the first one here: 1 \"infinite\"");
+              "scene.pbrt:7: unsupported shapes are skipped, starting here: 2 \"cone\"");
+    EXPECT_EQ(
+        without_folder(scene.warnings[2]),
+        "scene.pbrt:6: light sources other than area lights are skipped, starting here: 1 \"infinite\"");
     EXPECT_EQ(without_folder(scene.warnings[3]),
               "scene.pbrt:10: shape \"trianglemesh\": parameter \"float fuzz\" is unknown and ignored");
     EXPECT_EQ(without_folder(scene.warnings[4]),
@@ -122,15 +123,15 @@ TEST_F(Syntax, BlocksRestoreWhatTheyPromise) {
     EXPECT_EQ(scene.materials[scene.triangle_material[1]].diffuse.y, 0.5f);
     EXPECT_EQ(scene.triangle_light[0], 0);
     EXPECT_EQ(scene.triangle_light[1], -1);
-    EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).z, -1);
+    EXPECT_EQ(emitting_normal(scene.lights.of<PolygonLight>()[0]).z, -1);
 }
 
 TEST_F(Syntax, BlocksMustNest) {
     EXPECT_EQ(error("\nAttributeEnd"), "scene.pbrt:2: AttributeEnd without AttributeBegin");
     EXPECT_EQ(error("TransformBegin\nAttributeEnd"),
-              "scene.pbrt:2: AttributeEnd inside of the Transform block begun at scene.pbrt:1");
+              "scene.pbrt:2: AttributeEnd inside the Transform block that begins at scene.pbrt:1");
     EXPECT_EQ(warning(load("Camera \"perspective\"\nAttributeBegin\n" + std::string(kTriangle))),
-              "scene.pbrt:2: AttributeBegin is never ended");
+              "scene.pbrt:2: AttributeBegin has no matching End");
 }
 
 TEST_F(Syntax, IncludesAreRelativeToTheirFile) {
@@ -189,7 +190,7 @@ TEST_F(Syntax, WarningsAreLimited) {
     const Scene scene = load(text);
     ASSERT_EQ(scene.warnings.size(), 201u);
     EXPECT_EQ(without_folder(scene.warnings[199]),
-              "scene.pbrt:202: directive 'Mystery199' is unknown and skipped");
+              "scene.pbrt:202: directive 'Mystery199' is unknown and ignored");
     EXPECT_EQ(scene.warnings[200], "further kinds of warnings are not shown");
 }
 
@@ -197,18 +198,15 @@ TEST_F(Syntax, BlocksInEachOtherAreLimited) {
     std::string text;
     for (int i = 0; i < 1000000; ++i) text += "AttributeBegin\n";
     EXPECT_EQ(error(text),
-              "scene.pbrt:1025: more than 1024 blocks in each other; are there AttributeEnd directives "
-              "missing?");
+              "scene.pbrt:1025: more than 1024 nested blocks; add the missing AttributeEnd directives");
 }
 
 TEST_F(Syntax, RepeatedTextIsLimited) {
     write("large.inc", std::string(1 << 20, ' '));
     std::string text;
     for (int i = 0; i < 300; ++i) text += "Include \"large.inc\"\n";
-    EXPECT_EQ(
-        error(text),
-        "scene.pbrt:34: the same files are included again more than 1000 times or for more than 33554432 "
-        "bytes of text; use ObjectInstance for copies");
+    EXPECT_EQ(error(text), "scene.pbrt:34: repeated includes exceed 1000 files or 33554432 "
+                           "bytes of text; use ObjectInstance for copies");
 }
 
 } // namespace

@@ -148,8 +148,8 @@ TEST_F(EmitterTest, InvisibleOnesCountForTheSizeOfTheScene) {
                              "\"vector u\" [3 0 0] \"vector v\" [0 4 0] \"float alpha\" 0");
     EXPECT_TRUE(scene.triangles.empty());
     EXPECT_EQ(scene.radius, 2.5);
-    ASSERT_EQ(scene.polygon_lights.size(), 1u);
-    EXPECT_EQ(emitting_normal(scene.polygon_lights[0]).z, 1);
+    ASSERT_EQ(scene.lights.of<PolygonLight>().size(), 1u);
+    EXPECT_EQ(emitting_normal(scene.lights.of<PolygonLight>()[0]).z, 1);
 }
 
 TEST_F(EmitterTest, TrianglesKeepTheirPlaceWhenMeshesAreJoined) {
@@ -165,8 +165,8 @@ TEST_F(EmitterTest, TrianglesKeepTheirPlaceWhenMeshesAreJoined) {
     EXPECT_EQ(scene.positions[10].x, 6);
     EXPECT_EQ(scene.uvs[10].x, 1);
     EXPECT_EQ(scene.uvs[7].x, 0);
-    EXPECT_EQ(scene.polygon_lights[2].radiance.x, 2);
-    EXPECT_EQ(scene.polygon_lights[2].emitter, 2u);
+    EXPECT_EQ(scene.lights.of<PolygonLight>()[2].radiance.x, 2);
+    EXPECT_EQ(scene.lights.of<PolygonLight>()[2].emitter, 2u);
 }
 
 TEST_F(EmitterTest, SizesAreThoseOfTheArrays) {

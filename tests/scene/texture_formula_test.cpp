@@ -56,7 +56,7 @@ TEST(TextureFormulas, EqualOnesAreOneNode) {
 TEST(TextureFormulas, NodesAreCountedOnce) {
     TextureFormulas formulas;
     TextureValue power = formulas.add(image_node(0));
-    // As a tree this has more than 10^9 leaves.
+    // The formula has more than 10^9 leaves if it is written as a tree.
     for (int i = 0; i < 30; ++i) power = formulas.product(power, power);
     EXPECT_EQ(formula_nodes(formulas.nodes(), power.node).size(), 31u);
 }
@@ -150,7 +150,7 @@ TEST_F(BakedTextures, OffsetsAreKept) {
 }
 
 TEST_F(BakedTextures, MovedImagesAreResampledBilinearly) {
-    // By half a texel: the second factor is the mean of neighbours.
+    // The shift is half a texel, so the second factor is the mean of neighbours.
     const Texture product =
         baked(image("a", "") + image("b", "\"float udelta\" 0.03125") +
               "Texture \"t\" \"spectrum\" \"scale\" \"texture tex1\" \"a\" \"texture tex2\" \"b\"\n");

@@ -146,15 +146,15 @@ TEST_F(Textures, WhatIsReplaced) {
     expect_near(constant("\"checkerboard\" \"integer dimension\" 3 \"rgb tex2\" [0 0.5 1]"), {0.5f, 0.75f, 1},
                 1e-6f);
     expect_warning("\"fbm\" \"integer octaves\" 3",
-                   "scene.pbrt:2: Texture \"fbm\": not supported, replaced by its mean");
-    expect_warning("\"dots\"", "scene.pbrt:2: Texture \"dots\": not supported, replaced by its mean");
+                   "scene.pbrt:2: Texture \"fbm\": not supported; its mean replaces it");
+    expect_warning("\"dots\"", "scene.pbrt:2: Texture \"dots\": not supported; its mean replaces it");
     expect_warning(
         "\"imagemap\" \"string filename\" \"a.tga\" \"string mapping\" \"spherical\"",
-        "scene.pbrt:2: texture \"t\": mapping \"spherical\" is not supported, the texture coordinates of "
-        "the mesh are used");
+        "scene.pbrt:2: texture \"t\": mapping \"spherical\" is not supported; the texture coordinates of "
+        "the mesh replace it");
     expect_warning(
         "\"imagemap\" \"string filename\" \"a.tga\" \"string wrap\" \"octahedralsphere\"",
-        "scene.pbrt:2: texture \"t\": wrap \"octahedralsphere\" is not supported, \"repeat\" is used");
+        "scene.pbrt:2: texture \"t\": wrap \"octahedralsphere\" is not supported; \"repeat\" replaces it");
 }
 
 TEST_F(Textures, Errors) {
@@ -165,7 +165,7 @@ TEST_F(Textures, Errors) {
     EXPECT_EQ(error(material("Texture \"t\" \"spectrum\" \"imagemap\"\n\"string filename\" \"none.png\"")),
               "scene.pbrt:2: texture file 'none.png': no such file");
     EXPECT_EQ(error(material("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"broken.png\"")),
-              "scene.pbrt:1: texture file 'broken.png': this is neither PNG, JPG, TGA nor BMP; check its "
+              "scene.pbrt:1: texture file 'broken.png': the file is not PNG, JPG, TGA or BMP; check its "
               "name or convert "
               "it");
     EXPECT_EQ(error("\nTexture \"t\" \"spectrum\" \"imagemap\""),

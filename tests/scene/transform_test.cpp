@@ -8,7 +8,7 @@ namespace {
 
 class TransformDirectives : public SceneTest {
 protected:
-    /// Where the directives put the point (1, 2, 3).
+    /// The place to which the directives move the point (1, 2, 3).
     Float3 moved(const std::string& directives) const {
         const Scene scene = load("Camera \"perspective\" WorldBegin\n" + directives +
                                  "\nShape \"trianglemesh\" \"point3 P\" [1 2 3  5 2 3  1 7 3]");

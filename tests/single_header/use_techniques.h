@@ -1,5 +1,6 @@
 #pragma once
 /// Prints the bits of everything that the techniques return. The file that includes this one has included the library.
+/// The build writes all_techniques.h, with a line for each technique of the registry.
 
 #include <cstdio>
 
@@ -37,6 +38,15 @@ void use(const char* name, const Light& light, const Random& u) {
     std::printf("\n");
 }
 
+/// A technique for LTCs with a glossy lobe.
+template <class Technique, class Real>
+struct OnLobe : Technique {
+    template <class Light>
+    explicit OnLobe(const Light& light)
+        : Technique(light, nusselt::Ltc<Real>(
+                               {Real(1), Real(0.25f), Real(0.875f), Real(0), Real(0.375f), Real(1)})) {}
+};
+
 /// Every technique on a light that is clipped at the horizon, in one number type.
 template <class Real>
 void use_all(int seed) {
@@ -48,18 +58,8 @@ void use_all(int seed) {
     const auto polygon = make_polygon<4>(corners, 3);
     const auto line = make_line(corners[0], corners[2]);
     const Vec2<Real> u{number(5), number(6)};
-    use<PolygonArea<Real, 4>>("PolygonArea", polygon, u);
-    use<PolygonSolidAngle<Real, 4>>("PolygonSolidAngle", polygon, u);
-    use<PolygonClippedSolidAngle<Real, 4>>("PolygonClippedSolidAngle", polygon, u);
-    use<PolygonProjectedSolidAngle<Real, 4>>("PolygonProjectedSolidAngle", polygon, u);
-    use<PolygonProjectedSolidAngleBiased<Real, 4>>("PolygonProjectedSolidAngleBiased", polygon, u);
-    use<LineArea<Real>>("LineArea", line, u.x);
-    use<LineSolidAngle<Real>>("LineSolidAngle", line, u.x);
-    use<LineClippedSolidAngle<Real>>("LineClippedSolidAngle", line, u.x);
-    use<LineProjectedSolidAngle<Real>>("LineProjectedSolidAngle", line, u.x);
     const Cylinder<Real> cylinder{line, Real(0.25f)};
-    use<CylinderSolidAngle<Real>>("CylinderSolidAngle", cylinder, u);
-    use<CylinderProjectedSolidAngle<Real>>("CylinderProjectedSolidAngle", cylinder, u);
+#include "all_techniques.h"
 }
 
 } // namespace use_techniques

@@ -1,5 +1,5 @@
 /// Samples of cylinders and their densities: the mean of a function over the density must be its integral, which
-/// quadrature over the surface tells.
+/// quadrature over the surface yields.
 
 #include <cmath>
 
@@ -22,12 +22,13 @@ using Technique = typename Kind::template Technique<float>;
 using Random = nusselt::Vec2<float>;
 using Direction = nusselt::Vec3<float>;
 
-/// What a density must be positive on, times factors that vary by a few times: estimates have little variance, but some.
+/// The integrand on whose support a density must be positive, times factors that vary by a few times: estimates have
+/// little variance, but some.
 template <class Kind>
 auto integrand(const Light<Kind>& light) {
     const auto importance = [light](const Point& wi) {
-        if constexpr (Kind::kMeasure == Measure::kLobe) return ReferenceLobe(light.lobe).density(wi);
-        return Kind::kMeasure == Measure::kSolidAngle ? 1.0L : std::max(wi.z, 0.0L);
+        if constexpr (Kind::kMeasure == Measure::lobe) return ReferenceLobe(light.lobe).density(wi);
+        return Kind::kMeasure == Measure::projected_solid_angle ? std::max(wi.z, 0.0L) : 1.0L;
     };
     const Point s = solid(light).axis();
     return [importance, s](const Point& wi) {
@@ -67,20 +68,28 @@ constexpr auto kOwnDensity = [](const auto& technique, const Direction& wi) { re
 template <class Kind>
 class CylinderSamplesTest : public ::testing::Test {};
 
-using Kinds = ::testing::Types<CylinderSolidAngleKind, CylinderProjectedSolidAngleKind, CylinderLtcKind>;
-TYPED_TEST_SUITE(CylinderSamplesTest, Kinds);
+using Types = Instances<TestedBy<StatisticsSuite, CylinderKinds, CylinderOnLobeKinds>, float>;
+TYPED_TEST_SUITE(CylinderSamplesTest, Types, InstanceNames);
 
 TYPED_TEST(CylinderSamplesTest, FollowTheirDensity) {
-    EXPECT_FALSE(is_rejected<TypeParam>(unwarped, kOwnDensity));
+    EXPECT_FALSE(is_rejected<typename TypeParam::Kind>(unwarped, kOwnDensity));
 }
 
 TYPED_TEST(CylinderSamplesTest, SquaredRandomNumbersAreRejected) {
-    EXPECT_TRUE(is_rejected<TypeParam>([](const Random& u) { return Random{u.x * u.x, u.y}; }, kOwnDensity));
-    EXPECT_TRUE(is_rejected<TypeParam>([](const Random& u) { return Random{u.x, u.y * u.y}; }, kOwnDensity));
+    EXPECT_TRUE(is_rejected<typename TypeParam::Kind>(
+        [](const Random& u) {
+            return Random{u.x * u.x, u.y};
+        },
+        kOwnDensity));
+    EXPECT_TRUE(is_rejected<typename TypeParam::Kind>(
+        [](const Random& u) {
+            return Random{u.x, u.y * u.y};
+        },
+        kOwnDensity));
 }
 
 TEST(CylinderMutantsTest, DensityWithoutTheAzimuthIsRejected) {
-    // As if the interpolant were exact.
+    // This would be right if the interpolant were exact.
     EXPECT_TRUE(is_rejected<CylinderProjectedSolidAngleKind>(
         unwarped, [](const auto& technique, const Direction& wi) { return wi.z / technique.measure(); }));
     EXPECT_TRUE(is_rejected<CylinderSolidAngleKind>(

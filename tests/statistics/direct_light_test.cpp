@@ -1,4 +1,4 @@
-/// Direct light by few samples has the mean that quadrature says it has, whatever the light, the surface, the techniques
+/// Direct light by few samples has the mean that quadrature predicts, whatever the light, the surface, the techniques
 /// and the heuristic; estimators with a mistake do not.
 
 #include <algorithm>
@@ -29,12 +29,12 @@ using Optimal = nusselt::OptimalHeuristic<double>;
 /// A shadow or another edge on a line adds a step to a net of one dimension: an error of the kind that is seldom seen.
 constexpr double kSlack = 5e-4;
 
-/// How often each technique samples a light.
+/// The number of samples of each technique for a light.
 struct Counts {
     int diffuse, specular;
 };
 
-/// What a sample adds to the reflected light.
+/// The contribution of a sample to the reflected light.
 double share(const DirectLightSample<double>& s, Visibility visibility) {
     return visibility(s.wi) * sum_of_channels(s.shadowed) + sum_of_channels(s.constant);
 }
@@ -143,7 +143,7 @@ TYPED_TEST(DirectLightByBrdf, IsUnbiased) {
     expect_unbiased_by_components<TypeParam>(reflected_polygons(surfaces({0.5, 1})));
 }
 
-/// Changes what it knows before it asks a heuristic.
+/// Changes its knowledge of the technique before it uses a heuristic.
 template <class Heuristic, class Change>
 struct Mutant {
     Heuristic heuristic;

@@ -1,4 +1,4 @@
-/// Line samples have the mean that quadrature says the light has, whatever the light, the surface and the shadow, and the
+/// Line samples have the mean that quadrature predicts, whatever the light, the surface and the shadow, and the
 /// order of convergence of one dimension; estimators with a mistake do not.
 
 #include <algorithm>
@@ -278,7 +278,7 @@ TEST(LineLightConvergence, HasTheOrderOfOneDimension) {
     }
 }
 
-/// Of the unbiased estimate at given lines, relative to the light.
+/// The noise of the unbiased estimate for given lines, relative to the light.
 double conditional_noise(const Penumbra& light) {
     constexpr std::uint32_t kLines = 200;
     constexpr std::uint32_t kPointsPerLine = 64;

@@ -63,9 +63,9 @@ public:
 private:
     long double integral_to(const Point& direction) const {
         const long double angle = std::atan2(dot(direction, s_), dot(direction, t_));
-        if constexpr (Kind::kMeasure == Measure::kArea) {
+        if constexpr (Kind::kMeasure == Measure::area) {
             return distance_ * std::tan(angle);
-        } else if constexpr (Kind::kMeasure == Measure::kSolidAngle) {
+        } else if constexpr (Kind::kMeasure == Measure::solid_angle) {
             return std::sin(angle);
         } else {
             const long double sine = std::sin(angle);
@@ -121,16 +121,16 @@ auto starting_sampler_of(const nusselt::LineSegment<float>& light) {
 template <class Kind>
 class LineSamplesTest : public ::testing::Test {};
 
-using Kinds = ::testing::Types<LineAreaKind, LineSolidAngleKind, LineClippedSolidAngleKind,
-                               LineProjectedSolidAngleKind, LineLtcKind, LineClippedLtcKind>;
-TYPED_TEST_SUITE(LineSamplesTest, Kinds);
+using Types = Instances<TestedBy<StatisticsSuite, LineKinds, LineOnLobeKinds>, float>;
+TYPED_TEST_SUITE(LineSamplesTest, Types, InstanceNames);
 
 TYPED_TEST(LineSamplesTest, FollowTheirMeasure) {
-    EXPECT_FALSE(samples_are_rejected<TypeParam>(sampler_of<TypeParam>));
+    EXPECT_FALSE(samples_are_rejected<typename TypeParam::Kind>(sampler_of<typename TypeParam::Kind>));
 }
 
 TYPED_TEST(LineSamplesTest, SquaredRandomNumberIsRejected) {
-    EXPECT_TRUE(samples_are_rejected<TypeParam>(squaring_sampler_of<TypeParam>));
+    EXPECT_TRUE(
+        samples_are_rejected<typename TypeParam::Kind>(squaring_sampler_of<typename TypeParam::Kind>));
 }
 
 TEST(LineMutantsTest, AreaPosingAsSolidAngleIsRejected) {

@@ -59,18 +59,19 @@ bool density_is_rejected(const Density& density) {
 template <class Kind>
 class LobeDensityTest : public ::testing::Test {};
 
-using Kinds = ::testing::Types<PolygonLtcKind, PolygonClippedLtcKind, PolygonLtcKindOf<8>, LineLtcKind,
-                               LineClippedLtcKind>;
-TYPED_TEST_SUITE(LobeDensityTest, Kinds);
+using Types =
+    Instances<TestedBy<StatisticsSuite, PolygonOnLobeKinds<4>, PolygonOnLobeKinds<8>, LineOnLobeKinds>,
+              float>;
+TYPED_TEST_SUITE(LobeDensityTest, Types, InstanceNames);
 
 TYPED_TEST(LobeDensityTest, MakesEstimatesUnbiased) {
-    EXPECT_FALSE(density_is_rejected<TypeParam>(
+    EXPECT_FALSE(density_is_rejected<typename TypeParam::Kind>(
         [](const auto& technique, const auto&, const Direction& wi) { return technique.pdf(wi); }));
 }
 
 TYPED_TEST(LobeDensityTest, WithoutTheChangeOfSolidAngleIsRejected) {
-    EXPECT_TRUE(
-        density_is_rejected<TypeParam>([](const auto& technique, const auto& light, const Direction& wi) {
+    EXPECT_TRUE(density_is_rejected<typename TypeParam::Kind>(
+        [](const auto& technique, const auto& light, const Direction& wi) {
             const ReferenceLobe lobe(light.lobe);
             const long double r = length(lobe.image(nusselt::broadcast<long double>(wi)));
             return technique.pdf(wi) * (r * r * r) / lobe.determinant();

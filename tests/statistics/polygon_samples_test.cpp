@@ -106,10 +106,10 @@ template <class Kind>
 long double measure_of([[maybe_unused]] const Light<Kind>& light, const Polygon& polygon) {
     if constexpr (kHasLobe<Kind>) {
         return ReferenceLobe(light.lobe).integral(polygon);
-    } else if constexpr (Kind::kMeasure == Measure::kArea) {
+    } else if constexpr (Kind::kMeasure == Measure::area) {
         return integrate(
             polygon, [](const Point&) { return 1.0L; }, 1);
-    } else if constexpr (Kind::kMeasure == Measure::kSolidAngle) {
+    } else if constexpr (Kind::kMeasure == Measure::solid_angle) {
         return girard(polygon);
     } else {
         return lambert(polygon);
@@ -160,7 +160,7 @@ auto opposite_sampler_of(const Light<Kind>& light) {
     return [sampler = sampler_of<Kind>(light)](const Random& u) { return -sampler(u); };
 }
 
-/// A sampler that is right but for one sample in ten thousand, which is NaN.
+/// A sampler that is right except for one sample in ten thousand, which is NaN.
 template <class Kind>
 auto failing_sampler_of(const Light<Kind>& light) {
     return [sampler = sampler_of<Kind>(light)](const Random& u) {
@@ -172,21 +172,23 @@ auto failing_sampler_of(const Light<Kind>& light) {
 template <class Kind>
 class PolygonSamplesTest : public ::testing::Test {};
 
-using Kinds = ::testing::Types<PolygonAreaKind, PolygonSolidAngleKind, PolygonClippedSolidAngleKind,
-                               PolygonProjectedSolidAngleKind, PolygonSolidAngleKindOf<8>,
-                               PolygonProjectedSolidAngleKindOf<8>, PolygonLtcKind, PolygonClippedLtcKind,
-                               PolygonLtcKindOf<8>>;
-TYPED_TEST_SUITE(PolygonSamplesTest, Kinds);
+using Types = Instances<TestedBy<StatisticsSuite, PolygonKinds<4>, PolygonKinds<8>, RectangleKinds,
+                                 PolygonOnLobeKinds<4>, PolygonOnLobeKinds<8>>,
+                        float>;
+TYPED_TEST_SUITE(PolygonSamplesTest, Types, InstanceNames);
 
 TYPED_TEST(PolygonSamplesTest, FollowTheirMeasure) {
-    EXPECT_FALSE(samples_are_rejected<TypeParam>(sampler_of<TypeParam>));
+    EXPECT_FALSE(samples_are_rejected<typename TypeParam::Kind>(sampler_of<typename TypeParam::Kind>));
 }
 
 TYPED_TEST(PolygonSamplesTest, MutantsAreRejected) {
-    EXPECT_TRUE(samples_are_rejected<TypeParam>(squaring_x_sampler_of<TypeParam>));
-    EXPECT_TRUE(samples_are_rejected<TypeParam>(squaring_y_sampler_of<TypeParam>));
-    EXPECT_TRUE(samples_are_rejected<TypeParam>(opposite_sampler_of<TypeParam>));
-    EXPECT_TRUE(samples_are_rejected<TypeParam>(failing_sampler_of<TypeParam>));
+    EXPECT_TRUE(
+        samples_are_rejected<typename TypeParam::Kind>(squaring_x_sampler_of<typename TypeParam::Kind>));
+    EXPECT_TRUE(
+        samples_are_rejected<typename TypeParam::Kind>(squaring_y_sampler_of<typename TypeParam::Kind>));
+    EXPECT_TRUE(
+        samples_are_rejected<typename TypeParam::Kind>(opposite_sampler_of<typename TypeParam::Kind>));
+    EXPECT_TRUE(samples_are_rejected<typename TypeParam::Kind>(failing_sampler_of<typename TypeParam::Kind>));
 }
 
 TEST(PolygonMutantsTest, AreaPosingAsSolidAngleIsRejected) {
@@ -207,7 +209,8 @@ TEST(PolygonMutantsTest, SolidAnglePosingAsProjectedSolidAngleIsRejected) {
 }
 
 TEST(PolygonMutantsTest, BiasedVariantPosingAsUnbiasedIsRejected) {
-    EXPECT_TRUE(samples_are_rejected<PolygonProjectedSolidAngleKind>(sampler_of<PolygonBiasedKind>));
+    EXPECT_TRUE(samples_are_rejected<PolygonProjectedSolidAngleKind>(
+        sampler_of<PolygonProjectedSolidAngleBiasedKind>));
 }
 
 TEST(PolygonMutantsTest, ProjectedSolidAnglePosingAsLobeIsRejected) {

@@ -106,7 +106,7 @@ using Visibility = double (*)(const Direction& wi);
 
 inline double half_shadow(const Direction& wi) { return dot(kFree, wi) > 0 ? 1 : kTransmitted; }
 
-/// Without the edge, along which quadrature over curved surfaces is slow.
+/// A shadow without the edge, along which quadrature over curved surfaces is slow.
 inline double gradual_shadow(const Direction& wi) {
     return 0.5 * ((1 + kTransmitted) + (1 - kTransmitted) * dot(kFree, wi));
 }

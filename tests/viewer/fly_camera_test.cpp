@@ -14,7 +14,7 @@ using scene::Double3;
 constexpr int kWidth = 400;
 constexpr int kHeight = 300;
 
-/// At (1, 2, 3), into the direction of -z, y upwards.
+/// A camera at (1, 2, 3) that looks along -z, with y upwards.
 scene::Camera make_perspective() {
     scene::Camera camera;
     camera.origin = {1, 2, 3};

@@ -25,18 +25,19 @@ TEST_F(LightEditsTest, DoNothingByDefault) {
     EXPECT_FALSE(edits.empty());
     edits.set(0, LightEdit());
     EXPECT_TRUE(edits.empty());
-    EXPECT_EQ(edits.applied_to(scene_).polygon_lights.size(), scene_.polygon_lights.size());
+    EXPECT_EQ(edits.applied_to(scene_).lights.of<scene::PolygonLight>().size(),
+              scene_.lights.of<scene::PolygonLight>().size());
 }
 
 TEST_F(LightEditsTest, MoveAndResizeOneLight) {
     ASSERT_GE(scene_.emitters.size(), 2u);
-    ASSERT_FALSE(scene_.polygon_lights.empty());
-    const std::size_t light = scene_.polygon_lights.front().emitter;
+    ASSERT_FALSE(scene_.lights.of<scene::PolygonLight>().empty());
+    const std::size_t light = scene_.lights.of<scene::PolygonLight>().front().emitter;
     LightEdits edits;
     edits.set(light, {{0.25, -0.5, 1}, 0.5, 3, true});
     const scene::Scene edited = edits.applied_to(scene_);
-    const scene::PolygonLight& before = scene_.polygon_lights.front();
-    const scene::PolygonLight& after = edited.polygon_lights.front();
+    const scene::PolygonLight& before = scene_.lights.of<scene::PolygonLight>().front();
+    const scene::PolygonLight& after = edited.lights.of<scene::PolygonLight>().front();
     EXPECT_NEAR(after.radiance.y, 3 * before.radiance.y, 1e-4f * before.radiance.y);
     const auto width = [](const scene::PolygonLight& l) {
         return length(to_double(l.vertices[1]) - to_double(l.vertices[0]));
@@ -56,8 +57,8 @@ TEST_F(LightEditsTest, SwitchedOffLightsEmitNothing) {
     LightEdits edits;
     for (std::size_t i = 0; i < scene_.emitters.size(); ++i) edits.set(i, {{0, 0, 0}, 1, 1, false});
     const scene::Scene dark = edits.applied_to(scene_);
-    EXPECT_TRUE(dark.polygon_lights.empty());
-    EXPECT_TRUE(dark.line_lights.empty());
+    EXPECT_TRUE(dark.lights.of<scene::PolygonLight>().empty());
+    EXPECT_TRUE(dark.lights.of<scene::LineLight>().empty());
 }
 
 TEST_F(LightEditsTest, TheRigDoesTheSame) {
@@ -69,15 +70,17 @@ TEST_F(LightEditsTest, TheRigDoesTheSame) {
     scene::Scene by_rig = scene_;
     scene::apply_rig(scene::read_rig(path), by_rig);
     const scene::Scene edited = edits.applied_to(scene_);
-    ASSERT_EQ(by_rig.polygon_lights.size(), edited.polygon_lights.size());
-    ASSERT_EQ(by_rig.line_lights.size(), edited.line_lights.size());
-    for (std::size_t i = 0; i < edited.line_lights.size(); ++i)
-        EXPECT_EQ(by_rig.line_lights[i].radiance.y, edited.line_lights[i].radiance.y);
-    for (std::size_t i = 0; i < edited.polygon_lights.size(); ++i) {
-        EXPECT_EQ(by_rig.polygon_lights[i].radiance.y, edited.polygon_lights[i].radiance.y);
-        for (std::size_t k = 0; k < edited.polygon_lights[i].vertices.size(); ++k) {
-            const scene::Float3& a = edited.polygon_lights[i].vertices[k];
-            const scene::Float3& b = by_rig.polygon_lights[i].vertices[k];
+    ASSERT_EQ(by_rig.lights.of<scene::PolygonLight>().size(), edited.lights.of<scene::PolygonLight>().size());
+    ASSERT_EQ(by_rig.lights.of<scene::LineLight>().size(), edited.lights.of<scene::LineLight>().size());
+    for (std::size_t i = 0; i < edited.lights.of<scene::LineLight>().size(); ++i)
+        EXPECT_EQ(by_rig.lights.of<scene::LineLight>()[i].radiance.y,
+                  edited.lights.of<scene::LineLight>()[i].radiance.y);
+    for (std::size_t i = 0; i < edited.lights.of<scene::PolygonLight>().size(); ++i) {
+        EXPECT_EQ(by_rig.lights.of<scene::PolygonLight>()[i].radiance.y,
+                  edited.lights.of<scene::PolygonLight>()[i].radiance.y);
+        for (std::size_t k = 0; k < edited.lights.of<scene::PolygonLight>()[i].vertices.size(); ++k) {
+            const scene::Float3& a = edited.lights.of<scene::PolygonLight>()[i].vertices[k];
+            const scene::Float3& b = by_rig.lights.of<scene::PolygonLight>()[i].vertices[k];
             EXPECT_EQ(a.x, b.x);
             EXPECT_EQ(a.y, b.y);
             EXPECT_EQ(a.z, b.z);

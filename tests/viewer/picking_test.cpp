@@ -17,7 +17,7 @@ scene::Scene load(const char* name) {
     return scene::load_scene(std::filesystem::path(nusselt_test::kSourceFolder) / "scenes" / name);
 }
 
-/// Where a perspective camera sees a point.
+/// The position of a point in the image of a perspective camera.
 FilmPosition seen_at(const scene::Camera& camera, const Double3& point) {
     const Double3 corner = to_double(camera.corner);
     const Double3 right = to_double(camera.right);
@@ -60,10 +60,10 @@ TEST(Picking, FollowsEdits) {
 
 TEST(Picking, TakesTheNearerLight) {
     scene::Scene scene = load("cornell-panel.pbrt");
-    scene::PolygonLight nearer = scene.polygon_lights.front();
+    scene::PolygonLight nearer = scene.lights.of<scene::PolygonLight>().front();
     nearer.emitter = 1;
     for (scene::Float3& p : nearer.vertices) p.y -= 0.3f;
-    scene.polygon_lights.push_back(nearer);
+    scene.lights.of<scene::PolygonLight>().push_back(nearer);
     scene.emitters.push_back({"nearer"});
     // Seen from below, straight up, beside the centroid.
     const scene::Float3 below = to_float(center_of(scene, 0) + Double3{0.02, -1, 0.01});

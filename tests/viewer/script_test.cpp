@@ -45,7 +45,7 @@ protected:
         return {device(), scene, render_vulkan::ShadowRays::bvh, {}, {"cornell-panel.pbrt", {}, {}}};
     }
 
-    /// As the loop of the window does. \returns the number of frames
+    /// Runs a script like the loop of the window. \returns the number of frames
     static int play(const std::string& script_path, Viewer& viewer) {
         Script script{std::filesystem::path(script_path)};
         int frames = 0;
@@ -56,7 +56,7 @@ protected:
         return frames;
     }
 
-    /// What a script that fails says.
+    /// The error message of a script.
     std::string error_of(const std::string& text, Viewer& viewer) const {
         try {
             play(write(text), viewer);
@@ -119,8 +119,8 @@ TEST_F(ScriptTest, EditsLights_AndWritesWhatRendersTheSame) {
     ASSERT_EQ(other.files.rigs.size(), 1u);
     const scene::Scene edited = viewer.state.edits.applied_to(viewer.session.loaded());
     for (std::size_t i = 0; i < 4; ++i)
-        EXPECT_LT(distance(other.session.loaded().polygon_lights[0].vertices[i],
-                           edited.polygon_lights[0].vertices[i]),
+        EXPECT_LT(distance(other.session.loaded().lights.of<scene::PolygonLight>()[0].vertices[i],
+                           edited.lights.of<scene::PolygonLight>()[0].vertices[i]),
                   1e-6);
 }
 
@@ -162,13 +162,13 @@ TEST_F(ScriptTest, NamesTheLineOfAMistake) {
     };
     expect("frames 1\nfly 3\n", "2", "unknown command 'fly'");
     expect("frames\n", "1", "needs 1 value, found 0");
-    expect("frames 0\n", "1", "'0' is not a number from 1 to");
-    expect("technique magic\n", "1", "unknown setting 'magic'; there are area,");
-    expect("samples 65\n", "1", "'65' is not a number from 1 to 64");
-    expect("exposure nan\n", "1", "'nan' is not a number");
-    expect("light 7\n", "1", "'7' is not a number from 0 to 0");
+    expect("frames 0\n", "1", "'0' must be a number from 1 to");
+    expect("technique magic\n", "1", "unknown setting 'magic'; use one of area,");
+    expect("samples 65\n", "1", "'65' must be a number from 1 to 64");
+    expect("exposure nan\n", "1", "'nan' must be a number from");
+    expect("light 7\n", "1", "'7' must be a number from 0 to 0");
     expect("light-size 2\n", "1", "no light is selected");
-    expect("reference maybe\n", "1", "neither on nor off");
+    expect("reference maybe\n", "1", "must be on or off");
     expect("screenshot nowhere.txt\n", "1", "nowhere.txt");
     expect("screenshot " + path("missing/all.png") + "\n", "1", "missing/all.png");
     expect("load-camera missing.json\n", "1", "missing.json");

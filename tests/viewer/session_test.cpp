@@ -1,4 +1,4 @@
-/// What the viewer renders, without its window.
+/// The images of the viewer, without its window.
 
 #include "common/source_folder.h"
 #include "viewer/session.h"

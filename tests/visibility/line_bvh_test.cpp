@@ -49,7 +49,7 @@ TEST_P(LineSoup, HidesWhatAllTrianglesHide) {
         ASSERT_LE(difference(lines, expected), kOrder) << "query " << i;
         shares += visible_share(expected) / 40;
     }
-    // The queries tell something: neither all nor nothing is visible.
+    // The queries are conclusive: neither all nor nothing is visible.
     if (GetParam() >= 60 && GetParam() <= 500) {
         EXPECT_GT(shares, 0.01);
         EXPECT_LT(shares, 0.99);
@@ -279,7 +279,8 @@ TEST(LineBvh, FarTrianglesDoNotWidenThePyramid) {
 TEST(LineBvh, PartialSurfacesCountInTheRectangleOfTheDirection) {
     scene::Scene scene = make_empty_scene();
     add_ceiling_light(scene);
-    // From the origin beside the corner (1, 0.75) of the light, though its box touches the pyramid.
+    // The triangle is beside the corner (1, 0.75) of the light as seen from the origin, though its box touches the
+    // pyramid.
     add_triangle(scene, {0.51f, 0.373f, 1}, {0.49f, 0.39f, 1}, {0.51f, 0.39f, 1}, kPartial);
     const LineBvh bvh(scene);
     visibility::LineCounters counters{};
@@ -310,7 +311,7 @@ TEST(LineBvh, TellsWhereManyOccludersAre) {
         const int blocks = static_cast<int>(bvh.view().full_block_count);
         EXPECT_GT(blocks, 3000 / 8);
         EXPECT_LE(blocks, 3002);
-        // How many there are, by bisection.
+        // Bisection finds the number.
         const auto count = [&](const Vec3<float>& point, float angle) {
             int low = -1;
             int high = blocks;

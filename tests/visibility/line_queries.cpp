@@ -64,7 +64,7 @@ double whole_length(const std::vector<VisibleLine>& lines) {
 } // namespace
 
 ConvexPolygon<float, 4> polygon_of(const scene::Scene& scene, std::int32_t light) {
-    const auto& vertices = scene.polygon_lights[static_cast<std::size_t>(light)].vertices;
+    const auto& vertices = scene.lights.of<scene::PolygonLight>()[static_cast<std::size_t>(light)].vertices;
     const Vec3<float> corners[] = {to_vec(vertices[0]), to_vec(vertices[1]), to_vec(vertices[2]),
                                    to_vec(vertices[3])};
     return make_polygon<4>(corners, 4);

@@ -1,5 +1,5 @@
 #pragma once
-/// What is visible of lines of a light, by the hierarchy and by all triangles.
+/// The visible parts of lines of a light, by the hierarchy and by all triangles.
 
 #include "scene/model/scene.h"
 #include "visibility/line_bvh.h"
@@ -17,7 +17,7 @@ struct LineQuery {
     int line_count = 16;
 };
 
-/// What is visible of a line: disjoint, in order.
+/// The visible parts of a line: disjoint and in order.
 struct VisibleLine {
     Chord<float> whole;
     std::vector<Interval<float>> parts;

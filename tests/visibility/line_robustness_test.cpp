@@ -50,7 +50,7 @@ TEST_F(HostilePoints, GetValidParts) {
     std::vector<Vec3<float>> points = {{0, 0, 0},     {0, 0, 1.9999999f}, {-1, -0.75f, 1.9999f}, {1, 1, 1},
                                        {-1, -1, -1},  {1, 0, 0.5f},       {0, 0, 1e-30f},        {1e6f, 0, 0},
                                        {1e-3f, 0, 3}, {0, 1e18f, 0},      {1e30f, 1e30f, -1e30f}};
-    // On occluders: corners, centres of edges, centres.
+    // Points on occluders: corners, centres of edges, centres.
     for (const scene::Triangle& triangle : scene_.triangles) {
         const scene::Float3& a = scene_.positions[triangle.vertex[0]];
         const scene::Float3& b = scene_.positions[triangle.vertex[1]];
@@ -65,7 +65,7 @@ TEST_F(HostilePoints, GetValidParts) {
         }
 }
 
-/// A wall that stands on the level of the point: rays to the light meet it beyond t = 10 or so, on both sides of the edge.
+/// A wall at the level of the point: rays to the light meet it beyond t = 10 or so, on both sides of the edge.
 TEST(HostileTriangles, WithAnEdgeOnTheLevelOfThePoint) {
     for (const float side : {1.0f, -1.0f}) {
         const ShadowFrame<float> frame = make_shadow_frame<float>(
@@ -95,7 +95,7 @@ TEST(HostileTriangles, AreLeftOutOrHideNothing) {
         add_triangle(scene, {0, 0, 1}, {0, bad, 1}, {1, 0, 1});
         add_triangle(scene, {bad, bad, bad}, {bad, bad, bad}, {bad, bad, bad});
     }
-    // Without area.
+    // A triangle without area.
     add_triangle(scene, {0, 0, 1}, {0, 0, 1}, {0, 0, 1});
     add_triangle(scene, {0, 0, 1}, {1, 0, 1}, {0.5f, 0, 1});
     const LineBvh bvh(scene);

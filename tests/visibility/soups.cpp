@@ -44,11 +44,11 @@ void add_triangle(scene::Scene& scene, const Float3& a, const Float3& b, const F
 }
 
 void add_light(scene::Scene& scene, const Float3& corner, const Float3& u, const Float3& v) {
-    const auto index = static_cast<std::int32_t>(scene.polygon_lights.size());
+    const auto index = static_cast<std::int32_t>(scene.lights.of<scene::PolygonLight>().size());
     scene::PolygonLight light;
     light.vertices = {corner, plus(corner, u), plus(plus(corner, u), v), plus(corner, v)};
     light.radiance = {1, 1, 1};
-    scene.polygon_lights.push_back(light);
+    scene.lights.of<scene::PolygonLight>().push_back(light);
     add_triangle(scene, light.vertices[0], light.vertices[1], light.vertices[2], kFull, index);
     add_triangle(scene, light.vertices[0], light.vertices[2], light.vertices[3], kFull, index);
 }
@@ -110,7 +110,7 @@ scene::Scene without_instances(const scene::Scene& scene) {
 scene::Scene scaled(scene::Scene scene, float factor) {
     const auto scale = [&](Float3& p) { p = {factor * p.x, factor * p.y, factor * p.z}; };
     for (Float3& p : scene.positions) scale(p);
-    for (scene::PolygonLight& light : scene.polygon_lights)
+    for (scene::PolygonLight& light : scene.lights.of<scene::PolygonLight>())
         for (Float3& p : light.vertices) scale(p);
     for (scene::Instance& instance : scene.instances)
         for (const std::size_t i : {3, 7, 11}) instance.world_from_object[i] *= factor;

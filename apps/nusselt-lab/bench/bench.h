@@ -1,5 +1,5 @@
 #pragma once
-/// `nusselt-lab bench`: what costs, accuracy and noise are.
+/// `nusselt-lab bench` measures costs, accuracy and noise.
 
 namespace CLI {
 class App;

@@ -6,8 +6,8 @@ namespace nusselt::app {
 
 void add_device_option(CLI::App& command, std::optional<std::string>& device) {
     command.add_option("--device", device,
-                       "Vulkan device: its index, or part of its name. Default: the environment variable\n"
-                       "NUSSELT_DEVICE, else a discrete GPU before others");
+                       "Vulkan device, by its index or part of its name. Default: the environment variable\n"
+                       "NUSSELT_DEVICE if set, else the fastest kind of GPU");
 }
 
 std::string text_of_clock(gpu::Clock clock) {
@@ -23,6 +23,14 @@ void print_device(const gpu::DeviceDescription& device, gpu::Clock clock, const 
                   const std::string& threads) {
     fmt::print("{} ({}), {}, Vulkan {}\n{}{}{}{}\n", device.name, device.kind, device.driver,
                device.api_version, text_of_clock(clock), remark, threads.empty() ? "" : "; ", threads);
+}
+
+std::vector<std::pair<std::string, lab::Cell>>
+device_settings(const gpu::DeviceDescription& device, gpu::Clock clock,
+                const std::optional<std::string>& llvmpipe_threads) {
+    return {{"device", device.name},         {"kind", device.kind},
+            {"driver", device.driver},       {"vulkan", device.api_version},
+            {"clock", text_of_clock(clock)}, {"device_threads", text_of_threads(llvmpipe_threads)}};
 }
 
 } // namespace nusselt::app

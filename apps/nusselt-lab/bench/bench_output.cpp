@@ -1,23 +1,29 @@
 #include "bench_output.h"
 
 #include "base/json_output.h"
+#include "image/io.h"
 
 namespace nusselt::app {
 
 void add_repetitions_option(CLI::App& command, int& repetitions) {
-    command.add_option("--repetitions", repetitions, "Interleaved repetitions, of which the median counts")
+    command.add_option("--repetitions", repetitions, "Interleaved repetitions; the median is reported")
         ->check(CLI::Range(1, 10001))
         ->capture_default_str();
 }
 
 void add_json_option(CLI::App& command, std::optional<std::string>& json) {
-    command.add_option("--json", json, "Write the table as JSON to this file; - for the standard output");
+    command.add_option("--json", json,
+                       "Write the numbers as JSON to this file, or with - to the standard output");
 }
 
-void write_results(const std::optional<std::string>& file, const std::string& json,
+void check_json_option(const std::optional<std::string>& file) {
+    if (file && *file != "-") image::check_writable(*file);
+}
+
+void write_results(const std::optional<std::string>& file, const lab::Results& results,
                    const std::function<void()>& print_table) {
     if (file != "-") print_table();
-    if (file) base::write_json(*file, json);
+    if (file) base::write_json(*file, to_json(results));
 }
 
 } // namespace nusselt::app

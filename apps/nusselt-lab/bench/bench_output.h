@@ -1,5 +1,7 @@
 #pragma once
-/// What the benchmarks of samplers have in common on the command line.
+/// Options and output that the commands that measure share.
+
+#include "lab/results/results.h"
 
 #include <CLI/CLI.hpp>
 
@@ -15,10 +17,14 @@ void add_repetitions_option(CLI::App& command, int& repetitions);
 /// Adds --json.
 void add_json_option(CLI::App& command, std::optional<std::string>& json);
 
-/// Prints the table, and writes the JSON to the file, if one is named; or prints the JSON alone.
+/// Fails now, not after hours, if the file of --json cannot be written.
+/// \throws std::runtime_error
+void check_json_option(const std::optional<std::string>& file);
+
+/// Prints the table, and writes the results to the file, if one is named; or prints them as JSON alone.
 /// \param file as in --json: "-" is the standard output.
 /// \throws std::runtime_error if the file cannot be written.
-void write_results(const std::optional<std::string>& file, const std::string& json,
+void write_results(const std::optional<std::string>& file, const lab::Results& results,
                    const std::function<void()>& print_table);
 
 } // namespace nusselt::app

@@ -10,9 +10,8 @@ namespace nusselt::app {
 namespace {
 
 [[noreturn]] void fail() {
-    throw std::runtime_error(
-        "this program was built without its GPU side: install libvulkan-dev and glslang-tools, "
-        "then configure and build again");
+    throw std::runtime_error("this program was built without GPU support; install libvulkan-dev and "
+                             "glslang-tools, then configure and build again");
 }
 
 } // namespace

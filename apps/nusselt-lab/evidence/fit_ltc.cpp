@@ -1,6 +1,7 @@
 #include "fit_ltc.h"
 #include "apps/common/interrupt.h"
 #include "apps/common/progress.h"
+#include "apps/nusselt-lab/bench/bench_output.h"
 
 #include "base/atomic_file.h"
 #include "fit/table_error.h"
@@ -30,7 +31,7 @@ using tables::LtcTable;
 
 constexpr int kColumnsPerThread = 16;
 constexpr double kSecondsBetweenSaves = 20;
-/// Whose lobe the table for engines has: between dielectrics and metals, which lose about the same.
+/// The reflectance whose lobe the table for engines stores. Dielectrics and metals lose about the same with it.
 constexpr float kEngineF0 = 0.2f;
 
 fit::TableSize size_of(const std::string& text) {
@@ -44,18 +45,19 @@ fit::TableSize size_of(const std::string& text) {
         !is_fine(size.inclination) || !is_fine(size.f0) ||
         std::int64_t{size.roughness} * size.inclination * size.f0 >= kMostInAll)
         throw std::runtime_error(fmt::format(
-            "--size '{}': must be three numbers from 2 to {}, such as 64x64x51, with a product below {}",
-            text, kMost, kMostInAll));
+            "--size '{}' must be three numbers from 2 to {}, such as 64x64x51, with a product below {}", text,
+            kMost, kMostInAll));
     return size;
 }
 
-/// Fits until all is done or Ctrl-C; with a checkpoint, both leave it up to date. Returns how many columns it fitted.
+/// Fits all columns or until Ctrl-C, and leaves the checkpoint up to date. Returns the number of columns that it
+/// fitted.
 int fit_columns(const FitLtcOptions& options, TableFit& table, tbb::task_arena& arena) {
     const auto save = [&] {
         if (options.checkpoint) table.save(*options.checkpoint);
     };
     if (options.checkpoint) table.resume(*options.checkpoint);
-    // Fails now, not after minutes, if the file cannot be written.
+    // Fails now rather than after minutes if the file cannot be written.
     save();
 
     using Clock = std::chrono::steady_clock;
@@ -158,6 +160,14 @@ void print_errors(const std::vector<ErrorRow>& rows) {
                    e.percentile_90, e.percentile_99, e.largest);
 }
 
+lab::Results results_of(const FitLtcOptions& options, const std::vector<ErrorRow>& rows) {
+    lab::ResultTable table = {
+        "errors", {{"slices"}, {"mean"}, {"median"}, {"percentile_90"}, {"percentile_99"}, {"largest"}}};
+    for (const auto& [what, e] : rows)
+        table.rows.push_back({what, e.mean, e.median, e.percentile_90, e.percentile_99, e.largest});
+    return {"fit-ltc", {{"brdf", options.brdf}, {"size", options.size}}, {std::move(table)}};
+}
+
 std::string sidecar(const FitLtcOptions& options, const TableFit& fitted, const std::string& encoded,
                     const std::vector<ErrorRow>& rows) {
     auto errors = nlohmann::ordered_json::object();
@@ -200,7 +210,8 @@ std::string sidecar(const FitLtcOptions& options, const TableFit& fitted, const 
 
 int run_fit_ltc(const FitLtcOptions& options) {
     const fit::Brdf& brdf = fit::find_brdf(options.brdf);
-    // Now, not after minutes of fitting.
+    // Fails now rather than after minutes of fitting.
+    check_json_option(options.json);
     for (const char* extension : {".bin", "-engine.bin", ".json"})
         image::check_writable(options.output + extension);
     TableFit fitted(brdf, size_of(options.size));
@@ -212,16 +223,17 @@ int run_fit_ltc(const FitLtcOptions& options) {
     if (interrupted) {
         fmt::print(stderr, "stopped after {} of {} columns; {}\n", fitted.finished_columns(),
                    fitted.columns(),
-                   options.checkpoint ? "the same command continues" : "without --checkpoint, they are lost");
+                   options.checkpoint ? "run the same command again to continue"
+                                      : "they are lost; use --checkpoint to keep them");
         return kInterruptedExitCode;
     }
-    fmt::print("{} columns in {:.0f} s\n", columns, seconds);
+    if (options.json != "-") fmt::print("{} columns in {:.0f} s\n", columns, seconds);
 
     const LtcTable table = table_of(fitted);
     const std::string encoded = tables::encode(table);
     const std::string for_engines = tables::encode_for_engines(table, kEngineF0);
     const auto rows = arena.execute([&] { return measure(brdf, fitted, table, encoded, for_engines); });
-    print_errors(rows);
+    write_results(options.json, results_of(options, rows), [&] { print_errors(rows); });
     const auto write = [](const std::filesystem::path& path, const std::string& bytes) {
         base::write_atomically(path, [&](std::ofstream& file) { file << bytes; });
     };
@@ -238,26 +250,24 @@ void setup_fit_ltc(CLI::App& app, int& exit_code) {
     std::string names;
     for (const fit::Brdf& one : fit::brdfs())
         names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", one.name, one.description);
-    command->add_option("--brdf", options->brdf, "What to fit: " + names)->capture_default_str();
+    command->add_option("--brdf", options->brdf, "BRDF to fit: " + names)->capture_default_str();
     command
         ->add_option("--size", options->size,
                      "Samples along perceptual roughness, inclination of wo and f0, 2 to 256 each")
         ->capture_default_str();
     command
-        ->add_option(
-            "-o,--output", options->output,
-            "Writes OUTPUT.bin, OUTPUT.json, which describes it, and OUTPUT-engine.bin, a small table with "
-            "one lobe for all f0")
+        ->add_option("-o,--output", options->output,
+                     "Write OUTPUT.bin, its description OUTPUT.json, and OUTPUT-engine.bin, a small table\n"
+                     "with one lobe for all f0")
         ->required();
     command->add_option(
         "--checkpoint", options->checkpoint,
-        "File that the fit continues from, if it exists, and that is updated, also upon Ctrl-C");
-    command->add_option("--commit", options->commit, "Commit of the program, for OUTPUT.json")
+        "Store the state of the fit in this file, also upon Ctrl-C, and continue from it if it exists");
+    command->add_option("--commit", options->commit, "Commit of the program, recorded in OUTPUT.json")
         ->capture_default_str();
-    command
-        ->add_option("--threads", options->threads,
-                     "Threads, 1 to 1024. Default: as many as the machine runs at once")
+    command->add_option("--threads", options->threads, "Threads, 1 to 1024. Default: one per hardware thread")
         ->check(CLI::Range(1, 1024));
+    add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_fit_ltc(*options); });
 }
 

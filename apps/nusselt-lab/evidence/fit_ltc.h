@@ -18,6 +18,7 @@ struct FitLtcOptions {
     std::optional<std::filesystem::path> checkpoint;
     std::string commit = "unknown";
     std::optional<int> threads;
+    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
 };
 
 /// Adds the subcommand. Its callback stores the result of run_fit_ltc() in exit_code, which must live until the

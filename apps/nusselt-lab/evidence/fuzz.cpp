@@ -2,6 +2,7 @@
 #include "apps/common/progress.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
+#include "apps/nusselt-lab/bench/bench_output.h"
 
 #include "base/isa.h"
 #include "base/stopwatch.h"
@@ -15,21 +16,14 @@
 
 namespace nusselt::app {
 
-int run_fuzz(const FuzzOptions& options) {
-    const std::string isa(name_of(base::choose_isa(options.isa)));
-    lab::FuzzSettings settings{options.techniques, options.seed, options.first, options.count,
-                               options.threads.value_or(render_cpu::default_thread_count())};
-    const base::Stopwatch stopwatch;
-    Progress progress;
-    const auto rows =
-        lab::fuzz_library(options.scalar, isa, settings, [&](double fraction) { progress.update(fraction); });
-    progress.finish();
-    const double seconds = stopwatch.seconds();
+namespace {
 
-    std::uint64_t violations = 0;
+void print_table(const std::vector<lab::FuzzRow>& rows, const FuzzOptions& options, const std::string& isa,
+                 double seconds) {
+    bool is_broken = false;
     fmt::print("{:<34}{:<16}{:>12}{:>12}\n", "technique", "lights", "violations", "ns");
     for (const auto& row : rows) {
-        violations += row.violations;
+        is_broken = is_broken || row.violations > 0;
         fmt::print("{:<34}{:<16}{:>12}{:>12.0f}\n", row.technique, name_of(row.light), row.violations,
                    row.nanoseconds);
     }
@@ -42,20 +36,51 @@ int run_fuzz(const FuzzOptions& options) {
         for (const lab::FuzzReport& report : row.reports)
             fmt::print("\n{}, {}, index {}{}: {}\n", row.technique, name_of(row.light), report.index,
                        report.flushed ? ", denormals flushed" : "", report.text);
-    if (violations > 0)
+    if (is_broken)
         fmt::print(
-            "\nTo run one of these alone: nusselt-lab fuzz --scalar {} --isa {} --seed {} --technique NAME "
+            "\nTo run one of them alone: nusselt-lab fuzz --scalar {} --isa {} --seed {} --technique NAME "
             "--first INDEX --count 1\n",
             options.scalar, isa, options.seed);
+}
+
+} // namespace
+
+int run_fuzz(const FuzzOptions& options) {
+    check_json_option(options.json);
+    const std::string isa(name_of(base::choose_isa(options.isa)));
+    lab::FuzzSettings settings{options.techniques, options.seed, options.first, options.count,
+                               options.threads.value_or(render_cpu::default_thread_count())};
+    const base::Stopwatch stopwatch;
+    Progress progress;
+    const auto rows =
+        lab::fuzz_library(options.scalar, isa, settings, [&](double fraction) { progress.update(fraction); });
+    progress.finish();
+    const double seconds = stopwatch.seconds();
+
+    std::uint64_t violations = 0;
+    lab::ResultTable table = {"techniques", {{"technique"}, {"lights"}, {"violations"}, {"time", "ns"}}};
+    for (const auto& row : rows) {
+        violations += row.violations;
+        table.rows.push_back({row.technique, name_of(row.light), row.violations, row.nanoseconds});
+    }
+    const lab::Results results = {"fuzz",
+                                  {{"scalar", options.scalar},
+                                   {"isa", isa},
+                                   {"seed", options.seed},
+                                   {"first", options.first},
+                                   {"count", options.count},
+                                   {"seconds", seconds}},
+                                  {std::move(table)}};
+    write_results(options.json, results, [&] { print_table(rows, options, isa, seconds); });
     return violations > 0 ? 1 : 0;
 }
 
 void setup_fuzz(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<FuzzOptions>();
     CLI::App* command = bench.add_subcommand(
-        "fuzz",
-        "Run techniques on lights that break samplers, and check that results are finite, on the light and\n"
-        "consistent. Exits with 1 if one is not. A configuration depends on its index and the seed only");
+        "fuzz", "Run techniques on lights that break samplers, and check that results are finite, on the\n"
+                "light and consistent. Exits with 1 if any check fails. Configurations depend only on their\n"
+                "index and the seed");
     command->add_option("--count", options->count, "Configurations per technique")
         ->check(whole_number(1, 1'000'000'000'000))
         ->capture_default_str();
@@ -67,12 +92,13 @@ void setup_fuzz(CLI::App& bench, int& exit_code) {
         ->capture_default_str();
     command
         ->add_option("--technique", options->techniques,
-                     "Class name of a technique; may be repeated. Default: all")
+                     "Class name of a technique. May be repeated. Default: all")
         ->check(CLI::IsMember(lab::fuzz_technique_names()));
     command->add_option("--scalar", options->scalar, "Number type: float, double or longdouble")
         ->check(CLI::IsMember({"float", "double", "longdouble"}))
         ->capture_default_str();
     add_machine_options(*command, options->threads, options->isa);
+    add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_fuzz(*options); });
 }
 

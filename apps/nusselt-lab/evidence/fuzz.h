@@ -20,6 +20,7 @@ struct FuzzOptions {
     std::uint64_t count = 10'000'000;
     std::optional<int> threads;
     std::optional<std::string> isa;
+    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
 };
 
 /// Adds the subcommand. Its callback stores the result of run_fuzz() in exit_code, which must live until the

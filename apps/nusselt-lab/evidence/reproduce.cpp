@@ -24,7 +24,7 @@ using lab::LineConvergence;
 using lab::LineVisibility;
 using lab::NoiseTable;
 
-/// What all kinds of experiments have.
+/// The fields that all kinds of experiments share.
 struct Heading {
     std::string name;
     std::string source;
@@ -77,8 +77,8 @@ void setup_reproduce(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<ReproduceOptions>();
     CLI::App* command = app.add_subcommand(
         "reproduce",
-        "Render the comparisons of the papers and check what they claim. Prints a table and writes a\n"
-        "page with all images for each experiment. The exit code is 1 if an expectation fails.");
+        "Render the comparisons of the papers and check their claims. Prints a table and writes a page with\n"
+        "all images for each experiment. Exits with 1 if an expectation fails.");
     std::vector<std::string> names;
     for (const Heading& h : all_headings()) names.push_back(h.name);
     command->add_option("EXPERIMENT", options->experiments, "Names of experiments, see --list. Default: all")
@@ -95,13 +95,13 @@ void setup_reproduce(CLI::App& app, int& exit_code) {
     command->add_option("--scenes", options->scenes, "Folder with the shipped scenes")->capture_default_str();
     command
         ->add_option("--reference-spp", options->reference_samples,
-                     "Samples per pixel and light of references, 1 to 2^20. Default: as each experiment says")
+                     "Samples per pixel and light of references, 1 to 2^20. Default: set by each experiment")
         ->check(CLI::Range(1, render::kMaxSamples));
     command
         ->add_option("--width", options->width,
-                     "Width of the images in pixels, 1 to 16384. Default: as each scene says")
+                     "Width of the images in pixels, 1 to 16384. Default: set by each scene")
         ->check(CLI::Range(1, 16384));
-    command->add_option("--threads", options->threads, "Number of threads, 1 to 1024. Default: all cores")
+    command->add_option("--threads", options->threads, "Threads, 1 to 1024. Default: one per hardware thread")
         ->check(CLI::Range(1, 1024));
     command->callback([options, &exit_code] { exit_code = run_reproduce(*options); });
 }
@@ -109,8 +109,8 @@ void setup_reproduce(CLI::App& app, int& exit_code) {
 int run_reproduce(const ReproduceOptions& options) {
     if (!std::filesystem::is_directory(options.scenes))
         throw std::runtime_error(
-            "no folder '" + options.scenes.string() +
-            "': run in the repository or give the folder of the shipped scenes with --scenes");
+            "missing folder '" + options.scenes.string() +
+            "'; run in the repository, or name the folder of the shipped scenes with --scenes");
     lab::RunSettings settings;
     settings.scenes = options.scenes;
     settings.reference_samples = options.reference_samples;

@@ -16,8 +16,8 @@ struct ReproduceOptions {
     std::vector<std::string> experiments; ///< empty: all
     std::filesystem::path output = "out/reproduce";
     std::filesystem::path scenes = "scenes";
-    int reference_samples = 0; ///< 0: as the experiments say
-    int width = 0;             ///< of the images in pixels; 0: as the scenes say
+    int reference_samples = 0; ///< 0: as the experiments define
+    int width = 0;             ///< of the images in pixels; 0: as the scenes define
     std::optional<int> threads;
 };
 

@@ -16,4 +16,22 @@ void add_frame_options(CLI::App& command, BenchFramesOptions& options, const std
     add_resolution_option(command, options.resolution);
 }
 
+void append_line_kind(const render::LineSettings& lines,
+                      std::vector<std::pair<std::string, lab::Cell>>& settings) {
+    settings.emplace_back("orientation", std::string(name_of(lines.orientation)));
+    settings.emplace_back("offsets", std::string(name_of(lines.offsets)));
+    settings.emplace_back("line_shading", std::string(name_of(lines.shading)));
+}
+
+std::vector<std::pair<std::string, lab::Cell>>
+frame_settings(const BenchFramesOptions& options, const scene::Scene& scene, base::Isa isa, int threads) {
+    return {{"scene", options.scene.stem().string()},
+            {"width", scene.film.width},
+            {"height", scene.film.height},
+            {"samples", options.samples},
+            {"repetitions", options.repetitions},
+            {"threads", threads},
+            {"isa", std::string(name_of(isa))}};
+}
+
 } // namespace nusselt::app

@@ -4,7 +4,6 @@
 #include "apps/nusselt-lab/bench/bench_output.h"
 #include "bench_gpu_frames_report.h"
 
-#include "image/io.h"
 #include "lab/timing/llvmpipe_threads.h"
 #include "scene/import/importers.h"
 #include "scene/input/message.h"
@@ -28,12 +27,12 @@ using lab::GpuFrameTimes;
 using render_vulkan::DeviceScene;
 using render_vulkan::ShadowRays;
 
-/// The shipped scenes, and the bathroom where it is at hand.
+/// The shipped scenes, and the bathroom where it is available.
 std::vector<std::filesystem::path> all_scenes(const std::filesystem::path& folder) {
     if (!std::filesystem::is_directory(folder))
         throw std::runtime_error(
-            "no folder '" + folder.string() +
-            "': run in the repository, give the folder of the shipped scenes with --scenes, or name scenes");
+            "missing folder '" + folder.string() +
+            "'; run in the repository, name the folder of the shipped scenes with --scenes, or name scenes");
     std::vector<std::filesystem::path> scenes;
     for (const auto& entry : std::filesystem::directory_iterator(folder))
         if (entry.path().extension() == ".pbrt") scenes.push_back(entry.path());
@@ -92,7 +91,7 @@ private:
                                       ratio_of(*ours, *baseline), lab::kPublishedStrategiesRatio});
     }
 
-    /// Without samples, hence without shadow rays.
+    /// Both frames are shaded without samples, hence without shadow rays.
     void add_line_and_quad(const std::string& name, const scene::Scene& scene) {
         const auto analytic = std::find_if(settings_.begin(), settings_.end(), [](const auto& settings) {
             return settings.technique == render::Technique::ltc_analytic;
@@ -132,7 +131,7 @@ private:
 } // namespace
 
 int run_bench_gpu_frames(const BenchGpuFramesOptions& options) {
-    if (options.json && *options.json != "-") image::check_writable(*options.json);
+    check_json_option(options.json);
     const std::vector<std::filesystem::path> scenes =
         options.scenes.empty() ? all_scenes(options.scene_folder) : options.scenes;
     const gpu::Device device({.choice = options.device});
@@ -149,23 +148,23 @@ int run_bench_gpu_frames(const BenchGpuFramesOptions& options) {
             apply_resolution(options.resolution, scene);
             measurement.add(name, scene);
         } catch (const std::runtime_error& error) {
-            // What the others took long to measure is not lost.
+            // Keep the results of the other scenes, which took long to measure.
             table.failures.push_back({name, error.what()});
             fmt::print(stderr, "nusselt: error: {}\n", scene::message_line(error.what()));
         }
     }
-    write_results(options.json, to_json(table), [&] { print_table(table); });
+    write_results(options.json, results_of(table), [&] { print_table(table); });
     return table.failures.empty() ? 0 : 1;
 }
 
 void setup_bench_gpu_frames(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchGpuFramesOptions>();
     CLI::App* command = bench.add_subcommand(
-        "gpu",
-        "Cost of frames on a GPU: times of the visibility and the shading pass with each technique and\n"
-        "strategies, two samples of each per pixel in one frame; ratios of the two ways to sample\n"
-        "materials that Peters (2021, polygonal lights, Fig. 1) compares; and where a scene has a tube,\n"
-        "analytic shading of a line over that of a quad in its place (Heitz and Hill 2017, Sec. 1.7).");
+        "gpu", "Cost of frames on a GPU: times of the visibility pass and of the shading pass with each\n"
+               "technique and strategy, two samples of each per pixel in one frame; ratios between the two\n"
+               "ways of sampling materials that Peters (2021, polygonal lights, Fig. 1) compares; and where\n"
+               "a scene has a tube, the ratio between analytic shading of a line and of a quad in its place\n"
+               "(Heitz and Hill 2017, Sec. 1.7).");
     command->add_option(
         "SCENES", options->scenes,
         "Scene files. Default: all of --scenes, and bathroom/bathroom.pbrt in the folder that\n"
@@ -176,10 +175,10 @@ void setup_bench_gpu_frames(CLI::App& bench, int& exit_code) {
     command->get_option("--resolution")
         ->description("Image size WIDTHxHEIGHT in pixels, each 1 to 65536")
         ->capture_default_str();
-    command->add_option("--frames", options->frames, "Frames of each kind, of which the median counts")
+    command->add_option("--frames", options->frames, "Frames of each kind; the median is reported")
         ->check(CLI::Range(1, 10001))
         ->capture_default_str();
-    command->add_option("--warm-up", options->warm_up, "Frames of each kind before those")
+    command->add_option("--warm-up", options->warm_up, "Frames of each kind to warm up")
         ->check(CLI::Range(0, 10000))
         ->capture_default_str();
     command
@@ -190,9 +189,9 @@ void setup_bench_gpu_frames(CLI::App& bench, int& exit_code) {
         ->check(to_name_of(render::kTechniques));
     command
         ->add_option("--shadow-rays", options->shadow_rays,
-                     "Ways to trace shadow rays, separated by commas: query, by the driver; bvh, by a\n"
-                     "hierarchy of our own; none. Default: query where the device has that, else bvh; and\n"
-                     "none")
+                     "Ways to trace shadow rays, separated by commas: query (ray queries of the\n"
+                     "driver), bvh (our own hierarchy), none. Default: query where the device supports\n"
+                     "it, else bvh; and none")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->check(CLI::IsMember(names_of(render_vulkan::kShadowRays)));

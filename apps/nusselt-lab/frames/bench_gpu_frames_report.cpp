@@ -6,7 +6,6 @@
 #include "proof/median.h"
 
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 
 namespace nusselt::app {
 
@@ -19,7 +18,7 @@ double spread_of(const std::vector<double>& values) {
     return (lab::quantile(values, 0.75) - lab::quantile(values, 0.25)) / 2 / median(values);
 }
 
-/// With one technique only there is nothing to weigh.
+/// The name is empty where a single technique leaves nothing to weigh.
 std::string heuristic_of(const render::RenderSettings& settings) {
     if (settings.strategies == render::Strategies::diffuse) return "";
     return std::string(name_of(settings.mis));
@@ -27,15 +26,15 @@ std::string heuristic_of(const render::RenderSettings& settings) {
 
 bool is_software(const GpuFrameTable& table) { return table.device.is_software; }
 
-/// What the reader of the numbers has to know about the device; empty if there is nothing.
+/// A remark on the device without which the numbers would mislead; may be empty.
 std::string remark_of(const GpuFrameTable& table) {
-    if (is_software(table)) return "; a software device: these are times of a processor, not of a GPU";
+    if (is_software(table)) return "; a software device: the times are those of a processor, not of a GPU";
     if (table.clock == gpu::Clock::wall)
-        return "; the device has no timestamps: times are with submission and waiting";
+        return "; the device has no timestamps: times include submission and waiting";
     return "";
 }
 
-/// The rows of a scene and way to trace have a heading.
+/// Rows with the same scene and the same shadow rays share a heading.
 bool begins_block(const std::vector<GpuFrameRow>& rows, std::size_t i) {
     return i == 0 || rows[i].scene != rows[i - 1].scene || rows[i].shadow_rays != rows[i - 1].shadow_rays;
 }
@@ -67,44 +66,53 @@ void print_comparisons(const std::vector<GpuFrameComparison>& comparisons) {
     }
 }
 
-nlohmann::ordered_json json_of(const GpuFrameRow& row) {
+lab::ResultTable frame_table(const std::vector<GpuFrameRow>& rows) {
+    lab::ResultTable table = {"frames",
+                              {{"scene"},
+                               {"width"},
+                               {"height"},
+                               {"shadow_ray_tracing"},
+                               {"technique"},
+                               {"strategies"},
+                               {"mis"},
+                               {"samples"},
+                               {"shadow_rays"},
+                               {"visibility_ms", "ms"},
+                               {"shading_ms", "ms"},
+                               {"frame_ms", "ms"},
+                               {"spread"}}};
     const auto milliseconds = [](const std::vector<double>& seconds) { return 1e3 * median(seconds); };
-    return {{"scene", row.scene},
-            {"width", row.width},
-            {"height", row.height},
-            {"shadow_ray_tracing", name_of(row.shadow_rays)},
-            {"technique", name_of(row.settings.technique)},
-            {"strategies", name_of(row.settings.strategies)},
-            {"mis", heuristic_of(row.settings)},
-            {"samples", row.settings.samples},
-            {"shadow_rays", row.times.shadow_rays},
-            {"visibility_ms", milliseconds(row.times.visibility)},
-            {"shading_ms", milliseconds(row.times.shading)},
-            {"frame_ms", milliseconds(row.times.whole())},
-            {"spread", spread_of(row.times.whole())}};
+    for (const GpuFrameRow& row : rows)
+        table.rows.push_back({row.scene, row.width, row.height, std::string(name_of(row.shadow_rays)),
+                              std::string(name_of(row.settings.technique)),
+                              std::string(name_of(row.settings.strategies)), heuristic_of(row.settings),
+                              row.settings.samples, row.times.shadow_rays, milliseconds(row.times.visibility),
+                              milliseconds(row.times.shading), milliseconds(row.times.whole()),
+                              spread_of(row.times.whole())});
+    return table;
 }
 
-nlohmann::ordered_json json_of(const GpuFrameComparison& c) {
-    const std::optional<double>& rays = c.ratio.shadow_rays;
-    return {{"scene", c.scene},
-            {"shadow_ray_tracing", name_of(c.shadow_rays)},
-            {"of", c.ours},
-            {"to", c.baseline},
-            {"frame", c.ratio.whole},
-            {"shading", c.ratio.shading},
-            {"shadow_rays", rays ? nlohmann::ordered_json(*rays) : nlohmann::ordered_json(nullptr)},
-            {"published", c.published}};
+lab::ResultTable ratio_table(const std::vector<GpuFrameComparison>& comparisons) {
+    lab::ResultTable table = {"ratios",
+                              {{"scene"},
+                               {"shadow_ray_tracing"},
+                               {"of"},
+                               {"to"},
+                               {"frame"},
+                               {"shading"},
+                               {"shadow_rays"},
+                               {"published"}}};
+    for (const GpuFrameComparison& c : comparisons) {
+        table.rows.push_back({c.scene, std::string(name_of(c.shadow_rays)), c.ours, c.baseline, c.ratio.whole,
+                              c.ratio.shading, lab::cell_of(c.ratio.shadow_rays), c.published});
+    }
+    return table;
 }
 
-nlohmann::ordered_json json_of(const GpuFrameFailure& failure) {
-    return {{"scene", failure.scene}, {"message", failure.message}};
-}
-
-template <class Items>
-nlohmann::ordered_json list_of(const Items& items) {
-    auto list = nlohmann::ordered_json::array();
-    for (const auto& item : items) list.push_back(json_of(item));
-    return list;
+lab::ResultTable failure_table(const std::vector<GpuFrameFailure>& failures) {
+    lab::ResultTable table = {"failures", {{"scene"}, {"message"}}};
+    for (const GpuFrameFailure& failure : failures) table.rows.push_back({failure.scene, failure.message});
+    return table;
 }
 
 } // namespace
@@ -118,28 +126,20 @@ std::string text_of(const render::RenderSettings& settings) {
 
 void print_table(const GpuFrameTable& table) {
     print_device(table.device, table.clock, remark_of(table), text_of_threads(table.llvmpipe_threads));
-    fmt::print("ms, medians of {} frames in turn after {} to warm up; two samples of each technique per "
+    fmt::print("ms, medians of {} interleaved frames after {} to warm up; two samples of each technique per "
                "pixel and light in one frame\n",
                table.rounds.repetitions, table.rounds.warm_up);
     print_rows(table.rows);
     print_comparisons(table.comparisons);
 }
 
-std::string to_json(const GpuFrameTable& table) {
-    const nlohmann::ordered_json json = {{"device", table.device.name},
-                                         {"kind", table.device.kind},
-                                         {"driver", table.device.driver},
-                                         {"vulkan", table.device.api_version},
-                                         {"clock", text_of_clock(table.clock)},
-                                         {"software", is_software(table)},
-                                         {"threads", text_of_threads(table.llvmpipe_threads)},
-                                         {"frames", table.rounds.repetitions},
-                                         {"warm_up", table.rounds.warm_up},
-                                         {"rows", list_of(table.rows)},
-                                         {"ratios", list_of(table.comparisons)},
-                                         {"failures", list_of(table.failures)}};
-    // Paths may hold bytes that are not UTF-8.
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+lab::Results results_of(const GpuFrameTable& table) {
+    lab::Results results = {"gpu", device_settings(table.device, table.clock, table.llvmpipe_threads), {}};
+    results.settings.insert(results.settings.end(), {{"software", is_software(table)},
+                                                     {"frames", table.rounds.repetitions},
+                                                     {"warm_up", table.rounds.warm_up}});
+    results.tables = {frame_table(table.rows), ratio_table(table.comparisons), failure_table(table.failures)};
+    return results;
 }
 
 } // namespace nusselt::app

@@ -2,6 +2,7 @@
 /// The results of `nusselt-lab bench gpu`.
 
 #include "gpu/device.h"
+#include "lab/results/results.h"
 #include "lab/timing/gpu_frames.h"
 
 #include <optional>
@@ -48,6 +49,6 @@ std::string text_of(const render::RenderSettings& settings);
 
 void print_table(const GpuFrameTable& table);
 
-std::string to_json(const GpuFrameTable& table);
+lab::Results results_of(const GpuFrameTable& table);
 
 } // namespace nusselt::app

@@ -3,14 +3,14 @@
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 #include "apps/nusselt-lab/bench/bench_output.h"
+#include "bench_frames.h"
 
-#include "lab/figures/report_json.h"
+#include "lab/figures/report_results.h"
 #include "lab/lines/line_efficiency.h"
 #include "scene/import/importers.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -39,11 +39,13 @@ void print_curve(const char* title, const NoiseCurve& curve, double mean) {
     fmt::print("\n");
 }
 
+/// Fewer samples are not on the straight line.
+constexpr int kFirstOfOrder = 4;
+
 void print_order(const char* title, const NoiseCurve& curve) {
-    constexpr int kFirst = 4;
-    if (curve.back().count > kFirst)
-        fmt::print("order of {} from {} to {}: {:.2f}\n", title, kFirst, curve.back().count,
-                   lab::fitted_order(curve, kFirst, curve.back().count));
+    if (curve.back().count > kFirstOfOrder)
+        fmt::print("order of {} from {} to {}: {:.2f}\n", title, kFirstOfOrder, curve.back().count,
+                   lab::fitted_order(curve, kFirstOfOrder, curve.back().count));
 }
 
 void print_table(const ThreadsResult& result) {
@@ -69,45 +71,59 @@ void print_table(const ThreadsResult& result) {
     const double loss = largest_loss(rows);
     fmt::print("{}; {}\n\n", first ? fmt::format("lines win from {} points", *first) : "lines do not win",
                loss > 0
-                   ? fmt::format("the choice takes up to {:.2f} times as long as the better of both", loss)
+                   ? fmt::format("the choice takes up to {:.2f} times as long as the better of the two", loss)
                    : "the choice cannot be judged: all its times are extrapolated");
 }
 
-std::string to_json(const std::vector<ThreadsResult>& results, const BenchLineEfficiencyOptions& options,
-                    const lab::LineEfficiencySettings& settings, const scene::Scene& scene, base::Isa isa) {
-    auto list = nlohmann::ordered_json::array();
-    for (const ThreadsResult& result : results) {
-        auto rows = nlohmann::ordered_json::array();
-        for (const EqualErrorRow& row : equal_error_rows(result.efficiency))
-            rows.push_back({{"points", row.points},
-                            {"variance", row.variance},
-                            {"points_seconds", row.points_seconds},
-                            {"lines_seconds", row.lines_seconds},
-                            {"lines_are_extrapolated", row.lines_are_extrapolated},
-                            {"choice_seconds", row.choice_seconds},
-                            {"choice_is_extrapolated", row.choice_is_extrapolated}});
-        list.push_back({{"threads", result.threads},
-                        {"mean_radiance", result.efficiency.mean},
-                        {"points", lab::to_json(result.efficiency.points)},
-                        {"lines", lab::to_json(result.efficiency.lines)},
-                        {"choice", lab::to_json(result.efficiency.choice)},
-                        {"equal_error", rows}});
+lab::Results results_of(const std::vector<ThreadsResult>& results, const BenchLineEfficiencyOptions& options,
+                        const lab::LineEfficiencySettings& settings, const scene::Scene& scene,
+                        base::Isa isa) {
+    lab::ResultTable curves = {"curves", lab::curve_columns({{"threads"}, {"samples"}})};
+    lab::ResultTable orders = {"orders", {{"threads"}, {"samples"}, {"first"}, {"last"}, {"order"}}};
+    lab::ResultTable rows = {"equal_error",
+                             {{"threads"},
+                              {"points"},
+                              {"error"},
+                              {"points_seconds", "s"},
+                              {"lines_seconds", "s"},
+                              {"lines_over_points"},
+                              {"lines_mark"},
+                              {"choice_seconds", "s"},
+                              {"choice_over_better"},
+                              {"choice_mark"},
+                              {"lines_win_from"}}};
+    const auto mark = [](bool is_extrapolated) { return std::string(is_extrapolated ? "*" : ""); };
+    for (const auto& [threads, efficiency] : results) {
+        for (const auto& [samples, curve] :
+             {std::pair("points", &efficiency.points), std::pair("lines", &efficiency.lines),
+              std::pair("choice", &efficiency.choice)}) {
+            lab::append_curve({threads, std::string(samples)}, *curve, efficiency.mean, curves);
+            if (curve->back().count > kFirstOfOrder)
+                orders.rows.push_back({threads, std::string(samples), kFirstOfOrder, curve->back().count,
+                                       lab::fitted_order(*curve, kFirstOfOrder, curve->back().count)});
+        }
+        const std::vector<EqualErrorRow> equal = equal_error_rows(efficiency);
+        const auto first = crossover(equal);
+        for (const EqualErrorRow& row : equal)
+            rows.rows.push_back({threads, row.points, std::sqrt(row.variance) / efficiency.mean,
+                                 row.points_seconds, row.lines_seconds, row.lines_over_points(),
+                                 mark(row.lines_are_extrapolated), row.choice_seconds, row.loss(),
+                                 mark(row.choice_is_extrapolated), lab::cell_of(first)});
     }
-    nlohmann::ordered_json json = {{"scene", options.scene.string()},
-                                   {"width", scene.film.width},
-                                   {"height", scene.film.height},
-                                   {"roughness", options.roughness
-                                                     ? nlohmann::ordered_json(*options.roughness)
-                                                     : nlohmann::ordered_json(nullptr)},
-                                   {"strategies", options.strategies}};
-    json.update(line_kind_json(settings.lines));
-    json.update({{"most_points", options.most_points},
-                 {"most_lines", options.most_lines},
-                 {"repetitions", options.repetitions},
-                 {"isa", name_of(isa)},
-                 {"results", list}});
-    // Paths may hold bytes that are not UTF-8.
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    lab::Results all = {"line-efficiency",
+                        {{"scene", options.scene.stem().string()},
+                         {"width", scene.film.width},
+                         {"height", scene.film.height},
+                         {"roughness", lab::cell_of(options.roughness)},
+                         {"strategies", options.strategies}},
+                        {}};
+    append_line_kind(settings.lines, all.settings);
+    all.settings.insert(all.settings.end(), {{"most_points", options.most_points},
+                                             {"most_lines", options.most_lines},
+                                             {"repetitions", options.repetitions},
+                                             {"isa", std::string(name_of(isa))}});
+    all.tables = {std::move(curves), std::move(orders), std::move(rows)};
+    return all;
 }
 
 lab::LineEfficiencySettings settings_of(const BenchLineEfficiencyOptions& options) {
@@ -128,22 +144,23 @@ void setup_bench_line_efficiency(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchLineEfficiencyOptions>();
     CLI::App* command = bench.add_subcommand(
         "line-efficiency",
-        "How long line samples take to the error of point samples: standard deviations over seeds, and "
-        "times\n"
-        "of stratified point samples (projected solid angle) and line samples in turn, and of the choice\n"
-        "between both for each shading point (--many-occluders points). Times to equal errors are\n"
-        "interpolated; * means that the largest number of lines was not enough, which counts neither way.\n"
-        "Images should have 10^4 pixels or more: five rounds of two seeds give the standard deviation of a\n"
-        "single pixel to a third.");
+        "Time that line samples need to reach the error of point samples: standard deviations over\n"
+        "seeds, and times, of stratified point samples (projected solid angle), of line samples, and\n"
+        "of the choice between both for each shading point (--many-occluders points), interleaved.\n"
+        "Times to equal errors are interpolated; * means that the largest number of lines was not\n"
+        "enough, so the time does not count. Images should have 10^4 pixels or more: five rounds of\n"
+        "two seeds give the standard deviation of a single pixel to a third.");
     command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
     command
-        ->add_option("--most-points", options->most_points,
-                     "Point samples per pixel and light, in powers of two from 4 to this")
+        ->add_option(
+            "--most-points", options->most_points,
+            "Largest number of point samples per pixel and light; smaller ones are powers of two from 4")
         ->check(CLI::Range(2 * lab::kFewestPoints, render::kMaxSamples))
         ->capture_default_str();
     command
-        ->add_option("--most-lines", options->most_lines,
-                     "Lines per shading point and light, in powers of two from 1 to this")
+        ->add_option(
+            "--most-lines", options->most_lines,
+            "Largest number of lines per shading point and light; smaller ones are powers of two from 1")
         ->check(CLI::Range(2, render::kMaxLines))
         ->capture_default_str();
     command
@@ -151,22 +168,25 @@ void setup_bench_line_efficiency(CLI::App& bench, int& exit_code) {
                      fmt::format("Rounds of {} images of each kind, 1 to 1000", lab::kSeedsPerRound))
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    command->add_option("--strategies", options->strategies, "Of point samples, as for nusselt render")
+    command
+        ->add_option("--strategies", options->strategies,
+                     "Strategies for point samples, as for `nusselt render`")
         ->transform(to_name_of(render::kStrategies))
         ->capture_default_str();
     command
-        ->add_option("--roughness", options->roughness,
-                     "Makes all surfaces glossy: roughness, with a reflectance of 0.04 at normal incidence")
+        ->add_option(
+            "--roughness", options->roughness,
+            "Make all surfaces glossy with this roughness and a reflectance of 0.04 at normal incidence")
         ->check(number(0, 1));
     add_line_kind_options(*command, options->lines);
-    add_machine_options(*command, options->threads, options->isa,
-                        "one, then as many as the machine runs at once");
+    add_machine_options(*command, options->threads, options->isa, "one, then one per hardware thread");
     add_resolution_option(*command, options->resolution);
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_line_efficiency(*options); });
 }
 
 int run_bench_line_efficiency(const BenchLineEfficiencyOptions& options) {
+    check_json_option(options.json);
     const base::Isa isa = base::choose_isa(options.isa);
     scene::Scene scene = scene::load_scene(options.scene);
     apply_resolution(options.resolution, scene);
@@ -175,7 +195,8 @@ int run_bench_line_efficiency(const BenchLineEfficiencyOptions& options) {
     std::vector<int> threads = {1, render_cpu::default_thread_count()};
     if (options.threads) threads = {*options.threads};
 
-    if (scene.polygon_lights.empty()) throw std::runtime_error("the scene has no polygonal lights");
+    if (scene.lights.of<scene::PolygonLight>().empty())
+        throw std::runtime_error("the scene has no polygonal lights; choose one that has");
 
     std::vector<ThreadsResult> results;
     for (const int count : threads) {
@@ -188,7 +209,7 @@ int run_bench_line_efficiency(const BenchLineEfficiencyOptions& options) {
         if (!(results.back().efficiency.mean > 0))
             throw std::runtime_error("the image is black: no surface faces a light");
     }
-    write_results(options.json, to_json(results, options, settings, scene, isa), [&] {
+    write_results(options.json, results_of(results, options, settings, scene, isa), [&] {
         for (const ThreadsResult& result : results) print_table(result);
     });
     return 0;

@@ -31,7 +31,7 @@ struct BenchLineEfficiencyOptions {
 /// command line was parsed.
 void setup_bench_line_efficiency(CLI::App& bench, int& exit_code);
 
-/// Measures how long line samples and point samples take to the same error.
+/// Measures the times in which line samples and point samples reach the same error.
 int run_bench_line_efficiency(const BenchLineEfficiencyOptions& options);
 
 } // namespace nusselt::app

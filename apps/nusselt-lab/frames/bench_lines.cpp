@@ -11,7 +11,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 
 #include <memory>
 #include <stdexcept>
@@ -50,7 +49,8 @@ struct MeasuredFrame {
     double visibility_seconds; ///< of these, for visible parts of lines
 };
 
-/// Clocks of threads are too slow to be read for each light: they give the whole, which ticks share out.
+/// Reading the clock of a thread for each light is too slow: it gives the total time, which ticks divide among the
+/// lights.
 MeasuredFrame render(const render_cpu::Renderer& renderer, const render::RenderSettings& settings,
                      base::Isa isa) {
     const double begin = base::process_seconds();
@@ -61,7 +61,7 @@ MeasuredFrame render(const render_cpu::Renderer& renderer, const render::RenderS
     return {work, seconds, seconds * work.lines.visibility_seconds / ticked};
 }
 
-/// In turn, so that whatever else happens on the machine concerns lines and rays.
+/// Interleaves the runs, so that other load on the machine affects lines and rays alike.
 LinesTable measure(const render_cpu::Renderer& renderer, const BenchLinesOptions& options, base::Isa isa,
                    int threads) {
     render::RenderSettings points;
@@ -111,31 +111,30 @@ void print_table(const LinesTable& table) {
                    row.per_line(row.work.parts));
 }
 
-std::string to_json(const LinesTable& table, const BenchLinesOptions& options, const scene::Scene& scene,
-                    base::Isa isa, int threads) {
-    auto list = nlohmann::ordered_json::array();
+lab::Results results_of(const LinesTable& table, const BenchLinesOptions& options, const scene::Scene& scene,
+                        base::Isa isa, int threads) {
+    lab::ResultTable rows = {"lines",
+                             {{"lines"},
+                              {"traced_lines"},
+                              {"visibility_ns", "ns"},
+                              {"visibility_over_shadow_ray"},
+                              {"line_over_point"},
+                              {"boxes_per_light"},
+                              {"triangles_per_light"},
+                              {"shadows_per_light"},
+                              {"parts_per_line"}}};
     for (const LinesRow& row : table.rows)
-        list.push_back({{"lines", row.settings.lines.count},
-                        {"traced_lines", row.work.lines},
-                        {"visibility_nanoseconds", 1e9 * median(row.visible_parts)},
-                        {"visibility_over_shadow_ray", median(row.visibility_over_ray)},
-                        {"line_over_point", median(row.line_over_point)},
-                        {"boxes_per_light", row.per_light(row.work.box_tests)},
-                        {"triangles_per_light", row.per_light(row.work.triangle_tests)},
-                        {"shadows_per_light", row.per_light(row.work.shadow_tests)},
-                        {"parts_per_line", row.per_line(row.work.parts)}});
-    nlohmann::ordered_json json = {
-        {"scene", options.scene.string()}, {"width", scene.film.width}, {"height", scene.film.height}};
-    json.update(line_kind_json(table.rows.front().settings.lines));
-    json.update({{"samples", options.samples},
-                 {"repetitions", options.repetitions},
-                 {"threads", threads},
-                 {"isa", name_of(isa)},
-                 {"shadow_rays", table.shadow_rays},
-                 {"shadow_ray_nanoseconds", 1e9 * median(table.shadow_ray)},
-                 {"rows", list}});
-    // Paths may hold bytes that are not UTF-8.
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+        rows.rows.push_back({row.settings.lines.count, row.work.lines, 1e9 * median(row.visible_parts),
+                             median(row.visibility_over_ray), median(row.line_over_point),
+                             row.per_light(row.work.box_tests), row.per_light(row.work.triangle_tests),
+                             row.per_light(row.work.shadow_tests), row.per_line(row.work.parts)});
+    lab::ResultTable ray = {"shadow_ray",
+                            {{"shadow_rays"}, {"time", "ns"}},
+                            {{table.shadow_rays, 1e9 * median(table.shadow_ray)}}};
+    lab::Results results = {"lines", frame_settings(options, scene, isa, threads), {}};
+    append_line_kind(table.rows.front().settings.lines, results.settings);
+    results.tables = {std::move(rows), std::move(ray)};
+    return results;
 }
 
 } // namespace
@@ -144,14 +143,12 @@ void setup_bench_lines(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchLinesOptions>();
     CLI::App* command = bench.add_subcommand(
         "lines",
-        "What line samples cost: time for the visible parts of a line, over that of Embree's functions "
-        "alone\n"
-        "for a shadow ray to a point of the same light from the same shading point, in packets; and of the\n"
-        "whole render phase for each line, over that for each point. Then, for each shading point and\n"
-        "light: boxes and triangles tested, and shadows of triangles that were compared with packs of lines; "
-        "and\n"
-        "visible parts for each line. Medians of runs in turn.");
-    add_frame_options(*command, *options, "pixel and light, of the rendering with points");
+        "Cost of line samples: the time to find the visible parts of a line, over the time of\n"
+        "Embree's functions alone for a shadow ray to a point of the same light from the same shading\n"
+        "point, in packets; and the time of the whole render phase per line, over that per point.\n"
+        "Then, for each shading point and light: boxes and triangles tested, and shadows of triangles\n"
+        "compared with packs of lines; and visible parts per line. Medians of interleaved runs.");
+    add_frame_options(*command, *options, "pixel and light for the rendering with points");
     command->add_option("--lines", options->counts, "Lines per shading point and light, separated by commas")
         ->delimiter(',')
         ->check(CLI::Range(1, render::kMaxLines))
@@ -162,13 +159,14 @@ void setup_bench_lines(CLI::App& bench, int& exit_code) {
 }
 
 int run_bench_lines(const BenchLinesOptions& options) {
+    check_json_option(options.json);
     const base::Isa isa = base::choose_isa(options.isa);
     scene::Scene scene = scene::load_scene(options.scene);
     apply_resolution(options.resolution, scene);
     const int threads = options.threads.value_or(render_cpu::default_thread_count());
     const render_cpu::Renderer renderer(scene, threads);
     const LinesTable table = measure(renderer, options, isa, threads);
-    write_results(options.json, to_json(table, options, scene, isa, threads), [&] { print_table(table); });
+    write_results(options.json, results_of(table, options, scene, isa, threads), [&] { print_table(table); });
     return 0;
 }
 

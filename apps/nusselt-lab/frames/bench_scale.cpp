@@ -25,8 +25,8 @@ std::filesystem::path renderer_program() {
     for (const std::filesystem::path& program :
          {folder / "nusselt", folder.parent_path() / "nusselt" / "nusselt"})
         if (std::filesystem::is_regular_file(program)) return program;
-    throw std::runtime_error("the program `nusselt`, which is measured, is not beside '" + folder.string() +
-                             "/nusselt-lab'; build or install it");
+    throw std::runtime_error("cannot find the program `nusselt`, which this command measures, beside '" +
+                             folder.string() + "/nusselt-lab'; build or install it");
 }
 
 using lab::ScaleRow;
@@ -56,9 +56,9 @@ void print_rows(const char* title, const std::vector<ScaleRow>& rows) {
                "x render");
     for (const ScaleRow& row : rows) print_row(row);
     const auto power = [](const std::optional<double>& exponent) {
-        return exponent ? fmt::format("n^{:.2f}", *exponent) : "(too few triangles to tell)";
+        return exponent ? fmt::format("n^{:.2f}", *exponent) : "(too few triangles)";
     };
-    fmt::print("from the last scene but one to the last: time grows like {}, memory like {}\n",
+    fmt::print("from the second-largest scene to the largest: time grows like {}, memory like {}\n",
                power(time_exponent(rows)), power(memory_exponent(rows)));
 }
 
@@ -68,15 +68,16 @@ void setup_bench_scale(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchScaleOptions>();
     CLI::App* command = bench.add_subcommand(
         "scale",
-        "Time and memory of generated scenes of growing size, up to the given ones in four steps.\n"
-        "The last columns are the largest memory while loading, and until the image is rendered, over the\n"
-        "size of the scene's arrays; both without what the program takes for a scene of a few triangles.");
+        "Time and memory of generated scenes that grow to the given sizes in four steps. The last\n"
+        "columns are the peak memory until the scene is loaded, and until the image is rendered, over\n"
+        "the size of the scene's arrays; both without the memory that the program needs for a scene\n"
+        "of a few triangles.");
     command->add_option("--triangles", options->triangles, "Triangles of the largest terrain, 0 for none")
         ->check(whole_number(0, kMaxTriangles))
         ->capture_default_str();
     command
         ->add_option("--emissive", options->emissive,
-                     "Triangles of the largest light, each of them a light, 0 for none")
+                     "Triangles of the largest emissive mesh, each of them a light, 0 for none")
         ->check(whole_number(0, kMaxTriangles))
         ->capture_default_str();
     add_json_option(*command, options->json);
@@ -84,6 +85,7 @@ void setup_bench_scale(CLI::App& bench, int& exit_code) {
 }
 
 int run_bench_scale(const BenchScaleOptions& options) {
+    check_json_option(options.json);
     const auto rows = [](ScaleScene scene, std::uint64_t largest) {
         return largest > 0 ? lab::measure_scale(scene, largest, renderer_program()) : std::vector<ScaleRow>{};
     };
@@ -91,7 +93,11 @@ int run_bench_scale(const BenchScaleOptions& options) {
     const std::vector<ScaleRow> lights = rows(ScaleScene::light, options.emissive);
     std::vector<ScaleRow> all = terrains;
     all.insert(all.end(), lights.begin(), lights.end());
-    write_results(options.json, lab::scale_json(all), [&] {
+    const lab::Results results = {
+        "scale",
+        {{"largest_terrain", options.triangles}, {"largest_light", options.emissive}},
+        {lab::scale_table(all)}};
+    write_results(options.json, results, [&] {
         print_rows("Terrains", terrains);
         print_rows("Lights", lights);
     });

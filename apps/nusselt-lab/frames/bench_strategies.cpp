@@ -1,5 +1,6 @@
 #include "bench_strategies.h"
 #include "apps/common/render_setup.h"
+#include "apps/nusselt-lab/bench/bench_output.h"
 #include "bench_frames.h"
 
 #include "render_cpu/renderer.h"
@@ -38,7 +39,7 @@ std::vector<StrategiesRow> make_rows(int samples) {
     return {{"diffuse", one}, {"diffuse, two samples", two}, {"diffuse+ltc", both}};
 }
 
-/// In turn, so that whatever else happens on the machine concerns all rows.
+/// Interleaves the runs, so that other load on the machine affects all rows alike.
 void measure(std::vector<StrategiesRow>& rows, const render_cpu::Renderer& renderer, base::Isa isa,
              int repetitions) {
     for (int i = 0; i < repetitions; ++i) {
@@ -58,6 +59,22 @@ double median_ratio(const std::vector<double>& times, const std::vector<double>&
     return median(std::move(ratios));
 }
 
+lab::ResultTable table_of(const std::vector<StrategiesRow>& rows) {
+    lab::ResultTable table = {"strategies",
+                              {{"strategies"},
+                               {"shadow_rays"},
+                               {"render_seconds", "s"},
+                               {"shading_seconds", "s"},
+                               {"render_ratio"},
+                               {"shading_ratio"}}};
+    for (const StrategiesRow& row : rows)
+        table.rows.push_back({row.name, row.shadow_rays, median(row.render_seconds),
+                              median(row.shading_seconds),
+                              median_ratio(row.render_seconds, rows[0].render_seconds),
+                              median_ratio(row.shading_seconds, rows[0].shading_seconds)});
+    return table;
+}
+
 void print_table(const std::vector<StrategiesRow>& rows) {
     fmt::print("{:<24}{:>14}{:>12}{:>12}{:>14}{:>14}\n", "strategies", "shadow rays", "render ms",
                "shading ms", "render ratio", "shading ratio");
@@ -74,21 +91,26 @@ void setup_bench_strategies(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchStrategiesOptions>();
     CLI::App* command = bench.add_subcommand(
         "strategies",
-        "What a second technique for the specular component costs, with clamped optimal multiple\n"
-        "importance sampling: times of frames, and their ratios to one diffuse sample. Shading is all\n"
-        "but tracing, summed over threads. Medians of runs in turn.");
+        "Cost of a second technique for the specular component, with clamped optimal multiple importance\n"
+        "sampling: times of frames, and their ratios to one diffuse sample. Shading is everything except\n"
+        "tracing, summed over threads. Medians of interleaved runs.");
     add_frame_options(*command, *options, "pixel, light and technique");
+    add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_strategies(*options); });
 }
 
 int run_bench_strategies(const BenchStrategiesOptions& options) {
+    check_json_option(options.json);
     const base::Isa isa = base::choose_isa(options.isa);
     scene::Scene scene = scene::load_scene(options.scene);
     apply_resolution(options.resolution, scene);
-    const render_cpu::Renderer renderer(scene, options.threads.value_or(render_cpu::default_thread_count()));
+    const int threads = options.threads.value_or(render_cpu::default_thread_count());
+    const render_cpu::Renderer renderer(scene, threads);
     std::vector<StrategiesRow> rows = make_rows(options.samples);
     measure(rows, renderer, isa, options.repetitions);
-    print_table(rows);
+    const lab::Results results = {
+        "strategies", frame_settings(options, scene, isa, threads), {table_of(rows)}};
+    write_results(options.json, results, [&] { print_table(rows); });
     return 0;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 /// `nusselt-lab bench accuracy`
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -12,9 +11,9 @@ class App;
 namespace nusselt::app {
 
 struct BenchAccuracyOptions {
-    int count = 5000; ///< of docs/accuracy.json: the test that compares with it takes a quarter of a minute
+    int count =
+        5000; ///< of docs/data/accuracy.json: the test that compares with it takes a quarter of a minute
     std::optional<std::string> isa;
-    std::optional<std::filesystem::path> markdown;
     std::optional<std::string> json; ///< "-" is the standard output, instead of the table
 };
 

@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 
 #include <memory>
 
@@ -18,17 +17,13 @@ std::string text_of(const std::optional<double>& ratio) {
     return ratio ? fmt::format("{:.2f}", *ratio) : "-";
 }
 
-nlohmann::json json_of(const std::optional<double>& ratio) {
-    return ratio ? nlohmann::json(*ratio) : nlohmann::json(nullptr);
-}
-
 void print_table(const lab::GpuSamplerTable& table) {
     print_device(table.device, table.clock, table.fused_fma ? "; fma rounds once" : "; fma rounds twice",
                  text_of_threads(table.llvmpipe_threads));
-    fmt::print("ns, medians with the baseline subtracted. light: per light that is prepared and sampled "
-               "once, 128 per\n"
-               "thread. sample: per sample of a light, prepared once for 128. x Peters: both over the "
-               "published formulas.\n\n");
+    fmt::print(
+        "ns, medians with the baseline subtracted. light: per light, prepared and sampled once, 128\n"
+        "lights per thread. sample: per sample of a light, prepared once for 128. x Peters: both over\n"
+        "the published formulas.\n\n");
     fmt::print("{:<34}{:<34}{:>10}{:>8}{:>10}{:>8}{:>15}\n", "technique", "lights", "light", "spread",
                "sample", "spread", "x Peters");
     for (const auto& row : table.rows) {
@@ -38,33 +33,33 @@ void print_table(const lab::GpuSamplerTable& table) {
     }
 }
 
-std::string to_json(const lab::GpuSamplerTable& table) {
-    nlohmann::json rows = nlohmann::json::array();
+lab::Results results_of(const lab::GpuSamplerTable& table) {
+    lab::ResultTable rows = {"samplers",
+                             {{"technique"},
+                              {"lights"},
+                              {"light_ns", "ns"},
+                              {"sample_ns", "ns"},
+                              {"light_spread"},
+                              {"sample_spread"},
+                              {"light_ratio"},
+                              {"sample_ratio"}}};
     for (const auto& row : table.rows)
-        rows.push_back({{"technique", row.technique},
-                        {"lights", row.configuration},
-                        {"light_ns", row.light_ns},
-                        {"sample_ns", row.sample_ns},
-                        {"light_spread", row.light_spread},
-                        {"sample_spread", row.sample_spread},
-                        {"light_ratio", json_of(row.light_ratio)},
-                        {"sample_ratio", json_of(row.sample_ratio)}});
-    const nlohmann::json json = {{"device", table.device.name},
-                                 {"kind", table.device.kind},
-                                 {"driver", table.device.driver},
-                                 {"vulkan", table.device.api_version},
-                                 {"clock", text_of_clock(table.clock)},
-                                 {"fused_fma", table.fused_fma},
-                                 {"threads", text_of_threads(table.llvmpipe_threads)},
-                                 {"rows", rows}};
-    return json.dump(2) + "\n";
+        rows.rows.push_back({row.technique, row.configuration, row.light_ns, row.sample_ns, row.light_spread,
+                             row.sample_spread, lab::cell_of(row.light_ratio),
+                             lab::cell_of(row.sample_ratio)});
+    lab::Results results = {"gpu-samplers",
+                            device_settings(table.device, table.clock, table.llvmpipe_threads),
+                            {std::move(rows)}};
+    results.settings.emplace_back("fused_fma", table.fused_fma);
+    return results;
 }
 
 } // namespace
 
 int run_bench_gpu_samplers(const BenchGpuSamplersOptions& options) {
+    check_json_option(options.json);
     const auto table = lab::time_gpu_samplers({options.repetitions, options.device});
-    write_results(options.json, to_json(table), [&] { print_table(table); });
+    write_results(options.json, results_of(table), [&] { print_table(table); });
     return 0;
 }
 

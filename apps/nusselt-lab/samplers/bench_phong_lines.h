@@ -13,6 +13,7 @@ namespace nusselt::app {
 struct BenchPhongLinesOptions {
     int repetitions = 31;
     std::optional<std::string> isa;
+    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
 };
 
 /// Adds the subcommand. Its callback stores the result of run_bench_phong_lines() in exit_code, which must live until the

@@ -2,12 +2,10 @@
 #include "apps/common/render_setup.h"
 #include "apps/nusselt-lab/bench/bench_output.h"
 
-#include "image/io.h"
 #include "lab/timing/sampler_timing.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 
 #include <memory>
 
@@ -16,12 +14,10 @@ namespace nusselt::app {
 namespace {
 
 void print_table(const std::vector<lab::SamplerTiming>& rows) {
-    fmt::print("One thread; ns, medians with the baseline subtracted. Lanes: 1 is scalar code, else lanes of "
-               "a register or of\n"
-               "two in flight; times are per lane. prepare: per light, with clipping. sample: a light per "
-               "lane; of one: one light\n"
-               "in all lanes. x plain: prepare and sample over the plain transcription of the published "
-               "formulas as scalar code.\n\n");
+    fmt::print("One thread; ns, medians with the baseline subtracted. lanes: 1 for scalar code, else the\n"
+               "lanes of one register or of two in flight; times are per lane. prepare: per light, with\n"
+               "clipping. sample: a light per lane; of one: one light in all lanes. x plain: prepare and\n"
+               "sample over a plain transcription of the published formulas as scalar code.\n\n");
     fmt::print("{:<34}{:<34}{:>8}{:>6}{:>9}{:>9}{:>9}{:>8}{:>15}\n", "technique", "lights", "isa", "lanes",
                "prepare", "sample", "of one", "spread", "x plain");
     for (const auto& row : rows) {
@@ -33,28 +29,38 @@ void print_table(const std::vector<lab::SamplerTiming>& rows) {
     }
 }
 
-std::string to_json(const std::vector<lab::SamplerTiming>& rows) {
-    nlohmann::json json = nlohmann::json::array();
+/// 0 stands for no ratio.
+lab::Cell ratio_cell(double ratio) { return ratio > 0 ? lab::Cell(ratio) : lab::Cell(nullptr); }
+
+lab::ResultTable table_of(const std::vector<lab::SamplerTiming>& rows) {
+    lab::ResultTable table = {"samplers",
+                              {{"technique"},
+                               {"lights"},
+                               {"isa"},
+                               {"lanes"},
+                               {"code"},
+                               {"prepare_ns", "ns"},
+                               {"sample_ns", "ns"},
+                               {"sample_one_ns", "ns"},
+                               {"prepare_ratio"},
+                               {"sample_ratio"},
+                               {"spread"}}};
     for (const auto& row : rows)
-        json.push_back({{"technique", row.technique},
-                        {"lights", row.configuration},
-                        {"isa", row.isa},
-                        {"lanes", row.lanes},
-                        {"prepare_ns", row.prepare_ns},
-                        {"sample_ns", row.sample_ns},
-                        {"sample_one_ns", row.sample_one_ns},
-                        {"prepare_ratio", row.prepare_ratio},
-                        {"sample_ratio", row.sample_ratio},
-                        {"spread", row.spread}});
-    return json.dump(2) + "\n";
+        table.rows.push_back({row.technique, row.configuration, row.isa, row.lanes,
+                              row.lanes == 1 ? "scalar" : fmt::format("packs of {}, per lane", row.lanes),
+                              row.prepare_ns, row.sample_ns, row.sample_one_ns, ratio_cell(row.prepare_ratio),
+                              ratio_cell(row.sample_ratio), row.spread});
+    return table;
 }
 
 } // namespace
 
 int run_bench_samplers(const BenchSamplersOptions& options) {
-    if (options.json && *options.json != "-") image::check_writable(*options.json);
+    check_json_option(options.json);
     const auto rows = lab::time_samplers({options.repetitions, options.isa});
-    write_results(options.json, to_json(rows), [&] { print_table(rows); });
+    const lab::Results results = {
+        "samplers", {{"repetitions", options.repetitions}, {"isa", rows.front().isa}}, {table_of(rows)}};
+    write_results(options.json, results, [&] { print_table(rows); });
     return 0;
 }
 

@@ -17,6 +17,7 @@ struct BenchShadowsOptions {
     std::uint64_t count = 625'000;
     std::optional<int> threads;
     std::optional<std::string> isa;
+    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
 };
 
 /// Adds the subcommand. Its callback stores the result of run_bench_shadows() in exit_code, which must live until the

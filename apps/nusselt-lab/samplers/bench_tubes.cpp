@@ -14,23 +14,39 @@ void setup_bench_tubes(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchTubesOptions>();
     CLI::App* command = bench.add_subcommand(
         "tubes",
-        "Noise and cost of sampling cylinders of finite radius, next to rejection sampling (Gamito 2016).\n"
-        "Relative standard deviations of the weights of single samples without shadows. Hits and the last\n"
-        "deviation are those of rejection sampling on a Lambertian surface, to be compared with projected\n"
-        "solid angle; x time: preparing and one sample with the latter over the same with rejection.");
+        "Noise and cost of sampling cylinders of finite radius, beside rejection sampling (Gamito\n"
+        "2016). Relative standard deviations of the weights of single samples without shadows. hits\n"
+        "and rejection are the hits and the deviation of rejection sampling on a Lambertian surface,\n"
+        "to be compared with the projected solid angle; x time: preparing and one sample of the\n"
+        "latter over the same of rejection.");
     add_repetitions_option(*command, options->repetitions);
+    add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_tubes(*options); });
 }
 
 int run_bench_tubes(const BenchTubesOptions& options) {
-    fmt::print("{:<34}{:>12}{:>12}{:>12}{:>10}{:>12}{:>8}\n", "light", "solid angle", "projected", "lobe",
-               "hits", "rejection", "x time");
+    check_json_option(options.json);
+    lab::ResultTable table = {"tubes",
+                              {{"light"},
+                               {"solid_angle"},
+                               {"projected_solid_angle"},
+                               {"lobe"},
+                               {"rejection_hits"},
+                               {"rejection"},
+                               {"time_ratio"}}};
+    std::string text = fmt::format("{:<34}{:>12}{:>12}{:>12}{:>10}{:>12}{:>8}\n", "light", "solid angle",
+                                   "projected", "lobe", "hits", "rejection", "x time");
     for (const proof::TubeLight& light : proof::tube_lights()) {
         const lab::TubeNoise noise = lab::measure_tube_noise(light);
-        fmt::print("{:<34}{:>12.4f}{:>12.4f}{:>12.4f}{:>8.1f} %{:>12.4f}{:>8.2f}\n", light.name,
-                   noise.solid_angle, noise.projected_solid_angle, noise.lobe, 100 * noise.rejection_hits,
-                   noise.rejection, lab::measure_tube_time_ratio(light, options.repetitions));
+        const double time_ratio = lab::measure_tube_time_ratio(light, options.repetitions);
+        text += fmt::format("{:<34}{:>12.4f}{:>12.4f}{:>12.4f}{:>8.1f} %{:>12.4f}{:>8.2f}\n", light.name,
+                            noise.solid_angle, noise.projected_solid_angle, noise.lobe,
+                            100 * noise.rejection_hits, noise.rejection, time_ratio);
+        table.rows.push_back({std::string(light.name), noise.solid_angle, noise.projected_solid_angle,
+                              noise.lobe, noise.rejection_hits, noise.rejection, time_ratio});
     }
+    const lab::Results results = {"tubes", {{"repetitions", options.repetitions}}, {std::move(table)}};
+    write_results(options.json, results, [&] { fmt::print("{}", text); });
     return 0;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 /// `nusselt-lab bench tubes`
 
+#include <optional>
+#include <string>
+
 namespace CLI {
 class App;
 }
@@ -9,6 +12,7 @@ namespace nusselt::app {
 
 struct BenchTubesOptions {
     int repetitions = 31;
+    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
 };
 
 /// Adds the subcommand. Its callback stores the result of run_bench_tubes() in exit_code, which must live until the

@@ -2,10 +2,9 @@
 #include "apps/common/interrupt.h"
 #include "apps/common/progress.h"
 #include "apps/common/validators.h"
+#include "apps/nusselt-lab/bench/bench_output.h"
 
-#include "base/atomic_file.h"
 #include "base/stopwatch.h"
-#include "image/io.h"
 #include "lab/fuzzing/convergence.h"
 #include "lab/fuzzing/worst_case.h"
 #include "lab/fuzzing/worst_case_state.h"
@@ -13,12 +12,10 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -32,10 +29,10 @@ using lab::WorstCaseSearch;
 
 constexpr double kDefaultSeconds = 60;
 constexpr double kSecondsBetweenSaves = 30;
-/// Some tenths of a second, which is how long Ctrl-C waits.
+/// A batch takes some tenths of a second, which is the delay of Ctrl-C.
 constexpr std::uint64_t kStartsPerThread = 32;
 
-/// The searches that were asked for, and the file that remembers them.
+/// The chosen searches, and the file that stores their state.
 class Session {
 public:
     explicit Session(const BenchWorstCaseOptions& options) : path_(options.state) {
@@ -66,7 +63,7 @@ private:
         if (!loaded) return;
         if (seed && *seed != loaded->seed)
             throw std::runtime_error(fmt::format(
-                "{}: belongs to a search with seed {}, not {}; leave out --seed or choose another file",
+                "{}: the search in this file has seed {}, not {}; omit --seed or choose another file",
                 path_->string(), loaded->seed, *seed));
         state_ = *loaded;
     }
@@ -111,7 +108,7 @@ void search(const BenchWorstCaseOptions& options, Session& session) {
 }
 
 struct Convergence {
-    const char* lights;
+    std::string lights;
     std::vector<ConvergenceRow> rows;
 };
 
@@ -135,7 +132,7 @@ void print_tables(Session& session, const std::vector<Convergence>& convergence)
     };
     if (convergence.empty()) return;
     fmt::print(
-        "\nMedians over random lights; (cases that tell). digits: log(e_k) / log(e_k-1); order: the same\n"
+        "\nMedians over random lights (conclusive cases). digits: log(e_k) / log(e_k-1); order: the same\n"
         "without the constant factor, log(e_k / e_k-1) / log(e_k-1 / e_k-2).\n\n"
         "{:<10}{:>6}{:>12}{:>24}{:>24}\n",
         "lights", "steps", "error", "digits", "order");
@@ -145,57 +142,58 @@ void print_tables(Session& session, const std::vector<Convergence>& convergence)
                        cell(row.digit_factor, row.digit_cases), cell(row.order, row.order_cases));
 }
 
-std::string to_json(Session& session, const std::vector<Convergence>& convergence) {
-    auto targets = nlohmann::ordered_json::array();
+lab::Results results_of(Session& session, const std::vector<Convergence>& convergence) {
+    lab::ResultTable targets = {"targets", {{"target"}, {"lights"}, {"starts"}, {"error"}, {"bound"}}};
+    lab::ResultTable parameters = {"parameters", {{"target"}, {"parameter"}, {"value"}, {"hexadecimal"}}};
     for (const WorstCaseSearch& one : session.searches()) {
-        auto parameters = nlohmann::ordered_json::object();
-        for (std::size_t i = 0; i < one.worst().parameters.size(); ++i)
-            parameters[one.target().parameter_names[i]] = lab::hexadecimal(one.worst().parameters[i]);
-        targets.push_back({{"target", one.target().name},
-                           {"lights", one.target().description},
-                           {"starts", one.starts()},
-                           {"error", static_cast<double>(one.worst().error)},
-                           {"bound", static_cast<double>(one.target().bound)},
-                           {"parameters", parameters}});
+        const std::string target = one.target().name;
+        targets.rows.push_back({target, one.target().description, one.starts(),
+                                static_cast<double>(one.worst().error),
+                                static_cast<double>(one.target().bound)});
+        for (std::size_t i = 0; i < one.worst().parameters.size(); ++i) {
+            const long double value = one.worst().parameters[i];
+            parameters.rows.push_back({target, one.target().parameter_names[i], static_cast<double>(value),
+                                       lab::hexadecimal(value)});
+        }
     }
-    auto orders = nlohmann::ordered_json::array();
+    lab::ResultTable orders = {"convergence",
+                               {{"lights"},
+                                {"steps"},
+                                {"median_error"},
+                                {"digit_factor"},
+                                {"digit_cases"},
+                                {"order"},
+                                {"order_cases"}}};
+    // Without cases that tell, the median has no meaning.
+    const auto cell = [](auto value, std::size_t cases) { return cases > 0 ? lab::Cell(value) : nullptr; };
     for (const Convergence& c : convergence)
         for (const ConvergenceRow& row : c.rows)
-            orders.push_back({{"lights", c.lights},
-                              {"steps", row.steps},
-                              {"median_error", row.median_error},
-                              {"digit_factor", row.digit_factor},
-                              {"digit_cases", row.digit_cases},
-                              {"order", row.order},
-                              {"order_cases", row.order_cases}});
-    const nlohmann::ordered_json json = {{"seed", session.seed()},
-                                         {"mantissa_bits", std::numeric_limits<long double>::digits},
-                                         {"targets", targets},
-                                         {"convergence", orders}};
-    return json.dump(2) + "\n";
+            orders.rows.push_back({c.lights, row.steps, row.median_error,
+                                   cell(row.digit_factor, row.digit_cases),
+                                   cell(row.digit_cases, row.digit_cases), cell(row.order, row.order_cases),
+                                   cell(row.order_cases, row.order_cases)});
+    return {"worst-case",
+            {{"seed", session.seed()}, {"mantissa_bits", std::numeric_limits<long double>::digits}},
+            {std::move(targets), std::move(parameters), std::move(orders)}};
 }
 
 } // namespace
 
 int run_bench_worst_case(const BenchWorstCaseOptions& options) {
-    if (options.json && *options.json != "-") image::check_writable(*options.json);
+    check_json_option(options.json);
     Session session(options);
     const InterruptGuard guard;
-    // Fails now, not after hours, if the file cannot be written.
+    // Fails now rather than after hours if the file cannot be written.
     session.save();
     search(options, session);
 
     const auto convergence = measure_convergence(interrupted ? 0 : options.convergence, session.seed());
-    if (options.json != "-") print_tables(session, convergence);
-    if (options.json == "-")
-        fmt::print("{}", to_json(session, convergence));
-    else if (options.json)
-        base::write_atomically(*options.json,
-                               [&](std::ofstream& file) { file << to_json(session, convergence); });
+    write_results(options.json, results_of(session, convergence),
+                  [&] { print_tables(session, convergence); });
     const bool holds = std::all_of(session.searches().begin(), session.searches().end(),
                                    [](const auto& one) { return one.worst().error <= one.target().bound; });
     if (interrupted) return kInterruptedExitCode;
-    if (!holds) fmt::print(stderr, "nusselt: a worst case is above the documented bound\n");
+    if (!holds) fmt::print(stderr, "nusselt-lab: error: a worst case exceeds the documented bound\n");
     return holds ? 0 : 1;
 }
 
@@ -204,39 +202,34 @@ void setup_bench_worst_case(CLI::App& bench, int& exit_code) {
     CLI::App* command = bench.add_subcommand(
         "worst-case",
         "Search for the largest backward errors of the iterations by Nelder-Mead in double and long double,\n"
-        "and measure their order of convergence. Exit code 1 if an error is above the documented bound.");
+        "and measure their order of convergence. Exits with 1 if an error exceeds the documented bound.");
     std::vector<std::string> names;
     for (const auto& target : lab::worst_case_targets()) names.push_back(target.name);
-    command->add_option("--target", options->targets, "What to search, may be repeated. Default: all")
+    command->add_option("--target", options->targets, "Target of the search. May be repeated. Default: all")
         ->check(CLI::IsMember(names));
     command
-        ->add_option(
-            "--time", options->seconds,
-            "Seconds to search, shared by the targets. Default: 60, without limit if --starts is given")
+        ->add_option("--time", options->seconds,
+                     "Seconds to search, shared by the targets. Default: 60, or no limit with --starts")
         ->check(seconds());
     command
-        ->add_option(
-            "--starts", options->starts,
-            "Starts per target, those in the state file included; the result then depends on nothing "
-            "but the\nseed. Default: as many as the time allows")
+        ->add_option("--starts", options->starts,
+                     "Starts per target, including those in the state file; the result then depends\n"
+                     "only on the seed. Default: as many as the time allows")
         ->check(whole_number(1, 1'000'000'000'000));
-    command->add_option("--seed", options->seed, "Default: that of the state file, else 1")
-        ->check(whole_number(0, UINT64_MAX));
     command
-        ->add_option("--threads", options->threads,
-                     "Threads, 1 to 1024. Default: as many as the machine runs at once")
+        ->add_option("--seed", options->seed, "Seed of the search. Default: that of the state file, else 1")
+        ->check(whole_number(0, UINT64_MAX));
+    command->add_option("--threads", options->threads, "Threads, 1 to 1024. Default: one per hardware thread")
         ->check(CLI::Range(1, 1024));
     command->add_option(
         "--state", options->state,
-        "File that the search continues from, if it exists, and that is updated, also upon Ctrl-C");
+        "Store the state of the search in this file, also upon Ctrl-C, and continue from it if it exists");
     command
         ->add_option("--convergence", options->convergence,
-                     "Random lights for the order of convergence, 0 to 10^6; 0 leaves it out")
+                     "Random lights for the order of convergence, 0 to 10^6; 0 skips it")
         ->check(CLI::Range(0, 1000000))
         ->capture_default_str();
-    command->add_option(
-        "--json", options->json,
-        "Write the tables as JSON to this file; - for the standard output, instead of the table");
+    add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_worst_case(*options); });
 }
 

@@ -32,7 +32,7 @@ void check_size(const std::filesystem::path& path, const image::Image& a, const 
                 const CompareOptions& options) {
     if (a.width == reference.width && a.height == reference.height) return;
     throw std::runtime_error(fmt::format(
-        "'{}' has {} x {} pixels, the reference '{}' {} x {}; render both at one size", path.string(),
+        "'{}' has {} x {} pixels, the reference '{}' {} x {}; render both at the same size", path.string(),
         a.width, a.height, options.reference.string(), reference.width, reference.height));
 }
 
@@ -99,7 +99,7 @@ MetricLimit parsed_limit(const std::string& option, const std::string& text) {
     return {metric, value};
 }
 
-/// What the command line gives, before it is checked as a whole.
+/// The arguments on the command line, before they are checked as a whole.
 struct Arguments {
     CompareOptions options;
     std::vector<std::filesystem::path> paths; ///< the last one is the reference
@@ -124,7 +124,7 @@ CompareOptions checked_options(const Arguments& arguments) {
     }
     for (const std::string& name : options.metrics) {
         if (std::find(metric_names().begin(), metric_names().end(), name) != metric_names().end()) continue;
-        throw CLI::ValidationError("--metrics", fmt::format("'{}' is no metric; known are {}, or all", name,
+        throw CLI::ValidationError("--metrics", fmt::format("unknown metric '{}'; use {}, or all", name,
                                                             fmt::join(metric_names(), ", ")));
     }
     const bool has_picture =
@@ -132,14 +132,14 @@ CompareOptions checked_options(const Arguments& arguments) {
     if (options.difference_scale && !options.difference && !options.absolute_difference)
         throw CLI::ValidationError("--diff-scale needs --diff or --abs-diff");
     if (options.images.size() > 1 && has_picture)
-        throw CLI::ValidationError("pictures can be written for one IMAGE at a time, not for several");
+        throw CLI::ValidationError("difference pictures are supported for a single IMAGE only");
     return options;
 }
 
 constexpr const char* kDescription =
-    "Compare images with a reference of the same size, the last argument: one image as a list, several as\n"
-    "a table. Pixels that are NaN or infinite in either image are listed and left out of all averages.\n"
-    "Metrics (docs/images.md has the formulas):\n"
+    "Compare images with a reference of the same size, which is the last argument. One image is reported as\n"
+    "a list, several as a table. Averages exclude pixels that are NaN or infinite in either image; these\n"
+    "pixels are listed. Metrics (docs/images.md has the formulas):\n"
     "  mse, rmse       mean squared error and its root\n"
     "  relative_rmse   rmse / mean of the reference\n"
     "  mae             mean absolute error\n"
@@ -149,14 +149,14 @@ constexpr const char* kDescription =
     "  flip            mean of FLIP of the displayed images\n"
     "  hdr_flip        mean of HDR-FLIP, over all exposures that show something of the reference\n"
     "  invalid         number of pixels of the image that are NaN or infinite\n"
-    "Exits with 0; with 1 if a file cannot be read or written or sizes differ; with 3 if a limit of --max\n"
-    "or --min is not kept, after one line for each on the standard error output.";
+    "Exits with 0 upon success, with 1 if a file cannot be read or written or sizes differ, and with 3 if\n"
+    "a limit of --max or --min is broken; each broken limit is a line on the standard error output.";
 
 constexpr const char* kJsonDescription =
-    "Write the numbers as JSON to a file, or with - to the standard output instead of the plain text:\n"
+    "Write the numbers as JSON to a file, or with - to the standard output in place of the plain text:\n"
     "reference, width, height, exposure, pixels_per_degree, rel_mse_epsilon, invalid_reference, images\n"
-    "(an array of image, each metric by its name, mean_image, mean_reference, compared_pixels,\n"
-    "invalid_image) and broken_limits (image, metric, value, limit). Invalid pixels are count, nan_count\n"
+    "(an array with image, each metric by its name, mean_image, mean_reference, compared_pixels and\n"
+    "invalid_image) and broken_limits (image, metric, value, limit). Invalid pixels have count, nan_count\n"
     "and the first ten (x, y, rgb). NaN and infinities are strings. Default: none";
 
 void add_picture_options(CLI::App& command, CompareOptions& options) {
@@ -168,13 +168,14 @@ void add_picture_options(CLI::App& command, CompareOptions& options) {
                        "Write the absolute difference of each channel. Default: none");
     command
         .add_option("--diff-scale", options.difference_scale,
-                    "Difference that gets the full colour, above 0.\n"
-                    "Default: 99th percentile of the difference over the pixels, largest channel each")
+                    "Difference shown in full colour, above 0.\n"
+                    "Default: 99th percentile over the pixels of the largest difference among the channels")
         ->check(number_above_zero(std::numeric_limits<double>::max()));
     command.add_option("--flip-map", options.flip_map,
                        "Write FLIP of each pixel, from black (0) over purple, red and orange to yellow (1).\n"
                        "Default: none");
-    command.add_option("--hdr-flip-map", options.hdr_flip_map, "The same for HDR-FLIP. Default: none");
+    command.add_option("--hdr-flip-map", options.hdr_flip_map,
+                       "Write HDR-FLIP of each pixel in the same colours. Default: none");
 }
 
 } // namespace
@@ -184,9 +185,10 @@ void setup_compare(CLI::App& app, int& exit_code) {
     CompareOptions& options = arguments->options;
     CLI::App* command = app.add_subcommand("compare", kDescription);
     command
-        ->add_option("IMAGES", arguments->paths,
-                     "IMAGE... REFERENCE: .exr, .hdr, .pfm, or .png, .jpg, .tga (made linear); at most\n"
-                     "2^28 pixels each")
+        ->add_option(
+            "IMAGES", arguments->paths,
+            "IMAGE... REFERENCE: .exr, .hdr, .pfm, or .png, .jpg, .tga (converted to linear); at most\n"
+            "2^28 pixels each")
         ->required()
         ->expected(2, 10000);
     command->add_option(
@@ -195,7 +197,7 @@ void setup_compare(CLI::App& app, int& exit_code) {
         "slow for large images");
     command
         ->add_option("--exposure", options.exposure,
-                     "Stops by which images are made brighter for psnr, ssim and flip. Default: 0")
+                     "Brighten images by this many stops for psnr, ssim and flip. Default: 0")
         ->check(exposure());
     command
         ->add_option("--ppd", options.pixels_per_degree,
@@ -203,13 +205,16 @@ void setup_compare(CLI::App& app, int& exit_code) {
                      "Default: 67.02, a screen of 3840 pixels seen at a distance of its width")
         ->check(number_above_zero(image::kFlipMaxPixelsPerDegree));
     command
-        ->add_option("--max", arguments->at_most,
-                     "METRIC=VALUE, any number of times: exit with 3 if it is above (or undefined) for an\n"
-                     "image. Default: none")
+        ->add_option(
+            "--max", arguments->at_most,
+            "METRIC=VALUE: exit with 3 if the metric of an image is above VALUE or undefined. May be\n"
+            "repeated. Default: none")
         ->allow_extra_args(false);
     command
-        ->add_option("--min", arguments->at_least,
-                     "METRIC=VALUE: exit with 3 if it is below (or undefined). Default: none")
+        ->add_option(
+            "--min", arguments->at_least,
+            "METRIC=VALUE: exit with 3 if the metric of an image is below VALUE or undefined. May be\n"
+            "repeated. Default: none")
         ->allow_extra_args(false);
     add_picture_options(*command, options);
     command->add_option("--json", options.json, kJsonDescription);

@@ -14,7 +14,7 @@ namespace nusselt::app {
 
 namespace {
 
-/// What a metric may look at.
+/// The inputs of a metric.
 struct Inputs {
     const image::Image& a;
     const image::Image& reference;
@@ -79,8 +79,9 @@ std::string text_of(double value) { return std::isnan(value) ? "undefined" : fmt
 
 void print_invalid_pixels(const std::string& where, const image::InvalidPixels& invalid) {
     if (invalid.count == 0) return;
-    fmt::print("{} pixels of {} are invalid ({} with NaN, {} only infinite) and left out of all averages:\n",
-               invalid.count, where, invalid.nan_count, invalid.count - invalid.nan_count);
+    fmt::print(
+        "{} pixels of {} are invalid ({} with NaN, {} only infinite) and excluded from all averages:\n",
+        invalid.count, where, invalid.nan_count, invalid.count - invalid.nan_count);
     for (const image::InvalidPixel& pixel : invalid.first)
         fmt::print("  x {} y {}: {} {} {}\n", pixel.x, pixel.y, pixel.rgb[0], pixel.rgb[1], pixel.rgb[2]);
     const std::int64_t not_listed = invalid.count - std::int64_t(invalid.first.size());

@@ -20,7 +20,7 @@ struct MetricValue {
 struct ComparedImage {
     std::filesystem::path path;
     image::Comparison comparison;
-    std::vector<MetricValue> metrics; ///< those asked for, in the order of metric_names()
+    std::vector<MetricValue> metrics; ///< the chosen ones, in the order of metric_names()
 };
 
 /// A limit that an image does not keep.
@@ -35,7 +35,7 @@ struct BrokenLimit {
 /// All metrics.
 [[nodiscard]] const std::vector<std::string>& metric_names();
 
-/// Those that are printed unless others are asked for: all but FLIP, which is slow for large images.
+/// The metrics that are printed by default: all but FLIP, which is slow for large images.
 [[nodiscard]] const std::vector<std::string>& default_metric_names();
 
 /// Computes the metrics that the options ask for, those with limits among them, and writes their pictures.

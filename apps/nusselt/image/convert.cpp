@@ -16,7 +16,7 @@ namespace nusselt::app {
 
 namespace {
 
-/// As it is written on the command line.
+/// The name of a layer as users pass it on the command line.
 std::string display_name(const image::Layer& layer) { return layer.name.empty() ? "(picture)" : layer.name; }
 
 void print_layers(const ConvertOptions& options) {
@@ -30,7 +30,7 @@ image::Image named_layer(const image::LayeredImage& file, const std::string& nam
     const image::Layer* layer = image::find_layer(file, name);
     if (layer != nullptr) return image::layer_image(file, *layer);
     throw std::runtime_error(
-        fmt::format("'{}' has no layer '{}'; --list-layers prints those it has", path.string(), name));
+        fmt::format("'{}' has no layer '{}'; use --list-layers to list its layers", path.string(), name));
 }
 
 void make_brighter(image::Image& picture, double exposure) {
@@ -38,7 +38,7 @@ void make_brighter(image::Image& picture, double exposure) {
     for (float& value : picture.pixels) value = float(scale * double(value));
 }
 
-/// From EXR to EXR, what is known about the picture stays with it.
+/// Keeps the metadata of the picture.
 void convert_exr_to_exr(const ConvertOptions& options) {
     const bool named = options.layer.has_value();
     image::LayeredImage file =
@@ -65,25 +65,25 @@ void setup_convert(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<ConvertOptions>();
     CLI::App* command = app.add_subcommand(
         "convert",
-        "Convert an image to another format, which the extension of OUT names. EXR and PFM store floats;\n"
-        "HDR stores floats of 8 bits with a common exponent; PNG stores 8 bits with the transfer function "
-        "of\n"
-        "sRGB, clamped to [0, 1]. PNG, JPG and TGA are made linear when they are read. From EXR to EXR,\n"
-        "metadata and the place of a crop on the film are kept, other layers are left out.");
+        "Convert an image to another format, given by the extension of OUT. EXR and PFM store floats;\n"
+        "HDR stores 8-bit floats with a common exponent; PNG stores 8 bits with the transfer function\n"
+        "of sRGB, clamped to [0, 1]. PNG, JPG and TGA files are converted to linear when they are\n"
+        "read. From EXR to EXR, metadata and the position of a crop on the film are kept; other\n"
+        "layers are dropped.");
     command
         ->add_option("IN", options->input,
-                     "Image: .exr, .hdr, .pfm, .png, .jpg, .jpeg or .tga; at most 2^28 pixels")
+                     "Image to read: .exr, .hdr, .pfm, .png, .jpg, .jpeg or .tga; at most 2^28 pixels")
         ->required();
-    command->add_option("OUT", options->output, "Image to be written: .exr, .hdr, .pfm or .png");
+    command->add_option("OUT", options->output, "Image to write: .exr, .hdr, .pfm or .png");
     command
         ->add_option("--exposure", options->exposure,
-                     "Make the image brighter by this many stops, that is multiply it by 2^N")
+                     "Brighten the image by this many stops, that is, multiply it by 2^N")
         ->check(exposure())
         ->capture_default_str();
     command->add_option(
         "--layer", options->layer,
-        "Layer of an EXR file, of one channel (it becomes grey) or three. Default: the picture,\n"
-        "which is the channels R, G and B or Y without the name of a layer");
+        "Layer of an EXR file with one channel (converted to grey) or three. Default: the picture, that is,\n"
+        "the channels R, G and B, or Y, without the name of a layer");
     command->add_flag("--list-layers", options->list_layers,
                       "Print the layers of the EXR file IN with their channels, and write nothing");
     command->callback([options, &exit_code] {

@@ -14,7 +14,7 @@ Checkpointer::Checkpointer(std::filesystem::path path, image::Metadata run, cons
     : path_(std::move(path)), run_(std::move(run)), frame_(frame) {
     for (std::size_t i = 0; i < frame.tiles.size(); ++i)
         if (frame.is_finished[i] != 0) finished_.push_back(i);
-    // Counted here: the thread may start when there are more.
+    // The count is taken here because more tiles may be finished when the thread starts.
     thread_ = std::thread([this, interval, saved = finished_.size()] { save_at_intervals(interval, saved); });
 }
 
@@ -46,7 +46,7 @@ void Checkpointer::save_at_intervals(std::chrono::duration<double> interval, std
             render::save_checkpoint(path_, run_, frame_, tiles);
             saved = tiles.size();
         } catch (const std::exception& error) {
-            // The disk may have space again at the next time; the rendering itself is well.
+            // The rendering goes on: the disk may have space for the next checkpoint.
             if (!std::exchange(failed, true)) fmt::print(stderr, "\nwarning: {}\n", error.what());
         }
         lock.lock();

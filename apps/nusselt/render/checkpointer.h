@@ -1,5 +1,5 @@
 #pragma once
-/// Checkpoints while a rendering runs.
+/// Writes checkpoints while a rendering runs.
 
 #include "image/image.h"
 #include "render/frame.h"
@@ -15,7 +15,7 @@
 
 namespace nusselt::app {
 
-/// Stores finished tiles every now and then, in a thread of its own.
+/// Stores finished tiles at regular intervals, in its own thread.
 class Checkpointer {
 public:
     /// \param run   see render::save_checkpoint()
@@ -27,7 +27,7 @@ public:
     Checkpointer(const Checkpointer&) = delete;
     Checkpointer& operator=(const Checkpointer&) = delete;
 
-    /// To be called for each tile that is finished from now on, by any thread.
+    /// Any thread may call this, once for each tile that it finishes.
     void add(std::size_t tile);
 
     /// Ends the thread and stores all that is finished.

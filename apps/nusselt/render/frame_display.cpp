@@ -6,7 +6,7 @@ namespace nusselt::app {
 
 namespace {
 
-/// As EXR files name them.
+/// The names of the channels in EXR files.
 std::vector<std::string> channel_names(const render::Frame& frame) {
     std::vector<std::string> names = {"R", "G", "B"};
     for (const image::Layer& layer : frame.layers)

@@ -16,11 +16,12 @@ void setup_merge(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<MergeOptions>();
     CLI::App* command = app.add_subcommand(
         "merge",
-        "Put EXR files of `nusselt render` together: parts of one image (--part), or images with different\n"
-        "seeds (--seed). Pixels become means over all samples. Scene, size, layers and settings must be the\n"
-        "same; samples that would count twice are an error.");
+        "Combine EXR files of `nusselt render`: parts of one image (--part), or images with different seeds\n"
+        "(--seed). Pixels become means over all samples. Scene, size, layers and settings must be the same;\n"
+        "samples that would count twice are an error.");
     const auto check_exr = [](const std::filesystem::path& path) {
-        return image::is_exr(path) ? std::string() : "'" + path.string() + "' is not the name of an EXR file";
+        return image::is_exr(path) ? std::string()
+                                   : "'" + path.string() + "' must be the name of an EXR file";
     };
     command->add_option("OUT", options->output, "EXR file to write")->required()->check(check_exr, "");
     command->add_option("IN", options->inputs, "EXR files to read, one or more")
@@ -36,7 +37,8 @@ int run_merge(const MergeOptions& options) {
     const image::LayeredImage result = merger.result();
     image::write_layers(options.output, result);
     if (const std::string& finished = result.metadata.at("finished_fraction"); finished != "1")
-        fmt::print(stderr, "warning: only a share of {} of the pixels has samples; parts are missing\n",
+        fmt::print(stderr,
+                   "warning: only a fraction of {} of the pixels has samples; add the missing parts\n",
                    finished);
     return 0;
 }

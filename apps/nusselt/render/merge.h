@@ -1,5 +1,5 @@
 #pragma once
-/// `nusselt merge`: one image of images.
+/// `nusselt merge` combines images into one.
 
 #include <filesystem>
 #include <vector>
@@ -19,7 +19,7 @@ struct MergeOptions {
 /// command line was parsed.
 void setup_merge(CLI::App& app, int& exit_code);
 
-/// Puts images of parts or seeds together.
+/// Combines images of parts or of several seeds.
 int run_merge(const MergeOptions& options);
 
 } // namespace nusselt::app

@@ -37,7 +37,7 @@ namespace nusselt::app {
 
 namespace {
 
-/// Writes the frame to all files. EXR files get all that is known, others the image.
+/// Writes the frame to all files. EXR files get all layers and metadata, others the image alone.
 void write_outputs(const RenderOptions& options, const render::RenderSettings& settings,
                    const scene::Film& film, render::Frame&& frame, const image::Metadata& metadata) {
     const std::vector<std::filesystem::path> paths = output_paths(options, film);
@@ -64,11 +64,12 @@ int stop_without_image(const RenderOptions& options) {
     return kInterruptedExitCode;
 }
 
-/// Tells that the image is incomplete. \param work what the share of it is of
+/// Reports that the image is incomplete. \param work the work of which a fraction is finished
 void print_stop(const RenderOptions& options, double finished, const std::string& work) {
     fmt::print(stderr, "stopped after {:.1f} % of the {}", 100 * finished, work);
     if (options.checkpoint)
-        fmt::print(stderr, "; the same command goes on from '{}'", options.checkpoint->string());
+        fmt::print(stderr, "; run the same command again to continue from '{}'",
+                   options.checkpoint->string());
     fmt::print(stderr, "\n");
 }
 
@@ -77,14 +78,15 @@ void print_stop(const RenderOptions& options, double finished, const std::string
 void setup_render(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand(
-        "render", "Render direct light of a scene. Ctrl-C stops early and writes what is finished, the rest\n"
-                  "black; the exit code is then 130.");
+        "render",
+        "Render the direct light of a scene. Ctrl-C stops early and writes the finished tiles, with\n"
+        "the rest black; the exit code is then 130.");
     command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
     command
         ->add_option(
             "-o,--output", options->outputs,
-            "Image to write: .exr (all settings in its metadata), .png, .hdr or .pfm. May be repeated.\n"
-            "Default: the file name of the film, else of the scene, with .exr, in the current folder")
+            "Image to write: .exr (with all settings in its metadata), .png, .hdr or .pfm. May be repeated.\n"
+            "Default: the file name of the film, else that of the scene, with .exr, in the current folder")
         ->allow_extra_args(false);
     command
         ->add_option("--spp", options->samples,
@@ -95,30 +97,31 @@ void setup_render(CLI::App& app, int& exit_code) {
     command
         ->add_option(
             "--camera-rays", options->camera_rays,
-            "Camera rays per pixel, a divisor of --spp. Default: as --spp, but 1 with --pixel-center")
+            "Camera rays per pixel, a divisor of --spp. Default: same as --spp, or 1 with --pixel-center")
         ->check(CLI::Range(1, render::kMaxSamples));
     command->add_flag_callback(
         "--pixel-center",
         [options] { options->pixel_position = render::name_of(render::PixelPosition::center); },
-        "Send all camera rays through pixel centres, to measure noise. Default: random positions in\n"
-        "the pixel");
+        "Send all camera rays through pixel centres, to measure noise. Default: random positions\n"
+        "within the pixel");
     add_line_options(*command, options->lines);
     add_rigs_option(*command, options->rigs);
-    command->add_option("--camera", options->camera,
-                        "Camera and image size in place of those of the scene: a JSON file as `nusselt "
-                        "camera`\nprints it. Default: the camera of the scene");
+    command->add_option(
+        "--camera", options->camera,
+        "Camera and image size in place of those of the scene: a JSON file in the format that\n"
+        "`nusselt camera` prints. Default: the camera of the scene");
     add_backend_options(*command, *options);
     add_machine_options(*command, options->threads, options->isa);
     add_resolution_option(*command, options->resolution);
-    command->add_option("--exposure", options->exposure, "Brightens PNG images by this many stops, -64 to 64")
+    command->add_option("--exposure", options->exposure, "Brighten PNG images by this many stops, -64 to 64")
         ->check(exposure())
         ->capture_default_str();
     add_layers_option(*command, options->layers);
     add_part_option(*command, options->part);
     command->add_option(
         "--checkpoint", options->checkpoint,
-        "Store finished tiles in this file while rendering. The same command goes on from it, whatever\n"
-        "ended the program; once the image is written, the file is removed. Default: none");
+        "Store finished tiles in this file while rendering. After an interruption of any kind, the same\n"
+        "command continues from it; the file is removed once the image is written. Default: none");
     command
         ->add_option("--checkpoint-interval", options->checkpoint_interval,
                      "Seconds between two checkpoints, 0.01 to 1e6")
@@ -127,14 +130,14 @@ void setup_render(CLI::App& app, int& exit_code) {
     command
         ->add_option(
             "--display-server", options->display_server,
-            "Show tiles when they are finished in the viewer tev, or another one with its protocol, at\n"
+            "Show tiles as they are finished in the viewer tev, or in another one with its protocol, at\n"
             "HOST, HOST:PORT or [IPV6]:PORT. Default: none")
         ->check(check_display_address, "HOST[:PORT]");
-    command->add_flag("-q,--quiet", options->quiet, "Print errors only, no warnings and no progress");
+    command->add_flag("-q,--quiet", options->quiet, "Print only errors: no warnings, no progress");
     command->add_option(
         "--json", options->json,
-        "Write settings, times and numbers of rays as JSON to a file, or with - to the standard output.\n"
-        "Default: none");
+        "Write settings, times and numbers of rays as JSON to a file, or with - to the standard\n"
+        "output. Default: none");
     command->callback([options, &exit_code] {
         check_combination(*options);
         exit_code = run_render(*options);
@@ -191,7 +194,7 @@ int run_render(const RenderOptions& options) {
     if (finished == 0) return stop_without_image(options);
 
     const base::Stopwatch writing;
-    // Also where the image is finished: it may fail to be written.
+    // A finished image is saved too, because writing it may fail.
     const std::optional<std::string> unsaved = checkpointer ? checkpointer->save_all() : std::nullopt;
     metadata["scene"] = options.scene.filename().string();
     metadata["render_seconds"] = image::metadata_text(statistics.render_seconds);

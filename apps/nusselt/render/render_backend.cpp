@@ -17,7 +17,7 @@ namespace nusselt::app {
 void add_backend_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option("--backend", options.backend,
-                    "What renders: cpu; vulkan, a GPU; or auto, a GPU if there is one, else the CPU")
+                    "Renderer: cpu; vulkan, on a GPU; or auto, on a GPU if one is available, else on the CPU")
         ->check(CLI::IsMember({"cpu", "vulkan", "auto"}))
         ->capture_default_str();
     add_device_options(command, options);
@@ -26,18 +26,19 @@ void add_backend_options(CLI::App& command, RenderOptions& options) {
 void add_device_options(CLI::App& command, RenderOptions& options) {
     command.add_option("--device", options.device,
                        "GPU, by its index or a part of its name. Default: the environment variable\n"
-                       "NUSSELT_DEVICE, else the fastest kind");
+                       "NUSSELT_DEVICE if set, else the fastest kind");
     command
-        .add_option("--shadow-rays", options.shadow_rays,
-                    "How a GPU traces shadow rays: query, by its driver; bvh, by a hierarchy of our own;\n"
-                    "or none, for an image without shadows. Default: query where the device has that\n"
-                    "in hardware")
+        .add_option(
+            "--shadow-rays", options.shadow_rays,
+            "How a GPU traces shadow rays: query (ray queries of its driver), bvh (our own hierarchy),\n"
+            "or none, for an image without shadows. Default: query where the device supports it in\n"
+            "hardware, else bvh")
         ->check(CLI::IsMember({"query", "bvh", "none"}));
 }
 
 void check_backend_options(const RenderOptions& options) {
     const auto refuse = [](const std::string& option, const std::string& backend) {
-        throw CLI::ValidationError(option, "that is for --backend " + backend);
+        throw CLI::ValidationError(option, "supported only with --backend " + backend);
     };
     if (options.backend == "cpu")
         for (const auto& [name, is_used] : {std::pair("--device", options.device.has_value()),
@@ -52,10 +53,10 @@ void check_backend_options(const RenderOptions& options) {
 
 namespace {
 
-/// Why --backend auto renders on the CPU; nothing if it does not.
+/// The reason for which --backend auto renders on the CPU; nothing if it renders on a GPU.
 std::optional<std::string> why_on_cpu(const RenderOptions& options, const render::RenderSettings& settings) {
     if (options.checkpoint || options.display_server || options.isa)
-        return "--checkpoint, --display-server and --isa need it";
+        return "--checkpoint, --display-server and --isa are supported only there";
     return why_not_on_gpu(options, settings);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What `nusselt render` renders with.
+/// The choice of the backend of `nusselt render`.
 
 #include "render.h"
 
@@ -23,16 +23,17 @@ void add_device_options(CLI::App& command, RenderOptions& options);
 /// \throws CLI::ValidationError if an option is for the other backend
 void check_backend_options(const RenderOptions& options);
 
-/// The backend that is asked for; with `auto` a GPU where there is one, software devices aside, that supports these
+/// The chosen backend; with `auto` a GPU if one is available, software devices aside, that supports these
 /// settings.
 /// \throws std::invalid_argument if it does not support the settings
 /// \throws std::runtime_error if it is not there
 std::unique_ptr<render::Backend> make_backend(const RenderOptions& options,
                                               const render::RenderSettings& settings);
 
-// In render_vulkan.cpp, or render_without_gpu.cpp where the program is built without its GPU side.
+// Defined in render_vulkan.cpp, or in render_without_gpu.cpp if the program is built without GPU support.
 
-/// Why --backend auto renders on the CPU; nothing if it does not. A device that was asked for by name is used in any case.
+/// The reason for which --backend auto renders on the CPU; nothing if it renders on a GPU. A device chosen by name is
+/// always used.
 std::optional<std::string> why_not_on_gpu(const RenderOptions& options,
                                           const render::RenderSettings& settings);
 

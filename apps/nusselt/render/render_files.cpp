@@ -44,9 +44,9 @@ void check_names(const RenderOptions& options, const scene::Film& film) {
     for (std::size_t i = 0; i < written; ++i)
         for (std::size_t j = i + 1; j < files.size(); ++j)
             if (places[i] == places[j])
-                throw std::runtime_error("'" + files[i].string() + "' would be written and is also " +
-                                         (j < written ? "another output" : "read") +
-                                         "; give one another name");
+                throw std::runtime_error("'" + files[i].string() + "' is an output and also " +
+                                         (j < written ? "another output" : "an input") +
+                                         "; change one of the names");
 }
 
 void print_outputs(const RenderOptions& options, const scene::Film& film) {

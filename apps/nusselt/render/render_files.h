@@ -10,7 +10,7 @@
 
 namespace nusselt::app {
 
-/// Images, as asked for or named after the film or the scene.
+/// Images, as given or named after the film or the scene.
 std::vector<std::filesystem::path> output_paths(const RenderOptions& options, const scene::Film& film);
 
 /// \throws std::runtime_error if something could not be written after the work is done

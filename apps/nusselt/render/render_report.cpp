@@ -81,30 +81,32 @@ void print_warnings(const RenderOptions& options, const render::RenderSettings& 
                     const scene::Scene& scene) {
     for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
     if (options.lines.has_old_name)
-        fmt::print(stderr, "warning: --integrator is now called --light-samples; the next version will not "
-                           "know the old name\n");
-    if (scene.emitters.empty())
-        fmt::print(stderr, "warning: there are no area lights, the image is black; --lights adds some\n");
-    if (samples_visible_normals(settings.strategies) && !scene.line_lights.empty())
         fmt::print(
             stderr,
-            "warning: {} tubes and lines are sampled by {} alone: visible normals are for polygons, no "
-            "sample ever hits a line\n",
-            scene.line_lights.size(), name_of(settings.technique));
+            "warning: --integrator is now called --light-samples; the next version removes the old name\n");
+    if (scene.emitters.empty())
+        fmt::print(
+            stderr,
+            "warning: the scene has no area lights, so the image is black; add lights with --lights\n");
+    for (const scene::LightList& list : scene.lights)
+        if (samples_visible_normals(settings.strategies) && !list.has_brdf_samples() && list.size() > 0)
+            fmt::print(stderr,
+                       "warning: {} {} are sampled by {} alone: visible normals support only polygons, as no "
+                       "sample ever hits a {}\n",
+                       list.size(), list.plural(), name_of(settings.technique), list.name());
     if (settings.light_samples == render::LightSamples::lines &&
         settings.lines.many_occluders == render::ManyOccluders::points &&
         render::most_occluders_for_lines(settings.lines.count) < 0)
-        fmt::print(
-            stderr,
-            "warning: --lines {}: points are faster than fewer than 16 lines and are taken in their place; "
-            "--many-occluders lines keeps lines\n",
-            settings.lines.count);
+        fmt::print(stderr,
+                   "warning: --lines {}: points replace the lines because they are faster than fewer than 16 "
+                   "lines; use --many-occluders lines to keep lines\n",
+                   settings.lines.count);
     const auto wants_variance =
         std::count(settings.layers.begin(), settings.layers.end(), render::LayerKind::variance) > 0;
     if (wants_variance && !has_variance(settings))
         fmt::print(stderr,
-                   "warning: there is no layer of the variance: it needs two or more camera rays per "
-                   "pixel; raise --spp{}\n",
+                   "warning: the layer of the variance is missing because it needs two or more camera rays "
+                   "per pixel; raise --spp{}\n",
                    options.camera_rays ? " and --camera-rays" : "");
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What `nusselt render` tells about its work.
+/// The report of `nusselt render`.
 
 #include "render.h"
 
@@ -13,7 +13,7 @@
 
 namespace nusselt::app {
 
-/// Of the phases of a rendering [s].
+/// The times of the phases of a rendering [s].
 struct Times {
     double load = 0;
     double write = 0;

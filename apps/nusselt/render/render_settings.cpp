@@ -20,7 +20,7 @@ namespace nusselt::app {
 
 namespace {
 
-/// As asked for. By default a technique for each component of the BRDF, if there are two and techniques for them.
+/// The strategies of the options. The default is a technique for each component of the BRDF where both have one.
 render::Strategies strategies_of(const RenderOptions& options, render::Technique technique,
                                  render::BrdfChoice brdf) {
     if (options.strategies) return from_name(render::kStrategies, *options.strategies);
@@ -38,14 +38,14 @@ std::vector<render::LayerKind> layers_of(const std::vector<std::string>& names) 
     return kinds;
 }
 
-/// Throws CLI::ValidationError if something was asked for that only EXR files can store, and none is written.
+/// Throws CLI::ValidationError if options need data that only EXR files can store, and none is written.
 void check_exr_only(const RenderOptions& options) {
     const bool has_exr =
         options.outputs.empty() || std::any_of(options.outputs.begin(), options.outputs.end(), image::is_exr);
     if (has_exr) return;
     for (const auto& [name, is_used] :
          {std::pair("--layers", !options.layers.empty()), std::pair("--part", options.part.has_value())})
-        if (is_used) throw CLI::ValidationError(name, "only EXR files store that; add -o NAME.exr");
+        if (is_used) throw CLI::ValidationError(name, "supported only in EXR files; add -o NAME.exr");
 }
 
 /// Throws CLI::ValidationError if options for line samples are given without these, or for what these cannot be.
@@ -54,7 +54,8 @@ void check_line_options(const RenderOptions& options, render::Technique techniqu
     if (from_name(render::kLightSamples, lines.light_samples) == render::LightSamples::lines) {
         if (technique == render::Technique::ltc_analytic)
             throw CLI::ValidationError(
-                "--light-samples", "lines have shadows, --technique ltc_analytic has none; use another one");
+                "--light-samples",
+                "lines have shadows, but --technique ltc_analytic has none; use another technique");
         return;
     }
     const auto wants_pieces =
@@ -65,13 +66,15 @@ void check_line_options(const RenderOptions& options, render::Technique techniqu
                                          std::pair("--line-shading", lines.shading.has_value()),
                                          std::pair("--many-occluders", lines.many_occluders.has_value()),
                                          std::pair("--layers pieces", wants_pieces)})
-        if (is_given) throw CLI::ValidationError(name, "is for --light-samples lines, which is not given");
+        if (is_given) throw CLI::ValidationError(name, "needs --light-samples lines");
 }
 
 } // namespace
 
 void add_sampling_options(CLI::App& command, RenderOptions& options) {
-    command.add_option("--technique", options.technique, "How lights are sampled; see `nusselt techniques`")
+    command
+        .add_option("--technique", options.technique,
+                    "Technique to sample lights; `nusselt techniques` lists them")
         ->transform(to_name_of(render::kTechniques))
         ->capture_default_str();
     command
@@ -79,21 +82,21 @@ void add_sampling_options(CLI::App& command, RenderOptions& options) {
             "--strategies", options.strategies,
             "Which techniques take samples: diffuse, only that of --technique; diffuse+ltc, that one for\n"
             "the diffuse component of materials and linearly transformed cosines for the specular one; or\n"
-            "the same with GGX visible normals, for polygons only. Default: diffuse+ltc with techniques of\n"
+            "the same with GGX visible normals, for polygons only. Default: diffuse+ltc with techniques for\n"
             "projected solid angles and --brdf material, else diffuse")
         ->transform(to_name_of(render::kStrategies));
     command
         .add_option(
             "--mis", options.mis,
-            "How the samples of two techniques are combined: a heuristic of multiple importance\n"
-            "sampling, one sample of either technique, or each component estimated separately. Default:\n"
-            "clamped_optimal, but balance with GGX visible normals")
+            "How to combine the samples of two techniques: by a heuristic of multiple importance\n"
+            "sampling, by one sample of either technique, or by separate estimates of the components.\n"
+            "Default: clamped_optimal, or balance with GGX visible normals")
         ->transform(to_name_of(render::kMisHeuristics));
     command
         .add_option(
             "--visibility-estimate", options.visibility_estimate,
-            "Share of lights that is visible, roughly, for --mis clamped_optimal and optimal; only noise\n"
-            "depends on it. Default: 0.5")
+            "Approximate fraction of the lights that is visible, for --mis clamped_optimal and optimal;\n"
+            "affects only noise. Default: 0.5")
         ->check(number(0, 1));
     command
         .add_option("--sampler", options.sampler,
@@ -103,10 +106,11 @@ void add_sampling_options(CLI::App& command, RenderOptions& options) {
         ->transform(to_name_of(render::kSampleOrders))
         ->capture_default_str();
     command
-        .add_option("--brdf", options.brdf, "BRDFs of the materials, or Lambertian ones with their albedo")
+        .add_option("--brdf", options.brdf,
+                    "BRDFs of the materials, or Lambertian BRDFs with the albedo of the materials")
         ->transform(to_name_of(render::kBrdfChoices))
         ->capture_default_str();
-    command.add_option("--seed", options.seed, "Chooses the random numbers, 0 to 2^32 - 1")
+    command.add_option("--seed", options.seed, "Seed of the random numbers, 0 to 2^32 - 1")
         ->capture_default_str();
 }
 
@@ -146,18 +150,18 @@ void check_combination(const RenderOptions& options) {
     }
     if (strategies == render::Strategies::diffuse && (options.mis || options.visibility_estimate))
         throw CLI::ValidationError(options.mis ? "--mis" : "--visibility-estimate",
-                                   "there is nothing to combine with --strategies diffuse");
+                                   "not supported with --strategies diffuse, which combines no samples");
     if (options.mis && !allows(strategies, from_name(render::kMisHeuristics, *options.mis))) {
         std::vector<std::string_view> others;
         for (const auto other : render::kMisHeuristics)
             if (allows(strategies, other)) others.push_back(name_of(other));
-        throw CLI::ValidationError(
-            "--mis", fmt::format("{} weighs techniques by what they contribute without shadows, "
-                                 "which is not known for {}; take {}",
-                                 *options.mis, name_of(strategies), fmt::join(others, " or ")));
+        throw CLI::ValidationError("--mis",
+                                   fmt::format("{} needs the contribution of each technique without shadows, "
+                                               "which is unknown for {}; use {}",
+                                               *options.mis, name_of(strategies), fmt::join(others, " or ")));
     }
     if (options.camera_rays && options.samples % *options.camera_rays != 0)
-        throw CLI::ValidationError("--camera-rays", fmt::format("{} does not divide --spp, which is {}",
+        throw CLI::ValidationError("--camera-rays", fmt::format("{} must divide --spp, which is {}",
                                                                 *options.camera_rays, options.samples));
     check_line_options(options, technique);
     check_backend_options(options);

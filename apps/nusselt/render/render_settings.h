@@ -1,5 +1,5 @@
 #pragma once
-/// From the options of `nusselt render` to settings of the renderer.
+/// Converts the options of `nusselt render` to settings of the renderer.
 
 #include "render.h"
 

@@ -13,7 +13,7 @@ std::optional<std::string> why_not_on_gpu(const RenderOptions& options,
     if (options.device) return std::nullopt;
     try {
         const gpu::DeviceDescription device = gpu::chosen_device();
-        if (device.is_software) return "the only device is " + device.name + ", a software one";
+        if (device.is_software) return "the only device, " + device.name + ", is a software device";
     } catch (const gpu::Error& error) {
         return error.what();
     }

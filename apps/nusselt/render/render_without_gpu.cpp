@@ -6,9 +6,8 @@ namespace nusselt::app {
 
 namespace {
 
-constexpr const char* kReason =
-    "this program was built without its GPU side: install libvulkan-dev and glslang-tools, then configure "
-    "and build again";
+constexpr const char* kReason = "this program was built without GPU support; install libvulkan-dev and "
+                                "glslang-tools, then configure and build again";
 
 } // namespace
 

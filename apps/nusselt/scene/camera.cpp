@@ -14,8 +14,8 @@ void setup_camera(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<CameraOptions>();
     CLI::App* const command = app.add_subcommand(
         "camera",
-        "Print the camera of a scene and the size of its images as JSON, to be edited and given to\n"
-        "--camera of `nusselt render`");
+        "Print the camera of a scene and its image size as JSON, to edit and pass to `nusselt render\n"
+        "--camera`");
     command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
     add_resolution_option(*command, options->resolution);
     command->callback([options, &exit_code] { exit_code = run_camera(*options); });

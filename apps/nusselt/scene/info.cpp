@@ -2,11 +2,10 @@
 #include "lights.h"
 
 #include "scene/model/bounds.h"
-#include "scene/model/light_area.h"
+#include "scene/model/lights/light_report.h"
 #include "scene/model/scene_size.h"
 #include "scene/model/vector_math.h"
 
-#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 #include <memory>
@@ -22,8 +21,6 @@ using scene::Double3;
 using scene::Float3;
 
 std::string text(const Float3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
-
-Float3 scaled(double factor, const Float3& v) { return to_float(factor * to_double(v)); }
 
 void print_geometry(const scene::Scene& scene) {
     fmt::print("triangles    {}\nvertices     {}\n", scene.triangles.size(), scene.positions.size());
@@ -71,56 +68,7 @@ void print_materials(const scene::Scene& scene) {
         fmt::print("  {}: {} x {}\n", texture.name, texture.width, texture.height);
 }
 
-double power(const scene::PolygonLight& light) {
-    const double sides = light.two_sided ? 2 : 1;
-    const Double3 radiance = to_double(light.radiance);
-    return sides * std::numbers::pi * scene::area(light) * std::max({radiance.x, radiance.y, radiance.z});
-}
-
-/// All polygons of an emitter.
-void print_emitter(const scene::Scene& scene, std::size_t begin, std::size_t end) {
-    double area = 0;
-    std::size_t vertices = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-        area += scene::area(scene.polygon_lights[i]);
-        vertices += scene.polygon_lights[i].vertices.size();
-    }
-    const scene::PolygonLight& light = scene.polygon_lights[begin];
-    const double sides = light.two_sided ? 2 : 1;
-    fmt::print("  {}: ", scene.emitters[light.emitter].name);
-    if (end - begin > 1) fmt::print("{} polygons, ", end - begin);
-    fmt::print("{} vertices, {:.6g} m^2, radiance {} W/(sr m^2), {}power {} W\n", vertices, area,
-               text(light.radiance), light.two_sided ? "two-sided, " : "",
-               text(scaled(sides * area * std::numbers::pi, light.radiance)));
-}
-
-/// Counts polygons that contribute next to nothing but cost as much time as others.
-void print_weak_lights(const scene::Scene& scene) {
-    constexpr double kWeak = 1e-6;
-    double total = 0;
-    for (const scene::PolygonLight& light : scene.polygon_lights) total += power(light);
-    const auto weak = std::count_if(scene.polygon_lights.begin(), scene.polygon_lights.end(),
-                                    [&](const auto& light) { return power(light) < kWeak * total; });
-    if (weak > 0) fmt::print("  {} polygons have less than {:g} of the power of all polygons\n", weak, kWeak);
-}
-
-void print_lights(const scene::Scene& scene) {
-    const std::vector<scene::PolygonLight>& lights = scene.polygon_lights;
-    fmt::print("\n{} polygon lights, {} line lights\n", lights.size(), scene.line_lights.size());
-    for (std::size_t begin = 0, end = 0; begin < lights.size(); begin = end) {
-        while (end < lights.size() && lights[end].emitter == lights[begin].emitter) ++end;
-        print_emitter(scene, begin, end);
-    }
-    print_weak_lights(scene);
-    for (const scene::LineLight& light : scene.line_lights) {
-        const double extent = length(to_double(light.end) - to_double(light.start));
-        fmt::print("  {}: length {:.6g} m, radius {:.6g} m, radiance {} W/(sr m^2), power {} W\n",
-                   scene.emitters[light.emitter].name, extent, light.radius, text(light.radiance),
-                   text(scaled(scene::area(light) * std::numbers::pi, light.radiance)));
-    }
-}
-
-/// Without the rounding errors of cameras.
+/// Rounds, to hide the rounding errors of cameras.
 std::string direction_text(const Double3& direction) {
     const auto rounded = [](double c) { return 1e-6 * std::round(1e6 * c) + 0.0; };
     const Double3 unit = normalized(direction);
@@ -193,7 +141,7 @@ int run_info(const InfoOptions& options) {
 
     print_geometry(scene);
     print_materials(scene);
-    print_lights(scene);
+    fmt::print("\n{}", light_report(scene));
     print_camera(scene);
     print_film(scene.film);
     fmt::print("\n{} warnings\n", scene.warnings.size());

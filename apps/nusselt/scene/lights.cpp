@@ -15,8 +15,7 @@ void setup_lights(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<LightsOptions>();
     CLI::App* const command = app.add_subcommand(
         "lights",
-        "Print the lights of a scene as a light rig, to be edited and given to --lights of `nusselt\n"
-        "render`");
+        "Print the lights of a scene as a light rig, to edit and pass to `nusselt render --lights`");
     command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
     add_rigs_option(*command, options->rigs);
     command->callback([options, &exit_code] { exit_code = run_lights(*options); });
@@ -31,8 +30,8 @@ void add_rigs_option(CLI::App& command, std::vector<std::filesystem::path>& rigs
     command
         .add_option(
             "--lights", rigs,
-            "Light rig: a JSON file that adds, moves, changes or removes lights, see docs/lights.md. May\n"
-            "be repeated; rigs are applied in this order. Default: the lights of the scene")
+            "Light rig: a JSON file that adds, moves, changes or removes lights; see docs/lights.md. May\n"
+            "be repeated; rigs are applied in the order given. Default: the lights of the scene")
         ->allow_extra_args(false);
 }
 

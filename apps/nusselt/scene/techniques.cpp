@@ -1,55 +1,49 @@
 #include "techniques.h"
 
 #include "render/settings.h"
+#include "techniques_table.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
+
+#include <string>
+#include <string_view>
 
 namespace nusselt::app {
 
 namespace {
 
-using render::Technique;
+constexpr const char* kFormat = "{:<34}{:<11}{:<51}{:<54}{}\n";
 
-struct TechniqueRow {
-    Technique technique;
-    const char* light;
-    const char* density; ///< what the density is proportional to
-    const char* paper;
-    const char* header; ///< below include/nusselt/sampling
-};
+/// The kind of light as scenes name it.
+std::string light_of(const TechniqueRow& row) {
+    const std::string_view light = row.light;
+    const std::string_view kind = light.substr(0, light.find('_'));
+    return kind == "cylinder" ? "tube" : std::string(kind);
+}
 
-constexpr TechniqueRow kRows[] = {
-    {Technique::area, "polygon", "area", "Turk 1992", "polygon_area.h"},
-    {Technique::area, "line", "length", "", "line_area.h"},
-    {Technique::area, "tube", "area", "", "cylinder_area.h"},
-    {Technique::solid_angle, "polygon", "solid angle", "Peters 2021a, Sec. 5", "polygon_solid_angle.h"},
-    {Technique::solid_angle, "line", "solid angle", "Peters 2021b, Sec. 3.1", "line_solid_angle.h"},
-    {Technique::solid_angle, "tube", "solid angle, nearly", "", "cylinder_solid_angle.h"},
-    {Technique::clipped_solid_angle, "polygon", "solid angle above the horizon", "Peters 2021a, Sec. 5",
-     "polygon_solid_angle.h"},
-    {Technique::clipped_solid_angle, "line", "solid angle above the horizon", "Peters 2021b, Sec. 3.1, 3.3",
-     "line_solid_angle.h"},
-    {Technique::clipped_solid_angle, "tube", "solid angle, nearly", "", "cylinder_solid_angle.h"},
-    {Technique::projected_solid_angle, "polygon", "projected solid angle", "Peters 2021a, Sec. 3",
-     "polygon_projected_solid_angle.h"},
-    {Technique::projected_solid_angle, "line", "projected solid angle", "Peters 2021b, Sec. 3, Alg. 1, 2",
-     "line_projected_solid_angle.h"},
-    {Technique::projected_solid_angle, "tube", "projected solid angle, nearly", "",
-     "cylinder_projected_solid_angle.h"},
-    {Technique::projected_solid_angle_biased, "polygon", "projected solid angle, roughly",
-     "Peters 2021a, Sec. 6.4", "polygon_projected_solid_angle.h"},
-    {Technique::projected_solid_angle_biased, "line", "projected solid angle",
-     "Peters 2021b, Sec. 3, Alg. 1, 2", "line_projected_solid_angle.h"},
-    {Technique::projected_solid_angle_biased, "tube", "projected solid angle, nearly", "",
-     "cylinder_projected_solid_angle.h"},
-    {Technique::ltc_analytic, "polygon", "none: no samples, no shadows", "Heitz et al. 2016",
-     "../ltc/polygon_shading.h"},
-    {Technique::ltc_analytic, "line", "none: no samples, no shadows", "Heitz and Hill 2017",
-     "../ltc/line_shading.h"},
-    {Technique::ltc_analytic, "tube", "none: no samples, no shadows", "Heitz and Hill 2017",
-     "../ltc/line_shading.h"},
-};
+bool renders(const TechniqueRow& row, std::string_view technique) {
+    const std::string names = fmt::format(" {} ", row.renders);
+    return names.find(fmt::format(" {} ", technique)) != std::string::npos;
+}
+
+void print_values_of_the_option() {
+    fmt::print("--technique is one of these. It chooses a class for each kind of light:\n\n");
+    for (const auto& [value, name] : render::kNames<render::Technique>) {
+        std::string classes;
+        for (const TechniqueRow& row : kTechniqueRows)
+            if (renders(row, name)) classes += fmt::format("{}{}", classes.empty() ? "" : ", ", row.name);
+        fmt::print("{:<30}{}\n", name,
+                   classes.empty() ? "integrals of LTCs: no samples, no shadows" : classes);
+    }
+}
+
+void print_classes() {
+    fmt::print("\nAll techniques of the library:\n\n");
+    fmt::print(kFormat, "class", "light", "density proportional to", "source", "header in nusselt/");
+    for (const TechniqueRow& row : kTechniqueRows)
+        fmt::print(kFormat, row.name, light_of(row), row.density, row.source, row.header);
+}
 
 } // namespace
 
@@ -60,17 +54,16 @@ void setup_techniques(CLI::App& app, int& exit_code) {
 }
 
 int run_techniques() {
-    constexpr const char* kFormat = "{:<30}{:<9}{:<31}{:<33}{}\n";
-    fmt::print(kFormat, "technique", "light", "density proportional to", "paper", "nusselt/sampling/");
-    for (const TechniqueRow& row : kRows)
-        fmt::print(kFormat, render::name_of(row.technique), row.light, row.density, row.paper, row.header);
+    print_values_of_the_option();
+    print_classes();
     fmt::print(
         "\n"
-        "Tubes are linear lights with their radius; lines the limit of a small one, for\n"
-        "Shape \"line\" with \"bool finite\" false. The samples of the specular component\n"
-        "(--strategies diffuse+ltc) are those of polygon_ltc.h, line_ltc.h and cylinder_ltc.h.\n"
-        "--light-samples lines samples whole lines of polygons, by what surfaces reflect of them or by\n"
-        "their length (Billen 2016; ../line_samples/line_family.h, ../estimate/line_light.h).\n\n"
+        "Tubes are linear lights with their radius; a line is the limit of a small radius, for\n"
+        "Shape \"line\" with \"bool finite\" false. --strategies diffuse+ltc combines the technique with "
+        "the\n"
+        "samples of a glossy lobe: PolygonLtc, LineLtc or CylinderLtc.\n"
+        "--light-samples lines samples whole lines of polygons, by the light that surfaces reflect or by\n"
+        "length (Billen 2016; line_samples/line_family.h, estimate/line_light.h).\n\n"
         "Turk 1992     G. Turk, Generating Random Points in Triangles, Graphics Gems I\n"
         "Peters 2021a  C. Peters, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4),\n"
         "              doi:10.1145/3450626.3459672\n"

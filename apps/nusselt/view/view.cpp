@@ -21,8 +21,9 @@ void setup_view(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<ViewOptions>();
     options->render.backend = "vulkan";
     CLI::App* const command = app.add_subcommand(
-        "view", "Show a scene in a window, rendered by a GPU: fly through it, change techniques and lights,\n"
-                "compare images with each other and with a reference (docs/viewer.md)");
+        "view",
+        "Show a scene in a window, rendered by a GPU: fly through it, change techniques and lights, and\n"
+        "compare images with each other and with a reference (docs/viewer.md)");
     RenderOptions& render = options->render;
     command->add_option("SCENE", render.scene, "Scene file in pbrt syntax, version 3 or 4")->required();
     command
@@ -33,19 +34,22 @@ void setup_view(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     add_sampling_options(*command, render);
     add_rigs_option(*command, render.rigs);
-    command->add_option("--camera", render.camera,
-                        "Camera and image size in place of those of the scene: a JSON file as `nusselt "
-                        "camera`\nprints it. Default: the camera of the scene");
+    command->add_option(
+        "--camera", render.camera,
+        "Camera and image size in place of those of the scene: a JSON file in the format that\n"
+        "`nusselt camera` prints. Default: the camera of the scene");
     add_device_options(*command, render);
     add_resolution_option(*command, render.resolution);
     command
-        ->add_option("--exposure", render.exposure, "Brightens what is shown by this many stops, -32 to 32")
+        ->add_option("--exposure", render.exposure,
+                     "Brighten the displayed image by this many stops, -32 to 32")
         ->check(number(-viewer::kLargestExposure, viewer::kLargestExposure))
         ->capture_default_str();
-    command->add_option("--script", options->script,
-                        "File with commands that are run one after the other, such as `frames 16` and\n"
-                        "`screenshot a.png`; `quit` closes the window. Default: none");
-    command->add_flag("-q,--quiet", render.quiet, "Print errors only, no warnings");
+    command->add_option(
+        "--script", options->script,
+        "File with commands to run one after the other, such as `frames 16` and `screenshot a.png`;\n"
+        "`quit` closes the window. Default: none");
+    command->add_flag("-q,--quiet", render.quiet, "Print only errors: no warnings");
     command->callback([options, &exit_code] {
         check_combination(options->render);
         exit_code = run_view(*options);

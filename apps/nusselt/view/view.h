@@ -13,7 +13,7 @@ class App;
 namespace nusselt::app {
 
 struct ViewOptions {
-    RenderOptions render; ///< those of the image at first
+    RenderOptions render; ///< initial options of the image
     std::optional<std::filesystem::path> script;
 };
 

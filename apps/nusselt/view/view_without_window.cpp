@@ -7,9 +7,8 @@
 namespace nusselt::app {
 
 int run_view(const ViewOptions&) {
-    throw std::runtime_error(
-        "this program was built without its viewer: install libvulkan-dev, glslang-tools, "
-        "libglfw3-dev and libimgui-dev, then configure and build again");
+    throw std::runtime_error("this program was built without the viewer; install libvulkan-dev, "
+                             "glslang-tools, libglfw3-dev and libimgui-dev, then configure and build again");
 }
 
 void setup_view(CLI::App& app, int& exit_code) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The parts of a BRDF that samplers tell apart.
+/// The parts of a BRDF that samplers distinguish.
 
 #include <nusselt/core/vec.h>
 

@@ -8,7 +8,7 @@
 ///   specular D V F,  D = a^2 / (pi ((n.h)^2 (a^2 - 1) + 1)^2),  F = f0 + (1 - f0)(1 - l.h)^5,
 ///            V = 1 / 2 / (n.l sqrt((n.v)^2 (1 - a^2) + a^2) + n.v sqrt((n.l)^2 (1 - a^2) + a^2))
 /// with perceptual roughness r and a = r^2. The diffuse lobe is Burley's (2012, Physically-Based Shading at
-/// Disney) but for F90 and E; D is Eq. 33 of Walter et al. 2007, doi:10.2312/EGWR/EGSR07/195-206; V is Eq. 99
+/// Disney) except for F90 and E; D is Eq. 33 of Walter et al. 2007, doi:10.2312/EGWR/EGSR07/195-206; V is Eq. 99
 /// of Heitz 2014, JCGT 3(2), over 4 n.l n.v; F is from Schlick 1994, doi:10.1111/1467-8659.1330233.
 
 #include <nusselt/bsdf/components.h>
@@ -27,7 +27,7 @@ inline constexpr double kSmallestVisibilityDenominator = 1e-20;
 /// after swapping wo and wi, never NaN and at most 1.7e27 (specular) or 1.32 (diffuse) for albedo and f0 up
 /// to 1; eval_specular(wi) times wi.z is at most 1.6e11.
 ///
-/// The specular part alone reflects at most what it receives. The parts do not know of each other: with
+/// The specular part alone reflects at most what it receives. The parts are independent of each other: with
 /// albedo 1 and f0 0.04 their sum stays below 1 up to 1.2 rad from the normal, then grows to 1.117 at
 /// roughness 1 towards the horizon; with both albedo and f0 large it is larger.
 ///

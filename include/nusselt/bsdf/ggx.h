@@ -1,6 +1,6 @@
 #pragma once
-/// What BRDFs and samplers with GGX normals share (B. Walter et al. 2007, Microfacet Models for Refraction through Rough
-/// Surfaces, doi:10.2312/EGWR/EGSR07/195-206, Eq. 33).
+/// Functions that BRDFs and samplers with GGX normals share (B. Walter et al. 2007, Microfacet Models for Refraction
+/// through Rough Surfaces, doi:10.2312/EGWR/EGSR07/195-206, Eq. 33).
 
 #include <nusselt/core/trig.h>
 #include <nusselt/core/vec.h>
@@ -21,7 +21,7 @@ NUSSELT_INLINE Real ggx_alpha(const Real& roughness) noexcept {
 
 /// |h|^2 / (h.x^2 + h.y^2 + alpha^2 h.z^2), from which the density of normals follows. The textbook's
 /// (n.h)^2 (alpha^2 - 1) + 1 cancels in narrow lobes; this is a quotient of sums of positive terms.
-/// \param h half vector in shading space of any length but 0, say wo + wi.
+/// \param h half vector in shading space of any length but 0, such as wo + wi.
 template <class Real>
 NUSSELT_INLINE Real ggx_ratio(const Vec3<Real>& h, const Real& alpha2) noexcept {
     // The scaled vector has a length near one even if the directions almost oppose each other.

@@ -15,7 +15,7 @@ NUSSELT_NAMESPACE_BEGIN
 
 /// All visible normals, also those that reflect to directions below the surface.
 struct VisibleCap {
-    /// Which share of the part of the cap below the equator is sampled, in [0, 1].
+    /// The fraction of the part of the cap below the equator that is sampled, in [0, 1].
     template <class Real>
     NUSSELT_HD static Real reach(const Vec3<Real>&, const Real&) noexcept {
         return Real(1);
@@ -51,7 +51,7 @@ public:
     GgxVisibleNormals() = default;
 
     /// \param wo    unit direction to the eye.
-    /// \param alpha of GGX, say ggx_alpha(roughness); clamped to [kSmallestGgxAlpha, 1].
+    /// \param alpha of GGX, such as ggx_alpha(roughness); clamped to [kSmallestGgxAlpha, 1].
     NUSSELT_HD GgxVisibleNormals(const Vec3<Real>& wo, const Real& alpha) noexcept
         : alpha_(min(max(alpha, Real(Scalar(kSmallestGgxAlpha))), Real(1))) {
         const auto lit = wo.z > Real(0);
@@ -101,7 +101,7 @@ public:
         const Vec3<Real> h = wo_ + wi;
         const Real ratio = ggx_ratio(h, alpha_ * alpha_);
         const Real density = ggx_distribution(ratio, alpha_ * alpha_) * factor_;
-        // All directions above the surface are in the cap, whatever rounding says.
+        // All directions above the surface are in the cap, despite rounding.
         const auto reached = (wi.z > Real(0)) | ((h.z > Real(0)) & (height_of(h, ratio) >= rim_));
         return select(reached, density, Real(0));
     }

@@ -54,8 +54,8 @@
 #define NUSSELT_UNROLL
 #endif
 
-/// Error-free products, infinities, NaN and the sign of zero mean what IEEE 754 says. Contraction into fma
-/// (-ffp-contract=fast, the default of g++) is fine. clang and nvcc do not tell of every such option: never give
+/// Error-free products, infinities, NaN and the sign of zero mean what IEEE 754 defines. Contraction into fma
+/// (-ffp-contract=fast, the default of g++) is fine. clang and nvcc do not report every such option: never give
 /// clang -fassociative-math, -freciprocal-math or -fno-signed-zeros alone, nor nvcc --use_fast_math.
 #if defined(__FAST_MATH__) || defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__) ||                \
     defined(_M_FP_FAST) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)

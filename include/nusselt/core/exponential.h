@@ -1,8 +1,8 @@
 #pragma once
 /// Powers of cosines with any real exponent, also huge ones.
 ///
-/// As in trig.h: single precision, scalar or pack, evaluates polynomials with fma; double and long double call the
-/// standard library. tests/unit/core/exponential_test.cpp enforces the error bounds.
+/// The rules are those of trig.h: single precision, scalar or pack, evaluates polynomials with fma; double and long
+/// double call the standard library. tests/unit/core/exponential_test.cpp enforces the error bounds.
 
 #include <nusselt/core/trig.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the library asks of a number type. `Real` is float, double, long double, or a pack of float or double
+/// The requirements of the library on number types. `Real` is float, double, long double, or a pack of float or double
 /// with one independent lane per light and shading point.
 ///
 /// Templates use the operations below by unqualified name: this header has them for scalars, simd/pack.h for
@@ -96,9 +96,9 @@ NUSSELT_INLINE float fma(float a, float b, float c) noexcept {
 #endif
 }
 NUSSELT_INLINE double fma(double a, double b, double c) noexcept { return std::fma(a, b, c); }
-/// Without an instruction, and a library routine would take 400 ns: the product as an exact sum of two numbers
-/// (Dekker 1971), whose larger one is added first. In difference_of_products() the result is the same; in general it
-/// may be the other neighbour of the exact value.
+/// There is no instruction, and a library routine would take 400 ns: this uses the product as an exact sum of two
+/// numbers (Dekker 1971), whose larger one is added first. In difference_of_products() the result is the same; in
+/// general it may be the other neighbour of the exact value.
 NUSSELT_HD inline long double fma(long double a, long double b, long double c) noexcept {
     if constexpr (std::numeric_limits<long double>::digits == std::numeric_limits<double>::digits) {
         return std::fma(a, b, c);

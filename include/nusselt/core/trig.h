@@ -142,7 +142,7 @@ NUSSELT_INLINE Real atan2_positive(const Real& y_in, const Real& x) noexcept {
     }
 }
 
-/// As atan2_positive with an absolute error of at most 1.3e-5 rad in every precision: for the biased variant
+/// Like atan2_positive, but with an absolute error of at most 1.3e-5 rad in every precision: for the biased variant
 /// of Peters 2021 (polygonal lights), Sec. 6.4.
 template <class Real>
 NUSSELT_INLINE Real atan2_positive_fast(const Real& y_in, const Real& x) noexcept {

@@ -1,8 +1,8 @@
 #pragma once
-/// How wrong a sample is: the change of the random number that would explain it.
+/// The backward error of a sample: the change of the random number that would explain it.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Linear Lights, Sec. 3.4, and BRDF Importance Sampling for
-/// Polygonal Lights, Sec. 3.6. An error of a direction says little where directions are dense; an error of
+/// Polygonal Lights, Sec. 3.6. An error of a direction is not conclusive where directions are dense; an error of
 /// the random number is directly comparable to the spacing of random numbers.
 
 #include <nusselt/core/vec.h>

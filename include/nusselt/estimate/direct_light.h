@@ -20,7 +20,7 @@ struct DirectLightSample {
     Vec3<Real> wi;       ///< unit direction to the light, in shading space
     Vec3<Real> p;        ///< the point on the light [m]
     Vec3<Real> shadowed; ///< zero where no shadow ray is needed
-    Vec3<Real> constant; ///< zero but for OptimalHeuristic
+    Vec3<Real> constant; ///< zero except for OptimalHeuristic
 };
 
 /// One light at one surface point: techniques for both components, whose samples any heuristic can combine.
@@ -113,7 +113,7 @@ private:
 
     NUSSELT_HD static DirectLightSample<Real> combined(const LightSample<Real>& s,
                                                        const MisEstimate<Real>& estimate) noexcept {
-        // At a line that almost meets the point this is beyond all floats, and infinity times no visibility NaN.
+        // At a line that almost meets the point this overflows, and infinity times no visibility is NaN.
         const auto limited = [](const Real& x) {
             const auto most = Real(std::numeric_limits<scalar_t<Real>>::max());
             return select(x > most, Real(0), x);

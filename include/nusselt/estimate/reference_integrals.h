@@ -29,7 +29,7 @@ Real reference_line_integral(const LineSegment<Real>& light, const Density& dens
 }
 
 /// The integral over the lateral surface of a tube, without its end caps.
-/// \param light  the axis [m]; the origin is outside of the tube.
+/// \param light  the axis [m]; the origin is outside the tube.
 /// \param radius [m]
 /// \param around, along steps around the tube and along it.
 template <class Real, class Density>
@@ -53,7 +53,7 @@ Real reference_tube_integral(const LineSegment<Real>& light, Real radius, const 
 }
 
 /// The integral over the end caps of a tube.
-/// \param light  the axis [m]; the origin is outside of the tube.
+/// \param light  the axis [m]; the origin is outside the tube.
 /// \param radius [m]
 /// \param around, outward steps around the axis and away from it.
 template <class Real, class Density>

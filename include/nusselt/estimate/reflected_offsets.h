@@ -68,8 +68,8 @@ private:
     /// length.
     static constexpr double kInset = 1e-3;
 
-    /// The narrowest highlight that gets nodes of its own, as a share of the light: single precision still tells them
-    /// apart.
+    /// The narrowest highlight that gets nodes of its own, as a share of the light: single precision still
+    /// distinguishes them.
     static constexpr double kNarrowest = 1e-4;
 
     /// Between two nodes.

@@ -30,7 +30,7 @@ struct CosineMeasures {
     }
 };
 
-/// Projected solid angle and linearly transformed cosine, as published: next to no noise but for shadows.
+/// Projected solid angle and linearly transformed cosine, as published: next to no noise except from shadows.
 struct ProjectedSolidAngleAndLtc : CosineMeasures {
     template <class Real, int N, class Surface>
     NUSSELT_HD static auto diffuse(const ConvexPolygon<Real, N>& light, const Surface& /*surface*/) noexcept {
@@ -71,8 +71,8 @@ struct BiasedProjectedSolidAngleAndLtc : CosineMeasures {
     }
 };
 
-/// What pairs with sampling of the BRDF have in common: the published competitors, for polygons only. Such samples are not
-/// confined to the light, so that nothing is known of the integral of the specular component: heuristics with
+/// The base of pairs with sampling of the BRDF, the published competitors, for polygons only. Such samples are not
+/// confined to the light, so that the integral of the specular component is unknown: heuristics with
 /// coefficients give them no weight. Meant for BalanceHeuristic.
 /// \tparam Lobe GgxVisibleNormals or GgxBoundedVisibleNormals.
 template <template <class...> class Lobe>

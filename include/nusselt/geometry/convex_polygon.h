@@ -23,7 +23,7 @@ struct ConvexPolygon {
     Vec3<Real> normal;    ///< unit normal, right-handed with the winding; zero if the polygon has no area
 };
 
-/// Twice the area times the right-handed unit normal; zero if the area cannot be told from rounding.
+/// Twice the area times the right-handed unit normal; zero if the area cannot be distinguished from rounding.
 template <class Real, int N>
 NUSSELT_HD inline Vec3<Real> doubled_area_normal(const ConvexPolygon<Real, N>& polygon) noexcept {
     Vec3<Real> offset = polygon.edge[0];
@@ -48,7 +48,7 @@ NUSSELT_HD inline Vec3<Real> doubled_area_normal(const ConvexPolygon<Real, N>& p
 
 namespace detail {
 
-/// The dot product, 0 if it cannot be told from rounding.
+/// The dot product, 0 if it cannot be distinguished from rounding.
 template <class Real>
 NUSSELT_INLINE Real dot_or_zero(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
     const Vec3<Real> product{a.x * b.x, a.y * b.y, a.z * b.z};
@@ -60,9 +60,9 @@ NUSSELT_INLINE Real dot_or_zero(const Vec3<Real>& a, const Vec3<Real>& b) noexce
 
 } // namespace detail
 
-/// Signed distance of the origin from the plane of the polygon [m], positive if the normal points away from
-/// it; 0 if it cannot be told from rounding. The nearest vertex decides: it has the smallest rounding error, none
-/// if it is the origin.
+/// Signed distance of the origin from the plane of the polygon [m], positive if the normal points away from it; 0 if it
+/// cannot be distinguished from rounding. The nearest vertex decides: it has the smallest rounding error, none if it is
+/// the origin.
 template <class Real, int N>
 NUSSELT_HD inline Real plane_distance(const ConvexPolygon<Real, N>& polygon) noexcept {
     const auto extent = [](const Vec3<Real>& v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); };

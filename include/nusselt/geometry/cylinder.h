@@ -47,9 +47,9 @@ struct CylinderSlice {
     Vec2<Real> azimuth; ///< t in the basis m, n of the view
     Vec3<Real> t;       ///< unit, perpendicular to the axis
     Real offset;        ///< of the half-plane from the axis, to the left of t if s points to the eye
-    Real half_chord;    ///< half the width of the strip outside of the cylinder
+    Real half_chord;    ///< half the width of the strip outside the cylinder
     Real along;         ///< middle of the strip, rho of the axis
-    Real near, far;     ///< near is 0 inside of the infinite cylinder
+    Real near, far;     ///< near is 0 inside the infinite cylinder
     mask_t<Real> meets; ///< false if the half-plane misses the cylinder; it then touches it
 };
 
@@ -139,7 +139,7 @@ NUSSELT_INLINE CylinderView<Real> make_cylinder_view(const Cylinder<Real>& cylin
     v.length = axis.length;
     v.radius = cylinder.radius;
 
-    // Find the closest point of the axis, and whether the origin lies outside of the infinite cylinder.
+    // Find the closest point of the axis, and whether the origin lies outside the infinite cylinder.
     const Vec3<Real> moment = cross(axis.p0, v.s);
     const Vec3<Real> closest = cross(v.s, moment);
     const Real distance = length(moment);
@@ -188,7 +188,7 @@ NUSSELT_INLINE CylinderView<Real> broadcast(const CylinderView<Single>& v) noexc
             mask_t<Real>(v.visible)};
 }
 
-/// Where a ray meets a light. Without meaning if it does not hit, but for `hits`.
+/// The intersection of a ray with a light. If the ray does not hit, only `hits` is valid.
 template <class Real>
 struct LightHit {
     mask_t<Real> hits;

@@ -127,7 +127,7 @@ private:
     }
 };
 
-/// With coordinates of order one, a smaller distance of a line from the origin cannot be told from rounding.
+/// With coordinates of order one, a smaller distance of a line from the origin cannot be distinguished from rounding.
 template <class Scalar>
 inline constexpr Scalar kSmallestDistance = 4 * std::numeric_limits<Scalar>::epsilon();
 
@@ -136,7 +136,7 @@ inline constexpr Scalar kSmallestDistance = 4 * std::numeric_limits<Scalar>::eps
 /// \param closest  vector to the closest point of the line.
 /// \param distance its length.
 /// \param l0, l1   coordinates of the points along the line.
-/// \param length   l1 - l0, which the caller may know more accurately.
+/// \param length   l1 - l0, which the caller may have more accurately.
 template <class Real>
 NUSSELT_INLINE LineExtent<Real>
 make_line_extent(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& closest,

@@ -103,7 +103,7 @@ struct LineChoice {
 /// \tparam N    bound on the number of vertices of the light.
 ///
 /// Lights without area have lines without length and densities of 0; everything is finite for any extent of the light.
-/// What belongs to the light alone, offsets, coordinates and densities, is accurate relative to the light's extent,
+/// Offsets, coordinates and densities belong to the light alone. They are accurate relative to the light's extent,
 /// however far away the light is.
 template <class Real, int N>
 class LineFamily {

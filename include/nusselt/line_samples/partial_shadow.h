@@ -1,7 +1,7 @@
 #pragma once
 /// Shadows of triangles of which only a part lies between the point and the plane of the light.
 ///
-/// As triangle_shadow.h, but each line decides which of the edges that it crosses it meets in front of the point, and
+/// Like triangle_shadow.h, but each line decides which of the edges that it crosses it meets in front of the point, and
 /// before the light.
 
 #include <nusselt/line_samples/triangle_shadow.h>

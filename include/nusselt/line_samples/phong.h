@@ -123,7 +123,7 @@ NUSSELT_HD inline Real phong_integral(const LineSegment<Real>& light, const Vec3
 template <class Real>
 NUSSELT_HD inline Real phong_part(const LobeLine<Real>& cosine, const Interval<Real>& part,
                                   const Vec3<Real>& mirror, const Real& exponent) noexcept {
-    // Of a cosine lobe the factor has 1 / (2 pi distance), and the integral of the Phong lobe the distance again.
+    // The factor of a cosine lobe has 1 / (2 pi distance), and the integral of the Phong lobe has the distance again.
     const Real half_cosine_at_light = Real(kPi<scalar_t<Real>>) * cosine.distance * cosine.factor;
     const LineExtent<Real> e = cosine.extent(cosine.clipped(part));
     return select(e.visible, half_cosine_at_light * phong_integral(e, mirror, exponent), Real(0));

@@ -168,7 +168,8 @@ NUSSELT_INLINE ShadowCorner<Real> shadow_corner(const ShadowFrame<Real>& frame,
             fma(p.y, frame.origin.z, -(p.z * frame.origin.y)) * inverse};
 }
 
-/// Where a plane through the point meets the plane of the light: m.(origin + offset across + t along) = constant.
+/// The intersection of a plane through the point with the plane of the light: m.(origin + offset across + t along) =
+/// constant.
 /// \param otherwise t where the plane has all of a line, or nearly so.
 template <class Real>
 NUSSELT_INLINE ShadowEdge<Real> shadow_edge(const ShadowFrame<Real>& frame, const Vec3<Real>& m,

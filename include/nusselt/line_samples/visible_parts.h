@@ -24,7 +24,7 @@ public:
     NUSSELT_HD VisibleParts(Interval<Real>* storage, int capacity) noexcept
         : part_(storage), capacity_(capacity) {}
 
-    /// Goes back to whole lines. Where begin >= end (or NaN) there is none.
+    /// Goes back to whole lines. It is empty where begin >= end (or NaN).
     NUSSELT_HD void reset(const Interval<Real>& whole) noexcept {
         const auto lit = whole.begin < whole.end;
         const Interval<Real> none = empty_interval<Real>();

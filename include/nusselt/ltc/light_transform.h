@@ -41,7 +41,7 @@ NUSSELT_HD inline Real radius_ratio(const Vec3<Real>& moment, const Ltc<Real>& l
     return length(ltc.normal_to_cosine(normalize(moment))) / ltc.minor();
 }
 
-/// Which part of a light counts for a lobe: what the lobe reaches. As published (Peters 2021, polygonal lights, Sec.
+/// Counts the part of a light that the lobe reaches, as published (Peters 2021, polygonal lights, Sec.
 /// 4.1): lobes also reach below the surface, but seldom.
 struct CosineHorizon {
     /// Bound on the number of vertices for polygons with at most N.
@@ -58,7 +58,7 @@ struct CosineHorizon {
     }
 };
 
-/// Which part of a light counts for a lobe: what the lobe reaches and is above the surface too.
+/// Counts the part of a light that the lobe reaches and that is above the surface too.
 struct BothHorizons {
     /// \copydoc CosineHorizon::kVertices
     template <int N>

@@ -47,7 +47,7 @@ struct LtcTableFile {
             double u[kNumbers];
             for (std::size_t k = 0; k < kNumbers; ++k)
                 u[k] = static_cast<double>(little_endian(numbers + 2 * (i * kNumbers + k), 2)) / 65535;
-            // In double, so that the cosine of a right angle stays positive.
+            // Doubles keep the cosine of a right angle positive.
             const double peak = u[0] * (kPi<double> / 2), tilt = u[1] * (kPi<double> / 2);
             const double width_x = std::exp2(u[2] * kWidthOctaves + kNarrowest);
             float* const entry = target + i * static_cast<std::size_t>(LtcTableView::kStride);

@@ -16,7 +16,7 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// How the samples of one pixel and light relate to each other. Pixels, lights and pairs of dimensions are
+/// The pattern of the samples of one pixel and light. Pixels, lights and pairs of dimensions are
 /// independent of each other in every case.
 enum class Sampler {
     /// Samples are independent of each other.
@@ -48,7 +48,7 @@ NUSSELT_HD constexpr UInt4 pixel_key(std::uint32_t x, std::uint32_t y, std::uint
     return pcg4d({x, y, 0, stream});
 }
 
-/// What a sample of a pixel has of its own. Another key than pixel_key() has for sample 0.
+/// The bits of one sample of a pixel. The key differs from pixel_key() even for sample 0.
 NUSSELT_HD constexpr UInt4 jitter_bits(std::uint32_t x, std::uint32_t y, std::uint32_t sample,
                                        std::uint32_t stream) noexcept {
     return pcg4d({x, y, sample + 1, stream});
@@ -123,7 +123,7 @@ NUSSELT_HD void stream_random_lanes(Sampler kind, std::uint32_t stream, const st
     for (int i = 0; i < N; ++i) u_y[i] = to_unit<Scalar>(scrambled_sobol_y(index[i], key_y[i]));
 }
 
-/// Camera rays want both dimensions stratified alike, and do not know their number.
+/// Camera rays need both dimensions stratified alike, and their number is unknown.
 NUSSELT_HD constexpr Sampler camera_sampler(Sampler kind) noexcept {
     return kind == Sampler::independent ? kind : Sampler::sobol;
 }

@@ -29,7 +29,7 @@ public:
         return index;
     }
 
-    /// For an index and a key per lane.
+    /// Takes an index and a key per lane.
     template <int N>
     NUSSELT_HD constexpr void lanes(std::uint32_t (&index)[N], const std::uint32_t (&key)[N]) const noexcept {
         for (int i = 0; i < N; ++i) index[i] = in_power_of_two(index[i], key[i]);
@@ -69,8 +69,8 @@ private:
 struct StratumGrid {
     std::uint32_t columns, rows; ///< columns * rows is the number of points
 
-    /// As close to a square as the divisors of n allow. Costs up to sqrt(n) divisions, few for numbers with divisors
-    /// close to sqrt(n).
+    /// The grid is as close to a square as the divisors of n allow. It costs up to sqrt(n) divisions, few for numbers
+    /// with divisors close to sqrt(n).
     /// \param n at least 1.
     NUSSELT_HD explicit constexpr StratumGrid(std::uint32_t n) noexcept : columns(0), rows(0) {
         for (std::uint32_t bit = 1u << 15; bit > 0; bit /= 2)

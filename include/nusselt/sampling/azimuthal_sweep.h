@@ -65,7 +65,7 @@ public:
         sort_by_network<M>([&](int low, int high) {
             Event& a = event_[low];
             Event& b = event_[high];
-            // Of equal azimuths, outer edges come first: the result shall not depend on the network.
+            // At equal azimuths, outer edges come first, so that the result does not depend on the network.
             const auto swap = (b.azimuth < a.azimuth) | ((b.azimuth == a.azimuth) & (b.kind > a.kind));
             if (!any(swap)) return;
             const Event c = a;
@@ -177,7 +177,7 @@ private:
         return det(xy(closer_to_zenith(base_ + a, base_ + b)), xy(b - a));
     }
 
-    /// Where, as a share of the rest of an edge, it meets the azimuth of a point.
+    /// The intersection of an edge with the azimuth of a point, as a fraction of the rest of the edge.
     NUSSELT_HD Real crossing(const Chain& chain, const Vec3<Real>& at) const noexcept {
         const Real slope = det(xy(base_ + at), xy(chain.rest));
         const Real distance = turn(chain.at, at);
@@ -189,7 +189,7 @@ private:
         chain.rest = (Real(1) - x) * chain.rest;
     }
 
-    /// Brings both chains to the azimuth of a vertex, where one of them goes on with another edge.
+    /// Brings both chains to the azimuth of a vertex, where one of them continues with another edge.
     NUSSELT_HD void pass(const Event& at, Chain& outer, Chain& inner) const noexcept {
         const auto outer_begins = at.kind > Real(0);
         const auto inner_begins = at.kind < Real(0);

@@ -24,7 +24,7 @@ inline constexpr Scalar kSmallStep = power_of_two<Scalar>(-std::numeric_limits<S
 
 /// \tparam Iterations steps of the iteration per sample, at most.
 ///
-/// By the angle alpha of LineExtent, the density is cos(alpha) n . w(alpha) / (integral() / 2).
+/// In terms of the angle alpha of LineExtent, the density is cos(alpha) n . w(alpha) / (integral() / 2).
 template <class Real, int Iterations = kLineIterations<Real>>
 class CosineArc {
 public:

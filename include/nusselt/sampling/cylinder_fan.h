@@ -21,7 +21,7 @@ inline constexpr int kAzimuthNodes = 7;
 template <class Scalar>
 inline constexpr Scalar kLeastShare = Scalar(1) / 128;
 
-/// Directions closer to the axis than its reciprocal cannot be told from the axis.
+/// Directions closer to the axis than its reciprocal cannot be distinguished from the axis.
 template <class Scalar>
 inline constexpr Scalar kSteepest = power_of_two<Scalar>(std::numeric_limits<Scalar>::digits / 2 * 3);
 
@@ -307,7 +307,7 @@ private:
             const auto rises = [&](const Vec2<Real>& azimuth, const Real& offset) {
                 return axis_height + offset * height_to_the_left_of(azimuth) > Real(0);
             };
-            // From inside, everything around the axis if the axis rises.
+            // From inside, the fan covers everything around the axis if the axis rises.
             const Real axis_slope = select(view_.l0 > Real(0), s_.z, -s_.z);
             const auto surrounded = (!view_.outside) & (axis_slope > Real(kTiny<Scalar>));
             sees_left = surrounded | (view_.outside & rises(left, view_.radius));
@@ -318,7 +318,7 @@ private:
             high = rightmost;
             const Vec3<Real> up = normalize(Vec3<Real>{height_of_m_, height_of_n_, Real(0)});
             const Real rise = view_.radius * fma(up.x, height_of_m_, up.y * height_of_n_);
-            // A rim wholly above the horizon: the lines that touch it rise too, whatever rounding says of them.
+            // A rim wholly above the horizon: the lines that touch it rise too, despite rounding.
             const auto has_rim_above = axis_height >= rise;
             sees_left = sees_left | has_rim_above;
             sees_right = sees_right | has_rim_above;

@@ -1,6 +1,6 @@
 #pragma once
 /// Area between two projected great circles and its inversion: the azimuth of a sample when the zenith lies
-/// outside of the polygon (Peters 2021, polygonal lights, Sec. 3.1 and 3.3 to 3.6).
+/// outside the polygon (Peters 2021, polygonal lights, Sec. 3.1 and 3.3 to 3.6).
 ///
 /// The paper describes both circles by ellipses in the tangent plane and directions by homogeneous vectors.
 /// Here the unknown is the position on a chord, and the second circle is given by its height above that
@@ -23,7 +23,7 @@ struct DecentralSector {
     Real end_gap;          ///< the same at its end
     Real doubled_triangle; ///< det(begin, chord) in the tangent plane, > 0
 
-    /// At a point of the chord: the quadratic forms of both ellipses, i.e. squared distances from the origin.
+    /// The quadratic forms of both ellipses at a point of the chord, that is, squared distances from the origin.
     struct Forms {
         Vec3<Real> outer_point;
         Real gap;   ///< height of the inner circle's plane above the chord

@@ -1,9 +1,9 @@
 #pragma once
 /// BRDF sampling of a convex polygon: directions by the BRDF alone, and a test whether they hit the light. Good for
 /// lights that fill much of a narrow lobe; otherwise most samples miss. As a partner in multiple importance sampling it
-/// covers the peaks that sampling of the light does not know of.
+/// covers the peaks that sampling of the light misses.
 ///
-/// docs/techniques/ggx_visible_normals.md says why there is no such technique for lines.
+/// docs/techniques/ggx_visible_normals.md explains why lines have no such technique.
 
 #include <nusselt/bsdf/ggx_visible_normals.h>
 #include <nusselt/core/broadcast.h>

@@ -4,7 +4,7 @@
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672, Sec. 4.1:
 /// projected solid angle sampling of the image of the polygon in cosine space. Deviation: the hit point lies where the
-/// direction meets the plane of the light in shading space, since the image of a narrow lobe is too flat to tell.
+/// direction meets the plane of the light in shading space, since the image of a narrow lobe is too flat to decide.
 
 #include <nusselt/core/broadcast.h>
 #include <nusselt/ltc/light_transform.h>

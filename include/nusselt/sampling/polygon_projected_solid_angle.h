@@ -182,11 +182,11 @@ private:
             const Vec3<Real>& next = polygon.vertex[successor(j, M)];
             const Vec3<Real>& edge = polygon.edge[j];
             const Real turn = det(xy(AzimuthalSweep<Real, M>::closer_to_zenith(v, next)), xy(edge));
-            // An edge on the horizon bounds the whole disk: it can only be an outer one, whatever rounding says.
+            // An edge on the horizon bounds the whole disk: it can only be an outer one, despite rounding.
             const auto on_horizon = max(v.z, next.z) == Real(0);
             is_outer[j] = turn > Real(0);
             decentral = decentral | ((turn < Real(0)) & (!on_horizon));
-            // Whether the zenith is on the boundary within rounding. Then no edge says on which side it is.
+            // The zenith is on the boundary within rounding. Then no edge determines on which side it is.
             const auto at_vertex = (v.z > Real(0)) & (abs(v.x) + abs(v.y) <= rounding);
             const auto across = dot(xy(v), xy(next)) < Real(0);
             const auto on_edge = across & (abs(turn) <= rounding * (abs(edge.x) + abs(edge.y)));
@@ -195,7 +195,7 @@ private:
 
         // Tell the central case, where the zenith lies in the light, from the decentral one. On the zenith's axis, the
         // plane has the height distance / normal.z: some vertex is at least as high if the light is there. Strips along
-        // the horizon tell less clearly by their edges.
+        // the horizon have less conclusive edges.
         const Real slack = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon());
         const auto reaches_axis = (distance * polygon.normal.z >= Real(0)) &
                                   (abs(distance) <= fma(abs(polygon.normal.z), hull_.high.z, slack));
@@ -260,7 +260,7 @@ private:
     }
 
     NUSSELT_HD Selection select_sector(const Real& u) const noexcept {
-        // Walk along the sectors up to the area that the random number asks for.
+        // Walk along the sectors up to the area that the random number demands.
         const Real target = u * doubled_total_;
         Selection s{decentral_sector(0), doubled_area_[0], angle_per_area_[0], Real(0)};
         Real before = Real(0);

@@ -1,5 +1,5 @@
 #pragma once
-/// What Pack and Mask are built from, over arrays. The specialisations in pack_sse42.h, pack_avx2.h,
+/// The bases of Pack and Mask, over arrays. The specialisations in pack_sse42.h, pack_avx2.h,
 /// pack_avx512.h and pack_neon.h have the same members over registers.
 
 #include <cstdint>
@@ -52,7 +52,7 @@ struct PackOps {
     static Vector divide(const Vector& a, const Vector& b) noexcept {
         return map([](T x, T y) { return x / y; }, a, b);
     }
-    /// Of the specialisations written as an operator, which GCC merges into fma, unlike a flip of the sign
+    /// The specialisations negate by an operator, which GCC merges into fma, unlike a flip of the sign
     /// bits.
     static Vector negate(const Vector& a) noexcept {
         return map([](T x) { return -x; }, a);

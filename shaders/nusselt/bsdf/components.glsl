@@ -1,7 +1,7 @@
 #ifndef NUSSELT_BSDF_COMPONENTS_GLSL
 #define NUSSELT_BSDF_COMPONENTS_GLSL
 // Follows include/nusselt/bsdf/components.h @ 8c07436b712d
-/// The parts of a BRDF that samplers tell apart. Twin of include/nusselt/bsdf/components.h.
+/// The parts of a BRDF that samplers distinguish. Twin of include/nusselt/bsdf/components.h.
 
 #include "../core/compatibility.glsl"
 

@@ -1,7 +1,7 @@
 #ifndef NUSSELT_BSDF_GGX_GLSL
 #define NUSSELT_BSDF_GGX_GLSL
 // Follows include/nusselt/bsdf/ggx.h @ aa133c5bd822
-/// What BRDFs and samplers with GGX normals share. Twin of include/nusselt/bsdf/ggx.h.
+/// Functions that BRDFs and samplers with GGX normals share. Twin of include/nusselt/bsdf/ggx.h.
 
 #include "../core/trig.glsl"
 #include "../core/vec.glsl"
@@ -18,7 +18,7 @@ float ggx_alpha(float roughness) {
 
 /// |h|^2 / (h.x^2 + h.y^2 + alpha^2 h.z^2), from which the density of normals follows. The textbook's
 /// (n.h)^2 (alpha^2 - 1) + 1 cancels in narrow lobes; this is a quotient of sums of positive terms.
-/// \param h half vector in shading space of any length but 0, say wo + wi.
+/// \param h half vector in shading space of any length but 0, such as wo + wi.
 float ggx_ratio(vec3 h, float alpha2) {
     // The scaled vector has a length near one even if the directions almost oppose each other.
     vec3 scaled = reciprocal_power_of_two(largest_component(h)) * h;

@@ -48,7 +48,7 @@ float ggx_visible_normals_clamped_alpha(float alpha) {
 
 /// All visible normals, also those that reflect to directions below the surface.
 /// \param wo    unit direction to the eye.
-/// \param alpha of GGX, say ggx_alpha(roughness); clamped to [1e-4, 1].
+/// \param alpha of GGX, such as ggx_alpha(roughness); clamped to [1e-4, 1].
 GgxVisibleNormals ggx_visible_normals_prepare(vec3 wo, float alpha) {
     bool lit = wo.z > 0.0;
     return ggx_visible_normals_prepare_cap(lit ? wo : vec3(0.0, 0.0, 1.0), lit,
@@ -91,7 +91,7 @@ float ggx_visible_normals_height_of(GgxVisibleNormals self, vec3 h, float ratio)
 float ggx_visible_normals_pdf(GgxVisibleNormals self, vec3 wi) {
     vec3 h = self.wo + wi;
     float ratio = ggx_ratio(h, self.alpha * self.alpha);
-    // All directions above the surface are in the cap, whatever rounding says.
+    // All directions above the surface are in the cap, despite rounding.
     bool reached = wi.z > 0.0 || (h.z > 0.0 && ggx_visible_normals_height_of(self, h, ratio) >= self.rim);
     return reached ? ggx_distribution(ratio, self.alpha * self.alpha) * self.factor : 0.0;
 }

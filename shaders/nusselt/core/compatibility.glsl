@@ -1,7 +1,7 @@
 #ifndef NUSSELT_CORE_COMPATIBILITY_GLSL
 #define NUSSELT_CORE_COMPATIBILITY_GLSL
 // Follows no header: it is about dialects of GLSL and its devices
-/// What differs between GLSL 4.50 (Vulkan), GLSL ES 3.00 (WebGL 2) and devices. A program may define the macros below
+/// Differences between GLSL 4.50 (Vulkan), GLSL ES 3.00 (WebGL 2) and devices. A program may define the macros below
 /// before it includes the library.
 
 /// Capacity of polygons: the largest number of vertices of a light, 3 to 9. Lights have at most 8; 9 is for those that are
@@ -10,8 +10,8 @@
 #define NUSSELT_MAX_VERTICES 4
 #endif
 
-/// 1 if the built-in fma() of the device rounds once; nusselt_fma_is_fused() tells. With 0 the library takes products
-/// apart where it needs their rounding error: correct on every device, but several times as many instructions.
+/// 1 if the built-in fma() of the device rounds once, which nusselt_fma_is_fused() detects. With 0 the library takes
+/// products apart where it needs their rounding error: correct on every device, but several times as many instructions.
 #ifndef NUSSELT_FUSED_FMA
 #define NUSSELT_FUSED_FMA 0
 #endif

@@ -1,7 +1,7 @@
 #ifndef NUSSELT_CORE_LIGHT_SAMPLE_GLSL
 #define NUSSELT_CORE_LIGHT_SAMPLE_GLSL
 // Follows include/nusselt/core/light_sample.h @ 4056e7f9e991
-/// What all techniques return, and the hit point on planar lights. Twin of include/nusselt/core/light_sample.h.
+/// The result of all techniques, and the hit point on planar lights. Twin of include/nusselt/core/light_sample.h.
 
 #include "../core/vec.glsl"
 

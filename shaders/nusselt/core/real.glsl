@@ -2,7 +2,7 @@
 #define NUSSELT_CORE_REAL_GLSL
 // Follows include/nusselt/core/real.h @ ab00cf4c419d
 /// Arithmetic with known rounding. Twin of include/nusselt/core/real.h; functions whose names GLSL has already are
-/// called nusselt_*. What is said about NaN holds on devices that preserve NaN (README.md).
+/// called nusselt_*. Statements about NaN hold on devices that preserve NaN (README.md).
 
 #include "../core/compatibility.glsl"
 
@@ -125,7 +125,7 @@ float rounded_quotient(float a, float b) {
 }
 
 #if !defined(GL_ES) || __VERSION__ >= 320
-/// Whether fma() rounds once on this device: what NUSSELT_FUSED_FMA may be set to.
+/// Whether fma() rounds once on this device, which is the value for NUSSELT_FUSED_FMA.
 /// \param x 1.000244140625, from a buffer or uniform: compilers evaluate constants by other means than the device.
 bool nusselt_fma_is_fused(float x) {
     NUSSELT_PRECISE float error = fma(x, x, -1.00048828125);

@@ -77,8 +77,8 @@ float atan2_positive(float y_in, float x) {
     return unfold_octants(y, x, atan_up_to_one(octant_tangent(y, x)));
 }
 
-/// As atan2_positive with an absolute error of at most 1.3e-5 rad: for the biased variant of Peters 2021 (polygonal
-/// lights), Sec. 6.4.
+/// Like atan2_positive, but with an absolute error of at most 1.3e-5 rad: for the biased variant of Peters 2021
+/// (polygonal lights), Sec. 6.4.
 float atan2_positive_fast(float y_in, float x) {
     float y = nusselt_max(y_in, 0.0);
     float q = octant_tangent(y, x);
@@ -90,7 +90,7 @@ float atan2_positive_fast(float y_in, float x) {
     return unfold_octants(y, x, p * q);
 }
 
-/// In C++ the members are called as the functions, which GLSL has built in.
+/// In C++ the members are named after the functions, which are built into GLSL.
 struct SinCos {
     float sine, cosine;
 };

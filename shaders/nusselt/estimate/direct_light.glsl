@@ -5,7 +5,7 @@
 /// from a few samples. Twin of include/nusselt/estimate/direct_light.h, where the sources stand.
 ///
 /// GLSL has no templates: who calls this prepares two techniques for the light, takes a sample of one of them, and
-/// tells the densities of both. With the projected solid angle and linearly transformed cosines, for a polygon:
+/// returns the densities of both. With the projected solid angle and linearly transformed cosines, for a polygon:
 ///
 ///     PolygonProjectedSolidAngle diffuse = polygon_projected_solid_angle_prepare(light);
 ///     PolygonLtc specular = polygon_ltc_prepare(light, surface.lobe);
@@ -18,7 +18,7 @@
 ///                                              frostbite_eval_components(surface.brdf, s.wi));
 ///     DirectLightSample result = direct_light_combined(s, mis_estimate(heuristic, 1, 0.5, estimator.techniques, at));
 ///
-/// The integral of what a polygon_brdf samples is not known: tell 0, and take the balance heuristic.
+/// The integral of what a polygon_brdf samples is unknown: pass 0, and use the balance heuristic.
 
 #include "../core/light_sample.glsl"
 #include "../estimate/mis.glsl"
@@ -77,7 +77,7 @@ MisSample direct_light_densities_at(DirectLight self, LightSample s, float diffu
 }
 
 DirectLightSample direct_light_combined(LightSample s, MisEstimate estimate) {
-    // At a line that almost meets the point this is beyond all floats, and infinity times no visibility NaN.
+    // At a line that almost meets the point this overflows, and infinity times no visibility is NaN.
     vec3 f = estimate.shadowed;
     vec3 limited = vec3(f.x > kNusseltLargest ? 0.0 : f.x, f.y > kNusseltLargest ? 0.0 : f.y,
                         f.z > kNusseltLargest ? 0.0 : f.z);

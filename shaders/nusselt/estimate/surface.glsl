@@ -1,7 +1,7 @@
 #ifndef NUSSELT_ESTIMATE_SURFACE_GLSL
 #define NUSSELT_ESTIMATE_SURFACE_GLSL
 // Follows include/nusselt/estimate/surface.h @ 90a4d300ca43
-/// What is known of a point of a surface before lights are looked at. Twin of include/nusselt/estimate/surface.h.
+/// Data of a point of a surface that does not depend on the lights. Twin of include/nusselt/estimate/surface.h.
 
 #include "../bsdf/frostbite.glsl"
 #include "../ltc/ltc.glsl"

@@ -21,7 +21,7 @@ struct ConvexPolygon {
     vec3 normal;                ///< unit normal, right-handed with the winding; zero if the polygon has no area
 };
 
-/// Twice the area times the right-handed unit normal; zero if the area cannot be told from rounding.
+/// Twice the area times the right-handed unit normal; zero if the area cannot be distinguished from rounding.
 vec3 doubled_area_normal(ConvexPolygon polygon) {
     NUSSELT_PRECISE vec3 offset = polygon.edge[0];
     NUSSELT_PRECISE vec3 lost = vec3(0.0); // from the offset by rounding: it would give edges on one line an area
@@ -41,7 +41,7 @@ vec3 doubled_area_normal(ConvexPolygon polygon) {
 }
 
 /// Signed distance of the origin from the plane of the polygon [m], positive if the normal points away from it; 0 if
-/// it cannot be told from rounding. The nearest vertex decides: it has the smallest rounding error.
+/// it cannot be distinguished from rounding. The nearest vertex decides: it has the smallest rounding error.
 float plane_distance(ConvexPolygon polygon) {
     vec3 nearest = polygon.vertex[0];
     NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) {

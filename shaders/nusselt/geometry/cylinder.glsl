@@ -28,14 +28,14 @@ Cylinder scaled(Cylinder cylinder, float scale) {
     return Cylinder(scaled(cylinder.axis, scale), scale * cylinder.radius);
 }
 
-/// Where the half-plane of points l s + rho t, rho >= 0, through the origin meets an infinite cylinder with axis
-/// direction s: the strip of rho in [near, far].
+/// The intersection of the half-plane of points l s + rho t, rho >= 0, through the origin with an infinite cylinder
+/// with axis direction s: the strip of rho in [near, far].
 struct CylinderSlice {
     vec2 azimuth;     ///< t in the basis m, n of the view
     vec3 t;           ///< unit, perpendicular to the axis
     float offset;     ///< of the half-plane from the axis, to the left of t if s points to the eye
-    float half_chord; ///< half the width of the strip outside of the cylinder
-    float near, far;  ///< near is 0 inside of the infinite cylinder
+    float half_chord; ///< half the width of the strip outside the cylinder
+    float near, far;  ///< near is 0 inside the infinite cylinder
     bool meets;       ///< false if the half-plane misses the cylinder; it then touches it
 };
 
@@ -135,7 +135,7 @@ vec2 cylinder_view_first_point(CylinderView self, CylinderSlice c, float tangent
     return vec2(l, nusselt_min(nusselt_max(on_cap, c.near), c.far));
 }
 
-/// Where a ray meets a light. Without meaning if it does not hit, but for `hits`.
+/// The intersection of a ray with a light. If the ray does not hit, only `hits` is valid.
 struct LightHit {
     bool hits;
     float distance; ///< [m]

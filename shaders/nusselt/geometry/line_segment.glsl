@@ -106,7 +106,8 @@ LinePoint line_extent_point_in(LineExtent self, vec3 wi) {
     return LinePoint(along, across, before_closest ? step : rest, before_closest ? rest : step);
 }
 
-/// 4 roundings: for coordinates of order one, a smaller distance of a line from the origin cannot be told from rounding.
+/// 4 roundings: for coordinates of order one, a smaller distance of a line from the origin cannot be distinguished from
+/// rounding.
 const float kNusseltSmallestDistance = 4.76837158203125e-7;
 
 /// The part of a segment between two points of its line.
@@ -114,7 +115,7 @@ const float kNusseltSmallestDistance = 4.76837158203125e-7;
 /// \param closest  vector to the closest point of the line.
 /// \param distance its length.
 /// \param l0, l1   coordinates of the points along the line.
-/// \param length   l1 - l0, which the caller may know more accurately.
+/// \param length   l1 - l0, which the caller may have more accurately.
 LineExtent make_line_extent(vec3 s, vec3 p0, vec3 p1, vec3 closest, float distance, float l0, float l1, float length) {
     LineExtent e;
     bool passes_by = distance > kNusseltSmallestDistance && length > 0.0;

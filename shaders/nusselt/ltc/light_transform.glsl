@@ -5,8 +5,8 @@
 /// integral of the lobe over the light to that of the clamped cosine over its image. Twin of
 /// include/nusselt/ltc/light_transform.h.
 ///
-/// What the lobe reaches of a light counts. Lobes also reach below the surface, but seldom (Peters 2021, polygonal
-/// lights, Sec. 4.1); part_above_horizon() leaves that out.
+/// Counts the part of a light that the lobe reaches. Lobes also reach below the surface, but seldom (Peters 2021,
+/// polygonal lights, Sec. 4.1); part_above_horizon() leaves that out.
 
 #include "../geometry/clip_line.glsl"
 #include "../geometry/polygon_measures.glsl"

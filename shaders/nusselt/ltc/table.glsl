@@ -22,7 +22,7 @@
 #include "../core/vec.glsl"
 #include "../ltc/coefficients.glsl"
 
-/// Where a lookup falls. Components are f0, inclination and roughness: x, y and z of a 3D texture into which the
+/// The coordinates of a lookup. Components are f0, inclination and roughness: x, y and z of a 3D texture into which the
 /// samples of a table go in their order.
 struct LtcTableCell {
     ivec3 low;     ///< the corner with the smallest indices

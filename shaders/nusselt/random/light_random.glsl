@@ -8,8 +8,7 @@
 #include "../random/pcg.glsl"
 #include "../random/sobol.glsl"
 
-// How the samples of one pixel and light relate to each other, numbered as in `enum class Sampler`, where they are
-// explained.
+// The patterns of the samples of one pixel and light, numbered as in `enum class Sampler`, which explains them.
 const int kNusseltSamplerIndependent = 0;
 const int kNusseltSamplerSobol = 1;
 const int kNusseltSamplerJittered = 2;
@@ -33,7 +32,7 @@ vec2 stream_random(int kind, uint stream, uint x, uint y, uint index, uint sampl
     if (kind == kNusseltSamplerJittered)
         return vec2(uniform_jittered(to_unit(key.x), index, sample_count), to_unit(reverse_bits(index) + key.y));
     if (kind == kNusseltSamplerStratified) {
-        // What a sample has of its own. Another key than that of the pixel for sample 0.
+        // The bits of one sample. The key differs from that of the pixel even for sample 0.
         uvec4 jitter = pcg4d(uvec4(x, y, index + 1u, stream));
         return multi_jittered(index, sample_count, MultiJitterKeys(key.x, key.y, key.z),
                               vec2(to_unit(jitter.x), to_unit(jitter.y)));

@@ -47,8 +47,8 @@ struct StratumGrid {
     uint columns, rows; ///< columns * rows is the number of points
 };
 
-/// As close to a square as the divisors of n allow. Costs up to sqrt(n) divisions, few for numbers with divisors close
-/// to sqrt(n).
+/// The grid is as close to a square as the divisors of n allow. It costs up to sqrt(n) divisions, few for numbers with
+/// divisors close to sqrt(n).
 /// \param n at least 1.
 StratumGrid make_stratum_grid(uint n) {
     uint columns = 0u;

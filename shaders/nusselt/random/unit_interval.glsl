@@ -1,7 +1,7 @@
 #ifndef NUSSELT_RANDOM_UNIT_INTERVAL_GLSL
 #define NUSSELT_RANDOM_UNIT_INTERVAL_GLSL
 // Follows include/nusselt/random/unit_interval.h @ 275ec9c7a156
-/// From random bits to numbers in [0, 1). Twin of include/nusselt/random/unit_interval.h.
+/// Converts random bits to numbers in [0, 1). Twin of include/nusselt/random/unit_interval.h.
 
 #include "../core/real.glsl"
 

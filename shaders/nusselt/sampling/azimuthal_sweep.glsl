@@ -119,7 +119,7 @@ AzimuthalSweep azimuthal_sweep_prepare(ConvexPolygon polygon, float distance) {
     return sweep;
 }
 
-/// Where, as a share of the rest of an edge, it meets the azimuth of a point.
+/// The intersection of an edge with the azimuth of a point, as a fraction of the rest of the edge.
 float sweep_crossing(vec3 base, vec3 from, vec3 rest, vec3 at) {
     float slope = det((base + at).xy, rest.xy);
     // Positive if the point lies counterclockwise.
@@ -127,7 +127,7 @@ float sweep_crossing(vec3 base, vec3 from, vec3 rest, vec3 at) {
     return nusselt_min(nusselt_max(turn / (slope > 0.0 ? slope : 1.0), 0.0), 1.0);
 }
 
-/// Brings both chains to the azimuth of a vertex, where one of them goes on with another edge. No edge begins at
+/// Brings both chains to the azimuth of a vertex, where one of them continues with another edge. No edge begins at
 /// repeated vertices and at ends of edges with one azimuth.
 void sweep_pass(vec3 base, SweepEvent at, inout SweepChain outer, inout SweepChain inner) {
     if (at.kind == 0.0) return;

@@ -15,7 +15,7 @@ const int kNusseltLineIterations = 3;
 /// A step of the iteration below it is the last one: its cube is rounding.
 const float kNusseltSmallStep = 0.00390625; // 2^-8
 
-/// By the angle alpha of LineExtent, the density is cos(alpha) n . w(alpha) / (integral / 2).
+/// In terms of the angle alpha of LineExtent, the density is cos(alpha) n . w(alpha) / (integral / 2).
 struct CosineArc {
     LineExtent extent;   ///< above the horizon
     float sweep;         ///< angle between the end points

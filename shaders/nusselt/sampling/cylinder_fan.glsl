@@ -18,7 +18,7 @@
 /// happens between the nodes.
 const float kNusseltLeastShare = 0.0078125; // 1 / 128
 
-/// Directions closer to the axis than its reciprocal cannot be told from the axis.
+/// Directions closer to the axis than its reciprocal cannot be distinguished from the axis.
 const float kNusseltSteepest = 68719476736.0; // 2^36
 
 /// Importance of directions: all alike, or the cosine, 0 below the horizon. Functions take one of these constants, which
@@ -152,12 +152,12 @@ AzimuthRange cylinder_image_range(CylinderImage self, int importance) {
     float axis_height = nusselt_max(self.start_height, self.end_height);
     float left_height = axis_height + view.radius * cylinder_image_height_to_the_left_of(self, left);
     float right_height = axis_height - view.radius * cylinder_image_height_to_the_left_of(self, right);
-    // From inside, everything around the axis if the axis rises.
+    // From inside, the fan covers everything around the axis if the axis rises.
     float axis_slope = view.l0 > 0.0 ? self.s.z : -self.s.z;
     bool surrounded = !view.outside && axis_slope > kNusseltTiny;
     vec2 up = nusselt_normalize(vec3(self.height_of_m, self.height_of_n, 0.0)).xy;
     float rise = view.radius * nusselt_fma(up.x, self.height_of_m, up.y * self.height_of_n);
-    // A rim wholly above the horizon: the lines that touch it rise too, whatever rounding says of them.
+    // A rim wholly above the horizon: the lines that touch it rise too, despite rounding.
     bool has_rim_above = axis_height >= rise;
     bool sees_left = surrounded || has_rim_above || (view.outside && left_height > 0.0);
     bool sees_right = surrounded || has_rim_above || (view.outside && right_height > 0.0);

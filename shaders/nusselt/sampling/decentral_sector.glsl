@@ -21,7 +21,7 @@ struct DecentralSector {
     float doubled_triangle; ///< det(begin, chord) in the tangent plane, > 0
 };
 
-/// At a point of the chord: the quadratic forms of both ellipses, i.e. squared distances from the origin.
+/// The quadratic forms of both ellipses at a point of the chord, that is, squared distances from the origin.
 struct DecentralForms {
     vec3 outer_point;
     float gap;   ///< height of the inner circle's plane above the chord
@@ -36,7 +36,7 @@ DecentralForms decentral_sector_at(DecentralSector self, float x) {
                           nusselt_max(gap * nusselt_fma(2.0, outer_point.z, gap), 0.0));
 }
 
-/// What both ellipses have between the start of a sector and x. Sines and cosines of the angles about the origin are
+/// The arcs of both ellipses between the start of a sector and x. Sines and cosines of the angles about the origin are
 /// not normalised.
 struct DecentralArcs {
     float doubled_triangle; ///< det(begin, end) in the tangent plane

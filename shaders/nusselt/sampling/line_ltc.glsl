@@ -58,7 +58,7 @@ LineLtc line_ltc_prepare(LineSegment light, Ltc ltc) {
     return line_ltc_prepare_part(scaled(light, scale), scale, ltc);
 }
 
-/// For the part of a light above the surface: samples are never below it.
+/// Prepares the part of a light above the surface: samples are never below it.
 LineLtc line_clipped_ltc_prepare(LineSegment light, Ltc ltc) {
     float scale = scale_of(light);
     return line_ltc_prepare_part(part_above_horizon(scaled(light, scale)), scale, ltc);

@@ -42,7 +42,7 @@ LineSolidAngle line_solid_angle_prepare(LineSegment light) {
     return line_solid_angle_prepare_extent(scale, make_line_extent(scaled(light, scale)));
 }
 
-/// For the part of a light above the horizon.
+/// Prepares the part of a light above the horizon.
 /// \param light in shading space [m].
 LineSolidAngle line_clipped_solid_angle_prepare(LineSegment light) {
     float scale = scale_of(light);

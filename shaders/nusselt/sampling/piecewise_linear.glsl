@@ -6,7 +6,7 @@
 
 #include "../core/real.glsl"
 
-/// Where the density is given. Tables of this size stay in registers.
+/// The number of nodes at which the density is given. Tables of this size stay in registers.
 const int kNusseltNodes = 7;
 
 /// The position of node i, in [0, 1]: nodes are closer to each other near both ends.

@@ -60,7 +60,7 @@ float polygon_brdf_pdf(PolygonBrdf self, vec3 wi) {
 LightSample polygon_brdf_sample(PolygonBrdf self, vec2 u) {
     vec3 wi = ggx_visible_normals_sample(self.lobe, u);
     float density = polygon_brdf_is_towards_light(self, wi) ? polygon_brdf_pdf(self, wi) : 0.0;
-    // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
+    // Where the light is seen edge-on, rounding moves the point along wi; clamping keeps it on the light.
     vec3 p = nusselt_min(nusselt_max(light_plane_distance_along(self.plane, wi) * wi, self.low), self.high);
     return LightSample(wi, density, self.inverse_scale * p);
 }

@@ -61,7 +61,7 @@ PolygonLtc polygon_ltc_prepare(ConvexPolygon light, Ltc ltc) {
     return polygon_ltc_prepare_part(to_unit_extent(light), ltc);
 }
 
-/// For the part of a light above the surface: samples are never below it.
+/// Prepares the part of a light above the surface: samples are never below it.
 /// \param light of at most NUSSELT_MAX_VERTICES - 1 vertices, since it is clipped twice.
 PolygonLtc polygon_clipped_ltc_prepare(ConvexPolygon light, Ltc ltc) {
     return polygon_ltc_prepare_part(part_above_horizon(light), ltc);
@@ -80,7 +80,7 @@ float polygon_ltc_pdf(PolygonLtc self, vec3 wi) {
 LightSample polygon_ltc_sample_image(PolygonLtc self, vec3 direction) {
     vec3 wi = vec3(0.0, 0.0, 1.0);
     if (self.inverse_measure > 0.0) wi = nusselt_normalize(ltc_to_shading(self.ltc, direction));
-    // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
+    // Where the light is seen edge-on, rounding moves the point along wi; clamping keeps it on the light.
     vec3 p = nusselt_min(nusselt_max(light_plane_distance_along(self.plane, wi) * wi, self.low), self.high);
     return LightSample(wi, polygon_ltc_pdf(self, wi), self.inverse_scale * p);
 }

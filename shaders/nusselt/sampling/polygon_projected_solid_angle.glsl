@@ -48,16 +48,16 @@ bool is_central(ConvexPolygon polygon, float distance, float highest) {
         vec3 next = polygon.vertex[j + 1 < kNusseltSlots ? j + 1 : 0];
         vec3 edge = polygon.edge[j];
         float turn = det(closer_to_zenith(v, next).xy, edge.xy);
-        // An edge on the horizon bounds the whole disk: it can only be an outer one, whatever rounding says.
+        // An edge on the horizon bounds the whole disk: it can only be an outer one, despite rounding.
         bool on_horizon = nusselt_max(v.z, next.z) == 0.0;
         has_inner = has_inner || (turn < 0.0 && !on_horizon);
-        // On the boundary within rounding no edge says on which side the zenith is.
+        // On the boundary within rounding, no edge determines on which side the zenith is.
         bool at_vertex = v.z > 0.0 && abs(v.x) + abs(v.y) <= rounding;
         bool on_edge = dot(v.xy, next.xy) < 0.0 && abs(turn) <= rounding * (abs(edge.x) + abs(edge.y));
         touches_zenith = touches_zenith || at_vertex || on_edge;
     }
     // On the zenith's axis, the plane has the height distance / normal.z: some vertex is at least as high if the light
-    // is there. Strips along the horizon tell less clearly by their edges.
+    // is there. The edges of strips along the horizon are less conclusive.
     bool reaches_axis = distance * polygon.normal.z >= 0.0 &&
                         abs(distance) <= nusselt_fma(abs(polygon.normal.z), highest, 8.0 * kNusseltEpsilon);
     return reaches_axis && (touches_zenith || !has_inner);
@@ -264,7 +264,7 @@ LightSample polygon_projected_solid_angle_sample_decentral(LightPlane plane, Dec
 
 /// Takes scaled and mirrored coordinates back to those of the light.
 LightSample polygon_projected_solid_angle_finish(PolygonProjectedSolidAngle self, LightSample s) {
-    // Where the light is seen edge-on, rounding moves the point along wi; it shall not leave the light.
+    // Where the light is seen edge-on, rounding moves the point along wi; clamping keeps it on the light.
     s.p = self.inverse_scale * nusselt_min(nusselt_max(s.p, self.low), self.high);
     s.wi = self.inverse_measure > 0.0 ? s.wi : vec3(0.0, 0.0, 1.0);
     s.wi.y = self.mirror * s.wi.y;

@@ -10,7 +10,7 @@
 
 #include "../sampling/polygon_projected_solid_angle.glsl"
 
-/// As if prepared for the exact variant, up to errors of the arctangents of 1.3e-5 rad.
+/// The preparation of the exact variant, up to errors of the arctangents of 1.3e-5 rad.
 struct PolygonProjectedSolidAngleBiased {
     PolygonProjectedSolidAngle approximate;
 };

@@ -1,4 +1,4 @@
-// A mutant that the comparison must reject: rays pass through the caps and end on the infinite mantle.
+// A mutant that the comparison must reject: rays pass through the caps and end on the infinite lateral surface.
 LightSample lidless_sample(Technique technique, vec2 u) {
     LightSample s = technique_sample(technique, u);
     CylinderView view = technique.fan.image.view;

@@ -96,7 +96,7 @@ void BmpHeader::read_masks(std::string_view file, std::uint32_t header_size, std
         for (std::size_t c = 0; c < 3; ++c) colours[c].bits = little_endian(file, kMaskBegin + 4 * c, 4);
         if (header_size >= kHeaderSizeWithAlphaMask) alpha.bits = little_endian(file, kMaskBegin + 12, 4);
         if (std::any_of(colours.begin(), colours.end(), [](Mask mask) { return mask.bits == 0; }))
-            throw std::runtime_error("this BMP file lacks a bit mask of a colour");
+            throw std::runtime_error("the bit mask of a colour is missing in this BMP file");
     } else if (bits == 16) {
         colours = {{{0x7c00}, {0x03e0}, {0x001f}}};
     } else {

@@ -6,7 +6,9 @@
 
 namespace nusselt::image {
 
-void fail_as_cut_off() { throw std::runtime_error("the file is too small for its pixels; was it cut off?"); }
+void fail_as_cut_off() {
+    throw std::runtime_error("the file is too small for its pixels; it may be truncated");
+}
 
 void check_claims(std::string_view file, const CodedHeader& header, double pixels_per_byte) {
     check_size(header.width, header.height);

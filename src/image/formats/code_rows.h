@@ -17,7 +17,7 @@ namespace nusselt::image {
 /// \param pixels_per_byte  the largest number that the format can store in a byte
 void check_claims(std::string_view file, const CodedHeader& header, double pixels_per_byte);
 
-/// Where the pixels of a decoded row go.
+/// The place of the pixels of a decoded row.
 struct RowPlace {
     std::size_t y = 0; ///< counted from the top
     std::size_t x = 0; ///< of the first pixel

@@ -29,7 +29,7 @@ Image decode_exr(std::ifstream& stream, const std::string& name) {
     const bool rgb = is_rgb(part);
     if (!rgb && !is_grey(part)) {
         throw std::runtime_error(
-            "the channels R, G and B or Y alone are needed at full resolution; the file has " +
+            "the channels R, G and B, or Y alone, must exist at full resolution; the file has " +
             channel_names(part.header()));
     }
     Image image{part.width(), part.height(), {}};

@@ -86,7 +86,7 @@ std::uint64_t size_of_preview(std::istream& stream, std::uint64_t limit) {
     return width <= limit && height <= limit ? 8 + 4 * width * height : limit + 1;
 }
 
-/// How many bytes OpenEXR reads from the stream for the contents of an attribute.
+/// The number of bytes that OpenEXR reads from the stream for the contents of an attribute.
 std::uint64_t size_of_contents(std::istream& stream, std::string_view type, std::uint64_t size) {
     if (type == "stringvector") return size_of_texts(stream, size);
     if (type == "chlist") return size_of_channels(stream, size);
@@ -117,7 +117,7 @@ void check_exr_attributes(std::istream& stream) {
         const std::uint64_t size = read_uint32(stream);
         const std::streamoff begin = stream.tellg();
         if (!stream || size > static_cast<std::uint64_t>(file_size - begin))
-            fail("an attribute is longer than the file; was it cut off?");
+            fail("an attribute is longer than the file; the file may be truncated");
         if (size_of_contents(stream, type, size) != size)
             fail("the size of an attribute does not fit its contents");
         stream.seekg(begin + static_cast<std::streamoff>(size));

@@ -56,11 +56,12 @@ void check_before_writing(const LayeredImage& image) {
             check_name(channel);
             check_name(full_name(layer, channel));
             if (channel.find('.') != std::string::npos || !names.insert(full_name(layer, channel)).second)
-                throw std::invalid_argument("channel '" + full_name(layer, channel) +
-                                            "' is there twice or has a dot after the name of its layer");
+                throw std::invalid_argument(
+                    "channel '" + full_name(layer, channel) +
+                    "' must be unique and must not have a dot after the name of its layer");
         }
     }
-    if (names.empty()) throw std::invalid_argument("an image without layers cannot be written");
+    if (names.empty()) throw std::invalid_argument("cannot write an image without layers");
     for (const auto& [key, value] : image.metadata) check_name(key);
     for (const auto& [key, value] : image.foreign_metadata) check_name(key);
 }
@@ -125,7 +126,7 @@ void encode(std::ofstream& stream, const std::string& name, const LayeredImage& 
     file.writePixels(image.data.height);
 }
 
-/// Of the display window, whose size the file may choose freely, sizes are bounded only.
+/// Clamps the size, which the file may choose freely for the display window.
 Window window_of(const Imath::Box2i& box) {
     const auto size = [](int low, int high) {
         const std::int64_t value = std::int64_t(high) - low + 1;
@@ -160,7 +161,7 @@ LayeredImage decode_exr_layers(std::ifstream& stream, const std::string& name) {
     }
     if (channel_count > kMaxValueCount / (std::int64_t(part.width()) * part.height()))
         throw std::runtime_error("the image has " + std::to_string(channel_count) +
-                                 " channels, together more than 2^30 values; remove some of them");
+                                 " channels, which exceed 2^30 values in total; remove some of them");
     part.read(groups);
     return image;
 }
@@ -181,7 +182,7 @@ Image layer_image(const LayeredImage& image, const Layer& layer) {
     const bool has_alpha = count == 4 && layer.channels[3] == "A";
     if (count != 1 && count != 3 && !has_alpha) {
         throw std::runtime_error("layer '" + layer.name + "' has " + std::to_string(count) +
-                                 " channels; a picture needs 1, 3, or R, G, B and A");
+                                 " channels; a picture must have 1, 3, or R, G, B and A");
     }
     Image result = make_image(image.data.width, image.data.height);
     for (std::size_t i = 0; i < result.pixels.size(); ++i)

@@ -109,19 +109,19 @@ void check_file_size(const Imf::Header& header, std::int64_t width, std::int64_t
     const std::int64_t ratio = largest_compression_ratio(header.compression());
     const std::int64_t pixel_bytes = std::max<std::int64_t>(1, bytes_per_pixel(header.channels()));
     if (width * height / ratio > file_size / pixel_bytes)
-        throw std::runtime_error("the file is too small for its pixels; was it cut off?");
+        throw std::runtime_error("the file is too small for its pixels; it may be truncated");
     if (!header.hasTileDescription()) {
         if (width > kMaxChunkBytes / rows_per_chunk(header.compression()) / pixel_bytes)
-            throw std::runtime_error("rows of " + std::to_string(width) + " pixels with " +
-                                     std::to_string(pixel_bytes) +
-                                     " bytes are not supported with this compression; save it with ZIP");
+            throw std::runtime_error(
+                "rows of " + std::to_string(width) + " pixels with " + std::to_string(pixel_bytes) +
+                " bytes are not supported with this compression; save the image with ZIP");
         return;
     }
     const Imf::TileDescription& tile = header.tileDescription();
     if (std::int64_t(tile.xSize) > kMaxTilePixels / std::max<std::int64_t>(1, tile.ySize)) {
-        throw std::runtime_error("tiles of " + std::to_string(tile.xSize) + " x " +
-                                 std::to_string(tile.ySize) +
-                                 " pixels are not supported; save it with smaller tiles or as scan lines");
+        throw std::runtime_error(
+            "tiles of " + std::to_string(tile.xSize) + " x " + std::to_string(tile.ySize) +
+            " pixels are not supported; save the image with smaller tiles or as scan lines");
     }
 }
 
@@ -130,13 +130,13 @@ void check_file_size(const Imf::Header& header, std::int64_t width, std::int64_t
 ExrPart::ExrPart(std::ifstream& stream, const std::string& name)
     : source_(stream, name.c_str()), file_(checked(source_, stream), decoding_thread_count(), false) {
     if (header().hasType() && Imf::isDeepData(header().type()))
-        throw std::runtime_error("deep images are not supported; flatten it first");
+        throw std::runtime_error("deep images are not supported; flatten the image first");
     const auto& window = header().dataWindow();
     const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
     const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
     check_size(width, height);
     check_file_size(header(), width, height, stream.tellg() + remaining_bytes(stream));
-    if (!file_.partComplete(0)) throw std::runtime_error("rows are missing; was the file cut off?");
+    if (!file_.partComplete(0)) throw std::runtime_error("rows are missing; the file may be truncated");
 }
 
 int ExrPart::width() const {

@@ -1,5 +1,5 @@
 #pragma once
-/// What the readers of EXR files share: checks before anything large is allocated, and reading of channels.
+/// Code that the readers of EXR files share: checks before large allocations, and reading of channels.
 
 #include "image/image.h"
 

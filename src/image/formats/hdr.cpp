@@ -44,7 +44,7 @@ void rgb_from_rgbe(const Rgbe& rgbe, float* rgb) {
 unsigned char read_byte(std::istream& stream) {
     const int byte = stream.get();
     if (byte == std::istream::traits_type::eof())
-        throw std::runtime_error("the file ends too early; was it cut off?");
+        throw std::runtime_error("the file ends too early; it may be truncated");
     return static_cast<unsigned char>(byte);
 }
 
@@ -114,7 +114,7 @@ Image decode_hdr(std::istream& stream) {
     const auto [width, height] = read_header(stream);
     // A run of 127 pixels takes two bytes for each of four channels.
     if (std::int64_t(width) * height / 16 > remaining_bytes(stream))
-        throw std::runtime_error("the file is too small for its pixels; was it cut off?");
+        throw std::runtime_error("the file is too small for its pixels; it may be truncated");
     Image image{width, height, {}};
     std::vector<Rgbe> row(static_cast<std::size_t>(width));
     for (int y = 0; y < height; ++y) {

@@ -19,7 +19,7 @@ namespace {
 /// Progressive files refine the whole image in each scan; a small file could ask for very many.
 constexpr int kLargestScanCount = 500;
 
-/// What libjpeg hands to the functions below. They jump out of it, which runs no destructors.
+/// The data that libjpeg passes to the functions below. They jump out of it, which runs no destructors.
 struct ErrorManager {
     jpeg_error_mgr base; ///< first, as libjpeg knows this part only
     std::jmp_buf before_step;
@@ -96,8 +96,8 @@ private:
 template <class Step>
 void JpgReader::call(const Step& step) {
     if (setjmp(errors_.before_step) == 0) return step();
-    throw std::runtime_error("its JPEG data cannot be decoded (" + std::string(errors_.message.data()) +
-                             "); is the file damaged, or was it cut off?");
+    throw std::runtime_error("cannot decode its JPEG data (" + std::string(errors_.message.data()) +
+                             "); the file may be damaged or truncated");
 }
 
 JpgReader::JpgReader(std::string_view file) {

@@ -82,7 +82,7 @@ Image decode_pfm(std::istream& stream) {
     const Header header = read_header(stream);
     const std::int64_t row_bytes = 4 * header.channel_count * header.width;
     if (remaining_bytes(stream) / row_bytes < header.height)
-        throw std::runtime_error("the file is too small for its pixels; was it cut off?");
+        throw std::runtime_error("the file is too small for its pixels; it may be truncated");
 
     Image image = make_image(int(header.width), int(header.height));
     std::vector<char> row(static_cast<std::size_t>(row_bytes));

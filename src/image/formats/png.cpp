@@ -42,7 +42,7 @@ bool succeeds(png_structp png, const Step& step) {
     return true;
 }
 
-/// What libpng allocates for reading.
+/// The objects that libpng allocates for reading.
 struct PngMemory {
     explicit PngMemory(Message& message)
         : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &message, jump_with_message, ignore_warning)) {
@@ -71,7 +71,7 @@ private:
     void read_rows_of(CodeRows& rows);
     static void read_bytes(png_structp png, png_bytep target, std::size_t count);
 
-    std::string_view rest_; ///< what libpng has not read yet
+    std::string_view rest_; ///< the bytes that libpng has not read yet
     Message message_ = {};
     PngMemory memory_;
     png_structp png_;
@@ -81,8 +81,8 @@ private:
 template <class Step>
 void PngReader::call(const Step& step) const {
     if (!succeeds(png_, step))
-        throw std::runtime_error("its PNG data cannot be decoded (" + std::string(message_.data()) +
-                                 "); is the file damaged, or was it cut off?");
+        throw std::runtime_error("cannot decode its PNG data (" + std::string(message_.data()) +
+                                 "); the file may be damaged or truncated");
 }
 
 void PngReader::read_bytes(png_structp png, png_bytep target, std::size_t count) {

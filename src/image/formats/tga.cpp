@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kHeaderSize = 18;
 
-/// How pixels, or the entries of a palette, are stored.
+/// The format of stored pixels or of the entries of a palette.
 enum class Layout { unknown, grey, grey_alpha, rgb555, bgr, bgra };
 
 Layout layout_of(std::uint32_t bits, bool is_grey) {

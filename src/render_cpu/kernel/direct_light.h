@@ -3,7 +3,7 @@
 
 #include "render_cpu/kernel/camera_packet.h"
 #include "render_cpu/kernel/emission.h"
-#include "render_cpu/kernel/light_functions.h"
+#include "render_cpu/kernel/reflected_light.h"
 #include "render_cpu/kernel/surface.h"
 
 NUSSELT_NAMESPACE_BEGIN
@@ -14,50 +14,41 @@ namespace kernel {
 struct AllLights {
     template <class Visit>
     void operator()(const render_cpu::KernelScene& scene, const Visit& visit) const noexcept {
-        const std::int32_t count = scene.polygon_light_count + scene.line_light_count;
-        for (std::int32_t number = 0; number < count; ++number) visit(number);
+        for (std::int32_t number = 0; number < scene.light_count; ++number) visit(number);
     }
 };
 
-/// \param number among all lights of the scene: polygons come before lines and tubes
-inline void add_light(ReflectedLight& reflected, const LightFunctions& functions,
-                      std::int32_t number) noexcept {
-    const render_cpu::KernelScene& scene = reflected.job().scene;
-    if (number < scene.polygon_light_count) {
-        const bool is_small = scene.polygon_lights[number].slots == 4;
-        (is_small ? functions.add_polygon4 : functions.add_polygon8)(reflected, number);
-        return;
-    }
-    const std::int32_t index = number - scene.polygon_light_count;
-    const bool is_solid = scene.line_lights[index].model == scene::TubeModel::solid;
-    (is_solid ? functions.add_tube : functions.add_line)(reflected, index);
+/// \param number among all lights of the scene
+inline void add_light(ReflectedLight& reflected, std::int32_t number) noexcept {
+    const render_cpu::LightSet& lights = set_of(reflected.job().scene, number);
+    const std::int32_t index = number - lights.first;
+    lights.add[lights.code.shape_of(lights, index)](reflected, lights, index);
 }
 
 /// The radiance that surfaces reflect of the selected lights. Adds it to the layers.
-/// \param functions how the light of each of them is estimated
 template <class Selector>
-Vector direct_light(const CameraPacket& packet, const Surface& surface, const LightFunctions& functions,
+Vector direct_light(const CameraPacket& packet, const Surface& surface,
                     const Selector& select_lights) noexcept {
     ReflectedLight reflected(packet.job, packet.block, surface, packet.camera_ray, packet.layers,
                              packet.line_memory, packet.statistics);
-    select_lights(packet.job.scene, [&](std::int32_t number) { add_light(reflected, functions, number); });
+    select_lights(packet.job.scene, [&](std::int32_t number) { add_light(reflected, number); });
     return reflected.radiance();
 }
 
 /// The radiance that rays see of lights themselves, and what the surfaces that they hit reflect of the selected ones.
 template <class Selector>
-Vector emitted_and_direct_light(const CameraPacket& packet, const Rays& rays, const LightFunctions& functions,
+Vector emitted_and_direct_light(const CameraPacket& packet, const Rays& rays,
                                 const Selector& select_lights) noexcept {
     const visibility::HitPacket<kLanes> hits = trace(packet, rays);
     std::uint32_t on_triangle = 0;
-    std::uint32_t on_tube = 0;
+    std::uint32_t on_light = 0;
     for (int i = 0; i < kLanes; ++i) {
         on_triangle |= static_cast<std::uint32_t>(hits.triangle[i] >= 0) << i;
-        on_tube |= static_cast<std::uint32_t>(hits.tube[i] >= 0) << i;
+        on_light |= static_cast<std::uint32_t>(hits.light[i] >= 0) << i;
     }
     const Vector emitted = emission(packet.job.scene, hits, rays.direction);
     if (packet.layers != nullptr) {
-        packet.layers->add_hits(hits, LaneMask::from_bits(on_triangle | on_tube), rays.direction);
+        packet.layers->add_hits(hits, LaneMask::from_bits(on_triangle | on_light), rays.direction);
         packet.layers->add_emission(hits, emitted);
     }
     if (on_triangle == 0) return emitted;
@@ -65,7 +56,7 @@ Vector emitted_and_direct_light(const CameraPacket& packet, const Rays& rays, co
     const Surface surface =
         make_surface(packet.job.scene, hits, LaneMask::from_bits(on_triangle), -normalize(rays.direction));
     if (packet.layers != nullptr) packet.layers->add_surface(surface);
-    return emitted + direct_light(packet, surface, functions, select_lights);
+    return emitted + direct_light(packet, surface, select_lights);
 }
 
 } // namespace kernel

@@ -7,26 +7,38 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 
+/// The set that a light is in. \param number among all lights of the scene
+inline const render_cpu::LightSet& set_of(const render_cpu::KernelScene& scene,
+                                          std::int32_t number) noexcept {
+    const render_cpu::LightSet* set = scene.light_sets;
+    while (number >= set->first + set->count) ++set;
+    return *set;
+}
+
+/// Number of the light that a ray hits, -1 for none.
+inline std::int32_t light_of_hit(const render_cpu::KernelScene& scene,
+                                 const visibility::HitPacket<kLanes>& hits, int lane) noexcept {
+    if (hits.light[lane] >= 0) return hits.light[lane];
+    return hits.triangle[lane] < 0 ? -1 : scene.triangle_light[hits.triangle[lane]];
+}
+
 /// Radiance that rays see of lights themselves.
 inline Vector emission(const render_cpu::KernelScene& scene, const visibility::HitPacket<kLanes>& hits,
                        const Vector& direction) noexcept {
-    Indices polygon;
+    Indices light;
     bool any_light = false;
     for (int i = 0; i < kLanes; ++i) {
-        polygon.lane[i] = hits.triangle[i] < 0 ? -1 : scene.triangle_light[hits.triangle[i]];
-        any_light |= (polygon.lane[i] >= 0) | (hits.tube[i] >= 0);
+        light.lane[i] = light_of_hit(scene, hits, i);
+        any_light |= light.lane[i] >= 0;
     }
     Lanes result{};
     if (!any_light) return load(result);
     const Lanes d = store(direction);
     for (int i = 0; i < kLanes; ++i) {
-        scene::Float3 emitted{0, 0, 0};
-        if (hits.tube[i] >= 0) emitted = scene.line_lights[hits.tube[i]].radiance;
-        if (polygon.lane[i] >= 0) {
-            const render_cpu::PolygonLightRecord& light = scene.polygon_lights[polygon.lane[i]];
-            const Vec3<float> ray{d.x[i], d.y[i], d.z[i]};
-            if (light.two_sided != 0 || dot(to_vec(light.normal), ray) < 0) emitted = light.radiance;
-        }
+        if (light.lane[i] < 0) continue;
+        const render_cpu::LightSet& lights = set_of(scene, light.lane[i]);
+        const scene::Float3 emitted =
+            lights.code.emission(lights, light.lane[i] - lights.first, {d.x[i], d.y[i], d.z[i]});
         result.x[i] = emitted.x;
         result.y[i] = emitted.y;
         result.z[i] = emitted.z;

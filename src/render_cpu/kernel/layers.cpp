@@ -1,5 +1,7 @@
 #include "render_cpu/kernel/layers.h"
 
+#include "render_cpu/kernel/emission.h"
+
 #include <limits>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -24,15 +26,6 @@ void store_vector(const Vector& v, float* values) noexcept {
     v.x.store(values);
     v.y.store(values + kLanes);
     v.z.store(values + 2 * kLanes);
-}
-
-/// Emitter that a camera ray hits, -1 for none.
-std::int64_t emitter_of(const render_cpu::KernelScene& scene, const visibility::HitPacket<kLanes>& hits,
-                        int lane) noexcept {
-    if (hits.tube[lane] >= 0) return scene.light_emitter[scene.polygon_light_count + hits.tube[lane]];
-    if (hits.triangle[lane] < 0) return -1;
-    const std::int32_t light = scene.triangle_light[hits.triangle[lane]];
-    return light < 0 ? -1 : static_cast<std::int64_t>(scene.light_emitter[light]);
 }
 
 } // namespace
@@ -70,10 +63,10 @@ void LayerSums::add_emission(const visibility::HitPacket<kLanes>& hits, const Ve
     if (job_.layers.lights == nullptr) return;
     const Lanes lanes = store(weighted);
     for (int i = 0; i < kLanes; ++i) {
-        const std::int64_t emitter = emitter_of(job_.scene, hits, i);
-        if (emitter < 0) continue;
+        const std::int32_t light = light_of_hit(job_.scene, hits, i);
+        if (light < 0) continue;
         const float rgb[3] = {lanes.x[i], lanes.y[i], lanes.z[i]};
-        float* sum = sums_of(static_cast<std::uint32_t>(emitter)) + i;
+        float* sum = sums_of(job_.scene.light_emitter[light]) + i;
         for (int k = 0; k < 3; ++k, sum += kLanes) {
             float& excess = sum[3 * kLanes];
             const float corrected = rgb[k] - excess;

@@ -41,7 +41,7 @@ public:
     void begin_ray(const Real& weight) noexcept { weight_ = weight; }
 
     /// Adds what camera rays hit, without their weight: negative ones would give distances that nothing has.
-    /// \param any_hit lanes that hit a surface or a tube
+    /// \param any_hit lanes that hit a surface or a light
     /// \param direction of the rays, of any length
     void add_hits(const visibility::HitPacket<kLanes>& hits, LaneMask any_hit,
                   const Vector& direction) noexcept;

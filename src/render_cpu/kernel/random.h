@@ -75,7 +75,7 @@ inline Vec2<Real> random_for_lines(const render_cpu::RenderJob& job, const Pixel
     const auto per_point = static_cast<std::uint32_t>(job.lines.count);
     const Sampler sampler = sampler_of(job.sample_order);
     // Aligned blocks of Sobol' points, of a power of two each, are as even as all of them; other numbers of lines are even
-    // over all camera rays only. Other samplers cover the light with as many samples as they are told: each shading point gets
+    // over all camera rays only. Other samplers cover the light with the given number of samples: each shading point gets
     // numbers of its own.
     const bool is_sequence = sampler == Sampler::sobol || sampler == Sampler::independent;
     const std::uint32_t before = is_sequence ? camera_ray * per_point : 0;

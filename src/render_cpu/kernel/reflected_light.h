@@ -9,7 +9,6 @@
 #include "render_cpu/kernel/tick_timer.h"
 
 #include <nusselt/estimate/direct_light.h>
-#include <nusselt/geometry/cylinder.h>
 #include <nusselt/line_samples/triangle_shadow.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -29,11 +28,6 @@ struct LocalLight {
     std::uint32_t number; ///< among all lights of the scene
 };
 
-using LocalLine = LocalLight<LineSegment<Real>>;
-using LocalTube = LocalLight<Cylinder<Real>>;
-template <int N>
-using LocalPolygon = LocalLight<ConvexPolygon<Real, N>>;
-
 /// Samples of one light.
 struct SampleSum {
     CompensatedSum all;
@@ -41,7 +35,7 @@ struct SampleSum {
 };
 
 /// The light that one packet of shading points reflects to the eye.
-class ReflectedLight {
+class ReflectedLight : public render_cpu::LitPacket {
 public:
     /// \param camera_ray number of the camera rays of this packet, below job.camera_rays
     /// \param layers      to add the light to, or null
@@ -61,6 +55,8 @@ public:
 
     const render_cpu::RenderJob& job() const noexcept { return job_; }
     const Surface& surface() const noexcept { return surface_; }
+    /// The shading points that get light.
+    LaneMask lanes() const noexcept { return lanes_; }
 
     render_cpu::TileStatistics& statistics() noexcept { return statistics_; }
     void* line_memory() const noexcept { return line_memory_; }
@@ -78,52 +74,12 @@ public:
     /// Adds what another one has found, whose layers are the same.
     void add(const ReflectedLight& other) noexcept { radiance_ = radiance_ + other.radiance_; }
 
-    /// In world space.
-    template <int N>
-    ConvexPolygon<float, N> world_polygon(std::int32_t index) const noexcept {
-        const render_cpu::PolygonLightRecord& record = job_.scene.polygon_lights[index];
-        const scene::Float3* corners = job_.scene.polygon_corners + record.first_corner;
-        ConvexPolygon<float, N> world;
-        for (int j = 0; j < N; ++j) {
-            world.vertex[j] = to_vec(corners[j]);
-            world.edge[j] = to_vec(corners[N + j]);
-        }
-        world.normal = to_vec(record.normal);
-        return world;
-    }
-
-    template <int N>
-    LocalPolygon<N> polygon(std::int32_t index) const noexcept {
-        const render_cpu::PolygonLightRecord& record = job_.scene.polygon_lights[index];
-        const auto local = to_shading_space(world_polygon<N>(index), surface_.position, surface_.frame);
-
-        LaneMask lit = lanes_ & !is_part_of_light(index);
-        // Comparisons with NaN are false: negated they keep it, so that it is counted.
-        if (record.two_sided == 0) lit &= !(dot(local.normal, local.vertex[0]) >= Real(0));
-        Real highest = local.vertex[0].z;
-        for (int j = 1; j < N; ++j) highest = max(highest, local.vertex[j].z);
-        lit &= !(highest <= Real(0));
-        return {local, lit, to_vec(record.radiance), static_cast<std::uint32_t>(index)};
-    }
-
-    LocalLine line(std::int32_t index) const noexcept {
-        const render_cpu::LineLightRecord& record = job_.scene.line_lights[index];
-        const LineSegment<float> world{to_vec(record.begin), to_vec(record.direction), record.length};
-        const auto local = to_shading_space(world, surface_.position, surface_.frame);
-        const Real end = local.p0.z + local.length * local.s.z;
-        return {local, lanes_ & !(max(local.p0.z, end) <= Real(0)), to_vec(record.radiance_times_radius),
-                static_cast<std::uint32_t>(job_.scene.polygon_light_count + index)};
-    }
-
-    /// A tube as the cylinder that it is.
-    LocalTube tube(std::int32_t index) const noexcept {
-        const LocalLine axis = line(index);
-        const render_cpu::LineLightRecord& record = job_.scene.line_lights[index];
-        const LineSegment<Real>& l = axis.shape;
-        const Real slope = sqrt(max(Real(1) - l.s.z * l.s.z, Real(0)));
-        const Real highest = max(l.p0.z, l.p0.z + l.length * l.s.z) + Real(record.radius) * slope;
-        return {
-            {l, Real(record.radius)}, lanes_ & !(highest <= Real(0)), to_vec(record.radiance), axis.number};
+    /// Those that lie on a light. \param number of the light among all lights of the scene
+    LaneMask on_light(std::int32_t number) const noexcept {
+        std::uint32_t bits = 0;
+        for (int i = 0; i < kLanes; ++i)
+            bits |= static_cast<std::uint32_t>(surface_.light.lane[i] == number) << i;
+        return LaneMask::from_bits(bits);
     }
 
     /// Adds the reflected radiance of one light [W/(sr m^2)], the mean over its samples.
@@ -161,7 +117,7 @@ public:
                                 pair);
     }
 
-    /// Random numbers for all lines of a shading point and polygonal light together.
+    /// Random numbers for all lines of a shading point and light together.
     Vec2<Real> orientation_random(std::int32_t light) const noexcept {
         return random_for_light(job_, block_, camera_ray_, job_.camera_rays,
                                 static_cast<std::uint32_t>(light), kOrientationPair);
@@ -235,14 +191,6 @@ private:
         return LaneMask::from_bits(active & ~blocked);
     }
 
-    /// A planar light does not light itself, but rounding may put a point of it in front of its plane.
-    LaneMask is_part_of_light(std::int32_t index) const noexcept {
-        std::uint32_t bits = 0;
-        for (int i = 0; i < kLanes; ++i)
-            bits |= static_cast<std::uint32_t>(surface_.light.lane[i] == index) << i;
-        return LaneMask::from_bits(bits);
-    }
-
     const render_cpu::RenderJob& job_;
     const PixelBlock& block_;
     const Surface& surface_;
@@ -263,16 +211,6 @@ inline DirectLightSample<Real> reflect(const Surface& surface, const LightSample
     const Real cos_per_pdf = sample.wi.z / select(sampled, sample.pdf, Real(1));
     return {sample.wi, sample.p, select(sampled, cos_per_pdf * surface.glossy.brdf.eval(sample.wi), zero),
             zero};
-}
-
-/// Adds the light of one technique alone.
-template <class Shape, class Technique>
-void add_samples(ReflectedLight& reflected, const LocalLight<Shape>& light,
-                 const Technique& technique) noexcept {
-    reflected.add(light, [&](std::uint32_t number, SampleSum& sum) {
-        const Vec2<Real> u = reflected.random(light, number, kPointPair);
-        reflected.add_sample(light.lit, reflect(reflected.surface(), draw(technique, u)), sum);
-    });
 }
 
 } // namespace kernel

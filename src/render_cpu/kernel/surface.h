@@ -38,7 +38,7 @@ struct Surface {
     Vector geometric_normal; ///< unit, on the side of the eye
     Frame<Real> frame;       ///< shading_frame() of the shading normal, on the side of the eye as well
     Real offset;             ///< how far along the geometric normal shadow rays start [m]
-    Indices light;           ///< polygonal light that the surface belongs to, -1 for none
+    Indices light;           ///< that the surface belongs to, among all of the scene, -1 for none
     GlossySurface<Real, SurfaceBrdf> glossy;
 };
 

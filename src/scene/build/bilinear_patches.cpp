@@ -32,7 +32,7 @@ struct Patch {
         return std::max({length(positions[1] - positions[0]), length(positions[3] - positions[1]),
                          length(positions[2] - positions[3]), length(positions[0] - positions[2])});
     }
-    /// By how much opposite sides differ.
+    /// The difference between opposite sides.
     Double3 twist() const { return (positions[0] - positions[1]) - (positions[2] - positions[3]); }
     bool is_planar() const {
         const Double3 along_u = positions[1] - positions[0];

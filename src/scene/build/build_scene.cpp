@@ -35,9 +35,9 @@ void check_repeated_meshes(const std::vector<PlacedShape>& shapes, const FormatW
         }
         repeated += entry->second;
         if (repeated > kMaxRepeatedMeshBytes)
-            throw SceneError(file->origin, "mesh files are read again for more than " +
+            throw SceneError(file->origin, "repeated mesh files exceed " +
                                                std::to_string(kMaxRepeatedMeshBytes) +
-                                               " bytes in all, the last one is '" + file->path.string() +
+                                               " bytes in total; the last one is '" + file->path.string() +
                                                "'; use " + words.instance + " for copies");
     }
 }
@@ -87,10 +87,10 @@ private:
 void name_emitters(const std::vector<PlacedShape>& shapes, std::vector<BuiltShape>& built, EmitterNames names,
                    std::vector<Emitter>& emitters) {
     for (std::size_t i = 0; i < built.size(); ++i) {
-        if (built[i].polygon_lights.empty() && built[i].line_lights.empty()) continue;
+        if (built[i].lights.empty()) continue;
         const auto emitter = static_cast<std::uint32_t>(emitters.size());
-        for (PolygonLight& light : built[i].polygon_lights) light.emitter = emitter;
-        for (LineLight& light : built[i].line_lights) light.emitter = emitter;
+        for (LightList& list : built[i].lights)
+            for (std::size_t k = 0; k < list.size(); ++k) list.emitter(k) = emitter;
         emitters.push_back({names.name(*shapes[i].shape)});
     }
 }
@@ -104,7 +104,7 @@ void renumber(std::vector<BuiltShape>& shapes, const FormatWords& words) {
         const auto first_vertex = static_cast<std::uint32_t>(vertices);
         const auto first_light = static_cast<std::int32_t>(lights);
         vertices += mesh.positions.size();
-        lights += mesh.polygon_lights.size();
+        lights += std::as_const(mesh.lights).of<PolygonLight>().size();
         triangles += mesh.triangles.size();
         check_counts(vertices, triangles, words.instance);
         if (first_vertex > 0)
@@ -173,10 +173,7 @@ void join_shapes(const std::vector<PlacedShape>& shapes, const FormatWords& word
     const std::vector<std::uint32_t> materials = material_indices(shapes, triangles, scene.materials);
     for (std::size_t i = 0; i < built.size(); ++i)
         scene.triangle_material.insert(scene.triangle_material.end(), triangles[i], materials[i]);
-    scene.polygon_lights =
-        take_arrays(built, &BuiltShape::polygon_lights, sizes_of(built, &BuiltShape::polygon_lights), {});
-    scene.line_lights =
-        take_arrays(built, &BuiltShape::line_lights, sizes_of(built, &BuiltShape::line_lights), {});
+    for (BuiltShape& shape : built) scene.lights.append(std::move(shape.lights));
 }
 
 /// The objects that have triangles, and their instances.
@@ -204,7 +201,7 @@ void add_instances(const SceneDescription& description, const std::vector<Placed
         const Bounds box = transformed(boxes[*object], rows);
         if (!is_valid_coordinate(to_float(box.low)) || !is_valid_coordinate(to_float(box.high)))
             throw SceneError(instance.origin, description.words.instance + ": object \"" + shortened(name) +
-                                                  "\" lies beyond 1e15 m");
+                                                  "\" extends beyond 1e15 m");
         scene.instances.push_back({*object, rows});
     }
 }
@@ -220,7 +217,7 @@ void collect_warnings(const std::vector<PlacedShape>& shapes, const std::vector<
     }
     if (degenerate > 0)
         warnings.add(shapes[first].shape->origin,
-                     std::to_string(degenerate) + " degenerate triangles are left out, the first ones here");
+                     std::to_string(degenerate) + " degenerate triangles are skipped, starting here");
 }
 
 } // namespace
@@ -247,7 +244,7 @@ Scene build_scene(SceneDescription description) {
     join_shapes(placed.shapes, description.words, built, scene);
     add_instances(description, placed.objects, triangle_counts, scene);
     collect_warnings(placed.shapes, built, description.warnings);
-    if (scene.triangles.empty() && scene.polygon_lights.empty() && scene.line_lights.empty())
+    if (scene.triangles.empty() && scene.lights.empty())
         description.warnings.add({&description.sources.front(), 1}, "the scene is empty");
     scene.radius = scene_radius(scene);
     scene.warnings = description.warnings.lines();

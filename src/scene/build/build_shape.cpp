@@ -58,7 +58,7 @@ void move_to_world(const PlacedShape& placed, Mesh& mesh) {
         const Float3& p = mesh.positions[i];
         throw SceneError(placed.shape->origin, subject_of(*placed.shape) + ": vertex " + std::to_string(i) +
                                                    " at (" + to_text(p.x) + ", " + to_text(p.y) + ", " +
-                                                   to_text(p.z) + ") is not finite or beyond 1e15 m");
+                                                   to_text(p.z) + ") must be finite and within 1e15 m");
     }
     for (Float3& n : mesh.normals) {
         if (placed.shape->reverse_orientation) n = {-n.x, -n.y, -n.z};

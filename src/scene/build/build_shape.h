@@ -9,21 +9,20 @@
 
 namespace nusselt::scene {
 
-/// What one shape contributes to the scene.
+/// The contribution of one shape to the scene.
 struct BuiltShape : Mesh {
-    std::vector<std::int32_t> triangle_light; ///< empty, or per triangle an index into polygon_lights
-    std::vector<PolygonLight> polygon_lights;
-    std::vector<LineLight> line_lights;
+    std::vector<std::int32_t> triangle_light; ///< empty, or per triangle an index among the polygons
+    Lights lights;
     Warnings warnings;
 };
 
-/// How messages begin that are about a shape.
+/// The beginning of messages about a shape.
 std::string subject_of(const ShapeDescription& shape);
 
 /// Triangles in world space. Those of emitters are oriented such that (v1 - v0) x (v2 - v0) points to the side that emits:
 /// the side of the shading normals if there are any, else that of the right-hand rule in the space of the shape,
 /// mirrored by `reverse_orientation` and once more by a transform that swaps handedness. Their triangle_light refers to
-/// polygon_lights, to which coplanar neighbours have been merged. Takes the arrays of the shape unless others share them.
+/// polygons, to which coplanar neighbours have been merged. Takes the arrays of the shape unless others share them.
 /// Throws SceneError. Touches nothing but this shape, so that shapes may be built in parallel.
 BuiltShape build_shape(const PlacedShape& placed, SceneBudget& budget, const FormatWords& words);
 

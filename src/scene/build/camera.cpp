@@ -24,11 +24,11 @@ std::array<double, 4> screen_window(const CameraDescription& description, const 
 
 Camera make_camera(const CameraDescription& description, const Film& film) {
     const auto world_from_camera = inverse(description.camera_from_world);
-    if (!world_from_camera) throw SceneError(description.origin, "camera: its transform cannot be inverted");
+    if (!world_from_camera) throw SceneError(description.origin, "camera: the transform is not invertible");
     for (const Double3& axis : {Double3{1, 0, 0}, Double3{0, 1, 0}, Double3{0, 0, 1}}) {
         const double factor = length(transform_vector(*world_from_camera, axis));
         if (!(factor >= 1 / kMaxScale && factor <= kMaxScale))
-            throw SceneError(description.origin, "camera: its transform scales by " + to_text(1 / factor) +
+            throw SceneError(description.origin, "camera: the transform scales by " + to_text(1 / factor) +
                                                      ", which must lie between 1e-6 and 1e6");
     }
 
@@ -58,10 +58,10 @@ Camera make_camera(const CameraDescription& description, const Film& film) {
         camera.down = {0, 0, 0};
     }
     if (!is_valid_coordinate(camera.origin))
-        throw SceneError(description.origin, "camera: its position lies more than 1e15 m from the origin");
+        throw SceneError(description.origin, "camera: the position must be within 1e15 m of the origin");
     for (const Float3& v : {camera.corner, right, down})
         if (!is_valid_coordinate(v))
-            throw SceneError(description.origin, "camera: its screen window exceeds 1e15");
+            throw SceneError(description.origin, "camera: the screen window exceeds 1e15");
     return camera;
 }
 

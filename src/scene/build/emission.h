@@ -1,5 +1,5 @@
 #pragma once
-/// What shapes emit.
+/// The emission of shapes.
 
 #include "scene/input/diagnostics.h"
 #include "scene/model/scene.h"
@@ -12,7 +12,7 @@ namespace nusselt::scene {
 struct Emission {
     Float3 radiance = {0, 0, 0}; ///< to be scaled to `power`, if there is one
     bool two_sided = false;
-    /// What each shape would emit in all if the luminance of `radiance` were one [W].
+    /// The total power of each shape if the luminance of `radiance` were one [W].
     std::optional<double> power;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// How much the files of a scene may hold together.
+/// Limits on all files of a scene together.
 
 #include "scene/input/limits.h"
 
@@ -15,19 +15,19 @@ inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 31;
 inline constexpr std::uint64_t kMaxRepeatedMeshBytes = std::uint64_t{1}
                                                        << 32; ///< of files that are read again
 
-// Copies of lights. They are not instanced, so a short text may ask for very many of them.
+// Copies of lights. They are not instanced, so a short text may create very many of them.
 inline constexpr std::size_t kMaxLightCopies = std::size_t{1} << 17;
 inline constexpr std::size_t kMaxCopiedValues = std::size_t{1} << 26; ///< numbers that describe their shapes
 
-/// What the files of one scene share.
+/// Budgets that the files of one scene share.
 struct SceneBudget {
-    /// What gzip files decompress to.
+    /// The decompressed bytes of gzip files.
     Budget inflated_bytes{kMaxInflatedBytes, "compressed files decompress to more than " +
                                                  std::to_string(kMaxInflatedBytes) +
-                                                 " bytes in all; decompress them (gunzip)"};
-    /// Of decoded images and the textures made of them.
+                                                 " bytes in total; decompress them (gunzip)"};
+    /// The texels of decoded images and of the textures made of them.
     Budget texels{kMaxTexels, "the textures of the scene have more than " + std::to_string(kMaxTexels) +
-                                  " texels in all; make them smaller"};
+                                  " texels in total; make them smaller"};
 };
 
 } // namespace nusselt::scene

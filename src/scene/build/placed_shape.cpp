@@ -68,7 +68,7 @@ void check_copies(const SceneDescription& description) {
             throw SceneError(instance.origin, "instances have more than " + std::to_string(kMaxLightCopies) +
                                                   " shapes that emit light, or more than " +
                                                   std::to_string(kMaxCopiedValues) +
-                                                  " numbers in these; leave lights out of objects");
+                                                  " numbers in these; move lights out of objects");
     }
 }
 
@@ -97,7 +97,7 @@ std::array<float, 12> instance_rows(const InstanceDescription& instance, std::st
     const auto rows = instance_rows(instance.world_from_object);
     if (!rows)
         throw SceneError(instance.origin, words.instance + ": the transform of object \"" +
-                                              shortened(object) + "\" cannot be inverted or exceeds 1e15");
+                                              shortened(object) + "\" is not invertible or exceeds 1e15");
     return *rows;
 }
 

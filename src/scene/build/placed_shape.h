@@ -1,5 +1,5 @@
 #pragma once
-/// Where shapes are: in the world or in objects, once or once per instance.
+/// The places of shapes: in the world or in objects, once or once per instance.
 
 #include "scene/build/scene_description.h"
 
@@ -25,8 +25,8 @@ struct PlacedObject {
 };
 
 struct PlacedShapes {
-    /// Those of the world, then copies of all shapes of instances that emit light, moved to the world, then the other
-    /// shapes of the objects that have instances.
+    /// The shapes of the world, then copies of all shapes of instances that emit light, moved to the world, then the
+    /// other shapes of the objects that have instances.
     std::vector<PlacedShape> shapes;
     std::vector<PlacedObject>
         objects; ///< for each object of the description; without shapes where it has no instance

@@ -33,9 +33,10 @@ void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words,
     const Float3 radiance = radiance_of(shape.emission, area(built), words.emission, shape.origin);
     PolygonPartition partition = merge_coplanar_triangles(built.positions, built.triangles);
     built.triangle_light = std::move(partition.polygon_of_triangle);
-    built.polygon_lights.reserve(partition.polygons.size());
+    std::vector<PolygonLight>& lights = built.lights.of<PolygonLight>();
+    lights.reserve(partition.polygons.size());
     for (const PolygonVertices& polygon : partition.polygons)
-        built.polygon_lights.push_back({0, polygon, radiance, shape.emission.two_sided});
+        lights.push_back({0, polygon, radiance, shape.emission.two_sided});
     if (!shape.is_invisible) return;
     built.positions = {};
     built.normals = {};

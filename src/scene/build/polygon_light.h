@@ -5,7 +5,7 @@
 
 namespace nusselt::scene {
 
-/// Orients the triangles of an emissive shape in world space to the side that emits, and merges them to polygon_lights.
+/// Orients the triangles of an emissive shape in world space to the side that emits, and merges them to polygons.
 /// If the shape is invisible, its triangles are removed.
 void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words, BuiltShape& built);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What importers hand to the builder: a scene in neutral terms, with the place in the file that each part comes from.
+/// A scene in neutral terms, which importers pass to the builder, with the place in the file of each part.
 
 #include "scene/build/camera.h"
 #include "scene/build/emission.h"
@@ -20,7 +20,7 @@ constexpr int kNoMaterial = -1;
 
 /// A shape with all that applies to it.
 struct ShapeDescription {
-    std::string kind; ///< what messages and the names of lights call it, "sphere" for example
+    std::string kind; ///< its name in messages and in the names of lights, such as "sphere"
     Location origin;
     Geometry geometry;
     Transform world_from_object;
@@ -44,7 +44,7 @@ struct InstanceDescription {
     Location origin;
 };
 
-/// What a format calls things in its files. Messages use the same words.
+/// The words of a format for the parts of a scene. Messages use the same words.
 struct FormatWords {
     std::string instance = "instance";
     std::string emission = "emission";
@@ -56,7 +56,7 @@ struct SceneDescription {
     std::unique_ptr<SceneBudget> budget = std::make_unique<SceneBudget>();
     std::deque<SourceFile> sources; ///< all locations point into these; the first one is the main file
     FormatWords words;
-    std::vector<ShapeDescription> shapes; ///< those of the world
+    std::vector<ShapeDescription> shapes; ///< the shapes of the world
     std::vector<ObjectDescription> objects;
     std::vector<InstanceDescription> instances;
     std::vector<Material> materials; ///< their textures are indices of requests of `textures`

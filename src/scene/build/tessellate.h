@@ -1,5 +1,5 @@
 #pragma once
-/// Round and curved shapes as flat pieces: as many as docs/materials.md says.
+/// Round and curved shapes as flat pieces: as many as docs/materials.md defines.
 
 #include "scene/build/build_shape.h"
 

@@ -1,6 +1,5 @@
 #include "scene/build/tube_light.h"
 
-#include "scene/model/light_area.h"
 #include "scene/model/vector_math.h"
 
 #include <cmath>
@@ -10,8 +9,8 @@ namespace nusselt::scene {
 
 namespace {
 
-/// By how much a transform scales the cross section of a cylinder around the z axis; nothing if that does not stay
-/// round, or if the axis does not stay perpendicular to it.
+/// The factor by which a transform scales the cross section of a cylinder around the z axis; nothing if it does not
+/// stay round, or if the axis does not stay perpendicular to it.
 std::optional<double> cross_section_scale(const Transform& world_from_object) {
     const Double3 x = transform_vector(world_from_object, {1, 0, 0});
     const Double3 y = transform_vector(world_from_object, {0, 1, 0});
@@ -48,13 +47,13 @@ LineLight light_of(const Cylinder& cylinder, const Transform& world_from_object)
 void check(const ShapeDescription& shape, const LineLight& light, const Location& radius_origin) {
     const std::string subject = subject_of(shape) + ": ";
     if (!is_valid_coordinate(light.start) || !is_valid_coordinate(light.end))
-        throw SceneError(shape.origin, subject + "an end point is not finite or beyond 1e15 m");
+        throw SceneError(shape.origin, subject + "the end points must be finite and within 1e15 m");
     if (!(light.radius > 0) || !is_valid_coordinate({light.radius, 0, 0}))
         throw SceneError(radius_origin,
                          subject + "radius must be positive and at most 1e15 m after the transform, found " +
                              to_text(light.radius));
     if (!(length(to_double(light.end) - to_double(light.start)) > 0))
-        throw SceneError(shape.origin, subject + "both end points are equal");
+        throw SceneError(shape.origin, subject + "the end points must differ");
 }
 
 } // namespace
@@ -77,18 +76,18 @@ BuiltShape build_tube(const PlacedShape& placed, const FormatWords& words) {
         const auto& cylinder = std::get<Cylinder>(shape.geometry);
         light = light_of(cylinder, placed.world_from_object);
         if (shape.reverse_orientation)
-            built.warnings.add(shape.origin,
-                               subject_of(shape) + ": " + words.reversal + " is ignored, it emits outwards");
+            built.warnings.add(shape.origin, subject_of(shape) + ": " + words.reversal +
+                                                 " is ignored; tubes emit outwards");
         check(shape, light, cylinder.radius_origin);
     }
     if (is_black(shape.emission.radiance)) {
-        built.warnings.add(shape.origin, subject_of(shape) + ": ignored where it does not emit light");
+        built.warnings.add(shape.origin, subject_of(shape) + ": skipped because it does not emit light");
         return built;
     }
     Emission outwards = shape.emission;
     outwards.two_sided = false;
     light.radiance = radiance_of(outwards, area(light), words.emission, shape.origin);
-    built.line_lights = {light};
+    built.lights.of<LineLight>() = {light};
     return built;
 }
 

@@ -7,7 +7,7 @@
 
 namespace nusselt::scene {
 
-/// What a spectrum or colour describes, which decides how it is reduced to linear sRGB.
+/// The quantity that a spectrum or colour describes, which determines its reduction to linear sRGB.
 enum class SpectrumUse {
     albedo,     ///< a factor of surfaces, also an optical constant: the constant 1 is white
     illuminant, ///< emission
@@ -26,12 +26,12 @@ struct ColourSpace {
 constexpr Chromaticity kWhiteD65 = {0.3127, 0.3290};
 constexpr ColourSpace kSrgb = {"srgb", {0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, kWhiteD65};
 
-/// Those of pbrt: "srgb", "dci-p3", "rec2020" and "aces2065-1". Null for other names.
+/// Finds a colour space of pbrt: "srgb", "dci-p3", "rec2020" or "aces2065-1". Null for other names.
 const ColourSpace* find_colour_space(std::string_view name);
 
 /// Tristimulus values of luminance 1.
 Double3 xyz_of(const Chromaticity& chromaticity);
-/// Linear sRGB of tristimulus values; white is D65. Components are negative outside of the gamut.
+/// Linear sRGB of tristimulus values; white is D65. Components are negative outside the gamut.
 Double3 srgb_from_xyz(const Double3& xyz);
 /// Linear sRGB of a colour of another space. An albedo of (1, 1, 1) stays white: chromatic adaptation by Bradford's
 /// method. An illuminant of (1, 1, 1) keeps the chromaticity of the white point of `space`.

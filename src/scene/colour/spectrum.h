@@ -14,7 +14,7 @@ struct SpectrumSample {
 
 /// Linear between samples, constant beyond the first and the last one. Two samples at one wavelength are a step.
 /// As an albedo the constant 1 becomes (1, 1, 1). As an illuminant the constant 1 has luminance 1 and the colour of
-/// the equal-energy spectrum. Components are negative outside of the gamut.
+/// the equal-energy spectrum. Components are negative outside the gamut.
 /// \param samples  at least one; sorted by wavelength
 Double3 srgb_of(const std::vector<SpectrumSample>& samples, SpectrumUse use);
 

@@ -25,8 +25,7 @@ std::string extension_of(const std::filesystem::path& path) {
     for (const Importer& format : formats)
         known += (known.empty() ? "" : ", ") + std::string(format.name) + " (" +
                  std::string(format.extension) + ')';
-    throw std::runtime_error("scene file '" + path.string() +
-                             "': its format is unknown; supported formats: " + known);
+    throw std::runtime_error("scene file '" + path.string() + "': unknown format; use one of " + known);
 }
 
 const Importer& find_importer(const std::filesystem::path& path, std::span<const Importer> formats) {

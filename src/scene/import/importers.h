@@ -25,10 +25,10 @@ struct Importer {
 /// All formats.
 std::span<const Importer> importers();
 
-/// Loads a scene with its meshes and textures. The extension of the file tells its format, without ".gz" where it is
-/// compressed; where no importer has that extension, the contents do.
+/// Loads a scene with its meshes and textures. The extension of the file determines its format, without ".gz" where it
+/// is compressed; where no importer has that extension, the contents do.
 ///
-/// What the importer does not know it skips where that is safe and says so in Scene::warnings.
+/// The importer skips unknown input where that is safe, and reports it in Scene::warnings.
 ///
 /// Throws std::runtime_error (SceneError of scene/input/diagnostics.h where a place in a file is to blame, what() being
 /// "file:line: message") if the format is unknown, or a file cannot be read or contradicts its format.

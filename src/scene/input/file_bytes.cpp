@@ -102,7 +102,7 @@ FileBytes inflated(std::string_view gzip, Budget& bytes) {
         const auto end = static_cast<std::size_t>(output - result.data_.get());
         if (end > kFreelyInflated + kMaxInflation * gzip.size())
             throw std::runtime_error("decompresses to more than " + std::to_string(kMaxInflation) +
-                                     " times its size; decompress it (gunzip) if that is meant");
+                                     " times its size; decompress it (gunzip) if this is intended");
         bytes.take(end - used);
         used = end;
         if (!part_ends) continue;

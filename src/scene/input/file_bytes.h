@@ -36,7 +36,7 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Where a file that a scene names is: in the first of two folders, or in the second one if it is only there.
+/// The path of a file that a scene names: in the first of two folders, or in the second one if only that one has it.
 std::filesystem::path find_file(const std::string& name, const std::filesystem::path& first_folder,
                                 const std::filesystem::path& second_folder);
 
@@ -48,7 +48,7 @@ bool is_gzip(std::string_view bytes);
 /// the file is broken, ends early, or holds more bytes than are left.
 FileBytes inflated(std::string_view gzip, Budget& bytes);
 
-/// How many bytes a file holds after decompression, as far as it is one gzip file of less than 4 GiB that tells the
+/// The size of a file after decompression, provided that it is one gzip file of less than 4 GiB that states the
 /// truth, else at least how many there are on the disk; 0 for what cannot be read.
 std::uint64_t claimed_size(const std::filesystem::path& path);
 

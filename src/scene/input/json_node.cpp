@@ -24,15 +24,15 @@ std::string position_text(std::string_view text, std::size_t offset) {
     return std::to_string(line) + ":" + std::to_string(before.size() - line_begin + 1);
 }
 
-/// The reason in the words of the parser, without its name and its own account of the position.
+/// The reason in the words of the parser, without its name and its description of the position.
 std::string syntax_reason(std::string_view what) {
     const std::size_t colon = what.find(": ");
     const std::string_view reason = colon == what.npos ? what : what.substr(colon + 2);
     // The last words that it read may be any bytes.
-    return "this is no JSON: " + std::string(reason.substr(0, reason.find("; last read")));
+    return "invalid JSON: " + std::string(reason.substr(0, reason.find("; last read")));
 }
 
-/// Where a number stands that the parser could not represent; it says which one, in quotes, but not where.
+/// The position of a number that the parser could not represent. Its message quotes the number, but lacks the position.
 std::size_t offset_of_number(std::string_view text, std::string_view what) {
     const std::size_t begin = std::min(what.find('\''), what.size() - 1) + 1;
     const std::size_t offset = text.find(what.substr(begin, what.rfind('\'') - begin));
@@ -52,7 +52,7 @@ public:
         if (event == Event::object_end) fields_.pop_back();
         if (event == Event::key && !fields_.back().insert(parsed.get<std::string>()).second)
             fail("the field " + shortened(parsed.dump()) +
-                 " is given twice in one object; remove one of them");
+                 " appears twice in one object; remove one of them");
         return true;
     }
 
@@ -114,7 +114,7 @@ json read_json(const std::filesystem::path& path) {
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     if (!error && size > kMaxJsonBytes)
         fail("has " + std::to_string(size) + " bytes; at most " + std::to_string(kMaxJsonBytes) +
-             " are read");
+             " are supported");
     FileBytes bytes;
     try {
         Budget inflated_bytes(kMaxJsonBytes,
@@ -162,7 +162,7 @@ std::optional<JsonNode> JsonNode::find(std::string_view field) const {
 
 JsonNode JsonNode::at(std::string_view field) const {
     if (std::optional<JsonNode> node = find(field)) return *std::move(node);
-    fail("needs the field \"" + std::string(field) + '"');
+    fail("must have the field \"" + std::string(field) + '"');
 }
 
 std::vector<JsonNode> JsonNode::elements() const {
@@ -181,7 +181,7 @@ bool JsonNode::boolean() const {
 
 std::string JsonNode::text() const {
     if (!value_->is_string() || value_->get_ref<const std::string&>().empty())
-        fail_type("a text in quotes, not empty");
+        fail_type("a non-empty text in quotes");
     return value_->get<std::string>();
 }
 

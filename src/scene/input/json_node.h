@@ -18,7 +18,7 @@ namespace nusselt::scene {
 /// is no JSON (with line and column), repeats a field of an object or nests more than 32 deep.
 nlohmann::json read_json(const std::filesystem::path& path);
 
-/// A value in a file, with the words that tell where. It refers to the document, which must outlive it.
+/// A value in a file, with a description of its position. It refers to the document, which must outlive it.
 class JsonNode {
 public:
     JsonNode(const nlohmann::json& document, const std::filesystem::path& file)
@@ -40,7 +40,7 @@ public:
     std::optional<JsonNode> find(std::string_view field) const;
     /// The field of an object. Throws if it has none.
     JsonNode at(std::string_view field) const;
-    /// Of an array. Throws if this is none.
+    /// The elements of an array. Throws if this node is not an array.
     std::vector<JsonNode> elements() const;
 
     bool boolean() const;

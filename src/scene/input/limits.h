@@ -1,5 +1,6 @@
 #pragma once
-/// How much files may hold. Few bytes can ask for much memory; without limits a small archive of files would fill it.
+/// Limits on the size of files. Few bytes can demand much memory; without limits a small archive of files would fill
+/// it.
 
 #include <atomic>
 #include <cstdint>
@@ -30,7 +31,7 @@ private:
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 34;
 inline constexpr std::uint64_t kMaxJsonBytes = 256 << 20; ///< also after decompression
 
-/// What a gzip file may decompress to: this many times its own size and some bytes more. Scenes and meshes take up to
+/// A gzip file may decompress to this many times its own size and some bytes more. Scenes and meshes take up to
 /// thirty times; more are damaged, or made to fill the memory.
 inline constexpr std::uint64_t kMaxInflation = 100;
 inline constexpr std::uint64_t kFreelyInflated = 1 << 20;

@@ -56,15 +56,7 @@ Bounds scene_bounds(const Scene& scene) {
         objects.push_back(triangle_bounds(scene, object.first_triangle, object.triangle_count));
     for (const Instance& instance : scene.instances)
         bounds.add(transformed(objects[instance.object], instance.world_from_object));
-    for (const PolygonLight& light : scene.polygon_lights)
-        for (const Float3& p : light.vertices) bounds.add(to_double(p));
-    for (const LineLight& line : scene.line_lights) {
-        const Double3 margin = {line.radius, line.radius, line.radius};
-        for (const Float3& end : {line.start, line.end}) {
-            bounds.add(to_double(end) - margin);
-            bounds.add(to_double(end) + margin);
-        }
-    }
+    for (const LightList& list : scene.lights) list.add_to(bounds);
     return bounds;
 }
 

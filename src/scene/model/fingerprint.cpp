@@ -10,13 +10,12 @@
 
 namespace nusselt::scene {
 
-namespace {
+template <>
+inline constexpr bool kIsPlain<Triangle> = true;
+template <>
+inline constexpr bool kIsPlain<std::array<float, 12>> = true;
 
-/// Types whose bytes are all part of their value, so that arrays of them can be taken at once.
-template <class T>
-constexpr bool kIsPlain =
-    std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Float2> || std::is_same_v<T, Float3> ||
-    std::is_same_v<T, Triangle> || std::is_same_v<T, std::array<float, 12>>;
+namespace {
 
 class Fingerprint {
 public:
@@ -69,19 +68,11 @@ public:
 
     void add(const Emitter& emitter) { [[maybe_unused]] const auto& [name] = emitter; }
 
-    void add(const PolygonVertices& vertices) {
-        add(vertices.size());
-        for (const Float3& vertex : vertices) add(vertex);
-    }
-
-    void add(const PolygonLight& light) {
-        const auto& [emitter, vertices, radiance, two_sided] = light;
-        add_all(emitter, vertices, radiance, two_sided);
-    }
-
-    void add(const LineLight& light) {
-        const auto& [emitter, start, end, radius, radiance, model] = light;
-        add_all(emitter, start, end, radius, radiance, model);
+    void add(const Lights& lights) {
+        for (const LightList& list : lights) {
+            add(list.size());
+            list.hash(hash_);
+        }
     }
 
     void add(const Object& object) {
@@ -116,10 +107,10 @@ public:
 
     void add(const Scene& scene) {
         const auto& [positions, normals, uvs, triangles, triangle_material, triangle_light, objects,
-                     instances, materials, textures, emitters, polygon_lights, line_lights, camera, film,
-                     warnings, radius] = scene;
+                     instances, materials, textures, emitters, lights, camera, film, warnings, radius] =
+            scene;
         add_all(positions, normals, uvs, triangles, triangle_material, triangle_light, objects, instances,
-                materials, textures, emitters, polygon_lights, line_lights, camera, film, radius);
+                materials, textures, emitters, lights, camera, film, radius);
     }
 
 private:

@@ -85,7 +85,7 @@ std::optional<std::string> find_polygon_defect(const std::vector<Double3>& verti
         const std::size_t odd = odd_vertex_out(vertices, tolerance);
         const double distance = Plane(without(vertices, odd)).distance(vertices[odd]);
         return "vertex " + std::to_string(odd) + " is " + to_text(distance) +
-               " m off the plane of the others";
+               " m away from the plane of the others";
     }
 
     // Each vertex must lie on the inner side of each edge; unlike a test of the corners this finds stars too.

@@ -3,24 +3,17 @@
 /// metres and W/(sr m^2). Types of include/nusselt do not appear here on purpose: their names differ between
 /// instruction sets, while this data crosses from baseline code into code compiled for each of them.
 
+#include "scene/model/float3.h"
+#include "scene/model/lights/light_kinds.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace nusselt::scene {
-
-struct Float2 {
-    float x, y;
-};
-
-struct Float3 {
-    float x, y, z;
-    bool operator==(const Float3&) const = default;
-};
 
 /// What a texture is outside of the unit square.
 enum class TextureWrap : std::uint32_t {
@@ -88,64 +81,6 @@ struct Material {
 /// layers of images refer to lights by these.
 struct Emitter {
     std::string name;
-};
-
-/// The corners of a polygonal light, in place: scenes have hundreds of thousands of such lights.
-class PolygonVertices {
-public:
-    static constexpr std::size_t kCapacity = 8;
-
-    PolygonVertices() = default;
-    PolygonVertices(std::initializer_list<Float3> vertices) { assign(vertices.begin(), vertices.end()); }
-    PolygonVertices(const std::vector<Float3>& vertices) { assign(vertices.begin(), vertices.end()); }
-    /// \throws std::length_error if these are too many
-    template <class Iterator>
-    void assign(Iterator begin, Iterator end) {
-        size_ = 0;
-        for (; begin != end; ++begin) push_back(*begin);
-    }
-    /// \throws std::length_error if it is full
-    void push_back(const Float3& vertex);
-
-    std::size_t size() const { return size_; }
-    const Float3* begin() const { return vertices_.data(); }
-    const Float3* end() const { return vertices_.data() + size_; }
-    Float3* begin() { return vertices_.data(); }
-    Float3* end() { return vertices_.data() + size_; }
-    const Float3& operator[](std::size_t i) const { return vertices_[i]; }
-    Float3& operator[](std::size_t i) { return vertices_[i]; }
-    /// \throws std::out_of_range
-    const Float3& at(std::size_t i) const;
-    const Float3& back() const { return vertices_[size_ - 1]; }
-
-private:
-    std::array<Float3, kCapacity> vertices_ = {};
-    std::uint32_t size_ = 0;
-};
-
-/// A convex planar light of 3 to 8 vertices. It emits `radiance` to the side from which the vertices appear
-/// counter-clockwise, or to both sides.
-struct PolygonLight {
-    std::uint32_t emitter = 0; ///< index into Scene::emitters
-    PolygonVertices vertices = {};
-    Float3 radiance = {0, 0, 0};
-    bool two_sided = false;
-};
-
-/// What light a tube gives.
-enum class TubeModel : std::uint32_t {
-    linear, ///< that of a linear light with brightness radiance * radius [W/(sr m)]: the limit of a small radius
-    solid, ///< that of a closed cylinder, which shines outwards from its lateral surface and its caps
-};
-
-/// A tube. Cameras see it as a cylinder of this radius; it casts no shadows.
-struct LineLight {
-    std::uint32_t emitter = 0; ///< index into Scene::emitters
-    Float3 start = {0, 0, 0};
-    Float3 end = {0, 0, 0};
-    float radius = 0;
-    Float3 radiance = {0, 0, 0};
-    TubeModel model = TubeModel::solid;
 };
 
 /// A camera whose rays depend linearly on the raster position (x, y), in pixels of the whole film with y downwards and
@@ -217,21 +152,29 @@ struct Scene {
     // first, then those of objects.
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> triangle_material; ///< index into materials
-    std::vector<std::int32_t> triangle_light; ///< index into polygon_lights, -1 for surfaces that do not emit
+    /// Number among all lights, of which polygons come first; -1 for surfaces that do not emit.
+    std::vector<std::int32_t> triangle_light;
     std::vector<Object> objects;
     std::vector<Instance> instances;
 
     std::vector<Material> materials;
     std::vector<Texture> textures;
     std::vector<Emitter> emitters;
-    std::vector<PolygonLight> polygon_lights; ///< in the order of their emitters
-    std::vector<LineLight> line_lights;       ///< likewise
+    Lights lights = no_lights_of_each_kind(); ///< those of a kind in the order of their emitters
     Camera camera;
     Film film;
 
     std::vector<std::string> warnings; ///< "file:line: message", in order, each kind once
     double radius = 0;                 ///< half the diagonal of the bounding box of surfaces and lights [m]
 };
+
+/// The emitter of each light, in the order of their numbers.
+inline std::vector<std::uint32_t> light_emitters(const Scene& scene) {
+    std::vector<std::uint32_t> emitters;
+    for (const LightList& list : scene.lights)
+        for (std::size_t i = 0; i < list.size(); ++i) emitters.push_back(list.emitter(i));
+    return emitters;
+}
 
 /// Number of triangles that belong to no object.
 inline std::size_t world_triangle_count(const Scene& scene) {

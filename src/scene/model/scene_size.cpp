@@ -16,10 +16,10 @@ std::size_t bytes_of(const Arrays&... arrays) {
 } // namespace
 
 std::size_t array_bytes(const Scene& scene) {
-    std::size_t bytes =
-        bytes_of(scene.positions, scene.normals, scene.uvs, scene.triangles, scene.triangle_material,
-                 scene.triangle_light, scene.objects, scene.instances, scene.materials, scene.textures,
-                 scene.emitters, scene.polygon_lights, scene.line_lights);
+    std::size_t bytes = bytes_of(scene.positions, scene.normals, scene.uvs, scene.triangles,
+                                 scene.triangle_material, scene.triangle_light, scene.objects,
+                                 scene.instances, scene.materials, scene.textures, scene.emitters);
+    for (const LightList& list : scene.lights) bytes += list.bytes();
     for (const Texture& texture : scene.textures) bytes += bytes_of(texture.texels);
     return bytes;
 }
@@ -27,7 +27,7 @@ std::size_t array_bytes(const Scene& scene) {
 void check_counts(std::size_t vertices, std::size_t triangles, std::string_view copies) {
     const auto fail = [copies](std::size_t limit, const std::string& what) {
         throw std::runtime_error("the scene has more than " + std::to_string(limit) + " " + what + "; use " +
-                                 std::string(copies) + " for copies or fewer details");
+                                 std::string(copies) + " for copies, or simplify it");
     };
     if (vertices > kMaxVertices) fail(kMaxVertices, "vertices");
     if (triangles > kMaxTriangles) fail(kMaxTriangles, "triangles");

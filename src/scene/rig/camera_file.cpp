@@ -2,8 +2,8 @@
 
 #include "scene/input/json_node.h"
 #include "scene/model/limits.h"
+#include "scene/model/number_text.h"
 #include "scene/model/vector_math.h"
-#include "scene/rig/number_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "scene/colour/colour_space.h"
 #include "scene/model/bounds.h"
-#include "scene/model/light_area.h"
+#include "scene/model/lights/light_geometry.h"
 #include "scene/model/polygon.h"
 #include "scene/model/scene_size.h"
 #include "scene/model/vector_math.h"
@@ -19,52 +19,42 @@ namespace {
 constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t kShared = kNobody - 1;
 
-std::vector<Double3> corners(const PolygonLight& light) {
-    std::vector<Double3> result;
-    for (const Float3& p : light.vertices) result.push_back(to_double(p));
-    return result;
-}
-
-bool equal(const Float3& a, const Float3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
-
-bool has_shape(const EditableLight& light, const std::vector<Float3>& vertices) {
-    if (light.polygons.size() != 1 || !light.tubes.empty()) return false;
-    const auto& own = light.polygons[0].vertices;
-    return std::equal(own.begin(), own.end(), vertices.begin(), vertices.end(), equal);
-}
-
-bool has_shape(const EditableLight& light, const TubeShape& tube) {
-    if (light.tubes.size() != 1 || !light.polygons.empty()) return false;
-    const LineLight& own = light.tubes[0];
-    return equal(own.start, tube.start) && equal(own.end, tube.end) && own.radius == tube.radius &&
-           own.model == tube.model;
-}
-
-void set_shape(EditableLight& light, const Float3& radiance, const std::vector<Float3>& vertices) {
-    PolygonLight polygon;
-    polygon.two_sided = !light.polygons.empty() && light.polygons[0].two_sided;
-    polygon.radiance = radiance;
-    polygon.vertices = vertices;
-    light.polygons = {polygon};
-    light.tubes.clear();
-    light.has_new_surface = true;
-}
-
-void set_shape(EditableLight& light, const Float3& radiance, const TubeShape& shape) {
-    LineLight tube;
-    tube.start = shape.start;
-    tube.end = shape.end;
-    tube.radius = shape.radius;
-    tube.model = shape.model;
-    tube.radiance = radiance;
-    light.polygons.clear();
-    light.tubes = {tube};
-    light.has_new_surface = false;
-}
-
 /// Alpha 0 makes lights without a surface.
 bool is_invisible(const EditableLight& light) {
-    return !light.polygons.empty() && light.triangles.empty() && !light.has_new_surface;
+    return has_polygons(light) && light.triangles.empty() && !light.has_new_surface;
+}
+
+/// The emission of a part of a light.
+struct Emission {
+    Float3 radiance = {1, 1, 1};
+    bool two_sided = false;
+};
+
+Emission emission_of(const Lights& parts) {
+    for (const LightList& list : parts) {
+        if (list.size() == 0) continue;
+        const bool* const two_sided = list.two_sided(0);
+        return {list.radiance(0), two_sided != nullptr && *two_sided};
+    }
+    return {};
+}
+
+void set_emission(const Emission& emission, Lights& parts) {
+    for (LightList& list : parts) {
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            list.radiance(i) = emission.radiance;
+            if (bool* const two_sided = list.two_sided(i)) *two_sided = emission.two_sided;
+        }
+    }
+}
+
+/// Whether both are the same single light but for its emission.
+bool have_same_shape(const Lights& a, const Lights& b) {
+    if (a.size() != 1 || b.size() != 1) return false;
+    for (const LightList& list : a)
+        for (const LightList& other : b)
+            if (list.size() == 1 && other.size() == 1) return list.same_shape(0, other, 0);
+    return false;
 }
 
 bool emits(const EditableLight& light) { return light.is_enabled && !light.is_removed && !is_black(light); }
@@ -87,78 +77,62 @@ void insert_at(Array& array, std::size_t position, const Array& values) {
 std::vector<EditableLight> editable_lights(const Scene& scene) {
     std::vector<EditableLight> lights(scene.emitters.size());
     for (std::size_t i = 0; i < lights.size(); ++i) lights[i].name = scene.emitters[i].name;
-    for (std::size_t i = 0; i < scene.polygon_lights.size(); ++i) {
-        EditableLight& light = lights[scene.polygon_lights[i].emitter];
-        if (light.polygons.empty()) light.first_polygon = static_cast<std::uint32_t>(i);
-        light.polygons.push_back(scene.polygon_lights[i]);
+    const std::vector<std::uint32_t> emitter_of = light_emitters(scene);
+    std::uint32_t number = 0;
+    for (const LightList& list : scene.lights) {
+        for (std::size_t i = 0; i < list.size(); ++i, ++number) {
+            EditableLight& light = lights[list.emitter(i)];
+            if (light.parts.empty()) light.first_light = number;
+            light.parts.append(list, i);
+        }
     }
-    for (const LineLight& tube : scene.line_lights) lights[tube.emitter].tubes.push_back(tube);
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         if (scene.triangle_light[i] < 0) continue;
-        const auto polygon = static_cast<std::size_t>(scene.triangle_light[i]);
-        EditableLight& light = lights[scene.polygon_lights[polygon].emitter];
+        EditableLight& light = lights[emitter_of[static_cast<std::size_t>(scene.triangle_light[i])]];
         light.material = scene.triangle_material[i];
         light.triangles.push_back(static_cast<std::uint32_t>(i));
     }
     return lights;
 }
 
+bool has_polygons(const EditableLight& light) { return !light.parts.of<PolygonLight>().empty(); }
+
 bool is_black(const EditableLight& light) {
-    const auto is_dark = [](const auto& part) { return is_black(part.radiance); };
-    return std::all_of(light.polygons.begin(), light.polygons.end(), is_dark) &&
-           std::all_of(light.tubes.begin(), light.tubes.end(), is_dark);
+    for (const LightList& list : light.parts)
+        for (std::size_t i = 0; i < list.size(); ++i)
+            if (!is_black(list.radiance(i))) return false;
+    return true;
 }
 
 Double3 centroid(const EditableLight& light) {
-    Double3 moment;
-    double total = 0;
-    const auto add = [&](double weight, const Double3& p) {
-        moment = moment + weight * p;
-        total += weight;
-    };
-    for (const PolygonLight& polygon : light.polygons) {
-        const std::vector<Double3> p = corners(polygon);
-        for (std::size_t i = 1; i + 1 < p.size(); ++i)
-            add(0.5 * length(cross(p[i] - p[0], p[i + 1] - p[0])), (1.0 / 3) * (p[0] + p[i] + p[i + 1]));
-    }
-    for (const LineLight& tube : light.tubes)
-        add(lateral_area(tube), 0.5 * (to_double(tube.start) + to_double(tube.end)));
-    return (1 / total) * moment;
+    Moment moment;
+    for (const LightList& list : light.parts) list.add_to(moment);
+    return moment.centroid();
 }
 
 double luminous_power(const EditableLight& light) {
     double sum = 0;
-    for (const PolygonLight& polygon : light.polygons)
-        sum += (polygon.two_sided ? 2 : 1) * area(polygon) * luminance(to_double(polygon.radiance));
-    for (const LineLight& tube : light.tubes) sum += area(tube) * luminance(to_double(tube.radiance));
+    for (const LightList& list : light.parts)
+        for (std::size_t i = 0; i < list.size(); ++i)
+            sum += list.emitting_area(i) * luminance(to_double(list.radiance(i)));
     return std::numbers::pi * sum;
 }
 
-void LightEditor::replace_shape(EditableLight& light, const LightShape& shape, std::uint32_t material) {
-    if (std::visit([&](const auto& s) { return has_shape(light, s); }, shape)) return;
+void LightEditor::replace_shape(EditableLight& light, const Lights& shape, std::uint32_t material) {
+    if (have_same_shape(light.parts, shape)) return;
     const bool stays_invisible = is_invisible(light);
-    if (light.polygons.empty()) light.material = material;
-    Float3 radiance = {1, 1, 1};
-    if (!light.polygons.empty())
-        radiance = light.polygons[0].radiance;
-    else if (!light.tubes.empty())
-        radiance = light.tubes[0].radiance;
+    if (!has_polygons(light)) light.material = material;
     unused_triangles_.insert(unused_triangles_.end(), light.triangles.begin(), light.triangles.end());
     light.triangles.clear();
-    std::visit([&](const auto& s) { set_shape(light, radiance, s); }, shape);
-    if (stays_invisible) light.has_new_surface = false;
+    const Emission emission = emission_of(light.parts);
+    light.parts = shape;
+    set_emission(emission, light.parts);
+    light.has_new_surface = has_polygons(light) && !stays_invisible;
 }
 
 void LightEditor::transform(EditableLight& light, const Transform& transform) {
     const auto move = [&](Float3& p) { p = to_float(transform_point(transform, to_double(p))); };
-    for (PolygonLight& polygon : light.polygons)
-        for (Float3& p : polygon.vertices) move(p);
-    const double scale = std::cbrt(linear_determinant(transform));
-    for (LineLight& tube : light.tubes) {
-        move(tube.start);
-        move(tube.end);
-        tube.radius = static_cast<float>(tube.radius * scale);
-    }
+    for (LightList& list : light.parts) list.transform(transform);
     for (const std::uint32_t vertex : own_vertices(light)) {
         move(scene_.positions[vertex]);
         Float3& normal = scene_.normals[vertex];
@@ -168,12 +142,12 @@ void LightEditor::transform(EditableLight& light, const Transform& transform) {
 
 /// Notes of each vertex which light uses it, as far as that is one.
 void LightEditor::find_vertex_owners() {
+    const std::vector<std::uint32_t> emitter_of = light_emitters(scene_);
     vertex_owner_.assign(scene_.positions.size(), kNobody);
     for (std::size_t i = 0; i < scene_.triangles.size(); ++i) {
         const std::int32_t light = scene_.triangle_light[i];
         // A vertex that belongs to a surface without light is never a light's own.
-        const std::uint32_t user =
-            light < 0 ? kShared : scene_.polygon_lights[static_cast<std::size_t>(light)].emitter;
+        const std::uint32_t user = light < 0 ? kShared : emitter_of[static_cast<std::size_t>(light)];
         for (const std::uint32_t vertex : scene_.triangles[i].vertex) {
             std::uint32_t& owner = vertex_owner_[vertex];
             owner = owner == kNobody || owner == user ? user : kShared;
@@ -221,27 +195,22 @@ void LightEditor::finish() {
 
 void LightEditor::put_lights_back() {
     scene_.emitters.clear();
-    scene_.polygon_lights.clear();
-    scene_.line_lights.clear();
+    scene_.lights.clear();
     std::vector<std::int32_t> triangle_light(scene_.triangles.size(), -1);
     for (EditableLight& light : lights_) {
         if (!emits(light)) continue;
         const auto emitter = static_cast<std::uint32_t>(scene_.emitters.size());
-        const std::size_t first_polygon = scene_.polygon_lights.size();
+        // Lights with triangles are polygons, which come first.
+        const std::size_t first_light = scene_.lights.of<PolygonLight>().size();
         scene_.emitters.push_back({light.name});
-        for (PolygonLight& polygon : light.polygons) {
-            polygon.emitter = emitter;
-            scene_.polygon_lights.push_back(polygon);
-        }
-        for (LineLight& tube : light.tubes) {
-            tube.emitter = emitter;
-            scene_.line_lights.push_back(tube);
-        }
+        for (LightList& list : light.parts)
+            for (std::size_t i = 0; i < list.size(); ++i) list.emitter(i) = emitter;
+        scene_.lights.append(light.parts);
         for (const std::uint32_t triangle : light.triangles)
             triangle_light[triangle] =
                 scene_.triangle_light[triangle] +
-                static_cast<std::int32_t>(static_cast<std::int64_t>(first_polygon) - light.first_polygon);
-        light.first_polygon = static_cast<std::uint32_t>(first_polygon);
+                static_cast<std::int32_t>(static_cast<std::int64_t>(first_light) - light.first_light);
+        light.first_light = static_cast<std::uint32_t>(first_light);
     }
     scene_.triangle_light = std::move(triangle_light);
 }
@@ -291,15 +260,16 @@ void LightEditor::add_surfaces() {
     for (const EditableLight& light : lights_) {
         if (!light.has_new_surface || light.is_removed) continue;
         const auto base = static_cast<std::uint32_t>(scene_.positions.size());
-        for (const Float3& p : light.polygons[0].vertices) {
+        const PolygonVertices& vertices = light.parts.of<PolygonLight>()[0].vertices;
+        for (const Float3& p : vertices) {
             scene_.positions.push_back(p);
             scene_.normals.push_back({0, 0, 0});
             scene_.uvs.push_back({0, 0});
         }
-        for (std::uint32_t i = 1; i + 1 < light.polygons[0].vertices.size(); ++i) {
+        for (std::uint32_t i = 1; i + 1 < vertices.size(); ++i) {
             triangles.push_back({{base, base + i, base + i + 1}});
             materials.push_back(light.material);
-            triangle_light.push_back(emits(light) ? static_cast<std::int32_t>(light.first_polygon) : -1);
+            triangle_light.push_back(emits(light) ? static_cast<std::int32_t>(light.first_light) : -1);
         }
     }
     check_counts(scene_.positions.size(), scene_.triangles.size() + triangles.size());

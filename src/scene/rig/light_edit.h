@@ -14,12 +14,11 @@ namespace nusselt::scene {
 /// A light with its surface.
 struct EditableLight {
     std::string name;
-    std::vector<PolygonLight> polygons;
-    std::vector<LineLight> tubes;
+    Lights parts;
     std::vector<std::uint32_t> triangles; ///< of its surface, as long as that is in the scene
-    /// Index of its first polygon in the scene, while it has triangles there.
-    std::uint32_t first_polygon = 0;
-    bool has_new_surface = false; ///< made of its polygons in the end
+    /// Number of its first light in the scene, while it has triangles there.
+    std::uint32_t first_light = 0;
+    bool has_new_surface = false; ///< made of its polygon in the end
     std::uint32_t material = 0;   ///< of a new surface
     bool is_enabled = true;
     bool is_removed = false;
@@ -27,6 +26,8 @@ struct EditableLight {
 
 /// The lights of a scene, in the order of Scene::emitters.
 std::vector<EditableLight> editable_lights(const Scene& scene);
+/// Whether its surface is made of polygons.
+bool has_polygons(const EditableLight& light);
 /// Whether no part of it emits anything.
 bool is_black(const EditableLight& light);
 /// Centroid of the surface.
@@ -43,7 +44,7 @@ public:
     /// Gives a light another shape, with the radiance and the sides of what it was; one without a shape becomes white and
     /// one-sided. Polygons that take the place of polygons without a surface, as alpha 0 makes them, have none either.
     /// \param material  of its surface if it had no polygons
-    void replace_shape(EditableLight& light, const LightShape& shape, std::uint32_t material);
+    void replace_shape(EditableLight& light, const Lights& shape, std::uint32_t material);
     /// Moves a light and its surface. The transform is affine; radii grow with the cube root of its determinant.
     void transform(EditableLight& light, const Transform& transform);
     /// Puts the lights back. Of those that are black or not enabled the surface stays, of tubes nothing. Vertices of

@@ -16,10 +16,10 @@ namespace nusselt::scene {
 
 namespace {
 
-/// Of the surfaces of lights that are added without a material.
+/// The name of the material of lights that are added without one.
 constexpr const char* kBlackMaterial = "black surface of a light";
 
-// Of materials without a specular component that get one.
+// Defaults for materials that get a specular component.
 constexpr Float3 kDefaultF0 = {0.04f, 0.04f, 0.04f};
 constexpr float kDefaultRoughness = 0.5f;
 
@@ -51,16 +51,16 @@ std::string nothing_selected(const std::string& kind, const Selector& selector, 
     }
     std::string text;
     if (const auto* const index = std::get_if<std::size_t>(&selector))
-        text = "there is no " + kind + " " + std::to_string(*index) + " (they are counted from 0)";
+        text = kind + " " + std::to_string(*index) + " does not exist (the first one is 0)";
     else
-        text = "no " + kind + " is called " + in_quotes(std::get<std::string>(selector));
+        text = "no " + kind + " matches " + in_quotes(std::get<std::string>(selector));
     if (named == 0) return text + "; the scene has no " + kind + "s";
-    text += std::string("; there ") + (named == 1 ? "is" : "are") + list;
+    text += "; use one of" + list;
     if (named > kShown) text += " and " + std::to_string(named - kShown) + " more";
     return text;
 }
 
-/// Indices of what a selector means.
+/// The indices of the selected lights or materials.
 std::vector<std::size_t> select(const Selector& selector, std::size_t count, const NameOf& name_of) {
     if (const auto* const index = std::get_if<std::size_t>(&selector)) {
         if (*index < count && name_of(*index) != nullptr) return {*index};
@@ -84,11 +84,11 @@ Transform about(const Double3& center, const Transform& transform) {
 
 template <class Change>
 void change_radiance(EditableLight& light, const Change& change) {
-    for (PolygonLight& polygon : light.polygons) polygon.radiance = change(polygon.radiance);
-    for (LineLight& tube : light.tubes) tube.radiance = change(tube.radiance);
+    for (LightList& list : light.parts)
+        for (std::size_t i = 0; i < list.size(); ++i) list.radiance(i) = change(list.radiance(i));
 }
 
-/// What a rig gives takes the place of a number and of the image beside it.
+/// A value in a rig replaces a number and the image beside it.
 template <class Value>
 void replace(const std::optional<Value>& given, Value& value, TextureUse& texture) {
     if (!given) return;
@@ -98,25 +98,25 @@ void replace(const std::optional<Value>& given, Value& value, TextureUse& textur
 
 Float3 scaled(double factor, const Float3& colour) { return to_float(factor * to_double(colour)); }
 
-/// Whether renderers can work with the shape: they normalise normals in float.
-bool is_valid(const PolygonLight& polygon) {
-    const auto& p = polygon.vertices;
-    if (!std::all_of(p.begin(), p.end(), is_valid_coordinate)) return false;
-    for (std::size_t i = 1; i + 1 < p.size(); ++i) {
-        const Double3 normal =
-            cross(to_double(p[i]) - to_double(p[0]), to_double(p[i + 1]) - to_double(p[0]));
-        if (!(dot(normal, normal) >= static_cast<double>(std::numeric_limits<float>::min()))) return false;
-    }
+bool is_valid(const EditableLight& light) {
+    for (const LightList& list : light.parts)
+        for (std::size_t i = 0; i < list.size(); ++i)
+            if (!list.is_valid(i)) return false;
     return true;
 }
 
-bool is_valid(const LineLight& tube) {
-    return is_valid_coordinate(tube.start) && is_valid_coordinate(tube.end) && tube.radius > 0 &&
-           is_valid_coordinate({tube.radius, 0, 0}) &&
-           length(to_double(tube.end) - to_double(tube.start)) > 0;
+/// A kind of light among its parts for which a condition holds, null if there is none.
+template <class Condition>
+const LightList* find_part(const EditableLight& light, const Condition& condition) {
+    for (const LightList& list : light.parts)
+        if (list.size() > 0 && condition(list)) return &list;
+    return nullptr;
 }
 
-/// The colour of a black body in linear sRGB, with the luminance 1. Below 1900 K it lies outside of the gamut.
+/// "a tube"
+std::string with_article(const LightList& list) { return "a " + std::string(list.noun()); }
+
+/// The colour of a black body in linear sRGB, with the luminance 1. Below 1900 K it lies outside the gamut.
 Double3 blackbody_colour(double kelvin) {
     const Double3 rgb = srgb_of(blackbody(kelvin), SpectrumUse::illuminant);
     const Double3 visible = {std::max(rgb.x, 0.0), std::max(rgb.y, 0.0), std::max(rgb.z, 0.0)};
@@ -178,7 +178,7 @@ void RigApplication::apply(const RigLight& entry) {
                  (changes.name    ? "name"
                   : changes.shape ? "shape"
                                   : "center") +
-                 " is for one light only");
+                 " applies to a single light");
     for (const std::size_t i : selected) change(entry, editor_.lights()[i], {});
 }
 
@@ -208,7 +208,7 @@ void RigApplication::add(const RigLight& entry, const LightAddition& addition) {
     for (std::size_t i = 0; i < addition.offsets.size(); ++i) {
         const std::string name = is_single ? addition.name : addition.name + " " + std::to_string(i);
         if (names_.count(name) > 0)
-            fail(entry.where, "add", "there is a light " + in_quotes(name) + " already; take another name");
+            fail(entry.where, "add", "light " + in_quotes(name) + " already exists; use another name");
         names_.insert(name);
         EditableLight& light = editor_.lights().emplace_back();
         light.name = name;
@@ -245,22 +245,22 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
     const LightChanges& changes = entry.changes;
     rename(entry, light);
     if (changes.shape) {
-        const bool has_material =
-            !light.polygons.empty() || std::holds_alternative<LightAddition>(entry.lights);
+        const bool has_material = has_polygons(light) || std::holds_alternative<LightAddition>(entry.lights);
         editor_.replace_shape(light, *changes.shape, has_material ? light.material : black_material());
     }
     move(entry, light, offset);
-    const auto valid = [](const auto& part) { return is_valid(part); };
-    if (!std::all_of(light.polygons.begin(), light.polygons.end(), valid) ||
-        !std::all_of(light.tubes.begin(), light.tubes.end(), valid))
+    if (!is_valid(light))
         fail(entry.where,
-             "light " + in_quotes(light.name) + " would be beyond 1e15 m or too small to have an area");
+             "light " + in_quotes(light.name) + " would lie beyond 1e15 m or be too small to have an area");
     change_emission(entry, light);
     if (changes.two_sided) {
-        if (!light.tubes.empty())
+        const auto has_one_side = [](const LightList& list) { return list.two_sided(0) == nullptr; };
+        if (const LightList* const list = find_part(light, has_one_side))
             fail(entry.where, "two_sided",
-                 "light " + in_quotes(light.name) + " is a tube, which has one side only");
-        for (PolygonLight& polygon : light.polygons) polygon.two_sided = *changes.two_sided;
+                 "light " + in_quotes(light.name) + " is " + with_article(*list) +
+                     ", which has only one side");
+        for (LightList& list : light.parts)
+            for (std::size_t i = 0; i < list.size(); ++i) *list.two_sided(i) = *changes.two_sided;
     }
     if (changes.enabled) light.is_enabled = *changes.enabled;
     if (!changes.remove) return;
@@ -272,7 +272,7 @@ void RigApplication::rename(const RigLight& entry, EditableLight& light) {
     const std::optional<std::string>& name = entry.changes.name;
     if (!name || *name == light.name) return;
     if (names_.count(*name) > 0)
-        fail(entry.where, "name", "there is a light " + in_quotes(*name) + " already; take another name");
+        fail(entry.where, "name", "light " + in_quotes(*name) + " already exists; use another name");
     names_.erase(names_.find(light.name));
     names_.insert(*name);
     light.name = *name;
@@ -284,9 +284,12 @@ void RigApplication::move(const RigLight& entry, EditableLight& light, const Dou
     Transform transform;
     if (changes.scale) {
         const Double3& scale = *changes.scale;
-        if (!light.tubes.empty() && (scale.x != scale.y || scale.x != scale.z))
+        const LightList* const list =
+            find_part(light, [](const LightList& part) { return part.scales_evenly(); });
+        if (list != nullptr && (scale.x != scale.y || scale.x != scale.z))
             fail(entry.where, "scale",
-                 "light " + in_quotes(light.name) + " is a tube; scale it by one number");
+                 "light " + in_quotes(light.name) + " is " + with_article(*list) +
+                     "; scale it by a single number");
         transform = about(center, scaling(scale));
     }
     if (changes.rotation)
@@ -304,7 +307,7 @@ void RigApplication::change_emission(const RigLight& entry, EditableLight& light
     if (changes.radiance) change_radiance(light, [&](const Float3&) { return *changes.radiance; });
     if ((changes.kelvin || changes.power) && is_black(light))
         fail(entry.where, changes.kelvin ? "kelvin" : "power",
-             "light " + in_quotes(light.name) + " is black, which this cannot change; give its radiance");
+             "light " + in_quotes(light.name) + " is black; use radiance instead");
     if (changes.kelvin) {
         const Double3 colour = blackbody_colour(*changes.kelvin);
         change_radiance(light, [&](const Float3& c) { return to_float(luminance(to_double(c)) * colour); });
@@ -318,7 +321,7 @@ void RigApplication::change_emission(const RigLight& entry, EditableLight& light
     const auto check = [&](const Float3& c) {
         if (!(std::max({c.x, c.y, c.z}) <= kMaxRadiance))
             fail(entry.where,
-                 "light " + in_quotes(light.name) + " gets a radiance above " + to_text(kMaxRadiance));
+                 "light " + in_quotes(light.name) + " would have a radiance above " + to_text(kMaxRadiance));
         return c;
     };
     change_radiance(light, check);

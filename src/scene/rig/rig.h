@@ -22,16 +22,6 @@ constexpr double kMaxRadiance = 1e30;            ///< [W/(sr m^2)]
 /// character.
 using Selector = std::variant<std::size_t, std::string>;
 
-struct TubeShape {
-    Float3 start = {0, 0, 0};
-    Float3 end = {0, 0, 0};
-    float radius = 0;
-    TubeModel model = TubeModel::solid;
-};
-
-/// The vertices of a polygon, or a tube.
-using LightShape = std::variant<std::vector<Float3>, TubeShape>;
-
 struct Rotation {
     Double3 axis;
     double degrees = 0;
@@ -40,7 +30,7 @@ struct Rotation {
 /// Changes of a light, in the order in which they are made.
 struct LightChanges {
     std::optional<std::string> name;
-    std::optional<LightShape> shape;
+    std::optional<Lights> shape;      ///< one light, whose emission does not count
     std::optional<Double3> scale;     ///< along the axes of the world, about the centroid
     std::optional<Rotation> rotation; ///< about the centroid
     std::optional<Float3> center;     ///< where the centroid goes

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace nusselt::scene {
 
@@ -31,7 +33,13 @@ Selector read_selector(const JsonNode& node) {
     return node.integer(0, kMaxIndex);
 }
 
-std::vector<Float3> read_polygon(const JsonNode& node) {
+Lights polygon_of(const std::vector<Float3>& vertices) {
+    PolygonLight light;
+    light.vertices = vertices;
+    return only(light);
+}
+
+Lights read_polygon(const JsonNode& node) {
     std::vector<Float3> vertices;
     std::vector<Double3> points;
     for (const JsonNode& vertex : node.elements()) {
@@ -39,10 +47,10 @@ std::vector<Float3> read_polygon(const JsonNode& node) {
         points.push_back(to_double(vertices.back()));
     }
     if (const auto defect = find_polygon_defect(points)) node.fail(*defect);
-    return vertices;
+    return polygon_of(vertices);
 }
 
-std::vector<Float3> read_panel(const JsonNode& node) {
+Lights read_panel(const JsonNode& node) {
     node.check_fields({"center", "normal", "up", "width", "height"});
     const Double3 center = to_double(read_point(node.at("center")));
     const Double3 normal = read_direction(node.at("normal"));
@@ -57,20 +65,20 @@ std::vector<Float3> read_panel(const JsonNode& node) {
     const Double3 right = normalized(cross(up, normal));
     const Double3 x = (0.5 * read_length(node.at("width"))) * right;
     const Double3 y = (0.5 * read_length(node.at("height"))) * cross(normal, right);
-    return {to_float(center - x - y), to_float(center + x - y), to_float(center + x + y),
-            to_float(center - x + y)};
+    return polygon_of({to_float(center - x - y), to_float(center + x - y), to_float(center + x + y),
+                       to_float(center - x + y)});
 }
 
-TubeShape read_tube(const JsonNode& node) {
+Lights read_tube(const JsonNode& node) {
     node.check_fields({"begin", "end", "radius", "finite"});
-    TubeShape tube;
+    LineLight tube;
     tube.start = read_point(node.at("begin"));
     tube.end = read_point(node.at("end"));
     tube.radius = read_length(node.at("radius"));
-    if (!(length(to_double(tube.end) - to_double(tube.start)) > 0)) node.fail("begin and end are equal");
+    if (!(length(to_double(tube.end) - to_double(tube.start)) > 0)) node.fail("begin and end must differ");
     if (const auto finite = node.find("finite"))
         tube.model = finite->boolean() ? TubeModel::solid : TubeModel::linear;
-    return tube;
+    return only(tube);
 }
 
 Rotation read_rotation(const JsonNode& node) {
@@ -91,14 +99,14 @@ std::vector<Double3> read_copies(const JsonNode& node) {
     const std::vector<JsonNode> counts = count.elements();
     const std::vector<JsonNode> steps = node.at("step").elements();
     if (counts.empty() || counts.size() > 3 || counts.size() != steps.size())
-        node.fail("needs as many counts as steps, 1 to 3, found " + std::to_string(counts.size()) + " and " +
-                  std::to_string(steps.size()));
+        node.fail("must have as many counts as steps, 1 to 3, found " + std::to_string(counts.size()) +
+                  " and " + std::to_string(steps.size()));
     std::vector<Double3> offsets = {{}};
     for (std::size_t axis = 0; axis < counts.size(); ++axis) {
         const std::size_t n = counts[axis].integer(1, kMaxRigLights);
         const Double3 step = to_double(read_point(steps[axis]));
         if (offsets.size() * n > kMaxRigLights)
-            count.fail("gives more than " + std::to_string(kMaxRigLights) + " lights");
+            count.fail("creates more than " + std::to_string(kMaxRigLights) + " lights");
         const std::size_t row = offsets.size();
         for (std::size_t i = row; i < row * n; ++i)
             offsets.push_back(offsets[i % row] + static_cast<double>(i / row) * step);
@@ -107,7 +115,7 @@ std::vector<Double3> read_copies(const JsonNode& node) {
 }
 
 /// The only one of these fields that an entry has, or nothing. Throws if it has several.
-std::optional<JsonNode> find_one(const JsonNode& entry, std::initializer_list<std::string_view> fields) {
+std::optional<JsonNode> find_one(const JsonNode& entry, const std::vector<std::string_view>& fields) {
     std::optional<JsonNode> found;
     std::string_view found_name;
     for (const std::string_view name : fields) {
@@ -122,11 +130,21 @@ std::optional<JsonNode> find_one(const JsonNode& entry, std::initializer_list<st
     return found;
 }
 
-std::optional<LightShape> read_shape(const JsonNode& entry) {
-    if (!find_one(entry, {"polygon", "panel", "tube"})) return std::nullopt;
-    if (const auto polygon = entry.find("polygon")) return read_polygon(*polygon);
-    if (const auto panel = entry.find("panel")) return read_panel(*panel);
-    return read_tube(entry.at("tube"));
+/// A field that gives the shape of a light.
+struct ShapeField {
+    std::string_view name;
+    Lights (*read)(const JsonNode& node);
+};
+
+constexpr ShapeField kShapeFields[] = {{"polygon", read_polygon}, {"panel", read_panel}, {"tube", read_tube}};
+
+std::optional<Lights> read_shape(const JsonNode& entry) {
+    std::vector<std::string_view> names;
+    for (const ShapeField& field : kShapeFields) names.push_back(field.name);
+    if (!find_one(entry, names)) return std::nullopt;
+    for (const ShapeField& field : kShapeFields)
+        if (const auto node = entry.find(field.name)) return field.read(*node);
+    return std::nullopt;
 }
 
 LightChanges read_changes(const JsonNode& entry) {
@@ -152,11 +170,14 @@ LightChanges read_changes(const JsonNode& entry) {
 LightAddition read_addition(const JsonNode& entry, const LightChanges& changes) {
     LightAddition addition;
     addition.name = entry.at("add").text();
-    if (!changes.shape) entry.fail("adds a light without a shape; give a polygon, a panel or a tube");
-    if (!changes.radiance && !changes.power) entry.fail("adds a light; give its radiance or its power");
-    if (const auto name = entry.find("name")) name->fail("the name of a new light stands in \"add\"");
+    if (!changes.shape) entry.fail("must have a shape; add a polygon, a panel or a tube");
+    if (!changes.radiance && !changes.power) entry.fail("must have a radiance or a power");
+    if (const auto name = entry.find("name"))
+        name->fail("is not supported for new lights; set their name in \"add\"");
     if (const auto material = entry.find("material")) {
-        if (std::holds_alternative<TubeShape>(*changes.shape)) material->fail("tubes have no material");
+        for (const LightList& list : std::as_const(*changes.shape))
+            if (list.size() > 0 && list.two_sided(0) == nullptr)
+                material->fail(std::string(list.noun()) + "s have no material");
         addition.material = material->text();
     }
     const auto copies = entry.find("copies");
@@ -169,13 +190,14 @@ RigLight read_light(const JsonNode& entry) {
                         "material", "scale", "rotate",  "center",    "move",    "copies",        "radiance",
                         "kelvin",   "power", "enabled", "two_sided", "remove",  "scale_radiance"});
     if (!find_one(entry, {"light", "add"}))
-        entry.fail("needs the field \"light\", which selects lights, or \"add\" with the name of a new one");
+        entry.fail(
+            "must have the field \"light\", which selects lights, or \"add\" with the name of a new one");
     RigLight result;
     result.where = entry.where();
     result.changes = read_changes(entry);
     if (const auto light = entry.find("light")) {
         for (const char* field : {"copies", "material"})
-            if (const auto node = entry.find(field)) node->fail("is for lights that are added");
+            if (const auto node = entry.find(field)) node->fail("is supported only for new lights");
         result.lights = read_selector(*light);
     } else {
         result.lights = read_addition(entry, result.changes);
@@ -202,7 +224,7 @@ RigMaterial read_material(const JsonNode& entry) {
     if (const auto node = entry.find("model")) {
         result.model = read_model(*node);
         if (is_glossy && *result.model == BrdfModel::lambert)
-            node->fail("\"lambert\" has no f0 and no roughness");
+            node->fail("\"lambert\" does not support f0 and roughness");
     } else if (is_glossy) {
         result.model = BrdfModel::frostbite;
     }

@@ -8,7 +8,7 @@
 namespace nusselt::scene {
 
 /// Reads a rig. Throws std::runtime_error, what() being "file: path of the value: message", if it cannot be read or if
-/// anything in it is not as docs/lights.md says.
+/// anything in it does not follow docs/lights.md.
 Rig read_rig(const std::filesystem::path& path);
 
 } // namespace nusselt::scene

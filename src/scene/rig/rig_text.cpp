@@ -1,8 +1,7 @@
 #include "scene/rig/rig_text.h"
 
-#include "scene/model/polygon.h"
+#include "scene/model/number_text.h"
 #include "scene/rig/light_edit.h"
-#include "scene/rig/number_text.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -13,30 +12,27 @@ namespace {
 
 std::string boolean_text(bool value) { return value ? "true" : "false"; }
 
-/// The value that `get` finds in all parts of a light, nothing if they differ.
-template <class Parts, class Get>
-std::string common_text(const Parts& parts, const Get& get) {
-    if (parts.empty()) return "";
-    const std::string text = get(parts.front());
-    const bool is_common =
-        std::all_of(parts.begin(), parts.end(), [&](const auto& part) { return get(part) == text; });
-    return is_common ? text : "";
+/// The text that `get` finds for all parts of a light, nothing if they differ. Parts without a text do not count.
+template <class Get>
+std::string common_text(const EditableLight& light, const Get& get) {
+    std::string common;
+    for (const LightList& list : light.parts) {
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const std::string text = get(list, i);
+            if (text.empty() || text == common) continue;
+            if (!common.empty()) return "";
+            common = text;
+        }
+    }
+    return common;
 }
 
-std::string polygon_text(const PolygonLight& light) {
-    std::vector<Double3> points;
-    for (const Float3& p : light.vertices) points.push_back(to_double(p));
-    // Importers merge what readers of rigs might not take for one polygon.
-    if (find_polygon_defect(points)) return "";
-    std::string text;
-    for (const Float3& p : light.vertices) text += (text.empty() ? "[" : ", ") + triple_text(p);
-    return text + "]";
-}
-
-std::string tube_text(const LineLight& light) {
-    return "{\"begin\": " + triple_text(light.start) + ", \"end\": " + triple_text(light.end) +
-           ", \"radius\": " + number_text(light.radius) +
-           ", \"finite\": " + boolean_text(light.model == TubeModel::solid) + "}";
+/// The shape of a light with one part as a field, empty if rigs know none.
+std::string shape_field(const EditableLight& light) {
+    if (light.parts.size() != 1) return "";
+    for (const LightList& list : light.parts)
+        if (list.size() == 1) return list.rig_field(0);
+    return "";
 }
 
 /// Names that JSON cannot hold are left out.
@@ -52,8 +48,11 @@ class Fields {
 public:
     /// Leaves out empty values.
     void add(const std::string& name, const std::string& value) {
-        if (value.empty()) return;
-        text_ += (text_.empty() ? "\n    {\"" : ",\n     \"") + name + "\": " + value;
+        if (!value.empty()) add("\"" + name + "\": " + value);
+    }
+    /// Likewise, with the name.
+    void add(const std::string& field) {
+        if (!field.empty()) text_ += (text_.empty() ? "\n    {" : ",\n     ") + field;
     }
     std::string text() const { return text_ + "}"; }
 
@@ -65,18 +64,14 @@ std::string light_text(std::size_t index, const EditableLight& light) {
     Fields fields;
     fields.add("light", std::to_string(index));
     fields.add("name", name_text(light.name));
-    const bool is_single = light.polygons.size() + light.tubes.size() == 1;
-    std::string polygon;
-    if (is_single && light.tubes.size() == 1) fields.add("tube", tube_text(light.tubes[0]));
-    if (is_single && light.polygons.size() == 1) polygon = polygon_text(light.polygons[0]);
-    fields.add("polygon", polygon);
-    if (polygon.empty() && !light.polygons.empty())
-        fields.add("center", triple_text(to_float(centroid(light))));
-    const auto radiance = [](const auto& part) { return triple_text(part.radiance); };
-    const std::string of_polygons = common_text(light.polygons, radiance);
-    fields.add("radiance", light.polygons.empty() ? common_text(light.tubes, radiance) : of_polygons);
-    fields.add("two_sided", common_text(light.polygons, [](const PolygonLight& polygon_light) {
-                   return boolean_text(polygon_light.two_sided);
+    const std::string shape = shape_field(light);
+    fields.add(shape);
+    if (shape.empty()) fields.add("center", triple_text(to_float(centroid(light))));
+    fields.add("radiance", common_text(light, [](const LightList& list, std::size_t i) {
+                   return triple_text(list.radiance(i));
+               }));
+    fields.add("two_sided", common_text(light, [](const LightList& list, std::size_t i) {
+                   return list.two_sided(i) == nullptr ? std::string() : boolean_text(*list.two_sided(i));
                }));
     return fields.text();
 }

@@ -47,7 +47,7 @@ inline void fail_if_any(std::string_view problem) {
     std::abort();
 }
 
-/// What users read is one line, also if names in their files are longer.
+/// Messages for users have one line, even if names in their files have several.
 inline std::string_view problem_of_message(std::string_view message) {
     if (message.empty()) return "a message is empty";
     return message.find('\n') != std::string_view::npos ? "a message has more than one line"

@@ -7,7 +7,7 @@
 namespace nusselt::fuzz {
 namespace {
 
-/// The formats of read_image(); PNG, JPG and TGA are told apart by their contents, not by the name.
+/// The formats of read_image(); PNG, JPG and TGA are distinguished by their contents, not by the name.
 constexpr std::string_view kNames[] = {"image.exr", "image.hdr", "image.png"};
 
 std::string_view violation(const image::Image& image) {

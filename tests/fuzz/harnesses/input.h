@@ -1,5 +1,5 @@
 #pragma once
-/// From the bytes of libFuzzer to legal lights, and to a crash that shows the light.
+/// Converts the bytes of libFuzzer to legal lights, and crashes with a description of the light.
 
 #include <cmath>
 #include <cstdint>
@@ -141,6 +141,17 @@ void print(const hostile::LineOnLobe<T>& light) {
     print(line);
     print(light.lobe);
 }
+template <class T>
+void print(const Cylinder<T>& light) {
+    print(light.axis);
+    std::fprintf(stderr, "  radius %a\n", static_cast<double>(light.radius));
+}
+template <class T>
+void print(const hostile::CylinderOnLobe<T>& light) {
+    const Cylinder<T>& cylinder = light;
+    print(cylinder);
+    print(light.lobe);
+}
 
 template <class Light>
 void fail_if(bool broken, const char* name, const char* problem, const Light& light) {
@@ -155,6 +166,16 @@ template <class Kind, class T>
 void check(const typename Kind::template Light<T>& light, const typename Kind::template Random<T>& u) {
     const char* problem = hostile::violation<Kind, T>(light, hostile::outputs_of<Kind, T>(light, u));
     fail_if(problem != nullptr, Kind::kName, problem, light);
+}
+
+/// Runs check.operator()<T>(input) in float or double; the first byte decides.
+template <class Check>
+void check_in_float_or_double(const std::uint8_t* data, std::size_t size, const Check& check) {
+    Input input(data, size);
+    if (input.byte() % 2 == 0)
+        check.template operator()<float>(input);
+    else
+        check.template operator()<double>(input);
 }
 
 } // namespace nusselt::fuzz

@@ -9,13 +9,9 @@ template <class T>
 void check_all(Input& input) {
     const LineSegment<T> light = line<T>(input);
     const T u = input.random_number<T>();
-    check<hostile::LineAreaKind, T>(light, u);
-    check<hostile::LineSolidAngleKind, T>(light, u);
-    check<hostile::LineClippedSolidAngleKind, T>(light, u);
-    check<hostile::LineProjectedSolidAngleKind, T>(light, u);
+    hostile::LineKinds::for_each([&]<class Kind> { check<Kind, T>(light, u); });
     const LtcCoefficients<T> coefficients = lobe<T>(input);
-    check<hostile::LineLtcKind, T>({light, coefficients}, u);
-    check<hostile::LineClippedLtcKind, T>({light, coefficients}, u);
+    hostile::LineOnLobeKinds::for_each([&]<class Kind> { check<Kind, T>({light, coefficients}, u); });
 }
 
 } // namespace
@@ -23,11 +19,6 @@ void check_all(Input& input) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace nusselt::fuzz;
-    Input input(data, size);
-    if (input.byte() % 2 == 0) {
-        check_all<float>(input);
-    } else {
-        check_all<double>(input);
-    }
+    check_in_float_or_double(data, size, []<class T>(Input& input) { check_all<T>(input); });
     return 0;
 }

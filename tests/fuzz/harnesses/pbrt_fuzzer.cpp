@@ -14,7 +14,7 @@ namespace {
 /// Names of files that the input defines.
 constexpr std::string_view kNames = "0123456789";
 
-/// With a copy of what lies beside the scenes of the corpus.
+/// A folder with a copy of the files beside the scenes of the corpus.
 struct CorpusFolder : Folder {
     CorpusFolder() {
         const std::filesystem::path corpus =

@@ -17,7 +17,7 @@ std::string_view violation_of_mesh(const scene::Mesh& mesh) {
     return {};
 }
 
-/// With a scene in which mesh.ply emits.
+/// A folder with a scene in which mesh.ply emits.
 struct SceneFolder : Folder {
     SceneFolder() {
         write("scene.pbrt", "Camera \"perspective\"\nWorldBegin\nAreaLightSource \"diffuse\"\n"

@@ -10,14 +10,14 @@ void check_all(Input& input) {
     const ConvexPolygon<T, N> light = polygon<N, T>(input);
     const T x = input.random_number<T>();
     const Vec2<T> u{x, input.random_number<T>()};
-    check<hostile::PolygonAreaKindOf<N>, T>(light, u);
-    check<hostile::PolygonSolidAngleKindOf<N>, T>(light, u);
-    check<hostile::PolygonClippedSolidAngleKindOf<N>, T>(light, u);
-    check<hostile::PolygonProjectedSolidAngleKindOf<N>, T>(light, u);
-    check<hostile::PolygonBiasedKindOf<N>, T>(light, u);
+    hostile::PolygonKinds<N>::for_each([&]<class Kind> { check<Kind, T>(light, u); });
+    if constexpr (N == 4)
+        hostile::RectangleKinds::for_each([&]<class Kind> { check<Kind, T>(Kind::from(light), u); });
     const LtcCoefficients<T> coefficients = lobe<T>(input);
-    check<hostile::PolygonLtcKindOf<N>, T>({light, coefficients}, u);
-    if constexpr (N < 8) check<hostile::PolygonClippedLtcKindOf<N>, T>({light, coefficients}, u);
+    hostile::PolygonOnLobeKinds<N>::for_each([&]<class Kind> {
+        // Some have a smaller bound on the number of vertices.
+        if constexpr (Kind::kVertices == N) check<Kind, T>({light, coefficients}, u);
+    });
 }
 
 } // namespace

@@ -51,7 +51,7 @@ std::string_view violation_of_surfaces(const Scene& scene) {
         if (!is_index(scene.triangle_material[i], scene.materials.size()))
             return "a triangle has no such material";
         const std::int32_t light = scene.triangle_light[i];
-        if (light != -1 && !is_index(light, scene.polygon_lights.size()))
+        if (light != -1 && !is_index(light, scene.lights.of<scene::PolygonLight>().size()))
             return "a triangle has no such light";
         if (light != -1 && i >= world_triangle_count(scene)) return "a triangle of an object emits";
     }
@@ -101,7 +101,7 @@ std::string_view violation_of_materials(const Scene& scene) {
     return {};
 }
 
-/// That lights refer to emitters, in their order.
+/// Checks that lights refer to emitters, in their order.
 template <class Lights>
 std::string_view violation_of_emitters(const Scene& scene, const Lights& lights) {
     if (!all(lights, [&](const auto& light) { return is_index(light.emitter, scene.emitters.size()); }))
@@ -113,19 +113,19 @@ std::string_view violation_of_emitters(const Scene& scene, const Lights& lights)
 }
 
 std::string_view violation_of_lights(const Scene& scene) {
-    for (const PolygonLight& light : scene.polygon_lights) {
+    for (const PolygonLight& light : scene.lights.of<scene::PolygonLight>()) {
         if (light.vertices.size() < 3 || light.vertices.size() > 8) return "a light has not 3 to 8 vertices";
         if (!all(light.vertices, is_position)) return "a vertex of a light is not finite or too large";
         if (!is_radiance(light.radiance)) return "a radiance is negative or not finite";
     }
-    for (const LineLight& light : scene.line_lights) {
+    for (const LineLight& light : scene.lights.of<scene::LineLight>()) {
         if (!is_position(light.start) || !is_position(light.end))
             return "an end of a tube is not finite or too large";
         if (!(light.radius >= 0 && light.radius <= kLargestCoordinate)) return "a tube has no valid radius";
         if (!is_radiance(light.radiance)) return "a radiance is negative or not finite";
     }
-    const std::string_view problem = violation_of_emitters(scene, scene.polygon_lights);
-    return problem.empty() ? violation_of_emitters(scene, scene.line_lights) : problem;
+    const std::string_view problem = violation_of_emitters(scene, scene.lights.of<scene::PolygonLight>());
+    return problem.empty() ? violation_of_emitters(scene, scene.lights.of<scene::LineLight>()) : problem;
 }
 
 std::string_view violation_of_view(const Scene& scene) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What renderers rely on in a scene that the importer accepted.
+/// The properties of imported scenes on which renderers rely.
 
 #include "scene/model/scene.h"
 

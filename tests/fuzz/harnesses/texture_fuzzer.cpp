@@ -7,7 +7,7 @@
 namespace nusselt::fuzz {
 namespace {
 
-/// With one scene per name of the image, so that no format stands in the way of another.
+/// A folder with one scene per name of the image, so that formats do not interfere.
 struct SceneFolder : Folder {
     static constexpr std::string_view kExtensions[] = {"exr", "hdr", "png"};
 

@@ -2,7 +2,7 @@
 /// Hostile lights and random numbers for each kind of technique.
 
 #include "proof/hostile/lights.h"
-#include "proof/hostile/techniques.h"
+#include "proof/techniques/registry.h"
 
 namespace nusselt::parity {
 

@@ -10,21 +10,17 @@ namespace {
 struct LastLightAlone {
     template <class Visit>
     void operator()(const render_cpu::KernelScene& scene, const Visit& visit) const noexcept {
-        const std::int32_t count = scene.polygon_light_count + scene.line_light_count;
-        if (count > 0) visit(count - 1);
+        if (scene.light_count > 0) visit(scene.light_count - 1);
     }
 };
 
 class LastLight {
 public:
-    explicit LastLight(const render_cpu::RenderJob& job) noexcept : functions_(light_functions(job)) {}
+    explicit LastLight(const render_cpu::RenderJob&) noexcept {}
 
     Vector radiance(const CameraPacket& packet, const Rays& rays) const noexcept {
-        return emitted_and_direct_light(packet, rays, functions_, LastLightAlone());
+        return emitted_and_direct_light(packet, rays, LastLightAlone());
     }
-
-private:
-    LightFunctions functions_;
 };
 
 } // namespace

@@ -389,7 +389,7 @@ TEST(FrostbiteAlbedo, IsAtMostOneButForDielectricsAtGrazingAngles) {
     EXPECT_GT(grazing.high, 1.1);
     EXPECT_LE(metal.high, 1);
     EXPECT_GT(metal.high, 0.99);
-    // What the renormalisation is for, and that this test sees it.
+    // The renormalisation is needed, and this test detects its absence.
     EXPECT_GT(original.low, 1);
     EXPECT_GT(original.high, 1.1);
 }

@@ -19,7 +19,7 @@ struct GgxReference {
         const long double tan2 = (w.x * w.x + w.y * w.y) / (w.z * w.z);
         return (std::sqrt(1 + alpha * alpha * tan2) - 1) / 2;
     }
-    /// Of all visible normals [1/sr], anywhere on the sphere.
+    /// The density of all visible normals [1/sr], anywhere on the sphere.
     long double pdf(const Point& wi) const {
         if (wi.z <= -wo.z) return 0;
         const Point m = normalize(wo + wi);
@@ -30,7 +30,7 @@ struct GgxReference {
     long double masking_weight(const Point& wi) const {
         return (1 + lambda(wo)) / (1 + lambda(wo) + lambda(wi));
     }
-    /// Of normals of the bounded cap [1/sr]. \param wi above the surface.
+    /// The density of normals of the bounded cap [1/sr]. \param wi above the surface.
     long double bounded_pdf(const Point& wi) const {
         const Point stretched = normalize(Point{alpha * wo.x, alpha * wo.y, wo.z});
         const long double s = 1 + std::sqrt(wo.x * wo.x + wo.y * wo.y);

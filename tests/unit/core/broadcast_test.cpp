@@ -81,7 +81,7 @@ TEST(BroadcastMembers, ChangesThePrecision) {
     EXPECT_EQ(wide.inner.value(), 8.0);
 }
 
-/// What broadcast_members() compares at compile time: any member that is left out shows.
+/// broadcast_members() compares the members at compile time and finds any member that is left out.
 template <class Real>
 void expect_each_member_to_count() {
     using Mask = mask_t<Real>;

@@ -1,5 +1,5 @@
-/// What surfaces reflect of lines: integrals against quadrature, no noise where lobes fit, hostile lights, packs; offsets
-/// by reflected light. tests/statistics/line_light_test.cpp is about means.
+/// The light of lines that surfaces reflect: integrals against quadrature, no noise where lobes fit, hostile lights,
+/// packs; offsets by reflected light. tests/statistics/line_light_test.cpp is about means.
 
 #include <algorithm>
 #include <cmath>
@@ -207,7 +207,7 @@ public:
 
     LineCaseOf<T> next() { return on(reflections_.template next<PolygonReflection<T>>()); }
 
-    /// On a light of moderate size.
+    /// A line on a light of moderate size.
     LineCaseOf<T> next_ordinary(int i) {
         const auto cases = polygon_cases();
         PolygonReflection<T> reflection;

@@ -19,7 +19,7 @@ inline double distance(const Colour& a, const Colour& b) {
     return std::max({std::fabs(a.x - b.x), std::fabs(a.y - b.y), std::fabs(a.z - b.z)});
 }
 
-/// Cells are as likely to be sampled as the densities in them say.
+/// The probability of sampling a cell is given by the densities in it.
 template <int K>
 struct MisModel {
     nusselt::MisTechniques<double, K> techniques;
@@ -79,7 +79,7 @@ MisModel<K> empty_model(const Colour (&coefficients)[K], const double (&counts)[
     return model;
 }
 
-/// The integrand is just what the coefficients say.
+/// The integrand is given by the coefficients.
 template <int K>
 MisModel<K> fitting_model(const Colour (&coefficients)[K], const double (&counts)[K]) {
     MisModel<K> model = empty_model(coefficients, counts);

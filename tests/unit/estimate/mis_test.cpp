@@ -89,7 +89,7 @@ TEST(Mis, OptimalMayLeaveOutBlackSamplesButNotByHalves) {
     EXPECT_GT(largest_bias(half), 0.01);
 }
 
-/// Changes what it knows before it asks a heuristic.
+/// Changes its knowledge of the technique before it uses a heuristic.
 template <class Heuristic, class Change>
 struct Mutant {
     Heuristic heuristic;
@@ -218,7 +218,7 @@ void expect_drops_out(const Heuristic& heuristic) {
         expect_same(heuristic.template estimate<2>(with, three),
                     heuristic.template estimate<1>(without, two));
     }
-    // What a technique returns that cannot sample: densities of zero.
+    // A technique that cannot sample returns densities of zero.
     const auto nothing = heuristic.template estimate<1>(models.with.techniques, MisSample<double, 3>{});
     EXPECT_EQ(distance(nothing.shadowed + nothing.constant, grey(0)), 0);
 }

@@ -24,7 +24,7 @@ struct Reflection {
 
     nusselt::GlossySurface<Real> surface() const {
         const nusselt::Frostbite<Real> brdf(wo, albedo, f0, roughness);
-        // For lack of a table.
+        // There is no table for it.
         const nusselt::Vec3<Real> specular_albedo = lobe.albedo * f0;
         return {wo,
                 nusselt::ggx_alpha(roughness),

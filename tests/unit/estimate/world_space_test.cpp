@@ -39,7 +39,7 @@ private:
 constexpr Vec2<double> kRandomNumbers[][2] = {
     {{0.1, 0.7}, {0.4, 0.2}}, {{0.3, 0.2}, {0.9, 0.5}}, {{0.75, 0.4}, {0.01, 0.99}}};
 
-/// Where the origin of shading space and its axes are.
+/// The origin and the axes of shading space.
 struct Placement {
     Point position;
     Frame<double> frame;

@@ -44,9 +44,9 @@ long double integrate_solid_angle(const SolidCylinder& cylinder, const Integrand
     long double sum = 0;
     const long double extent = length(cylinder.end - cylinder.begin);
     if (distance > cylinder.radius) {
-        // The mantle faces the origin between the tangents; the axis in pieces, since it may be long and close.
+        // The lateral surface faces the origin between the tangents. The axis is cut into pieces because it may be long and close.
         const long double half_angle = std::acos(cylinder.radius / distance);
-        const auto over_mantle = [&](long double l0, long double l1) {
+        const auto over_lateral_surface = [&](long double l0, long double l1) {
             return integrate_square(
                 [&](long double x, long double y) {
                     const Point normal = outwards(kPi + half_angle * (2 * x - 1));
@@ -56,7 +56,7 @@ long double integrate_solid_angle(const SolidCylinder& cylinder, const Integrand
                 tolerance / 16);
         };
         for (int i = 0; i < 16; ++i)
-            sum += over_mantle(along + extent * i / 16, along + extent * (i + 1) / 16);
+            sum += over_lateral_surface(along + extent * i / 16, along + extent * (i + 1) / 16);
     }
     const auto over_cap = [&](const Point& middle, const Point& normal) {
         return integrate_square(

@@ -48,7 +48,7 @@ struct HostileCase {
     LineFamily<T, 8> family;
 };
 
-/// What is wrong with the offsets of a family; empty if nothing is.
+/// The defect of the offsets of a family; empty if they are correct.
 template <class T>
 std::string problem_of_offsets(HostileCase<T>& c) {
     const auto& family = c.family;
@@ -70,7 +70,7 @@ std::string problem_of_offsets(HostileCase<T>& c) {
     return {};
 }
 
-/// What is wrong with the integrals along a line.
+/// The defect of the integrals along a line.
 template <class T>
 std::string problem_of_parts(HostileCase<T>& c) {
     const auto& family = c.family;

@@ -31,7 +31,7 @@ Interval<long double> exact_chord(const ConvexPolygon<T, N>& light, const nussel
     Point corner = {0, 0, 0};
     Interval<long double> chord{1e30L, -1e30L};
     for (int j = 0; j < N; ++j) {
-        // From edges, as what is given of small lights far away.
+        // Built from edges, because small lights far away are defined by them.
         const Point next = j + 1 < N ? corner + to_point(light.edge[j]) : Point{0, 0, 0};
         const long double u0 = dot(corner, exact.across) - offset;
         const long double u1 = dot(next, exact.across) - offset;
@@ -193,7 +193,7 @@ TEST(LineFamily, OffsetsIncreaseWithTheRandomNumber) {
         for (int i = 0; i <= 1000; ++i) {
             const float u = std::min(static_cast<float>(i) / 1000, 0x1.fffffep-1f);
             const float next = family.sample_by_length(u).offset;
-            // Where a knot is passed, two formulas meet.
+            // Two formulas meet at a knot.
             EXPECT_GE(next, by_length - 1e-6f);
             EXPECT_LE(next, family.offsets().end);
             by_length = next;

@@ -87,10 +87,10 @@ public:
         split_at({0, 0, 1});
     }
 
-    /// For an integrand that is not smooth where the line crosses this plane through the origin.
+    /// Splits the line for an integrand that is not smooth where the line crosses this plane through the origin.
     void split_at(const Point& normal) { split(-dot(origin_, normal) / dot(plane_.along, normal)); }
 
-    /// For an integrand with a peak in a direction.
+    /// Splits the line for an integrand with a peak in a direction.
     /// \param width of the peak [rad].
     void split_at_peak(const Point& direction, long double width) {
         const Point closest = origin_ - dot(origin_, plane_.along) * plane_.along;
@@ -157,7 +157,7 @@ struct RandomPart {
 
     nusselt::ScaledPlane<T> scaled_plane() const { return {family.plane(), family.reach()}; }
 
-    /// As Lambertian surfaces see the line.
+    /// The line as Lambertian surfaces see it.
     template <class Sides = nusselt::FrontSide>
     nusselt::LobeLine<T> cosine() const {
         return nusselt::LobePlane<T, Sides>(scaled_plane()).line(offset);
@@ -165,7 +165,7 @@ struct RandomPart {
 
     ExactPart exact(const nusselt::Interval<T>& interval) const { return {family.plane(), offset, interval}; }
 
-    /// Of the line.
+    /// A point of the line.
     Point point(double share) const {
         return to_point(
             nusselt::segment_of(family.plane(), offset,

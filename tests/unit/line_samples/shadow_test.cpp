@@ -1,4 +1,4 @@
-/// What triangles hide of lines: exact tests of points, bit-identical edges, closed meshes, scales.
+/// Shadows of triangles on lines: exact tests of points, bit-identical edges, closed meshes, scales.
 
 #include <algorithm>
 #include <cstring>
@@ -86,7 +86,7 @@ struct Soup : ShadowCase {
 
 constexpr LineBounds<float> kEverywhere{{-1e30f, 1e30f}, {-1e30f, 1e30f}};
 
-/// What an occluder hides of a line.
+/// The shadow of an occluder on a line.
 template <class Real>
 Interval<Real> hidden_by(const Occluder& occluder, const ShadowFrame<float>& frame, const Real& offset) {
     const Vec3<float> a = vector_of(occluder.corner[0]), b = vector_of(occluder.corner[1]),

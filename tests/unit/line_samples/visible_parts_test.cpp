@@ -37,7 +37,7 @@ std::vector<Interval<Lines>> random_occluders(std::uint64_t index) {
     return occluders;
 }
 
-/// What is visible of a line from 0 to 1, by sorting.
+/// The visible length of a line from 0 to 1, by sorting.
 double visible_length(const std::vector<Interval<Lines>>& occluders, int lane) {
     std::vector<std::pair<double, double>> sorted;
     for (const Interval<Lines>& o : occluders) sorted.push_back({o.begin.lane(lane), o.end.lane(lane)});

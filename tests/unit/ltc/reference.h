@@ -25,7 +25,7 @@ public:
         const long double r = length(o);
         return std::max(o.z / r, 0.0L) / kPi * determinant() / (r * r * r);
     }
-    /// Over a polygon above the horizon of the lobe.
+    /// The integral over a polygon above the horizon of the lobe.
     long double integral(const Polygon& polygon) const {
         Polygon image_of_polygon;
         for (const Point& p : polygon) image_of_polygon.push_back(image(p));

@@ -130,7 +130,7 @@ TYPED_TEST(ShadingTest, NothingComesFromDegenerateLights) {
     EXPECT_EQ(lobe_integral(nusselt::make_polygon<4>(vertices, 4), ltc), 0);
 }
 
-// What follows compares approximations with references: in double.
+// The following tests compare approximations with references, so they use doubles.
 
 const nusselt::LineSegment<double> kTube =
     nusselt::make_line(nusselt::Vec3<double>{-0.5, 0.2, 1}, nusselt::Vec3<double>{0.75, 0.4, 1.25});
@@ -149,7 +149,7 @@ TEST(ReferenceIntegralsTest, LineConvergesWithTheSquareOfTheStep) {
     EXPECT_NEAR(error(200) / error(400), 4, 0.1);
 }
 
-/// First order in the radius: the mantle, against the line.
+/// Compares the lateral surface, to first order in the radius, with the line.
 TEST(ReferenceIntegralsTest, TubeTendsToItsAxis) {
     const Ltc<double> ltc = lobe_of_tubes();
     const auto density = [&](const nusselt::Vec3<double>& wi) { return ltc.density(wi); };
@@ -178,7 +178,7 @@ TEST(ReferenceIntegralsTest, CapsTendToDisksAtTheEnds) {
     EXPECT_NEAR(error(0.05) / error(0.025), 4, 0.4);
 }
 
-/// Also where the strip faces the point, or shows its edge.
+/// The cases include strips that face the point and strips seen edge-on.
 TEST(ReferenceIntegralsTest, StripTendsToItsMiddleLine) {
     const Ltc<double> ltc = lobe_of_tubes();
     const auto density = [&](const nusselt::Vec3<double>& wi) { return ltc.density(wi); };

@@ -244,7 +244,7 @@ TEST(LightRandom, JitteredSamplesShareTheirOffset) {
     }
 }
 
-/// How many points lie in each cell of a grid.
+/// The number of points in each cell of a grid.
 std::vector<int> cells_of(const std::vector<Vec2<float>>& points, std::uint32_t columns, std::uint32_t rows) {
     std::vector<int> counts(columns * rows);
     for (const Vec2<float>& u : points)

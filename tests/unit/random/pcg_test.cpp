@@ -116,7 +116,7 @@ TEST(UniformJittered, HitsEachStratumOnce) {
     }
 }
 
-// What the upper bound in uniform_jittered is for.
+// This is the reason for the upper bound in uniform_jittered.
 TEST(UniformJittered, PlainFormulaLeavesTheStratum) {
     const float u = 1 - 0x1p-24f;
     EXPECT_EQ((u + 15.0f) / 16.0f, 1.0f);

@@ -31,7 +31,7 @@ public:
         ++total_;
     }
 
-    /// That the points are uniform and their coordinates independent.
+    /// The p-value of the hypothesis that the points are uniform and their coordinates independent.
     double p_value() const {
         const double expected = static_cast<double>(total_) / static_cast<double>(counts_.size());
         double statistic = 0;

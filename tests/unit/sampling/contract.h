@@ -44,7 +44,7 @@ typename Kind::template Light<T> hostile_light(HostileLights<T>& lights) {
     if constexpr (kHasLobe<Kind>) {
         return {light, lights.lobe()};
     } else {
-        return light;
+        return Kind::from(light);
     }
 }
 

@@ -28,9 +28,9 @@ constexpr long double kBudget = 1e-4L;
 /// What the samples of a technique shall be almost proportional to.
 template <class Kind, class Light>
 auto importance(const Light& light) {
-    if constexpr (Kind::kMeasure == Measure::kLobe) {
+    if constexpr (Kind::kMeasure == Measure::lobe) {
         return [lobe = ReferenceLobe(light.lobe)](const Point& wi) { return lobe.density(wi); };
-    } else if constexpr (Kind::kMeasure == Measure::kProjectedSolidAngle) {
+    } else if constexpr (Kind::kMeasure == Measure::projected_solid_angle) {
         return [](const Point& wi) { return std::max(wi.z, 0.0L); };
     } else {
         return [](const Point&) { return 1.0L; };
@@ -171,8 +171,8 @@ TYPED_TEST(CylinderTest, IsDarkWithoutAnOutside) {
 
 /// The technique for linear lights that a thin cylinder tends to.
 template <class Kind>
-using LineKindOf = std::conditional_t<Kind::kMeasure == Measure::kLobe, LineLtcKind,
-                                      std::conditional_t<Kind::kMeasure == Measure::kSolidAngle,
+using LineKindOf = std::conditional_t<Kind::kMeasure == Measure::lobe, LineLtcKind,
+                                      std::conditional_t<Kind::kMeasure == Measure::solid_angle,
                                                          LineSolidAngleKind, LineProjectedSolidAngleKind>>;
 
 TYPED_TEST(CylinderTest, TendsToTheLinearLight) {

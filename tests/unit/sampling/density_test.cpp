@@ -16,14 +16,17 @@ namespace {
 template <class Test>
 class DensityTest : public ::testing::Test {};
 
-template <class Kind>
-using Precise = ::testing::Types<Instance<Kind, double>, Instance<Kind, long double>>;
-
-/// For techniques that share their code with one that is tested in long double too, and many lights.
-template <class Kind>
-using DoubleOnly = ::testing::Types<Instance<Kind, double>>;
-
-TYPED_TEST_SUITE_P(DensityTest);
+/// As techniques.json names the suite.
+struct DensitySuite {
+    static constexpr std::string_view kName = "density";
+};
+/// Lobes and many vertices share their code with what is tested in long double, too.
+using Types = decltype(detail::types_of(
+    detail::instances_of<double, long double>(
+        TestedBy<DensitySuite, PolygonKinds<4>, PolygonKinds<8>, RectangleKinds, PolygonOnLobeKinds<4>,
+                 LineKinds, LineOnLobeKinds, CylinderKinds>()) +
+    detail::instances_of<double>(TestedBy<DensitySuite, PolygonOnLobeKinds<8>, CylinderOnLobeKinds>())));
+TYPED_TEST_SUITE(DensityTest, Types, InstanceNames);
 
 /// Rounding of 64 terms in double; 1.5e-15 is the largest error.
 constexpr double kProjectedBudget = 1e-14;
@@ -35,8 +38,8 @@ constexpr double kFineBudget = 1e-4;
 /// The integrand is constant for solid angle techniques: rounding of 25600 terms, 7e-13 at most. Uniform area sampling
 /// reaches 2.1e-4 and projected solid angle sampling, where the light is large and close, 7.1e-3.
 template <class Kind>
-constexpr double kSolidAngleBudget = Kind::kMeasure == Measure::kSolidAngle ? 2e-12
-                                     : Kind::kMeasure == Measure::kArea     ? 5e-4
+constexpr double kSolidAngleBudget = Kind::kMeasure == Measure::solid_angle ? 2e-12
+                                     : Kind::kMeasure == Measure::area      ? 5e-4
                                                                             : 1.5e-2;
 /// Girard's formula in long double loses up to 3e-15 of the smallest light; everything else errs by 5e-16 in double.
 constexpr double kMeasureBudget = 1e-14;
@@ -59,7 +62,7 @@ T jacobian(const Technique& technique, const nusselt::LineSegment<T>& line, T u,
     return 2 * cosine / distance * angle / (2 * h);
 }
 
-TYPED_TEST_P(DensityTest, IsTheReciprocalOfTheJacobian) {
+TYPED_TEST(DensityTest, IsTheReciprocalOfTheJacobian) {
     using T = typename TypeParam::Real;
     using Kind = typename TypeParam::Kind;
     // Differences err by about 1000 h^2 (third derivatives) and by rounding over h, which the small light of
@@ -152,7 +155,7 @@ long double estimate(const Technique& technique, int count, const Function& f) {
     return sum / static_cast<long double>(points.size());
 }
 
-TYPED_TEST_P(DensityTest, EstimatesImportance) {
+TYPED_TEST(DensityTest, EstimatesImportance) {
     using T = typename TypeParam::Real;
     using Kind = typename TypeParam::Kind;
     for (const auto& light : cases<Kind>()) {
@@ -162,7 +165,7 @@ TYPED_TEST_P(DensityTest, EstimatesImportance) {
         const auto error = [&](int count) {
             return std::fabs(estimate<Kind>(technique, count, importance<Kind>(local)) / expected - 1);
         };
-        if (Kind::kMeasure == Measure::kProjectedSolidAngle || kHasLobe<Kind>) {
+        if (Kind::kMeasure == Measure::projected_solid_angle || kHasLobe<Kind>) {
             // The estimate has no variance: rounding only.
             EXPECT_LE(error(8), kProjectedBudget) << light.name;
             continue;
@@ -174,7 +177,7 @@ TYPED_TEST_P(DensityTest, EstimatesImportance) {
     }
 }
 
-TYPED_TEST_P(DensityTest, EstimatesSolidAngle) {
+TYPED_TEST(DensityTest, EstimatesSolidAngle) {
     using T = typename TypeParam::Real;
     using Kind = typename TypeParam::Kind;
     constexpr int kCount = kIsPolygon<Kind> ? 160 : 6000;
@@ -182,7 +185,7 @@ TYPED_TEST_P(DensityTest, EstimatesSolidAngle) {
         const auto local = light_for<Kind, T>(light);
         const typename TypeParam::Technique technique(local);
         const auto part = lit_part<Kind>(local);
-        if constexpr (Kind::kMeasure == Measure::kProjectedSolidAngle || kHasLobe<Kind>) {
+        if constexpr (Kind::kMeasure == Measure::projected_solid_angle || kHasLobe<Kind>) {
             // The density vanishes on the horizon, so that the variance of this estimate does not exist. The solid
             // angle weighted by the squared cosine or lobe exists, and is as independent of the technique.
             const auto f = importance<Kind>(local);
@@ -199,44 +202,20 @@ TYPED_TEST_P(DensityTest, EstimatesSolidAngle) {
     }
 }
 
-TYPED_TEST_P(DensityTest, MeasureIsThatOfTheReference) {
+TYPED_TEST(DensityTest, MeasureIsThatOfTheReference) {
     using T = typename TypeParam::Real;
     using Kind = typename TypeParam::Kind;
     for (const auto& light : cases<Kind>()) {
         const auto local = light_for<Kind, T>(light);
         const typename TypeParam::Technique technique(local);
         const auto part = lit_part<Kind>(local);
-        const long double expected = Kind::kMeasure == Measure::kArea ? reference_area(part)
-                                     : Kind::kMeasure == Measure::kSolidAngle
+        const long double expected = Kind::kMeasure == Measure::area ? reference_area(part)
+                                     : Kind::kMeasure == Measure::solid_angle
                                          ? reference_solid_angle(part)
                                          : reference_importance<Kind>(local);
         EXPECT_NEAR(technique.measure() / expected, 1, kMeasureBudget) << light.name;
     }
 }
-
-REGISTER_TYPED_TEST_SUITE_P(DensityTest, IsTheReciprocalOfTheJacobian, EstimatesImportance,
-                            EstimatesSolidAngle, MeasureIsThatOfTheReference);
-
-INSTANTIATE_TYPED_TEST_SUITE_P(OctagonArea, DensityTest, Precise<PolygonAreaKindOf<8>>);
-INSTANTIATE_TYPED_TEST_SUITE_P(OctagonSolidAngle, DensityTest, Precise<PolygonSolidAngleKindOf<8>>);
-INSTANTIATE_TYPED_TEST_SUITE_P(OctagonClippedSolidAngle, DensityTest,
-                               Precise<PolygonClippedSolidAngleKindOf<8>>);
-INSTANTIATE_TYPED_TEST_SUITE_P(OctagonProjectedSolidAngle, DensityTest,
-                               Precise<PolygonProjectedSolidAngleKindOf<8>>);
-INSTANTIATE_TYPED_TEST_SUITE_P(PolygonArea, DensityTest, Precise<PolygonAreaKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(PolygonSolidAngle, DensityTest, Precise<PolygonSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(PolygonClippedSolidAngle, DensityTest, Precise<PolygonClippedSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(PolygonProjectedSolidAngle, DensityTest,
-                               Precise<PolygonProjectedSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(PolygonLtc, DensityTest, Precise<PolygonLtcKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(PolygonClippedLtc, DensityTest, DoubleOnly<PolygonClippedLtcKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(OctagonLtc, DensityTest, DoubleOnly<PolygonLtcKindOf<8>>);
-INSTANTIATE_TYPED_TEST_SUITE_P(LineArea, DensityTest, Precise<LineAreaKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(LineSolidAngle, DensityTest, Precise<LineSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(LineClippedSolidAngle, DensityTest, Precise<LineClippedSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(LineProjectedSolidAngle, DensityTest, Precise<LineProjectedSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(LineLtc, DensityTest, Precise<LineLtcKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(LineClippedLtc, DensityTest, Precise<LineClippedLtcKind>);
 
 } // namespace
 } // namespace nusselt_test

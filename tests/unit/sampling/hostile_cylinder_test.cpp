@@ -4,9 +4,8 @@
 
 namespace nusselt_test {
 
-INSTANTIATE_TYPED_TEST_SUITE_P(CylinderSolidAngle, HostileTest, HostileTypes<CylinderSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(CylinderProjectedSolidAngle, HostileTest,
-                               HostileTypes<CylinderProjectedSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(CylinderLtc, HostileTest, HostileTypes<CylinderLtcKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(Cylinders, HostileTest, HostileTypes<CylinderKinds>, InstanceNames);
+INSTANTIATE_TYPED_TEST_SUITE_P(CylindersOnLobes, HostileTest, HostileTypes<CylinderOnLobeKinds>,
+                               InstanceNames);
 
 } // namespace nusselt_test

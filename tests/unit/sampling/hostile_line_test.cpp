@@ -4,10 +4,7 @@
 
 namespace nusselt_test {
 
-INSTANTIATE_TYPED_TEST_SUITE_P(LineArea, HostileTest, HostileTypes<LineAreaKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(LineSolidAngle, HostileTest, HostileTypes<LineSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(LineClippedSolidAngle, HostileTest, HostileTypes<LineClippedSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(LineProjectedSolidAngle, HostileTest,
-                               HostileTypes<LineProjectedSolidAngleKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(Lines, HostileTest, HostileTypes<LineKinds>, InstanceNames);
+INSTANTIATE_TYPED_TEST_SUITE_P(LinesOnLobes, HostileTest, HostileTypes<LineOnLobeKinds>, InstanceNames);
 
 } // namespace nusselt_test

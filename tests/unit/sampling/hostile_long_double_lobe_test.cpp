@@ -1,24 +1,17 @@
-/// Lobes, lines and cylinders, in long double, which no instruction set changes.
+/// Lobes, lines and cylinders, all techniques in long double, on hostile lights.
 
 #include "hostile_test.h"
 
 namespace nusselt_test {
 
-INSTANTIATE_TYPED_TEST_SUITE_P(ExactPolygonLtc, HostileTest, HostileLongDouble<PolygonLtcKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(ExactPolygonClippedLtc, HostileTest, HostileLongDouble<PolygonClippedLtcKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(ExactOctagonLtc, HostileTest, HostileLongDouble<PolygonLtcKindOf<8>>);
-INSTANTIATE_TYPED_TEST_SUITE_P(ExactLineLtc, HostileTest, HostileLongDouble<LineLtcKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(ExactLineClippedLtc, HostileTest, HostileLongDouble<LineClippedLtcKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(ExactLineArea, HostileTest, HostileLongDouble<LineAreaKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(ExactLineSolidAngle, HostileTest, HostileLongDouble<LineSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(ExactLineClippedSolidAngle, HostileTest,
-                               HostileLongDouble<LineClippedSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(ExactLineProjectedSolidAngle, HostileTest,
-                               HostileLongDouble<LineProjectedSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(ExactCylinderSolidAngle, HostileTest,
-                               HostileLongDouble<CylinderSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(ExactCylinderProjectedSolidAngle, HostileTest,
-                               HostileLongDouble<CylinderProjectedSolidAngleKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(ExactCylinderLtc, HostileTest, HostileLongDouble<CylinderLtcKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonsOnLobes, HostileTest, HostileLongDouble<PolygonOnLobeKinds<4>>,
+                               InstanceNames);
+INSTANTIATE_TYPED_TEST_SUITE_P(OctagonsOnLobes, HostileTest, HostileLongDouble<PolygonOnLobeKinds<8>>,
+                               InstanceNames);
+INSTANTIATE_TYPED_TEST_SUITE_P(Lines, HostileTest, HostileLongDouble<LineKinds>, InstanceNames);
+INSTANTIATE_TYPED_TEST_SUITE_P(LinesOnLobes, HostileTest, HostileLongDouble<LineOnLobeKinds>, InstanceNames);
+INSTANTIATE_TYPED_TEST_SUITE_P(Cylinders, HostileTest, HostileLongDouble<CylinderKinds>, InstanceNames);
+INSTANTIATE_TYPED_TEST_SUITE_P(CylindersOnLobes, HostileTest, HostileLongDouble<CylinderOnLobeKinds>,
+                               InstanceNames);
 
 } // namespace nusselt_test

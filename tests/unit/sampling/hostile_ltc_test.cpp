@@ -1,13 +1,12 @@
-/// Linearly transformed cosines on hostile lights and lobes.
+/// Polygons on lobes, all techniques, on hostile lights.
 
 #include "hostile_test.h"
 
 namespace nusselt_test {
 
-INSTANTIATE_TYPED_TEST_SUITE_P(PolygonLtc, HostileTest, HostileTypes<PolygonLtcKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(PolygonClippedLtc, HostileTest, HostileTypes<PolygonClippedLtcKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(OctagonLtc, HostileTest, HostileTypes<PolygonLtcKindOf<8>>);
-INSTANTIATE_TYPED_TEST_SUITE_P(LineLtc, HostileTest, HostileTypes<LineLtcKind>);
-INSTANTIATE_TYPED_TEST_SUITE_P(LineClippedLtc, HostileTest, HostileTypes<LineClippedLtcKind>);
+INSTANTIATE_TYPED_TEST_SUITE_P(PolygonsOnLobes, HostileTest, HostileTypes<PolygonOnLobeKinds<4>>,
+                               InstanceNames);
+INSTANTIATE_TYPED_TEST_SUITE_P(OctagonsOnLobes, HostileTest, HostileTypes<PolygonOnLobeKinds<8>>,
+                               InstanceNames);
 
 } // namespace nusselt_test

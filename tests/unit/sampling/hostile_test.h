@@ -1,5 +1,5 @@
 #pragma once
-/// The contract of a technique on many hostile lights. Each technique has a file that instantiates the suite.
+/// The contract of techniques on many hostile lights. Each kind of light has a file that instantiates the suite.
 
 #include <cstdint>
 #include <string>
@@ -88,12 +88,16 @@ TYPED_TEST_P(HostileTest, NeverFailsWithDenormalsFlushed) {
 
 REGISTER_TYPED_TEST_SUITE_P(HostileTest, NeverFails, NeverFailsWithDenormalsFlushed);
 
-/// The packs in which a technique is run, for INSTANTIATE_TYPED_TEST_SUITE_P.
-template <class Kind>
-using HostileTypes = ::testing::Types<Instance<Kind, NativeFloat>, Instance<Kind, NativeDouble>>;
+/// As techniques.json names the suite.
+struct ContractSuite {
+    static constexpr std::string_view kName = "contract";
+};
+/// The packs in which the techniques of lists are run, for INSTANTIATE_TYPED_TEST_SUITE_P.
+template <class... Lists>
+using HostileTypes = Instances<TestedBy<ContractSuite, Lists...>, NativeFloat, NativeDouble>;
 
 /// Likewise, without packs.
-template <class Kind>
-using HostileLongDouble = ::testing::Types<Instance<Kind, long double>>;
+template <class... Lists>
+using HostileLongDouble = Instances<TestedBy<ContractSuite, Lists...>, long double>;
 
 } // namespace nusselt_test

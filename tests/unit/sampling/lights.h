@@ -141,7 +141,11 @@ auto geometry_cases() {
     } else if constexpr (Kind::kVertices == 4) {
         return polygon_cases();
     } else {
-        return many_vertex_cases();
+        auto result = many_vertex_cases();
+        std::erase_if(result, [](const PolygonCase& light) {
+            return light.vertices.size() > std::size_t{Kind::kVertices};
+        });
+        return result;
     }
 }
 
@@ -188,7 +192,7 @@ typename Kind::template Light<T> light_for(const Case& light) {
     } else if constexpr (kHasLobe<Kind>) {
         return {make_light<T>(light), rounded<T>(light.lobe)};
     } else if constexpr (kIsPolygon<Kind>) {
-        return make_light<T, Kind::kVertices>(light);
+        return Kind::from(make_light<T, Kind::kVertices>(light));
     } else {
         return make_light<T>(light);
     }

@@ -19,7 +19,7 @@ Segment whole(const nusselt::LineSegment<T>& light) {
 template <class Kind, class Light>
 auto lit_part(const Light& light) {
     auto part = whole(light);
-    if (Kind::kHorizon == Horizon::kClipped) part = cut(part, {0, 0, 1});
+    if (Kind::kHorizon == Horizon::clipped) part = cut(part, {0, 0, 1});
     if constexpr (kHasLobe<Kind>) part = cut(part, ReferenceLobe(light.lobe).horizon());
     return part;
 }

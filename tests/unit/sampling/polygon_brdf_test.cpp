@@ -153,7 +153,7 @@ TEST(PolygonBrdf, Inverts) {
 
 /// What the contract needs to know.
 struct Kind : PolygonKind<4> {
-    static constexpr Measure kMeasure = Measure::kSolidAngle;
+    static constexpr Measure kMeasure = Measure::solid_angle;
 };
 
 template <class T>

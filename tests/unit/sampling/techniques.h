@@ -2,9 +2,15 @@
 /// The techniques under test, and access to the lanes of what they take and return.
 
 #include <cstring>
+#include <string>
 #include <type_traits>
 
-#include "proof/hostile/techniques.h"
+#include <gtest/gtest.h>
+
+#include <nusselt/simd/pack.h>
+
+#include "proof/techniques/interface.h"
+#include "proof/techniques/registry.h"
 
 namespace nusselt_test {
 
@@ -23,6 +29,48 @@ struct Instance {
     using Random = typename Kind::template Random<Real>;
     using ScalarRandom = typename Kind::template Random<Scalar>;
     static constexpr int kLanes = nusselt::RealTraits<Real>::kLanes;
+    static_assert(is_technique<Kind, Real>());
+};
+
+namespace detail {
+
+template <class... Instances>
+struct InstanceList {};
+template <class... A, class... B>
+InstanceList<A..., B...> operator+(InstanceList<A...>, InstanceList<B...>);
+
+template <class... Instances>
+::testing::Types<Instances...> types_of(InstanceList<Instances...>);
+
+template <class... Reals, class... Kinds>
+auto instances_of(KindList<Kinds...>) {
+    const auto with_each_real = []<class Kind> { return InstanceList<Instance<Kind, Reals>...>(); };
+    return (InstanceList<>() + ... + with_each_real.template operator()<Kinds>());
+}
+
+} // namespace detail
+
+/// The types of a suite of tests: each technique of a KindList with each number type.
+template <class List, class... Reals>
+using Instances = decltype(detail::types_of(detail::instances_of<Reals...>(List())));
+
+/// Names the tests of an instance, such as PolygonArea4_float.
+struct InstanceNames {
+    template <class Test>
+    static std::string GetName(int) {
+        using Scalar = typename Test::Scalar;
+        std::string name = Test::Kind::kName;
+        if constexpr (kIsPolygon<typename Test::Kind>) name += std::to_string(Test::Kind::kVertices);
+        name += std::is_same_v<Scalar, float>    ? "_float"
+                : std::is_same_v<Scalar, double> ? "_double"
+                                                 : "_long_double";
+        return Test::kLanes > 1 ? name + "_packs" : name;
+    }
+};
+
+/// Tests of the distribution of samples, as techniques.json names the suite.
+struct StatisticsSuite {
+    static constexpr std::string_view kName = "statistics";
 };
 
 /// Writes one lane of a struct of packs of T, or of a pack. A pack lies in memory as an array of its lanes.

@@ -8,15 +8,11 @@ namespace {
 /// Light that reaches the camera from lights, directly or over one surface.
 class DirectLightIntegrator {
 public:
-    explicit DirectLightIntegrator(const render_cpu::RenderJob& job) noexcept
-        : functions_(light_functions(job)) {}
+    explicit DirectLightIntegrator(const render_cpu::RenderJob&) noexcept {}
 
     Vector radiance(const CameraPacket& packet, const Rays& rays) const noexcept {
-        return emitted_and_direct_light(packet, rays, functions_, AllLights());
+        return emitted_and_direct_light(packet, rays, AllLights());
     }
-
-private:
-    LightFunctions functions_;
 };
 
 } // namespace

@@ -12,7 +12,7 @@ namespace nusselt::scene {
 using PointId = std::uint32_t; ///< as MeshAdjacency::point_of_vertex
 using TriangleId = std::uint32_t;
 
-/// A mesh whose triangles know their neighbours.
+/// A mesh whose triangles have links to their neighbours.
 class ConnectedMesh {
 public:
     /// Both arguments must outlive this object.

@@ -1,5 +1,5 @@
 #pragma once
-/// Which triangles of a mesh share edges.
+/// Finds the triangles of a mesh that share edges.
 
 #include "scene/model/scene.h"
 

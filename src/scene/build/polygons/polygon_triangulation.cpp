@@ -129,7 +129,7 @@ std::vector<Triangle> triangulate_polygon(const std::vector<Double3>& corners) {
     if (corners.size() > 3 && has_area && !is_convex(outline)) {
         if (corners.size() > kMaxConcaveCorners)
             throw std::runtime_error("a face of " + std::to_string(corners.size()) +
-                                     " corners is not convex; split faces of more than " +
+                                     " corners is not convex; split non-convex faces of more than " +
                                      std::to_string(kMaxConcaveCorners) + " corners into triangles");
         return EarClipper(outline).run();
     }

@@ -5,7 +5,7 @@
 
 namespace nusselt::scene {
 
-/// How a roughness parameter becomes the alpha of GGX.
+/// The rule that converts a roughness parameter to the alpha of GGX.
 enum class RoughnessRule {
     alpha,  ///< it is alpha
     v3,     ///< of pbrt v3 with remaproughness

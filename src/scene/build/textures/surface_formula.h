@@ -26,7 +26,7 @@ inline double mean(const Float3& c) {
 /// \param origin  of the material
 Material make_material(const SurfaceFormula& surface, TexturePlanner& planner, const Location& origin);
 
-/// What surfaces have that only emit.
+/// The material of surfaces that only emit.
 Material black_material();
 
 } // namespace nusselt::scene

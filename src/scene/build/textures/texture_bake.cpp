@@ -47,7 +47,7 @@ Texel mean_texel(const Texture& image, const TextureNode& leaf) {
         [&](std::size_t c) { return static_cast<float>(sum[c] / static_cast<double>(count)); });
 }
 
-/// A row or column number, -1 outside of a texture that is black there.
+/// A row or column number, -1 outside a texture that is black there.
 int wrapped(double index, int size, TextureWrap wrap) {
     switch (wrap) {
     case TextureWrap::repeat:
@@ -190,8 +190,8 @@ Recipe make_recipe(const TexturePlan& plan, const TextureRequest& request) {
     Recipe recipe{request, formula_nodes(plan.nodes, request.node), {}};
     if (recipe.formula.size() > kMaxFormulaLength)
         throw SceneError(request.location, "a texture consists of " + std::to_string(recipe.formula.size()) +
-                                               " steps, more than " + std::to_string(kMaxFormulaLength) +
-                                               "; bake it into one image");
+                                               " steps, but at most " + std::to_string(kMaxFormulaLength) +
+                                               " are supported; bake it into one image");
     for (const int node : recipe.formula) {
         const int image = plan.nodes[static_cast<std::size_t>(node)].image;
         if (image >= 0 && std::find(recipe.images.begin(), recipe.images.end(), image) == recipe.images.end())
@@ -246,13 +246,12 @@ Texture plain_image(const TextureNode& leaf, const TextureRequest& request, Text
 
 void warn_of_losses(const Recipe& recipe, const TextureDomain& domain, Warnings& warnings) {
     if (!domain.misfits.empty())
-        warnings.add(
-            recipe.request.location, "texture misfits",
-            "a texture combines images with different wrap modes or periods that do not divide each other; "
-            "all that do not fit the first one are replaced by their mean");
+        warnings.add(recipe.request.location, "texture misfits",
+                     "a texture combines images with different wrap modes or with periods that do not divide "
+                     "each other; images that do not fit the first one are replaced by their mean");
     if (domain.is_coarse)
         warnings.add(recipe.request.location, "texture resolution",
-                     "a texture repeats an image too often within its period, its resolution is reduced to " +
+                     "a texture repeats an image too often within its period; its resolution is reduced to " +
                          std::to_string(domain.size[0]) + " x " + std::to_string(domain.size[1]));
 }
 
@@ -279,7 +278,7 @@ BakedTexture bake(const TexturePlan& plan, const Recipe& recipe, const std::vect
     texture.width = domain.size[0];
     texture.height = domain.size[1];
     texture.channels = recipe.request.channels;
-    // A roughness of 0 outside of the image would be a perfect mirror.
+    // A roughness of 0 outside the image would be a perfect mirror.
     const bool is_roughness = std::any_of(recipe.formula.begin(), recipe.formula.end(), [&](int number) {
         return plan.nodes[static_cast<std::size_t>(number)].operation == TextureOperation::roughness;
     });

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a formula of textures is evaluated.
+/// The domain in which a formula of textures is evaluated.
 
 #include "scene/build/textures/texture_formula.h"
 

@@ -56,7 +56,7 @@ void remove_invalid(const ImageRequest& request, Texture& texture, Warnings& war
     if (count > 0)
         warnings.add(request.location, "texture file '" + request.path.string() +
                                            "': " + std::to_string(count) +
-                                           " numbers that are negative or not finite are replaced by 0");
+                                           " negative or non-finite numbers are replaced by 0");
 }
 
 void charge(const Texture& texture, Budget& texels) {

@@ -10,7 +10,7 @@
 
 namespace nusselt::scene {
 
-/// Which file to decode, and how where it stores integers.
+/// The file to decode, and the curve for integers in it.
 struct ImageRequest {
     /// 0 for the curve of sRGB, else the exponent that makes codes from 0 to 1 linear.
     using Encoding = double;
@@ -19,7 +19,7 @@ struct ImageRequest {
 
     std::filesystem::path path;
     Encoding encoding = kSrgb;
-    Location location; ///< of the directive that asked first
+    Location location; ///< of the first directive that requests it
 };
 
 /// Decodes PNG (8 and 16 bits), JPEG, TGA and BMP by `encoding`, and HDR, EXR and PFM, which are linear. The format is

@@ -1,5 +1,5 @@
 #pragma once
-/// What the textures of a scene are made of, and who asks for them.
+/// The formulas and images of the textures of a scene, and the requests for them.
 
 #include "scene/build/textures/texture_formula.h"
 #include "scene/build/textures/texture_image.h"
@@ -11,7 +11,7 @@
 
 namespace nusselt::scene {
 
-/// A texture that a material asks for.
+/// A texture that a material requests.
 struct TextureRequest {
     int node = -1;
     int channels = 3;  ///< 3, or 1 for the mean of the channels

@@ -35,12 +35,12 @@ CameraDescription read_camera(std::string_view type, ParameterList& parameters,
     if (const auto window = parameters.reals("screenwindow"); !window.empty()) {
         if (window.size() != 4 || window[0] == window[1] || window[2] == window[3])
             throw SceneError(parameters.location_of("screenwindow"),
-                             "camera: screenwindow takes x min, x max, y min, y max");
+                             "camera: screenwindow must be x min, x max, y min, y max");
         camera.screen_window = {window[0], window[1], window[2], window[3]};
     }
     if (parameters.real("lensradius", 0) > 0)
         warnings.add(parameters.location_of("lensradius"),
-                     "camera: lensradius is ignored, everything is in focus");
+                     "camera: lensradius is ignored; everything is in focus");
     parameters.ignore({"focaldistance", "shutteropen", "shutterclose"});
     parameters.warn_unused("Camera", warnings);
     return camera;

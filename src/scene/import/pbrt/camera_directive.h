@@ -8,7 +8,7 @@
 
 namespace nusselt::scene {
 
-/// What a Camera directive says, before the film is known. Throws SceneError at values that are impossible.
+/// Reads a Camera directive before the film is known. Throws SceneError for invalid values.
 CameraDescription read_camera(std::string_view type, ParameterList& parameters,
                               const Transform& camera_from_world, Warnings& warnings);
 

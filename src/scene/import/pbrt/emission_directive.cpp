@@ -25,7 +25,7 @@ Emission read_emission(const std::string& type, ParameterList& parameters,
     // "area" is pbrt v2's name for it.
     if (type != "diffuse" && type != "area") {
         warnings.add(parameters.location(),
-                     "AreaLightSource \"" + type + "\" is not supported: its shapes do not emit");
+                     "AreaLightSource \"" + type + "\" is not supported; its shapes do not emit light");
         return {};
     }
     Emission emission;

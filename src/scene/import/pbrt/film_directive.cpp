@@ -36,7 +36,7 @@ std::optional<PixelBounds> read_crop(const Film& film, ParameterList& parameters
         name = "pixelbounds";
         if (pixels.size() != 4)
             throw SceneError(parameters.location_of(name),
-                             "film: pixelbounds takes x begin, x end, y begin, y end, found " +
+                             "film: pixelbounds must be x begin, x end, y begin, y end; found " +
                                  std::to_string(pixels.size()) + " values");
         const auto pixel = [&](double x, int resolution) {
             return static_cast<int>(std::clamp<double>(x, 0, resolution));
@@ -46,15 +46,15 @@ std::optional<PixelBounds> read_crop(const Film& film, ParameterList& parameters
     } else if (!window.empty()) {
         if (window.size() != 4)
             throw SceneError(parameters.location_of(name),
-                             "film: cropwindow takes x begin, x end, y begin, y end, found " +
+                             "film: cropwindow must be x begin, x end, y begin, y end; found " +
                                  std::to_string(window.size()) + " values");
         std::tie(crop.x_begin, crop.x_end) = pixel_interval(window[0], window[1], film.width);
         std::tie(crop.y_begin, crop.y_end) = pixel_interval(window[2], window[3], film.height);
     }
     if (crop.x_begin >= crop.x_end || crop.y_begin >= crop.y_end)
         throw SceneError(parameters.location_of(name),
-                         "film: " + std::string(name) + " contains no pixel of the " +
-                             std::to_string(film.width) + " x " + std::to_string(film.height) + " ones");
+                         "film: " + std::string(name) + " contains none of the " +
+                             std::to_string(film.width) + " x " + std::to_string(film.height) + " pixels");
     if (crop.x_end - crop.x_begin == film.width && crop.y_end - crop.y_begin == film.height)
         return std::nullopt;
     return crop;
@@ -79,7 +79,7 @@ void warn_of_sensor(ParameterList& parameters, Warnings& warnings) {
     add("maxsampleluminance", parameters.optional_real("maxsampleluminance").has_value());
     if (!found.empty())
         warnings.add(parameters.location_of(first),
-                     "film: ignored: " + found + "; images have the radiance in W/(sr m^2)");
+                     "film: ignored: " + found + "; images contain radiance in W/(sr m^2)");
 }
 
 /// Half the widths: v3 calls them width.
@@ -126,7 +126,8 @@ void read_mitchell(ParameterList& parameters, PixelFilter& filter) {
 Film read_film(std::string_view type, ParameterList& parameters, Warnings& warnings) {
     const bool is_v3 = type == "image";
     if (!is_v3 && type != "rgb")
-        warnings.add(parameters.location(), "film \"" + shortened(type) + "\" is treated like \"rgb\"");
+        warnings.add(parameters.location(),
+                     "film \"" + shortened(type) + "\" is not supported; \"rgb\" replaces it");
     Film film;
     film.width = parameters.integer("xresolution", is_v3 ? 640 : 1280);
     film.height = parameters.integer("yresolution", is_v3 ? 480 : 720);
@@ -162,7 +163,7 @@ PixelFilter read_pixel_filter(std::string_view type, ParameterList& parameters, 
         filter.radius_x = filter.radius_y = 2;
         warnings.add(parameters.location(),
                      "pixel filter \"" + shortened(type) +
-                         "\" is not supported, \"mitchell\" with radius 2 replaces it");
+                         "\" is not supported; \"mitchell\" with radius 2 replaces it");
         return filter;
     }
     parameters.warn_unused("PixelFilter", warnings);

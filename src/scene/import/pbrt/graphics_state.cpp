@@ -25,8 +25,8 @@ std::string name_of(StateBlock block) {
 void StateStack::push(StateBlock block, const Location& location) {
     if (saved_.size() >= kMaxDepth)
         throw SceneError(location, "more than " + std::to_string(kMaxDepth) +
-                                       " blocks in each other; are there " + name_of(block) +
-                                       "End directives missing?");
+                                       " nested blocks; add the missing " + name_of(block) +
+                                       "End directives");
     saved_.push_back({block, location, current_});
 }
 
@@ -35,10 +35,10 @@ void StateStack::pop(StateBlock block, const Location& location) {
         throw SceneError(location, name_of(block) + "End without " + name_of(block) + "Begin");
     const Saved& top = saved_.back();
     if (top.block != block && block == StateBlock::import)
-        throw SceneError(top.location, name_of(top.block) + "Begin is never ended in the imported file");
+        throw SceneError(top.location, name_of(top.block) + "Begin has no matching End in the imported file");
     if (top.block != block)
-        throw SceneError(location, name_of(block) + "End inside of the " + name_of(top.block) +
-                                       " block begun at " + to_string(top.location));
+        throw SceneError(location, name_of(block) + "End inside the " + name_of(top.block) +
+                                       " block that begins at " + to_string(top.location));
     if (block == StateBlock::transform) {
         current_.ctm = top.state.ctm;
         current_.moves_begin = top.state.moves_begin;
@@ -50,7 +50,7 @@ void StateStack::pop(StateBlock block, const Location& location) {
 
 void StateStack::warn_if_open(Warnings& warnings) const {
     if (!saved_.empty())
-        warnings.add(saved_.back().location, name_of(saved_.back().block) + "Begin is never ended");
+        warnings.add(saved_.back().location, name_of(saved_.back().block) + "Begin has no matching End");
 }
 
 } // namespace nusselt::scene

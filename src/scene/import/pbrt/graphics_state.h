@@ -23,7 +23,7 @@ struct MaterialEntry {
     std::optional<int> index;
 };
 
-/// Of whose parameters an Attribute directive sets defaults.
+/// The kind of directives for whose parameters an Attribute directive sets defaults.
 enum class AttributeTarget : std::size_t { shape, light, material, texture, medium };
 constexpr std::array<std::string_view, 5> kAttributeTargets = {"shape", "light", "material", "texture",
                                                                "medium"};
@@ -35,11 +35,11 @@ struct GraphicsState {
     const ColourSpace* colour_space = &kSrgb;
     Emission emission;
     MaterialEntry* material = nullptr;
-    /// By target; null where there are none.
+    /// The defaults of each target; null if it has none.
     std::array<std::shared_ptr<const std::vector<Parameter>>, kAttributeTargets.size()> defaults;
 };
 
-/// What opened a block. A block of transforms restores only transforms at its end.
+/// The directive that opened a block. A block of transforms restores only transforms at its end.
 enum class StateBlock { attribute, transform, object, import };
 
 class StateStack {

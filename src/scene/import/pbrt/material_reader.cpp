@@ -9,7 +9,7 @@ namespace nusselt::scene {
 
 namespace {
 
-/// Of a spectrum that is known by name.
+/// The optical constant of a spectrum known by name.
 Float3 optical_constant(std::string_view name) { return to_float(named_spectrum(name).value()); }
 
 } // namespace
@@ -131,7 +131,7 @@ void MaterialReader::warn_ignored(std::initializer_list<std::string_view> number
 void MaterialReader::warn_image(std::string_view name) {
     warnings_.add(parameters().location_of(name), "material image " + std::string(name),
                   "material \"" + directive_.name + "\": an image for \"" + std::string(name) +
-                      "\" is not supported, its default is used");
+                      "\" is not supported; its default replaces it");
 }
 
 void MaterialReader::fail(std::string_view parameter, const std::string& message) const {

@@ -61,7 +61,7 @@ private:
     Warnings& warnings_;
 };
 
-/// How a kind of material is reduced. \returns nothing for invisible surfaces
+/// Reduces a kind of material. \returns nothing for invisible surfaces
 using MaterialReduction = std::optional<SurfaceFormula> (*)(MaterialReader&);
 
 /// Null for materials that this version of pbrt does not have.

@@ -60,7 +60,7 @@ public:
 
 private:
     static SurfaceFormula unknown(MaterialReader& m) {
-        m.warn("not supported, replaced by a Lambertian surface");
+        m.warn("not supported; a Lambertian surface replaces it");
         SurfaceFormula surface;
         surface.diffuse = grey_value(0.5);
         for (const std::string_view name : {"color", "reflectance", "Kd"})
@@ -70,7 +70,7 @@ private:
 
     /// Bump and normal maps.
     void read_relief(MaterialReader& m, const MaterialDirective& directive, SurfaceFormula& surface) {
-        // Those of v3 and of v4.
+        // pbrt v3 has bumpmap, v4 has displacement.
         if (m.parameters().texture("bumpmap")) {
             surface.bump = m.number("bumpmap", 0);
             surface.bump_unit = BumpUnit::texture_coordinate;
@@ -83,7 +83,7 @@ private:
         surface.normal =
             textures_.linear_image(directive.normal_map, m.parameters().location_of("normalmap"));
         if (surface.bump.node < 0) return;
-        m.warn("displacement is ignored beside the normal map");
+        m.warn("displacement is ignored because of the normal map");
         surface.bump = grey_value(0);
     }
 
@@ -93,7 +93,7 @@ private:
         if (directive == nullptr) m.fail(parameter, "the material \"" + name + "\" to mix is not defined");
         if (depth == kMaxMixtureDepth)
             m.fail(parameter, "mixtures are nested more than " + std::to_string(kMaxMixtureDepth) +
-                                  " deep; does it contain itself?");
+                                  " deep; check whether it contains itself");
         return surface(*directive, depth + 1);
     }
 
@@ -106,7 +106,8 @@ private:
         TextureValue share;
         if (const auto names = m.parameters().strings("materials"); !names.empty()) {
             if (names.size() != 2)
-                m.fail("materials", "\"materials\" must name two, found " + std::to_string(names.size()));
+                m.fail("materials",
+                       "\"materials\" must name two materials, found " + std::to_string(names.size()));
             share = m.unit_number("amount", 0.5);
             first = part(m, "materials", names[0], depth);
             second = part(m, "materials", names[1], depth);
@@ -119,7 +120,7 @@ private:
         m.parameters().warn_unused("material \"mix\"", warnings_);
         if (!first && !second) return std::nullopt;
         if (first && second) return blended(formulas, *first, *second, share);
-        // Beside an invisible material the other one is there with its share only.
+        // If one material is invisible, the other one covers only its share.
         SurfaceFormula result = first ? *first : *second;
         result.alpha = formulas.product(result.alpha, first ? formulas.inverted(share) : share);
         return result;

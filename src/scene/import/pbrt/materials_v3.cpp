@@ -58,7 +58,7 @@ Surface plastic(MaterialReader& m) {
 Surface uber(MaterialReader& m) {
     const TextureValue opacity = m.unit_colour("opacity", 1);
     if (is_zero(opacity)) {
-        m.warn("opacity 0 makes surfaces invisible, they are left out");
+        m.warn("surfaces with opacity 0 are invisible and skipped");
         return std::nullopt;
     }
     const double eta = refractive_index(m, 1.5);
@@ -77,12 +77,12 @@ Surface metal(MaterialReader& m) {
 }
 
 Surface mirror(MaterialReader& m) {
-    m.warn("mirrors show only the lights, as a polished metal");
+    m.warn("mirrors are polished metals, which reflect only the lights");
     return metallic(m.unit_colour("Kr", 0.9), m.formulas().roughness(grey_value(0), RoughnessRule::alpha));
 }
 
 Surface glass(MaterialReader& m) {
-    m.warn("transmission is ignored, the surface is opaque and reflects only");
+    m.warn("transmission is ignored; the surface is opaque and only reflects");
     const double eta = refractive_index(m, 1.5);
     m.parameters().ignore({"Kt"});
     const TextureValue f0 = m.formulas().product(m.unit_colour("Kr", 1), grey_value(dielectric_f0(eta)));
@@ -90,7 +90,7 @@ Surface glass(MaterialReader& m) {
 }
 
 Surface translucent(MaterialReader& m) {
-    m.warn("transmission is ignored, only its reflection is left");
+    m.warn("transmission is ignored; the surface only reflects");
     const TextureValue reflect = m.unit_colour("reflect", 0.5);
     m.parameters().ignore({"transmit"});
     const TextureValue f0 = m.formulas().product(m.unit_colour("Ks", 0.25), grey_value(dielectric_f0(1.5)));
@@ -145,7 +145,7 @@ TextureValue albedo_of_medium(MaterialReader& m) {
 }
 
 Surface subsurface(MaterialReader& m) {
-    m.warn("light does not travel below the surface, which is diffuse under a clear coat");
+    m.warn("subsurface scattering is replaced by a diffuse surface under a clear coat");
     const double eta = m.refractive_index("eta", 1.33);
     const TextureValue f0 = m.formulas().product(m.unit_colour("Kr", 1), grey_value(dielectric_f0(eta)));
     const TextureValue diffuse =
@@ -155,7 +155,7 @@ Surface subsurface(MaterialReader& m) {
 }
 
 Surface kdsubsurface(MaterialReader& m) {
-    m.warn("light does not travel below the surface, which is diffuse under a clear coat");
+    m.warn("subsurface scattering is replaced by a diffuse surface under a clear coat");
     const double eta = m.refractive_index("eta", 1.33);
     const TextureValue f0 = m.formulas().product(m.unit_colour("Kr", 1), grey_value(dielectric_f0(eta)));
     m.parameters().ignore({"Kt", "scale", "g", "mfp"});

@@ -37,16 +37,16 @@ Surface conductor(MaterialReader& m) {
 /// The rougher one of two constants.
 TextureValue rougher(MaterialReader& m, const TextureValue& base, const TextureValue& coat) {
     if (coat.node < 0 && base.node < 0) return coat.factor.x > base.factor.x ? coat : base;
-    if (coat.node >= 0) m.warn("images of the roughness of its coating are ignored");
+    if (coat.node >= 0) m.warn("images for the roughness of the coating are ignored");
     return base;
 }
 
 Surface coated_conductor(MaterialReader& m) {
-    m.warn("its coating is joined with the metal to one lobe");
+    m.warn("the coating and the metal are combined into one lobe");
     const double coat_eta = m.refractive_index("interface.eta", 1.5);
     TextureValue f0;
     if (m.has_colour("reflectance")) {
-        // What the coating lets through; exact for a black and for a white metal.
+        // The coating transmits the rest, which is exact for a black and for a white metal.
         const TextureValue coat = grey_value(dielectric_f0(coat_eta));
         f0 = m.formulas().mix(coat, grey_value(1), m.unit_colour("reflectance", 1));
     } else {
@@ -59,13 +59,13 @@ Surface coated_conductor(MaterialReader& m) {
 }
 
 Surface dielectric(MaterialReader& m) {
-    m.warn("transmission is ignored, the surface is opaque and reflects only");
+    m.warn("transmission is ignored; the surface is opaque and only reflects");
     const double eta = m.refractive_index("eta", 1.5);
     return metallic(grey_value(dielectric_f0(eta)), m.roughness(0, RoughnessRule::v4));
 }
 
 Surface diffuse_transmission(MaterialReader& m) {
-    m.warn("transmission is ignored, only its reflection is left");
+    m.warn("transmission is ignored; the surface only reflects");
     SurfaceFormula surface;
     surface.diffuse = m.formulas().product(m.unit_colour("reflectance", 0.25), m.unit_number("scale", 1));
     m.parameters().ignore({"transmittance"});

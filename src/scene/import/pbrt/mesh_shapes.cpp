@@ -35,7 +35,7 @@ std::vector<Triangle> read_triangles(ShapeDirective& shape, std::size_t vertices
     if (indices.size() % 3 != 0)
         throw SceneError(parameters.location_of("indices"),
                          "shape \"" + shape.type + "\": the number of indices, " +
-                             std::to_string(indices.size()) + ", is not a multiple of 3");
+                             std::to_string(indices.size()) + ", must be a multiple of 3");
     std::vector<Triangle> triangles;
     triangles.reserve(indices.size() / 3);
     for (std::size_t i = 0; i < indices.size(); i += 3)
@@ -63,7 +63,7 @@ std::vector<std::uint32_t> read_patches(ShapeDirective& shape, std::size_t verti
     if (indices.size() % 4 != 0)
         throw SceneError(shape.parameters.location_of("indices"),
                          "shape \"bilinearmesh\": the number of indices, " + std::to_string(indices.size()) +
-                             ", is not a multiple of 4");
+                             ", must be a multiple of 4");
     return indices;
 }
 
@@ -88,7 +88,7 @@ Geometry read_loop_subdivision(ShapeDirective& shape, Warnings& warnings) {
     mesh.positions = read_positions(shape);
     mesh.triangles = read_triangles(shape, mesh.positions.size());
     warnings.add(shape.parameters.location(), "loopsubdiv",
-                 "shape \"loopsubdiv\": the control mesh is used, without subdivision");
+                 "shape \"loopsubdiv\": subdivision is not supported; the control mesh is used");
     shape.parameters.ignore({"levels", "nlevels", "scheme"});
     return mesh;
 }
@@ -107,8 +107,9 @@ Geometry read_quad(ShapeDirective& shape, Warnings&) {
     const auto u = parameters.point("u");
     const auto v = parameters.point("v");
     if (!o || !u || !v)
-        throw SceneError(parameters.location(),
-                         "shape \"quad\": needs the parameters \"point o\", \"vector u\" and \"vector v\"");
+        throw SceneError(
+            parameters.location(),
+            "shape \"quad\": must have the parameters \"point o\", \"vector u\" and \"vector v\"");
     const Double3 origin = to_double(*o);
     const Double3 along_u = origin + to_double(*u);
     Mesh mesh;

@@ -6,8 +6,8 @@ namespace nusselt::scene {
 
 void ObjectTable::begin(const std::string& name, const Location& location, Warnings& warnings) {
     if (is_open_)
-        throw SceneError(location, "ObjectBegin inside of the definition of object \"" +
-                                       shortened(definitions_.back().name) + "\" begun at " +
+        throw SceneError(location, "ObjectBegin inside the definition of object \"" +
+                                       shortened(definitions_.back().name) + "\" that begins at " +
                                        to_string(definitions_.back().location));
     if (by_name_.contains(name))
         warnings.add(location,
@@ -20,7 +20,7 @@ void ObjectTable::begin(const std::string& name, const Location& location, Warni
 void ObjectTable::add_instance(const std::string& name, const Transform& transform, const Location& location,
                                const FormatWords& words) {
     if (is_open_)
-        throw SceneError(location, "ObjectInstance inside of the definition of object \"" +
+        throw SceneError(location, "ObjectInstance inside the definition of object \"" +
                                        shortened(definitions_.back().name) +
                                        "\": objects cannot contain instances");
     const auto found = by_name_.find(name);

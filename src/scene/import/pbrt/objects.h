@@ -12,14 +12,14 @@ namespace nusselt::scene {
 
 class ObjectTable {
 public:
-    /// Shapes belong to this object from here on. Throws SceneError inside of another definition.
+    /// Shapes belong to this object from here on. Throws SceneError inside another definition.
     void begin(const std::string& name, const Location& location, Warnings& warnings);
     void end() { is_open_ = false; }
     bool is_open() const { return is_open_; }
-    /// To the definition that is open.
+    /// Adds a shape to the open definition.
     void add_shape(ShapeDirective shape) { definitions_.back().shapes.push_back(std::move(shape)); }
 
-    /// Throws SceneError if no object has this name, if it is used inside of a definition, or if `transform` has no
+    /// Throws SceneError if no object has this name, if it is used inside a definition, or if `transform` has no
     /// inverse.
     void add_instance(const std::string& name, const Transform& transform, const Location& location,
                       const FormatWords& words);

@@ -97,7 +97,7 @@ private:
         return {version_, state_.current().colour_space, &reader_.main_file(), scene_.budget.get(), nullptr};
     }
     ParameterList read_parameters() { return {reader_.tokens(), location_, context()}; }
-    /// With the defaults that Attribute directives set.
+    /// Reads parameters, with the defaults that Attribute directives set.
     ParameterList read_parameters(AttributeTarget target);
     std::filesystem::path resolve(const std::string& name) const { return reader_.resolve(name, location_); }
     void concatenate(const Transform& t) { set_transform(state_.current().ctm * t); }
@@ -123,7 +123,7 @@ private:
     std::optional<CameraDescription> camera_;
     std::optional<FilterDirective> pixel_filter_;
     std::optional<Location> world_begin_;
-    PbrtVersion version_ = PbrtVersion::v4; ///< until the film tells
+    PbrtVersion version_ = PbrtVersion::v4; ///< until the film determines it
 
     Location location_; ///< of the directive that is being read
 };
@@ -181,11 +181,11 @@ SceneDescription Parser::run() {
     coordinate_systems_["world"] = {};
     parse_file();
     state_.warn_if_open(scene_.warnings);
-    left_out_shapes_.warn("shapes that are not supported are left out, the first one here", scene_.warnings);
-    ignored_lights_.warn("light sources that are no area lights are left out, the first one here",
-                         scene_.warnings);
+    left_out_shapes_.warn("unsupported shapes are skipped, starting here", scene_.warnings);
+    ignored_lights_.warn("light sources other than area lights are skipped, starting here", scene_.warnings);
     const Location begin{&scene_.sources.front(), 1};
-    if (!camera_) scene_.warnings.add(begin, "there is no Camera, it looks from the origin along +z");
+    if (!camera_)
+        scene_.warnings.add(begin, "Camera is missing; the default camera looks from the origin along +z");
     if (!camera_) camera_.emplace().origin = begin;
     scene_.camera = *camera_;
     scene_.textures = textures_.planner().plan();
@@ -218,7 +218,7 @@ void Parser::skip_unknown_directive(const Token& directive) {
     const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
     if (!is_capital(directive.text.front()))
         throw SceneError(location_, "expected a directive, found " + Tokenizer::describe(directive));
-    scene_.warnings.add(location_, "directive '" + shortened(directive.text) + "' is unknown and skipped");
+    scene_.warnings.add(location_, "directive '" + shortened(directive.text) + "' is unknown and ignored");
     const auto is_argument = [&](const Token& token) {
         return token.kind != TokenKind::end &&
                (token.kind != TokenKind::word || !is_capital(token.text.front()));
@@ -239,7 +239,7 @@ void Parser::set_transform(const Transform& t) {
         state_.current().ctm = t;
     } else {
         scene_.warnings.add(location_, "motion",
-                            "moving objects stand still: transforms for EndTime alone are ignored");
+                            "motion is not supported; transforms for EndTime alone are ignored");
     }
 }
 
@@ -322,8 +322,8 @@ void Parser::attribute() {
 
 void Parser::world_begin() {
     if (world_begin_)
-        throw SceneError(location_, "WorldBegin again, the world begins at " + to_string(*world_begin_) +
-                                        "; split the file, one world each");
+        throw SceneError(location_, "second WorldBegin; the first one is at " + to_string(*world_begin_) +
+                                        "; split the file into one world each");
     world_begin_ = location_;
     state_.current().ctm = {};
     state_.current().moves_begin = true;
@@ -360,7 +360,7 @@ void Parser::film() {
     version_ = type == "image" ? PbrtVersion::v3 : PbrtVersion::v4;
 }
 
-/// Its defaults depend on the version, which the film may tell later.
+/// Its defaults depend on the version, which the film may determine later.
 void Parser::pixel_filter() {
     std::string type = read_string();
     pixel_filter_ = {std::move(type), read_parameters()};
@@ -375,14 +375,14 @@ void Parser::ignore_with_parameters() {
 
 void Parser::ignore_medium() {
     ignore_with_parameters();
-    scene_.warnings.add(location_, "media", "participating media are ignored");
+    scene_.warnings.add(location_, "media", "participating media are not supported and ignored");
 }
 
 void Parser::medium_interface() {
     read_string();
     // v3 allows one name for both sides.
     if (reader_.tokens().peek().kind == TokenKind::string) read_string();
-    scene_.warnings.add(location_, "media", "participating media are ignored");
+    scene_.warnings.add(location_, "media", "participating media are not supported and ignored");
 }
 
 void Parser::color_space() {
@@ -467,7 +467,7 @@ int Parser::used_material(MaterialEntry& entry) {
     return *entry.index;
 }
 
-/// For lights on invisible surfaces.
+/// The material for lights on invisible surfaces.
 int Parser::invisible_light_material() {
     if (!invisible_light_material_) {
         invisible_light_material_ = static_cast<int>(scene_.materials.size());

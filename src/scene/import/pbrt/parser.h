@@ -8,9 +8,9 @@
 
 namespace nusselt::scene {
 
-/// Reads a scene file and what it includes. docs/materials.md says how materials, textures and lights are reduced. What
-/// the importer does not know it skips where that is safe, with a warning. Throws SceneError, or std::runtime_error if
-/// `path` cannot be read.
+/// Reads a scene file and what it includes. docs/materials.md describes how materials, textures and lights are reduced.
+/// The importer skips unknown input where that is safe, with a warning. Throws SceneError, or
+/// std::runtime_error if `path` cannot be read.
 SceneDescription read_pbrt(const std::filesystem::path& path);
 
 /// Whether a file that begins like this may be a scene: its first word begins with a capital letter.

@@ -57,7 +57,7 @@ Geometry read_line(ShapeDirective& shape, Warnings&) {
     if (ends.size() != 2)
         throw SceneError(
             parameters.location(),
-            "shape \"line\": needs the parameters \"point3 p0\", \"point3 p1\" and \"float radius\"");
+            "shape \"line\": must have the parameters \"point3 p0\", \"point3 p1\" and \"float radius\"");
     Tube tube;
     tube.start = ends[0];
     tube.end = ends[1];

@@ -19,7 +19,7 @@ int SurfaceVariants::material(int material, ShapeDirective& directive, TextureTa
     ParameterList& shape = directive.parameters;
     if (shape.texture("shadowalpha") || shape.optional_real("shadowalpha"))
         warnings.add(shape.location_of("shadowalpha"), "shape shadowalpha",
-                     "shadowalpha is ignored, shadows have the alpha of the surface");
+                     "shadowalpha is ignored; shadows use the alpha of the surface");
     const Location location = shape.location_of("alpha");
     const auto name = shape.texture("alpha");
     const TextureValue value =

@@ -1,5 +1,5 @@
 #pragma once
-/// What surfaces of one material do not share.
+/// Differences between surfaces of one material.
 
 #include "scene/import/pbrt/shape_directive.h"
 #include "scene/import/pbrt/textures.h"

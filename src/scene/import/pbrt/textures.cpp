@@ -17,7 +17,7 @@ TextureMapping read_mapping(TextureDirective& directive, Warnings& warnings) {
     if (const std::string kind = parameters.string("mapping", "uv"); kind != "uv") {
         warnings.add(parameters.location_of("mapping"), "texture mapping " + kind,
                      text_of(directive) + ": mapping \"" + kind +
-                         "\" is not supported, the texture coordinates of the mesh are used");
+                         "\" is not supported; the texture coordinates of the mesh replace it");
         parameters.ignore({"v1", "v2"});
     }
     TextureMapping mapping;
@@ -52,7 +52,7 @@ TextureWrap read_wrap(TextureDirective& directive, Warnings& warnings) {
     if (wrap == "black") return TextureWrap::black;
     if (wrap != "repeat")
         warnings.add(directive.parameters.location_of("wrap"),
-                     text_of(directive) + ": wrap \"" + wrap + "\" is not supported, \"repeat\" is used");
+                     text_of(directive) + ": wrap \"" + wrap + "\" is not supported; \"repeat\" replaces it");
     return TextureWrap::repeat;
 }
 
@@ -140,7 +140,7 @@ TextureValue TextureTable::reduce_checkerboard(TextureDirective& directive, Warn
     const TextureMapping mapping = read_mapping(directive, warnings);
     if (directive.parameters.integer("dimension", 2) == 2) return formulas().checkerboard(a, b, mapping);
     warnings.add(directive.parameters.location(),
-                 class_of(directive) + ": in three dimensions replaced by its mean");
+                 class_of(directive) + ": not supported in three dimensions; its mean replaces it");
     return formulas().mix(a, b, grey_value(0.5));
 }
 
@@ -150,8 +150,9 @@ TextureValue TextureTable::reduce_procedure(TextureDirective& directive, Warning
             return procedure.texture_class == directive.texture_class;
         });
     const bool is_known = found != std::end(kProcedures);
-    warnings.add(directive.parameters.location(), class_of(directive) + ": not supported, replaced by " +
-                                                      (is_known ? "its mean" : "the grey 0.5"));
+    warnings.add(directive.parameters.location(), class_of(directive) + ": not supported; " +
+                                                      (is_known ? "its mean" : "the grey 0.5") +
+                                                      " replaces it");
     return is_known ? TextureValue{found->mean, -1} : grey_value(0.5);
 }
 
@@ -159,7 +160,7 @@ TextureValue TextureTable::reduce(TextureDirective& directive, Warnings& warning
     const std::string& kind = directive.texture_class;
     const auto warn_mean = [&] {
         warnings.add(directive.parameters.location(),
-                     class_of(directive) + ": not supported, replaced by its mean");
+                     class_of(directive) + ": not supported; its mean replaces it");
     };
     if (kind == "imagemap") return reduce_image(directive, warnings);
     if (kind == "constant") return input(directive, "value", 1, warnings);
@@ -188,7 +189,7 @@ TextureValue TextureTable::reduce(TextureDirective& directive, Warnings& warning
         return formulas().mix(formulas().mix(v00, v01, half), formulas().mix(v10, v11, half), half);
     }
     const TextureValue replacement = reduce_procedure(directive, warnings);
-    // Nothing else is told about parameters of what is replaced.
+    // Parameters of a replaced texture cause no further warnings.
     directive.parameters = {};
     return replacement;
 }

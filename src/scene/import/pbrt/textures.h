@@ -23,7 +23,7 @@ struct TextureDirective {
     std::filesystem::path image_path; ///< of the file that the parameter "filename" names
 };
 
-/// The named textures of a scene, and what materials ask of them.
+/// The named textures of a scene, and the requests of materials for them.
 class TextureTable {
 public:
     /// Reduces a directive to a formula; docs/materials.md has the rules. Throws SceneError on impossible values.

@@ -72,7 +72,7 @@ public:
         if (data_.size() / size < count) fail_truncated();
         data_.remove_prefix(size * count);
     }
-    /// How many values of a type the rest of the file can hold at most.
+    /// The largest number of values of a type that the rest of the file can hold.
     std::size_t capacity(PlyType type) const { return data_.size() / size_in_bytes(type); }
 
 private:
@@ -95,7 +95,7 @@ public:
                 "expected a number, found '" +
                 std::string(data_.substr(0, std::min<std::size_t>(data_.find_first_of(kSpace), 40))) + "'");
         if (error == std::errc::result_out_of_range) {
-            // from_chars reports underflow like overflow and leaves the value unset; strtod tells them apart.
+            // from_chars reports underflow like overflow and leaves the value unset; strtod distinguishes them.
             const std::string text(data_.substr(0, length));
             value = std::strtod(text.c_str(), nullptr);
             if (std::isinf(value)) throw std::runtime_error("number out of range: '" + shortened(text) + "'");
@@ -171,7 +171,7 @@ void read_vertices(Reader& reader, const PlyElement& element, Mesh& mesh) {
         if (columns.back()) present[*columns.back()] = true;
     }
     if (!present[kX] || !present[kY] || !present[kZ])
-        throw std::runtime_error("PLY header: element vertex lacks x, y or z");
+        throw std::runtime_error("PLY header: x, y or z is missing in element 'vertex'");
     const bool has_normals = present[kNormalX] && present[kNormalY] && present[kNormalZ];
     const bool has_uvs = present[kU] && present[kV];
     mesh.positions.resize(element.count);
@@ -194,7 +194,7 @@ void read_vertices(Reader& reader, const PlyElement& element, Mesh& mesh) {
 }
 
 [[noreturn]] void fail_index(double index, std::size_t vertices) {
-    throw std::runtime_error("vertex index " + to_text(index) + ", but there are " +
+    throw std::runtime_error("vertex index " + to_text(index) + " is out of range for " +
                              std::to_string(vertices) + " vertices");
 }
 
@@ -278,7 +278,7 @@ void check_elements(const PlyHeader& header) {
         if (vertices > 1 || faces > 1)
             throw std::runtime_error("PLY header: element '" + std::string(element.name) + "' appears twice");
     }
-    if (faces == 0) throw std::runtime_error("PLY header: there is no element 'face'");
+    if (faces == 0) throw std::runtime_error("PLY header: element 'face' is missing");
 }
 
 template <class Reader>

@@ -55,14 +55,14 @@ PlyElement read_element(const std::vector<std::string_view>& words, std::string_
     const auto [end, error] =
         std::from_chars(words[2].data(), words[2].data() + words[2].size(), element.count);
     if (error != std::errc{} || end != words[2].data() + words[2].size())
-        fail("bad number of elements", line);
+        fail("invalid number of elements", line);
     return element;
 }
 
 PlyProperty read_property(const std::vector<std::string_view>& words, std::string_view line) {
     PlyProperty property;
     property.is_list = words.size() == 5 && words[1] == "list";
-    if (!property.is_list && words.size() != 3) fail("malformed property", line);
+    if (!property.is_list && words.size() != 3) fail("invalid property", line);
     const auto type = type_of(words[words.size() - 2]);
     const auto count_type = type_of(property.is_list ? words[2] : "uint8");
     if (!type || !count_type) fail("unknown type", line);

@@ -17,7 +17,7 @@ namespace {
 
 std::string rounded_text(double value) { return to_text(std::round(value * 1e3) / 1e3); }
 
-/// What a parameter says in linear sRGB, before clamping.
+/// The value of a parameter in linear sRGB, before clamping.
 class ColourReader {
 public:
     ColourReader(const Parameter& parameter, const ParameterContext& context, SpectrumUse use)
@@ -95,7 +95,7 @@ private:
         } catch (const std::runtime_error& error) {
             fail(parameter_,
                  "'" + shortened(name) +
-                     "' is no spectrum that is known by name, nor a file of samples: " + error.what());
+                     "' is neither the name of a known spectrum nor a file of samples: " + error.what());
         }
         Tokenizer tokens(file);
         std::vector<double> numbers;
@@ -118,7 +118,7 @@ std::optional<Float3> ParameterList::optional_colour(std::string_view name, Warn
     const Parameter* parameter = find(name, ParameterKind::colour);
     if (parameter == nullptr) return std::nullopt;
     Double3 colour = ColourReader(*parameter, context_, use).read();
-    // Negative numbers in the text are no matter of gamuts; who asks for the colour judges them.
+    // Negative numbers in the text do not concern gamuts; the caller judges them.
     const bool is_given_negative =
         parameter->type != "spectrum" && std::any_of(parameter->numbers.begin(), parameter->numbers.end(),
                                                      [](double number) { return number < 0; });
@@ -127,7 +127,7 @@ std::optional<Float3> ParameterList::optional_colour(std::string_view name, Warn
         warnings.add(parameter->location, "gamut",
                      "parameter " + declaration(*parameter) + ": the colour (" + rounded_text(colour.x) +
                          ", " + rounded_text(colour.y) + ", " + rounded_text(colour.z) +
-                         ") lies outside of the gamut of sRGB, negative components become 0");
+                         ") lies outside the gamut of sRGB; negative components become 0");
         colour = {std::max(colour.x, 0.0), std::max(colour.y, 0.0), std::max(colour.z, 0.0)};
     }
     return to_float(colour);

@@ -1,4 +1,4 @@
-/// Spectra that pbrt v4 knows by name.
+/// Spectra that have names in pbrt v4.
 
 #include "scene/import/pbrt/syntax/named_spectra.h"
 
@@ -77,7 +77,7 @@ constexpr Substance kMetals[] = {substance("metal-Cu", kCopper),
                                  substance("metal-MgO", kMagnesiumOxide),
                                  substance("metal-TiO2", kTitaniumDioxide)};
 
-// At 587.6 nm, from the catalogue of Schott.
+// Refractive indices at 587.6 nm, from the catalogue of Schott.
 constexpr std::pair<std::string_view, double> kGlasses[] = {
     {"glass-BK7", 1.5168}, {"glass-BAF10", 1.6700}, {"glass-FK51A", 1.4866}, {"glass-LASF9", 1.8503},
     {"glass-F5", 1.6727},  {"glass-SF5", 1.6727},   {"glass-F10", 1.7283},   {"glass-SF10", 1.7283},

@@ -8,7 +8,7 @@
 
 namespace nusselt::scene {
 
-/// Linear sRGB of a spectrum that pbrt v4 knows by name: optical constants like "metal-Cu-eta" and "glass-BK7" as
+/// Linear sRGB of a spectrum that has a name in pbrt v4: optical constants like "metal-Cu-eta" and "glass-BK7" as
 /// albedos, illuminants like "stdillum-D50" with luminance 1. Nothing for other names.
 std::optional<Double3> named_spectrum(std::string_view name);
 

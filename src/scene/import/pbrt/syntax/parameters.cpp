@@ -123,7 +123,7 @@ double parse_number(std::string_view text, const Location& location) {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (end != digits.data() + digits.size() || error == std::errc::invalid_argument)
         throw SceneError(location, "expected a number, found '" + shortened(text) + "'");
-    // from_chars reports underflow like overflow and leaves the value unset; strtod tells them apart.
+    // from_chars reports underflow like overflow and leaves the value unset; strtod distinguishes them.
     if (error == std::errc::result_out_of_range) value = std::strtod(std::string(digits).c_str(), nullptr);
     if (!(std::fabs(value) <= std::numeric_limits<float>::max()))
         throw SceneError(location, "number out of range: '" + shortened(text) + "'");
@@ -271,7 +271,7 @@ std::vector<std::uint32_t> ParameterList::indices(std::string_view name, std::si
             throw SceneError(parameter->location, "parameter " + declaration(*parameter) + ": index " +
                                                       to_text(value) + " at position " +
                                                       std::to_string(result.size()) +
-                                                      " is not an integer from 0 to " +
+                                                      " must be an integer from 0 to " +
                                                       std::to_string(limit) + " - 1, the number of vertices");
         }
         result.push_back(static_cast<std::uint32_t>(value));

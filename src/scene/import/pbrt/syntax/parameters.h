@@ -32,13 +32,13 @@ struct Parameter {
     bool used = false;
 };
 
-/// How messages show a parameter: its quoted type and name.
+/// The text for a parameter in messages: its quoted type and name.
 std::string declaration(const Parameter& parameter);
 
 /// The version of pbrt that a scene was written for.
 enum class PbrtVersion { v3, v4 };
 
-/// What the meaning of parameters depends on besides their text.
+/// The context on which the meaning of parameters depends.
 struct ParameterContext {
     PbrtVersion version = PbrtVersion::v4;
     const ColourSpace* colour_space = &kSrgb;
@@ -57,7 +57,7 @@ public:
     /// Reads all parameters that follow. Throws SceneError on malformed ones.
     ParameterList(Tokenizer& tokens, const Location& directive, ParameterContext context = {});
 
-    /// What reading of files is charged to.
+    /// The budget that reading of files is charged to.
     SceneBudget& budget() const { return *context_.budget; }
     /// Position of the directive.
     const Location& location() const { return location_; }
@@ -72,9 +72,9 @@ public:
     /// All values of a parameter of type string; none if it is missing.
     std::vector<std::string> strings(std::string_view name);
     std::optional<std::string> texture(std::string_view name);
-    /// In linear sRGB, from any type of colour or spectrum; docs/materials.md has the rules. Negative where the text
-    /// gives negative numbers; what lies outside of the gamut is clamped with a warning. Throws SceneError if a file of
-    /// samples cannot be read or the values do not fit the type.
+    /// A colour in linear sRGB, from any type of colour or spectrum; docs/materials.md has the rules. Negative where
+    /// the text gives negative numbers; what lies outside the gamut is clamped with a warning. Throws SceneError if
+    /// a file of samples cannot be read or the values do not fit the type.
     std::optional<Float3> optional_colour(std::string_view name, Warnings& warnings,
                                           SpectrumUse use = SpectrumUse::albedo);
     Float3 colour(std::string_view name, const Float3& fallback, Warnings& warnings,

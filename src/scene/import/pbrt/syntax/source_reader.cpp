@@ -47,9 +47,8 @@ void SourceReader::open(const std::string& name, const Location& includer) {
     } else {
         repeated_bytes_ += source->bytes.view().size();
         if (++repeated_includes_ > kMaxRepeatedIncludes || repeated_bytes_ > kMaxRepeatedBytes)
-            throw SceneError(includer, "the same files are included again more than " +
-                                           std::to_string(kMaxRepeatedIncludes) + " times or for more than " +
-                                           std::to_string(kMaxRepeatedBytes) +
+            throw SceneError(includer, "repeated includes exceed " + std::to_string(kMaxRepeatedIncludes) +
+                                           " files or " + std::to_string(kMaxRepeatedBytes) +
                                            " bytes of text; use ObjectInstance for copies");
     }
     open_files_.emplace_back(*source);

@@ -25,10 +25,10 @@ public:
     void open(const std::string& name, const Location& includer);
     void close() { open_files_.pop_back(); }
 
-    /// Of the file that is being read.
+    /// The tokens of the file that is being read.
     Tokenizer& tokens() { return open_files_.back(); }
     const SourceFile& main_file() const { return sources_.front(); }
-    /// Where a file is that the text at `location` names: beside that text or beside the main file.
+    /// The path of a file that the text at `location` names, beside that text or beside the main file.
     std::filesystem::path resolve(const std::string& name, const Location& location) const;
 
     // Arguments of directives. All throw SceneError if something else follows.

@@ -28,7 +28,7 @@ public:
     Token next();
 
     Location location(const Token& token) const { return {source_, token.line}; }
-    /// How error messages show a token.
+    /// The text for a token in error messages.
     static std::string describe(const Token& token);
 
 private:

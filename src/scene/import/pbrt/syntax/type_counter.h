@@ -1,5 +1,5 @@
 #pragma once
-/// What a scene has but renderers do not, summed up.
+/// Counts the unsupported types of a scene.
 
 #include "scene/input/diagnostics.h"
 
@@ -12,7 +12,7 @@ namespace nusselt::scene {
 class TypeCounter {
 public:
     void add(const std::string& type, const Location& location);
-    /// At the first directive, if there are any: `sentence` and a list like "2 \"cone\", 1 \"curve\"".
+    /// Warns at the first directive, if there is one, with `sentence` and a list like "2 \"cone\", 1 \"curve\"".
     void warn(const std::string& sentence, Warnings& warnings) const;
 
 private:

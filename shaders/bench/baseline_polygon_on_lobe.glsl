@@ -1,0 +1,9 @@
+// A technique of practically no cost; all that is loaded of the lobe counts elsewhere.
+#include "bench/baseline_polygon.glsl"
+#include "nusselt/ltc/ltc.glsl"
+
+BaselinePolygon baseline_polygon_on_lobe_prepare(ConvexPolygon light, Ltc lobe) { return baseline_polygon_prepare(light); }
+
+LightSample baseline_polygon_on_lobe_sample(BaselinePolygon self, vec2 u) {
+    return baseline_polygon_sample(self, u);
+}

@@ -1,0 +1,45 @@
+#ifndef NUSSELT_PASSES_LIGHTS_LINE_GLSL
+#define NUSSELT_PASSES_LIGHTS_LINE_GLSL
+/// Linear lights and tubes as a shading point and a camera see them, as in src/render_cpu/kernel/lights/line.cpp.
+
+#include "nusselt/geometry/cylinder.glsl"
+#include "nusselt/geometry/line_segment.glsl"
+#include "passes/lights/light_role.glsl"
+
+layout(set = 0, binding = 9, std430) readonly buffer LineLights { LineLightRecord line_lights[]; };
+
+// Lines come behind polygons.
+uint first_line() { return max(frame.first_light, scene.polygon_lights) - scene.polygon_lights; }
+uint lines_end() { return max(frame.light_end, scene.polygon_lights) - scene.polygon_lights; }
+
+struct LocalLine {
+    LineSegment shape; ///< in shading space; of tubes the axis
+    bool is_solid;     ///< a tube as the cylinder that it is
+    float radius;      ///< of tubes
+    LightRole role;
+};
+
+struct LocalTube {
+    Cylinder shape; ///< in shading space
+    LightRole role;
+};
+
+LocalTube tube_of(LocalLine light) { return LocalTube(Cylinder(light.shape, light.radius), light.role); }
+
+/// \param index among the lines and tubes
+LocalLine local_line(Surface surface, uint index) {
+    LineLightRecord record = line_lights[index];
+    LineSegment world = LineSegment(to_vec(record.begin), to_vec(record.direction), record.len);
+    LineSegment local = to_shading_space(world, surface.position, surface.shading);
+    bool is_solid = record.is_solid != 0u;
+    float highest = nusselt_max(local.p0.z, local.p0.z + local.len * local.s.z);
+    if (is_solid) highest += record.radius * sqrt(nusselt_max(1.0 - local.s.z * local.s.z, 0.0));
+    vec3 emission = to_vec(record.radiance);
+    if (!is_solid) emission = record.radius * emission;
+    return LocalLine(local, is_solid, record.radius, LightRole(!(highest <= 0.0), emission, scene.polygon_lights + index));
+}
+
+/// Radiance that a ray sees.
+vec3 line_emission(uint index) { return to_vec(line_lights[index].radiance); }
+
+#endif

@@ -1,0 +1,20 @@
+#ifndef NUSSELT_PASSES_LIGHTS_LINE_INTEGRALS_GLSL
+#define NUSSELT_PASSES_LIGHTS_LINE_INTEGRALS_GLSL
+/// Integrals over all linear lights and tubes.
+
+#include "nusselt/ltc/line_shading.glsl"
+#include "passes/lights/line.glsl"
+
+void add_lines(inout Reflected reflected) {
+    for (uint i = first_line(); (kHasLines || kHasTubes) && i < lines_end(); ++i) {
+        LocalLine light = local_line(reflected.surface, i);
+        if (!light.role.is_lit) continue;
+        vec2 integrals =
+            vec2(diffuse_integral(light.shape), clipped_lobe_integral(light.shape, reflected.glossy.lobe));
+        if (kHasTubes && light.is_solid)
+            integrals = vec2(tube_integral(integrals.x, light.radius), tube_integral(integrals.y, light.radius));
+        add_light(reflected, light.role, integrals);
+    }
+}
+
+#endif

@@ -1,0 +1,124 @@
+#ifndef NUSSELT_PASSES_LIGHTS_LINE_SAMPLES_GLSL
+#define NUSSELT_PASSES_LIGHTS_LINE_SAMPLES_GLSL
+/// Techniques for linear lights and tubes, and samples of all of them.
+
+#include "nusselt/sampling/cylinder_area.glsl"
+#include "nusselt/sampling/cylinder_ltc.glsl"
+#include "nusselt/sampling/cylinder_projected_solid_angle.glsl"
+#include "nusselt/sampling/cylinder_solid_angle.glsl"
+#include "nusselt/sampling/line_area.glsl"
+#include "nusselt/sampling/line_ltc.glsl"
+#include "nusselt/sampling/line_projected_solid_angle.glsl"
+#include "nusselt/sampling/line_solid_angle.glsl"
+#include "passes/lights/line.glsl"
+#include "passes/lights/techniques.glsl"
+
+/// No sample of the BRDF hits a line.
+bool is_line_paired(GlossySurface surface) {
+    return kStrategies == kStrategiesDiffuseLtc && glossy_surface_is_glossy(surface);
+}
+bool has_pair(LineSegment light, GlossySurface surface) { return is_line_paired(surface); }
+bool has_pair(Cylinder light, GlossySurface surface) { return is_line_paired(surface); }
+
+struct LineTechniques {
+    LineArea area;
+    LineSolidAngle solid_angle;
+    LineProjectedSolidAngle projected;
+    LineLtc ltc;
+};
+
+LineTechniques prepare_techniques(LineSegment light, GlossySurface surface, bool is_paired) {
+    LineTechniques self;
+    if (kTechnique == kTechniqueArea)
+        self.area = line_area_prepare(light);
+    else if (kTechnique == kTechniqueSolidAngle)
+        self.solid_angle = line_solid_angle_prepare(light);
+    else if (kTechnique == kTechniqueClippedSolidAngle)
+        self.solid_angle = line_clipped_solid_angle_prepare(light);
+    else if (kIsProjected)
+        self.projected = line_projected_solid_angle_prepare(light);
+    else
+        note_unknown_setting();
+    if (is_paired) self.ltc = line_ltc_prepare(light, surface.lobe);
+    return self;
+}
+
+LightSample techniques_sample(LineTechniques self, int technique, vec2 u) {
+    if (technique == 1) return line_ltc_sample(self.ltc, u.x);
+    if (kTechnique == kTechniqueArea) return line_area_sample(self.area, u.x);
+    if (kIsSolidAngle) return line_solid_angle_sample(self.solid_angle, u.x);
+    if (kIsProjected) return line_projected_solid_angle_sample(self.projected, u.x);
+    return unknown_sample();
+}
+
+/// Of both techniques. Pairs begin with a projected solid angle.
+vec2 techniques_pdf(LineTechniques self, vec3 wi) {
+    return vec2(line_projected_solid_angle_pdf(self.projected, wi), line_ltc_pdf(self.ltc, wi));
+}
+
+vec2 techniques_integrals(LineTechniques self) {
+    return vec2((1.0 / kNusseltPi) * line_projected_solid_angle_measure(self.projected), line_ltc_measure(self.ltc));
+}
+
+struct TubeTechniques {
+    CylinderArea area;
+    CylinderSolidAngle solid_angle;
+    CylinderProjectedSolidAngle projected;
+    CylinderLtc ltc;
+};
+
+TubeTechniques prepare_techniques(Cylinder light, GlossySurface surface, bool is_paired) {
+    TubeTechniques self;
+    if (kTechnique == kTechniqueArea)
+        self.area = cylinder_area_prepare(light);
+    else if (kIsSolidAngle)
+        self.solid_angle = cylinder_solid_angle_prepare(light);
+    else if (kIsProjected)
+        self.projected = cylinder_projected_solid_angle_prepare(light);
+    else
+        note_unknown_setting();
+    if (is_paired) self.ltc = cylinder_ltc_prepare(light, surface.lobe);
+    return self;
+}
+
+LightSample techniques_sample(TubeTechniques self, int technique, vec2 u) {
+    if (technique == 1) return cylinder_ltc_sample(self.ltc, u);
+    if (kTechnique == kTechniqueArea) return cylinder_area_sample(self.area, u);
+    if (kIsSolidAngle) return cylinder_solid_angle_sample(self.solid_angle, u);
+    if (kIsProjected) return cylinder_projected_solid_angle_sample(self.projected, u);
+    return unknown_sample();
+}
+
+/// Of both techniques. Pairs begin with a projected solid angle.
+vec2 techniques_pdf(TubeTechniques self, vec3 wi) {
+    return vec2(cylinder_projected_solid_angle_pdf(self.projected, wi), cylinder_ltc_pdf(self.ltc, wi));
+}
+
+vec2 techniques_integrals(TubeTechniques self) {
+    return vec2((1.0 / kNusseltPi) * cylinder_projected_solid_angle_measure(self.projected),
+                cylinder_ltc_measure(self.ltc));
+}
+
+#define LOCAL_LIGHT LocalLine
+#define TECHNIQUES LineTechniques
+#include "passes/lights/add_light.glsl"
+#undef LOCAL_LIGHT
+#undef TECHNIQUES
+
+#define LOCAL_LIGHT LocalTube
+#define TECHNIQUES TubeTechniques
+#include "passes/lights/add_light.glsl"
+#undef LOCAL_LIGHT
+#undef TECHNIQUES
+
+void add_lines(inout Estimate estimate) {
+    for (uint i = first_line(); (kHasLines || kHasTubes) && i < lines_end(); ++i) {
+        LocalLine light = local_line(estimate.surface, i);
+        if (kHasTubes && light.is_solid)
+            add_light(estimate, tube_of(light));
+        else if (kHasLines)
+            add_light(estimate, light);
+    }
+}
+
+#endif

@@ -1,0 +1,59 @@
+#ifndef NUSSELT_PASSES_LIGHTS_POLYGON_GLSL
+#define NUSSELT_PASSES_LIGHTS_POLYGON_GLSL
+/// Polygonal lights as a shading point and a camera see them, as in src/render_cpu/kernel/lights/polygon_light.h.
+
+/// NUSSELT_MAX_VERTICES is LIGHT_VERTICES, or one more where lights are clipped twice.
+#ifndef LIGHT_VERTICES
+#error LIGHT_VERTICES must be 4 or 8: the vertices that each polygonal light has room for
+#endif
+
+#include "nusselt/geometry/convex_polygon.glsl"
+#include "passes/lights/light_role.glsl"
+
+layout(set = 0, binding = 7, std430) readonly buffer PolygonLights { PolygonLightRecord polygon_lights[]; };
+/// Of each polygonal light LIGHT_VERTICES vertices, then as many edges.
+layout(set = 0, binding = 8, std430) readonly buffer PolygonCorners { float polygon_corners[]; };
+
+uint polygons_end() { return min(scene.polygon_lights, frame.light_end); }
+
+struct LocalPolygon {
+    ConvexPolygon shape; ///< in shading space
+    LightRole role;
+};
+
+vec3 polygon_corner(uint number) {
+    uint at = 3u * number;
+    return vec3(polygon_corners[at], polygon_corners[at + 1u], polygon_corners[at + 2u]);
+}
+
+LocalPolygon local_polygon(Surface surface, uint index) {
+    const int n = NUSSELT_MAX_VERTICES;
+    uint begin = uint(2 * LIGHT_VERTICES) * index;
+    vec3 corners[NUSSELT_MAX_VERTICES];
+    vec3 edges[NUSSELT_MAX_VERTICES];
+    for (int j = 0; j < n; ++j) {
+        corners[j] = polygon_corner(begin + uint(min(j, LIGHT_VERTICES - 1)));
+        edges[j] = vec3(0.0);
+    }
+    for (int j = 0; j < LIGHT_VERTICES - 1; ++j) edges[j] = polygon_corner(begin + uint(LIGHT_VERTICES + j));
+    edges[n - 1] = polygon_corner(begin + uint(2 * LIGHT_VERTICES - 1));
+    ConvexPolygon world = make_polygon(corners, edges, to_vec(polygon_lights[index].normal));
+    ConvexPolygon local = to_shading_space(world, surface.position, surface.shading);
+    // A planar light does not light itself, but rounding may put a point of it in front of its plane.
+    bool is_lit = surface.light != int(index);
+    // Comparisons with NaN are false: negated they keep it, so that it is counted.
+    if (polygon_lights[index].is_two_sided == 0u) is_lit = is_lit && !(dot(local.normal, local.vertex[0]) >= 0.0);
+    float highest = local.vertex[0].z;
+    for (int j = 1; j < NUSSELT_MAX_VERTICES; ++j) highest = nusselt_max(highest, local.vertex[j].z);
+    is_lit = is_lit && !(highest <= 0.0);
+    return LocalPolygon(local, LightRole(is_lit, to_vec(polygon_lights[index].radiance), index));
+}
+
+/// Radiance that a ray sees.
+vec3 polygon_emission(uint index, vec3 direction) {
+    bool is_seen =
+        polygon_lights[index].is_two_sided != 0u || dot(to_vec(polygon_lights[index].normal), direction) < 0.0;
+    return is_seen ? to_vec(polygon_lights[index].radiance) : vec3(0.0);
+}
+
+#endif

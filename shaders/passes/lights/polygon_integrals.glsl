@@ -1,0 +1,17 @@
+#ifndef NUSSELT_PASSES_LIGHTS_POLYGON_INTEGRALS_GLSL
+#define NUSSELT_PASSES_LIGHTS_POLYGON_INTEGRALS_GLSL
+/// Integrals over all polygonal lights.
+
+#include "nusselt/ltc/polygon_shading.glsl"
+#include "passes/lights/polygon.glsl"
+
+void add_polygons(inout Reflected reflected) {
+    for (uint i = frame.first_light; kHasPolygons && i < polygons_end(); ++i) {
+        LocalPolygon light = local_polygon(reflected.surface, i);
+        if (!light.role.is_lit) continue;
+        add_light(reflected, light.role,
+                  vec2(diffuse_integral(light.shape), clipped_lobe_integral(light.shape, reflected.glossy.lobe)));
+    }
+}
+
+#endif

@@ -1,0 +1,119 @@
+#ifndef NUSSELT_PASSES_LIGHTS_POLYGON_SAMPLES_GLSL
+#define NUSSELT_PASSES_LIGHTS_POLYGON_SAMPLES_GLSL
+/// Techniques for polygonal lights, and samples of all of them.
+
+#include "nusselt/sampling/polygon_area.glsl"
+#include "nusselt/sampling/polygon_brdf.glsl"
+#include "nusselt/sampling/polygon_clipped_solid_angle.glsl"
+#include "nusselt/sampling/polygon_ltc.glsl"
+#include "nusselt/sampling/polygon_ltc_biased.glsl"
+#include "nusselt/sampling/polygon_projected_solid_angle.glsl"
+#include "nusselt/sampling/polygon_projected_solid_angle_biased.glsl"
+#include "nusselt/sampling/polygon_solid_angle.glsl"
+#include "passes/lights/polygon.glsl"
+#include "passes/lights/techniques.glsl"
+
+bool has_pair(ConvexPolygon light, GlossySurface surface) {
+    return kStrategies != kStrategiesDiffuse && glossy_surface_is_glossy(surface);
+}
+
+struct PolygonTechniques {
+    PolygonArea area;
+    PolygonSolidAngle solid_angle;
+    PolygonProjectedSolidAngle projected;
+    PolygonProjectedSolidAngleBiased biased;
+    PolygonLtc ltc;
+    PolygonBrdf brdf;
+};
+
+/// \param is_paired whether technique 1 is needed
+PolygonTechniques prepare_techniques(ConvexPolygon light, GlossySurface surface, bool is_paired) {
+    PolygonTechniques self;
+    if (kTechnique == kTechniqueArea)
+        self.area = polygon_area_prepare(light);
+    else if (kTechnique == kTechniqueSolidAngle)
+        self.solid_angle = polygon_solid_angle_prepare(light);
+    else if (kTechnique == kTechniqueClippedSolidAngle)
+        self.solid_angle = polygon_clipped_solid_angle_prepare(light);
+    else if (kIsBiased)
+        self.biased = polygon_projected_solid_angle_biased_prepare(light);
+    else if (kIsProjected)
+        self.projected = polygon_projected_solid_angle_prepare(light);
+    else
+        note_unknown_setting();
+    if (!is_paired) return self;
+    if (kStrategies == kStrategiesDiffuseGgx)
+        self.brdf = polygon_brdf_prepare(light, ggx_visible_normals_prepare(surface.wo, surface.alpha));
+    else if (kStrategies == kStrategiesDiffuseGgxBounded)
+        self.brdf = polygon_brdf_prepare(light, ggx_bounded_visible_normals_prepare(surface.wo, surface.alpha));
+    else if (kStrategies != kStrategiesDiffuseLtc)
+        note_unknown_setting();
+    else if (kIsBiased)
+        self.ltc = polygon_ltc_biased_prepare(light, surface.lobe);
+    else
+        self.ltc = polygon_ltc_prepare(light, surface.lobe);
+    return self;
+}
+
+LightSample techniques_sample(PolygonTechniques self, int technique, vec2 u) {
+    if (technique == 1) {
+        if (kHasBrdfSamples) return polygon_brdf_sample(self.brdf, u);
+        if (kStrategies != kStrategiesDiffuseLtc) return unknown_sample();
+        if (kIsBiased) return polygon_ltc_biased_sample(self.ltc, u);
+        return polygon_ltc_sample(self.ltc, u);
+    }
+    if (kTechnique == kTechniqueArea) return polygon_area_sample(self.area, u);
+    if (kTechnique == kTechniqueSolidAngle) return polygon_solid_angle_sample(self.solid_angle, u);
+    if (kTechnique == kTechniqueClippedSolidAngle) return polygon_clipped_solid_angle_sample(self.solid_angle, u);
+    if (kIsBiased) return polygon_projected_solid_angle_biased_sample(self.biased, u);
+    if (kIsProjected) return polygon_projected_solid_angle_sample(self.projected, u);
+    return unknown_sample();
+}
+
+/// Of both techniques. Pairs begin with a solid angle or a projected one.
+vec2 techniques_pdf(PolygonTechniques self, vec3 wi) {
+    vec2 pdf;
+    if (kTechnique == kTechniqueSolidAngle)
+        pdf.x = polygon_solid_angle_pdf(self.solid_angle, wi);
+    else if (kIsBiased)
+        pdf.x = polygon_projected_solid_angle_biased_pdf(self.biased, wi);
+    else if (kIsProjected)
+        pdf.x = polygon_projected_solid_angle_pdf(self.projected, wi);
+    else
+        pdf.x = unknown_number();
+    if (kStrategies == kStrategiesDiffuseLtc)
+        pdf.y = polygon_ltc_pdf(self.ltc, wi);
+    else if (kHasBrdfSamples)
+        pdf.y = polygon_brdf_pdf(self.brdf, wi);
+    else
+        pdf.y = unknown_number();
+    return pdf;
+}
+
+/// What both techniques know of the integrals of the normalised components: nothing of what the BRDF samples.
+vec2 techniques_integrals(PolygonTechniques self) {
+    float measure;
+    if (kTechnique == kTechniqueSolidAngle)
+        measure = polygon_solid_angle_measure(self.solid_angle);
+    else if (kIsBiased)
+        measure = polygon_projected_solid_angle_biased_measure(self.biased);
+    else if (kIsProjected)
+        measure = polygon_projected_solid_angle_measure(self.projected);
+    else
+        measure = unknown_number();
+    return vec2((1.0 / kNusseltPi) * measure,
+                kStrategies == kStrategiesDiffuseLtc ? polygon_ltc_measure(self.ltc) : 0.0);
+}
+
+#define LOCAL_LIGHT LocalPolygon
+#define TECHNIQUES PolygonTechniques
+#include "passes/lights/add_light.glsl"
+#undef LOCAL_LIGHT
+#undef TECHNIQUES
+
+void add_polygons(inout Estimate estimate) {
+    for (uint i = frame.first_light; kHasPolygons && i < polygons_end(); ++i)
+        add_light(estimate, local_polygon(estimate.surface, i));
+}
+
+#endif

@@ -1,0 +1,14 @@
+#pragma once
+/// What a result of this process depends on.
+
+#include <string>
+
+namespace nusselt::base {
+
+/// The name of the processor as the system reports it; empty if it reports none.
+std::string processor_name();
+
+/// The command line of this process as one would type it, with the name of the program instead of its path.
+std::string command_line();
+
+} // namespace nusselt::base

@@ -1,0 +1,27 @@
+#pragma once
+/// Linear lights and tubes in the form that kernels know: plain data, see kernel.h.
+
+#include "render_cpu/kernel.h"
+
+#include <memory>
+
+namespace nusselt::render_cpu {
+
+/// A tube, its axis in the form of LineSegment<float>.
+struct LineRecord {
+    scene::Float3 begin;
+    scene::Float3 direction;
+    float length;
+    float radius;
+    scene::TubeModel model;
+    scene::Float3 radiance;
+    scene::Float3 radiance_times_radius;
+};
+
+/// An array of LineRecord. See LightKernel.
+std::shared_ptr<const void> make_line_records(const scene::Scene& scene, const scene::LightList& list);
+
+// In kernel/lights/line.cpp.
+LightCode line_code(LaneCount<4>), line_code(LaneCount<8>), line_code(LaneCount<16>);
+
+} // namespace nusselt::render_cpu

@@ -1,0 +1,76 @@
+#include "render_cpu/lights/polygon_records.h"
+
+#include "render_cpu/lights/float_count.h"
+#include "scene/model/scene.h"
+
+#include <nusselt/geometry/convex_polygon.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace nusselt::render_cpu {
+
+namespace {
+
+Vec3<float> to_vec(const scene::Float3& v) { return {v.x, v.y, v.z}; }
+scene::Float3 to_float3(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
+
+/// How many vertices the form of a polygon has room for.
+std::int32_t slots_of(const scene::PolygonLight& light) { return light.vertices.size() <= 4 ? 4 : 8; }
+
+struct PolygonArrays {
+    std::vector<PolygonRecord> lights;
+    std::vector<scene::Float3> corners;
+    PolygonRecords view{};
+};
+
+template <int N>
+void add_corners(const scene::PolygonVertices& vertices, PolygonRecord& record,
+                 std::vector<scene::Float3>& all_corners) {
+    Vec3<float> corners[N];
+    for (std::size_t j = 0; j < vertices.size(); ++j) corners[j] = to_vec(vertices[j]);
+    const auto polygon = make_polygon<N>(corners, static_cast<int>(vertices.size()));
+    record.first_corner = static_cast<std::uint32_t>(all_corners.size());
+    for (int j = 0; j < N; ++j) all_corners.push_back(to_float3(polygon.vertex[j]));
+    for (int j = 0; j < N; ++j) all_corners.push_back(to_float3(polygon.edge[j]));
+    record.normal = to_float3(polygon.normal);
+}
+
+PolygonRecord make_record(const scene::Scene& scene, const scene::PolygonLight& light,
+                          std::vector<scene::Float3>& all_corners) {
+    const std::size_t count = light.vertices.size();
+    if (count < 3)
+        throw std::runtime_error("light " + scene.emitters[light.emitter].name +
+                                 ": polygonal lights must have at least 3 vertices, found " +
+                                 std::to_string(count));
+    PolygonRecord record{};
+    record.slots = slots_of(light);
+    if (record.slots == 4)
+        add_corners<4>(light.vertices, record, all_corners);
+    else
+        add_corners<8>(light.vertices, record, all_corners);
+    record.radiance = light.radiance;
+    record.two_sided = light.two_sided ? 1 : 0;
+    return record;
+}
+
+} // namespace
+
+std::shared_ptr<const void> make_polygon_records(const scene::Scene& scene, const scene::LightList& list) {
+    const auto* const polygons = dynamic_cast<const scene::LightsOf<scene::PolygonLight>*>(&list);
+    if (polygons == nullptr) return nullptr;
+    std::size_t corners = 0;
+    for (const scene::PolygonLight& light : polygons->lights)
+        corners += 2 * static_cast<std::size_t>(slots_of(light));
+    check_float_count(3 * corners, "lights");
+    const auto arrays = std::make_shared<PolygonArrays>();
+    arrays->corners.reserve(corners);
+    arrays->lights.reserve(polygons->lights.size());
+    for (const scene::PolygonLight& light : polygons->lights)
+        arrays->lights.push_back(make_record(scene, light, arrays->corners));
+    arrays->view = {arrays->lights.data(), arrays->corners.data()};
+    return {arrays, &arrays->view};
+}
+
+} // namespace nusselt::render_cpu

@@ -1,0 +1,33 @@
+#pragma once
+/// Polygonal lights in the form that kernels know: plain data, see kernel.h.
+
+#include "render_cpu/kernel.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace nusselt::render_cpu {
+
+/// A polygon in the form of ConvexPolygon<float, 4> or <float, 8>. Its vertices and then its edges are in
+/// PolygonRecords::corners.
+struct PolygonRecord {
+    scene::Float3 normal;
+    scene::Float3 radiance;
+    std::uint32_t first_corner;
+    std::int32_t slots; ///< of vertices, and as many of edges: 4 or 8
+    std::int32_t two_sided;
+};
+
+struct PolygonRecords {
+    const PolygonRecord* lights;
+    const scene::Float3* corners;
+};
+
+/// Of the type PolygonRecords. See LightKernel. Fails if polygons have fewer than 3 vertices, or if there are more of them
+/// than 32-bit indices reach.
+std::shared_ptr<const void> make_polygon_records(const scene::Scene& scene, const scene::LightList& list);
+
+// In kernel/lights/polygon.cpp.
+LightCode polygon_code(LaneCount<4>), polygon_code(LaneCount<8>), polygon_code(LaneCount<16>);
+
+} // namespace nusselt::render_cpu

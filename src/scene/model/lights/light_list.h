@@ -1,0 +1,89 @@
+#pragma once
+/// Lights of any kind. What is not about a certain kind asks lists of lights; the answers are in the row of the kind, a
+/// specialisation of LightKind.
+
+#include "scene/model/float3.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace nusselt::scene {
+
+struct Bounds;
+struct LightMesh;
+struct Moment;
+struct SightRay;
+struct Transform;
+class ContentHash;
+
+/// The row of a kind of light. `Light` is plain data with the members `emitter`, an index into Scene::emitters, and
+/// `radiance` [W/(sr m^2)]. Functions of a row take one light, unless they say otherwise:
+///
+///     static constexpr std::string_view kName: as in "2 polygon lights";
+///     static constexpr std::string_view kNoun: as in "is a tube";
+///     static constexpr std::string_view kPlural: as in "2 polygons";
+///     static constexpr bool kScalesEvenly: whether a transform must scale all axes alike;
+///     static constexpr bool kHasBrdfSamples: whether samples of the BRDF can hit it;
+///     add_to(light, Bounds&), hash(light, ContentHash&);
+///     double emitting_area(light): of all sides that emit [m^2];
+///     add_moment(light, Moment&): weighed by areas;
+///     bool is_valid(light): whether renderers can work with its shape;
+///     transform(Light&, transform): affine;
+///     bool same_shape(light, light): whether both have the same place and shape;
+///     const bool* two_sided(light): whether it emits to both sides, null where it has one side only;
+///     add_mesh(light, LightMesh&): what cameras see where the light is no surface of the scene;
+///     double hit(light, SightRay): where a ray that someone aims at the light meets it, infinite for a miss;
+///     std::string describe(std::span<const Light>): lights of one emitter, for reports;
+///     std::string rig_field(light): its shape as a field of a light rig, `"name": value`; empty if rigs know none.
+template <class Light>
+struct LightKind;
+
+/// The lights of one kind.
+class LightList {
+public:
+    virtual ~LightList() = default;
+    virtual std::unique_ptr<LightList> copy() const = 0;
+    /// Takes the lights of another list of this kind.
+    virtual void append(LightList&& others) = 0;
+    virtual void clear() = 0;
+
+    virtual std::string_view name() const = 0;
+    virtual std::string_view noun() const = 0;
+    virtual std::string_view plural() const = 0;
+    virtual bool scales_evenly() const = 0;
+    virtual bool has_brdf_samples() const = 0;
+    virtual std::size_t size() const = 0;
+    virtual std::size_t bytes() const = 0;
+    virtual void add_to(Bounds& bounds) const = 0;
+    virtual void hash(ContentHash& hash) const = 0;
+    virtual void add_to(Moment& moment) const = 0;
+    virtual void transform(const Transform& transform) = 0;
+
+    virtual const std::uint32_t& emitter(std::size_t i) const = 0;
+    virtual const Float3& radiance(std::size_t i) const = 0;
+    virtual double emitting_area(std::size_t i) const = 0;
+    virtual bool is_valid(std::size_t i) const = 0;
+    /// Whether a light has the same kind, place and shape as one of another list.
+    virtual bool same_shape(std::size_t i, const LightList& others, std::size_t k) const = 0;
+    virtual const bool* two_sided(std::size_t i) const = 0;
+    virtual void add_mesh(std::size_t i, LightMesh& mesh) const = 0;
+    virtual double hit(std::size_t i, const SightRay& ray) const = 0;
+    virtual std::string describe(std::size_t begin, std::size_t end) const = 0;
+    virtual std::string rig_field(std::size_t i) const = 0;
+    /// Adds one of the lights to a list of the same kind.
+    virtual void copy_to(LightList& others, std::size_t i) const = 0;
+
+    std::uint32_t& emitter(std::size_t i) {
+        return const_cast<std::uint32_t&>(std::as_const(*this).emitter(i));
+    }
+    Float3& radiance(std::size_t i) { return const_cast<Float3&>(std::as_const(*this).radiance(i)); }
+    bool* two_sided(std::size_t i) { return const_cast<bool*>(std::as_const(*this).two_sided(i)); }
+};
+
+} // namespace nusselt::scene

@@ -1,0 +1,55 @@
+#pragma once
+/// Linear lights and tubes.
+
+#include "scene/model/lights/light_list.h"
+
+namespace nusselt::scene {
+
+/// What light a tube gives.
+enum class TubeModel : std::uint32_t {
+    linear, ///< that of a linear light with brightness radiance * radius [W/(sr m)]: the limit of a small radius
+    solid, ///< that of a closed cylinder, which shines outwards from its lateral surface and its caps
+};
+
+/// A tube. Cameras see it as a cylinder of this radius; it casts no shadows.
+struct LineLight {
+    std::uint32_t emitter = 0; ///< index into Scene::emitters
+    Float3 start = {0, 0, 0};
+    Float3 end = {0, 0, 0};
+    float radius = 0;
+    Float3 radiance = {0, 0, 0};
+    TubeModel model = TubeModel::solid;
+};
+
+/// The area of the lateral surface [m^2].
+double lateral_area(const LineLight& light);
+/// The area of all that emits: the lateral surface, and the caps of solid tubes [m^2].
+double area(const LineLight& light);
+
+/// Sides of a tube as cameras see it; the polygon with this many corners has the area of the circle.
+inline constexpr int kTubeSides = 32;
+/// Lateral surface and two caps.
+inline constexpr int kTrianglesPerTube = 2 * kTubeSides + 2 * (kTubeSides - 2);
+
+template <>
+struct LightKind<LineLight> {
+    static constexpr std::string_view kName = "line";
+    static constexpr std::string_view kNoun = "tube";
+    static constexpr std::string_view kPlural = "tubes and lines";
+    static constexpr bool kScalesEvenly = true;
+    static constexpr bool kHasBrdfSamples = false;
+    static void add_to(const LineLight& light, Bounds& bounds);
+    static void hash(const LineLight& light, ContentHash& hash);
+    static double emitting_area(const LineLight& light);
+    static void add_moment(const LineLight& light, Moment& moment);
+    static bool is_valid(const LineLight& light);
+    static void transform(LineLight& light, const Transform& transform);
+    static bool same_shape(const LineLight& a, const LineLight& b);
+    static const bool* two_sided(const LineLight& light);
+    static void add_mesh(const LineLight& light, LightMesh& mesh);
+    static double hit(const LineLight& light, const SightRay& ray);
+    static std::string describe(std::span<const LineLight> lights);
+    static std::string rig_field(const LineLight& light);
+};
+
+} // namespace nusselt::scene

@@ -1,0 +1,77 @@
+#pragma once
+/// Polygonal lights. Their surfaces are triangles of the scene.
+
+#include "scene/model/lights/light_list.h"
+
+#include <array>
+#include <initializer_list>
+
+namespace nusselt::scene {
+
+/// The corners of a polygonal light, in place: scenes have hundreds of thousands of such lights.
+class PolygonVertices {
+public:
+    static constexpr std::size_t kCapacity = 8;
+
+    PolygonVertices() = default;
+    PolygonVertices(std::initializer_list<Float3> vertices) { assign(vertices.begin(), vertices.end()); }
+    PolygonVertices(const std::vector<Float3>& vertices) { assign(vertices.begin(), vertices.end()); }
+    /// \throws std::length_error if these are too many
+    template <class Iterator>
+    void assign(Iterator begin, Iterator end) {
+        size_ = 0;
+        for (; begin != end; ++begin) push_back(*begin);
+    }
+    /// \throws std::length_error if it is full
+    void push_back(const Float3& vertex);
+
+    std::size_t size() const { return size_; }
+    const Float3* begin() const { return vertices_.data(); }
+    const Float3* end() const { return vertices_.data() + size_; }
+    Float3* begin() { return vertices_.data(); }
+    Float3* end() { return vertices_.data() + size_; }
+    const Float3& operator[](std::size_t i) const { return vertices_[i]; }
+    Float3& operator[](std::size_t i) { return vertices_[i]; }
+    /// \throws std::out_of_range
+    const Float3& at(std::size_t i) const;
+    const Float3& back() const { return vertices_[size_ - 1]; }
+
+private:
+    std::array<Float3, kCapacity> vertices_ = {};
+    std::uint32_t size_ = 0;
+};
+
+/// A convex planar light of 3 to 8 vertices. It emits `radiance` to the side from which the vertices appear
+/// counter-clockwise, or to both sides.
+struct PolygonLight {
+    std::uint32_t emitter = 0; ///< index into Scene::emitters
+    PolygonVertices vertices = {};
+    Float3 radiance = {0, 0, 0};
+    bool two_sided = false;
+};
+
+/// The area of one side [m^2].
+double area(const PolygonLight& light);
+
+template <>
+struct LightKind<PolygonLight> {
+    static constexpr std::string_view kName = "polygon";
+    static constexpr std::string_view kNoun = "polygon";
+    static constexpr std::string_view kPlural = "polygons";
+    static constexpr bool kScalesEvenly = false;
+    static constexpr bool kHasBrdfSamples = true;
+    static void add_to(const PolygonLight& light, Bounds& bounds);
+    static void hash(const PolygonLight& light, ContentHash& hash);
+    static double emitting_area(const PolygonLight& light);
+    static void add_moment(const PolygonLight& light, Moment& moment);
+    static bool is_valid(const PolygonLight& light);
+    static void transform(PolygonLight& light, const Transform& transform);
+    static bool same_shape(const PolygonLight& a, const PolygonLight& b);
+    static const bool* two_sided(const PolygonLight& light);
+    static void add_mesh(const PolygonLight& light, LightMesh& mesh);
+    static double hit(const PolygonLight& light, const SightRay& ray);
+    static std::string describe(std::span<const PolygonLight> lights);
+    static std::string rig_field(const PolygonLight& light);
+};
+
+} // namespace nusselt::scene

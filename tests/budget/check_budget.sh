@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Compares the CPU time of stages with their budgets. Warns about a stage above its budget, and fails if one takes more
+# than twice its budget or has none.
+# Usage: tests/budget/check_budget.sh BUDGETS < TIMES     lines of both: STAGE SECONDS, where the stage may contain spaces
+set -euo pipefail
+awk '
+    function stage_of(line) { sub(/ +[0-9.]+$/, "", line); return line }
+    /^#/ || NF == 0 { next }
+    FILENAME != "-" { budget[stage_of($0)] = $NF; next }
+    {
+        stage = stage_of($0)
+        if (!(stage in budget)) {
+            printf "%s: has no budget in tests/budget/budget.txt\n", stage
+            failed = 1
+        } else if ($NF > 2 * budget[stage]) {
+            printf "%s: %d s of CPU time, more than twice the budget of %d s\n", stage, $NF, budget[stage]
+            failed = 1
+        } else if ($NF > budget[stage]) {
+            printf "warning: %s: %d s of CPU time, above the budget of %d s\n", stage, $NF, budget[stage]
+        }
+    }
+    END { exit failed }' "$1" -

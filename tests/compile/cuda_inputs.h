@@ -1,0 +1,76 @@
+#pragma once
+/// What the kernels take, and techniques on it.
+
+#include <nusselt/nusselt.h>
+
+/// One shading point and two random numbers per thread.
+struct Inputs {
+    const nusselt::Vec3<float>* corners;
+    const nusselt::Vec3<float>* points;
+    const nusselt::Vec3<float>* normals;
+    const nusselt::Vec2<float>* u;
+};
+
+__device__ inline int thread_index() { return static_cast<int>(__nvvm_read_ptx_sreg_tid_x()); }
+
+__device__ inline nusselt::ConvexPolygon<float, 4> local_polygon(const Inputs& inputs, int i) {
+    const auto frame = nusselt::Frame<float>::from_normal(inputs.normals[i]);
+    return nusselt::to_shading_space(nusselt::make_polygon<4>(inputs.corners, 4), inputs.points[i], frame);
+}
+
+__device__ inline nusselt::LineSegment<float> local_line(const Inputs& inputs, int i) {
+    const auto frame = nusselt::Frame<float>::from_normal(inputs.normals[i]);
+    return nusselt::to_shading_space(nusselt::make_line(inputs.corners[0], inputs.corners[1]),
+                                     inputs.points[i], frame);
+}
+
+/// Everything that the contract of a technique has.
+template <class Technique, class Light, class Random>
+__device__ float use(const Light& light, const Random& u) {
+    const Technique technique(light);
+    const auto sample = technique.sample(u);
+    return nusselt::backward_error(technique, u, sample.wi) + technique.pdf(sample.wi) - sample.pdf +
+           sample.p.z + technique.measure();
+}
+
+template <class Technique>
+__device__ void use_polygon(const Inputs& inputs, float* result) {
+    const int i = thread_index();
+    result[i] = use<Technique>(local_polygon(inputs, i), inputs.u[i]);
+}
+
+template <class Technique>
+__device__ void use_line(const Inputs& inputs, float* result) {
+    const int i = thread_index();
+    result[i] = use<Technique>(local_line(inputs, i), inputs.u[i].x);
+}
+
+__device__ inline nusselt::Cylinder<float> local_cylinder(const Inputs& inputs, int i) {
+    return {local_line(inputs, i), inputs.u[i].y};
+}
+
+template <class Technique>
+__device__ void use_cylinder(const Inputs& inputs, float* result) {
+    const int i = thread_index();
+    result[i] = use<Technique>(local_cylinder(inputs, i), inputs.u[i]);
+}
+
+/// A technique for LTCs on a light.
+template <class Technique>
+struct OnLobe : Technique {
+    template <class Light>
+    __device__ explicit OnLobe(const Light& light)
+        : Technique(light, nusselt::Ltc<float>({1, 0.2f, 0.9f, 0, 0.4f, 1})) {}
+};
+template <class Technique>
+__device__ void use_polygon_on_lobe(const Inputs& inputs, float* result) {
+    use_polygon<OnLobe<Technique>>(inputs, result);
+}
+template <class Technique>
+__device__ void use_line_on_lobe(const Inputs& inputs, float* result) {
+    use_line<OnLobe<Technique>>(inputs, result);
+}
+template <class Technique>
+__device__ void use_cylinder_on_lobe(const Inputs& inputs, float* result) {
+    use_cylinder<OnLobe<Technique>>(inputs, result);
+}

@@ -1,0 +1,27 @@
+// A wrong technique for cylinders.
+
+#include "shaders/lidless_cylinder.h"
+#include "technique_parity.h"
+
+namespace nusselt::parity {
+
+namespace {
+
+class CylinderMutant : public GpuTest {};
+
+TEST_F(CylinderMutant, HitPointsOnTheLateralSurfaceInsteadOfTheCapsAreFound) {
+    const auto excesses = judge_twin<TechniquePair<hostile::CylinderSolidAngleKind>>(
+                              device(), shaders::kLidlessCylinder, kMutantLights)
+                              .excesses;
+    const auto count_of = [&](const std::string& begin) {
+        return std::count_if(excesses.begin(), excesses.end(),
+                             [&](const std::string& excess) { return excess.rfind(begin, 0) == 0; });
+    };
+    EXPECT_EQ(count_of("end-on: hit point"), 3) << "all quantiles";
+    EXPECT_EQ(count_of("end-on:"), 3) << "all else is right";
+    EXPECT_EQ(count_of("close:"), 0) << "its caps are out of sight";
+}
+
+} // namespace
+
+} // namespace nusselt::parity

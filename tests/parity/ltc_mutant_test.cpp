@@ -1,0 +1,26 @@
+// A wrong technique for linearly transformed cosines.
+
+#include "technique_parity.h"
+
+namespace nusselt::parity {
+
+namespace {
+
+class LtcMutant : public GpuTest {};
+
+TEST_F(LtcMutant, MissingClippingIsFound) {
+    const auto excesses =
+        judge_twin<TechniquePair<hostile::PolygonClippedLtcKindOf<4>>>(
+            device(), shader_of<TechniquePair<hostile::PolygonLtcKindOf<4>>>(Variant::split), kMutantLights)
+            .excesses;
+    const auto count_of = [&](const std::string& begin) {
+        return std::count_if(excesses.begin(), excesses.end(),
+                             [&](const std::string& excess) { return excess.rfind(begin, 0) == 0; });
+    };
+    EXPECT_GT(count_of("crossing the horizon:"), 0);
+    EXPECT_EQ(count_of("decentral:"), 0) << "above the horizon nothing is missing";
+}
+
+} // namespace
+
+} // namespace nusselt::parity
