@@ -8,6 +8,8 @@
 /// the inner angles less two pi), x and y subtract almost equal numbers for small lights and for grazing ones. Here all
 /// angles are sums of solid angles of strips, which are positive; docs/techniques/polygon_solid_angle.md derives them.
 
+#include <limits>
+
 #include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/core/trig.h>
@@ -99,6 +101,9 @@ private:
     using Scalar = scalar_t<Real>;
     /// Farther than any point of a light with coordinates of order one.
     static constexpr Scalar kFar = 16;
+    /// The square of this distance keeps all digits.
+    static constexpr Scalar kNear =
+        power_of_two<Scalar>(-std::numeric_limits<Scalar>::max_exponent / 32 * 15);
 
     NUSSELT_HD explicit RectangleSolidAngle(const ScaledPolygon<Real, 4>& unit) noexcept
         : inverse_scale_(unit.inverse_scale) {
@@ -124,6 +129,11 @@ private:
         y0_ = select(mirrored_, -high, low);
         y1_ = select(mirrored_, -low, high);
         y_axis_ = select(mirrored_, -y_axis_, y_axis_);
+        // Next to the light, squares of distances would underflow. Rounding of its vertices moves it farther than this.
+        const Real beside =
+            max(max(x0_, -x1_), max(y0_, -y1_)); // distance of the foot from the light if positive
+        const auto touches = (distance_ > Real(0)) & (beside < Real(kNear));
+        distance_ = select(touches, max(distance_, Real(kNear)), distance_);
 
         const auto seen = (distance_ > Real(0)) & (min(width, height_) > Real(0));
         total_ = select(seen, solid_angle(x0_, x1_, width, y0_, y1_, height_, distance_), Real(0));

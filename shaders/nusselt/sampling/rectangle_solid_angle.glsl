@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_RECTANGLE_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_RECTANGLE_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/rectangle_solid_angle.h @ 22daef345b07
+// Follows include/nusselt/sampling/rectangle_solid_angle.h @ 558580cc94aa
 /// Uniform sampling of the solid angle of a rectangle, without a seam.
 ///
 /// C. Ureña, M. Fajardo, A. King 2013, An Area-Preserving Parametrization for Spherical Rectangles, CGF 32(4),
@@ -16,6 +16,8 @@
 
 /// Farther than any point of a light with coordinates of order one.
 const float kNusseltRectangleFar = 16.0;
+/// The square of this distance, 2^-60, keeps all digits.
+const float kNusseltRectangleNear = 8.673617379884035e-19;
 
 struct RectangleSolidAngle {
     vec3 x_axis, y_axis, z_axis; ///< along the edges, and towards the plane
@@ -116,6 +118,9 @@ RectangleSolidAngle rectangle_solid_angle_prepare(ConvexPolygon light) {
     self.y0 = self.mirrored ? -high : low;
     self.y1 = self.mirrored ? -low : high;
     self.y_axis = self.mirrored ? -self.y_axis : self.y_axis;
+    // Next to the light, squares of distances would underflow. Rounding of its vertices moves it farther than this.
+    float beside = nusselt_max(nusselt_max(self.x0, -self.x1), nusselt_max(self.y0, -self.y1));
+    if (self.plane > 0.0 && beside < kNusseltRectangleNear) self.plane = nusselt_max(self.plane, kNusseltRectangleNear);
 
     self.total = 0.0;
     if (self.plane > 0.0 && nusselt_min(width, self.height) > 0.0)

@@ -72,5 +72,27 @@ TEST(RectangleSolidAngle, HasNoSampleInThePlaneOfTheLight) {
     EXPECT_EQ(rectangle({1, 1, 1}, {0, 0, 0}, {0, 1, 0}).sample({0.5, 0.5}).pdf, 0);
 }
 
+TEST(RectangleSolidAngle, FillsAHemisphereNextToTheLightAndAQuarterOfTheSphereNextToItsEdge) {
+    // The squares of these distances underflow.
+    for (const double distance : {0x1p-500, 0x1p-600, 0x1p-760}) {
+        const auto inside = rectangle({-1, -1, distance}, {2, 0, 0}, {0, 2, 0});
+        EXPECT_NEAR(inside.measure(), 2 * kPi, 1e-14);
+        const auto at_edge = rectangle({0, -1, distance}, {1, 0, 0}, {0, 2, 0});
+        EXPECT_NEAR(at_edge.measure(), kPi, 1e-14);
+        double mean_cosine = 0;
+        constexpr int kSide = 64;
+        for (int i = 0; i < kSide * kSide; ++i) {
+            const nusselt::Vec2<double> u{(i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide};
+            const auto sample = inside.sample(u);
+            EXPECT_NEAR(dot(sample.wi, sample.wi), 1, 1e-14);
+            mean_cosine += sample.wi.z / (kSide * kSide);
+            const auto aside = at_edge.sample(u);
+            EXPECT_NEAR(dot(aside.wi, aside.wi), 1, 1e-14);
+            EXPECT_GE(aside.wi.x, 0);
+        }
+        EXPECT_NEAR(mean_cosine, 0.5, 1e-3) << "directions are not uniform";
+    }
+}
+
 } // namespace
 } // namespace nusselt_test
