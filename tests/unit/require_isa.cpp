@@ -10,7 +10,8 @@ namespace {
 [[gnu::constructor(101)]] void require_isa() {
     __builtin_cpu_init();
     if (NUSSELT_CPU_HAS_ISA) return;
-    // Read as a list of tests and as the result of one, so that CTest reports a skipped test instead of none.
+    // This output works as a list of tests and as the result of a test, so CTest reports a skipped test instead of
+    // none.
     std::puts(
         "RequiredInstructionSet.\n  CpuHasIt\n[  SKIPPED ] this CPU lacks an instruction set of the test");
     std::fflush(stdout);

@@ -1,4 +1,5 @@
-/// The BRDFs against textbook formulas in long double, closed values, energy, reciprocity and hostile input.
+/// Tests of the BRDFs: textbook formulas in long double, values in closed form, energy, reciprocity and hostile
+/// input.
 
 #include <algorithm>
 #include <cmath>
@@ -42,8 +43,9 @@ struct Reference {
     long double diffuse, specular;
 };
 
-/// The textbook's formulas for the red channel. Directions of float are no unit vectors in long double: their
-/// sum is what defines the half vector and, being twice as long, the cosine to it.
+/// The textbook's formulas for the red channel. Directions in float are not unit vectors in long double. The half
+/// vector is therefore defined by their sum, and the cosine between it and either direction is half the length of
+/// that sum.
 Reference reference(const Surface<long double>& s) {
     if (!(s.wo.z > 0 && s.wi.z > 0)) return {0, 0};
     const Vec3<long double> sum = s.wo + s.wi;
@@ -76,8 +78,8 @@ Vec3<Real> grey(Real value) {
     return {value, value, value};
 }
 
-/// Surfaces at the edges of what is possible: rough, smooth and clamped ones, normal and grazing directions,
-/// mirror directions, nearly opposite ones, some below the horizon.
+/// Extreme surfaces: rough, smooth and clamped ones; normal and grazing directions; mirror directions, nearly
+/// opposite directions, and some below the horizon.
 class HostileSurfaces {
 public:
     explicit HostileSurfaces(double smallest_cosine) : smallest_cosine_(smallest_cosine) {}
@@ -203,7 +205,7 @@ TYPED_TEST(FrostbiteScalar, NothingBelowTheHorizon) {
         expect_zero(up, w);
         expect_zero(w, up);
     }
-    // Half vectors of length zero, within the plane and normal to it.
+    // The half vector has length zero: the directions are opposite, along the plane and normal to it.
     expect_zero(horizon, opposite);
     expect_zero(up, down);
 }
@@ -218,8 +220,8 @@ TYPED_TEST(FrostbiteScalar, RoughnessIsClamped) {
     EXPECT_NEAR(at(0) * 4 * kPi<Real> * Real(1e-8L), 1, 1e-6);
 }
 
-/// Largest errors over hostile surfaces: relative for the specular part, in units of albedo / pi for the
-/// diffuse.
+/// Largest errors over hostile surfaces: relative for the specular part, in units of albedo / pi for the diffuse
+/// part.
 template <class Real>
 Reference largest_errors() {
     HostileSurfaces surfaces(1e-12);
@@ -239,7 +241,7 @@ Reference largest_errors() {
     return largest;
 }
 
-/// The two factors of up to 5/2 carry about three roundings each.
+/// The two factors, each at most 5/2, carry about three roundings each.
 constexpr long double kDiffuseErrorBudget = 20;
 
 TEST(FrostbiteAccuracy, Float) {
@@ -294,7 +296,7 @@ TEST(Lambert, HasNoSpecularPart) {
     }
 }
 
-// Cosines down to denormal numbers.
+// The cosines go down to denormal numbers.
 TEST(Frostbite, StaysWithinItsBoundsForAMillionHostileSurfaces) {
     HostileSurfaces surfaces(1e-45);
     for (int i = 0; i < 1000000; ++i) {
@@ -312,7 +314,8 @@ TEST(Frostbite, StaysWithinItsBoundsForAMillionHostileSurfaces) {
     }
 }
 
-/// Albedo of the specular part: midpoints in the numbers that would sample half vectors with density D n.h.
+/// Albedo of the specular part, by the midpoint rule over the random numbers that sample half vectors with density D
+/// n.h.
 double specular_albedo(const Frostbite<double>& brdf, const Vec3<double>& wo, double alpha) {
     constexpr int kInclinations = 400;
     constexpr int kAzimuths = 128;
@@ -334,7 +337,8 @@ double specular_albedo(const Frostbite<double>& brdf, const Vec3<double>& wo, do
     return sum / (kInclinations * kAzimuths);
 }
 
-/// Albedo of any smooth BRDF: midpoints in the numbers that would sample directions with density cosine / pi.
+/// Albedo of any smooth BRDF, by the midpoint rule over the random numbers that sample directions with density cosine
+/// / pi.
 template <class Brdf>
 double smooth_albedo(Brdf eval) {
     constexpr int kInclinations = 64;
@@ -346,7 +350,8 @@ double smooth_albedo(Brdf eval) {
     return kPi<double> * sum / (kInclinations * kAzimuths);
 }
 
-/// The diffuse lobe before its renormalisation: F90 starts at 1/2 for every roughness, and no factor.
+/// The diffuse lobe before its renormalisation: F90 starts at 1/2 for every roughness, and the energy factor is
+/// missing.
 double original_disney(const Vec3<double>& wo, const Vec3<double>& wi, double roughness) {
     const Vec3<double> sum = wo + wi;
     const double f90 = 0.5 + 2 * roughness * 0.25 * dot(sum, sum);
@@ -384,7 +389,7 @@ TEST(FrostbiteAlbedo, IsAtMostOneButForDielectricsAtGrazingAngles) {
     }
     EXPECT_LE(dielectric.high, 1);
     EXPECT_GT(dielectric.low, 0.6);
-    // A property of the model: the sum of the lobes is 1.117 at roughness 1 towards the horizon.
+    // This is a property of the model: towards the horizon at roughness 1, the lobes add up to 1.117.
     EXPECT_LE(grazing.high, 1.12);
     EXPECT_GT(grazing.high, 1.1);
     EXPECT_LE(metal.high, 1);
@@ -394,7 +399,7 @@ TEST(FrostbiteAlbedo, IsAtMostOneButForDielectricsAtGrazingAngles) {
     EXPECT_GT(original.high, 1.1);
 }
 
-/// All inclinations, down to the horizon: where all goes to zero, the estimate does too.
+/// Covers all inclinations down to the horizon, where the albedo goes to zero and so must the estimate.
 TEST(FrostbiteAlbedo, OfTheDiffusePartIsEstimatedWithin5Percent) {
     double largest = 0;
     for (int i = 0; i <= 20; ++i) {
@@ -413,7 +418,7 @@ TEST(FrostbiteAlbedo, OfTheDiffusePartIsEstimatedWithin5Percent) {
     EXPECT_EQ(horizontal.diffuse_albedo().x, 0);
 }
 
-/// One lane at a time computes a hostile surface while its neighbours hold poison.
+/// One lane at a time computes a hostile surface while its neighbours hold NaN, infinities or zeros.
 template <class P>
 void expect_lanes_equal_scalars() {
     using Scalar = scalar_t<P>;

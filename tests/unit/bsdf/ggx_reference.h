@@ -1,11 +1,11 @@
 #pragma once
-/// GGX as textbooks have it, in long double.
+/// GGX by the formulas of the textbooks, in long double.
 
 #include "geometry/adaptive_quadrature.h"
 
 namespace nusselt_test {
 
-/// Densities of the directions in which visible normals reflect.
+/// Densities of the directions into which visible normals reflect wo.
 struct GgxReference {
     Point wo;
     long double alpha;
@@ -26,11 +26,11 @@ struct GgxReference {
         const long double visible = distribution(m) * dot(wo, m) / ((1 + lambda(wo)) * wo.z);
         return visible / (4 * dot(wo, m));
     }
-    /// Shadowing and masking over masking.
+    /// The quotient G2 / G1 of joint shadowing and masking by masking alone.
     long double masking_weight(const Point& wi) const {
         return (1 + lambda(wo)) / (1 + lambda(wo) + lambda(wi));
     }
-    /// The density of normals of the bounded cap [1/sr]. \param wi above the surface.
+    /// The density of the normals in the bounded cap [1/sr]. \param wi above the surface.
     long double bounded_pdf(const Point& wi) const {
         const Point stretched = normalize(Point{alpha * wo.x, alpha * wo.y, wo.z});
         const long double s = 1 + std::sqrt(wo.x * wo.x + wo.y * wo.y);
@@ -40,8 +40,8 @@ struct GgxReference {
     }
 };
 
-/// Integral of f(wi) over directions above a plane z = lowest. There are more nodes near that plane and opposite to wo:
-/// seen from near the horizon, half vectors change fast there.
+/// Integral of f(wi) over directions above a plane z = lowest. The nodes are denser near that plane and opposite to
+/// wo, where half vectors change fast if wo is close to the horizon.
 template <class Integrand>
 long double integrate_directions(const Point& wo, long double lowest, const Integrand& f) {
     const long double opposite = std::atan2(-wo.y, -wo.x);

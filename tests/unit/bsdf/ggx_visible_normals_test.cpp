@@ -1,4 +1,4 @@
-/// Sampling of visible normals against the textbook's densities, quadrature, its own inverse, and hostile input.
+/// Tests of sampling visible normals: the textbook's densities, quadrature, inversion and hostile input.
 
 #include <cmath>
 #include <limits>
@@ -101,7 +101,8 @@ TYPED_TEST(VisibleNormalsTest, MomentsOfSamplesAreThoseOfTheDensity) {
     }
 }
 
-/// Above and below the surface: a cell of random numbers has the solid angle of its image.
+/// The density of a direction times the solid angle of the image of a cell of random numbers is the area of the cell,
+/// above and below the surface.
 TYPED_TEST(VisibleNormalsTest, DensityIsTheReciprocalOfTheJacobian) {
     constexpr long double kStep = 1e-6L;
     for (const GgxReference& lobe : lobes()) {
@@ -133,7 +134,7 @@ void expect_round_trips(Real tolerance) {
 }
 
 TYPED_TEST(VisibleNormalsTest, Inverts) {
-    // Measured: up to 22 roundings, where half vectors cancel.
+    // The measured errors reach 22 roundings, where half vectors cancel.
     expect_round_trips<float, TypeParam>(4e-6f);
     expect_round_trips<double, TypeParam>(1e-14);
     expect_round_trips<long double, TypeParam>(5e-18L);
@@ -149,7 +150,7 @@ TYPED_TEST(VisibleNormalsTest, SamplesAreContinuousAroundTheNormal) {
     }
 }
 
-/// The cap is bounded too tightly if it lacks a direction above the surface.
+/// A bounded cap that lacked a direction above the surface would be too small.
 TEST(BoundedVisibleNormals, ReachAllDirectionsAboveTheSurface) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -158,14 +159,15 @@ TEST(BoundedVisibleNormals, ReachAllDirectionsAboveTheSurface) {
         const auto wo = broadcast<double>(direction_at(inclination, 7 * uniform(random)));
         const double alpha = std::pow(uniform(random), 2);
         const auto wi = GgxVisibleNormals<double>(wo, alpha).sample({uniform(random), uniform(random)});
-        // Flat ones decide.
+        // The critical directions are those just above the horizon. Any closer, rounding decides.
         if (wi.z <= 1e-6) continue;
         const GgxVisibleNormals<double, BoundedCap> bounded(wo, alpha);
         ASSERT_LT(length(bounded.sample(bounded.invert(wi)) - wi), 1e-6) << i;
     }
 }
 
-/// Known from another program: of 2^20 samples at alpha 0.3 and 0.3 rad from the normal.
+/// The expected shares of samples above the surface come from another program (2^20 samples, alpha 0.3, wo 0.3 rad
+/// from the normal).
 TEST(BoundedVisibleNormals, LoseFewerSamples) {
     const GgxReference lobe{direction_at(0.3L, 0), 0.3L};
     const auto share_above = [&](const auto& normals) {
@@ -185,7 +187,7 @@ TEST(VisibleNormals, DensityOfAllDirectionsIsOne) {
     }
 }
 
-/// Where the bounded cap ends, the density ends with it: all below the surface.
+/// Beyond the rim of the bounded cap, the density is zero; all these directions are below the surface.
 TEST(BoundedVisibleNormals, DensityIsZeroBeyondTheRim) {
     for (const GgxReference& lobe : lobes()) {
         const auto bounded = sampler<double, BoundedCap>(lobe);
@@ -231,7 +233,8 @@ struct Hostile {
     nusselt::Vec2<float> u;
 };
 
-/// Smooth and rough surfaces, seen along the normal and from the horizon, with random numbers at the ends.
+/// Smooth and rough surfaces, seen along the normal and from close to the horizon, with random numbers that include
+/// the ends of their range.
 class HostileSurfaces {
 public:
     /// \param smallest_cosine of wo.
@@ -261,7 +264,7 @@ private:
     std::mt19937 generator_{5};
 };
 
-/// Narrow peaks cancel against those of the BRDF, so that what remains is masking.
+/// The narrow peaks of density and BRDF cancel; the masking term remains.
 TYPED_TEST(VisibleNormalsTest, WeightsAreExactInFloat) {
     HostileSurfaces surfaces(1e-9);
     int checked = 0;
@@ -280,7 +283,7 @@ TYPED_TEST(VisibleNormalsTest, WeightsAreExactInFloat) {
         const float weight = lit_specular(brdf)(wi) / pdf;
         const GgxReference lobe{broadcast<long double>(s.wo), alpha};
         const Point exact_wi = broadcast<long double>(wi);
-        // The half vector is the same on both sides of the quotient.
+        // Both densities of the quotient use the same half vector, so it adds no error.
         const long double density_ratio =
             std::is_same_v<TypeParam, BoundedCap> ? lobe.pdf(exact_wi) / lobe.bounded_pdf(exact_wi) : 1;
         const long double expected = lobe.masking_weight(exact_wi) * density_ratio;
@@ -319,7 +322,8 @@ TEST(GgxAlpha, IsTheClampedSquare) {
     EXPECT_EQ(nusselt::ggx_alpha(std::numeric_limits<double>::quiet_NaN()), 1e-4);
 }
 
-/// One lane at a time has a hostile surface while its neighbours hold poison; then one surface in all lanes.
+/// First, one lane at a time has a hostile surface while its neighbours hold NaN; then all lanes have the same
+/// surface.
 template <class P, class Cap>
 void expect_lanes_equal_scalars() {
     using T = nusselt::scalar_t<P>;

@@ -29,7 +29,7 @@ private:
     }
 };
 
-/// One member of each sort that techniques have.
+/// Has one member of each kind that techniques have.
 template <class Real>
 class Outer {
 public:

@@ -1,4 +1,4 @@
-/// The error bounds that core/exponential.h promises, and packs against scalars bit for bit.
+/// Tests of core/exponential.h: its documented error bounds hold, and packs have the bits of scalars.
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ TEST(ExponentialTest, LogarithmOfCosineIsPrecise) {
         const long double exact = s < 0.5L ? -std::log1p(-s * s) / 2 : -std::log(std::cos(angle));
         const SinCos<float> in_float{static_cast<float>(s), static_cast<float>(std::cos(angle))};
         const SinCos<double> in_double{static_cast<double>(s), static_cast<double>(std::cos(angle))};
-        // An error of the arguments by rounding counts twice, in the square of the sine.
+        // The rounding error of the argument counts twice because the sine is squared.
         largest_float = std::max(largest_float, std::fabs(negative_log_of_cosine(in_float) - exact) / exact);
         largest_double =
             std::max(largest_double, std::fabs(negative_log_of_cosine(in_double) - exact) / exact);
@@ -99,7 +99,7 @@ TEST(ExponentialTest, PacksEqualScalars) {
 template <int N>
 void expect_rule() {
     constexpr GaussLegendre<double, N> kRule;
-    // Exact for monomials up to degree 2 N - 1, and not for the next one.
+    // The rule is exact for monomials up to degree 2 N - 1, but not for the next one.
     for (int degree = 0; degree <= 2 * N; ++degree) {
         double sum = 0;
         for (int i = 0; i < N; ++i) sum += kRule.weight(i) * std::pow(kRule.node(i), degree);

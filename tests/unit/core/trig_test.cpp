@@ -1,4 +1,4 @@
-/// The error bounds that core/trig.h promises, on dense grids, and packs against scalars bit for bit.
+/// Tests of core/trig.h: its documented error bounds hold on dense grids, and packs have the bits of scalars.
 
 #include <cmath>
 #include <cstring>
@@ -22,8 +22,8 @@ struct Largest {
     }
 };
 
-/// Calls f with the sides of a right triangle for angles all over [0, pi], dense near multiples of pi / 8
-/// where formulas change, and at tiny angles.
+/// Calls f with the sides of right triangles. The angles cover [0, pi]; they are dense at tiny angles and near
+/// multiples of pi / 8, where the formulas change.
 template <class Function>
 void for_each_direction(const Function& f) {
     for (int i = 1; i < 400'000; ++i) {
@@ -142,7 +142,7 @@ TEST(TrigTest, DividedDifferencesOfTheArctangentKeepTheirPrecision) {
         for (float step = 1e-12f; s + step <= 1; step *= 3) {
             const auto [value, difference] = nusselt::one_minus_atan_ratio_difference(s, step);
             EXPECT_EQ(value, nusselt::one_minus_atan_ratio(s));
-            // The derivative of the exact function at the middle; its third derivative adds at most step^2.
+            // The derivative of the exact function at the midpoint; the third derivative adds at most step^2.
             const long double middle = std::max(s + step / 2.0L, 1e-9L);
             const long double t = std::sqrt(middle);
             const long double slope = t < 0.02L ? 1 / 3.0L - 2 * middle / 5 + 3 * middle * middle / 7
@@ -163,7 +163,8 @@ TYPED_TEST(ArctangentTest, AngleMinusSineKeepsItsPrecision) {
             series += term;
             term *= -wide * wide / ((2 * k + 2) * (2 * k + 3));
         }
-        // A rounding for each of the products around the polynomial, and as much for the polynomial: 5e-7 in float.
+        // One rounding for each of the products around the polynomial, and as much for the polynomial itself: 5e-7 in
+        // float.
         const long double bound = 4 * static_cast<long double>(std::numeric_limits<T>::epsilon());
         EXPECT_LE(std::fabs(nusselt::x_minus_sin(x) / series - 1), bound) << x;
     }

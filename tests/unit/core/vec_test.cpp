@@ -1,4 +1,4 @@
-/// Numbers, vectors and frames.
+/// Tests of numbers, vectors and frames.
 
 #include <cmath>
 #include <limits>
@@ -28,7 +28,7 @@ TYPED_TEST_SUITE(VecTest, Scalars);
 
 TYPED_TEST(VecTest, DifferenceOfProductsDoesNotCancel) {
     using T = TypeParam;
-    // (1 + e)^2 - (1 + 2e) * 1 = e^2, all of which the difference of rounded products loses.
+    // (1 + e)^2 - (1 + 2e) * 1 = e^2. The difference of rounded products would be zero.
     const T e = this->kEpsilon;
     EXPECT_EQ(nusselt::difference_of_products(1 + e, 1 + e, 1 + 2 * e, T(1)), e * e);
 }
@@ -46,7 +46,7 @@ TYPED_TEST(VecTest, CrossProductsHaveRelativePrecision) {
             const double x = exact(a.y, b.z, a.z, b.y);
             EXPECT_LE(std::fabs(c.x - x), 1.5 * this->kEpsilon * std::fabs(x));
         }
-        // Vectors multiplied by themselves or a power of two give exactly zero.
+        // The cross product of a vector and the same vector times a power of two is exactly zero.
         EXPECT_EQ(length(cross(a, T(4) * a)), 0);
         EXPECT_LE(std::fabs(dot(a, c)), 4 * this->kEpsilon * length(c));
     }

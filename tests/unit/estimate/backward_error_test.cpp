@@ -1,5 +1,5 @@
-/// The accuracy of the iterative techniques in exact arithmetic, as far as long double shows it: the figures
-/// of the papers and of the doc comments.
+/// The errors that iterative techniques would have in exact arithmetic, as far as long double can show them. The
+/// bounds are those of the papers and of the doc comments.
 
 #include <nusselt/estimate/backward_error.h>
 
@@ -24,13 +24,13 @@ using PolygonTechnique = nusselt::PolygonProjectedSolidAngle<Real, 4, Iterations
 template <int Iterations>
 using LineTechnique = nusselt::LineProjectedSolidAngle<Real, Iterations>;
 
-/// Random numbers close to the ends are the hard ones.
+/// Draws many random numbers close to 0 and 1, where errors are largest.
 Real hard_random_number(RandomSource& random) {
     const double tail = random.log_between(1e-7, 0.5);
     return random.index(2) == 0 ? tail : 1 - tail;
 }
 
-/// A planar triangle or quad of any orientation whose center is at distance 1; often cut by the horizon.
+/// A planar triangle or quadrilateral of any orientation with its center at distance 1. The horizon often cuts it.
 PolygonLight random_polygon(RandomSource& random) {
     const auto widen = [](const nusselt::Vec3<double>& v) { return nusselt::broadcast<Real>(v); };
     const Point center = widen(random.direction());
@@ -54,18 +54,19 @@ LineLight random_line(RandomSource& random) {
     return nusselt::make_line(middle - half * direction, middle + half * direction);
 }
 
-/// Projected solid angle of the part of a polygon above the horizon within the azimuths counterclockwise from
-/// a to b, at most half a turn apart.
+/// Projected solid angle of the part of a polygon above the horizon whose azimuths lie between those of a and b,
+/// counterclockwise from a. They are at most half a turn apart.
 Real within(const Polygon& polygon, const Point& a, const Point& b) {
     return lambert(cut(cut(polygon, {-a.y, a.x, 0}), {b.y, -b.x, 0}));
 }
 
-/// The first random number of a direction from first principles: cut the polygon by the half-plane through
-/// the z axis and the direction and apply Lambert's formula.
+/// The first random number of a direction, from first principles: cuts the polygon by the half-plane through the z
+/// axis and the direction, and applies Lambert's formula.
 Real azimuth_fraction(const PolygonLight& light, const Point& wi) {
     const Polygon polygon = above_horizon(vertices_of(light));
     const bool counterclockwise = dot(light.normal, light.vertex[0]) >= 0;
-    // Begins at the first vertex after clipping in the central case, else at the end of the polygon.
+    // Azimuths count from the first vertex after clipping if the zenith is in the light, otherwise from the vertex at
+    // which the light starts.
     Point begin = polygon.front();
     Real smallest = 1;
     Real inside = 1;
@@ -174,7 +175,7 @@ Errors line_errors(int count) {
 
 TEST(BackwardErrorTest, WorstCasesOfPolygons) {
     EXPECT_LE(polygon_errors<2>(100'000, hard_random_number).largest(), 4e-5L);
-    // The bound means something: it takes both iterations.
+    // One iteration does not reach the bound.
     EXPECT_GT(polygon_errors<1>(10'000, hard_random_number).largest(), 4e-5L);
 }
 
@@ -186,7 +187,7 @@ TEST(BackwardErrorTest, PolygonsConvergeWithOrderThree) {
     EXPECT_LE(start.largest(), 0.28L);
     EXPECT_LE(start.quantile(0.99), 0.1L);
     EXPECT_GT(start.largest(), 0.05L);
-    // The logarithm of the error triples from step to step, up to the constant factor.
+    // Each step triples the logarithm of the error, up to a constant factor.
     constexpr double kQuantile = 0.9;
     EXPECT_GT(std::log(one.quantile(kQuantile)) / std::log(start.quantile(kQuantile)), 2.5L);
     EXPECT_GT(std::log(two.quantile(kQuantile)) / std::log(one.quantile(kQuantile)), 2.5L);
@@ -196,12 +197,12 @@ TEST(BackwardErrorTest, WorstCasesOfLines) {
     EXPECT_GT(line_errors<0>(10'000).largest(), 0.05L);
     EXPECT_LE(line_errors<2>(100'000).largest(), 3.6e-5L);
     EXPECT_LE(line_errors<3>(20'000).largest(), 2e-10L);
-    // The bounds mean something: each step is needed.
+    // With one step fewer, the bounds do not hold.
     EXPECT_GT(line_errors<1>(10'000).largest(), 3.6e-5L);
     EXPECT_GT(line_errors<2>(10'000).largest(), 2e-10L);
 }
 
-/// A trapezoid with two vertical edges, which is a single sector: any sector can be had this way.
+/// A trapezoid with two vertical edges. It consists of a single sector, and every sector can be represented this way.
 PolygonLight wall(Real azimuth_range, Real inner_begin, Real inner_end, Real outer_begin, Real outer_end) {
     const Real x = std::cos(azimuth_range);
     const Real y = std::sin(azimuth_range);
@@ -209,9 +210,9 @@ PolygonLight wall(Real azimuth_range, Real inner_begin, Real inner_end, Real out
     return nusselt::make_polygon<4>(corners, 4);
 }
 
-// The largest errors that `nusselt-lab bench worst-case` has found, and their lights. They are properties of the methods:
-// double precision gives the same first ten digits as the 64 bits of x87 (rounding is 1e-16 relative to the random
-// number, 1e-11 relative to the error), so that the five digits below hold for any long double.
+// The largest errors that `nusselt-lab bench worst-case` has found, and their lights. They are properties of the
+// methods: double precision gives the same first ten digits as the 64 bits of x87 (rounding is 1e-16 relative to the
+// random number, 1e-11 relative to the error), so the five digits below hold for any long double.
 constexpr Real kRelativeTolerance = 1e-5L;
 
 template <int Iterations>
@@ -246,7 +247,7 @@ TEST(WorstCaseTest, PolygonWithoutIteration) {
 }
 
 TEST(WorstCaseTest, LineFromTheHorizonThatBeginsNearItsAxis) {
-    // Angles from the direction of the closest point, which is tilted against the normal.
+    // Angles count from the direction to the closest point, which is tilted against the normal.
     const Real tilt = 0x8.6479b936c08ae8cp-23L;
     const Real begin = -0xc.90fd23da7351371p-3L;
     const Real end = 0xe.e99e86a5dc83906p-4L;
@@ -257,7 +258,7 @@ TEST(WorstCaseTest, LineFromTheHorizonThatBeginsNearItsAxis) {
     const Point wi = technique.sample(u).wi;
     constexpr Real kError = 3.55716e-5L;
     EXPECT_NEAR(nusselt::backward_error(technique, u, wi), kError, kRelativeTolerance * kError);
-    // The integral of the paper; begin is on the horizon.
+    // The integral of the paper. The line starts on the horizon.
     const auto integral = [&](Real angle) {
         const Real sine = std::sin(angle);
         return s.z * sine * sine + t.z * (sine * std::cos(angle) + angle);

@@ -1,5 +1,5 @@
-/// Direct light: no noise where lobes fit, hostile lights and surfaces, packs, precision, world space.
-/// tests/statistics/direct_light_test.cpp is about means.
+/// Tests of direct light: no noise where the lobes fit the BRDF, hostile lights and surfaces, packs, and precision.
+/// tests/statistics/direct_light_test.cpp tests the means.
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ using Direct = nusselt::ProjectedSolidAngleAndLtc;
 using Biased = nusselt::BiasedProjectedSolidAngleAndLtc;
 using ByBrdf = nusselt::SolidAngleAndBrdf<nusselt::GgxVisibleNormals>;
 
-/// The ends of lights and horizons, where densities may be 0, are none of these.
+/// These avoid the ends of lights and the horizon, where densities may be 0.
 const std::vector<Vec2<double>> kRandomNumbers = {{0.001, 0.002}, {0.1, 0.7},  {0.3, 0.2},
                                                   {0.5, 0.9},     {0.75, 0.4}, {0.999, 0.1}};
 
@@ -40,7 +40,7 @@ void expect_colour(const Colour& actual, const Colour& expected, const std::stri
     EXPECT_NEAR(actual.z, expected.z, 1e-11 * (1 + expected.z)) << name;
 }
 
-/// A BRDF whose components times the cosine are just what techniques sample.
+/// A BRDF whose components times the cosine are proportional to the densities of the techniques.
 struct FittingBrdf {
     Colour albedo, specular;
     Ltc<double> lobe;
@@ -55,7 +55,8 @@ const Colour kAlbedo{0.5, 0.25, 0}, kSpecular{0.1, 0.7, 0.9};
 
 GlossySurface<double, FittingBrdf> fitting_surface(const nusselt::LtcCoefficients<double>& lobe) {
     const Ltc<double> ltc(lobe);
-    // The channel without albedo still has some for the coefficients: its noise is that of a misfit.
+    // The coefficients assume a smallest albedo for the channel without any, so they do not fit and this channel is
+    // noisy.
     return {{0, 0, 1}, 1, {kAlbedo, kSpecular, ltc}, ltc, kAlbedo, kSpecular};
 }
 
@@ -88,7 +89,7 @@ TEST(DirectLight, NoNoiseWhereLobesFit) {
         const auto surface = fitting_surface(lobe.coefficients);
         for (const PolygonCase& light : polygon_cases()) {
             const Polygon polygon = vertices_of(make_light<double>(light));
-            // Samples below the surface are noise.
+            // Samples below the surface would add noise.
             if (std::any_of(polygon.begin(), polygon.end(), [](const Point& v) { return v.z < 0; })) continue;
             expect_no_noise(make_light<double>(light), surface, lambert(polygon) / kPi,
                             reference.integral(cut(polygon, reference.horizon())), light.name);
@@ -155,7 +156,7 @@ void expect_no_surprises(std::uint64_t seed, int count) {
             lit += s.shadowed.x > 0;
         }
     }
-    // The generator is of no use if most is black.
+    // The test would be worthless if most samples were black.
     EXPECT_GT(lit, count);
 }
 
@@ -173,7 +174,7 @@ TEST(DirectLightHostile, SamplesOfTheBrdfAreFinite) {
     expect_no_surprises<PolygonReflection<float>, ByBrdf>(33, 100'000);
 }
 
-/// A case with its light from a list, with moderate sizes and distances.
+/// A case whose light has a moderate size and distance.
 template <class T, class Case>
 Case ordinary(HostileReflections<T>& reflections, int i) {
     const auto lights = [] {
@@ -191,7 +192,7 @@ Case ordinary(HostileReflections<T>& reflections, int i) {
     return c;
 }
 
-/// One lane at a time is real while its neighbours hold NaN.
+/// One lane at a time holds a case while its neighbours hold NaN.
 template <class Strategies, template <class> class Case, class P>
 void expect_lanes_equal_scalars() {
     using T = nusselt::scalar_t<P>;
@@ -229,7 +230,8 @@ TEST(DirectLightPacks, LanesEqualScalars) {
     expect_lanes_equal_scalars<ByBrdf, PolygonReflection, NativeFloat>();
 }
 
-/// Means over a grid of random numbers: single samples jump where the horizon of a lobe cuts the light.
+/// Means over a grid of random numbers. Single samples would not do: they jump where the horizon of a lobe cuts the
+/// light.
 template <class T, class Light>
 std::vector<double> means(Reflection<T, Light> c) {
     constexpr int kGrid = 24;

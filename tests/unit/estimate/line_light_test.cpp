@@ -1,5 +1,6 @@
-/// The light of lines that surfaces reflect: integrals against quadrature, no noise where lobes fit, hostile lights,
-/// packs; offsets by reflected light. tests/statistics/line_light_test.cpp is about means.
+/// Tests of the light that surfaces reflect from lines: integrals against quadrature, no noise where the lobes fit
+/// the BRDF, hostile lights, packs, and offsets sampled by reflected light. tests/statistics/line_light_test.cpp
+/// tests the means.
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +33,7 @@ using Colour = Vec3<double>;
 
 constexpr int kCapacity = 8;
 
-/// A line of a light from which shares of its length are cut, as begins and ends.
+/// A line of a light without its hidden parts. These are given by their ends, as shares of the length of the line.
 template <class Real>
 struct CutLine {
     CutLine(const Interval<Real>& whole, const std::vector<Interval<Real>>& hidden)
@@ -52,7 +53,7 @@ struct CutLine {
 const std::vector<std::vector<Interval<double>>> kShadows = {
     {}, {{0.2, 0.5}}, {{0.3, 0.35}, {0.7, 0.72}, {0.9, 1.1}}, {{-1, 2}}};
 
-/// A BRDF whose components times the cosine are just what the integrals stand for.
+/// A BRDF whose components times the cosine equal the integrands of the closed forms.
 struct FittingBrdf {
     Colour albedo, specular;
     Ltc<double> lobe;
@@ -70,8 +71,8 @@ GlossySurface<double, FittingBrdf> fitting_surface(const nusselt::LtcCoefficient
     return {{0, 0, 1}, 1, {kAlbedo, kSpecular, ltc}, ltc, kAlbedo, kSpecular};
 }
 
-/// The light of the visible parts of a line by quadrature, for a radiance of 1 per metre of offset.
-/// \param horizon of the lobe
+/// The reflected light of the visible parts of a line by quadrature, for a radiance of 1 and per metre of offset.
+/// \param horizon normal of the plane that bounds the lobe.
 template <class Lobe>
 long double integral_of(const LinePlane<double>& plane, double offset, const VisibleParts<double>& parts,
                         const Point& horizon, const Lobe& lobe) {
@@ -144,7 +145,7 @@ TEST(LineLight, NoNoiseWhereLobesFit) {
                 const double offset = family.sample_by_length(0.3).offset;
                 const CutLine<double> line(family.chord(offset).extent, shadows);
                 const auto expected = estimator.analytic(offset, line.parts);
-                // The ends of parts may be on the horizon, where BRDFs end.
+                // The random numbers avoid the ends of parts, which may be on the horizon, where BRDFs end.
                 for (const double u : {0.001, 0.1, 0.4, 0.7, 0.999}) {
                     const auto actual = estimator.unbiased(offset, line.parts, u);
                     EXPECT_NEAR(actual.diffuse.x, expected.diffuse.x, 1e-12 * expected.diffuse.x) << c.name;
@@ -190,7 +191,7 @@ TEST(LineLight, HiddenLinesAreBlack) {
     EXPECT_EQ(reflected.specular.y, 0);
 }
 
-/// Everything that the light of a line depends on.
+/// Everything that the reflected light of a line depends on.
 template <class Real>
 struct LineCaseOf {
     PolygonReflection<Real> reflection;
@@ -236,7 +237,7 @@ private:
     RandomSource random_;
 };
 
-/// Analytic of the whole line, of the visible parts, and the unbiased estimate of these.
+/// Analytic shading of the whole line and of its visible parts, and the unbiased estimate of the visible parts.
 template <class Real>
 struct LineResults {
     BrdfComponents<Real> whole, analytic, unbiased;
@@ -277,7 +278,7 @@ TEST(LineLight, HostileLinesAreFiniteAndNeverBrighterThanWithoutShadow) {
     EXPECT_GT(lit, 40'000);
 }
 
-/// One lane at a time is real while its neighbours hold NaN.
+/// One lane at a time holds a case while its neighbours hold NaN.
 template <class P>
 void expect_lanes_equal_scalars() {
     using T = nusselt::scalar_t<P>;
@@ -306,7 +307,7 @@ TEST(ReflectedOffsets, DensityFitsTheSamples) {
         const LineFamily<double, 4> family(light, 0.7);
         const LineLight<double, FittingBrdf> estimator(family.plane(), family.reach(), surface);
         const ReflectedOffsets<double, 4> offsets(family, estimator);
-        // du / d offset is the density.
+        // The density is du / d offset.
         constexpr int kSteps = 4000;
         double previous = offsets.sample(0).offset;
         for (int i = 0; i < kSteps; ++i) {
@@ -372,7 +373,7 @@ TEST(ReflectedOffsets, FindsHighlightsOfAnyWidth) {
                     sum += x / kLines;
                     squares += x * x / kLines;
                 }
-                // All of the lobe is on the light, up to its tails.
+                // The light covers the lobe except for its tails.
                 EXPECT_NEAR(sum, 1, 0.02) << width;
                 EXPECT_LT(squares / (sum * sum) - 1, 0.4) << width;
             }

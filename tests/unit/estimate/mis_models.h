@@ -1,6 +1,6 @@
 #pragma once
-/// Small integrals of which everything is known: a domain of cells, densities and an integrand that are constant in each,
-/// and with them the exact expectation of what a heuristic makes of its samples.
+/// Small integrals with known results. Their domain consists of cells in each of which the densities and the
+/// integrand are constant, so the expectation of a heuristic is a finite sum.
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +14,12 @@ using Colour = nusselt::Vec3<double>;
 
 inline Colour grey(double x) { return {x, x, x}; }
 
-/// Largest difference of channels.
+/// The largest difference among the channels.
 inline double distance(const Colour& a, const Colour& b) {
     return std::max({std::fabs(a.x - b.x), std::fabs(a.y - b.y), std::fabs(a.z - b.z)});
 }
 
-/// The probability of sampling a cell is given by the densities in it.
+/// A technique samples a cell with a probability that equals its density there.
 template <int K>
 struct MisModel {
     nusselt::MisTechniques<double, K> techniques;
@@ -36,7 +36,7 @@ struct MisModel {
 
 constexpr int kCells = 64;
 
-/// Proportional to shape(i), of sum 1.
+/// Densities proportional to shape(i), with sum 1.
 template <class Shape>
 std::vector<double> density(const Shape& shape) {
     std::vector<double> values;
@@ -49,14 +49,15 @@ std::vector<double> density(const Shape& shape) {
     return values;
 }
 
-/// Cells of smaller index are above the surface.
+/// Cells with a smaller index are above the surface.
 constexpr int kHorizon = 50;
 
-/// The technique for the diffuse component: uniform above the surface, and a little below as solid angle sampling is.
+/// The technique for the diffuse component. It is uniform above the surface and, like solid angle sampling, reaches a
+/// little below.
 inline std::vector<double> uniform_density() {
     return density([](int i) { return i < kHorizon + 6 ? 1.0 : 0.0; });
 }
-/// A lobe: zero in large parts of what is above the surface.
+/// A lobe, which is zero in most of the cells above the surface.
 inline std::vector<double> lobe_density(int centre, int width) {
     return density([=](int i) {
         const double x = static_cast<double>(i - centre) / width;
@@ -79,7 +80,7 @@ MisModel<K> empty_model(const Colour (&coefficients)[K], const double (&counts)[
     return model;
 }
 
-/// The integrand is given by the coefficients.
+/// The components of the integrand are the densities times the coefficients.
 template <int K>
 MisModel<K> fitting_model(const Colour (&coefficients)[K], const double (&counts)[K]) {
     MisModel<K> model = empty_model(coefficients, counts);
@@ -88,8 +89,8 @@ MisModel<K> fitting_model(const Colour (&coefficients)[K], const double (&counts
     return model;
 }
 
-/// Neither shapes nor sizes of components fit: all of them reach to wherever is above the surface, and it is black below. A
-/// shadow ends in the middle of the first lobe.
+/// Neither the shapes nor the sizes of the components fit the densities. Each component is positive everywhere above
+/// the surface and black below. A shadow ends in the middle of the first lobe.
 template <int K>
 MisModel<K> misfitting_model(const Colour (&coefficients)[K], const double (&counts)[K]) {
     MisModel<K> model = empty_model(coefficients, counts);

@@ -1,4 +1,4 @@
-/// Heuristics on small domains: expectations and variances by enumeration, not by sampling.
+/// Tests of heuristics on small domains. Expectations and variances come from enumeration, not from sampling.
 
 #include <cmath>
 #include <limits>
@@ -36,7 +36,7 @@ std::vector<MisModel<3>> triples(MisModel<3> (*make)(const Colour (&)[3], const 
     return {make({kDiffuse, kGlossy, kCoat}, {1, 1, 1}), make({kDiffuse, kGlossy, kCoat}, {2, 1, 5})};
 }
 
-/// Largest error of the expectation relative to the integral over models in which nothing fits.
+/// The largest error of an expectation relative to the integral, over the models in which nothing fits.
 template <class Heuristic>
 double largest_bias(const Heuristic& heuristic) {
     double largest = 0;
@@ -60,8 +60,8 @@ TEST(Mis, IsUnbiased) {
         EXPECT_LT(largest_bias(Optimal{visibility}), kRounding) << visibility;
 }
 
-/// Leaves something out where the BRDF is zero. \tparam Kept what remains of a sample's constant, from that and the
-/// coefficient in it.
+/// Changes the constant of samples for which the BRDF is zero. \tparam Kept computes the new constant from the
+/// constant and the coefficient that is part of it.
 template <class Kept>
 struct OptimalWithoutBlackSamples {
     Kept kept;
@@ -80,8 +80,8 @@ struct OptimalWithoutBlackSamples {
 template <class Kept>
 OptimalWithoutBlackSamples(Kept) -> OptimalWithoutBlackSamples<Kept>;
 
-/// The coefficient that is added for a sample and the control variate that is subtracted cancel at each point in the mean.
-/// Only one of them must not be left out.
+/// In the mean, the coefficient that a sample adds and the control variate that it subtracts cancel at each point. A
+/// renderer may omit both, but not only one of them.
 TEST(Mis, OptimalMayLeaveOutBlackSamplesButNotByHalves) {
     const OptimalWithoutBlackSamples whole{[](const Colour&, const Colour&) { return grey(0); }};
     const OptimalWithoutBlackSamples half{[](const Colour& all, const Colour& added) { return all - added; }};
@@ -89,7 +89,7 @@ TEST(Mis, OptimalMayLeaveOutBlackSamplesButNotByHalves) {
     EXPECT_GT(largest_bias(half), 0.01);
 }
 
-/// Changes its knowledge of the technique before it uses a heuristic.
+/// Passes wrong facts about the techniques to a heuristic.
 template <class Heuristic, class Change>
 struct Mutant {
     Heuristic heuristic;
@@ -117,7 +117,7 @@ TEST(Mis, MutantsAreBiased) {
     EXPECT_GT(largest_bias(metal), 0.1);
 }
 
-/// On a metal, nothing but the clamped albedo makes the diffuse technique count beyond the lobe.
+/// On a metal, the weight of the diffuse technique beyond the lobe comes from the clamped albedo alone.
 TEST(Mis, ClampedAlbedoKeepsMetalsUnbiased) {
     auto model = misfitting_model({grey(0), kGlossy}, {1, 1});
     const double truth = model.integral().x;
@@ -145,7 +145,7 @@ TEST(Mis, NoNoiseWhereTheCoefficientsAreRight) {
     EXPECT_GT(largest_variance_of_fits(Optimal{0.5}), 1e-3);
 }
 
-/// Calls check(a, b) with what two heuristics make of each sample of technique J.
+/// Calls check(a, b) with the estimates of two heuristics for each sample of technique J.
 template <int J, int K, class A, class B, class Check>
 void compare(const MisModel<K>& model, const A& a, const B& b, const Check& check) {
     for (const auto& cell : model.cells)
@@ -168,7 +168,7 @@ TEST(Mis, ClampedOptimalGoesFromBalanceToWeightedBalance) {
     }
 }
 
-/// In shadow.
+/// A sample in shadow contributes only its constant, which is negative at times for the optimal heuristic.
 TEST(Mis, OnlyTheOptimalHeuristicIsEverNegative) {
     bool negative = false;
     for (const auto& model : pairs(misfitting_model)) {
@@ -181,7 +181,7 @@ TEST(Mis, OnlyTheOptimalHeuristicIsEverNegative) {
     EXPECT_TRUE(negative);
 }
 
-/// A technique of three that cannot sample, and the same without it.
+/// A model of three techniques, one of which cannot sample, and the same model without that technique.
 struct WithAndWithout {
     MisModel<3> with;
     MisModel<2> without;
@@ -192,7 +192,7 @@ struct WithAndWithout {
         for (std::size_t i = 0; i < with.cells.size(); ++i) {
             auto& cell = with.cells[i];
             cell.pdf[1] = 0;
-            // Component 1 is now for technique 0.
+            // Technique 0 takes over component 1.
             without.cells[i] = {{cell.pdf[0], cell.pdf[2]},
                                 {cell.component[0] + cell.component[1], cell.component[2]}};
         }
@@ -232,7 +232,8 @@ TEST(Mis, ATechniqueThatCannotSampleDropsOut) {
     expect_drops_out(SeparateComponents());
 }
 
-/// The mutant: it takes no samples, but its density still takes weight from the others.
+/// A technique that takes no samples but still returns a density takes weight from the others: the estimate is too
+/// dark.
 TEST(Mis, ATechniqueThatCannotSampleMustHaveNoDensity) {
     auto model = misfitting_model({kDiffuse, kGlossy}, {1, 1});
     const auto diffuse_only = [&] {
@@ -255,11 +256,11 @@ TEST(Mis, ExtremeDensitiesOfFloat) {
         const MisSample<float, 2> sample{{p0, p1}, {{p0, p0, p0}, {p1, p1, p1}}};
         return PowerHeuristic().estimate<1>(techniques, sample).shadowed.x;
     };
-    // The integrand is 2 p, the weight 9 / 10, and p is sampled three times.
+    // The integrand is 2 p, the weight 9 / 10, and the technique of density p takes three samples.
     for (const float p : {1e30f, 1e-30f, 1e-37f, 3e37f}) EXPECT_NEAR(share(p, p), 0.6f, 1e-6f) << p;
     EXPECT_EQ(share(1e30f, 1e-30f), 0);
     EXPECT_NEAR(share(1e-30f, 1e30f), 1.0f / 3, 1e-6f);
-    // Denormal.
+    // Denormal densities.
     EXPECT_TRUE(std::isfinite(share(1e-42f, 0)));
     EXPECT_TRUE(std::isfinite(share(1e-42f, 1e-42f)));
 }
@@ -292,7 +293,7 @@ TEST(OneSample, IsUnbiased) {
 }
 
 TEST(OneSample, ProbabilitiesAreLuminances) {
-    // 0.2126, 0.7152 and 0.0722 are those of Rec. 709.
+    // The luminance weights of Rec. 709 are 0.2126, 0.7152 and 0.0722.
     const OneSampleChoice<double, 3> choice(with_coefficients({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
     EXPECT_NEAR(choice.probability(0), 0.2126, 1e-15);
     EXPECT_NEAR(choice.probability(1), 0.7152, 1e-15);

@@ -1,5 +1,5 @@
 #pragma once
-/// Surfaces under hostile and ordinary lights, for scalars and packs.
+/// Surfaces under hostile and ordinary lights, as scalars and packs.
 
 #include <cmath>
 
@@ -24,7 +24,7 @@ struct Reflection {
 
     nusselt::GlossySurface<Real> surface() const {
         const nusselt::Frostbite<Real> brdf(wo, albedo, f0, roughness);
-        // There is no table for it.
+        // A stand-in for the albedo from a table.
         const nusselt::Vec3<Real> specular_albedo = lobe.albedo * f0;
         return {wo,
                 nusselt::ggx_alpha(roughness),
@@ -42,7 +42,7 @@ using LineReflection = Reflection<Real, nusselt::LineSegment<Real>>;
 template <class Real>
 using CylinderReflection = Reflection<Real, nusselt::Cylinder<Real>>;
 
-/// Everything is legal and much of it is extreme: black, white and coloured surfaces, mirrors, eyes below the surface.
+/// Valid but often extreme cases: black, white and coloured surfaces, mirrors, and eyes below the surface.
 template <class T>
 class HostileReflections {
 public:
@@ -61,7 +61,7 @@ public:
         return c;
     }
 
-    /// Everything but the light.
+    /// Sets everything but the light.
     template <class Case>
     void fill(Case& c) {
         c.lobe = lights_.lobe();
@@ -89,13 +89,13 @@ private:
     RandomSource random_;
 };
 
-/// One sample of each technique, of each heuristic, and of a technique chosen at random.
+/// One sample of each technique with each heuristic, and one of a technique chosen at random.
 template <class Real>
 struct AllSamples {
     static constexpr int kCount = 13;
     nusselt::DirectLightSample<Real> sample[kCount];
 
-    /// Whether only the optimal heuristic makes such a sample.
+    /// Whether sample i comes from the optimal heuristic.
     static constexpr bool is_optimal(int i) { return i == 8 || i == 9; }
 };
 

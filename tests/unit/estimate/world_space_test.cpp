@@ -1,4 +1,4 @@
-/// The one call in world space against the class in shading space.
+/// Compares sample_direct_light, which works in world space, with DirectLight, which works in shading space.
 
 #include <cmath>
 #include <random>
@@ -22,7 +22,7 @@ using nusselt::Vec3;
 using Point = Vec3<double>;
 using Heuristic = nusselt::OptimalHeuristic<double>;
 
-/// Random lobes: the table of another BRDF would do as well.
+/// Provides a table of random lobes, since the test does not depend on the BRDF.
 class WorldSpaceTest : public testing::Test {
 protected:
     WorldSpaceTest() {
@@ -39,7 +39,7 @@ private:
 constexpr Vec2<double> kRandomNumbers[][2] = {
     {{0.1, 0.7}, {0.4, 0.2}}, {{0.3, 0.2}, {0.9, 0.5}}, {{0.75, 0.4}, {0.01, 0.99}}};
 
-/// The origin and the axes of shading space.
+/// The origin and the axes of shading space in world space.
 struct Placement {
     Point position;
     Frame<double> frame;
@@ -49,7 +49,7 @@ struct Placement {
 
 Placement somewhere() {
     Frame<double> frame = Frame<double>::from_normal(nusselt::normalize(Point{0.3, -0.8, 0.4}));
-    // Turned about the normal.
+    // Turn the frame about the normal.
     const Point t = 0.6 * frame.t + 0.8 * frame.b;
     return {{3, -2, 5}, {t, cross(frame.n, t), frame.n}};
 }
@@ -112,7 +112,7 @@ TEST_F(WorldSpaceTest, RotationAndTranslationChangeNothing) {
                 expect_invariant(light, cos_o, roughness, table());
             for (const LineCase& light : line_cases()) expect_invariant(light, cos_o, roughness, table());
             for (CylinderCase light : cylinder_cases()) {
-                // Before the cap of a horizontal cylinder, rounding would choose the range of azimuths.
+                // In front of the cap of a horizontal cylinder, rounding would decide on the range of azimuths.
                 light.end.z -= 0.01;
                 expect_invariant(light, cos_o, roughness, table());
             }
@@ -120,7 +120,7 @@ TEST_F(WorldSpaceTest, RotationAndTranslationChangeNothing) {
     }
 }
 
-/// Any tangent will do then, and samples depend on it; they still have to lie on the light.
+/// Along the normal, any tangent is valid. Samples depend on the choice, but they must lie on the light.
 TEST_F(WorldSpaceTest, SeenFromTheNormalRaysEndOnTheLight) {
     const Placement placement = somewhere();
     const SurfacePoint<double> point = surface_point(placement, 1, 0.5);

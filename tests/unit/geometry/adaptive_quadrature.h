@@ -5,11 +5,11 @@
 
 namespace nusselt_test {
 
-/// Integral of f(x, y) over the unit square: subdivided until quarters agree with the whole.
+/// Integral of f(x, y) over the unit square, which is subdivided until the quarters of a cell agree with the cell.
 template <class Integrand>
 class AdaptiveSquare {
 public:
-    /// \param tolerance of the integral as a whole, absolute; 0 for as much as long double gives.
+    /// \param tolerance absolute error of the whole integral; 0 for the full precision of long double.
     AdaptiveSquare(const Integrand& f, long double tolerance) : f_(f), tolerance_(tolerance) {}
 
     long double integral() const { return refine(0, 0, 1, gauss(0, 0, 1), 0); }
@@ -36,7 +36,7 @@ private:
             quarter[k] = gauss(x + (k % 2) * half, y + (k / 2) * half, half);
             fine += quarter[k];
         }
-        // The error of the quarters is far below their difference to the whole.
+        // The error of the quarters is much smaller than their difference from the whole.
         if (depth == kDeepest ||
             std::fabs(fine - coarse) <= std::max(tolerance_ * size, 1e-16L * std::fabs(fine)))
             return fine;
@@ -73,8 +73,8 @@ long double integrate_solid_angle(const Polygon& polygon, const Integrand& f, lo
     return sum;
 }
 
-/// Integral of f(wi) over the solid angle per radius of a line, by the angle about the origin, in which a thin cylinder
-/// is as wide as the cosine. f must be smooth on it.
+/// Integral of f(wi) over the solid angle per radius of a line, by the angle about the origin, to the cosine of which
+/// the width of a thin cylinder is proportional. f must be smooth on it.
 template <class Integrand>
 long double integrate_per_radius(const Segment& line, const Integrand& f) {
     constexpr int kPanels = 400;

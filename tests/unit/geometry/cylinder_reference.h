@@ -1,6 +1,6 @@
 #pragma once
-/// Integrals over the directions to a closed cylinder, in long double: by area over the parts of its surface that face
-/// the origin. The cylinder is convex, so that these are what the origin sees.
+/// Integrals over the directions to a closed cylinder, in long double: by area over the parts of its surface that
+/// face the origin. As the cylinder is convex, the origin sees all of these and no others.
 
 #include <nusselt/geometry/cylinder.h>
 
@@ -20,15 +20,15 @@ SolidCylinder solid(const nusselt::Cylinder<T>& cylinder) {
     return {widened_begin(cylinder.axis), widened_end(cylinder.axis), cylinder.radius};
 }
 
-/// Integral of f(wi) over the solid angle of a cylinder. The integrand may have kinks, which the quadrature finds.
-/// \param tolerance of the integral over each part of the surface, absolute.
+/// Integral of f(wi) over the solid angle of a cylinder. The integrand may have kinks; the quadrature adapts to them.
+/// \param tolerance absolute error of the integral over each part of the surface.
 template <class Integrand>
 long double integrate_solid_angle(const SolidCylinder& cylinder, const Integrand& f, long double tolerance) {
     const Point s = cylinder.axis();
     const long double along = dot(cylinder.begin, s);
     const Point closest = cylinder.begin - along * s;
     const long double distance = length(closest);
-    // Away from the origin, and across; any pair will do on the axis.
+    // The directions away from the origin and across. On the axis, any pair will do.
     const Point away =
         distance > 0 ? (1 / distance) * closest : nusselt::Frame<long double>::from_normal(s).t;
     const Point across = cross(s, away);
@@ -44,7 +44,8 @@ long double integrate_solid_angle(const SolidCylinder& cylinder, const Integrand
     long double sum = 0;
     const long double extent = length(cylinder.end - cylinder.begin);
     if (distance > cylinder.radius) {
-        // The lateral surface faces the origin between the tangents. The axis is cut into pieces because it may be long and close.
+        // The lateral surface faces the origin between the tangent planes. The axis is cut into pieces because it may
+        // be long and close.
         const long double half_angle = std::acos(cylinder.radius / distance);
         const auto over_lateral_surface = [&](long double l0, long double l1) {
             return integrate_square(

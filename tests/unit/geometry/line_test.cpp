@@ -1,4 +1,4 @@
-/// Line segments: extents, closed forms against quadrature, clipping.
+/// Tests of line segments: extents, closed forms against quadrature, and clipping.
 
 #include <cmath>
 #include <limits>
@@ -23,7 +23,8 @@ protected:
 using Scalars = ::testing::Types<float, double, long double>;
 TYPED_TEST_SUITE(LineTest, Scalars);
 
-/// Solid angle per radius and length, seen from the origin; times the cosine for the projected one.
+/// Solid angle per radius and length, seen from the origin, and the same times the cosine for the projected solid
+/// angle.
 struct LineIntegrand {
     Point s;
     long double solid_angle(const Point& p) const {
@@ -44,7 +45,7 @@ TYPED_TEST(LineTest, ClosedFormsAgreeWithQuadrature) {
         const auto projected = [&](const Point& p) { return integrand.projected(p); };
         const T tolerance = std::max(20 * this->kEpsilon, T(1e-15));
         EXPECT_NEAR(solid_angle(line) / integrate(begin, end, solid), 1, tolerance) << light.name;
-        // Cut at the horizon.
+        // The part above the horizon.
         const Point crossing = begin + (begin.z / (begin.z - end.z)) * (end - begin);
         const Point from = begin.z < 0 ? crossing : begin;
         const Point to = end.z < 0 ? crossing : end;
@@ -57,7 +58,8 @@ TYPED_TEST(LineTest, ClosedFormsAgreeWithQuadrature) {
 
 TYPED_TEST(LineTest, ShortAndDistantLinesKeepTheirPrecision) {
     using T = TypeParam;
-    // Almost on their axis, a thousand lengths away: the difference of the sines would have no digits left.
+    // The point is almost on the line's axis, a thousand lengths away. A difference of sines would have no correct
+    // digits.
     const auto line = make_light<T>(LineCase{"", {1000, 0.5, 3}, {1000.9, 0.5, 3.1}});
     const LineIntegrand integrand{nusselt::broadcast<long double>(line.s)};
     const long double expected = integrate(widened_begin(line), widened_end(line),
@@ -96,10 +98,10 @@ TYPED_TEST(LineTest, PointsOfTheExtentLieOnTheLine) {
             EXPECT_NEAR(length(direction), 1, 8 * this->kEpsilon) << light.name;
             EXPECT_LE(length(cross(p, direction)), 64 * this->kEpsilon * length(p)) << light.name;
             const T along = dot(p - line.p0, line.s);
-            // The begin may be much farther away than the point.
+            // The start of the line may be much farther away than the point.
             const T extent = std::max(length(p), length(line.p0));
             EXPECT_LE(length(p - line.p0 - along * line.s), 4 * this->kEpsilon * extent) << light.name;
-            // Back from the direction to the point.
+            // The direction leads back to the point.
             EXPECT_NEAR(e.point_in(direction).from_start, point.from_start, 64 * this->kEpsilon)
                 << light.name;
         }

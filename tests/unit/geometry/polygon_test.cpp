@@ -1,4 +1,4 @@
-/// Polygons: construction, closed forms against quadrature and other closed forms, clipping.
+/// Tests of polygons: construction, closed forms against quadrature and other closed forms, and clipping.
 
 #include <cmath>
 #include <limits>
@@ -50,7 +50,8 @@ TYPED_TEST(PolygonTest, NoAreaNoNormal) {
 
 TYPED_TEST(PolygonTest, ShadingSpaceKeepsSmallEdgesAtADistance) {
     using T = TypeParam;
-    // A light of one millimetre forty metres away: differences of rounded vertices would be wrong by 0.4 %.
+    // For a light of one millimetre at a distance of about fifty metres, differences of rounded vertices would be
+    // wrong by 0.4 %.
     const nusselt::Vec3<T> v[] = {{40, 30, 20}, {T(40.001), 30, 20}, {T(40.001), T(30.001), 20}};
     const auto world = nusselt::make_polygon<4>(v, 3);
     const auto frame = nusselt::Frame<T>::from_normal(normalize(nusselt::Vec3<T>{1, 2, 3}));
@@ -65,7 +66,8 @@ TYPED_TEST(PolygonTest, ShadingSpaceKeepsSmallEdgesAtADistance) {
 
 TYPED_TEST(PolygonTest, RoundingIsNoEdgeAlongTheHorizon) {
     using T = TypeParam;
-    // A vertex so little below the horizon that the closing edge would be made of the rounding of the others.
+    // One vertex is so little below the horizon that the edge that closes the polygon would consist of the rounding
+    // errors of the others.
     const T below = -this->kEpsilon / 8;
     const nusselt::Vec3<T> v[] = {
         {T(-0.3), T(0.2), below}, {T(1.1), T(-0.7), T(0.4)}, {T(-0.6), T(0.9), T(0.3)}};
@@ -86,7 +88,8 @@ TYPED_TEST(PolygonTest, MeasuresAgreeWithReferences) {
         const auto polygon = make_light<T>(light);
         const Polygon vertices = vertices_of(polygon);
         const Polygon upper = above_horizon(vertices);
-        // Girard's formula in long double has an absolute error; the small light needs a hundred roundings.
+        // The error of Girard's formula in long double is absolute; for the small light, it amounts to a hundred
+        // roundings.
         const T tolerance = std::max(200 * this->kEpsilon, T(4e-16));
         EXPECT_NEAR(area(polygon) / integrate(vertices, [](const Point&) { return 1.0L; }), 1, tolerance)
             << light.name;
@@ -128,7 +131,7 @@ TYPED_TEST(PolygonTest, ClippedVerticesLieOnOrAboveTheHorizon) {
         const auto clipped = clip_to_horizon(polygon);
         nusselt::Vec3<T> sum{0, 0, 0};
         T extent = 0;
-        T rounding = 0; // what is no edge along the horizon, see RoundingIsNoEdgeAlongTheHorizon
+        T rounding = 0; // of an omitted edge along the horizon, see RoundingIsNoEdgeAlongTheHorizon
         int vertices_on_horizon = 0;
         for (int j = 0; j < 5; ++j) {
             EXPECT_GE(clipped.vertex[j].z, 0);
@@ -139,7 +142,7 @@ TYPED_TEST(PolygonTest, ClippedVerticesLieOnOrAboveTheHorizon) {
         }
         EXPECT_LE(length(sum), 8 * this->kEpsilon * extent + rounding);
         EXPECT_EQ(length(clipped.normal - polygon.normal), 0);
-        // A polygon that crosses the horizon gets an edge on it.
+        // A polygon that crosses the horizon gets an edge along it.
         EXPECT_GE(vertices_on_horizon, above && below ? 2 : 0);
         if (above) continue;
         EXPECT_EQ(area(clipped), 0);
@@ -160,7 +163,7 @@ TYPED_TEST(PolygonTest, EdgesOfClippedPolygonsConnectVertices) {
 
 TYPED_TEST(PolygonTest, NothingIsSeenOfAPolygonFromItsPlane) {
     using T = TypeParam;
-    // A fan triangle without area and with opposite directions would count half the sphere.
+    // A degenerate triangle of the fan whose vertices lie in opposite directions would count as half the sphere.
     const nusselt::Vec3<T> around[] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
     const nusselt::Vec3<T> on_edge[] = {{-1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 1}};
     EXPECT_EQ(solid_angle(nusselt::make_polygon<4>(around, 4)), 0);

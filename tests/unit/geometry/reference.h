@@ -1,6 +1,6 @@
 #pragma once
-/// References for tests, in long double. They are written to be obvious, not fast or robust, and use other
-/// formulas than the library.
+/// References for tests, in long double. They are written to be obviously correct, not fast or robust, and use
+/// formulas other than those of the library.
 
 #include <cmath>
 #include <vector>
@@ -74,7 +74,7 @@ long double integrate(const Point& begin, const Point& end, const Integrand& f, 
     return sum * length(end - begin);
 }
 
-/// The part of a convex polygon with dot(normal, p) >= 0, without repeated vertices.
+/// The part of a convex polygon where dot(normal, p) >= 0, without repeated vertices.
 inline Polygon cut(const Polygon& polygon, const Point& normal) {
     Polygon result;
     for (std::size_t j = 0; j < polygon.size(); ++j) {
@@ -94,7 +94,7 @@ struct Segment {
     Point begin, end;
 };
 
-/// The part with dot(normal, p) >= 0.
+/// The part of a segment where dot(normal, p) >= 0.
 inline Segment cut(Segment line, const Point& normal) {
     const long double begin = dot(normal, line.begin);
     const long double end = dot(normal, line.end);
@@ -106,7 +106,7 @@ inline Segment cut(Segment line, const Point& normal) {
 
 inline Polygon above_horizon(const Polygon& polygon) { return cut(polygon, {0, 0, 1}); }
 
-/// Projected solid angle of a polygon above the horizon: Lambert's sum over the edges.
+/// Projected solid angle of a polygon above the horizon, by Lambert's sum over the edges.
 inline long double lambert(const Polygon& polygon) {
     long double sum = 0;
     for (std::size_t j = 0; j < polygon.size(); ++j) {
@@ -119,7 +119,7 @@ inline long double lambert(const Polygon& polygon) {
     return std::fabs(sum) / 2;
 }
 
-/// Solid angle of a convex polygon: Girard's theorem, the excess of the sum of the inner angles.
+/// Solid angle of a convex polygon by Girard's theorem: the excess of the sum of the interior angles.
 inline long double girard(const Polygon& polygon) {
     const std::size_t count = polygon.size();
     if (count < 3) return 0;

@@ -1,4 +1,4 @@
-/// Sorting networks by the 0-1 principle: what sorts all words of zeros and ones sorts everything.
+/// Tests of sorting networks by the 0-1 principle: a network that sorts all words of zeros and ones sorts everything.
 
 #include <nusselt/geometry/sorting_network.h>
 

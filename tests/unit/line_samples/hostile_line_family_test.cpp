@@ -1,4 +1,5 @@
-/// Lines of hostile lights: everything finite, no light from behind, no part brighter than the whole.
+/// Tests of lines on hostile lights: all results are finite, no light comes from behind, and no part is brighter than
+/// the whole.
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +71,7 @@ std::string problem_of_offsets(HostileCase<T>& c) {
     return {};
 }
 
-/// The defect of the integrals along a line.
+/// The defect of the integrals along a line; empty if they are correct.
 template <class T>
 std::string problem_of_parts(HostileCase<T>& c) {
     const auto& family = c.family;
@@ -88,7 +89,7 @@ std::string problem_of_parts(HostileCase<T>& c) {
     const T exponent = static_cast<T>(c.random.log_between(1, 1e5));
     const nusselt::ScaledPlane<T> light(plane, family.reach());
     const auto line = LobePlane<T, BothSides>(light).line(offset);
-    // Rounding moves ends over the horizon, and turns lines near the point.
+    // Rounding moves the ends of lines across the horizon and turns lines that are close to the point.
     const auto e = line.extent(line.clipped(whole));
     const T rounding =
         64 * std::numeric_limits<T>::epsilon() / (e.visible ? std::min(e.distance, T(1)) : T(1));
@@ -103,7 +104,8 @@ std::string problem_of_parts(HostileCase<T>& c) {
     if (diffuse_of_part >
         diffuse + rounding * diffuse + 8 * std::numeric_limits<T>::epsilon() * above_horizon)
         return "a part is brighter than the whole";
-    // The narrower a lobe, the more it changes by rounding; the quadrature errs by little of the lobe.
+    // The narrower a lobe, the more rounding changes it. The quadrature adds an error that is small relative to the
+    // lobe.
     if (phong_of_part > phong + (rounding * std::sqrt(exponent) + T(1e-5)) * (phong + above_horizon))
         return "a part is brighter than the whole in a Phong lobe";
     const T diffuse_front = diffuse_part(LobePlane<T>(light).line(offset), part);

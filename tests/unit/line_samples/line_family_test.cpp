@@ -1,4 +1,4 @@
-/// Families of lines: chords, offsets and their densities.
+/// Tests of families of lines: chords, offsets and their densities.
 
 #include <algorithm>
 #include <functional>
@@ -23,7 +23,7 @@ using nusselt::LineFamily;
 using nusselt::Vec3;
 using nusselt::test::chi_square_p_value;
 
-/// The chord of a polygon in its plane, in long double: which edges of it does the line cross?
+/// The chord that a line cuts from a polygon, in long double, from the crossings with its edges.
 template <class T, int N>
 Interval<long double> exact_chord(const ConvexPolygon<T, N>& light, const nusselt::LinePlane<T>& plane,
                                   long double offset) {
@@ -31,7 +31,7 @@ Interval<long double> exact_chord(const ConvexPolygon<T, N>& light, const nussel
     Point corner = {0, 0, 0};
     Interval<long double> chord{1e30L, -1e30L};
     for (int j = 0; j < N; ++j) {
-        // Built from edges, because small lights far away are defined by them.
+        // The vertices are sums of edges, because edges define small lights that are far away.
         const Point next = j + 1 < N ? corner + to_point(light.edge[j]) : Point{0, 0, 0};
         const long double u0 = dot(corner, exact.across) - offset;
         const long double u1 = dot(next, exact.across) - offset;
@@ -51,7 +51,7 @@ T extent_of(const ConvexPolygon<T, 8>& light) {
     return extent;
 }
 
-/// Angles of all kinds: random, along edges and close to that.
+/// Angles of all kinds: random, along edges and close to edges.
 double some_angle(RandomSource& random, int k) {
     if (k % 4 == 0) return 0;
     if (k % 4 == 1) return random.log_between(1e-9, 1e-5);
@@ -70,7 +70,7 @@ void expect_chords_of_the_light(double distance, double size) {
             const T offset = family.sample_uniform(static_cast<T>(random.uniform())).offset;
             const Interval<T> chord = family.chord(offset).extent;
             const Interval<long double> exact = exact_chord(light, family.plane(), offset);
-            // Where edges are nearly parallel to the lines, ends may slide along them.
+            // Where an edge is nearly parallel to the lines, the end of the chord may slide along it.
             const Interval<long double> before =
                 exact_chord(light, family.plane(), offset - kRounding * extent);
             const Interval<long double> after =
@@ -127,7 +127,7 @@ TEST(LineFamily, AreaIsThatOfTheLight) {
     }
 }
 
-// The density of Sec. 5.1.2, by hand: a tent over the projections of the vertices.
+// The density of Sec. 5.1.2 is a tent over the projections of the vertices. The values here were computed by hand.
 TEST(LineFamily, TrianglesHaveATent) {
     const Vec3<double> corners[] = {{0, 0, 0}, {4, 0, 0}, {1, 2, 0}};
     const LineFamily<double, 3> family(nusselt::make_polygon<3>(corners, 3), 1.5707963267948966);
@@ -141,7 +141,7 @@ TEST(LineFamily, TrianglesHaveATent) {
     EXPECT_NEAR(family.pdf_by_length(peak), 2.0 / 4, 1e-14);
     EXPECT_NEAR(family.pdf_by_length(peak - 0.25), flipped ? 0.5 * 2.75 / 3 : 0.5 * 0.75, 1e-14);
     EXPECT_NEAR(family.pdf_by_length(offsets.begin), 0, 1e-14);
-    // Inverse of the distribution on both sides of the peak.
+    // The inverse of the distribution function on both sides of the peak.
     const double c = flipped ? 3 : 1;
     EXPECT_NEAR(family.sample_by_length(0.1).offset - offsets.begin, std::sqrt(0.1 * 4 * c), 1e-13);
     EXPECT_NEAR(offsets.end - family.sample_by_length(0.9).offset, std::sqrt(0.1 * 4 * (4 - c)), 1e-13);
@@ -193,7 +193,7 @@ TEST(LineFamily, OffsetsIncreaseWithTheRandomNumber) {
         for (int i = 0; i <= 1000; ++i) {
             const float u = std::min(static_cast<float>(i) / 1000, 0x1.fffffep-1f);
             const float next = family.sample_by_length(u).offset;
-            // Two formulas meet at a knot.
+            // At a knot, where two formulas meet, rounding may let the offset fall a little.
             EXPECT_GE(next, by_length - 1e-6f);
             EXPECT_LE(next, family.offsets().end);
             by_length = next;
@@ -204,7 +204,7 @@ TEST(LineFamily, OffsetsIncreaseWithTheRandomNumber) {
     }
 }
 
-/// p-value that offsets follow a density over the offsets of a family.
+/// p-value of the hypothesis that offsets follow a density over the offsets of a family.
 double p_value_of_offsets(const LineFamily<double, 8>& family, const std::function<double(double)>& sample,
                           const std::function<double(double)>& pdf) {
     constexpr int kCells = 64;
@@ -242,7 +242,7 @@ TEST(LineFamily, OffsetsFollowTheirDensities) {
         const auto pdf_uniform = [&](double) { return family.pdf_uniform(); };
         EXPECT_GT(p_value_of_offsets(family, by_length, pdf_by_length), level) << vertices;
         EXPECT_GT(p_value_of_offsets(family, uniform, pdf_uniform), level) << vertices;
-        // Mutants: the density of the other one, and offsets that are a little too small.
+        // Mutants: the density of the other technique, and offsets that are a little too small.
         EXPECT_LT(p_value_of_offsets(family, uniform, pdf_by_length), level) << vertices;
         EXPECT_LT(p_value_of_offsets(family, by_length, pdf_uniform), level) << vertices;
         EXPECT_LT(p_value_of_offsets(

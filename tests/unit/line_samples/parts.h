@@ -1,5 +1,5 @@
 #pragma once
-/// Random planar lights as shading points see them, and integrals along their lines in long double.
+/// Random planar lights in the frame of a shading point, and integrals along their lines in long double.
 
 #include <algorithm>
 #include <cmath>
@@ -80,7 +80,7 @@ public:
         : plane_(widened(plane)),
           origin_(plane_.origin + static_cast<long double>(offset) * plane_.across),
           splits_{part.begin, part.end} {
-        // Integrands are smooth about the closest point to the origin, and vary fast there.
+        // Integrands are smooth but vary fast around the point closest to the origin.
         const long double closest = -dot(origin_, plane_.along);
         const long double distance = length(origin_ + closest * plane_.along);
         split_around(closest, distance, 100);
@@ -134,7 +134,7 @@ private:
     std::vector<long double> splits_; ///< coordinates, by increasing value
 };
 
-/// A part of a random line of a random light.
+/// A random part of a random line of a random light.
 template <class T>
 struct RandomPart {
     nusselt::ConvexPolygon<T, 8> light;

@@ -30,7 +30,7 @@ long double exact_phong(ExactPart part, const Point& mirror, long double exponen
     });
 }
 
-/// A mirrored direction that hits a line up to the width of the lobe.
+/// A mirrored direction whose lobe hits the line: it misses by no more than about the width of the lobe.
 template <class T>
 Vec3<T> random_mirror(RandomSource& random, const RandomPart<T>& part, double exponent) {
     const Vec3<double> target = nusselt::broadcast<double>(part.point(random.uniform()));
@@ -40,7 +40,7 @@ Vec3<T> random_mirror(RandomSource& random, const RandomPart<T>& part, double ex
     return normalize(nusselt::broadcast<T>(mirror));
 }
 
-/// Errors of a function of a line, interval, mirrored direction and exponent.
+/// Errors of a function of a line, an interval, a mirrored direction and an exponent.
 struct Errors {
     std::vector<double> to_part, to_line; ///< over the integrals of part and line
 
@@ -69,7 +69,7 @@ Errors errors_of(const Function& f, double exponent, int cases) {
         errors.to_line.push_back(error / of_line);
         if (of_part > 1e-30) errors.to_part.push_back(error / of_part);
     }
-    // Half of the lights turn their back.
+    // Half of the lights face away.
     EXPECT_GT(static_cast<int>(errors.to_part.size()), cases / 8);
     return errors;
 }
@@ -102,7 +102,7 @@ TEST(PhongPart, TestRejectsAnotherExponent) {
             << exponent;
 }
 
-// Rounding turns directions by 1e-7, which matters the more the narrower the lobe is, and moves lights that are seen
+// Rounding turns directions by 1e-7, which matters more for narrower lobes. It also moves lights that are seen
 // edge-on.
 TEST(PhongPart, EqualsQuadratureInFloat) {
     for (const double exponent : kExponents) {
@@ -180,7 +180,7 @@ TEST(Phong, IsAPowerOfTheCosineWithTheMirroredDirection) {
     }
 }
 
-// The published method takes integers only, and loses digits by cancellation.
+// The published method only takes integer exponents and loses digits by cancellation.
 TEST(PhongLineBillen, RecursionEqualsQuadrature) {
     for (const int exponent : {1, 2, 3, 10, 100, 1001}) {
         const nusselt::CosinePowerRecursion<double> power(exponent + 2);

@@ -1,4 +1,5 @@
-/// Closed forms along parts of lines against quadrature, and averages over lines against polygons.
+/// Compares closed forms along parts of lines with quadrature, and integrals over all lines with the closed forms for
+/// polygons.
 
 #include <algorithm>
 
@@ -23,7 +24,7 @@ using nusselt::LobePlane;
 using nusselt::Ltc;
 using nusselt::ScaledPlane;
 
-/// Lights of all sizes from next to the point to far away.
+/// Lights of all sizes, from next to the point to far away.
 struct Place {
     const char* name;
     double distance, size;
@@ -74,22 +75,23 @@ TEST(DiffusePart, EqualsQuadratureInFloat) {
             errors.push_back(std::fabs(value - exact) / exact);
         }
         std::sort(errors.begin(), errors.end());
-        // Positions on large lights are rounded by more, relative to the distance.
+        // Relative to the distance, positions on large lights have larger rounding errors.
         const double rounding = std::max(place.size / place.distance, 1.0);
         EXPECT_LT(errors[errors.size() / 2], 3e-7 * rounding) << place.name;
         EXPECT_LT(errors[errors.size() * 9 / 10], 4e-6 * rounding) << place.name;
-        // Lights seen edge-on, and lines that nearly hit the point: their positions are rounded.
+        // The largest errors come from rounded positions of lights that are seen edge-on and of lines that nearly hit
+        // the point.
         EXPECT_LT(errors.back(), 1e-2 * rounding) << place.name;
     }
 }
 
-/// Integral of a lobe over a part, above the horizon of the lobe.
+/// Integral of a lobe over the part that is above the horizon of the lobe.
 double above_its_horizon(const RandomPart<double>& part, const Ltc<double>& ltc) {
     const auto lobe = LobePlane<double>(part.scaled_plane(), ltc).line(part.offset);
     return lobe.integral(lobe.clipped(part.part));
 }
 
-/// The same above the surface too.
+/// Integral of a lobe over the part that is above both the horizon of the lobe and the surface.
 double above_both_horizons(const RandomPart<double>& part, const Ltc<double>& ltc) {
     return lobe_part(part.cosine(), LobePlane<double>(part.scaled_plane(), ltc).line(part.offset), part.part);
 }
@@ -116,7 +118,7 @@ void expect_lobe_equals_quadrature(const std::vector<NamedLobe>& lobes, Integral
                 if (integral == above_both_horizons && wi.z <= 0) return 0.0L;
                 return exact_ltc.density(wi);
             }));
-            // The coefficients are rounded: narrow lobes turn by more than their share.
+            // The coefficients are rounded, which turns narrow lobes by more relative to their width.
             const double rounding = 1e-10 + 1e-15 / static_cast<double>(width * width);
             EXPECT_NEAR(integral(part, ltc), exact, rounding * exact) << lobe.name;
             lit += exact > 0;
@@ -163,7 +165,8 @@ TEST(Sides, PointsOnThePlaneSeeNothing) {
     }
 }
 
-/// Integral over all lines of a light, between the knots where chords have corners.
+/// Integral over all lines of a light, one piece at a time between the knots, where the length of the chord has a
+/// kink.
 template <class Function>
 double over_lines(const LineFamily<double, 8>& family, const nusselt::ConvexPolygon<double, 8>& light,
                   const Function& f) {
@@ -212,7 +215,7 @@ TEST(Lines, IntegrateToThePolygon) {
     }
 }
 
-// Not smooth any more where lines begin to cross the horizon.
+// The integrand has kinks where lines start to cross the horizon, so the quadrature is less accurate.
 TEST(Lines, IntegrateToThePartOfThePolygonAboveTheHorizon) {
     RandomSource random(9);
     for (int k = 0; k < 60; ++k) {

@@ -1,4 +1,5 @@
-/// Shadows of triangles on lines: exact tests of points, bit-identical edges, closed meshes, scales.
+/// Tests of the shadows of triangles on lines: exact tests of points, edges that are equal bit for bit, closed
+/// meshes, and scales.
 
 #include <algorithm>
 #include <cstring>
@@ -24,7 +25,7 @@ using shadows::vector_of;
 Vec3<double> exact(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
 Vec3<double> exact(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
 
-/// Whether the triangle is met on the way from the point, within this share of the direction.
+/// Whether the segment from `point` to `point + end * direction` meets the triangle.
 bool blocks(const Occluder& triangle, const Vec3<double>& point, const Vec3<double>& direction, double end) {
     const Vec3<double> a = exact(triangle.corner[0]) - point;
     const Vec3<double> b = exact(triangle.corner[1]) - point;
@@ -49,7 +50,7 @@ void store(float (&target)[3], const Vec3<double>& v) {
     target[2] = static_cast<float>(v.z);
 }
 
-/// A light, a point and triangles of any size.
+/// A light, a point and random triangles of any size.
 struct Soup : ShadowCase {
     explicit Soup(std::uint64_t index) {
         RandomSource random(5, index);
@@ -62,7 +63,7 @@ struct Soup : ShadowCase {
         store(point, from);
         storage.resize(static_cast<std::size_t>(1 + random.index(12)));
         for (Occluder& triangle : storage) {
-            // Mostly before the light, also behind it and behind the point.
+            // Most triangles are in front of the light, some are behind it or behind the point.
             const Vec3<double> center = from +
                                         random.between(-0.2, 1.2) * (first + 0.5 * a + 0.4 * b - from) +
                                         random_vector(random, 0.5 * size);
@@ -131,7 +132,7 @@ TEST(TriangleShadow, VisibleLengthsMatchPointTests) {
                     visible += parts[k].end.lane(i) - parts[k].begin.lane(i);
                     ++count;
                 }
-            // Half a step at each end of a part, and the rounding of positions as a share of the line.
+            // Half a step at each end of a part, and the rounding error of positions as a share of the line.
             const double resolution = (count + 1.0) / kPoints + 5e-6 * (1 + 1 / length);
             EXPECT_NEAR(visible / length, static_cast<double>(visible_points) / kPoints, resolution)
                 << "case " << index << ", line " << i;
@@ -141,7 +142,7 @@ TEST(TriangleShadow, VisibleLengthsMatchPointTests) {
     EXPECT_GT(partly, 16 * kCases / 10);
 }
 
-// All that such a floor has far from the point is projected to nearly the same place, its horizon.
+// The distant parts of such a floor are all projected to nearly the same place, its horizon.
 TEST(TriangleShadow, FloorThroughTheLightHidesWhatIsBelowIt) {
     const Vec3<float> corners[] = {
         {-0.2f, 0.5f, 0}, {0.1f, -1, 0}, {2.3f, -1.7f, 0}, {3.4f, 0.5f, 0}, {1, 1.6f, 0}};
@@ -207,7 +208,7 @@ TEST(TriangleShadow, MutantsLeak) {
     EXPECT_GT(shrunk, kCases * kLinesPerCase / 10);
 }
 
-// Shadows that are made in packs meet partial ones, which are made one by one.
+// for_each_shadow makes whole shadows in packs and partial shadows one by one.
 TEST(TriangleShadow, PacksHaveTheBitsOfScalars) {
     for (std::uint64_t index = 0; index < 300; ++index) {
         const Soup soup(index);
@@ -236,7 +237,7 @@ TEST(TriangleShadow, PacksHaveTheBitsOfScalars) {
     }
 }
 
-// Two triangles of a quadrilateral meet in the diagonal: one ends where the other begins.
+// Two triangles of a quadrilateral meet at the diagonal: the shadow of one ends where that of the other starts.
 TEST(TriangleShadow, SharedEdgesAreTheSameForBothTriangles) {
     int shared = 0;
     for (std::uint64_t index = 0; index < 20'000; ++index) {
@@ -248,7 +249,8 @@ TEST(TriangleShadow, SharedEdgesAreTheSameForBothTriangles) {
         const double size = random.log_between(1e-3, 10);
         float v[4][3];
         for (auto& corner : v) store(corner, center + random_vector(random, size));
-        // Any winding and any first corner: meshes with split vertices have nothing in common but positions.
+        // The winding and the first corner may differ, because the triangles of meshes with split vertices share
+        // positions only.
         Interval<float> hidden[2];
         for (int i = 0; i < 2; ++i) {
             int order[] = {0, i + 1, i + 2};
@@ -259,7 +261,7 @@ TEST(TriangleShadow, SharedEdgesAreTheSameForBothTriangles) {
             hidden[i] = hidden_by(in_order_of_position(triangle), lines.frame(), offset);
         }
         if (!(hidden[0].begin < hidden[0].end && hidden[1].begin < hidden[1].end)) continue;
-        // Whether the line meets the diagonal between point and light, and not near a corner.
+        // Whether the diagonal casts its shadow on the line, away from the corners.
         const LinePlane<float>& plane = lines.family().plane();
         const Vec3<double> point = exact(soup.point);
         const Vec3<double> to_light = exact(plane.origin) - point;
@@ -347,7 +349,7 @@ void expect_no_violation(std::uint64_t seed) {
             << index;
         for (const float x : visible) sum += double(x);
     }
-    // The generator is of no use if everything is visible, or nothing.
+    // The test would be worthless if everything were visible, or nothing.
     EXPECT_GT(sum, 0.1 * kCases * kLinesPerCase);
     EXPECT_LT(sum, 0.9 * kCases * kLinesPerCase);
 }

@@ -1,4 +1,5 @@
-/// Unions of what occluders hide: against sorted intervals, in any order, with too little room, with hostile numbers.
+/// Tests of the union of what occluders hide: against sorted intervals, in any order, with too little room, and with
+/// hostile numbers.
 
 #include <algorithm>
 #include <limits>
@@ -111,7 +112,7 @@ TEST(VisibleParts, TooLittleRoomNeverAddsLight) {
     EXPECT_GT(lost, 100);
 }
 
-/// Whatever the order of cuts: lines lose what is short first.
+/// If there is no room for all visible parts, the short ones are dropped first, whatever the order of the cuts.
 TEST(VisibleParts, TooLittleRoomKeepsTheLongerRemainders) {
     constexpr int kCapacity = 8;
     for (const bool is_reversed : {false, true})
@@ -119,7 +120,7 @@ TEST(VisibleParts, TooLittleRoomKeepsTheLongerRemainders) {
             Interval<Lines> storage[kCapacity];
             VisibleParts<Lines> parts(storage, kCapacity);
             parts.reset({Lines(0.0f), Lines(1.0f)});
-            // Seven large gaps of 0.1 and as many occluders of 0.01, all of them cut by another one close to an end.
+            // Seven large gaps of 0.1 and as many occluders of 0.01. Another occluder cuts each gap close to its end.
             const auto cut = [&](float begin, float end) {
                 const Interval<float> hidden =
                     is_reversed ? Interval<float>{1 - end, 1 - begin} : Interval<float>{begin, end};

@@ -1,5 +1,5 @@
 #pragma once
-/// Lobes as fits give them, by tilt and widths.
+/// Lobes like those of the fits, given by tilt and widths.
 
 #include <cmath>
 #include <string>
@@ -16,7 +16,7 @@ struct NamedLobe {
 
 /// \param tilt   angle of the axis from the normal, away from the eye.
 /// \param width  in the plane of wo, twice the GGX alpha at normal incidence.
-/// \param aspect that width over the one across.
+/// \param aspect that width over the width across.
 /// \param skew   in the plane of wo.
 inline nusselt::LtcCoefficients<long double> tilted_lobe(long double tilt, long double width,
                                                          long double aspect, long double skew) {
@@ -34,7 +34,7 @@ inline std::vector<NamedLobe> wide_lobes() {
     };
 }
 
-/// Down to the smallest width, and seen from the horizon.
+/// The wide lobes, and narrow ones down to the smallest width, seen from the normal and from the horizon.
 inline std::vector<NamedLobe> all_lobes() {
     std::vector<NamedLobe> lobes = wide_lobes();
     lobes.push_back({"narrow", tilted_lobe(0.6L, 0.02L, 1, 0.05L)});

@@ -1,4 +1,4 @@
-/// Lobes: their density, their map and the frame that they are meant in.
+/// Tests of lobes: their density, their linear map and the frame in which they are defined.
 
 #include <limits>
 #include <random>
@@ -21,7 +21,7 @@ using nusselt::Ltc;
 template <class T>
 class LtcTest : public ::testing::Test {};
 
-/// Not long double: the references are no better.
+/// Excludes long double, in which the references are no more accurate than the library.
 using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(LtcTest, Scalars);
 
@@ -46,7 +46,7 @@ std::vector<nusselt::Vec3<T>> directions(const Ltc<T>& ltc) {
     return result;
 }
 
-/// Whatever the lobe is: products and their errors cancel nowhere.
+/// The bound holds for every lobe, since nothing cancels.
 TYPED_TEST(LtcTest, DensityIsThatOfTheTextbookUpToRounding) {
     using T = TypeParam;
     for (const NamedLobe& lobe : all_lobes()) {
@@ -68,12 +68,12 @@ TYPED_TEST(LtcTest, DensityIntegratesToOne) {
     for (const NamedLobe& lobe : all_lobes()) {
         const auto coefficients = rounded<T>(lobe.coefficients);
         const Ltc<T> ltc(coefficients);
-        // Nothing beyond the horizon of the lobe: polar coordinates about its normal.
+        // The lobe is zero beyond its horizon, so polar coordinates about the normal of that plane cover it.
         const Point axis = ReferenceLobe(coefficients).horizon();
         const auto frame = nusselt::Frame<long double>::from_normal(normalize(axis));
         const long double width = length(axis) / std::hypot(coefficients.m00, coefficients.m02);
         const auto density = [&](long double x, long double y) {
-            // Half of the square for the angles up to the width of the lobe.
+            // Half of the square covers the angles up to the width of the lobe.
             const long double theta = std::atan2(width * x, 1 - x);
             const long double slope = width / ((1 - x) * (1 - x) + width * width * x * x);
             const long double phi = y * 2 * kPi;
@@ -100,7 +100,7 @@ TYPED_TEST(LtcTest, MapsVectorsToCosineSpaceAndBack) {
             const auto there_and_back = (1 / ltc.minor()) * ltc.to_shading(ltc.to_cosine(v));
             const T budget = 16 * std::numeric_limits<T>::epsilon();
             EXPECT_LE(length(there_and_back - v), budget) << lobe.name;
-            // A plane through v stays one.
+            // The image of a plane through v is a plane through the image of v.
             const auto n = cross(v, nusselt::Vec3<T>{T(0.3), T(-0.5), T(0.8)});
             const auto image = ltc.normal_to_cosine(n);
             const auto o = ltc.to_cosine(v);
@@ -130,7 +130,7 @@ TYPED_TEST(LtcTest, FramePutsTheEyeIntoTheXzHalfPlane) {
         auto wo = random_direction<T>(engine);
         if (i % 5 == 1) wo = normal;
         if (i % 5 == 2) wo = -normal;
-        // Almost parallel, down to a difference of one rounding.
+        // The eye is almost parallel to the normal, down to a difference of one rounding.
         const T offset = std::pow(T(10), -T(i % 20) / 2);
         if (i % 5 == 3) wo = normalize(normal + offset * wo);
         const auto frame = nusselt::shading_frame(normal, wo);

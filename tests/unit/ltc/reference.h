@@ -1,5 +1,5 @@
 #pragma once
-/// Lobes in long double, by the textbook: the matrix and Lambert's formula for the image of a polygon.
+/// Lobes in long double, by the textbook: the matrix, and Lambert's formula for the image of a polygon.
 
 #include <nusselt/ltc/coefficients.h>
 
@@ -14,12 +14,12 @@ public:
         : rows_{{c.m00, 0, c.m02}, {0, c.m11, 0}, {c.m20, 0, c.m22}} {}
 
     long double determinant() const { return dot(rows_[0], cross(rows_[1], rows_[2])); }
-    /// In cosine space.
+    /// The image of v in cosine space.
     Point image(const Point& v) const { return {dot(rows_[0], v), dot(rows_[1], v), dot(rows_[2], v)}; }
-    /// Directions with a positive product with this one are those with density.
+    /// The normal of the plane that bounds the lobe. The density is positive where the dot product with it is.
     Point horizon() const { return rows_[2]; }
 
-    /// Eq. 1 of Heitz et al. 2016: the clamped cosine times the change of solid angle.
+    /// Eq. 1 of Heitz et al. 2016: the clamped cosine times the Jacobian of the solid angle.
     long double density(const Point& wi) const {
         const Point o = image(wi);
         const long double r = length(o);

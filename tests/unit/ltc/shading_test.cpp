@@ -1,4 +1,4 @@
-/// Analytic shading against quadrature that shares no formula with it.
+/// Compares analytic shading with quadrature, which shares no formula with it.
 
 #include <algorithm>
 #include <limits>
@@ -28,14 +28,14 @@ template <class T>
 class ShadingTest : public ::testing::Test {
 public:
     static constexpr double kBudget = sizeof(T) == 4 ? 1e-5 : 1e-12;
-    /// Relative; below this much of a lobe, absolute.
+    /// Errors are relative above this share of a lobe and absolute below it.
     static constexpr double kFaint = 1e-2;
 
     static void expect_close(T value, long double expected, const std::string& name) {
         const auto scale = std::max(static_cast<double>(expected), kFaint);
         EXPECT_NEAR(static_cast<double>(value), static_cast<double>(expected), kBudget * scale) << name;
     }
-    /// Relative whatever there is.
+    /// Like expect_close, but always relative.
     static void expect_accurate(T value, long double expected, const std::string& name) {
         EXPECT_NEAR(static_cast<double>(value / expected), 1, kBudget) << name;
     }
@@ -166,7 +166,7 @@ TEST(ReferenceIntegralsTest, TubeTendsToItsAxis) {
 TEST(ReferenceIntegralsTest, CapsTendToDisksAtTheEnds) {
     const Ltc<double> ltc = lobe_of_tubes();
     const auto density = [&](const nusselt::Vec3<double>& wi) { return ltc.density(wi); };
-    // One end is seen from outside, the other from behind.
+    // The disk at one end is seen from outside, that at the other end from behind.
     const auto line =
         nusselt::make_line(nusselt::Vec3<double>{0.3, 0.2, 1}, nusselt::Vec3<double>{0.75, 0.4, 3});
     const auto error = [&](double radius) {

@@ -1,4 +1,5 @@
-/// Interpolation in tables of linearly transformed cosines: samples, borders of cells, ends of axes, packs.
+/// Tests of the interpolation in tables of linearly transformed cosines: samples, borders of cells, ends of axes, and
+/// packs.
 
 #include <cmath>
 #include <cstddef>
@@ -24,7 +25,7 @@ using nusselt::Vec3;
 constexpr int kStride = LtcTableView::kStride;
 constexpr int kRoughnesses = 5, kInclinations = 7, kF0s = 4;
 
-/// Random positive entries: no two cells alike. The albedo is linear in f0.
+/// Fills a table with random positive entries, so that no two cells are alike. The albedo is linear in f0.
 class LtcTableTest : public testing::Test {
 protected:
     LtcTableTest() {
@@ -130,7 +131,7 @@ using Packs =
     testing::Types<Pack<float, kNativeLanes<float>>, Pack<double, kNativeLanes<double>>, Pack<float, 16>>;
 TYPED_TEST_SUITE(LtcTablePackTest, Packs);
 
-/// Each lane on its own, arguments beyond the ends and NaN included.
+/// Includes arguments beyond the ends of the axes, and NaN.
 TYPED_TEST(LtcTablePackTest, LanesAgreeWithScalars) {
     using Real = TypeParam;
     using Scalar = scalar_t<Real>;

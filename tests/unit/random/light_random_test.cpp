@@ -1,5 +1,5 @@
-/// The random numbers of a renderer: uniform over pixels, stratified in pixels, independent between
-/// everything that should be, and the same in lanes.
+/// Tests of the random numbers of a renderer: uniform over pixels, stratified in each pixel, independent wherever
+/// they should be, and the same in lanes.
 
 #include <cmath>
 #include <cstddef>
@@ -40,7 +40,7 @@ struct Pixel {
     std::uint32_t x, y;
 };
 
-/// p-value that a function of the pixel is uniform on the unit square, over an image.
+/// p-value of the hypothesis that a function of the pixel is uniform on the unit square, over the pixels of an image.
 double p_value_over_pixels(const std::function<Vec2<double>(Pixel)>& f) {
     CellCounts counts;
     for (std::uint32_t y = 0; y < kWidth; ++y) {
@@ -71,13 +71,13 @@ TEST(LightRandom, EachSampleIsUniformOverPixels) {
 TEST(LightRandom, TestOfUniformityRejectsBias) {
     const double level = sidak_level(kSamplerCount * 5);
     for (const Sampler kind : kSamplers) {
-        // The last 64th of the interval is missing.
+        // Mutant: the last 64th of the interval is missing.
         EXPECT_LT(p_value_over_pixels([&](Pixel p) {
                       const Vec2<double> u = stretched(kind, p, 1);
                       return Vec2<double>{u.x * (63.0 / 64), u.y};
                   }),
                   level);
-        // Denser near 0.
+        // Mutant: the numbers are denser near 0.
         EXPECT_LT(p_value_over_pixels([&](Pixel p) {
                       const Vec2<double> u = stretched(kind, p, 1);
                       return Vec2<double>{u.x, u.y * u.y};
@@ -92,7 +92,7 @@ TEST(CameraRandom, IsUniformOverPixels) {
                   sidak_level(kSamplerCount));
 }
 
-/// Pairs of numbers that must be independent of each other, as functions of the pixel.
+/// A pair of numbers, as a function of the pixel, that must be independent of each other.
 struct NamedPair {
     const char* name;
     std::function<Vec2<double>(Sampler, Pixel)> numbers;
@@ -159,7 +159,7 @@ TEST(LightRandom, NumbersAreIndependentOverPixels) {
 
 TEST(LightRandom, TestOfIndependenceRejectsReuse) {
     for (const Sampler kind : kSamplers) {
-        // One seed for two lights, once with a shift.
+        // Mutants: two lights use the same numbers, once with a shift.
         EXPECT_LT(p_value_over_pixels([&](Pixel p) {
                       return Vec2<double>{x_of(kind, 1, p, 0), x_of(kind, 1, p, 0)};
                   }),
@@ -198,9 +198,9 @@ double statistic_of_padding(const std::function<Vec2<double>(Pixel, std::uint32_
     return sum / kPixels;
 }
 
-// Of each eight consecutive samples, both coordinates have one in each eighth. If their orders are
-// independent, the counts are sums of eight independent random permutation matrices: the expectation is 64 *
-// 7 / 8 = 56.
+// In each block of eight consecutive samples, either coordinate has one sample in each eighth. If their orders are
+// independent, the counts are sums of eight independent random permutation matrices, and the expectation is 64 * 7 /
+// 8 = 56.
 TEST(LightRandom, SobolPairsHaveIndependentOrders) {
     const double statistic = statistic_of_padding([](Pixel p, std::uint32_t k) {
         return Vec2<double>{light_random<double>(Sampler::sobol, 1, p.x, p.y, k, 64, 0).x,
@@ -304,8 +304,8 @@ TEST(LightRandom, StratifiedSamplesHaveIndependentPositionsInTheirStrata) {
     }
 }
 
-// If the orders of two pairs are independent, the counts of 64 samples in 8 x 8 cells are those of a random matching of
-// strata: the variance of each is 64 * (1/8 * 7/8)^2 * 64 / 63, that is 49.8 for all.
+// If the orders of two pairs are independent, the counts of 64 samples in 8 x 8 cells are those of a random matching
+// of strata. The variance of each is 64 * (1/8 * 7/8)^2 * 64 / 63, so the expected statistic of all cells is 49.8.
 TEST(LightRandom, StratifiedPairsHaveIndependentOrders) {
     const double statistic = statistic_of_padding([](Pixel p, std::uint32_t k) {
         return Vec2<double>{light_random<double>(Sampler::stratified, 1, p.x, p.y, k, 64, 0).x,

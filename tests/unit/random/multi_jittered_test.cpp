@@ -1,4 +1,4 @@
-/// Permutations by hashes: each is one, and all are equally likely.
+/// Tests of permutations by hashes: each result is a permutation, and all permutations are equally likely.
 
 #include <cstddef>
 #include <cstdint>
@@ -41,7 +41,7 @@ TEST(Permutation, IsOneForAllSizes) {
     }
 }
 
-/// p-value that all permutations of few numbers are equally likely.
+/// p-value of the hypothesis that all permutations of a few numbers are equally likely.
 double p_value_of_all(std::uint32_t n, std::size_t permutations) {
     constexpr std::uint32_t kKeys = 200000;
     std::map<std::vector<std::uint32_t>, int> counts;
@@ -75,7 +75,7 @@ TEST(Permutation, IndicesGoEverywhere) {
     }
 }
 
-/// p-value that a pair of indices goes to all pairs of different numbers alike.
+/// p-value of the hypothesis that a pair of indices maps to all pairs of different numbers with equal probability.
 double p_value_of_pair(std::uint32_t n, std::uint32_t first, std::uint32_t second) {
     constexpr std::uint32_t kKeys = 400000;
     std::vector<int> counts(n * n);

@@ -1,4 +1,4 @@
-/// Random bits against published values and an independent reference; conversion to the unit interval.
+/// Tests of random bits (published values and an independent reference) and of their conversion to the unit interval.
 
 #include <array>
 #include <cstddef>
@@ -20,8 +20,8 @@ using nusselt::to_unit;
 using nusselt::UInt4;
 using nusselt::uniform_jittered;
 
-/// pcg4d from its description: a linear congruential step, twice a round in which component i gains the
-/// product of two others, a shift in between. In 64-bit integers modulo 2^32.
+/// pcg4d from its description: a linear congruential step, then two rounds in which component i gains the product of
+/// two others, with a shift between the rounds. Uses 64-bit integers modulo 2^32.
 std::array<std::uint64_t, 4> reference_pcg4d(std::array<std::uint64_t, 4> v) {
     constexpr std::uint64_t kModulus = std::uint64_t{1} << 32;
     constexpr std::size_t kFactors[4][2] = {{1, 3}, {2, 0}, {0, 1}, {1, 2}};
@@ -46,7 +46,7 @@ TEST(Pcg4d, EqualsTheReference) {
     }
 }
 
-// All but the highest bit of a word, which no carry can spread: it flips high bits with probability 0.63.
+// Leaves out the highest bit of a word. No carry can spread it, so it flips high bits with probability 0.63.
 TEST(Pcg4d, FlippingABitOfTheKeyFlipsAboutHalfOfTheHighBits) {
     constexpr int kKeys = 4096;
     for (int word = 0; word < 4; ++word) {
@@ -116,7 +116,7 @@ TEST(UniformJittered, HitsEachStratumOnce) {
     }
 }
 
-// This is the reason for the upper bound in uniform_jittered.
+// Shows why uniform_jittered needs its upper bound.
 TEST(UniformJittered, PlainFormulaLeavesTheStratum) {
     const float u = 1 - 0x1p-24f;
     EXPECT_EQ((u + 15.0f) / 16.0f, 1.0f);

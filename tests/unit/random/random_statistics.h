@@ -8,24 +8,24 @@
 
 namespace nusselt::test {
 
-/// Probability that a chi-square variable is at least this large (E. Wilson, M. Hilferty 1931): within 1 % of
-/// the probability for the hundreds of degrees of freedom used here.
+/// Probability that a chi-square variable is at least this large (E. Wilson, M. Hilferty 1931): within 1 % for the
+/// hundreds of degrees of freedom used here.
 inline double chi_square_p_value(double statistic, double degrees) {
     const double variance = 2 / (9 * degrees);
     const double z = (std::cbrt(statistic / degrees) - (1 - variance)) / std::sqrt(variance);
     return std::erfc(z / std::sqrt(2.0)) / 2;
 }
 
-/// Level for each of `tests` independent tests such that all pass with probability 1 - 1e-3 if nothing is
+/// Significance level of each of `tests` independent tests for which all pass with probability 1 - 1e-3 if nothing is
 /// wrong.
 inline double sidak_level(int tests) { return -std::expm1(std::log1p(-1e-3) / tests); }
 
-/// Counts points of the unit square in kCells x kCells cells.
+/// Counts the points of the unit square in each of kCells x kCells cells.
 class CellCounts {
 public:
     static constexpr int kCells = 16;
 
-    /// u and v in [0, 1]; 1 counts as the last cell.
+    /// \param u,v in [0, 1]; 1 belongs to the last cell.
     void add(double u, double v) {
         ++counts_[static_cast<std::size_t>(cell(u) * kCells + cell(v))];
         ++total_;

@@ -1,4 +1,4 @@
-/// Sobol' points against the recurrence of their direction numbers, and the net property before and after
+/// Tests of Sobol' points against the recurrence of their direction numbers, and of the net property before and after
 /// scrambling.
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using nusselt::sobol;
 using nusselt::SobolSeeds;
 using nusselt::UInt2;
 
-/// Whether 2^m points put one into each box of size 2^-i x 2^(i - m), for each i.
+/// Whether 2^m points have exactly one in each box of size 2^-i x 2^(i - m), for each i.
 bool is_net(const std::vector<UInt2>& points, int m) {
     for (int i = 0; i <= m; ++i) {
         std::vector<bool> hit(points.size());
@@ -37,7 +37,7 @@ bool is_net(const std::vector<UInt2>& points, int m) {
     return true;
 }
 
-/// Name of the first aligned block of up to 1024 points that is no net, among those below 4096 and a few
+/// Name of the first aligned block of up to 1024 points that is not a net, among the blocks below 4096 and a few
 /// others.
 template <class Sequence>
 std::string first_block_without_net(Sequence point) {
@@ -107,7 +107,7 @@ TEST(Sobol, TestOfNetsRejectsOthers) {
     };
     EXPECT_NE(first_block_without_net(independent), "");
     EXPECT_NE(first_block_without_net([](std::uint32_t k) { return UInt2{sobol(k).x, sobol(k).x}; }), "");
-    // A scrambling whose decisions depend on lower bits.
+    // Mutant: a scrambling whose decisions depend on lower bits.
     EXPECT_NE(first_block_without_net([](std::uint32_t k) {
                   const UInt2 p = sobol(k);
                   return UInt2{p.x, p.y * 0x2c1b3c6du + 0x297a2d39u};
@@ -127,7 +127,7 @@ TEST(OwenScramble, IsTheScrambleInsideTheSequence) {
     }
 }
 
-// Nested: numbers that agree in their first bits still do so, in as many.
+// The scrambling is nested: numbers that share their first bits share exactly as many after it.
 TEST(OwenScramble, KeepsTheLengthOfCommonPrefixes) {
     Pcg32 generator(7);
     for (int i = 0; i < 20000; ++i) {
@@ -141,7 +141,7 @@ TEST(OwenScramble, KeepsTheLengthOfCommonPrefixes) {
     }
 }
 
-// Each of the 15 swaps of the first four levels happens for half of the seeds, independently of each other.
+// Each of the 15 swaps in the first four levels happens for half of the seeds, independently of the others.
 TEST(OwenScramble, SwapsAreFairAndIndependent) {
     constexpr int kSeeds = 20000;
     constexpr int kSwaps = 15;
@@ -151,7 +151,7 @@ TEST(OwenScramble, SwapsAreFairAndIndependent) {
         const std::uint32_t seed = generator();
         bool swapped[kSwaps];
         for (int node = 1; node <= kSwaps; ++node) {
-            // Node numbers have a leading one before the path from the root.
+            // The bits of a node's number are a leading one and the path from the root.
             const int level = node >= 8 ? 3 : node >= 4 ? 2 : node >= 2 ? 1 : 0;
             const std::uint32_t path = static_cast<std::uint32_t>(node) - (1u << level);
             const std::uint32_t x = level > 0 ? path << (32 - level) : 0u;

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether samples hit their light, and whether a light that gives none is to blame, in long double.
+/// Checks in long double whether samples hit their light, and whether a light without samples is truly invisible.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace nusselt_test {
 
-/// The light with the same vertices, with its edges and normal in long double.
+/// The light with the same vertices, but with edges and normal computed in long double.
 template <class T, int N>
 nusselt::ConvexPolygon<long double, N> widened(const nusselt::ConvexPolygon<T, N>& light) {
     Point vertices[N];
@@ -61,8 +61,8 @@ inline long double miss(const Point& a, const Point& b, const Point& c, const Po
     return farthest;
 }
 
-/// Angle by which a direction misses a light [rad], at most 0 inside. The triangle of the fan that it is closest to
-/// counts: rounding of vertices may dent a polygon, so that it is not exactly convex.
+/// Angle by which a direction misses a light [rad], at most 0 inside. It refers to the closest triangle of the fan,
+/// because rounded vertices may dent a polygon so that it is not exactly convex.
 template <class T, int N>
 long double miss(const nusselt::ConvexPolygon<T, N>& light, const Point& wi) {
     const auto wide = widened(light);
@@ -81,7 +81,7 @@ long double miss(const nusselt::LineSegment<T>& light, const Point& wi) {
         {std::fabs(dot(n, wi)), -dot(cross(n, normalize(begin)), wi), -dot(cross(normalize(end), n), wi)});
 }
 
-/// For cylinders the angle under which the width appears that must be added on all sides for a hit, up to a factor of 2.
+/// For cylinders, the angle subtended by the margin that must be added on all sides for a hit, up to a factor of 2.
 template <class T>
 long double miss(const nusselt::Cylinder<T>& light, const Point& wi) {
     const auto wide = widened(light);
@@ -100,8 +100,8 @@ inline long double carrier_distance(const nusselt::LineSegment<long double>& wid
     return length(cross(wide.p0, wide.s));
 }
 
-/// The smallest length that rounding of the vertices must not change, relative to the extent of a light: the distance
-/// of its plane or line and, for polygons, their width. Rounding errors are magnified by its reciprocal.
+/// The smallest length, relative to the extent of a light, to which rounding of the vertices matters: the distance of
+/// its plane or line and, for polygons, their width. Its reciprocal magnifies rounding errors.
 template <int N>
 long double sturdiness(const nusselt::ConvexPolygon<long double, N>& wide, long double extent) {
     const long double width = length(doubled_area_normal(wide)) / (extent * extent);
@@ -110,8 +110,9 @@ long double sturdiness(const nusselt::ConvexPolygon<long double, N>& wide, long 
 inline long double sturdiness(const nusselt::LineSegment<long double>& wide, long double extent) {
     return std::min(carrier_distance(wide) / extent, 1.0L);
 }
-/// For cylinders the distance of the infinite mantle and of the surface, and its sizes. Before a cap and next to the
-/// infinite mantle, half of the half-planes around the point see next to nothing.
+/// For cylinders, the distances of the lateral surface, continued to infinity, and of the closed surface, and the
+/// length and the radius. In front of a cap and next to the continued surface, half of the half-planes around the
+/// point see next to nothing.
 inline long double sturdiness(const nusselt::Cylinder<long double>& wide, long double extent) {
     const long double begin = dot(wide.axis.p0, wide.axis.s);
     const long double outside = carrier_distance(wide.axis) - wide.radius;
@@ -120,7 +121,7 @@ inline long double sturdiness(const nusselt::Cylinder<long double>& wide, long d
         {std::fabs(outside) / extent, gap / extent, wide.axis.length / extent, wide.radius / extent, 1.0L});
 }
 
-/// How large a light appears to a technique, without unit: the measure, for lines times their distance.
+/// How large a light appears to a technique, without a unit: its measure, multiplied by the distance for lines.
 template <class Kind, class WideLight>
 long double apparent_size(const WideLight& wide) {
     if constexpr (kIsCylinder<Kind>) {
@@ -135,8 +136,8 @@ long double apparent_size(const WideLight& wide) {
     }
 }
 
-/// Whether a random number is off the ends, where the light may meet the horizon: the density is 0 there, and directions
-/// are as uncertain as for a light that is edge-on.
+/// Whether a random number is away from the ends of its range. There, the light may meet the horizon: the density is
+/// 0, and directions are as uncertain as for a light seen edge-on.
 template <class T>
 bool is_inner(T u) {
     return u > T(0.01) && u < T(0.99);
@@ -146,34 +147,37 @@ bool is_inner(const nusselt::Vec2<T>& u) {
     return is_inner(u.x) && is_inner(u.y);
 }
 
-/// What is wrong with a sample of a light that is visible to any precision; empty if nothing is, or if the light is
-/// not of that kind.
+/// What is wrong with a sample of a light that is visible in every precision; empty if nothing is wrong or the light
+/// is not so clearly visible.
 template <class Kind, class T, class Light, class Random>
 std::string aim_violation(const Light& light, const Random& u, const nusselt::LightSample<T>& sample) {
     constexpr long double kEpsilon = std::numeric_limits<T>::epsilon();
-    // Fourth powers of lengths must fit into float; without unit from here on.
+    // Fourth powers of lengths must fit into float. The lengths that follow are relative to the extent.
     const long double extent = Bounds(light).extent;
     if (!(extent > 1e-9L && extent < 1e9L)) return "";
     const auto wide = widened(light);
     const long double sturdy = sturdiness(wide, extent);
-    // Thinner or closer to edge-on, the effect of rounding is not proportional to it any more.
+    // The effect of rounding is no longer proportional to it for lights that are thinner or closer to edge-on.
     if (!(sturdy > 1e-3L) || !(apparent_size<Kind>(wide) > 1e-3L)) return "";
     if (!is_inner(u)) return "";
-    // Where denormals are flushed, also after scaling the light to coordinates of order one, it lies in the horizon.
+    // A light whose heights are denormal, possibly after scaling its coordinates to order one, lies in the horizon if
+    // denormals are flushed.
     const long double smallest = 2 * std::max(extent, 1.0L) * std::numeric_limits<T>::min();
     if (Kind::kHorizon == Horizon::clipped && !(Bounds(light).high.z >= smallest)) return "";
-    // Samples of the area of a closed surface are no samples where it faces away.
+    // Area sampling of a closed surface gives no sample where the surface faces away.
     constexpr bool kFacesAway = kIsCylinder<Kind> && Kind::kMeasure == Measure::area;
     if (!(sample.pdf > 0)) return kFacesAway ? "" : "no sample of a visible light";
 
-    // Rounding of the vertices tilts the plane of the light by an angle of this order. The largest errors found in 6e4
-    // lights are 12 times that for the direction, 8 times the rounding error for hit points that come from weights.
+    // Rounding of the vertices tilts the plane of the light by an angle of this order. Among 6e4 lights, the largest
+    // errors are 12 times that angle for directions and 8 times the rounding error for hit points that come from
+    // weights.
     const long double tilt = std::max(kEpsilon, static_cast<long double>(kAngleError<Kind>)) / sturdy;
     constexpr long double kFactor = 32;
     const Point wi = nusselt::broadcast<long double>(sample.wi);
     const Point p = nusselt::broadcast<long double>(sample.p);
     if (Kind::kMeasure != Measure::area && !(miss(light, wi) <= kFactor * tilt)) return "wi misses the light";
-    // Where a ray meets the plane at an angle of the order of `sturdy`, the point errs by more than the direction.
+    // Where a ray meets the plane at an angle of the order of `sturdy`, the error of the point exceeds that of the
+    // direction.
     constexpr bool kMeetsPlane =
         kIsPolygon<Kind> && (Kind::kMeasure == Measure::projected_solid_angle || kHasLobe<Kind>);
     const long double offset = kFactor * (kMeetsPlane ? tilt / sturdy : kEpsilon) * extent;

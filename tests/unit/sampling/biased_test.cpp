@@ -1,4 +1,5 @@
-/// The biased variants of projected solid angle sampling and of sampling of lobes: as wrong as documented, and not more.
+/// Tests of the biased variants of projected solid angle sampling and lobe sampling: their errors are within the
+/// documented bounds.
 
 #include <algorithm>
 #include <cmath>
@@ -28,10 +29,11 @@ nusselt::ConvexPolygon<double, 4> random_quad(RandomSource& random) {
     return nusselt::make_polygon<4>(v, 4);
 }
 
-/// Five arctangents and as many differences of them.
+/// The errors of five arctangents and of as many differences of them.
 constexpr double kErrorOfMeasure = 10 * 1.3e-5;
 
-/// How far a biased technique misses the random numbers of its samples, for one sample of many lights each.
+/// Checks by how much a biased technique misses the random numbers of its samples, with one sample for each of many
+/// lights.
 /// \param next gives pairs of the exact and the biased technique for the same random light.
 /// \param unit of measures, projected solid angle in cosine space.
 template <class Next>
@@ -49,7 +51,7 @@ void expect_documented_errors(const Next& next, double unit) {
     std::sort(errors.begin(), errors.end());
     EXPECT_LE(errors.back(), 0.28);
     EXPECT_LE(errors[errors.size() * 99 / 100], 0.1);
-    // Nothing would be gained by the variant if it were exact.
+    // If the variant were exact, the technique under test would not be the biased one.
     EXPECT_GE(errors[errors.size() / 2], 1e-6);
 }
 
@@ -76,7 +78,8 @@ TEST(BiasedTest, ErrorOfLobesIsSmallButThere) {
     }
 }
 
-/// The density is that of the lobe, up to the arctangents in its normalisation: samples are biased, weights are not.
+/// The density is that of the lobe, up to the errors of the arctangents in its normalisation. Samples are biased,
+/// weights are not.
 TEST(BiasedTest, DensityOfLobesIsAlmostExact) {
     RandomSource random(2);
     for (const auto& light : with_lobes(polygon_cases())) {
@@ -99,7 +102,8 @@ TEST(BiasedTest, CentralCaseIsAlmostExact) {
     const nusselt::PolygonProjectedSolidAngle<double, 4> exact(light);
     const nusselt::PolygonProjectedSolidAngleBiased<double, 4> biased(light);
     for (const auto& u : midpoints<PolygonAreaKind, double>(10)) {
-        // An azimuth from up to five arctangents that err by 1.3e-5, and a few steps of interpolation: three times that.
+        // The azimuth comes from up to five arctangents with errors of 1.3e-5, and from a few steps of interpolation.
+        // The budget is three times that.
         EXPECT_LE(length(exact.sample(u).wi - biased.sample(u).wi), 2e-4);
     }
 }

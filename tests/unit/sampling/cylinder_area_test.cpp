@@ -39,7 +39,8 @@ TEST(CylinderArea, EstimatesSolidAngles) {
     for (const CylinderCase& light : cylinder_cases()) {
         const auto cylinder = make_light<double>(light);
         const Technique technique(cylinder);
-        // A lattice, since the edges of the caps cut through any grid. It leaves errors of up to 6e-4.
+        // A lattice is better than a grid, because the edges of the caps cut through the cells. It leaves errors of
+        // up to 6e-4.
         constexpr int kCount = 1 << 20;
         double solid_angle = 0, projected = 0;
         for (int i = 0; i < kCount; ++i) {
@@ -64,7 +65,7 @@ TEST(CylinderArea, DensityAndRandomNumbersOfADirectionAreThoseOfTheSample) {
         for (int i = 0; i < 64; ++i) {
             for (int j = 0; j < 64; ++j) {
                 const auto s = technique.sample({(i + 0.5) / 64, (j + 0.5) / 64});
-                // Directions that graze the silhouette meet the cylinder anywhere along them.
+                // Where a direction grazes the silhouette, its hit point is uncertain.
                 if (!(s.pdf > 0 && s.pdf < 1e6)) continue;
                 EXPECT_NEAR(technique.pdf(s.wi) / s.pdf, 1, 1e-6) << light.name;
                 const auto u = technique.invert(s.wi);

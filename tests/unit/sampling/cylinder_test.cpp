@@ -1,4 +1,5 @@
-/// Cylinders of finite radius: integrals, densities and the limit of a thin cylinder, against quadrature over the surface.
+/// Tests of cylinders of finite radius: integrals and densities against quadrature over the surface, and the limit of
+/// a thin cylinder.
 
 #include <nusselt/related/cylinder_rejection_gamito.h>
 
@@ -20,12 +21,12 @@ class CylinderTest : public ::testing::Test {};
 using Kinds = ::testing::Types<CylinderSolidAngleKind, CylinderProjectedSolidAngleKind, CylinderLtcKind>;
 TYPED_TEST_SUITE(CylinderTest, Kinds);
 
-/// Of each part of the surface, relative to the integral.
+/// Error for each part of the surface, relative to the integral.
 constexpr long double kQuadratureTolerance = 2e-6L;
 /// Relative error of estimates and integrals.
 constexpr long double kBudget = 1e-4L;
 
-/// What the samples of a technique shall be almost proportional to.
+/// The function to which the density of a technique should be almost proportional.
 template <class Kind, class Light>
 auto importance(const Light& light) {
     if constexpr (Kind::kMeasure == Measure::lobe) {
@@ -42,7 +43,7 @@ struct Estimate {
     long double mean, deviation;
 };
 
-/// The weight hardly depends on u.y: many nodes in u.x.
+/// The weight hardly depends on u.y, so most nodes are in u.x.
 template <class Technique, class Function>
 Estimate estimate(const Technique& technique, const Function& f) {
     constexpr int kAround = 8192;
@@ -63,13 +64,13 @@ Estimate estimate(const Technique& technique, const Function& f) {
     return {mean, std::sqrt(std::max(squares / kCount / (mean * mean) - 1, 0.0L))};
 }
 
-/// What the weights deviate by, relative to their mean. Before a cap, the integral over a half-plane can fall from its
-/// largest value to nearly nothing within a small turn: the largest deviations are 0.48 and 0.29, next to less than 0.1
-/// for all lights that are seen from the side.
+/// Bound on the standard deviation of the weights relative to their mean. In front of a cap, the integral over a
+/// half-plane can fall from its largest value to nearly nothing within a small turn, with deviations of 0.48 and 0.29
+/// at most. They are below 0.1 for all lights that are seen from the side.
 template <class Kind>
 constexpr long double kDeviationBudget = kHasLobe<Kind> ? 0.55L : 0.35L;
 
-/// Errors of the interpolant: 0.075 at most without a lobe, 0.22 with one.
+/// Errors of the interpolant are at most 0.075 without a lobe and 0.22 with one.
 template <class Kind>
 constexpr double kMeasureBudget = kHasLobe<Kind> ? 0.3 : 0.1;
 
@@ -103,7 +104,7 @@ TYPED_TEST(CylinderTest, DensityIsTheReciprocalOfTheJacobian) {
         const typename TypeParam::template Technique<double> technique(light_for<TypeParam, double>(light));
         const auto wi = [&](double x, double y) { return technique.sample({x, y}).wi; };
         for (const auto& u : midpoints<TypeParam, double>(8)) {
-            // Differences err by about 1000 h^2 (third derivatives) and by rounding over h.
+            // The differences have errors of about 1000 h^2 (third derivatives) plus rounding over h.
             constexpr double kStep = 1e-5;
             const auto by_x = wi(u.x + kStep, u.y) - wi(u.x - kStep, u.y);
             const auto by_y = wi(u.x, u.y + kStep) - wi(u.x, u.y - kStep);
@@ -113,7 +114,7 @@ TYPED_TEST(CylinderTest, DensityIsTheReciprocalOfTheJacobian) {
     }
 }
 
-/// Where rounding decides on which side of the horizon, or of the mantle, something is.
+/// For lights where rounding decides which side of the horizon, or of the lateral surface, something is on.
 template <class T>
 void expect_projected_solid_angle(const CylinderCase& light) {
     const auto cylinder = make_light<T>(light);
@@ -152,10 +153,10 @@ TEST(CylinderProjectedSolidAngleTest, LightsAboveAtADistanceOfTheRadiusAreSeen) 
     }
 }
 
-/// Inside the closed cylinder, on its mantle, and without length or radius.
+/// A cylinder is dark for points inside it or on its lateral surface, and if its length or radius is zero.
 TYPED_TEST(CylinderTest, IsDarkWithoutAnOutside) {
     const std::vector<CylinderCase> dark = {{"inside", {-1, 0.1, 0.1}, {1, 0.1, 0.1}, 0.5},
-                                            {"on the mantle", {-1, 0, 0.5}, {1, 0, 0.5}, 0.5},
+                                            {"on the side", {-1, 0, 0.5}, {1, 0, 0.5}, 0.5},
                                             {"no radius", {-1, 0.5, 1}, {1, 0.5, 1}, 0},
                                             {"no length", {1, 0.5, 1}, {1, 0.5, 1}, 0.25}};
     for (const CylinderCase& cylinder : dark) {
@@ -169,7 +170,7 @@ TYPED_TEST(CylinderTest, IsDarkWithoutAnOutside) {
     }
 }
 
-/// The technique for linear lights that a thin cylinder tends to.
+/// The technique for linear lights to which that for a thin cylinder tends.
 template <class Kind>
 using LineKindOf = std::conditional_t<Kind::kMeasure == Measure::lobe, LineLtcKind,
                                       std::conditional_t<Kind::kMeasure == Measure::solid_angle,
@@ -196,7 +197,7 @@ TYPED_TEST(CylinderTest, TendsToTheLinearLight) {
     }
 }
 
-/// Rays in all directions: those within the outline of the cylinder hit it, at the first point of its surface.
+/// Among rays in all directions, those within the outline of the cylinder hit it, at the first point of its surface.
 TEST(CylinderIntersectionTest, AgreesWithSlabsAndQuadratics) {
     for (const CylinderCase& light : cylinder_cases()) {
         const auto cylinder = make_light<double>(light);
@@ -212,7 +213,8 @@ TEST(CylinderIntersectionTest, AgreesWithSlabsAndQuadratics) {
                     nusselt::Vec3<double>{uniform(random), uniform(random), uniform(random)};
             const auto wi = normalize(target);
             const Point w = nusselt::broadcast<long double>(wi);
-            // Where |r w + begin| across the axis is the radius, and where the ray passes the planes of the caps.
+            // The distances r at which the part of r w + begin across the axis is as long as the radius, and those at
+            // which the ray passes the planes of the caps.
             const Point across = w - dot(w, s) * s;
             const Point begin = wide.begin - dot(wide.begin, s) * s;
             const long double a = dot(across, across);
@@ -250,7 +252,7 @@ TEST(CylinderRejectionTest, EstimatesTheSolidAngleWithMisses) {
             sum += 1 / sample.pdf;
             EXPECT_EQ(sample.pdf, technique.pdf(sample.wi));
         }
-        // The midpoint rule on a discontinuous function.
+        // The tolerance allows for the midpoint rule on a discontinuous function.
         EXPECT_NEAR(sum / (kCount * kCount) / expected, 1, 2e-3) << light.name;
         EXPECT_GE(technique.measure(), expected) << light.name;
     }

@@ -1,5 +1,5 @@
-/// The density of a technique against the Jacobian of its map, and its integrals against references that share no formula
-/// with the library: quadrature for lines, Girard's and Lambert's formulas for polygons.
+/// Compares the density of a technique with the Jacobian of its map, and its integrals with references that share no
+/// formula with the library: quadrature for lines, Girard's and Lambert's formulas for polygons.
 
 #include <cmath>
 #include <tuple>
@@ -16,11 +16,12 @@ namespace {
 template <class Test>
 class DensityTest : public ::testing::Test {};
 
-/// As techniques.json names the suite.
+/// The name of the suite in techniques.json.
 struct DensitySuite {
     static constexpr std::string_view kName = "density";
 };
-/// Lobes and many vertices share their code with what is tested in long double, too.
+/// Polygons with many vertices and cylinders are tested on lobes in double only, because they share their code with
+/// the techniques that are also tested in long double.
 using Types = decltype(detail::types_of(
     detail::instances_of<double, long double>(
         TestedBy<DensitySuite, PolygonKinds<4>, PolygonKinds<8>, RectangleKinds, PolygonOnLobeKinds<4>,
@@ -28,23 +29,25 @@ using Types = decltype(detail::types_of(
     detail::instances_of<double>(TestedBy<DensitySuite, PolygonOnLobeKinds<8>, CylinderOnLobeKinds>())));
 TYPED_TEST_SUITE(DensityTest, Types, InstanceNames);
 
-/// Rounding of 64 terms in double; 1.5e-15 is the largest error.
+/// Rounding of 64 terms in double. The largest error is 1.5e-15.
 constexpr double kProjectedBudget = 1e-14;
-/// The midpoint rule converges like 1 / count^2, like 1 / count^1.5 where it meets the root at u.y = 0 and like 1 / count
-/// where the integrand has a kink on the horizon. The largest error on the coarse grid is 0.052, that of uniform area
-/// sampling of the light that is large and close; on the fine one it halves at least, until it is negligible.
+/// The midpoint rule converges like 1 / count^2, like 1 / count^1.5 at the root at u.y = 0, and like 1 / count where
+/// the integrand has a kink on the horizon. On the coarse grid, the largest error is 0.052, for uniform area sampling
+/// of the light that is large and close. The fine grid at least halves each error until it is negligible.
 constexpr double kCoarseBudget = 0.1;
 constexpr double kFineBudget = 1e-4;
-/// The integrand is constant for solid angle techniques: rounding of 25600 terms, 7e-13 at most. Uniform area sampling
-/// reaches 2.1e-4 and projected solid angle sampling, where the light is large and close, 7.1e-3.
+/// For solid angle techniques, the integrand is constant and the error is the rounding of 25600 terms, 7e-13 at most.
+/// Uniform area sampling reaches 2.1e-4 and projected solid angle sampling 7.1e-3, for the light that is large and
+/// close.
 template <class Kind>
 constexpr double kSolidAngleBudget = Kind::kMeasure == Measure::solid_angle ? 2e-12
                                      : Kind::kMeasure == Measure::area      ? 5e-4
                                                                             : 1.5e-2;
-/// Girard's formula in long double loses up to 3e-15 of the smallest light; everything else errs by 5e-16 in double.
+/// Girard's formula in long double has a relative error of up to 3e-15 for the smallest light. All other errors are
+/// below 5e-16 in double.
 constexpr double kMeasureBudget = 1e-14;
 
-/// Solid angle per du (polygons), or solid angle per du and radius (lines), at u by central differences.
+/// Solid angle per du (polygons), or solid angle per du and radius (lines), at u, by central differences.
 template <class Technique, class T, int N>
 T jacobian(const Technique& technique, const nusselt::ConvexPolygon<T, N>&, const nusselt::Vec2<T>& u, T h) {
     const auto wi = [&](T x, T y) { return technique.sample({x, y}).wi; };
@@ -54,8 +57,8 @@ T jacobian(const Technique& technique, const nusselt::ConvexPolygon<T, N>&, cons
 }
 template <class Technique, class T>
 T jacobian(const Technique& technique, const nusselt::LineSegment<T>& line, T u, T h) {
-    // A thin cylinder of radius R at distance r subtends 2 R / r across; with the distance of the axis,
-    // 1 / r = cos(alpha) / distance.
+    // A thin cylinder of radius R at distance r subtends 2 R / r across; if the axis is at a given distance, 1 / r =
+    // cos(alpha) / distance.
     const T angle = length(technique.sample(u + h).wi - technique.sample(u - h).wi);
     const T distance = length(cross(line.p0, line.s));
     const T cosine = length(cross(technique.sample(u).wi, line.s));
@@ -65,8 +68,8 @@ T jacobian(const Technique& technique, const nusselt::LineSegment<T>& line, T u,
 TYPED_TEST(DensityTest, IsTheReciprocalOfTheJacobian) {
     using T = typename TypeParam::Real;
     using Kind = typename TypeParam::Kind;
-    // Differences err by about 1000 h^2 (third derivatives) and by rounding over h, which the small light of
-    // the list amplifies a hundred times.
+    // The differences have errors of about 1000 h^2 (third derivatives) plus rounding over h, which the small light
+    // of the list amplifies a hundred times.
     constexpr T kStep = sizeof(T) > sizeof(double) ? T(5e-7) : T(2e-5);
     constexpr T kTolerance = sizeof(T) > sizeof(double) ? T(2e-9) : T(2e-6);
     for (const auto& light : cases<Kind>()) {
@@ -79,7 +82,7 @@ TYPED_TEST(DensityTest, IsTheReciprocalOfTheJacobian) {
     }
 }
 
-/// What the samples of a technique shall be proportional to: the lobe, or else the cosine.
+/// The function to which the density of a technique should be proportional: the lobe, or else the cosine.
 template <class Kind, class Light>
 auto importance(const Light& light) {
     if constexpr (kHasLobe<Kind>) {
@@ -97,7 +100,7 @@ long double reference_area(const Segment& line) { return length(line.end - line.
 
 long double reference_solid_angle(const Polygon& polygon) { return girard(polygon); }
 /// Integral of f(wi) over the solid angle per radius: a thin cylinder of radius R is 2 R sin(angle to the axis) wide.
-/// Panels are so short that the integrand is smooth on each, also where a long light is close.
+/// The panels are short enough for a smooth integrand on each, even where a long light is close.
 template <class Integrand>
 long double integrate_directions(const Segment& line, const Integrand& f) {
     constexpr int kPanels = 64;
@@ -118,7 +121,7 @@ long double reference_solid_angle(const Segment& line) {
     return integrate_directions(line, [](const Point&) { return 1.0L; });
 }
 
-/// The integral of a function squared over the solid angle.
+/// The integral of the square of a function over the solid angle.
 template <class Function>
 long double reference_square(const Polygon& polygon, const Function& f) {
     return integrate_solid_angle(
@@ -166,7 +169,7 @@ TYPED_TEST(DensityTest, EstimatesImportance) {
             return std::fabs(estimate<Kind>(technique, count, importance<Kind>(local)) / expected - 1);
         };
         if (Kind::kMeasure == Measure::projected_solid_angle || kHasLobe<Kind>) {
-            // The estimate has no variance: rounding only.
+            // The estimate has no variance, so the error is rounding only.
             EXPECT_LE(error(8), kProjectedBudget) << light.name;
             continue;
         }
@@ -186,8 +189,9 @@ TYPED_TEST(DensityTest, EstimatesSolidAngle) {
         const typename TypeParam::Technique technique(local);
         const auto part = lit_part<Kind>(local);
         if constexpr (Kind::kMeasure == Measure::projected_solid_angle || kHasLobe<Kind>) {
-            // The density vanishes on the horizon, so that the variance of this estimate does not exist. The solid
-            // angle weighted by the squared cosine or lobe exists, and is as independent of the technique.
+            // The density vanishes on the horizon, so an estimate of the solid angle has no finite variance. That of
+            // the integral of the squared cosine or lobe has, and this integral does not depend on the technique
+            // either.
             const auto f = importance<Kind>(local);
             const long double expected = reference_square(part, f);
             const auto squared = [&](const Point& wi) { return f(wi) * f(wi); };

@@ -17,7 +17,7 @@ inline void set_floating_point_mode(unsigned mode) { _mm_setcsr(mode); }
 inline constexpr unsigned kFlushDenormals = 0x8040u;
 #endif
 
-/// Denormals as inputs and results count as zero, as in programs that link Embree.
+/// Makes denormal inputs and results count as zero, as in programs that link Embree.
 class FlushDenormalsToZero {
 public:
     FlushDenormalsToZero() : before_(floating_point_mode()) {

@@ -1,4 +1,4 @@
-/// Cylinders, all techniques, on hostile lights.
+/// All techniques for cylinders on hostile lights.
 
 #include "hostile_test.h"
 

@@ -1,4 +1,4 @@
-/// Lines, all techniques, on hostile lights.
+/// All techniques for lines on hostile lights.
 
 #include "hostile_test.h"
 

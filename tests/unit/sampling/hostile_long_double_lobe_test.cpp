@@ -1,4 +1,4 @@
-/// Lobes, lines and cylinders, all techniques in long double, on hostile lights.
+/// All techniques for lobes, lines and cylinders on hostile lights, in long double.
 
 #include "hostile_test.h"
 

@@ -1,4 +1,4 @@
-/// Polygons, all techniques in long double, on hostile lights.
+/// All techniques for polygons on hostile lights, in long double.
 
 #include "hostile_test.h"
 

@@ -1,4 +1,4 @@
-/// Polygons on lobes, all techniques, on hostile lights.
+/// All techniques for polygons and lobes on hostile lights.
 
 #include "hostile_test.h"
 

@@ -1,4 +1,4 @@
-/// Polygons with many vertices, all techniques, on hostile lights.
+/// All techniques for polygons with many vertices on hostile lights.
 
 #include "hostile_test.h"
 

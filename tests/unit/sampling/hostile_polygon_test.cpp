@@ -1,4 +1,4 @@
-/// Polygons with few vertices, all techniques, on hostile lights.
+/// All techniques for polygons with few vertices on hostile lights.
 
 #include "hostile_test.h"
 

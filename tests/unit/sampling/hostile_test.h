@@ -1,5 +1,6 @@
 #pragma once
-/// The contract of techniques on many hostile lights. Each kind of light has a file that instantiates the suite.
+/// Tests the contract of techniques on many hostile lights. Each kind of light has a file that instantiates the
+/// suite.
 
 #include <cstdint>
 #include <string>
@@ -44,7 +45,7 @@ void expect_contract(std::uint64_t seed, int configurations) {
             lit += out.sample.pdf > 0;
             const char* broken_rule = violation<typename Test::Kind, T>(light[i], out);
             std::string problem = broken_rule != nullptr ? broken_rule : "";
-            // Long double is slow: one lane of each pack.
+            // Long double is slow, so this checks one lane of each pack.
             if (problem.empty() && i == done / Test::kLanes % Test::kLanes) {
                 problem = aim_violation<typename Test::Kind>(light[i], single_u[i], out.sample);
             }
@@ -57,11 +58,12 @@ void expect_contract(std::uint64_t seed, int configurations) {
                           << " measure: " << hexadecimal<T>(out.measure);
         }
     }
-    // The generator is of no use if most lights are degenerate.
+    // The generator would be useless if most lights were degenerate.
     EXPECT_GT(lit, configurations / 5);
 }
 
-/// Fewer configurations of polygons with many vertices, which share their code with quadrilaterals and are slower.
+/// Polygons with many vertices are slower and share their code with quadrilaterals, so they have fewer
+/// configurations.
 template <class Kind>
 constexpr int kShare = [] {
     if constexpr (kIsPolygon<Kind>) return Kind::kVertices > 4 ? 10 : 1;
@@ -81,22 +83,22 @@ TYPED_TEST_P(HostileTest, NeverFails) {
 
 TYPED_TEST_P(HostileTest, NeverFailsWithDenormalsFlushed) {
     const FlushDenormalsToZero flush;
-    // The x87 unit of long double does not know this mode.
+    // The x87 unit, which computes long double, does not have this mode.
     constexpr int kConfigurations = sizeof(typename TypeParam::Scalar) <= 8 ? 100'000 : 10'000;
     expect_contract<TypeParam>(2, kConfigurations / kShare<typename TypeParam::Kind>);
 }
 
 REGISTER_TYPED_TEST_SUITE_P(HostileTest, NeverFails, NeverFailsWithDenormalsFlushed);
 
-/// As techniques.json names the suite.
+/// The name of the suite in techniques.json.
 struct ContractSuite {
     static constexpr std::string_view kName = "contract";
 };
-/// The packs in which the techniques of lists are run, for INSTANTIATE_TYPED_TEST_SUITE_P.
+/// The techniques of the lists in packs of each precision, for INSTANTIATE_TYPED_TEST_SUITE_P.
 template <class... Lists>
 using HostileTypes = Instances<TestedBy<ContractSuite, Lists...>, NativeFloat, NativeDouble>;
 
-/// Likewise, without packs.
+/// The same techniques in long double, without packs.
 template <class... Lists>
 using HostileLongDouble = Instances<TestedBy<ContractSuite, Lists...>, long double>;
 

@@ -1,4 +1,4 @@
-/// What must not change the result: the winding, unused vertex slots, the unit of length.
+/// Tests that the winding, unused vertex slots and the unit of length do not change the result.
 
 #include <algorithm>
 #include <cmath>
@@ -70,8 +70,8 @@ TYPED_TEST(InvarianceTest, UnusedSlotsChangeNothing) {
         expect_same_with_unused_slots<nusselt::PolygonSolidAngle, T>(light, u);
         expect_same_with_unused_slots<nusselt::PolygonClippedSolidAngle, T>(light, u);
     }
-    // The sorting networks may order vertices differently whose azimuths are equal up to rounding, as those
-    // of some hostile lights.
+    // Hostile lights are left out here: where azimuths are equal up to rounding, the sorting networks may order
+    // vertices differently.
     for (const PolygonCase& light : polygon_cases()) {
         for (const auto& u : midpoints<PolygonAreaKind, T>(5)) {
             expect_same_with_unused_slots<ProjectedSolidAngle, T>(make_light<T>(light), u);
@@ -80,7 +80,8 @@ TYPED_TEST(InvarianceTest, UnusedSlotsChangeNothing) {
 }
 
 TYPED_TEST(InvarianceTest, EightVertices) {
-    // A regular octagon at height 1 with circumradius 1: eight times the triangle under one edge.
+    // The measure of a regular octagon at height 1 with circumradius 1 is eight times that of the triangle under one
+    // edge.
     using T = TypeParam;
     nusselt::Vec3<T> vertices[8] = {};
     for (int j = 0; j < 8; ++j) {
@@ -108,7 +109,7 @@ nusselt::LineSegment<T> rescaled(const nusselt::LineSegment<T>& line, T scale) {
     return {scale * line.p0, line.s, scale * line.length};
 }
 
-/// \param measure_scale what the measure is multiplied by if lengths are multiplied by `scale`.
+/// \param measure_scale factor of the measure if lengths are multiplied by `scale`.
 template <class Technique, class Light, class Random, class T>
 void expect_scaled(const Light& light, const Random& u, T scale, T measure_scale, T pdf_scale) {
     const Technique one(light);
@@ -153,7 +154,7 @@ TYPED_TEST(InvarianceTest, RotationAboutTheNormalKeepsMeasures) {
         for (auto& v : turned.vertices) v = {0.6 * v.x - 0.8 * v.y, 0.8 * v.x + 0.6 * v.y, v.z};
         const T one = nusselt::PolygonProjectedSolidAngle<T, 4>(make_light<T>(light)).measure();
         const T other = nusselt::PolygonProjectedSolidAngle<T, 4>(make_light<T>(turned)).measure();
-        // The rotation itself is done in double.
+        // The rotation itself is computed in double.
         const T tolerance = 4000 * std::max(std::numeric_limits<T>::epsilon(),
                                             static_cast<T>(std::numeric_limits<double>::epsilon()));
         EXPECT_NEAR(one / other, 1, tolerance) << light.name;

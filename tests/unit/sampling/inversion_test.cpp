@@ -9,37 +9,40 @@
 namespace nusselt_test {
 namespace {
 
-/// Budgets in units of the rounding error of T; one table for all techniques, since the condition of the
-/// lights dominates: a direction has an error of one rounding, and the random number changes by the
-/// reciprocal of the angular width of the light, about 100 for the small ones, per change of the direction.
+/// Budgets in units of the rounding error of T. All techniques share them, because the condition of the lights
+/// dominates: a direction has an error of one rounding, which changes the random number by the reciprocal of the
+/// light's angular width, about 100 for small lights.
 template <class T>
 constexpr T kInversionBudget = 2000 * std::numeric_limits<T>::epsilon();
-/// What the default number of iterations leaves in exact arithmetic; matters for long double only. Lobes flatten the
-/// octant of the list: 1.8e-12 is the largest error with them.
+/// The error of the default number of iterations in exact arithmetic, which only matters in long double. Lobes
+/// flatten the octant of the list, for which the error reaches 1.8e-12.
 template <class Kind>
 constexpr double kIterationBudget = kHasLobe<Kind> ? 2e-12 : 1e-12;
 /// Two samples, each normalised from three weighted vertices.
 template <class T>
 constexpr T kDirectionBudget = 16 * std::numeric_limits<T>::epsilon();
-/// A hit point errs by one rounding over the cosine at the light, 0.0128 at least in the list, squared by the distance.
+/// The error of a hit point is one rounding over the cosine at the light, which is at least 0.0128 in the list.
+/// Squaring the distance doubles it.
 template <class T>
 constexpr T kPdfBudget = 600 * std::numeric_limits<T>::epsilon();
-/// Three squares and a root.
+/// Rounding of three squares and a root.
 template <class T>
 constexpr T kUnitBudget = 4 * std::numeric_limits<T>::epsilon();
-/// One rounding of the direction over the cosine at the light, 0.0128 at least in the list, and as much of its distance.
+/// One rounding of the direction and one of the light's distance, both over the cosine at the light, which is at
+/// least 0.0128 in the list.
 template <class T>
 constexpr T kHitBudget = 200 * std::numeric_limits<T>::epsilon();
 
-/// A random number that differs by no more than the budget.
+/// A random number that differs by the budget.
 template <class T>
 T nudged(T x) {
     return x < T(0.5) ? x + kInversionBudget<T> : x - kInversionBudget<T>;
 }
 
-/// Whether one component of a random number came back. Where it hardly moves the direction (a fan of rays
-/// meets in a vertex or at the zenith, two boundaries meet at the end of a sector), the direction decides; so
-/// it does for the azimuth 0 or 1 in the central case, which is cyclic. It may be off by as much as the budget moves it.
+/// Whether inversion recovered one component of a random number. Where the component hardly moves the direction (a
+/// fan of rays meets in a vertex or at the zenith, or two boundaries meet at the end of a sector), the direction
+/// decides: it may be off by as much as the budget moves it. The same goes for the azimuths 0 and 1 in the central
+/// case, where they coincide.
 template <class Kind, class Technique, class T>
 bool recovered(const Technique& technique, const nusselt::Vec2<T>& u, T error,
                const nusselt::Vec2<T>& with_error, const nusselt::Vec2<T>& with_budget) {
@@ -50,8 +53,8 @@ bool recovered(const Technique& technique, const nusselt::Vec2<T>& u, T error,
            moved(with_error) <= std::max(kDirectionBudget<T>, moved(with_budget));
 }
 
-/// Not the ends for cylinders: where a half-plane touches a cylinder or meets the others at the axis, random numbers
-/// move with the root of the direction.
+/// Leaves out the ends for cylinders. Where a half-plane touches a cylinder or meets the others at the axis, random
+/// numbers change with the square root of the change in direction.
 template <class Kind, class T>
 std::vector<T> coordinates() {
     if (kIsCylinder<Kind>) return {T(1e-3), T(0.125), T(0.3), T(0.5), T(0.71), T(0.9), T(0.999)};
@@ -61,7 +64,7 @@ std::vector<T> coordinates() {
 template <class Test>
 class InversionTest : public ::testing::Test {};
 
-/// As techniques.json names the suite.
+/// The name of the suite in techniques.json.
 struct InversionSuite {
     static constexpr std::string_view kName = "inversion";
 };
@@ -119,7 +122,7 @@ TYPED_TEST(InversionTest, HitPointLiesInTheDirectionOfTheSample) {
     }
 }
 
-/// How far a point is from a polygon: from its plane or beyond an edge.
+/// Distance of a point from a polygon: from its plane, or beyond an edge.
 template <class T, int N>
 T distance_to(const nusselt::ConvexPolygon<T, N>& polygon, const nusselt::Vec3<T>& p) {
     T distance = std::fabs(dot(polygon.normal, p - polygon.vertex[0]));
@@ -136,7 +139,7 @@ T distance_to(const nusselt::LineSegment<T>& line, const nusselt::Vec3<T>& p) {
     return length(p - line.p0 - along * line.s);
 }
 
-/// How far a point is from the surface of a cylinder.
+/// Distance of a point from the surface of a cylinder.
 template <class T>
 T distance_to(const nusselt::Cylinder<T>& cylinder, const nusselt::Vec3<T>& p) {
     const auto offset = p - cylinder.axis.p0;

@@ -1,4 +1,4 @@
-/// Measures that are known in closed form, and the edge cases of the contract, for every number type.
+/// Tests of measures that are known in closed form and of the edge cases of the contract, for every number type.
 
 #include <cmath>
 #include <limits>
@@ -26,7 +26,7 @@ public:
         return in_all_lanes<nusselt::LineSegment<Real>>(make_light<Scalar>(LineCase{"", begin, end}));
     }
 
-    /// Compares the last lane: all are equal.
+    /// Compares the last lane only, since all lanes are equal.
     static void expect_near(const Real& actual, long double expected) {
         EXPECT_NEAR(last_lane(actual), expected,
                     16 * std::numeric_limits<Scalar>::epsilon() * std::fabs(expected));
@@ -68,7 +68,7 @@ TYPED_TEST(KnownValuesTest, SquareOverhead) {
     this->expect_near(nusselt::PolygonArea<TypeParam, 4>(light).measure(), 4);
     this->expect_near(nusselt::PolygonSolidAngle<TypeParam, 4>(light).measure(), 2 * kPi / 3);
     this->expect_near(nusselt::PolygonClippedSolidAngle<TypeParam, 4>(light).measure(), 2 * kPi / 3);
-    // Four times the form factor of a rectangle over the corner of which the point lies.
+    // Four times the form factor of a rectangle, seen from below one of its corners.
     this->expect_near(nusselt::PolygonProjectedSolidAngle<TypeParam, 4>(light).measure(),
                       4 * std::sqrt(0.5L) * std::atan(std::sqrt(0.5L)));
 }
@@ -82,7 +82,7 @@ TYPED_TEST(KnownValuesTest, Octant) {
 }
 
 TYPED_TEST(KnownValuesTest, OctantWithItsReflection) {
-    // Only the triangle above the horizon counts for clipping techniques.
+    // Clipping techniques only see the triangle above the horizon.
     const auto light = this->polygon({{1, 0, 0.5}, {0, 1, 0.5}, {0, 1, -0.5}, {1, 0, -0.5}});
     const TypeParam whole = nusselt::PolygonSolidAngle<TypeParam, 4>(light).measure();
     const TypeParam upper = nusselt::PolygonClippedSolidAngle<TypeParam, 4>(light).measure();
@@ -147,7 +147,7 @@ TYPED_TEST(KnownValuesTest, LightsBelowTheHorizon) {
     const auto line = this->line({1, 0, -1}, {2, 1, -0.25});
     this->expect_dark(nusselt::LineClippedSolidAngle<TypeParam>(line), u.x);
     this->expect_dark(nusselt::LineProjectedSolidAngle<TypeParam>(line), u.x);
-    // The other techniques know no horizon.
+    // The other techniques ignore the horizon.
     this->expect_lit(nusselt::PolygonSolidAngle<TypeParam, 4>(polygon), u);
     this->expect_lit(nusselt::LineSolidAngle<TypeParam>(line), u.x);
 }
@@ -156,9 +156,9 @@ TYPED_TEST(KnownValuesTest, LinesWithoutSamples) {
     const TypeParam u(0.25);
     for (const auto& [begin, end] : std::vector<std::pair<nusselt::Vec3<double>, nusselt::Vec3<double>>>{
              {{1, 0.5, 1}, {1, 0.5, 1}},  // no length
-             {{1, 0.5, 1}, {2, 1, 2}},    // points at the point
+             {{1, 0.5, 1}, {2, 1, 2}},    // directed at the point
              {{-1, -0.5, -1}, {2, 1, 2}}, // passes through the point
-             {{0, 0, 0}, {1, 1, 1}}}) {   // begins at the point
+             {{0, 0, 0}, {1, 1, 1}}}) {   // starts at the point
         const auto light = this->line(begin, end);
         this->expect_dark(nusselt::LineArea<TypeParam>(light), u);
         this->expect_dark(nusselt::LineSolidAngle<TypeParam>(light), u);

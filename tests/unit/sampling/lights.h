@@ -1,6 +1,6 @@
 #pragma once
-/// Lights on which every technique must do well: moderate in size and distance, one for each case that the
-/// methods distinguish.
+/// Lights of moderate size and distance, on which every technique must be accurate. Each case that the methods
+/// distinguish has a light.
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ struct LineCase {
 
 using CylinderCase = nusselt::proof::TubeLight;
 
-/// Spanned by two vectors about a center; exact in every precision for short binary coordinates.
+/// An octagon that two vectors span about a center. With short binary coordinates, it is exact in every precision.
 inline std::vector<nusselt::Vec3<double>>
 octagon(const nusselt::Vec3<double>& center, const nusselt::Vec3<double>& a, const nusselt::Vec3<double>& b) {
     std::vector<nusselt::Vec3<double>> vertices;
@@ -35,7 +35,7 @@ octagon(const nusselt::Vec3<double>& center, const nusselt::Vec3<double>& a, con
     return vertices;
 }
 
-/// Coordinates are such that vertices are coplanar in every precision.
+/// The coordinates are chosen so that the vertices are coplanar in every precision.
 inline std::vector<PolygonCase> polygon_cases() {
     return {
         {"zenith inside", {{-1, -0.7, 1}, {1.2, -0.8, 1}, {1.1, 0.9, 1}, {-0.9, 1, 1}}},
@@ -56,7 +56,7 @@ inline std::vector<PolygonCase> polygon_cases() {
     };
 }
 
-/// Polygons that need more than four slots, and some that leave slots unused.
+/// Polygons that need more than four slots. Some leave slots unused.
 inline std::vector<PolygonCase> many_vertex_cases() {
     return {
         {"pentagon around the zenith",
@@ -105,8 +105,8 @@ struct LobeCase {
     nusselt::LtcCoefficients<double> coefficients;
 };
 
-/// All lights of the lists are at least in part within these, and some are below the surface within one of them, which
-/// leans to the eye for that. Exact in every precision.
+/// Lobes that are exact in every precision. All lights of the lists are at least partly above their horizons. One
+/// lobe leans towards the eye, so that parts of some lights are above its horizon but below the surface.
 inline std::vector<LobeCase> lobe_cases() {
     return {
         {"rough", {1, 0.25, 1.25, -0.1875, 0.875, 1}},
@@ -184,7 +184,7 @@ nusselt::LtcCoefficients<To> rounded(const nusselt::LtcCoefficients<From>& lobe)
             entry(lobe.m20), entry(lobe.m22), entry(lobe.albedo)};
 }
 
-/// The light of a case as a technique takes it.
+/// The light of a case in the type that a technique takes.
 template <class Kind, class T, class Case>
 typename Kind::template Light<T> light_for(const Case& light) {
     if constexpr (kHasLobe<Kind> && kIsPolygon<Kind>) {
@@ -209,7 +209,7 @@ inline float first(float u) { return u; }
 inline double first(double u) { return u; }
 inline long double first(long double u) { return u; }
 
-/// Random numbers as a technique takes them, built from one or two coordinates.
+/// Random numbers in the type that a technique takes, from one or two coordinates.
 template <class Kind, class T>
 typename Kind::template Random<T> random_of(T x, [[maybe_unused]] T y) {
     if constexpr (kTakesPairs<Kind>) {

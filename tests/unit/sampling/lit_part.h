@@ -1,5 +1,5 @@
 #pragma once
-/// The part of a light that a technique can reach, in long double.
+/// Lights in long double, cut to the parts that techniques can reach.
 
 #include "ltc/reference.h"
 #include "techniques.h"

@@ -1,5 +1,5 @@
-/// Every lane of a technique on packs against the same technique on scalars, bit for bit: with another light
-/// in each lane, with one light in all lanes, and with a neighbour lane full of NaN.
+/// Compares every lane of a technique on packs with the same technique on scalars, bit for bit: with different lights
+/// in the lanes, with one light in all lanes, and with a neighbour lane full of NaN.
 
 #include <algorithm>
 #include <cstring>
@@ -13,7 +13,7 @@
 namespace nusselt_test {
 namespace {
 
-/// Whether all numbers in a structure of them have the same bits; the sign of zeros does not count.
+/// Whether all numbers in two structures of numbers have the same bits, apart from the sign of zeros.
 template <class Number, class T>
 bool same_numbers(const T& a, const T& b) {
     constexpr std::size_t kCount = sizeof(T) / sizeof(Number);
@@ -41,14 +41,15 @@ protected:
         const auto here = [&](const auto& packed, const auto& single) {
             return get_lane<Number, std::decay_t<decltype(single)>>(packed, lane);
         };
-        // What rounding leaves of a light as thin as rounding depends on how many vertices it has after clipping, and
-        // that on whether the light of any other lane crosses the horizon. Of a few million lights, one is so.
+        // If a light is as thin as its rounding errors, its measure depends on the number of vertices after clipping,
+        // which depends on whether the light of any other lane crosses the horizon. One light in a few million is so
+        // thin.
         constexpr Number kThin = std::numeric_limits<Number>::epsilon() / 100;
         if (std::max(here(measure_, expected.measure), expected.measure) < kThin) return;
         EXPECT_PRED2((same_numbers<Number, Number>), here(measure_, expected.measure), expected.measure)
             << "lane " << lane;
         EXPECT_EQ(here(sample_, expected.sample).pdf, expected.sample.pdf);
-        // Direction and point mean nothing without a sample.
+        // Without a sample, direction and point have no meaning.
         if (expected.sample.pdf == 0) return;
         EXPECT_PRED2((same_numbers<Number, Sample>), here(sample_, expected.sample), expected.sample)
             << "lane " << lane;
@@ -71,7 +72,7 @@ private:
     typename Case::Random inverse_;
 };
 
-/// As techniques.json names the suite.
+/// The name of the suite in techniques.json.
 struct PacksSuite {
     static constexpr std::string_view kName = "packs";
 };
@@ -91,7 +92,7 @@ TYPED_TEST(PacksTest, LightPerLaneBesideNaN) {
         typename TypeParam::ScalarLight light[kLanes];
         typename TypeParam::ScalarRandom single_u[kLanes];
         for (int i = 0; i < kLanes; ++i) {
-            // Half of the lights are ordinary: central and decentral cases, clipped and whole ones mix.
+            // Half of the lights are ordinary, so that central and decentral cases, clipped and whole lights mix.
             light[i] =
                 i % 2 == 0
                     ? light_for<Kind, T>(ordinary[static_cast<std::size_t>(round + i) % ordinary.size()])

@@ -1,5 +1,5 @@
-/// Lights with edges parallel to the normal of the surface, as in most rooms: in the shading frame such an
-/// edge has one azimuth up to rounding, so that its ends may sort the wrong way round.
+/// Lights with edges parallel to the normal of the surface, as in most rooms: in the shading frame, the ends of such
+/// an edge have the same azimuth up to rounding, so they may sort the wrong way round.
 
 #include <nusselt/sampling/polygon_projected_solid_angle.h>
 
@@ -49,8 +49,8 @@ Case random_case(std::mt19937_64& engine) {
     return result;
 }
 
-// The error of a wrong order is of the size of the measure itself; slivers, which are left out, have rounding
-// errors of a few per cent.
+// A wrong order causes an error as large as the measure itself. The test leaves out slivers, whose rounding errors
+// are a few per cent.
 TEST(ParallelEdges, KeepTheProjectedSolidAngle) {
     std::mt19937_64 engine(1);
     int lit = 0;

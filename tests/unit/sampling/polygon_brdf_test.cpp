@@ -1,4 +1,4 @@
-/// BRDF sampling of polygons: which directions hit, quadrature of what hits, hostile lights, packs.
+/// Tests of BRDF sampling of polygons: which directions hit, quadrature over the light, hostile lights, and packs.
 
 #include <cmath>
 #include <limits>
@@ -39,7 +39,7 @@ Vec2<double> net_point(std::uint32_t i) {
     return {nusselt::to_unit<double>(bits.x), nusselt::to_unit<double>(bits.y)};
 }
 
-/// One lobe each that leads to the lights of polygon_cases().
+/// Lobes that reflect towards the lights of polygon_cases().
 const std::vector<GgxReference>& lobes() {
     static const std::vector<GgxReference> list = {
         {direction_at(0.7L, 3.6L), 0.3L}, {direction_at(1.3L, 3), 0.15L}, {direction_at(0.2L, 1), 1}};
@@ -57,7 +57,7 @@ class PolygonBrdfTest : public ::testing::Test {};
 using Caps = ::testing::Types<VisibleCap, BoundedCap>;
 TYPED_TEST_SUITE(PolygonBrdfTest, Caps);
 
-/// Boxes of the net that the boundary of a light crosses leave an error of order kSamples^(-3/4), 9e-5.
+/// The boundary of a light crosses boxes of the net, which leaves an error of order kSamples^(-3/4), 9e-5.
 TYPED_TEST(PolygonBrdfTest, DensityIntegratesToTheShareOfHits) {
     for (const PolygonCase& light : polygon_cases()) {
         for (const GgxReference& lobe : lobes()) {
@@ -99,8 +99,8 @@ TYPED_TEST(PolygonBrdfTest, EstimatesSpecularReflection) {
     }
 }
 
-/// How far inside of a polygon the point of its plane in a direction is, relative to the polygon's extent: negative
-/// outside and for directions away from it.
+/// How far inside a polygon the intersection of its plane with a ray from the origin is, relative to the polygon's
+/// extent. It is negative outside and for rays that point away.
 long double depth(const Polygon& polygon, const Point& wi) {
     const Point normal = cross(polygon[1] - polygon[0], polygon[2] - polygon[0]);
     const long double along = dot(normal, polygon[0]) / dot(normal, wi);
@@ -151,7 +151,7 @@ TEST(PolygonBrdf, Inverts) {
     }
 }
 
-/// What the contract needs to know.
+/// The facts that the contract needs about the technique.
 struct Kind : PolygonKind<4> {
     static constexpr Measure kMeasure = Measure::solid_angle;
 };
@@ -199,7 +199,7 @@ void expect_contract() {
         const auto technique = technique_of<T, Cap>(c);
         const auto sample = technique.sample(c.u);
         hits += sample.pdf > 0;
-        // There is no measure.
+        // The technique has no measure, so 1 takes its place.
         const Outputs<T, Vec2<T>> outputs{sample, sample.pdf > 0 ? technique.pdf(sample.wi) : T(0),
                                           technique.invert(sample.wi), T(1)};
         const char* broken = nusselt::hostile::violation<Kind, T>(c.light, outputs);
@@ -227,14 +227,14 @@ TYPED_TEST(PolygonBrdfTest, NothingHitsWhatCannotBeSeen) {
         for (std::uint32_t i = 0; i < 4096; ++i)
             ASSERT_EQ(technique.sample(broadcast<float>(net_point(i))).pdf, 0);
     }
-    // From below the surface.
+    // Seen from below the surface.
     const GgxVisibleNormals<float, TypeParam> none({0, 0.6f, -0.8f}, 1);
     const PolygonBrdf below(make_light<float>(polygon_cases()[0]), none);
     EXPECT_EQ(below.sample({0.2f, 0.3f}).pdf, 0);
     EXPECT_EQ(below.pdf({0, 0, 1}), 0);
 }
 
-/// One lane at a time has a hostile light while its neighbours hold NaN; then one light in all lanes.
+/// First, one lane at a time has a hostile light while its neighbours hold NaN; then all lanes have the same light.
 template <class P, class Cap>
 void expect_lanes_equal_scalars() {
     using T = nusselt::scalar_t<P>;

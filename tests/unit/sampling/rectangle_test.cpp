@@ -1,4 +1,4 @@
-/// Solid angles of rectangles that are known in closed form, and the map of random numbers.
+/// Tests of solid angles of rectangles that are known in closed form, and of the map of random numbers.
 
 #include <nusselt/sampling/rectangle_solid_angle.h>
 
@@ -32,7 +32,7 @@ TEST(RectangleSolidAngle, OfFacesOfACubeIsASixthOfTheSphere) {
         << "an edge below the point";
 }
 
-// The sum of angles less two pi would have no digits left of such a light.
+// For such a light, the sum of angles minus two pi would have no correct digits.
 TEST(RectangleSolidAngle, OfASmallLightKeepsItsDigits) {
     const auto light = rectangle({3, 4, 12}, {0x1p-30, 0, 0}, {0, 0x1p-30, 0});
     EXPECT_NEAR(light.measure() / (0x1p-60 * 12 / (13.0 * 13 * 13)), 1, 1e-9);
@@ -49,7 +49,7 @@ TEST(RectangleSolidAngle, IsTheSumOfItsParts) {
     }
 }
 
-// Halves of the light in u.x and u.y: no seam separates the two triangles of the light.
+// Halving the range of u.x or u.y halves the light, without a seam between its two triangles.
 TEST(RectangleSolidAngle, RandomNumbersMoveAlongTheEdges) {
     const Vec corner{-0.375, 0.125, 1}, a{1, 0, 0.5}, b{-0.25, 1.5, 0.5};
     const auto technique = rectangle(corner, a, b);

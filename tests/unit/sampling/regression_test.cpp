@@ -25,8 +25,8 @@ void expect_contract(const typename Kind::template Light<float>& light,
     EXPECT_STREQ((violation<Kind, float>(light, outputs_of<Kind, float>(light, u))), nullptr);
 }
 
-/// The end on the horizon is closer to the point than the rounding error of the length: its coordinate along
-/// the line and its height must tell the same.
+/// The end on the horizon is closer to the point than the rounding error of the length. Its coordinate along the line
+/// and its height must agree.
 TEST(RegressionTest, LineEndsOnTheHorizonNextToThePoint) {
     const Line falling{{-0x9.1afep-4f, 0xf.4f73p-6f, 0xc.be5c2p-4f},
                        {0x9.092d2p-4f, -0xf.317e1p-6f, -0xc.a56cep-4f},
@@ -40,7 +40,7 @@ TEST(RegressionTest, LineEndsOnTheHorizonNextToThePoint) {
     expect_contract<LineProjectedSolidAngleKind>(ending, 0x8.7734p-4f);
 }
 
-/// The sector spans half a turn, so that the sum of its ends is zero.
+/// The sector spans half a turn, so the directions of its ends add up to zero.
 TEST(RegressionTest, SectorOfHalfATurn) {
     expect_contract<PolygonProjectedSolidAngleKind>(quad({0xe.21d2ap+15f, 0xa.3abf9p+15f, -0x9.80d34p+16f},
                                                          {0xb.0a067p+16f, 0xe.28c64p+14f, 0xb.50a8fp+15f},
@@ -49,7 +49,7 @@ TEST(RegressionTest, SectorOfHalfATurn) {
                                                     nusselt::Vec2<float>{0xd.73aap-4f, 0xf.1ca35p-4f});
 }
 
-/// A vertex at the point: the plane of the polygon contains it, whatever its other vertices say.
+/// A vertex is at the point, so the plane of the polygon contains the point, whatever the other vertices suggest.
 TEST(RegressionTest, PointOnAVertexFarFromTheOthers) {
     const Quad light = quad({-0xc.3dea9p+30f, -0xa.14025p+30f, 0xa.732c1p+29f},
                             {-0x9.7fa8bp+30f, -0xa.85f44p+31f, 0xd.c92a4p+25f},
@@ -59,7 +59,7 @@ TEST(RegressionTest, PointOnAVertexFarFromTheOthers) {
     EXPECT_EQ((nusselt::PolygonProjectedSolidAngle<float, 4>(light).measure()), 0);
 }
 
-/// An edge passes within rounding of the point: the angle between its clipped ends is noise.
+/// An edge passes the point within rounding, so the angle between its clipped ends is noise.
 TEST(RegressionTest, EdgeThroughThePointClippedAtTheHorizon) {
     expect_contract<PolygonProjectedSolidAngleKind>(quad({0x9.184c8p-8f, 0xa.58113p-8f, 0xb.6a62cp-6f},
                                                          {0xf.38f41p-12f, 0x9.cde45p-12f, -0xd.e43c1p-14f},
@@ -68,7 +68,7 @@ TEST(RegressionTest, EdgeThroughThePointClippedAtTheHorizon) {
                                                     nusselt::Vec2<float>{0xc.abed2p-4f, 0xe.36126p-4f});
 }
 
-/// A sector so thin that its area is rounding noise: the initialisation left it.
+/// The area of the sector was rounding noise, and the initialisation of the iteration left the sector.
 TEST(RegressionTest, SliverThinnerThanRounding) {
     const Quad light =
         quad({-0xe.590eep-4f, 0x8.0d959p-5f, 0xe.aef41p-5f}, {-0xd.74009p-4f, 0x8.0dc7bp-5f, 0xf.4295cp-5f},
@@ -76,7 +76,7 @@ TEST(RegressionTest, SliverThinnerThanRounding) {
     expect_contract<PolygonProjectedSolidAngleKind>(light, nusselt::Vec2<float>{0, 0x9.c6edap-4f});
 }
 
-/// Seen edge-on, the distance of the plane along a direction has no digits.
+/// For a light seen edge-on, the distance to its plane along a direction has no correct digits.
 TEST(RegressionTest, HitPointOnALightSeenEdgeOn) {
     expect_contract<PolygonProjectedSolidAngleKind>(quad({0, 0, 0},
                                                          {-0xc.d99cbp+5f, -0xd.13fb2p+1f, 0xb.a516ep+5f},
@@ -85,8 +85,7 @@ TEST(RegressionTest, HitPointOnALightSeenEdgeOn) {
                                                     nusselt::Vec2<float>{0xb.0b609p-8f, 0xf.fc39bp-4f});
 }
 
-/// Two vertices in almost opposite directions: cosines lose the sum of the directions, and with it the
-/// sample.
+/// Two vertices are in almost opposite directions. Cosines lost the sum of these directions, and with it the sample.
 TEST(RegressionTest, SolidAngleOfAWallNextToThePoint) {
     expect_contract<PolygonSolidAngleKind>(
         quad({0xa.e7792p-6f, 0x8.49158p-8f, -0xc.98687p+3f}, {0xa.e8f57p-6f, 0x8.4a368p-8f, -0xc.98687p+3f},
@@ -99,8 +98,8 @@ TEST(RegressionTest, SolidAngleOfAWallNextToThePoint) {
                                            nusselt::Vec2<float>{0xe.8318ep-4f, 0xf.fffffp-4f});
 }
 
-/// Rounding may move the last direction of a light beyond the light; with unused vertex slots, the inversion
-/// then found no triangle or sector and lost the second random number.
+/// Rounding may move the last direction of a light beyond the light. With unused vertex slots, the inversion then
+/// found no triangle or sector and lost the second random number.
 TEST(RegressionTest, InversionAtTheLastDirection) {
     const auto light = make_light<float>(PolygonCase{"", {{0.3, -1, 0.5}, {1.5, -0.2, 0.7}, {0.6, 1, 1.2}}});
     const nusselt::Vec2<float> u{kLargestBelowOne<float>, 0.5f};
@@ -111,7 +110,7 @@ TEST(RegressionTest, InversionAtTheLastDirection) {
                 1e-5f);
 }
 
-/// As above where the zenith is a vertex: the first direction was in no sector.
+/// The same with a vertex at the zenith, where the first direction was in no sector.
 TEST(RegressionTest, InversionAtTheFirstDirectionWithTheZenithOnAVertex) {
     const auto light = make_light<float>(PolygonCase{"", {{0, 0, 1}, {1, 0.2, 1}, {0.8, 1.1, 1}}});
     const nusselt::PolygonProjectedSolidAngle<float, 4> technique(light);
@@ -120,7 +119,8 @@ TEST(RegressionTest, InversionAtTheFirstDirectionWithTheZenithOnAVertex) {
     }
 }
 
-/// Of lights whose plane contains the point, clipping made vertices off the plane, and so up to half a sphere of light.
+/// For lights whose plane contains the point, clipping created vertices off that plane, so the light filled up to
+/// half a sphere.
 TEST(RegressionTest, ClippedSolidAngleFromThePlaneOfTheLight) {
     const Quad light = quad({0, 4, -27}, {-26, -2, 13}, {0, -4, 27}, {26, 2, -13});
     EXPECT_EQ((nusselt::PolygonClippedSolidAngle<float, 4>(light).measure()), 0);
@@ -145,7 +145,7 @@ TEST(RegressionTest, ClippedSolidAngleFromCloseBy) {
     }
 }
 
-/// A line through the point, but for rounding, had a measure of up to 1e11.
+/// A line that passed through the point except for rounding had a measure of up to 1e11.
 TEST(RegressionTest, LineThroughThePointIsDark) {
     const nusselt::Vec3<float> a{0.3f, -0.7f, 0.4f};
     for (const float k : {2.0f, -1.0f, 0.0f}) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The techniques under test, and access to the lanes of what they take and return.
+/// The techniques under test, and access to the lanes of their arguments and results.
 
 #include <cstring>
 #include <string>
@@ -16,7 +16,7 @@ namespace nusselt_test {
 
 using namespace nusselt::hostile;
 
-/// A technique and the number type that it is instantiated with: the parameter of typed tests.
+/// A technique and the number type with which it is instantiated: the parameter of typed tests.
 template <class KindType, class RealType>
 struct Instance {
     using Kind = KindType;
@@ -68,7 +68,7 @@ struct InstanceNames {
     }
 };
 
-/// Tests of the distribution of samples, as techniques.json names the suite.
+/// The tests of the distribution of samples, under the name of the suite in techniques.json.
 struct StatisticsSuite {
     static constexpr std::string_view kName = "statistics";
 };

@@ -1,4 +1,5 @@
-/// Vertices so close to the point or to the horizon that squares and products of their coordinates underflow.
+/// Tests of vertices so close to the point or to the horizon that squares and products of their coordinates
+/// underflow.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +36,7 @@ TEST(TinyCoordinatesTest, SolidAngleWithAVertexAtADenormalDistance) {
     }
 }
 
-/// The plane contains the point, whatever the far vertices say.
+/// The plane contains the point, whatever the distant vertices suggest.
 TEST(TinyCoordinatesTest, SolidAngleWithAVertexAtThePoint) {
     const auto light = polygon<4>({{-0x1.0e11ep+11f, 0x1.39d8c2p+9f, -0x1.409dap+11f},
                                    {0x1.744fa4p+12f, -0x1.a9e4a8p+10f, 0x1.bb6376p+12f},
@@ -44,7 +45,7 @@ TEST(TinyCoordinatesTest, SolidAngleWithAVertexAtThePoint) {
     EXPECT_EQ((nusselt::PolygonSolidAngle<float, 4>(light).measure()), 0);
 }
 
-/// What is above the horizon is as thin as the smallest number; its measure was that of a large light.
+/// The part above the horizon is as thin as the smallest number, but it had the measure of a large light.
 TEST(TinyCoordinatesTest, ProjectedSolidAngleOfAWallThatEndsAtTheHorizon) {
     const auto light = polygon<4>({{-0x1.c3d272p+9f, -0x1.f92326p+8f, 0x1.4p-146f},
                                    {0x1.9716b8p+9f, -0x1.fd2cacp+9f, 0x1.4p-146f},
@@ -74,7 +75,7 @@ TEST(TinyCoordinatesTest, ProjectedSolidAngleOfAThinStripAboveTheHorizon) {
     expect_contract<PolygonProjectedSolidAngleKind>(light, Vec2{0x1.ece082p-2f, 0x1.ccfa8ep-10f});
 }
 
-/// The weights of the ends lost their digits: wi was too short.
+/// The weights of the ends lost their digits, so wi was too short.
 TEST(TinyCoordinatesTest, SolidAngleOfALineThatEndsAtTheHorizon) {
     expect_contract<LineClippedSolidAngleKind>(nusselt::make_line(Vec{1, 0, 0x1p-128f}, Vec{2, 0, -1}),
                                                0.25f);

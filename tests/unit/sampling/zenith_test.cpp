@@ -1,5 +1,5 @@
-/// Lights whose boundary passes the zenith or touches the horizon, within rounding: which side the zenith is on, and
-/// which edges are outer ones, is then a matter of noise that must not change the measure.
+/// Tests of lights whose boundary passes the zenith or touches the horizon within rounding. Noise then decides which
+/// side the zenith is on and which edges are outer ones, but this must not change the measure.
 
 #include <nusselt/sampling/polygon_projected_solid_angle.h>
 
@@ -31,8 +31,8 @@ ConvexPolygon<Exact, N> widened(const ConvexPolygon<float, N>& light) {
     return exact;
 }
 
-/// A light taken for what it is not loses much of its measure. Rounding of thin slivers, which are among the random
-/// lights, reaches 2e-3.
+/// A light that is put into the wrong case loses much of its measure. The rounding errors of thin slivers, which
+/// occur among the random lights, reach 2e-3.
 constexpr double kTolerance = 1e-2;
 
 /// Relative error of the measure in single precision; 0 for lights that are practically invisible.
@@ -84,7 +84,7 @@ TEST(Zenith, VerticesCloseToItKeepTheMeasure) {
         }
 }
 
-// A light that stands on the ground on one corner and leans over the point.
+// The light stands on the ground on one corner and leans over the point.
 TEST(Horizon, VerticesOnItKeepTheMeasure) {
     Engine engine(3);
     int central = 0;

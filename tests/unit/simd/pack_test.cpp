@@ -1,6 +1,6 @@
-/// Every lane of every pack operation against the scalar operation of core/real.h, bit for bit, on hostile
-/// values that differ from lane to lane. Built once per instruction set: the same widths are native in one
-/// build and arrays in another.
+/// Compares every lane of every pack operation with the scalar operation of core/real.h, bit for bit, on hostile
+/// values that differ from lane to lane. The test is built once per instruction set, as the same width is native in
+/// one build and an array in another.
 
 #include <array>
 #include <cstddef>
@@ -58,8 +58,7 @@ T from_bits(Bits<T> bits) {
     return x;
 }
 
-/// Same bits, or both NaN: which NaN arithmetic yields depends on the order in which the compiler puts
-/// operands.
+/// Same bits, or both NaN. The compiler's order of operands decides which NaN an operation yields.
 template <class T>
 bool identical(T a, T b) {
     return bits_of(a) == bits_of(b) || (a != a && b != b);
@@ -74,8 +73,7 @@ std::string hexadecimal(T x) {
     return text.str();
 }
 
-/// Ends of ranges, ties, neighbours of powers of two, both signs of everything; then numbers spread over all
-/// bits.
+/// Ends of ranges, ties and neighbours of powers of two, with both signs, followed by numbers with random bits.
 template <class T>
 std::vector<T> hostile_values() {
     using Limits = std::numeric_limits<T>;
@@ -262,7 +260,7 @@ TYPED_TEST(PackTest, GathersNothingWhereInactive) {
     for (const std::uint32_t pattern : mask_patterns<TypeParam>()) {
         std::array<std::int32_t, kLanes> indices;
         for (int i = 0; i < kLanes; ++i) {
-            // An inactive lane that is read anyway would touch an address 8 GiB or more away.
+            // Reading an inactive lane would touch an address 8 GiB or more away.
             constexpr auto kWild = std::numeric_limits<std::int32_t>::max();
             const std::int32_t wild = i % 2 == 0 ? kWild : -kWild;
             indices[static_cast<std::size_t>(i)] = (pattern >> i & 1u) != 0 ? i * 3 : wild;
@@ -405,7 +403,7 @@ TYPED_TEST(PackTest, SelectsByMask) {
     }
 }
 
-/// Everything above on one lane, while all others hold NaN, infinities or denormals: the same bits as alone.
+/// The operations on one lane have the same bits as alone while all other lanes hold NaN, infinities or denormals.
 TYPED_TEST(PackTest, PoisonedNeighboursDoNotLeak) {
     using T = scalar_t<TypeParam>;
     const auto chain = [](auto a, auto b, auto c) {
@@ -449,8 +447,8 @@ TYPED_TEST(PackTest, WorksInsideVectors) {
     }
 }
 
-/// The comparison itself must be able to fail: wrong in the last lane only, by one unit in the last place, in
-/// the sign of a zero, in the treatment of NaN, or by fusing what is not fused.
+/// The comparison itself must find errors: in the last lane only, of one unit in the last place, in the sign of a
+/// zero, in the treatment of NaN, or from a fused operation.
 TYPED_TEST(PackTest, ComparisonReportsMutants) {
     using T = scalar_t<TypeParam>;
     constexpr int kLanes = kLanesOf<TypeParam>;
