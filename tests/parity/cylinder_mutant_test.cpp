@@ -1,4 +1,4 @@
-// A wrong technique for cylinders.
+// The parity tests must reject a wrong technique for cylinders.
 
 #include "shaders/lidless_cylinder.h"
 #include "technique_parity.h"
@@ -18,8 +18,8 @@ TEST_F(CylinderMutant, HitPointsOnTheLateralSurfaceInsteadOfTheCapsAreFound) {
                              [&](const std::string& excess) { return excess.rfind(begin, 0) == 0; });
     };
     EXPECT_EQ(count_of("end-on: hit point"), 3) << "all quantiles";
-    EXPECT_EQ(count_of("end-on:"), 3) << "all else is right";
-    EXPECT_EQ(count_of("close:"), 0) << "its caps are out of sight";
+    EXPECT_EQ(count_of("end-on:"), 3) << "everything else is correct";
+    EXPECT_EQ(count_of("close:"), 0) << "the caps of these lights are out of sight";
 }
 
 } // namespace

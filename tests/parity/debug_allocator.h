@@ -1,5 +1,5 @@
 #pragma once
-/// An allocator for drivers that knows what they hold.
+/// An allocator for drivers that counts the allocations they hold.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,22 +13,22 @@
 
 namespace nusselt::parity {
 
-/// Give it to gpu::DeviceOptions. Drivers keep their part of each object of Vulkan in such memory (of buffers, memory of the
-/// device, images, pipelines, ...), or nothing at all: live() tells.
+/// Pass it to gpu::DeviceOptions. In such memory, drivers may keep their part of each Vulkan object (buffers, device
+/// memory, images, pipelines, ...). Some drivers allocate nothing here; live() shows that.
 class DebugAllocator {
 public:
     DebugAllocator() : callbacks_(this, allocate, reallocate, release) {}
-    // Drivers keep its address.
+    // Drivers keep the address of the allocator.
     DebugAllocator(const DebugAllocator&) = delete;
     DebugAllocator& operator=(const DebugAllocator&) = delete;
 
     const vk::AllocationCallbacks* callbacks() const { return &callbacks_; }
-    /// Number of pieces that were not given back.
+    /// Number of allocations that have not been released.
     std::size_t live() const {
         const std::lock_guard lock(mutex_);
         return sizes_.size();
     }
-    /// The next `count` pieces are given, then none is until this is called again.
+    /// Lets the next `count` allocations succeed. All later ones fail until the next call.
     void allow(std::size_t count) {
         const std::lock_guard lock(mutex_);
         allowed_ = count;
@@ -44,7 +44,7 @@ private:
                                        VkSystemAllocationScope) {
         auto& allocator = *static_cast<DebugAllocator*>(self);
         void* const pointer = size > 0 ? allocator.allocate(size, alignment) : nullptr;
-        if (size > 0 && pointer == nullptr) return nullptr; // the old piece stays
+        if (size > 0 && pointer == nullptr) return nullptr; // the old allocation stays valid
         if (old != nullptr && pointer != nullptr)
             std::memcpy(pointer, old, std::min(size, allocator.size_of(old)));
         allocator.release(old);

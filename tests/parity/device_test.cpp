@@ -22,7 +22,7 @@ struct Push {
 class DeviceTest : public GpuTest, public testing::WithParamInterface<gpu::Residence> {};
 
 TEST_P(DeviceTest, RunsAShader) {
-    constexpr std::uint32_t kCount = 1000; // no multiple of the work group
+    constexpr std::uint32_t kCount = 1000; // not a multiple of the size of a work group
     std::vector<float> a(kCount), b(kCount), sums(kCount + 24, -1.0f);
     for (std::uint32_t i = 0; i < kCount; ++i) {
         a[i] = static_cast<float>(i);
@@ -71,7 +71,7 @@ TEST_F(DevicesTest, TimesCommands) {
     };
     const double once = std::min({fill(1), fill(1), fill(1), fill(1)});
     EXPECT_GT(once, 1e3) << "32 MiB in less than a microsecond";
-    EXPECT_GT(fill(64), 8 * once) << "the shortest of several";
+    EXPECT_GT(fill(64), 8 * once) << "compared with the shortest of several";
 }
 
 TEST_F(DevicesTest, AreListedAndChosenByNameOrIndex) {
@@ -156,7 +156,8 @@ TEST_F(DevicesTest, ValidationReportsWrongUse) {
 }
 
 TEST_F(DevicesTest, FusedFmaOfSoftwareDevicesIsKnown) {
-    // LLVMpipe of Mesa 22 never fuses. What others do depends on the hardware, which other drivers of Mesa serve.
+    // LLVMpipe of Mesa 22 never fuses. Whether other drivers fuse depends on the hardware; some of them belong to
+    // Mesa, too.
     const bool fused = gpu::has_fused_fma(device());
     const auto& description = device().description();
     if (description.kind != "CPU" || description.driver.find("Mesa 22") == std::string::npos)

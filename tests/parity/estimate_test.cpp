@@ -1,4 +1,5 @@
-// What makes estimates of direct light from the techniques: heuristics, visible normals, and all of it together.
+// Parity of the code that turns samples into estimates of direct light: heuristics, visible normals, and whole
+// estimates.
 
 #include "function_parity.h"
 #include "inputs/table_words.h"
@@ -46,7 +47,7 @@ auto with_heuristic(Mis mis, const Real& visibility, const Estimate& estimate) {
     return estimate(ClampedOptimalHeuristic<Real>{visibility});
 }
 
-/// Any heuristic for two samples.
+/// Draws a heuristic that combines two samples.
 Mis draw_heuristic(RandomSource& random) {
     const Mis heuristics[] = {Mis::balance,         Mis::power,   Mis::weighted_balance,
                               Mis::clamped_optimal, Mis::optimal, Mis::separate};
@@ -109,7 +110,7 @@ struct Heuristics {
     }
 };
 
-/// wo and alpha, two random numbers, and a direction, often of the lobe.
+/// Draws wo and alpha, two random numbers, and a direction that is often in the lobe.
 void draw_lobe(RandomSource& random, std::vector<float>& inputs) {
     Vec3<double> wo = is_degenerate(random) ? axis(random) : random.direction();
     if (random.index(16) > 0) wo.z = std::fabs(wo.z);
@@ -148,15 +149,15 @@ struct VisibleNormals {
         const auto wi = get<Real>(inputs + 6);
         const Vec2<Real> u{inputs[4], inputs[5]};
         Results<Real> results{};
-        const auto look_at = [&](std::size_t at, const auto& normals) {
+        const auto evaluate = [&](std::size_t at, const auto& normals) {
             put(results, at, normals.sample(u));
             results[at + 3] = normals.pdf(wi);
             const auto inverse = normals.invert(wi);
             results[at + 4] = abs(inverse.x - Real(0.5));
             results[at + 5] = inverse.y;
         };
-        look_at(0, GgxVisibleNormals<Real>(wo, inputs[3]));
-        look_at(6, GgxBoundedVisibleNormals<Real>(wo, inputs[3]));
+        evaluate(0, GgxVisibleNormals<Real>(wo, inputs[3]));
+        evaluate(6, GgxBoundedVisibleNormals<Real>(wo, inputs[3]));
         return results;
     }
 };
@@ -191,7 +192,7 @@ struct PolygonBrdfSampling {
     }
 };
 
-/// A surface near lights of order one.
+/// Draws a surface near lights whose coordinates are of order one.
 void draw_surface(RandomSource& random, std::vector<float>& inputs) {
     const Vec3<double> normal = is_degenerate(random) ? axis(random) : random.direction();
     put(inputs, random.between(0.1, 2) * random.direction());
@@ -203,7 +204,7 @@ void draw_surface(RandomSource& random, std::vector<float>& inputs) {
     inputs.push_back(static_cast<float>(random.uniform()));
 }
 
-/// As shaders/parity/surface_input.glsl.
+/// The layout is that of shaders/parity/surface_input.glsl.
 constexpr std::size_t kSurfaceSize = 16;
 
 template <class Real>
@@ -212,7 +213,7 @@ SurfacePoint<Real> get_surface(const float* inputs) {
             get<Real>(inputs + 9), get<Real>(inputs + 12), inputs[15]};
 }
 
-/// Which estimate of a light to make.
+/// Selects an estimate of a light.
 struct Choice {
     Mis mis;
     float visibility;
@@ -258,7 +259,7 @@ Results<Real> results_of(const WorldLightSample<Real>& s) {
     return results;
 }
 
-/// One sample of a light in world space, of any pair of techniques.
+/// One sample of a light in world space, for any pair of techniques.
 template <class Strategies, class Real, class Light>
 Results<Real> sample_pair(const SurfacePoint<Real>& point, const Light& light, const Choice& choice) {
     const auto frame = shading_frame(point.normal, point.wo);
@@ -277,7 +278,7 @@ Results<Real> sample_pair(const SurfacePoint<Real>& point, const Light& light, c
     });
 }
 
-/// Likewise, in the one call that there is for this.
+/// The same sample from a single call of sample_direct_light.
 template <class Real, class Light>
 Results<Real> sample_light(const SurfacePoint<Real>& point, const Light& light, const Choice& choice) {
     if (choice.mis == Mis::one_sample) return sample_pair<ProjectedSolidAngleAndLtc>(point, light, choice);
@@ -338,7 +339,7 @@ struct LineDirectLight {
     }
 };
 
-/// Densities that the test sets, and samples that may miss the light.
+/// A pair of techniques whose densities the test sets and whose samples may miss the light.
 struct BrdfDirectLight {
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kBrdfDirectLightSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kBrdfDirectLightFused;
@@ -370,7 +371,7 @@ TEST_F(EstimateParity, SamplingOfTheBrdfIsAsAccurateAsCpp) {
     expect_group_parity<PolygonBrdfSampling>(device(), function_calls() / 2, {}, Tail::nearly_largest);
 }
 
-/// Estimates need a fit of the table for each surface.
+/// Fewer calls than for other functions, because estimates look up a lobe for each surface.
 std::size_t estimate_calls() { return function_calls() / 8; }
 
 TEST_F(EstimateParity, PolygonsAreAsAccurateAsCpp) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Functions below the techniques: on the device, in C++ with float, and in C++ with long double.
+/// Compares the functions below the techniques on the device, in C++ with float and in C++ with long double.
 
 #include "common/effort.h"
 #include "gpu/fused_fma.h"
@@ -20,10 +20,10 @@ using hostile::RandomSource;
 
 inline std::size_t function_calls() { return nusselt_test::at_effort<std::size_t>(120'000, 1'200'000); }
 
-/// Wrong functions are rejected with no more calls than the quick effort has.
+/// The number of calls that must suffice to reject a wrong function. The quick effort makes no fewer.
 inline constexpr std::size_t kMutantCalls = 60'000;
 
-/// Whether the next inputs shall be degenerate: more than 1e5 of the calls.
+/// Whether the next inputs are to be degenerate, as for one call in eight.
 inline bool is_degenerate(RandomSource& random) { return random.index(8) == 0; }
 
 inline Vec3<double> axis(RandomSource& random) {
@@ -33,9 +33,9 @@ inline Vec3<double> axis(RandomSource& random) {
 
 /// How errors are measured.
 enum class Error {
-    relative, ///< to the exact value
-    absolute, ///< as they are, of numbers of order one
-    measure, ///< relative, where what is dimmer than kSmallestMeasure counts as that: rounding moves dark lights
+    relative, ///< relative to the exact value
+    absolute, ///< for numbers of order one
+    measure,  ///< relative to at least kSmallestMeasure: rounding moves dark lights
 };
 
 struct Output {
@@ -62,7 +62,7 @@ inline void put(std::vector<float>& inputs, const Vec3<double>& v) {
     for (const double x : {v.x, v.y, v.z}) inputs.push_back(static_cast<float>(x));
 }
 
-/// A parallelogram with coordinates that are multiples of 2^-10, so that its corners are exactly in a plane.
+/// A parallelogram whose coordinates are multiples of 2^-10, so that its corners lie exactly in a plane.
 struct Parallelogram {
     Vec3<double> corner, a, b;
 
@@ -79,7 +79,7 @@ struct Parallelogram {
         case 2: // a sliver
             b = a + 0x1p-10 * axis(random);
             break;
-        default: // all but a point
+        default: // nearly a point
             a = 0x1p-10 * axis(random);
             b = 0x1p-10 * axis(random);
         }
@@ -111,9 +111,10 @@ inline double error(const Output& output, long double value, long double exact) 
     return static_cast<double>(off / std::fabs(exact));
 }
 
-/// Compares a shader of a group with C++. A group is a struct with shaders for devices whose fma() rounds twice or once,
-/// kInputs floats for each call, which draw() makes, and kOutputs, which call() returns in C++.
-/// \param tail where samples may fall on either side of an edge, the largest error is chance.
+/// Compares a shader of a group with C++. A group is a struct with shaders for devices whose fma() rounds twice or
+/// once. For each call, draw() makes kInputs floats, and call() returns the kOutputs in C++.
+/// \param tail excludes the largest error where it depends on chance, because samples may fall on either side of an
+/// edge.
 template <class Group>
 Verdict judge_group(const gpu::Device& device, std::span<const std::uint32_t> shader, std::size_t calls,
                     std::span<const std::uint32_t> table = {}, Tail tail = Tail::largest) {
@@ -150,7 +151,7 @@ Verdict judge_group(const gpu::Device& device, std::span<const std::uint32_t> sh
 }
 
 /// Judges all variants of the shader of a group that give the right results on a device.
-/// \param table what the shader finds in the third buffer, if anything.
+/// \param table contents of the shader's third buffer, if it has one.
 template <class Group>
 void expect_group_parity(const gpu::Device& device, std::size_t calls = function_calls(),
                          std::span<const std::uint32_t> table = {}, Tail tail = Tail::largest) {

@@ -1,4 +1,4 @@
-// Functions below the techniques: on the device, in C++ with float, and in C++ with long double.
+// Compares the functions below the techniques on the device, in C++ with float and in C++ with long double.
 
 #include "function_parity.h"
 #include "gpu/fused_fma.h"
@@ -36,7 +36,7 @@ namespace nusselt::parity {
 
 namespace {
 
-/// Each group of functions has a shader, draws inputs and makes the same calls in C++.
+/// Each group of functions has a shader, draws inputs, and makes the calls of the shader in C++.
 struct Arithmetic {
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kArithmeticSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kArithmeticFused;
@@ -59,14 +59,14 @@ struct Arithmetic {
             return static_cast<float>((random.index(2) == 0 ? -1 : 1) * random.log_between(1e-5, 1));
         };
         const float a = number(), b = number();
-        // Every other difference cancels up to roundings, some of them entirely.
+        // Half of the differences cancel up to roundings, some of them entirely.
         float c = number(), d = number();
         if (random.index(2) == 0) {
             c = b;
             d = is_degenerate(random) ? a : a * static_cast<float>(random.between(0.999999, 1.000001));
         }
         Vec3<double> moderate = random.log_between(1e-25, 1) * random.direction();
-        // So does every other product and sum.
+        // Half of the sums of a product and a number cancel, too.
         if (random.index(2) == 0) moderate.x = -b / a < 1 ? -b / a : 1;
         Vec3<double> any = random.log_between(1e-36, 1e36) * random.direction();
         if (is_degenerate(random)) moderate = random.index(2) == 0 ? axis(random) : Vec3<double>{0, 0, 0};
@@ -104,7 +104,8 @@ struct Trigonometry {
         {"one_minus_atan_ratio", Error::relative}};
 
     static void draw(RandomSource& random, std::vector<float>& inputs) {
-        // Half of the numbers are of order one, the others of any order down to 1e-6; at the ends of the ranges, or tiny.
+        // Half of the numbers are of order one, the others of any order down to 1e-6. Degenerate numbers are at the
+        // ends of the range, or tiny.
         const auto number = [&](double largest) {
             if (is_degenerate(random)) {
                 const double ends[] = {0, largest, largest / 2, 1e-30};
@@ -145,7 +146,7 @@ struct Frames {
 
     static void draw(RandomSource& random, std::vector<float>& inputs) {
         Vec3<double> normal = random.direction();
-        // Half of them close to the poles, where the frame turns quickly.
+        // Half of the normals are close to the poles, where the frame turns quickly.
         if (random.index(2) == 0) {
             normal.x *= random.log_between(1e-6, 1);
             normal.y *= random.log_between(1e-6, 1);
@@ -182,7 +183,7 @@ struct Brdfs {
         const Vec3<double> wo = is_degenerate(random) ? axis(random) : random.direction();
         put(inputs, {wo.x, wo.y, std::fabs(wo.z)});
         Vec3<double> wi = random.direction();
-        // Some below the horizon, others close to the mirror direction.
+        // Some directions are below the horizon, others close to the mirror direction.
         const int kind = random.index(4);
         if (kind > 0) wi.z = std::fabs(wi.z);
         if (kind > 1)
@@ -205,7 +206,8 @@ struct Brdfs {
     }
 };
 
-/// A point and normal somewhere around lights of order one; the point may be a corner of the light, or next to it.
+/// Draws a point and a normal around lights whose coordinates are of order one. The point may be a corner of the
+/// light, or close to it.
 void draw_surface(RandomSource& random, const Vec3<double>& corner, std::vector<float>& inputs) {
     if (is_degenerate(random)) {
         put(inputs, corner + (random.index(2) == 0 ? 0 : 1e-6) * random.direction());
@@ -351,8 +353,8 @@ TEST_F(RandomParity, HasTheBitsOfCpp) {
     const std::size_t calls = function_calls();
     std::vector<float> inputs;
     const auto bits = [](RandomSource& random) {
-        // A word with any bits might be a signalling NaN, which must not pass through arithmetic; loads and stores
-        // keep it.
+        // A word with random bits may be a signalling NaN. It must not pass through arithmetic, but loads and stores
+        // preserve it.
         return std::bit_cast<float>(static_cast<std::uint32_t>(random.uniform() * 0x1p32));
     };
     for (std::size_t i = 0; i < calls; ++i) {

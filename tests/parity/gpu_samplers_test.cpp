@@ -20,10 +20,10 @@ TEST(GpuSamplerRows, AreMediansLessTheBaseline) {
     EXPECT_EQ(rows[0].configuration, "lines");
     EXPECT_EQ(rows[0].light_ns, 10);
     EXPECT_EQ(rows[0].sample_ns, 3);
-    EXPECT_EQ(rows[0].light_spread, 1.0 / 12) << "half of 14 - 12";
+    EXPECT_EQ(rows[0].light_spread, 1.0 / 12) << "half of 14 - 12, relative to 12";
     EXPECT_EQ(rows[0].sample_spread, 0);
     EXPECT_EQ(rows[1].technique, "PolygonArea");
-    EXPECT_EQ(rows[1].light_ns, 7) << "of its own baseline";
+    EXPECT_EQ(rows[1].light_ns, 7) << "minus the baseline of the same lights";
 }
 
 TEST(GpuSamplerRows, HaveRatiosOfTimesAboveTheBaseline) {
@@ -35,7 +35,7 @@ TEST(GpuSamplerRows, HaveRatiosOfTimesAboveTheBaseline) {
                                     {"LineProjectedSolidAngle", "other", {4}, {3}}});
     ASSERT_EQ(rows.size(), 4u);
     EXPECT_EQ(rows[1].light_ratio, 0.5);
-    EXPECT_EQ(rows[1].sample_ratio, std::nullopt) << "of nothing";
+    EXPECT_EQ(rows[1].sample_ratio, std::nullopt) << "the competitor takes no time above the baseline";
     EXPECT_EQ(rows[2].light_ratio, std::nullopt) << "no competitor";
     EXPECT_EQ(rows[3].light_ratio, std::nullopt) << "no competitor with these lights";
 }
@@ -48,7 +48,8 @@ TEST_F(GpuSamplers, HaveARowForEachTechniqueAndClassOfLights) {
     EXPECT_EQ(table.llvmpipe_threads.has_value(), table.device.name.find("llvmpipe") != std::string::npos);
     std::map<std::string, std::set<std::string>> lights;
     for (const auto& row : table.rows) {
-        EXPECT_TRUE(lights[row.technique].insert(row.configuration).second) << "twice";
+        EXPECT_TRUE(lights[row.technique].insert(row.configuration).second)
+            << row.technique << " has two rows for " << row.configuration;
         EXPECT_TRUE(std::isfinite(row.light_ns) && std::isfinite(row.sample_ns)) << row.technique;
     }
     const auto expect_rows = [&](auto list, std::size_t count, const char* what) {

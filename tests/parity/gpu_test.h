@@ -1,6 +1,7 @@
 #pragma once
-/// Fixture of tests on a Vulkan device. Without a loader or any device they are skipped, visibly, unless one is asked
-/// for; a driver that does not start and whatever the validation layer says are failures.
+/// Fixture of tests on a Vulkan device. Without a loader or any device, the tests are reported as skipped, unless the
+/// environment asks for a device. A driver that does not start is a failure, and so is any message of the validation
+/// layer.
 
 #include "gpu/device.h"
 
@@ -11,8 +12,8 @@
 
 namespace nusselt::parity {
 
-/// Whether the environment asks for a device: CI=true does, whose machines install a software device, NUSSELT_DEVICE,
-/// and NUSSELT_EXPECT_DRIVER, which is part of the name or version of the driver that shall run.
+/// Whether the environment asks for a device. It does with CI=true (these machines install a software device),
+/// NUSSELT_DEVICE, or NUSSELT_EXPECT_DRIVER, which is a part of the name or version of the driver to run.
 inline bool needs_device() {
     const auto value = [](const char* name) -> std::string {
         const char* text = std::getenv(name);

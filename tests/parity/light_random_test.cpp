@@ -1,4 +1,4 @@
-// The random numbers of a renderer, bit by bit.
+// Compares the random numbers of a renderer on the device with C++, bit by bit.
 
 #include "common/effort.h"
 #include "gpu/fused_fma.h"
@@ -27,7 +27,7 @@ struct Call {
 Call draw_call(std::size_t i) {
     hostile::RandomSource random(3, i);
     const auto word = [&](double limit) { return static_cast<std::uint32_t>(random.uniform() * limit); };
-    // Usual numbers of samples, any, and the largest.
+    // Common numbers of samples, arbitrary ones, and the largest.
     const std::uint32_t counts[] = {1u << word(7), 1 + word(1024), 1 + word(0x1p22), 1u << 22};
     Call call{static_cast<Sampler>(random.index(4)),
               word(0x1p32),
@@ -41,7 +41,7 @@ Call draw_call(std::size_t i) {
     return call;
 }
 
-/// How many numbers of a shader differ from those of C++, by sampler; the last count is that of camera rays.
+/// How many numbers of a shader differ from those of C++, for each sampler and, in the last entry, for camera rays.
 std::array<int, 5> differences(const gpu::Device& device, std::span<const std::uint32_t> shader) {
     std::vector<float> inputs;
     for (std::size_t i = 0; i < calls(); ++i) {
@@ -81,7 +81,7 @@ TEST_F(LightRandomParity, FindsQuotientsOffByARounding) {
     EXPECT_EQ(wrong[static_cast<std::size_t>(Sampler::sobol)], 0);
     EXPECT_GT(wrong[static_cast<std::size_t>(Sampler::jittered)], 0);
     EXPECT_GT(wrong[static_cast<std::size_t>(Sampler::stratified)], 0);
-    EXPECT_EQ(wrong[4], 0) << "camera rays take no quotients";
+    EXPECT_EQ(wrong[4], 0) << "camera rays need no quotients";
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Functions on linearly transformed cosines below the techniques.
+// Parity of the functions on linearly transformed cosines that are below the techniques.
 
 #include "function_parity.h"
 #include "inputs/table_words.h"
@@ -26,7 +26,7 @@ namespace nusselt::parity {
 
 namespace {
 
-/// One of the shipped table, or a hostile one.
+/// Draws a lobe from the shipped table, or a hostile one.
 void draw_lobe(RandomSource& random, std::vector<float>& inputs) {
     LtcCoefficients<float> c{};
     if (is_degenerate(random))
@@ -41,7 +41,7 @@ Ltc<Real> get_lobe(const float* inputs) {
     return Ltc<Real>({inputs[0], inputs[1], inputs[2], inputs[3], inputs[4], inputs[5]});
 }
 
-/// As shaders/parity/lobe_input.glsl.
+/// The layout is that of shaders/parity/lobe_input.glsl.
 constexpr std::size_t kLobeSize = 6;
 
 struct ShadingFrames {
@@ -57,7 +57,7 @@ struct ShadingFrames {
     static void draw(RandomSource& random, std::vector<float>& inputs) {
         const Vec3<double> normal = is_degenerate(random) ? axis(random) : random.direction();
         put(inputs, normal);
-        // Parallel, or up to an angle with that float can tell.
+        // Parallel to the normal, or at an angle that float can resolve.
         const double angle = is_degenerate(random) ? 0 : random.log_between(1e-6, 1);
         put(inputs, (random.index(2) == 0 ? -1.0 : 1.0) * normalize(normal + angle * random.direction()));
     }
@@ -195,21 +195,22 @@ struct LineShading {
     }
 };
 
-/// Coordinates of a table, sometimes on samples.
+/// Draws a coordinate of a table, sometimes exactly that of a sample.
 float coordinate(RandomSource& random, int samples) {
     if (is_degenerate(random))
         return static_cast<float>(random.index(samples)) / static_cast<float>(samples - 1);
     return static_cast<float>(random.uniform());
 }
 
-/// Of a lobe of a table. The matrix may have rows as narrow as the lobe.
+/// Results for a lobe from a table. The entries m20 and m22 may differ by as little as the width of the lobe, so this
+/// compares m20 relative to that width.
 template <class Real>
 Results<Real> results_of(const LtcCoefficients<Real>& lobe) {
     const Real width = lobe.m22 - lobe.m20;
     return {lobe.m00, lobe.m02, Real(1) / lobe.m11, lobe.m20 / width, width, lobe.albedo};
 }
 
-/// The table with numbers of 16 bits, decoded on the device.
+/// The table with 16-bit numbers, which the device decodes.
 struct Table {
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kLtcTableSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kLtcTableFused;
@@ -246,7 +247,7 @@ const tables::LtcTable& engine_table() {
     return table;
 }
 
-/// The table with half floats, likewise.
+/// The table with half-precision floats.
 struct EngineTable {
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kEngineTableSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kEngineTableFused;
@@ -299,7 +300,8 @@ TEST_F(LtcFunctionMutant, SeamsAlongTheReflectanceAreFound) {
         judge_group<Table>(device(), shaders::kSeamedTable, kMutantCalls, table_words()).excesses;
     EXPECT_FALSE(excesses.empty());
     for (const std::string& excess : excesses)
-        EXPECT_NE(excess.rfind("coloured albedo, ", 0), 0u) << "it has no samples of f0 between: " << excess;
+        EXPECT_NE(excess.rfind("coloured albedo, ", 0), 0u)
+            << "only two samples of f0, so no seam: " << excess;
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// A wrong technique for linearly transformed cosines.
+// The parity tests must reject a wrong technique for linearly transformed cosines.
 
 #include "technique_parity.h"
 
@@ -18,7 +18,7 @@ TEST_F(LtcMutant, MissingClippingIsFound) {
                              [&](const std::string& excess) { return excess.rfind(begin, 0) == 0; });
     };
     EXPECT_GT(count_of("crossing the horizon:"), 0);
-    EXPECT_EQ(count_of("decentral:"), 0) << "above the horizon nothing is missing";
+    EXPECT_EQ(count_of("decentral:"), 0) << "lights above the horizon need no clipping";
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Wrong shaders: what accepts them proves nothing.
+// The parity tests must reject wrong shaders.
 
 #include "shaders/displaced_polygon.h"
 #include "shaders/misinverted_polygon.h"
@@ -20,7 +20,7 @@ protected:
     }
 };
 
-/// How many excesses begin with a text.
+/// How many excesses start with a text.
 auto count_of(const std::vector<std::string>& excesses, const std::string& begin) {
     return std::count_if(excesses.begin(), excesses.end(),
                          [&](const std::string& excess) { return excess.rfind(begin, 0) == 0; });
@@ -35,13 +35,13 @@ TEST_F(MutantParity, RandomNumbersOffBySixteenRoundingsAreFound) {
 TEST_F(MutantParity, HitPointsBehindTheLightAreFound) {
     const auto excesses = excesses_of<ProjectedPair>(shaders::kDisplacedPolygon);
     EXPECT_EQ(count_of(excesses, "decentral: hit point"), 3) << "all quantiles";
-    EXPECT_EQ(count_of(excesses, "decentral:"), 3) << "all else is right";
+    EXPECT_EQ(count_of(excesses, "decentral:"), 3) << "everything else is correct";
 }
 
 TEST_F(MutantParity, WrongSecondInversesAreFound) {
     const auto excesses = excesses_of<ProjectedPair>(shaders::kMisinvertedPolygon);
     EXPECT_EQ(count_of(excesses, "decentral: second inverse"), 3) << "all quantiles";
-    EXPECT_EQ(count_of(excesses, "decentral:"), 3) << "all else is right";
+    EXPECT_EQ(count_of(excesses, "decentral:"), 3) << "everything else is correct";
 }
 
 TEST_F(MutantParity, MissingClippingIsFound) {
@@ -49,7 +49,7 @@ TEST_F(MutantParity, MissingClippingIsFound) {
     const auto excesses =
         excesses_of<Clipped>(shader_of<TechniquePair<hostile::PolygonSolidAngleKindOf<4>>>(Variant::split));
     EXPECT_GT(count_of(excesses, "crossing the horizon:"), 0);
-    EXPECT_EQ(count_of(excesses, "decentral:"), 0) << "above the horizon nothing is missing";
+    EXPECT_EQ(count_of(excesses, "decentral:"), 0) << "lights above the horizon need no clipping";
 }
 
 TEST_F(MutantParity, InfiniteDensitiesAreFound) {

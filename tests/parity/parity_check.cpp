@@ -9,17 +9,18 @@ namespace nusselt::parity {
 
 namespace {
 
-/// A rule of the project, not fitted to what a device does.
+/// This factor is a rule of the project. It was not fitted to the results of a device.
 constexpr double kFactor = 3;
 
-/// The tail is the quantile with this many errors above it, but at most 99.9 %: with fewer it would be chance.
+/// The tail is the quantile with this many errors above it, but at most 99.9 %. With fewer errors above it, the
+/// quantile would depend on chance.
 constexpr double kErrorsBeyondTail = 30;
 
-/// So few errors decide on the far tail and the largest error that these are compared only for as many lights as the full
-/// effort has of a class.
+/// The far tail and the largest error depend on few errors. They are compared only for at least as many errors as the
+/// full effort has for a class of lights.
 constexpr std::size_t kErrorsForExtremes = 30'000;
 
-/// What a result in float differs from the exact one by, at least: half the spacing of floats below one.
+/// The smallest error that can be asked of a float: half the spacing of floats below one.
 constexpr double kRounding = std::numeric_limits<float>::epsilon() / 4;
 
 double quantile(const std::vector<double>& sorted, double share) {

@@ -14,17 +14,17 @@
 
 namespace nusselt::parity {
 
-/// What errors are measured of, against the technique in long double. "In the same direction": in that of the method, so
-/// that no error counts twice.
+/// The quantities whose errors are measured against the technique in long double. "In the same direction" means the
+/// direction that the method under test returned, so that no error counts twice.
 enum class Quantity {
     first_random,   ///< backward error of the first random number
     second_random,  ///< of the second one; lines have none
-    measure,        ///< relative
+    measure,        ///< relative error
     density,        ///< pdf() in the same direction, relative
     sample_density, ///< density of the sample in the same direction, relative
-    unit_length,    ///< difference of the length of the direction to one
+    unit_length,    ///< difference between the length of the direction and one
     aim,            ///< sine of the angle between the direction and the hit point
-    hit_point, ///< distance to where the same direction meets the light, relative to the size of the light
+    hit_point, ///< distance from the intersection of the same direction with the light, relative to the light's size
     first_inverse,  ///< of the first random number that invert() finds for the same direction
     second_inverse, ///< of the second one
 };
@@ -48,32 +48,34 @@ struct Errors {
     void append(const Errors& other);
 };
 
-/// What came of comparing a device with C++.
+/// The result of comparing a device with C++.
 struct Verdict {
     std::int64_t lights = 0;           ///< how many were judged
-    std::vector<std::string> excesses; ///< lines that say which budget is exceeded, and by how much
+    std::vector<std::string> excesses; ///< messages that name each exceeded budget and the error
     std::vector<std::string> vacuous;  ///< quantities and quantiles whose budget no error can exceed
-    double largest_ratio = 0; ///< of an error on the device to that of C++ or the floor; the budget is 3
+    double largest_ratio = 0; ///< of an error on the device to that of C++ or to the floor; the budget is 3
     std::string where;        ///< the quantity and quantile with the largest ratio
 
     void add(const std::string& prefix, const Verdict& other);
 };
 
-/// Which errors are compared, beside the median, 99 % and the tail: 99.9 %, or less where a class has few lights.
+/// The errors that are compared: always the median, the 99 % quantile and the tail, which is the 99.9 % quantile or a
+/// lower one if a class has few lights.
 enum class Tail {
     quantiles,
-    nearly_largest, ///< also 99.99 %, where a class has many lights
-    /// Also the largest error of many lights. Where a quantity is hard to tell for single lights (say, the second random
-    /// number at the tip of a sector), the largest error of one method may be three times that of another by chance alone.
+    nearly_largest, ///< also the 99.99 % quantile, if a class has many lights
+    /// Also the largest error, if a class has many lights. Where single lights are ill-conditioned (say, for the
+    /// second random number at the tip of a sector), the largest error of one method may be three times that of
+    /// another by chance alone.
     largest,
 };
 
-/// What methods make of a light.
+/// How methods represent a light.
 enum class Images {
     same,
-    /// Each rounds the image of the light in cosine space its own way. Where the light is seen almost edge-on, or almost
-    /// none of it is in the lobe, that makes the error: of a quantity like 1 / x the largest one is chance, and so is
-    /// on which side of a limit a light is.
+    /// Each method rounds the image of the light in cosine space differently. This rounding dominates the error if
+    /// the light is seen almost edge-on or is almost entirely outside the lobe. Chance then decides about the largest
+    /// error of a quantity like 1 / x, and about the side of a limit on which a light is.
     rounded,
 };
 
@@ -84,15 +86,15 @@ struct Budget {
 };
 
 /// Compares errors of one quantity.
-/// \param floor errors of the exact results rounded to float: no method can be asked for less.
+/// \param floor errors of the exact results rounded to float, below which no method can get.
 Verdict compare(const std::string& quantity, std::vector<double> device, std::vector<double> cpp,
                 std::vector<double> floor, const Budget& budget);
 
-/// Compares all quantities, and the counts. With rounded images, errors are compared up to 99.99 %, and counts may exceed
-/// those of C++ by three standard deviations; 0 stays 0.
+/// Compares all quantities, and the counts. With rounded images, it compares errors up to the 99.99 % quantile, and
+/// counts may exceed those of C++ by three standard deviations, which is 0 if C++ has none.
 Verdict compare(const Errors& device, const Errors& cpp, const Errors& floor, Images images = Images::same);
 
-/// Whether two random numbers make a sample, as of polygons.
+/// Whether a sample takes two random numbers, as for polygons.
 template <class Traits>
 inline constexpr bool kIsPolygonal = !std::is_same_v<typename Traits::template Random<float>, float>;
 
@@ -107,7 +109,7 @@ inline Vec3<proof::Exact> hit_point(const LineSegment<proof::Exact>& light, cons
     return light.p0 - dot(cross(wi, light.p0), across) / dot(across, across) * light.s;
 }
 
-/// Where a ray from the origin meets a cylinder, or would if rounding did not let it miss.
+/// Where a ray from the origin meets a cylinder, or would meet it but for rounding.
 inline Vec3<proof::Exact> hit_point(const Cylinder<proof::Exact>& light, const Vec3<proof::Exact>& wi) {
     return intersect(light, wi).distance * wi;
 }
@@ -121,9 +123,9 @@ proof::Exact size_of(const ConvexPolygon<proof::Exact, N>& light) {
 inline proof::Exact size_of(const LineSegment<proof::Exact>& light) { return light.length; }
 inline proof::Exact size_of(const Cylinder<proof::Exact>& light) { return light.axis.length + light.radius; }
 
-/// Judges measure and sample of a method, which may have no more.
+/// Judges the measure and the sample of a method. Published methods return nothing else.
 /// \tparam Traits of proof/accuracy/references.h.
-/// \return the random numbers that explain the sample, if there is one of a light.
+/// \return the random numbers that explain the sample; none without a sample or a visible light.
 template <class Traits>
 std::optional<typename Traits::template Random<proof::Exact>>
 judge_sample(const proof::Case<Traits, float>& c, bool dark, const LightSample<float>& sample, float measure,
@@ -174,7 +176,7 @@ void judge(const proof::Case<Traits, float>& c, bool dark, const Outputs& out, E
         errors.add(Quantity::second_inverse, std::fabs(explained->y - out.inverse.y));
 }
 
-/// Exact results, each rounded to float: density and inverse are those of the rounded direction.
+/// Exact results, each rounded to float. Density and inverse are those of the rounded direction.
 template <class Traits>
 hostile::Outputs<float, typename Traits::template Random<float>>
 rounded_outputs(const proof::Case<Traits, float>& c) {

@@ -6,7 +6,8 @@ namespace nusselt::parity {
 
 namespace {
 
-/// Errors of each quantity, spread evenly up to `largest`: as many as the full effort has of a class of lights, or fewer.
+/// Errors of each quantity, spread evenly up to `largest`. The default count is that of the full effort for a class
+/// of lights.
 Errors errors_up_to(double largest, int count = 30'000) {
     Errors errors;
     for (std::size_t q = 0; q < kQuantities; ++q)
@@ -21,7 +22,7 @@ std::vector<std::string> excesses_of(const Errors& device, const Errors& cpp, co
 TEST(ParityBudget, IsThreeTimesTheErrorOfCpp) {
     EXPECT_TRUE(excesses_of(errors_up_to(2.9e-5), errors_up_to(1e-5), {}).empty());
     const auto found = excesses_of(errors_up_to(3.1e-5), errors_up_to(1e-5), {});
-    // Three quantiles of each quantity, and the largest error of two.
+    // Three quantiles of each quantity, and the largest error of two quantities.
     EXPECT_EQ(found.size(), 3 * kQuantities + 2);
 }
 
@@ -32,7 +33,7 @@ TEST(ParityBudget, LeavesOutTheLargestErrorOfFewLights) {
         return excesses_of(device, errors_up_to(1e-6, count), {}).size();
     };
     EXPECT_EQ(excesses(30, 3000), 0u);
-    EXPECT_EQ(excesses(32, 3000), 2 * kQuantities) << "99 % is the tail of so few";
+    EXPECT_EQ(excesses(32, 3000), 2 * kQuantities) << "for so few errors, the tail is the 99 % quantile";
     EXPECT_EQ(excesses(31, 10'000), kQuantities) << "only the tail";
     EXPECT_EQ(excesses(1, 29'999), 0u);
     EXPECT_EQ(excesses(1, 30'000), 2u) << "the largest error of two quantities";
@@ -40,7 +41,7 @@ TEST(ParityBudget, LeavesOutTheLargestErrorOfFewLights) {
 
 TEST(ParityBudget, IsNotBelowTheFloor) {
     EXPECT_TRUE(excesses_of(errors_up_to(2.9e-5), errors_up_to(1e-7), errors_up_to(1e-5)).empty());
-    EXPECT_TRUE(excesses_of(errors_up_to(5e-8), {}, {}).empty()) << "a rounding";
+    EXPECT_TRUE(excesses_of(errors_up_to(5e-8), {}, {}).empty()) << "no budget is below a rounding error";
     EXPECT_FALSE(excesses_of(errors_up_to(5e-7), {}, {}).empty());
 }
 
@@ -65,14 +66,14 @@ TEST(ParityBudget, CountsDirectionsOffTheLightAndWhatIsNoNumber) {
     }
     Errors device, cpp;
     device.invalid = cpp.invalid = 1;
-    EXPECT_EQ(excesses_of(device, cpp, {}).size(), 1u) << "also where C++ has them";
+    EXPECT_EQ(excesses_of(device, cpp, {}).size(), 1u) << "even if C++ has them, too";
 }
 
 TEST(ParityBudget, LeavesRoomForChanceWhereImagesAreRounded) {
     const auto excesses = [](const Errors& device, const Errors& cpp) {
         return compare(device, cpp, {}, Images::rounded).excesses.size();
     };
-    // One error of 30 000 is beyond 99.99 %, ten are not.
+    // One bad error of 30 000 is above the 99.99 % quantile, but ten reach below it.
     Errors device = errors_up_to(1e-6);
     for (auto& errors : device.of) errors.back() = 1;
     EXPECT_EQ(excesses(device, errors_up_to(1e-6)), 0u);

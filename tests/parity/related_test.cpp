@@ -1,4 +1,5 @@
-// Published methods, on lights that they are made for. On others they err arbitrarily in C++, too.
+// Parity of published methods, on lights for which they are made. On other lights, their errors are arbitrary in C++,
+// too.
 
 #include "technique_parity.h"
 
@@ -8,9 +9,8 @@ namespace nusselt::parity {
 
 namespace {
 
-/// The published method that a technique replaces. Its twin has no invert(). The one of PolygonProjectedSolidAngle
-/// follows chains of edges in C++ and sorts in GLSL: they may take sums in different order, so that only errors can be
-/// compared.
+/// The published method that a technique replaces. Its twin has no invert(). The one for PolygonProjectedSolidAngle
+/// follows chains of edges in C++ but sorts in GLSL. The order of sums may differ, so only errors can be compared.
 template <class AnyKind>
 struct RelatedPair {
     using Kind = AnyKind;

@@ -1,5 +1,5 @@
 #pragma once
-/// Runs shaders that turn numbers into numbers.
+/// Runs shaders that compute numbers from numbers.
 
 #include "gpu/compute_pipeline.h"
 
@@ -17,7 +17,7 @@ inline constexpr std::size_t kOutputSize = 12;
 class ShaderRunner {
 public:
     /// \param input_size floats for each light or call.
-    /// \param table      what the shader finds in a third buffer; empty if it has none.
+    /// \param table      contents of the shader's third buffer; empty if it has none.
     ShaderRunner(const gpu::Device& device, std::span<const std::uint32_t> shader, std::size_t input_size,
                  std::span<const std::uint32_t> table = {});
 

@@ -6,7 +6,7 @@ namespace nusselt::parity {
 
 namespace {
 
-/// A budget that no error exceeds, because the error of C++ is a third of the largest possible one or more.
+/// A budget that no error can exceed, because the error of C++ is at least a third of the largest possible error.
 struct VacuousBudget {
     const char* where; ///< class of lights, quantity and quantile
     const char* reason;

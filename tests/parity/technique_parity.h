@@ -24,8 +24,8 @@
 
 namespace nusselt::parity {
 
-/// A technique of ours.
-/// \tparam AnyKind of the registry.
+/// A technique of the library and its twin.
+/// \tparam AnyKind a kind of technique from the registry.
 template <class AnyKind>
 struct TechniquePair {
     using Kind = AnyKind;
@@ -40,9 +40,9 @@ struct TechniquePair {
     static void judge(const proof::Case<Traits, float>& c, bool dark, const Outputs& out, Errors& errors) {
         if constexpr (hostile::kIsCylinder<Kind> && Kind::kMeasure == hostile::Measure::area) {
             const auto facing = cosine_of_sample(c);
-            // Where rounding decides which side a point is on, nothing is asked.
+            // Nothing is required where rounding decides which side faces the point.
             if (!dark && std::fabs(facing) < kGrazing) return;
-            // Samples on the side that faces away are no samples.
+            // The side that faces away gives no samples.
             parity::judge(c, dark || facing < 0, out, errors);
         } else {
             parity::judge(c, dark, out, errors);
@@ -52,7 +52,7 @@ struct TechniquePair {
 private:
     static constexpr proof::Exact kGrazing = 1e-3L;
 
-    /// Between the ray to the sample of a cylinder, backwards, and the normal there.
+    /// Cosine of the angle between the normal at the sample of a cylinder and the direction back to the origin.
     static proof::Exact cosine_of_sample(const proof::Case<Traits, float>& c) {
         const auto& [axis, radius] = c.exact_light;
         const auto p = c.exact.sample(Traits::template widened<proof::Exact>(c.u)).p;
@@ -66,7 +66,7 @@ private:
     }
 };
 
-/// The pairs of lists, for TYPED_TEST_SUITE.
+/// The pairs of the techniques in lists, for TYPED_TEST_SUITE.
 struct ParitySuite {
     static constexpr std::string_view kName = "parity"; ///< in techniques.json
 };
@@ -98,7 +98,7 @@ std::span<const std::uint32_t> shader_of(Variant variant) {
     throw std::logic_error(std::string("no such twin of ") + Pair::kName);
 }
 
-/// Those that give the right results on a device.
+/// The variants that give correct results on a device.
 inline std::vector<Variant> variants_for(const gpu::Device& device) {
     if (gpu::has_fused_fma(device)) return {Variant::split, Variant::fused};
     return {Variant::split};
@@ -134,7 +134,7 @@ Verdict judge_class(const typename Pair::Traits::Class& lights, int count,
         floor.append(block_floor);
         return static_cast<int>(cases.size());
     };
-    // Dim lights are left out; others take their place.
+    // Other lights take the place of those that are too dim.
     int begin = 0, judged = 0;
     while (judged < count) {
         const int size = judged == 0 ? count : std::max(count - judged, kBlock);
@@ -151,7 +151,7 @@ Verdict judge_class(const typename Pair::Traits::Class& lights, int count,
     return verdict;
 }
 
-/// Judges the twin on all classes for which `is_judged` holds, with together at least `count` lights.
+/// Judges the twin on all classes for which `is_judged` holds, with at least `count` lights in total.
 template <class Pair>
 Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> shader, int count,
                    const std::function<bool(const typename Pair::Traits::Class&)>& is_judged) {
@@ -167,7 +167,7 @@ Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> sha
     return verdict;
 }
 
-/// Likewise, on the classes for the bound of the technique: 4 or 8 vertices, or lines.
+/// Judges the twin on the classes that match the bound of the technique: 4 or 8 vertices, or lines.
 template <class Pair>
 Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> shader, int count) {
     return judge_twin<Pair>(device, shader, count, [](const auto& lights) {
@@ -175,10 +175,11 @@ Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> sha
     });
 }
 
-/// Fails where the device errs too much, or where no error would be too much without a known reason.
+/// Fails if errors on the device exceed a budget, or if a budget cannot be exceeded for no known reason.
 void expect_parity(const Verdict& verdict);
 
-/// Random lights of each technique, in all classes together. Polygons come with two bounds on the number of vertices.
+/// Number of random lights for each technique, over all its classes. Polygons are judged for two bounds on the number
+/// of vertices.
 inline int random_lights() { return nusselt_test::at_effort(100'000, 1'000'000); }
 template <class Pair>
 int random_lights_of() {
@@ -186,7 +187,7 @@ int random_lights_of() {
 }
 inline int hostile_lights() { return nusselt_test::at_effort(20'000, 100'000); }
 
-/// Wrong shaders are rejected with no more lights than the quick effort has.
+/// The number of lights that must suffice to reject a wrong shader. The quick effort has no fewer.
 inline constexpr int kMutantLights = 50'000;
 
 /// The first of `count` hostile lights on which a twin breaks the contract; empty if there is none.

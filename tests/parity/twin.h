@@ -1,5 +1,5 @@
 #pragma once
-/// A technique in GLSL, run on many lights.
+/// Runs a technique in GLSL on many lights.
 
 #include "proof/hostile/contract.h"
 #include "shader_runner.h"
@@ -9,7 +9,7 @@
 
 namespace nusselt::parity {
 
-/// As the shaders of techniques write it.
+/// The layout in which the shaders of techniques write their results.
 struct DeviceOutputs {
     float wi[3];
     float pdf;

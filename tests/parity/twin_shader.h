@@ -1,5 +1,5 @@
 #pragma once
-/// An entry of the table of shaders that the build makes.
+/// An entry of the table of shaders that the build generates.
 
 #include <cstdint>
 #include <span>
@@ -9,7 +9,7 @@ namespace nusselt::parity {
 enum class Variant {
     split,  ///< for any device
     fused,  ///< for devices whose fma rounds once
-    rolled, ///< for any device, with loops that are left to the compiler
+    rolled, ///< for any device, with loops that are not marked with [[unroll]]
 };
 
 struct TwinShader {

@@ -1,5 +1,5 @@
-// The remaining bounds on the number of vertices, each of which has a sorting network of its own, and loops that are
-// not unrolled: with fewer lights.
+// Parity for the remaining bounds on the number of vertices, each of which has its own sorting network, and for loops
+// that are not marked with [[unroll]]. These tests use fewer lights.
 
 #include "technique_parity.h"
 
@@ -7,7 +7,7 @@ namespace nusselt::parity {
 
 namespace {
 
-/// As many as of each class with a bound of four.
+/// As many as for each class with a bound of four.
 int lights_per_class() { return nusselt_test::at_effort(3'300, 33'000); }
 
 template <class Pair>
@@ -16,7 +16,7 @@ using Techniques = PairsOf<hostile::PolygonKinds<3>, hostile::PolygonKinds<5>, h
                            hostile::PolygonKinds<7>>;
 TYPED_TEST_SUITE(VertexBounds, Techniques, PairNames);
 
-/// Lights that fill all slots, and lights that are clipped.
+/// Judges lights that use all vertex slots, and lights that are clipped.
 TYPED_TEST(VertexBounds, IsAsAccurateAsCpp) {
     constexpr int kBound = TypeParam::Traits::kVertexBound;
     for (const Variant variant : variants_for(this->device())) {

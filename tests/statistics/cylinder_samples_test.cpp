@@ -1,5 +1,5 @@
-/// Samples of cylinders and their densities: the mean of a function over the density must be its integral, which
-/// quadrature over the surface yields.
+/// Tests samples of cylinders and their densities: the mean of a function divided by the density must be its
+/// integral, which comes from quadrature over the surface.
 
 #include <cmath>
 
@@ -22,8 +22,8 @@ using Technique = typename Kind::template Technique<float>;
 using Random = nusselt::Vec2<float>;
 using Direction = nusselt::Vec3<float>;
 
-/// The integrand on whose support a density must be positive, times factors that vary by a few times: estimates have
-/// little variance, but some.
+/// The function on whose support a density must be positive, times factors that vary by a small ratio. Estimates thus
+/// have some variance, but little.
 template <class Kind>
 auto integrand(const Light<Kind>& light) {
     const auto importance = [light](const Point& wi) {
@@ -37,8 +37,8 @@ auto integrand(const Light<Kind>& light) {
 }
 
 /// Whether estimates with samples and densities disagree with integrals.
-/// \param warp    of random numbers that shall be uniform.
-/// \param density of (technique, wi)
+/// \param warp    maps random numbers that should be uniform.
+/// \param density function of (technique, wi).
 template <class Kind, class Warp, class Density>
 bool is_rejected(const Warp& warp, const Density& density) {
     std::vector<double> p_values;
@@ -55,7 +55,8 @@ bool is_rejected(const Warp& warp, const Density& density) {
             if (!(sample.pdf > 0)) continue;
             test.add(f(nusselt::broadcast<long double>(sample.wi)) / density(technique, sample.wi));
         }
-        // Small lights hardly vary: neither rounding in float nor the tolerance of the integral is a bias.
+        // The values for small lights hardly vary. The slack keeps rounding in float and the tolerance of the
+        // integral from counting as bias.
         p_values.push_back(test.p_value(kSamples, expected, 1e-9L));
     }
     return reject(p_values);
@@ -89,7 +90,7 @@ TYPED_TEST(CylinderSamplesTest, SquaredRandomNumbersAreRejected) {
 }
 
 TEST(CylinderMutantsTest, DensityWithoutTheAzimuthIsRejected) {
-    // This would be right if the interpolant were exact.
+    // This density would be correct if the interpolant were exact.
     EXPECT_TRUE(is_rejected<CylinderProjectedSolidAngleKind>(
         unwarped, [](const auto& technique, const Direction& wi) { return wi.z / technique.measure(); }));
     EXPECT_TRUE(is_rejected<CylinderSolidAngleKind>(

@@ -1,5 +1,5 @@
-/// Direct light by few samples has the mean that quadrature predicts, whatever the light, the surface, the techniques
-/// and the heuristic; estimators with a mistake do not.
+/// Tests that estimates of direct light from few samples have the mean that quadrature predicts, for all lights,
+/// surfaces, techniques and heuristics, and that estimators with a mistake do not.
 
 #include <algorithm>
 #include <string>
@@ -26,7 +26,8 @@ using nusselt::WeightedBalanceHeuristic;
 using ClampedOptimal = nusselt::ClampedOptimalHeuristic<double>;
 using Optimal = nusselt::OptimalHeuristic<double>;
 
-/// A shadow or another edge on a line adds a step to a net of one dimension: an error of the kind that is seldom seen.
+/// Relative slack of a mean. A shadow or another edge on a line puts a step into a one-dimensional net, and the rare
+/// samples next to it cause an error that the replicates seldom show.
 constexpr double kSlack = 5e-4;
 
 /// The number of samples of each technique for a light.
@@ -46,7 +47,7 @@ double p_value(const std::vector<double>& means, double truth) {
 template <class Strategies, class Light>
 using Estimator = DirectLight<double, Light, nusselt::Frostbite<double>, Strategies>;
 
-/// p-values, one for each light over each surface.
+/// p-values, one for each combination of light and surface.
 template <class Strategies, class Light, class Heuristic>
 std::vector<double> p_values_of(const std::vector<ReflectedLight<Light>>& list, const Heuristic& heuristic,
                                 Counts counts = {1, 1}) {
@@ -67,7 +68,7 @@ std::vector<double> p_values_of(const std::vector<ReflectedLight<Light>>& list, 
     return p_values;
 }
 
-/// Passes if the p-values do not reject that estimates are unbiased.
+/// Passes if the p-values do not reject the hypothesis that estimates are unbiased.
 template <class Light>
 testing::AssertionResult unbiased(const std::vector<double>& p_values,
                                   const std::vector<ReflectedLight<Light>>& list) {
@@ -139,11 +140,12 @@ TYPED_TEST_SUITE(DirectLightByBrdf, Pairs);
 
 TYPED_TEST(DirectLightByBrdf, IsUnbiased) {
     expect_unbiased_by_densities<TypeParam>(reflected_polygons(surfaces(kAllRoughnesses)));
-    // These leave narrow peaks to the other technique, and far tails to this one: too seldom hit to be tested.
+    // These heuristics leave narrow peaks to the other technique and distant tails to this one. On smoother surfaces,
+    // either would be hit too rarely for a test.
     expect_unbiased_by_components<TypeParam>(reflected_polygons(surfaces({0.5, 1})));
 }
 
-/// Changes its knowledge of the technique before it uses a heuristic.
+/// Passes wrong facts about the techniques and samples to a heuristic.
 template <class Heuristic, class Change>
 struct Mutant {
     Heuristic heuristic;
@@ -158,7 +160,7 @@ struct Mutant {
 template <class Heuristic, class Change>
 Mutant(Heuristic, Change) -> Mutant<Heuristic, Change>;
 
-/// No technique for the diffuse component.
+/// A heuristic without a technique for the diffuse component.
 struct SpecularTechniqueAlone {
     template <int J>
     MisEstimate<double> estimate(const MisTechniques<double, 2>& techniques,
@@ -185,7 +187,7 @@ void expect_mutants_rejected(const std::vector<ReflectedLight<Light>>& list) {
         << "albedo of metals not clamped";
     EXPECT_TRUE(rejected(
         Mutant{WeightedBalanceHeuristic(), [](auto& t, auto&) { t.samples[0] = t.samples[1] = 1; }}, {1, 3}))
-        << "counts ignored";
+        << "numbers of samples ignored";
     EXPECT_TRUE(rejected(Mutant{Optimal{0.5}, [](auto&, auto& s) { s.pdf[1] *= 1.05; }}, {1, 1}))
         << "density wrong by 5 %";
 }

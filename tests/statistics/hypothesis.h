@@ -1,6 +1,6 @@
 #pragma once
-/// Goodness-of-fit tests. A test of many samples answers with a p-value: the probability that a correct
-/// sampler looks at least as wrong as this one.
+/// Goodness-of-fit tests. A test of many samples returns a p-value: the probability that the samples of a correct
+/// sampler deviate at least as much as these.
 
 #include <algorithm>
 #include <cmath>
@@ -26,14 +26,14 @@ inline double chi_square_p_value(double statistic, int degrees_of_freedom) {
         }
         return 1 - factor * sum;
     }
-    // Continued fraction, evaluated from the back.
+    // Continued fraction, evaluated backwards.
     double fraction = 0;
     for (int n = 500; n >= 1; --n) fraction = n * (n - a) / (2 * n + 1 + x - a - fraction);
     return factor / (1 + x - a - fraction);
 }
 
-/// p-value of Pearson's test. Cells with few expected samples are pooled; a sample in a cell that must be
-/// empty counts as a proof of error.
+/// p-value of Pearson's test. Cells with few expected samples are pooled; a sample in a cell that must be empty
+/// proves an error.
 inline double chi_square_test(const std::vector<double>& expected,
                               const std::vector<std::int64_t>& observed) {
     constexpr double kLeastExpected = 10;
@@ -62,7 +62,7 @@ inline double chi_square_test(const std::vector<double>& expected,
     return chi_square_p_value(statistic, cells - 1);
 }
 
-/// p-value of the test of Kolmogorov and Smirnov for values that shall be uniform in [0, 1].
+/// p-value of the Kolmogorov-Smirnov test for values that should be uniform in [0, 1].
 inline double kolmogorov_smirnov_test(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const auto count = static_cast<double>(values.size());
@@ -106,7 +106,7 @@ inline double student_t_test(const std::vector<double>& values, double expected,
     return student_t_p_value(off / std::sqrt(variance / count), static_cast<int>(values.size()) - 1);
 }
 
-/// The mean of many independent values, against an expected one. Values that are left out count as zero.
+/// Tests the mean of many independent values against an expected one. Values that are not added count as zero.
 class MeanTest {
 public:
     void add(long double value) {
@@ -114,9 +114,9 @@ public:
         squares_ += value * value;
     }
 
-    /// Two-sided p-value of a normal mean.
-    /// \param count    of all values.
-    /// \param slack    what is no bias, as a variance relative to the square of the expected mean
+    /// Two-sided p-value for a normally distributed mean.
+    /// \param count number of all values, including zeros that were not added.
+    /// \param slack variance that does not count as bias, relative to the square of the expected mean.
     double p_value(int count, long double expected, long double slack) const {
         const long double mean = sum_ / count;
         const long double variance = (squares_ / count - mean * mean) / count;
@@ -129,8 +129,8 @@ private:
     long double squares_ = 0;
 };
 
-/// Whether the smallest of several independent p-values is too small, at a significance of 0.1 % for all
-/// tests together (Šidák's correction). Seeds are fixed: a correct sampler passes always or never.
+/// Whether the smallest of several independent p-values is too small, at a significance level of 0.1 % for all tests
+/// together (Šidák's correction). As seeds are fixed, a given sampler always passes or always fails.
 inline bool reject(const std::vector<double>& p_values) {
     const double smallest = *std::min_element(p_values.begin(), p_values.end());
     const double count = static_cast<double>(p_values.size());

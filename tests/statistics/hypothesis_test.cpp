@@ -1,4 +1,4 @@
-/// The tests of the tests: p-values from tables, uniform samples pass, others do not.
+/// Tests of the statistical tests: they give the p-values of tables, accept uniform samples and reject others.
 
 #include "hypothesis.h"
 
@@ -18,7 +18,7 @@ TEST(HypothesisTest, ChiSquareValuesFromTables) {
 
 TEST(HypothesisTest, ChiSquareComparesCounts) {
     EXPECT_NEAR(chi_square_test({50, 50}, {60, 40}), chi_square_p_value(4, 1), 1e-12);
-    // The last two cells are one.
+    // The last two cells are pooled.
     EXPECT_NEAR(chi_square_test({50, 41, 5, 5}, {60, 31, 10, 0}), chi_square_p_value(4.0 / 2 + 100.0 / 41, 2),
                 1e-12);
     EXPECT_EQ(chi_square_test({50, 50, 0}, {30, 30, 40}), 0);

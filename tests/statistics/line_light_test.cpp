@@ -1,5 +1,5 @@
-/// Line samples have the mean that quadrature predicts, whatever the light, the surface and the shadow, and the
-/// order of convergence of one dimension; estimators with a mistake do not.
+/// Tests that line samples have the mean that quadrature predicts, for all lights, surfaces and shadows, and that
+/// they converge as in one dimension. Estimators with a mistake have the wrong mean.
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,8 @@ using Reflected = ReflectedLight<ConvexPolygon<double, 4>>;
 constexpr double kAngle = 0.7;
 constexpr int kCapacity = 4;
 
-/// A shadow or another edge on a line adds a step to a net of one dimension: an error of the kind that is seldom seen.
+/// Relative slack of a mean. A shadow or another edge on a line puts a step into a one-dimensional net, and the rare
+/// samples next to it cause an error that the replicates seldom show.
 constexpr double kSlack = 5e-4;
 
 double sum_of(const BrdfComponents<double>& c) { return sum_of_channels(c.diffuse + c.specular); }
@@ -72,7 +73,7 @@ Interval<double> free_part(const Lines& lines, double offset) {
     return part;
 }
 
-/// The mean of f(visible parts) with the half shadow, which takes away a share of the light only.
+/// The mean of f(visible parts) in the half shadow, which only removes a share of the light.
 template <class Estimate>
 double in_half_shadow(const Lines& lines, double offset, const Estimate& estimate) {
     Interval<double> storage[kCapacity];
@@ -83,9 +84,9 @@ double in_half_shadow(const Lines& lines, double offset, const Estimate& estimat
     return (1 - kTransmitted) * in_light + kTransmitted * estimate(parts);
 }
 
-/// p-values, one for each light over each surface.
-/// \param choose   a line by a random number.
-/// \param estimate of the light of the parts of a line at an offset, with a random number.
+/// p-values, one for each combination of light and surface.
+/// \param choose   picks a line, given a random number.
+/// \param estimate estimates the light of the parts of a line at an offset, given a random number.
 template <class Choose, class Estimate>
 std::vector<double> p_values_of(const std::vector<Reflected>& list, const Choose& choose,
                                 const Estimate& estimate) {
@@ -131,13 +132,14 @@ TEST(LineLightMeans, AreUnbiased) {
     EXPECT_TRUE(is_unbiased(rough, kUniform));
     EXPECT_TRUE(is_unbiased(rough, kByLength));
     EXPECT_TRUE(is_unbiased(rough, kByReflected));
-    // Few lines by length would meet these highlights.
+    // Few lines sampled by length would meet these highlights.
     EXPECT_TRUE(is_unbiased(reflected_polygons(surfaces({0.2})), kByReflected));
 }
 
 TEST(LineLightMeans, MistakesAreFound) {
     const auto list = reflected_polygons(surfaces({0.5}));
-    EXPECT_TRUE(reject(p_values_of(list, kByLength, kAnalytic))) << "no point";
+    EXPECT_TRUE(reject(p_values_of(list, kByLength, kAnalytic)))
+        << "analytic shading alone, without a sample of the BRDF";
     const auto without_albedo = [](const Lines& lines, double offset, const VisibleParts<double>& parts,
                                    double u) {
         Surface white = lines.surface;
@@ -152,10 +154,10 @@ TEST(LineLightMeans, MistakesAreFound) {
         return LineChoice<double>{choice.offset,
                                   0.5 * (choice.pdf + lines.family.pdf_by_length(choice.offset))};
     };
-    EXPECT_TRUE(reject(p_values_of(list, wrong_density, kUnbiased))) << "density by length in part";
+    EXPECT_TRUE(reject(p_values_of(list, wrong_density, kUnbiased))) << "density mixed with that by length";
 }
 
-/// A tilted square, a triangle before a part of it, and a surface that is seen from 0.9 rad.
+/// A tilted square, a triangle in front of a part of it, and a surface seen at 0.9 rad from its normal.
 class Penumbra {
 public:
     Penumbra(double roughness, bool is_metal, bool is_shadowed)
@@ -217,11 +219,11 @@ private:
 };
 
 struct Convergence {
-    double order; ///< exponent of the number of lines in the standard deviation, from 16 to 1024 lines
-    double error; ///< of 16 lines, relative
+    double order; ///< exponent of the number of lines in the standard deviation, for 16 to 1024 lines
+    double error; ///< relative standard deviation for 16 lines
 };
 
-/// \param line of two random numbers, one value of an estimator
+/// \param line computes a value of an estimator from two random numbers.
 template <class Line>
 Convergence convergence(const std::string& name, double truth, Sampler sampler, const Line& line) {
     constexpr std::uint32_t kTrials = 200;
@@ -258,14 +260,14 @@ TEST(LineLightConvergence, HasTheOrderOfOneDimension) {
             const auto by_reflected = [&](const Vec2<double>& u) {
                 return light.unbiased(light.lines().reflected_offsets.sample(u.x), u.y);
             };
-            // Stratified lines: -1.5 in theory where the integrand is smooth, -1 where it jumps. Points on lines add noise
-            // of two dimensions, but little of it.
+            // In theory, the order for stratified lines is -1.5 if the integrand is smooth and -1 if it jumps. The
+            // points on lines of the unbiased estimate add noise as in two dimensions, but little of it.
             EXPECT_LT(convergence(name + "analytic", light.mean_analytic(), Sampler::sobol, analytic).order,
                       is_shadowed ? -1.1 : -1.3);
             const Convergence of_unbiased =
                 convergence(name + "unbiased", light.mean_unbiased(), Sampler::sobol, unbiased);
             EXPECT_LT(of_unbiased.order, -0.9);
-            // Less noise of lines, and so more of the points in what remains.
+            // The lines cause less noise, so the points make up more of the remaining noise.
             const Convergence of_reflected = convergence(name + "unbiased, by reflected light",
                                                          light.mean_unbiased(), Sampler::sobol, by_reflected);
             EXPECT_LT(of_reflected.order, -0.75);
@@ -278,7 +280,7 @@ TEST(LineLightConvergence, HasTheOrderOfOneDimension) {
     }
 }
 
-/// The noise of the unbiased estimate for given lines, relative to the light.
+/// The relative noise of the unbiased estimate for given lines.
 double conditional_noise(const Penumbra& light) {
     constexpr std::uint32_t kLines = 200;
     constexpr std::uint32_t kPointsPerLine = 64;

@@ -1,4 +1,4 @@
-/// Samples of lines: their exact cumulative distribution makes them uniform.
+/// Tests samples of lines: their exact cumulative distribution function must map them to uniform numbers.
 
 #include <cmath>
 #include <vector>
@@ -37,7 +37,7 @@ private:
     ReferenceLobe lobe_;
 };
 
-/// Integral of a measure along a line, as a function of the angle from its closest point: the textbook forms
+/// Integral of a measure along a line as a function of the angle from its closest point, by the textbook formulas
 /// (Peters 2021, linear lights, Eq. 1 to 3).
 template <class Kind>
 class Distribution {
@@ -80,7 +80,7 @@ private:
 
 /// Whether samples of many lights disagree with the measure of a technique.
 /// \tparam Kind the technique that the sampler claims to be.
-/// \param  make_sampler makes from a light the function from random numbers to directions.
+/// \param make_sampler maps a light to a function from random numbers to directions.
 template <class Kind, class MakeSampler>
 bool samples_are_rejected(const MakeSampler& make_sampler) {
     std::vector<double> p_values;
@@ -111,7 +111,7 @@ auto squaring_sampler_of(const Light<Kind>& light) {
     };
 }
 
-/// A sampler that stops before the iteration.
+/// A sampler that returns the initialisation of the iteration.
 auto starting_sampler_of(const nusselt::LineSegment<float>& light) {
     return [technique = nusselt::LineProjectedSolidAngle<float, 0>(light)](float u) {
         return technique.sample(u).wi;

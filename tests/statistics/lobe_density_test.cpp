@@ -1,4 +1,4 @@
-/// Densities of samples of lobes: with them, the mean of a function over its density must be its integral.
+/// Tests the densities of samples of lobes: the mean of a function divided by the density must be its integral.
 
 #include <cmath>
 
@@ -20,14 +20,14 @@ template <class Kind>
 using Technique = typename Kind::template Technique<float>;
 using Direction = nusselt::Vec3<float>;
 
-/// The lobe times a factor that varies by a few times: the estimate has little variance, but some. The lobe is part of
-/// it since the density vanishes with it.
+/// The lobe times a factor that varies by a small ratio, so the estimate has some variance, but little. It contains
+/// the lobe because the density vanishes where the lobe does.
 long double integrand(const ReferenceLobe& lobe, const Point& wi) {
     return lobe.density(wi) * (2 + wi.x + 0.5L * wi.y);
 }
 
 /// Whether estimates with a density disagree with integrals.
-/// \param density of (technique, light, wi)
+/// \param density function of (technique, light, wi).
 template <class Kind, class Density>
 bool density_is_rejected(const Density& density) {
     std::vector<double> p_values;
@@ -50,7 +50,7 @@ bool density_is_rejected(const Density& density) {
             if (sample.pdf <= 0) continue;
             test.add(f(nusselt::broadcast<long double>(sample.wi)) / density(technique, local, sample.wi));
         }
-        // Small lights hardly vary: rounding in float is no bias.
+        // The values for small lights hardly vary. The slack keeps rounding in float from counting as bias.
         p_values.push_back(test.p_value(kSamples, expected, 1e-12L));
     }
     return reject(p_values);

@@ -1,4 +1,4 @@
-/// Samples of polygons, counted in cells whose area, solid angle or projected solid angle is known exactly.
+/// Counts samples of polygons in cells whose area, solid angle or projected solid angle is known exactly.
 
 #include <cmath>
 #include <cstdint>
@@ -25,8 +25,8 @@ template <class Kind>
 using Light = typename Kind::template Light<float>;
 using Random = nusselt::Vec2<float>;
 
-/// A regular grid in the plane of a light, over the bounding box of the light. The grid lines are great
-/// circles for the point, so that the part of the light in each cell is a polygon.
+/// A regular grid in the plane of a light, over the bounding box of the light. Seen from the point, the grid lines
+/// are great circles, so the part of the light in each cell is a polygon.
 class Cells {
 public:
     explicit Cells(const Polygon& light) : light_(light) {
@@ -42,7 +42,8 @@ public:
         }
     }
 
-    /// The share of each cell in a measure of polygons, times the number of samples. The last cell is outside.
+    /// The share of each cell in the measure of the light, times the number of samples. The last cell is outside the
+    /// light.
     template <class MeasureFunction>
     std::vector<double> expected(const MeasureFunction& measure) const {
         std::vector<double> counts;
@@ -64,7 +65,7 @@ public:
 
     std::size_t index(const nusselt::Vec3<float>& wi) const {
         const Point direction = nusselt::broadcast<long double>(wi);
-        if (!(dot(towards_plane_, direction) > 0)) return kOutside; // also NaN
+        if (!(dot(towards_plane_, direction) > 0)) return kOutside; // also for NaN
         const auto c = coordinates(direction);
         if (!is_on_light(c)) return kOutside;
         return axis_index(c.y, low_.y, high_.y) * kCellsPerAxis + axis_index(c.x, low_.x, high_.x);
@@ -80,7 +81,7 @@ private:
         for (std::size_t j = 0; j < light_.size(); ++j) {
             const auto a = coordinates(light_[j]);
             const auto b = coordinates(light_[(j + 1) % light_.size()]);
-            // The axes are such that the light is counterclockwise.
+            // The axes are chosen so that the light is counterclockwise.
             const long double doubled_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
             if (!(doubled_area >= -slack * std::hypot(b.x - a.x, b.y - a.y))) return false;
         }
@@ -96,7 +97,7 @@ private:
     }
 
     Polygon light_;
-    Point towards_plane_; ///< its product with each point of the plane is 1
+    Point towards_plane_; ///< its dot product with each point of the plane is 1
     Point u_, v_;
     nusselt::Vec2<long double> low_, high_;
 };
@@ -118,7 +119,7 @@ long double measure_of([[maybe_unused]] const Light<Kind>& light, const Polygon&
 
 /// Whether samples of many lights disagree with the measure of a technique.
 /// \tparam Kind the technique that the sampler claims to be.
-/// \param  make_sampler makes from a light the function from random numbers to directions.
+/// \param make_sampler maps a light to a function from random numbers to directions.
 template <class Kind, class MakeSampler>
 bool samples_are_rejected(const MakeSampler& make_sampler) {
     std::vector<double> p_values;
@@ -146,7 +147,7 @@ auto sampler_of(const Light<Kind>& light) {
     };
 }
 
-/// Samplers with one random number that is not uniform, and one that looks the wrong way.
+/// Two samplers with one random number that is not uniform, and one that samples the opposite directions.
 template <class Kind>
 auto squaring_x_sampler_of(const Light<Kind>& light) {
     return [sampler = sampler_of<Kind>(light)](const Random& u) { return sampler({u.x * u.x, u.y}); };
@@ -160,7 +161,7 @@ auto opposite_sampler_of(const Light<Kind>& light) {
     return [sampler = sampler_of<Kind>(light)](const Random& u) { return -sampler(u); };
 }
 
-/// A sampler that is right except for one sample in ten thousand, which is NaN.
+/// A sampler that is correct except that one sample in ten thousand is NaN.
 template <class Kind>
 auto failing_sampler_of(const Light<Kind>& light) {
     return [sampler = sampler_of<Kind>(light)](const Random& u) {

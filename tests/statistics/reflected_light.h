@@ -1,5 +1,5 @@
 #pragma once
-/// Lights over glossy surfaces, in part in shadow, and what the surfaces reflect of them by quadrature.
+/// Partly shadowed lights over glossy surfaces, and the light that the surfaces reflect, by quadrature.
 
 #include <cstdint>
 #include <filesystem>
@@ -22,7 +22,7 @@ namespace nusselt_test {
 using Direction = nusselt::Vec3<double>;
 using Surface = nusselt::GlossySurface<double>;
 
-/// The table that ships.
+/// The table that ships with the library.
 class ShippedTable {
 public:
     ShippedTable() {
@@ -66,7 +66,7 @@ inline std::vector<NamedSurface> surfaces(const std::vector<double>& roughnesses
     return list;
 }
 
-/// wo is in the xz half-plane with x >= 0, highlights in that with x <= 0.
+/// wo is in the xz half-plane with x >= 0, highlights are in that with x <= 0.
 inline std::vector<PolygonCase> polygons_to_reflect() {
     return {
         {"in the highlight", {{-1.5, -0.5, 0.7}, {-1.5, 0.4, 0.7}, {-1.2, 0.4, 1.3}, {-1.2, -0.5, 1.3}}},
@@ -90,30 +90,30 @@ inline std::vector<CylinderCase> cylinders_to_reflect() {
     return {
         {"across the highlight", {-1.5, -1, 0.8}, {-1.2, 1, 0.9}, 0.25},
         {"through the horizon", {-1, -1, -0.2}, {-1, 1, 0.4}, 0.3},
-        {"before a cap", {-0.6, 0.05, 0.7}, {-2, 0.2, 2}, 0.4},
-        {"before a cap, through the horizon", {-2, 0.1, -0.2}, {-0.6, 0.1, 0.1}, 0.4},
+        {"in front of a cap", {-0.6, 0.05, 0.7}, {-2, 0.2, 2}, 0.4},
+        {"in front of a cap, through the horizon", {-2, 0.1, -0.2}, {-0.6, 0.1, 0.1}, 0.4},
         {"beyond the lobe", {1.2, -0.6, 0.2}, {1.1, 0.8, 0.4}, 0.1},
         {"overhead and thin", {-3, 0.1, 0.4}, {2, -0.2, 0.4}, 0.02},
     };
 }
 
-/// Something beside the surface lets little light through. It halves highlights.
+/// An object beside the surface lets little light through. The edge of its shadow halves highlights.
 inline constexpr double kTransmitted = 0.3;
 inline constexpr Direction kFree{0, 1, 0};
 
-/// Share of the light from a direction that arrives.
+/// The share of the light from a direction that arrives.
 using Visibility = double (*)(const Direction& wi);
 
 inline double half_shadow(const Direction& wi) { return dot(kFree, wi) > 0 ? 1 : kTransmitted; }
 
-/// A shadow without the edge, along which quadrature over curved surfaces is slow.
+/// A shadow without an edge, since quadrature over curved surfaces is slow along edges.
 inline double gradual_shadow(const Direction& wi) {
     return 0.5 * ((1 + kTransmitted) + (1 - kTransmitted) * dot(kFree, wi));
 }
 
 inline double sum_of_channels(const Direction& colour) { return colour.x + colour.y + colour.z; }
 
-/// Three channels together, for a radiance of 1.
+/// A light over a surface. `truth` is the sum of the channels of the reflected light, for a radiance of 1.
 template <class Light>
 struct ReflectedLight {
     std::string name;
@@ -131,14 +131,14 @@ inline auto integrand_of(const Surface& surface) {
     };
 }
 
-/// \param integral over the part of a light on the side of a plane to which a normal points.
+/// \param integral computes the integral over the part of a light on the side of a plane to which a normal points.
 template <class Integral>
 double with_shadow(const Integral& integral) {
     const Point free = nusselt::broadcast<long double>(kFree);
     return static_cast<double>(integral(free) + kTransmitted * integral(-free));
 }
 
-/// Each light over each surface.
+/// All combinations of lights and surfaces.
 inline std::vector<ReflectedLight<nusselt::ConvexPolygon<double, 4>>>
 reflected_polygons(const std::vector<NamedSurface>& surfaces) {
     std::vector<ReflectedLight<nusselt::ConvexPolygon<double, 4>>> list;

@@ -1,5 +1,5 @@
 #pragma once
-/// Independent means of an estimator over randomised nets, and their test.
+/// Independent means of an estimator over randomised nets.
 
 #include <cstdint>
 #include <random>
@@ -15,7 +15,7 @@ namespace nusselt_test {
 inline constexpr int kReplicates = 17;
 inline constexpr std::uint32_t kPoints = 256;
 
-/// \param estimate from a function that gives random points, each of which is one of a net.
+/// \param estimate computes a value from a function that returns random points. The points of all calls form a net.
 template <class Estimate>
 std::vector<double> means_of(const Estimate& estimate) {
     std::mt19937 engine(7);

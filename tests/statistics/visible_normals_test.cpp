@@ -1,5 +1,5 @@
-/// Samples of visible normals, counted in cells of directions for which quadrature of the textbook's density says how
-/// many there must be.
+/// Counts samples of visible normals in cells of directions and compares the counts with quadrature of the textbook's
+/// density.
 
 #include <algorithm>
 #include <array>
@@ -34,11 +34,12 @@ const std::vector<GgxReference>& lobes() {
     return list;
 }
 
-/// Cells over cosines and azimuths above the surface, finer where there are more samples, and one for the rest.
+/// Cells in cosine and azimuth above the surface, which are finer where samples are denser, and one cell for the
+/// rest.
 template <class Cap>
 class Cells {
 public:
-    /// \param some samples, other ones than those that are counted.
+    /// \param some samples other than those that are counted.
     Cells(const GgxReference& lobe, const std::vector<Direction>& some)
         : lobe_(lobe), mirrored_(std::atan2(-lobe.wo.y, -lobe.wo.x)) {
         std::vector<long double> cosines, azimuths;
@@ -104,8 +105,8 @@ private:
 };
 
 /// Whether samples of many lobes disagree with a density.
-/// \tparam Cap of the density.
-/// \param  make_sampler makes from a lobe the function from random numbers to directions.
+/// \tparam Cap the cap of the density.
+/// \param make_sampler maps a lobe to a function from random numbers to directions.
 template <class Cap, class MakeSampler>
 bool samples_are_rejected(const MakeSampler& make_sampler) {
     std::vector<double> p_values;
@@ -133,7 +134,7 @@ auto sampler_of(const GgxReference& lobe) {
             const Random& u) { return normals.sample(u); };
 }
 
-/// Reflects at all normals alike, whether visible or not.
+/// A sampler that reflects at all normals alike, visible or not.
 auto all_normals_sampler_of(const GgxReference& lobe) {
     return [wo = broadcast<float>(lobe.wo), alpha = static_cast<float>(lobe.alpha)](const Random& u) {
         const float slope = alpha * std::sqrt(u.y / (1 - u.y));

@@ -20,7 +20,7 @@ inline void draw(hostile::HostileLights<float>& source, Cylinder<float>& light, 
 template <int N>
 void draw(hostile::HostileLights<float>& source, ConvexPolygon<float, N>& light, Vec2<float>& u) {
     if constexpr (N == 3) {
-        Vec3<float> v[4] = {}; // the fewest that there are
+        Vec3<float> v[4] = {}; // the fewest that vertices() makes
         source.vertices<4>(v);
         const Vec3<float> corners[3] = {v[0], v[1], v[2]};
         light = make_polygon<3>(corners, 3);

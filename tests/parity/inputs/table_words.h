@@ -1,5 +1,5 @@
 #pragma once
-/// Tables as buffers have them.
+/// Tables in the form in which buffers hold them.
 
 #include "tables/ltc_table.h"
 
@@ -15,7 +15,7 @@ inline std::vector<std::uint32_t> words_of(const std::string& bytes) {
     return words;
 }
 
-/// The file of the shipped table.
+/// The words of the shipped table's file.
 inline std::vector<std::uint32_t> table_words() {
     return words_of(tables::encode(tables::frostbite_ltc_table()));
 }
