@@ -1,12 +1,12 @@
 #pragma once
-/// Light by integrals of linearly transformed cosines, without samples and without shadows.
+/// Analytic light: integrals of linearly transformed cosines, without samples or shadows.
 
 #include "render_cpu/kernel/reflected_light.h"
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 
-/// Integrals over a light of emission 1.
+/// Integrals over a light with an emission of 1.
 struct LobeIntegrals {
     Real diffuse;  ///< of the clamped cosine over pi
     Real specular; ///< of the specular lobe

@@ -1,5 +1,5 @@
 #pragma once
-/// What integrators are given: one camera ray for each pixel of a packet.
+/// The input of integrators: one camera ray for each pixel of a packet.
 
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/lanes.h"
@@ -28,7 +28,7 @@ struct Rays {
     Vector direction;     ///< of any length
 };
 
-/// What rays hit first.
+/// Finds what the rays hit first.
 inline visibility::HitPacket<kLanes> trace(const CameraPacket& packet, const Rays& rays) noexcept {
     visibility::RayPacket<kLanes> traced;
     rays.origin.x.store(traced.origin[0]);

@@ -1,5 +1,5 @@
 #pragma once
-/// Light that arrives at surfaces from lights, without detours.
+/// Light that arrives at surfaces directly from lights.
 
 #include "render_cpu/kernel/camera_packet.h"
 #include "render_cpu/kernel/emission.h"
@@ -9,8 +9,8 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 
-/// A light selector that misses none. Selectors say which lights a packet of surfaces gets light of: they call a function
-/// with the number of each one among all lights of the scene.
+/// A light selector that selects all lights. Selectors choose the lights that illuminate a packet of surfaces: they
+/// call a function with the number of each among all lights of the scene.
 struct AllLights {
     template <class Visit>
     void operator()(const render_cpu::KernelScene& scene, const Visit& visit) const noexcept {
@@ -25,7 +25,7 @@ inline void add_light(ReflectedLight& reflected, std::int32_t number) noexcept {
     lights.add[lights.code.shape_of(lights, index)](reflected, lights, index);
 }
 
-/// The radiance that surfaces reflect of the selected lights. Adds it to the layers.
+/// The radiance from the selected lights that surfaces reflect. Adds it to the layers.
 template <class Selector>
 Vector direct_light(const CameraPacket& packet, const Surface& surface,
                     const Selector& select_lights) noexcept {
@@ -35,7 +35,8 @@ Vector direct_light(const CameraPacket& packet, const Surface& surface,
     return reflected.radiance();
 }
 
-/// The radiance that rays see of lights themselves, and what the surfaces that they hit reflect of the selected ones.
+/// The radiance that rays receive from the lights they hit, plus the light of the selected lights that the surfaces
+/// they hit reflect.
 template <class Selector>
 Vector emitted_and_direct_light(const CameraPacket& packet, const Rays& rays,
                                 const Selector& select_lights) noexcept {

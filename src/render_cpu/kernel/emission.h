@@ -1,5 +1,5 @@
 #pragma once
-/// Lights as surfaces that rays hit.
+/// Lights that rays hit as surfaces.
 
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/lanes.h"
@@ -7,7 +7,7 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 
-/// The set that a light is in. \param number among all lights of the scene
+/// The set that contains a light. \param number among all lights of the scene
 inline const render_cpu::LightSet& set_of(const render_cpu::KernelScene& scene,
                                           std::int32_t number) noexcept {
     const render_cpu::LightSet* set = scene.light_sets;
@@ -22,7 +22,7 @@ inline std::int32_t light_of_hit(const render_cpu::KernelScene& scene,
     return hits.triangle[lane] < 0 ? -1 : scene.triangle_light[hits.triangle[lane]];
 }
 
-/// Radiance that rays see of lights themselves.
+/// The radiance that rays receive from the lights they hit.
 inline Vector emission(const render_cpu::KernelScene& scene, const visibility::HitPacket<kLanes>& hits,
                        const Vector& direction) noexcept {
     Indices light;

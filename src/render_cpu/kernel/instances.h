@@ -1,5 +1,5 @@
 #pragma once
-/// From the coordinates of objects to those of the world.
+/// Transforms from object space to world space.
 
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/lanes.h"
@@ -27,7 +27,7 @@ inline InstanceLanes instance_lanes(const render_cpu::KernelScene& scene,
     return result;
 }
 
-/// The transforms of the instances that a packet hits. Lanes that hit none keep what they have.
+/// The transforms of the instances that a packet hits. They leave lanes that hit no instance unchanged.
 class WorldFromObject {
 public:
     WorldFromObject(const render_cpu::KernelScene& scene, const InstanceLanes& instances) noexcept
@@ -38,19 +38,19 @@ public:
     }
     Vector vector(const Vector& v) const noexcept { return select(instances_.mask, linear(v), v); }
 
-    /// From the cross product of edges in the world to the side that it had in the object.
+    /// Turns the cross product of edges in world space to the side on which it is in object space.
     Vector front(const Vector& n) const noexcept {
         return select(instances_.mask, word(first_.handedness) * n, n);
     }
 
-    /// Not of unit length.
+    /// The result does not have unit length.
     Vector normal(const Vector& n) const noexcept {
         const float* m = first_.normal_from_object;
         return select(instances_.mask, {row(m, n), row(m + 3, n), row(m + 6, n)}, n);
     }
 
-    /// Rounding errors of a point in the world, of Embree's ray in the object too, are below those of a coordinate of
-    /// this size.
+    /// A coordinate in world space whose rounding errors exceed those of a point, including those of Embree's ray in
+    /// object space.
     /// \param p     in the object
     /// \param world largest coordinate for lanes without instances
     Real largest_coordinate(const Vector& p, const Real& world) const noexcept {
@@ -64,7 +64,7 @@ public:
     }
 
 private:
-    /// An entry of the record of each lane's instance.
+    /// Loads an entry from the record of each lane's instance.
     Real word(const float& of_first) const noexcept {
         constexpr int kStride = sizeof(render_cpu::InstanceRecord) / sizeof(float);
         return gather_column(&of_first, kStride, 0, instances_.number, instances_.mask);

@@ -1,5 +1,5 @@
 #pragma once
-/// The packs that kernels work with: as many lanes as the instruction set has, one pixel per lane.
+/// The packs of kernels: as many lanes as the registers of the instruction set hold, with one pixel per lane.
 ///
 /// Everything in this folder is compiled once per instruction set. Standard containers and algorithms must
 /// not appear here: the linker would merge their inline functions across instruction sets.
@@ -24,7 +24,7 @@ struct Indices {
     alignas(4 * kLanes) std::int32_t lane[kLanes];
 };
 
-/// A packet of vectors in memory, to look at single lanes.
+/// A packet of vectors in memory, for access to single lanes.
 struct Lanes {
     alignas(4 * kLanes) float x[kLanes];
     float y[kLanes];
@@ -49,7 +49,7 @@ inline std::uint64_t count_lanes(LaneMask mask) noexcept {
 
 inline Vec3<float> to_vec(const scene::Float3& v) noexcept { return {v.x, v.y, v.z}; }
 
-/// The entry `column` of rows of `stride` floats, for a row number per active lane; 0 in the others.
+/// Loads the entry `column` from rows of `stride` floats. Each active lane has its row number; the other lanes are 0.
 inline Real gather_column(const float* rows, int stride, int column, const Indices& row,
                           LaneMask active) noexcept {
     Indices scaled;
@@ -57,7 +57,7 @@ inline Real gather_column(const float* rows, int stride, int column, const Indic
     return Real::gather(rows + column, scaled.lane, active);
 }
 
-/// Three consecutive entries of rows of `stride` floats, from `column` on.
+/// Loads three consecutive entries, starting at `column`, from rows of `stride` floats.
 inline Vector gather_vector(const float* rows, int stride, int column, const Indices& row,
                             LaneMask active) noexcept {
     return {gather_column(rows, stride, column, row, active),
@@ -65,10 +65,10 @@ inline Vector gather_vector(const float* rows, int stride, int column, const Ind
             gather_column(rows, stride, column + 2, row, active)};
 }
 
-/// Sum with the error of a single rounding, however many terms there are (Kahan).
+/// A sum with the error of a single rounding, regardless of the number of terms (Kahan).
 struct CompensatedSum {
     Vector sum{Real(0), Real(0), Real(0)};
-    Vector excess{Real(0), Real(0), Real(0)}; ///< what `sum` has too much
+    Vector excess{Real(0), Real(0), Real(0)}; ///< by which `sum` is too large
 
     void add(const Vector& term) noexcept {
         const Vector corrected = term - excess;

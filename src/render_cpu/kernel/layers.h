@@ -1,5 +1,5 @@
 #pragma once
-/// Layers beside the image: what the pixels of a packet add up to over their camera rays.
+/// The layers beside the image: sums for the pixels of a packet over their camera rays.
 
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/lanes.h"
@@ -15,15 +15,16 @@ struct Reflected {
     Vector diffuse; ///< the part of the diffuse component; not meaningful without layers
 };
 
-/// Which shares of a sample of direct light belong to the diffuse component of the BRDF, per colour channel.
+/// The shares of a sample of direct light that belong to the diffuse component of the BRDF, per colour channel.
 struct DiffuseShares {
     Vector of_sample;   ///< of DirectLightSample::shadowed
     Vector of_constant; ///< of DirectLightSample::constant
 };
 
-/// Shares that keep the estimates of both components unbiased, whichever technique the sample is from: what all
-/// techniques contribute in a direction is proportional to the BRDF there, so its components share it in the same
-/// proportion. Constants have mean zero at each point, and with a share that is a constant of the point still have.
+/// Shares that keep the estimates of both components unbiased, whichever technique the sample comes from. The
+/// contribution of all techniques in a direction is proportional to the BRDF, so its components share it in the
+/// proportion of their values. Constants have mean zero at each shading point, and a share that is the same for all
+/// samples of the point does not change that.
 /// \param wi as DirectLightSample::wi
 DiffuseShares diffuse_shares(const GlossySurface<Real, SurfaceBrdf>& surface, const Vector& wi) noexcept;
 
@@ -34,14 +35,15 @@ public:
     LayerSums(const render_cpu::RenderJob& job, float* light_sums) noexcept
         : job_(job), light_sums_(light_sums) {}
 
-    /// Begins the next packet.
+    /// Starts the next packet.
     void clear() noexcept;
 
-    /// Begins the next camera ray. \param weight see CameraSamples
+    /// Starts the next camera ray. \param weight see CameraSamples
     void begin_ray(const Real& weight) noexcept { weight_ = weight; }
 
-    /// Adds what camera rays hit, without their weight: negative ones would give distances that nothing has.
-    /// \param any_hit lanes that hit a surface or a light
+    /// Adds what camera rays hit. Ignores the weights of the rays, since negative weights would give impossible
+    /// distances.
+    /// \param any_hit   lanes that hit a surface or a light
     /// \param direction of the rays, of any length
     void add_hits(const visibility::HitPacket<kLanes>& hits, LaneMask any_hit,
                   const Vector& direction) noexcept;
@@ -49,7 +51,7 @@ public:
     /// Adds the surfaces that camera rays hit.
     void add_surface(const Surface& surface) noexcept;
 
-    /// Adds radiance of lights that camera rays hit.
+    /// Adds the radiance of lights that camera rays hit.
     void add_emission(const visibility::HitPacket<kLanes>& hits, const Vector& emitted) noexcept;
 
     /// Adds light that the surfaces reflect.
@@ -59,7 +61,7 @@ public:
     /// Adds lines of a light, and how many visible parts they have.
     void add_pieces(const Real& lines, const Real& parts) noexcept { pieces_.add({lines, parts, Real(0)}); }
 
-    /// Ends a camera ray. \param radiance all that arrives along it, times its weight
+    /// Ends a camera ray. \param radiance all radiance that arrives along it, times its weight
     void add_radiance(const Vector& radiance) noexcept;
 
     /// Stores the means in the layers of the job.
@@ -71,12 +73,12 @@ private:
     }
 
     const render_cpu::RenderJob& job_;
-    float* light_sums_; ///< for each emitter a CompensatedSum
+    float* light_sums_; ///< a CompensatedSum for each emitter
     Real weight_ = Real(1);
     CompensatedSum albedo_, normal_, emission_, diffuse_, specular_;
     CompensatedSum depth_and_coverage_; ///< in x and y
     CompensatedSum pieces_;             ///< lines and their parts, in x and y
-    // Of the radiance of camera rays (Welford).
+    // Statistics of the radiance of camera rays (Welford).
     float rays_ = 0;
     Vector mean_{};
     CompensatedSum square_deviations_;

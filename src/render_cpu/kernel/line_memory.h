@@ -14,8 +14,8 @@ namespace kernel {
 inline constexpr int kPartsInMemory = render_cpu::kLineMemoryBytes / sizeof(Interval<Real>);
 /// The same for lines that share the memory.
 inline constexpr int kPartsPerLine = kPartsInMemory / kLargestLinePackCount;
-/// How often lines are halved that have more parts: into pieces so short that single precision does not tell apart more
-/// parts of them.
+/// How often lines with more parts are halved. The pieces get so short that single precision cannot tell more parts
+/// of them apart.
 inline constexpr int kMostHalvings = 16;
 
 struct LineMemory {

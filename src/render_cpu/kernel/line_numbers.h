@@ -1,5 +1,5 @@
 #pragma once
-/// Random numbers of lines in an order that makes neighbours share a pack.
+/// Random numbers of lines, ordered so that neighbouring lines share a pack.
 
 #include "render_cpu/kernel/lanes.h"
 #include "visibility/line_traversal.h"
@@ -9,14 +9,14 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 
-/// Numbers of the lines that are traced at once. The packs of lines next to each other have fewer occluders in common
-/// with other packs: what each of them is cut with grows more slowly than their number.
+/// Random numbers of the lines that are traced at once. Packs of neighbouring lines share fewer occluders with other
+/// packs, so the total number of cuts grows more slowly than the number of packs.
 class LineNumbers {
 public:
     static constexpr std::uint32_t kMost = kLanes * kLargestLinePackCount;
 
     /// \param count  at most kMost
-    /// \param random function that gets the number of the first line of a pack
+    /// \param random function that maps the number of the first line of a pack to the random numbers of the pack
     template <class Random>
     LineNumbers(std::uint32_t count, const Random& random) noexcept {
         for (std::uint32_t k = 0; k < count; k += kLanes) {
@@ -32,7 +32,7 @@ public:
     }
 
 private:
-    /// As many strata as numbers: stratified ones are sorted, all others nearly.
+    /// Uses as many strata as there are numbers. This sorts stratified numbers completely and all others almost.
     void sort_into_strata(std::uint32_t count) noexcept {
         const float strata = static_cast<float>(static_cast<std::int32_t>(count));
         const auto stratum = [&](float u) {
@@ -55,7 +55,7 @@ private:
         }
     }
 
-    // What is beyond the last number is a random one too.
+    // The lanes after the last number also hold random numbers.
     alignas(64) float x_[kMost];
     alignas(64) float y_[kMost];
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Samples of a light come from one technique for the diffuse and one for the specular component.
+/// Samples of a light from one technique for the diffuse component and one for the specular component.
 
 #include "render_cpu/kernel/single_technique.h"
 
@@ -8,7 +8,7 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 
-/// The heuristic of the job. That it branches costs next to nothing: all lanes and samples go the same way.
+/// The heuristic of the job. Its branches cost next to nothing, because all lanes and samples take the same one.
 struct ChosenHeuristic {
     render::Mis mis;
     Real visibility;
@@ -73,7 +73,7 @@ inline constexpr bool kHasPair = requires(const typename Light::Shape& shape, co
     Pair::specular(shape, surface.glossy);
 };
 
-/// The first of these pairs that has techniques for the light, or else the only technique.
+/// The first of these pairs that has techniques for the light, or the single technique if none has.
 template <class Light>
 render_cpu::AddLight first_pair(render::Technique technique) noexcept {
     return single_technique<Light>(technique);

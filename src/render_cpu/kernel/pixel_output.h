@@ -1,5 +1,5 @@
 #pragma once
-/// From packets of pixels to images.
+/// Stores packets of pixels in images.
 
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/lanes.h"
@@ -8,7 +8,7 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 
-/// Number of a pixel of a packet, inside the tile, in the image, row by row.
+/// Number of a packet's pixel in the image, row by row. The pixel must be inside the tile.
 inline std::uint64_t pixel_index(const render_cpu::RenderJob& job, const PixelBlock& block,
                                  int lane) noexcept {
     const std::uint64_t row = block.y[lane] - static_cast<std::uint32_t>(job.y_begin);

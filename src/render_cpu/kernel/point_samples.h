@@ -1,12 +1,12 @@
 #pragma once
-/// Points of lights, or no samples at all: how the settings choose among the ways to estimate light.
+/// Estimates of light from points, or without samples: how the settings choose among them.
 ///
 /// A kind of light is described by a type `Light` for each of its shapes, with
 ///
 ///     using Shape: the light in shading space;
 ///     static LocalLight<Shape> local(reflected, lights, index): one of the lights as a packet of shading points sees it;
 ///     static technique(TechniqueTag<...>, shape): the technique of each setting but the analytic one;
-///     static LobeIntegrals integrals(shape, lobe): in closed form. Kinds without it are sampled in its place.
+/// static LobeIntegrals integrals(shape, lobe): in closed form. Kinds without this function are sampled.
 
 #include "render_cpu/kernel/analytic.h"
 #include "render_cpu/kernel/paired_techniques.h"

@@ -14,12 +14,13 @@ struct PixelBlock {
     alignas(4 * kLanes) std::uint32_t x[kLanes];
     alignas(4 * kLanes) std::uint32_t y[kLanes];
     Vec2<Real> corner; ///< x and y
-    LaneMask inside;   ///< the tile
-    /// The film: which rays make up a packet must not depend on the tile, as neighbours may change the rounding of hits.
+    LaneMask inside;   ///< pixels inside the tile
+    /// Pixels inside the film. Neighbours may change the rounding of hits, so the rays of a packet must not depend on
+    /// the tile.
     LaneMask traced;
 };
 
-/// The same sample of all pixels of a packet.
+/// The same sample number for all pixels of a packet.
 struct PacketSamples {
     explicit PacketSamples(std::uint32_t sample) noexcept {
         for (std::uint32_t& lane : number) lane = sample;
@@ -41,18 +42,18 @@ inline Sampler sampler_of(render::SampleOrder order) noexcept {
     return Sampler::sobol;
 }
 
-/// Pairs of random numbers of a light.
+/// The pairs of random numbers for a light.
 enum RandomPair : std::uint32_t {
     kPointPair,         ///< for the only technique, or the diffuse one
     kSpecularPointPair, ///< for the specular one
-    // Lines have a pair of their own for each camera ray, see random_for_lines(): every other one from here on.
+    // Lines may use separate pairs for each camera ray: every second pair from here on, see random_for_lines().
     kOrientationPair,
     kLinePair,
 };
 
-/// For one sample of one light.
+/// Random numbers for one sample of one light.
 /// \param sample number among all samples of the pixel
-/// \param count  how many of them there are
+/// \param count  number of all samples of the pixel
 /// \param pair   which pair of dimensions
 inline Vec2<Real> random_for_light(const render_cpu::RenderJob& job, const PixelBlock& block,
                                    std::uint32_t sample, std::uint32_t count, std::uint32_t light,
@@ -65,18 +66,18 @@ inline Vec2<Real> random_for_light(const render_cpu::RenderJob& job, const Pixel
     return {Real::load(x), Real::load(y)};
 }
 
-/// For lines of one shading point and light, a line per lane.
-/// \param lane       of the pixel in the packet
-/// \param first      number of the line in the first lane, among those of the shading point
-/// \param pair       kOrientationPair or kLinePair
+/// Random numbers for lines of one light at one shading point, with one line per lane.
+/// \param lane  of the pixel in the packet
+/// \param first number of the line in the first lane, among those of the shading point
+/// \param pair  kOrientationPair or kLinePair
 inline Vec2<Real> random_for_lines(const render_cpu::RenderJob& job, const PixelBlock& block, int lane,
                                    std::uint32_t camera_ray, std::uint32_t first, std::uint32_t light,
                                    RandomPair pair) noexcept {
     const auto per_point = static_cast<std::uint32_t>(job.lines.count);
     const Sampler sampler = sampler_of(job.sample_order);
-    // Aligned blocks of Sobol' points, of a power of two each, are as even as all of them; other numbers of lines are even
-    // over all camera rays only. Other samplers cover the light with the given number of samples: each shading point gets
-    // numbers of its own.
+    // Aligned blocks of Sobol' points whose size is a power of two are as evenly distributed as the whole sequence;
+    // other numbers of lines are so only over all camera rays. Other samplers cover the light with the given number
+    // of samples, so each shading point gets a separate set of numbers.
     const bool is_sequence = sampler == Sampler::sobol || sampler == Sampler::independent;
     const std::uint32_t before = is_sequence ? camera_ray * per_point : 0;
     std::uint32_t x[kLanes];
@@ -98,11 +99,11 @@ inline Vec2<Real> random_for_lines(const render_cpu::RenderJob& job, const Pixel
 /// Camera rays, one for each pixel of a packet.
 struct CameraSamples {
     Vec2<Real> raster; ///< position on the film [pixels]
-    Real weight;       ///< of the radiance that arrives; its mean is 1
+    Real weight;       ///< of the incoming radiance; its mean is 1
 };
 
-/// Distances from the centre of the pixel along one axis, distributed as the pixel filter wants it. Monotone in `u`, so
-/// that stratified numbers stay that. Multiplies the weight.
+/// Distance from the centre of the pixel along one axis, distributed like the pixel filter. It is monotone in `u`,
+/// which preserves stratification. Multiplies the weight.
 inline Real filtered_offset(const render_cpu::FilterAxis& filter, const Real& u, Real& weight) noexcept {
     const Real reach = Real(filter.reach);
     if (filter.cumulative == nullptr) return reach * (Real(2) * u - Real(1));
@@ -123,7 +124,7 @@ inline Real filtered_offset(const render_cpu::FilterAxis& filter, const Real& u,
     return reach * (Real(2.0f / render::kFilterCells) * Real::load(position) - Real(1));
 }
 
-/// Not inlined: g++ leaves the hashes scalar when they are part of a large function.
+/// Not inlined, because g++ does not vectorise the hashes in a large function.
 [[gnu::noinline]] inline CameraSamples
 camera_samples(const render_cpu::RenderJob& job, const PixelBlock& block, std::uint32_t camera_ray) noexcept {
     Vec2<Real> offset{Real(0), Real(0)};

@@ -1,5 +1,5 @@
 #pragma once
-/// Direct light at a packet of shading points: what all ways to estimate it share.
+/// Direct light at a packet of shading points: the code that all ways to estimate it share.
 
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/lanes.h"
@@ -14,7 +14,7 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 
-/// Lanes whose components are neither NaN nor infinite.
+/// The lanes in which all components are finite.
 inline LaneMask is_finite(const Vector& v) noexcept {
     return is_finite(v.x) & is_finite(v.y) & is_finite(v.z);
 }
@@ -24,20 +24,20 @@ template <class Shape>
 struct LocalLight {
     Shape shape;          ///< in shading space, per lane
     LaneMask lit;         ///< points that it may light
-    Vec3<float> emission; ///< radiance, of thin lines times radius
+    Vec3<float> emission; ///< radiance; for thin lines, radiance times radius
     std::uint32_t number; ///< among all lights of the scene
 };
 
-/// Samples of one light.
+/// The sum of the samples of one light.
 struct SampleSum {
     CompensatedSum all;
-    CompensatedSum diffuse; ///< the part of the diffuse component, if there are layers
+    CompensatedSum diffuse; ///< the part of the diffuse component, if the job has layers
 };
 
 /// The light that one packet of shading points reflects to the eye.
 class ReflectedLight : public render_cpu::LitPacket {
 public:
-    /// \param camera_ray number of the camera rays of this packet, below job.camera_rays
+    /// \param camera_ray  number of the camera rays of this packet, below job.camera_rays
     /// \param layers      to add the light to, or null
     /// \param line_memory see TileMemory
     ReflectedLight(const render_cpu::RenderJob& job, const PixelBlock& block, const Surface& surface,
@@ -61,8 +61,8 @@ public:
     render_cpu::TileStatistics& statistics() noexcept { return statistics_; }
     void* line_memory() const noexcept { return line_memory_; }
 
-    /// For some of the shading points, with another number of samples of each light. Layers and statistics are the same, the
-    /// radiance begins at 0: see add().
+    /// The same object for some of the shading points and another number of samples per light. It shares the layers
+    /// and the statistics; its radiance starts at 0 and is for add().
     ReflectedLight with(LaneMask lanes, std::uint32_t samples_per_light) const noexcept {
         ReflectedLight result = *this;
         result.lanes_ &= lanes;
@@ -71,10 +71,10 @@ public:
         return result;
     }
 
-    /// Adds what another one has found, whose layers are the same.
+    /// Adds the radiance of an object that with() made.
     void add(const ReflectedLight& other) noexcept { radiance_ = radiance_ + other.radiance_; }
 
-    /// Those that lie on a light. \param number of the light among all lights of the scene
+    /// The shading points that lie on a light. \param number of the light among all lights of the scene
     LaneMask on_light(std::int32_t number) const noexcept {
         std::uint32_t bits = 0;
         for (int i = 0; i < kLanes; ++i)
@@ -82,8 +82,8 @@ public:
         return LaneMask::from_bits(bits);
     }
 
-    /// Adds the reflected radiance of one light [W/(sr m^2)], the mean over its samples.
-    /// \param sample function of a sample number that adds samples of the light with add_sample()
+    /// Adds the reflected radiance of one light [W/(sr m^2)], which is the mean over its samples.
+    /// \param sample takes a sample number and adds samples of the light with add_sample()
     template <class Shape, class Sample>
     void add(const LocalLight<Shape>& light, const Sample& sample) noexcept {
         SampleSum sum;
@@ -102,22 +102,22 @@ public:
         add_for(light, light.lit & sound, light.emission, reflected);
     }
 
-    /// Adds what is known of lines of a light.
-    /// \param lines taken of it
-    /// \param parts into which occluders cut what is visible of them
+    /// Adds the numbers of lines and visible parts of a light.
+    /// \param lines number of lines that were taken
+    /// \param parts number of their visible parts
     void add_pieces(const Real& lines, const Real& parts) noexcept {
         if (layers_ != nullptr) layers_->add_pieces(lines, parts);
     }
 
     /// Random numbers for one sample of a light.
-    /// \param pair of the technique that they are for
+    /// \param pair the pair of the technique
     template <class Shape>
     Vec2<Real> random(const LocalLight<Shape>& light, std::uint32_t sample, RandomPair pair) const noexcept {
         return random_for_light(job_, block_, sample, job_.camera_rays * samples_per_light_, light.number,
                                 pair);
     }
 
-    /// Random numbers for all lines of a shading point and light together.
+    /// Random numbers that all lines of a light at a shading point share.
     Vec2<Real> orientation_random(std::int32_t light) const noexcept {
         return random_for_light(job_, block_, camera_ray_, job_.camera_rays,
                                 static_cast<std::uint32_t>(light), kOrientationPair);
@@ -130,7 +130,7 @@ public:
                                 pair);
     }
 
-    /// Traces shadow rays for a sample and adds what it contributes.
+    /// Traces shadow rays for a sample and adds its contribution.
     /// \param drawn lanes that have a sample
     void add_sample(LaneMask drawn, const DirectLightSample<Real>& sample, SampleSum& sum) noexcept {
         const auto is_zero = [](const Vector& v) {
@@ -163,7 +163,7 @@ private:
         layers_->add_light(light.number, {radiance, diffuse});
     }
 
-    /// Those lanes whose sample contributes and sees the light.
+    /// The lanes whose sample contributes and is not in shadow.
     LaneMask visible(LaneMask sampled, const DirectLightSample<Real>& sample) noexcept {
         const Vector to_light = surface_.frame.to_world(sample.p);
         const auto above_surface = dot(surface_.geometric_normal, to_light) > Real(0);
@@ -203,9 +203,9 @@ private:
     Vector radiance_{Real(0), Real(0), Real(0)};
 };
 
-/// What a sample of a light contributes through all components of the BRDF.
+/// The contribution of a sample of a light through all components of the BRDF.
 inline DirectLightSample<Real> reflect(const Surface& surface, const LightSample<Real>& sample) noexcept {
-    // Comparisons with NaN are false: negated they keep it, so that it is counted.
+    // Comparisons with NaN are false. Negated, they keep NaN, so that it is counted.
     const LaneMask sampled = !((sample.pdf == Real(0)) | (sample.wi.z <= Real(0)));
     const Vector zero{Real(0), Real(0), Real(0)};
     const Real cos_per_pdf = sample.wi.z / select(sampled, sample.pdf, Real(1));

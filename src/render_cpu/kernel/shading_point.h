@@ -1,5 +1,5 @@
 #pragma once
-/// One shading point of a packet, for packs whose lanes are something else than shading points.
+/// One shading point of a packet, for packs whose lanes are not shading points but, for example, lines.
 
 #include "render_cpu/kernel/single_lane.h"
 #include "render_cpu/kernel/surface.h"
@@ -12,8 +12,8 @@ struct ShadingPoint {
     Frame<Real> frame;                        ///< the same in all lanes
     Vec3<float> position;                     ///< world space [m]
     Vec3<float> geometric_normal;             ///< see Surface
-    Vec3<float> apex;                         ///< of shadows: where shadow rays start [m]
-    bool is_frostbite;                        ///< or Lambert
+    Vec3<float> apex;                         ///< where shadow rays start [m]
+    bool is_frostbite;                        ///< the BRDF; otherwise Lambert
     int lane;                                 ///< of the packet
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Single lanes of objects that consist of packs only, such as Vec3<Real>, Ltc<Real> or LineFamily<Real, N>.
+/// Access to single lanes of objects that consist of packs only, such as Vec3<Real>, Ltc<Real> or LineFamily<Real,
+/// N>.
 
 #include "render_cpu/kernel/lanes.h"
 
@@ -10,7 +11,7 @@ namespace kernel {
 
 namespace detail {
 
-/// The values of an object, pack after pack.
+/// The values of an object, one pack after another.
 template <class T>
 struct PackArray {
     static_assert(std::is_trivially_copyable<T>::value && sizeof(T) % sizeof(Real) == 0, "packs only");
@@ -33,7 +34,7 @@ struct Floats {
 
 } // namespace detail
 
-/// The object with all lanes equal to one of them.
+/// A copy of the object in which all lanes equal one of them.
 template <class T>
 T broadcast_lane(const T& object, int lane) noexcept {
     const detail::PackArray<T> from(object);

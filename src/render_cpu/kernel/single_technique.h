@@ -1,16 +1,16 @@
 #pragma once
-/// All samples of a light come from one technique.
+/// Samples of a light from a single technique.
 
 #include "render_cpu/kernel/reflected_light.h"
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 
-/// A setting as a type, so that kinds of light choose their technique for it by overloading.
+/// A setting as a type, for which kinds of light choose their technique by overloading.
 template <render::Technique technique>
 struct TechniqueTag {};
 
-/// Adds the light of one technique alone.
+/// Adds the light that one technique alone estimates.
 template <class Shape, class Technique>
 void add_samples(ReflectedLight& reflected, const LocalLight<Shape>& light,
                  const Technique& technique) noexcept {

@@ -1,5 +1,5 @@
 #pragma once
-/// From hits to shading points.
+/// Turns hits into shading points.
 
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/instances.h"
@@ -31,22 +31,22 @@ struct SurfaceBrdf {
     }
 };
 
-/// Shading points. Lanes that are not valid hold finite or infinite numbers or NaN and must be masked.
+/// Shading points. Lanes that are not valid may hold any numbers, NaN included, and must be masked.
 struct Surface {
     LaneMask valid;
     Vector position;         ///< world space [m]
     Vector geometric_normal; ///< unit, on the side of the eye
     Frame<Real> frame;       ///< shading_frame() of the shading normal, on the side of the eye as well
     Real offset;             ///< how far along the geometric normal shadow rays start [m]
-    Indices light;           ///< that the surface belongs to, among all of the scene, -1 for none
+    Indices light;           ///< number of the light with this surface in the scene, -1 for none
     GlossySurface<Real, SurfaceBrdf> glossy;
 };
 
-/// Smallest cosine between shading normal and direction to the eye: normals of a mesh that face away from the
-/// eye are bent back to it.
+/// Smallest cosine between the shading normal and the direction to the eye. Normals of a mesh that face away from the
+/// eye are bent towards it.
 inline constexpr float kSmallestEyeCosine = 1e-3f;
 
-/// Shadow rays start off the surface by this share of the scene's radius ...
+/// The distance from the surface at which shadow rays start is this share of the scene's radius ...
 inline constexpr float kOffsetPerRadius = 1e-5f;
 /// ... plus this share of the largest coordinate, which bounds rounding errors of positions.
 inline constexpr float kOffsetPerCoordinate = 1e-6f;
@@ -73,7 +73,7 @@ struct Interpolation {
         return a + u * (b - a) + v * (c - a);
     }
 
-    /// Of the second and the third vertex to the first.
+    /// Differences of an attribute between the second and the third vertex and the first.
     Vec2<Real> differences(const scene::Float2* attribute, int index) const noexcept {
         const float* rows = &attribute->x;
         const Real a = gather_column(rows, 2, index, vertex[0], active);
@@ -96,7 +96,7 @@ inline Interpolation make_interpolation(const render_cpu::KernelScene& scene,
     return result;
 }
 
-/// The normal of the mesh in world space: unit length, or zero where it has none.
+/// The normal of the mesh in world space. It has unit length, or is zero for meshes without normals.
 inline Vector interpolated_normal(const render_cpu::KernelScene& scene, const Interpolation& interpolation,
                                   const InstanceLanes& instances) noexcept {
     Vector n = interpolation.vectors(scene.normals);
@@ -104,28 +104,29 @@ inline Vector interpolated_normal(const render_cpu::KernelScene& scene, const In
     return normalize(n);
 }
 
-/// The textures of all lanes, bits of TextureKind.
+/// The kinds of textures in all lanes, as bits of TextureKind.
 inline std::uint32_t texture_kinds(const render_cpu::KernelScene& scene, const Indices& material) noexcept {
     std::uint32_t kinds = 0;
     for (int i = 0; i < kLanes; ++i) kinds |= scene.material_texture_kinds[material.lane[i]];
     return kinds;
 }
 
-/// Directions along a surface, in the world.
+/// Directions along a surface, in world space.
 struct Tangents {
     Vector u, v;
     Real volume; ///< normal . u x v
 };
 
-/// The derivatives of the position by the texture coordinates, times the determinant.
-/// \param du,dv  of the edges
+/// The derivatives of the position with respect to the texture coordinates, times the determinant.
+/// \param du,dv differences of the texture coordinates along the edges
 inline Tangents position_derivatives(const Vec2<Real>& du, const Vec2<Real>& dv, const Vector& e1,
                                      const Vector& e2, const Vector& n) noexcept {
     return {dv.y * e1 - dv.x * e2, du.x * e2 - du.y * e1, dot(n, cross(e1, e2))};
 }
 
-/// What pbrt v3 has in their place on meshes with normals: orthonormal in the object, and both reversed.
-/// \param metric  the derivatives, which other lanes keep
+/// The tangents that pbrt v3 uses instead on meshes with normals. They are orthonormal in object space, and both are
+/// reversed.
+/// \param metric the derivatives, which the other lanes keep
 inline Tangents bump_tangents(const render_cpu::KernelScene& scene, const Interpolation& interpolation,
                               const InstanceLanes& instances, const Indices& material, const Vec2<Real>& du,
                               const Vec2<Real>& dv, const Vector& n, const Tangents& metric) noexcept {
@@ -154,8 +155,8 @@ inline Tangents bump_tangents(const render_cpu::KernelScene& scene, const Interp
 }
 
 /// A normal perturbed by the normal map or the bump map of each lane; docs/materials.md has the formulas.
-/// \param n  unit, on the front side
-/// \param e1,e2  edges of the triangle from its first vertex, in the world
+/// \param n     unit, on the front side
+/// \param e1,e2 edges of the triangle from its first vertex, in the world
 inline Vector perturbed_normal(const render_cpu::KernelScene& scene, const Interpolation& interpolation,
                                const InstanceLanes& instances, const Indices& material, const Vec2<Real>& uv,
                                const Vector& e1, const Vector& e2, const Vector& n) noexcept {
@@ -165,7 +166,7 @@ inline Vector perturbed_normal(const render_cpu::KernelScene& scene, const Inter
     const Vec2<Real> dv = interpolation.differences(scene.uvs, 1);
     const Real determinant = du.x * dv.y - dv.x * du.y;
     const Tangents metric = position_derivatives(du, dv, e1, e2, n);
-    // Without texture coordinates there are no directions. NaN fails the second comparison.
+    // Without texture coordinates, the determinant is 0. NaN fails the second comparison.
     const auto if_usable = [&](const Vector& perturbed) {
         const auto usable = (determinant != Real(0)) & (dot(perturbed, perturbed) > Real(0.5f));
         return select(usable, perturbed, n);
@@ -195,15 +196,15 @@ inline Vector perturbed_normal(const render_cpu::KernelScene& scene, const Inter
                             look_up_textures(scene.textures, bump, active, n, bumped), mapped);
 }
 
-/// \param n  on either side
+/// \param n  normal on either side
 /// \param wo unit, world space
-/// \returns the normal on the side of the eye, bent to it where it faces away
+/// \returns the normal on the side of the eye, bent towards it where it faces away
 inline Vector visible_normal(const Vector& n, const Vector& wo) noexcept {
     const Real missing = max(Real(kSmallestEyeCosine) - dot(n, wo), Real(0));
     return normalize(n + missing * wo);
 }
 
-/// What materials and textures say about each lane.
+/// The values of materials and textures for each lane.
 struct MaterialLanes {
     Vector diffuse;
     Vector f0;
@@ -222,7 +223,7 @@ inline MaterialLanes look_up_materials(const render_cpu::KernelScene& scene, con
                          gather_column(rows, kStride, 7, material, active) > Real(0.5f)};
     const auto times_texture = [&](scene::TextureUse MaterialTextures::*purpose, const Vector& factor) {
         const TextureLanes lanes = texture_lanes(scene, material, purpose, uv, active);
-        // A factor above 1 is good for dark images, but reflectances must not exceed 1.
+        // Factors above 1 are useful for dark images, but reflectances must not exceed 1.
         const auto product = [&](const render_cpu::TextureView& texture, const Vec2<Real>& at,
                                  LaneMask mask) {
             return min(factor * look_up_texture(texture, at, mask), Vector{Real(1), Real(1), Real(1)});
@@ -261,7 +262,7 @@ inline GlossySurface<Real, SurfaceBrdf> make_glossy(const render_cpu::LtcTableRe
             select(material.is_frostbite, fit.albedo, zero)};
 }
 
-/// The shading points of those active lanes that hit a triangle.
+/// Makes the shading points for the active lanes that hit a triangle.
 /// \param wo unit direction to the eye, world space
 inline Surface make_surface(const render_cpu::KernelScene& scene, const visibility::HitPacket<kLanes>& hits,
                             LaneMask active, const Vector& wo) noexcept {

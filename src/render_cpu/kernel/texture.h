@@ -1,5 +1,5 @@
 #pragma once
-/// Texture lookups.
+/// Looks up textures.
 
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/lanes.h"
@@ -10,7 +10,7 @@ namespace kernel {
 /// The two texels next to a texture coordinate along one axis.
 struct TexelPair {
     Indices first, second;
-    Real weight;   ///< of the second
+    Real weight;   ///< weight of the second
     Real coverage; ///< share of both that lies within the texture
 };
 
@@ -23,7 +23,7 @@ inline TexelPair texel_pair(const Real& coordinate, std::int32_t size,
     const bool repeats = texture.wrap == scene::TextureWrap::repeat;
     const Real scaled = (repeats ? sound - floor(sound) : sound) * count;
     const bool is_nearest = texture.filter == scene::TextureFilter::nearest;
-    // Beyond one texel outside of a texture that does not repeat nothing changes any more.
+    // More than one texel outside a texture that does not repeat, the result is constant.
     const Real position =
         max(min(is_nearest ? floor(scaled) : scaled - Real(0.5f), count + Real(1)), Real(-2));
     const Real below = floor(position);
@@ -44,7 +44,7 @@ inline TexelPair texel_pair(const Real& coordinate, std::int32_t size,
     return pair;
 }
 
-/// One texture in the lanes of a mask.
+/// Looks up one texture in the lanes of a mask.
 inline Vector look_up_texture(const render_cpu::TextureView& texture, const Vec2<Real>& uv,
                               LaneMask active) noexcept {
     const TexelPair x = texel_pair(uv.x, texture.width, texture);
@@ -88,8 +88,8 @@ inline TextureLanes texture_lanes(const render_cpu::KernelScene& scene, const In
     return lanes;
 }
 
-/// Evaluates a function of texture and coordinates per lane; `otherwise` where there is no texture or the lane is not
-/// active. Packets rarely see more than one or two textures, so that a loop over textures costs little.
+/// Evaluates a function of texture and coordinates per lane. Lanes that are inactive or have no texture get
+/// `otherwise`. A loop over textures costs little, because packets rarely have more than one or two.
 template <class Function>
 Vector look_up_textures(const render_cpu::TextureView* textures, const TextureLanes& lanes, LaneMask active,
                         const Vector& otherwise, const Function& function) noexcept {
@@ -110,8 +110,8 @@ Vector look_up_textures(const render_cpu::TextureView* textures, const TextureLa
     return result;
 }
 
-/// The derivatives of a height by the two texture coordinates, as differences over one texel: bilinear textures have
-/// jumps in their derivatives, these differences have none.
+/// The derivatives of a height with respect to both texture coordinates, as differences over one texel. These have no
+/// jumps, unlike the derivatives of bilinear textures.
 inline Vec2<Real> height_derivatives(const render_cpu::TextureView& texture, const Vec2<Real>& coordinates,
                                      LaneMask active) noexcept {
     const Real width = Real(texture.width);

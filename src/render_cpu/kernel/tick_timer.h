@@ -7,7 +7,7 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 
-/// Adds the time for which it exists to a sum [ticks of the time stamp counter].
+/// Adds its lifetime to a sum [ticks of the time stamp counter].
 class TickTimer {
 public:
     explicit TickTimer(std::uint64_t& sum) noexcept : sum_(sum) {}

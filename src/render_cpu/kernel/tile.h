@@ -1,5 +1,5 @@
 #pragma once
-/// Rendering of a tile: camera rays, whose radiance an integrator finds, and sums over them.
+/// Renders tiles: makes camera rays, has an integrator compute their radiance, and sums it up.
 
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/camera_packet.h"
@@ -14,8 +14,8 @@ namespace kernel {
 inline constexpr int kBlockWidth = kLanes >= 8 ? 4 : 2;
 inline constexpr int kBlockHeight = kLanes / kBlockWidth;
 
-/// \tparam Integrator made of a job once per tile; radiance(packet, rays) is what arrives along rays, one per lane of the
-///                    packet. See kernel/integrators.
+/// \tparam Integrator constructed from a job once per tile. Its radiance(packet, rays) returns the radiance that arrives
+///                    along the rays, one per lane of the packet. See kernel/integrators.
 template <class Integrator>
 class TileRenderer {
 public:
@@ -55,7 +55,7 @@ private:
         statistics_.shading_ticks += __builtin_ia32_rdtsc() - begin - (traced_ticks() - traced_before);
     }
 
-    /// All but shading.
+    /// The time for everything but shading.
     std::uint64_t traced_ticks() const noexcept {
         return statistics_.primary_ticks + statistics_.shadow_ticks + statistics_.line_visibility_ticks;
     }
@@ -88,7 +88,7 @@ private:
                raster.y * broadcast<Real>(to_vec(down));
     }
 
-    /// Radiance that arrives at the camera along one ray per pixel, times the weight of the ray.
+    /// The radiance that arrives at the camera along one ray per pixel, times the weight of the ray.
     Vector weighted_radiance(const PixelBlock& block, std::uint32_t camera_ray) noexcept {
         const scene::Camera& camera = job_.scene.camera;
         const CameraSamples samples = camera_samples(job_, block, camera_ray);
@@ -108,7 +108,7 @@ private:
     LayerSums* layers_; ///< null if the job has none
 };
 
-/// What kernels are: see render_cpu::RenderTile.
+/// The function of a kernel, see render_cpu::RenderTile.
 template <class Integrator>
 void render_tile(const render_cpu::RenderJob& job, const render_cpu::Tile& tile,
                  const render_cpu::TileMemory& memory, render_cpu::TileStatistics& statistics) {

@@ -5,7 +5,7 @@ NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 namespace {
 
-/// Light that reaches the camera from lights, directly or over one surface.
+/// Light that reaches the camera from lights, directly or by reflection at one surface.
 class DirectLightIntegrator {
 public:
     explicit DirectLightIntegrator(const render_cpu::RenderJob&) noexcept {}

@@ -27,7 +27,7 @@ LineSegment<Real> local_axis(const ReflectedLight& reflected, const render_cpu::
     return to_shading_space(world, reflected.surface().position, reflected.surface().frame);
 }
 
-/// Tubes in the limit of a small radius.
+/// Tubes in the limit of a vanishing radius.
 struct LinearLight {
     using Shape = LineSegment<Real>;
 
@@ -62,7 +62,7 @@ struct LinearLight {
     }
 };
 
-/// Tubes as the cylinders that they are.
+/// Tubes as closed cylinders.
 struct TubeLight {
     using Shape = Cylinder<Real>;
 

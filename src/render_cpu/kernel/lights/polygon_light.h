@@ -20,7 +20,7 @@ inline const render_cpu::PolygonRecord& polygon_record(const render_cpu::LightSe
     return static_cast<const render_cpu::PolygonRecords*>(lights.records)->lights[index];
 }
 
-/// See point_samples.h.
+/// A kind of light as point_samples.h describes it.
 template <int N>
 struct PolygonLight {
     using Shape = ConvexPolygon<Real, N>;
@@ -49,7 +49,7 @@ struct PolygonLight {
         const std::int32_t number = lights.first + index;
         // A planar light does not light itself, but rounding may put a point of it in front of its plane.
         LaneMask lit = reflected.lanes() & !reflected.on_light(number);
-        // Comparisons with NaN are false: negated they keep it, so that it is counted.
+        // Comparisons with NaN are false. Negated, they keep NaN, so that it is counted.
         if (record.two_sided == 0) lit &= !(dot(local.normal, local.vertex[0]) >= Real(0));
         Real highest = local.vertex[0].z;
         for (int j = 1; j < N; ++j) highest = max(highest, local.vertex[j].z);
@@ -79,10 +79,10 @@ struct PolygonLight {
     }
 };
 
-/// How a job takes points of polygons.
+/// The function that takes points of polygons as a job demands.
 template <int N>
 render_cpu::AddLight polygon_points(const render_cpu::RenderJob& job) noexcept;
-/// Lines in place of points.
+/// The function that takes lines in place of points.
 template <int N>
 render_cpu::AddLight polygon_lines() noexcept;
 

@@ -17,7 +17,7 @@ using render::ManyOccluders;
 
 using Estimator = LineLight<Real, SurfaceBrdf>;
 
-/// The part of each line that is above the geometry of the surface.
+/// The part of each line that is above the geometric tangent plane of the surface.
 Interval<Real> above_surface(const Chord<Real>& chord, const LinePlane<float>& plane,
                              const ShadingPoint& point) noexcept {
     const Vector along = broadcast<Real>(plane.along);
@@ -43,7 +43,7 @@ LaneMask first_lanes(std::uint32_t count) noexcept {
     return count >= kLanes ? LaneMask(true) : LaneMask::from_bits((1u << count) - 1);
 }
 
-/// What lines of one shading point and light add up to.
+/// Sums over the lines of one light for one shading point.
 struct LineSum {
     CompensatedSum all, diffuse;
     std::uint64_t parts = 0;
@@ -69,7 +69,7 @@ private:
     }
 };
 
-/// Takes lines of one light for one shading point after the other.
+/// Takes the lines of one light, one shading point at a time.
 template <int N>
 class LineSampler {
 public:
@@ -88,7 +88,8 @@ public:
     /// \returns false where lines cannot be taken, or there are so many occluders that points are faster
     bool sample(int lane, PacketResult& result) noexcept {
         const ShadingPoint point = shading_point(reflected_.surface(), lane);
-        // Rounding differs between orientations: the choice must not depend on what is random.
+        // Uses a fixed orientation. Rounding depends on the orientation, and the choice must not depend on random
+        // numbers.
         const SeenLight seen = see_light(polygon_, fixed_, point.apex, light_);
         render_cpu::TileStatistics& statistics = reflected_.statistics();
         if (needs_points(seen)) {
@@ -114,13 +115,13 @@ private:
 
     struct ChosenLines {
         Real pdf; ///< of the offset [1/m]
-        Real u;   ///< random
+        Real u;   ///< random number of the point on the line
         Real offset;
         Interval<Real> extent; ///< above the surface
         LaneMask drawn;
     };
 
-    /// Numbers of lines among those of the shading point.
+    /// A range of line numbers among those of the shading point.
     struct Range {
         std::uint32_t first, count;
     };
@@ -132,7 +133,7 @@ private:
         const SeenLight& seen;
     };
 
-    /// A direction for each shading point of the packet.
+    /// The common angle of all lines of each shading point of the packet.
     Real common_angles() const noexcept {
         if (settings_.orientation != LineOrientation::parallel) return Real(0);
         return Real(kPi<float>) * reflected_.orientation_random(light_).x;
@@ -146,7 +147,7 @@ private:
                has_many_occluders(*job.line_bvh, seen, job.most_occluders, counters());
     }
 
-    /// Whether the point and the light are finite: no line has any density where they are not.
+    /// Whether the point and the light are finite. If they are not, no line has a density.
     static bool is_sound(const SeenLight& seen) noexcept {
         const Vec3<float>& p = seen.frame.point;
         const Vec3<float>& o = seen.frame.origin;
@@ -155,10 +156,11 @@ private:
 
     visibility::LineCounters& counters() noexcept { return reflected_.statistics().line_counters; }
 
-    /// Each line is a family by itself.
+    /// Adds lines each of which has its own angle, and thus its own family.
     void add_independent(const ShadingPoint& point, LineSum& sum) noexcept {
         for (std::uint32_t first = 0; first < count_; first += kLanes) {
-            // Not x: jittered numbers have x in the same order in each pair, so that offsets would go with angles.
+            // Uses y, not x. Jittered numbers have x in the same order in each pair, which would correlate offsets
+            // with angles.
             const Real angles =
                 Real(kPi<float>) * reflected_.line_random(light_, point.lane, first, kOrientationPair).y;
             const LineFamily<Real, N> families(broadcast<Real>(polygon_), angles);
@@ -206,15 +208,15 @@ private:
             find_visible_parts(lines.seen, traced, packs);
             for (int i = 0; i < packs; ++i)
                 if (!has_lost_parts(traced[i])) add_pack(point, lines.estimator, chosen[i], traced[i], sum);
-            // These take the memory of the others.
+            // Comes last because it overwrites the memory of the other packs.
             for (int i = 0; i < packs; ++i)
                 if (has_lost_parts(traced[i]))
                     add_crowded(point, lines, chosen[i], chosen[i].extent, kMostHalvings, sum);
         }
     }
 
-    /// Adds a part of the lines of a pack that have many visible parts: with all memory, and in halves where even that does
-    /// not suffice. Halves are estimated like lines of their own, whose sum is that of the whole.
+    /// Adds a part of the lines of a pack with many visible parts. Uses all memory, and halves the lines if even that
+    /// does not suffice. Each half is estimated like a separate line; their sum is the estimate of the whole.
     void add_crowded(const ShadingPoint& point, const ParallelLines& lines, const ChosenLines& chosen,
                      const Interval<Real>& extent, int halvings, LineSum& sum) noexcept {
         TracedLines<Real> traced = make_traced(chosen, extent, 0, kPartsInMemory);
@@ -230,7 +232,7 @@ private:
         return any(lines.parts.lost() > Real(0));
     }
 
-    /// \param first slot in memory
+    /// \param first first slot in the memory
     TracedLines<Real> make_traced(const ChosenLines& chosen, const Interval<Real>& extent, int first,
                                   int capacity) noexcept {
         TracedLines<Real> lines{chosen.offset, VisibleParts<Real>(memory_.parts + first, capacity)};
@@ -251,7 +253,7 @@ private:
         for (std::uint32_t k = 0; k < range.count; k += kLanes, ++packs) {
             const Vec2<Real> u = numbers.pack(k);
             const LineChoice<Real> choice = sample_offset(u.x);
-            // Comparisons with NaN are false: negated they keep it, so that it is counted.
+            // Comparisons with NaN are false. Negated, they keep NaN, so that it is counted.
             const LaneMask drawn = first_lanes(range.count - k) & !(choice.pdf <= Real(0));
             const Chord<Real> chord = lines.family.chord(choice.offset);
             chosen[packs] = {choice.pdf, u.y, choice.offset, above_surface(chord, lines.plane, point), drawn};
