@@ -16,7 +16,7 @@ namespace nusselt::lab {
 
 namespace {
 
-/// A way to sample the lights of at most kPackedLights cases.
+/// A method under test: samples the lights of at most kPackedLights cases.
 template <class Technique, class Real>
 struct Method {
     const char* name;
@@ -76,7 +76,7 @@ Method<Technique, float> packed_method(base::Isa isa) {
                 };
                 const int count = static_cast<int>(cases.size());
                 for (int i = 0; i < kPackedLights; ++i) {
-                    // Lanes that are left over get any light.
+                    // Surplus lanes repeat the last light.
                     const auto& c = cases[static_cast<std::size_t>(std::min(i, count - 1))];
                     fill(in->light, i, c.light);
                     fill(in->u, i, c.u);
@@ -104,7 +104,7 @@ std::vector<Method<Technique, Real>> methods(const typename Technique::Class& li
     return all;
 }
 
-/// In the number type of the reference, only the error of the iteration is left to judge.
+/// In the number type of the reference, only the error of the iteration remains.
 template <class Technique>
 std::vector<Method<Technique, proof::Exact>> exact_methods() {
     return {scalar_method<Technique, proof::Exact, typename Technique::TwoSteps>("ours, 2 steps"),
@@ -120,7 +120,7 @@ void judge(const proof::Case<Technique, Real>& c, const proof::Outcome& outcome,
         return;
     }
     if (outcome.pdf == 0) row.add_no_sample();
-    // What a technique takes for dark is counted, but has no measure to judge.
+    // Lights that a technique wrongly finds dark are counted, but they have no measure to judge.
     if (outcome.pdf == 0 && outcome.measure == 0) return;
     row.add_measure(outcome.measure, c.exact.measure());
     if (outcome.pdf == 0) return;
@@ -178,7 +178,7 @@ void add_classes(std::vector<Task>& tasks) {
                 [&lights](int count, base::Isa isa) { return measure_class<Technique>(lights, count, isa); });
 }
 
-/// Each technique on the classes for the bounds of 4 and of more vertices.
+/// Adds each technique for the classes with a bound of 4 vertices and for those with more.
 template <class... Few, class... Many>
 void add_polygons(hostile::KindList<Few...>, hostile::KindList<Many...>, std::vector<Task>& tasks) {
     ((add_classes<proof::Judged<Few>>(tasks), add_classes<proof::Judged<Many>>(tasks)), ...);

@@ -1,5 +1,5 @@
 #pragma once
-/// Accuracy of samplers in each number type, against the exact technique in long double.
+/// Accuracy of samplers in each number type, relative to the exact technique in long double.
 
 #include "proof/accuracy/row.h"
 
@@ -10,14 +10,14 @@
 
 namespace nusselt::lab {
 
-/// As techniques.json names the suite.
+/// The name of the suite in techniques.json.
 struct AccuracySuite {
     static constexpr std::string_view kName = "accuracy";
 };
 
 struct AccuracySettings {
     int count = 1;                  ///< lights per class, at least 1; each gets one sample
-    std::optional<std::string> isa; ///< of the packs; as base::choose_isa()
+    std::optional<std::string> isa; ///< instruction set of the packs, as for base::choose_isa()
 };
 
 struct AccuracyTable {

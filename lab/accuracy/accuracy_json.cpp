@@ -109,7 +109,7 @@ std::string name(const proof::AccuracyRow& r) {
     return fmt::format("{}, {}, {}, {}", r.technique, r.scalar, r.lights, r.method);
 }
 
-/// The rows of ours in one table that the other one lacks.
+/// Reports the rows of the library's own methods that one table has and the other lacks.
 void report_missing(const AccuracyTable& from, const AccuracyTable& in, const char* complaint,
                     std::vector<std::string>& complaints) {
     for (const proof::AccuracyRow& r : from.rows)

@@ -1,5 +1,5 @@
 #pragma once
-/// The accuracy tables as a file, and as the baseline that later measurements must not fall behind.
+/// The accuracy tables as a file, and as a baseline that later measurements must match.
 
 #include "lab/accuracy/accuracy.h"
 #include "lab/results/results.h"
@@ -11,25 +11,24 @@ namespace nusselt::lab {
 /// The rows, and the targets with their verdicts.
 Results results_of(const AccuracyTable& table);
 
-/// Reads the rows of what to_json(results_of()) wrote.
+/// Reads the rows that to_json(results_of()) wrote.
 /// \throws std::runtime_error naming the file if it cannot be read or is not such a table.
 AccuracyTable read_accuracy_json(const std::filesystem::path& path);
 
-/// How far a row may be above the baseline. g++ 12, clang 14 and all instruction sets agree on every number: the
-/// code has the same operations everywhere. Other versions need not: where there is no FMA, float goes through
-/// double and may round differently in one of 2^29 cases, and double and long double take arctangents from the
-/// standard library.
+/// How far a row may exceed the baseline. g++ 12, clang 14 and all instruction sets agree on every number, because
+/// the code has the same operations everywhere. Other versions may differ: without FMA, float goes through double and
+/// may round differently in one of 2^29 cases, and double and long double take arctangents from the standard library.
 struct AccuracyMargin {
     double quantiles = 1.1; ///< factor on median, 99 % and 99.9 %
-    double max = 1.5;       ///< factor on the largest error, which hangs on a single light
-    /// The same for long double. Processors of different vendors round the arctangents of their x87 units differently: of
-    /// the same lights, the largest errors differed by factors of up to 2.7 between AMD and Intel.
+    double max = 1.5;       ///< factor on the largest error, which depends on a single light
+    /// The same for long double. Processors of different vendors round the arctangents of their x87 units
+    /// differently: for the same lights, the largest errors on AMD and Intel differed by factors of up to 2.7.
     double max_of_long_double = 3;
-    /// Factor on the counts; it leaves 0 at 0.
+    /// Factor on the counts. A count of 0 must stay 0.
     double counts = 1.1;
 };
 
-/// Rows of the library's own methods that are worse than in the baseline, that are missing, or that the
+/// Finds rows of the library's own methods that are worse than in the baseline, that are missing, or that the
 /// baseline lacks.
 /// \return a sentence for each; empty if all is well.
 std::vector<std::string> compare_with_baseline(const AccuracyTable& baseline, const AccuracyTable& measured,

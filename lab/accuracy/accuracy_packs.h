@@ -1,5 +1,5 @@
 #pragma once
-/// What the units compiled per instruction set offer to accuracy.cpp: plain data and functions.
+/// The interface of the units compiled per instruction set to accuracy.cpp: plain data and functions.
 
 #include "base/isa.h"
 
@@ -7,7 +7,7 @@ namespace nusselt::lab {
 
 inline constexpr int kPackedLights = 256;
 
-/// A column per number of a light, in the order of declaration.
+/// The numbers of many lights, with a column for each number in the order of declaration.
 struct LightColumns {
     static constexpr int kLargest = 3 * (2 * 8 + 1) + 6; ///< an octagon on a lobe
     float light[kLargest][kPackedLights];

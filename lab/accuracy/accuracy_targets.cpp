@@ -35,7 +35,7 @@ constexpr AccuracyTarget kTargets[] = {
     {kPolygon, "float", "close to the plane, beside the light", Q::off_the_light, 0},
     {kPolygon, "float", "edge in a vertical plane through the point", Q::p99, 1e-5},
     {kPolygon, "float", "edge in a vertical plane through the point", Q::off_the_light, 0},
-    // Where the repeated vertex comes first, other roundings happen: equal but for chance.
+    // A repeated vertex that comes first changes the rounding, so the errors are equal apart from chance.
     {kPolygon, "float", "triangle with a repeated vertex", Q::p99_over_other, 1.2, "triangle"},
     {kPolygon, "float", "triangle with a repeated vertex", Q::off_the_light, 0},
     {kPolygon, "float", "no area", Q::spurious, 0},
@@ -67,7 +67,7 @@ const proof::AccuracyRow* find(const std::vector<proof::AccuracyRow>& rows, cons
     return found == rows.end() ? nullptr : &*found;
 }
 
-/// Infinite without a row to compare with.
+/// Is infinite without a row to compare with.
 double value_of(const AccuracyTarget& target, const proof::AccuracyRow& row,
                 const std::vector<proof::AccuracyRow>& rows) {
     const auto over = [&](const proof::AccuracyRow* other, double proof::ErrorQuantiles::*quantile) {

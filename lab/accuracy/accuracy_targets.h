@@ -1,5 +1,5 @@
 #pragma once
-/// What the accuracy tables are measured against: fixed targets.
+/// The fixed targets for the accuracy tables.
 
 #include "lab/accuracy/accuracy.h"
 
@@ -11,7 +11,7 @@ namespace nusselt::lab {
 
 enum class AccuracyQuantity {
     p99_over_floor,  ///< 99 % backward error over that of the floor
-    p999_over_floor, ///< likewise for 99.9 %
+    p999_over_floor, ///< 99.9 % backward error over that of the floor
     p99_over_other,  ///< 99 % backward error over that of another class of lights
     p99,             ///< 99 % backward error
     max,             ///< largest backward error
@@ -26,8 +26,8 @@ std::string describe(AccuracyQuantity quantity, const char* other, double limit)
 
 struct AccuracyTarget {
     const char* technique;
-    const char* scalar; ///< "float": the larger value of both methods that are ours; "long double": two steps
-    const char* lights; ///< kEveryClass: the largest value of all classes
+    const char* scalar; ///< "float": the larger value of scalar code and packs; "long double": two steps
+    const char* lights; ///< a class, or kEveryClass for the largest value of all classes
     AccuracyQuantity quantity;
     double limit;           ///< largest value allowed
     const char* other = ""; ///< the class to compare with
@@ -42,10 +42,10 @@ struct AccuracyVerdict {
     bool met = false;
 };
 
-/// Each target against the rows, in the order of their table.
+/// Checks each target against the rows, in the order of the table of targets.
 std::vector<AccuracyVerdict> check_targets(const std::vector<proof::AccuracyRow>& rows);
 
-/// The lights of the target, and which of them are worst if it concerns every class.
+/// The lights of the target. If it concerns every class, also the worst one.
 std::string where(const AccuracyVerdict& verdict);
 
 /// Backward errors of a row over those of the floor, for the same lights; none without a floor.

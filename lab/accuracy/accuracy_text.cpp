@@ -38,7 +38,7 @@ Table target_table(const std::vector<proof::AccuracyRow>& rows) {
 
 using Rows = std::vector<const proof::AccuracyRow*>;
 
-/// The rows of one technique and number type with something to sample.
+/// A table of the rows of one technique and number type that have something to sample.
 Table lit_table(const std::vector<proof::AccuracyRow>& all, const Rows& rows) {
     Table table = {{"lights", "method", "backward error: median", "99 %", "99.9 %", "largest", "99 % / floor",
                     "99.9 % / floor", "measure: median", "99 %", "99.9 %", "largest", "off the light",

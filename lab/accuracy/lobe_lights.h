@@ -1,5 +1,5 @@
 #pragma once
-/// Classes of lights of each kind, those on lobes with lobes of the shipped table.
+/// Classes of lights for each kind of technique. Lights on lobes take their lobes from the shipped table.
 
 #include "proof/accuracy/lights.h"
 #include "tables/ltc_table.h"

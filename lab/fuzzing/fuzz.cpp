@@ -22,7 +22,7 @@ namespace {
 /// The number of reports for each technique in each floating-point mode.
 constexpr std::size_t kReports = FuzzBlockResult<float>::kKept;
 
-/// A configuration as the generator makes it. Packs take the vertices by column.
+/// A configuration in the form in which the generator makes it. For packs, it becomes a column of a block.
 template <class T>
 struct Configuration {
     Vec3<T> vertex[8] = {};
@@ -80,7 +80,7 @@ void make_block(FuzzLight light, std::uint64_t seed, std::uint64_t first, int co
     }
 }
 
-/// A literal that is this number exactly.
+/// A literal with exactly this value.
 std::string literal(float x) { return fmt::format("{:a}f", x); }
 std::string literal(double x) { return fmt::format("{:a}", x); }
 std::string literal(long double x) {
@@ -119,9 +119,9 @@ struct Tally {
     const FuzzTechnique<T>* technique;
     std::uint64_t violations = 0;
     double seconds = 0;
-    std::vector<FuzzViolation<T>> found[2]; ///< by rising index; second: with denormals flushed
+    std::vector<FuzzViolation<T>> found[2]; ///< by increasing index; second: denormals flushed
 
-    /// Both floating-point modes.
+    /// Checks a block in both floating-point modes.
     void check(const FuzzBlock<T>& block, std::uint64_t first, int columns) {
         const auto begin = std::chrono::steady_clock::now();
         FuzzBlockResult<T> result[2];

@@ -57,7 +57,7 @@ auto geometry_of(const FuzzBlock<scalar_t<Real>>& block, int i) noexcept {
         }
     }
 }
-/// The light and the random numbers of a technique, from the columns that begin at i.
+/// The light and the random numbers of a technique, from the columns that start at i.
 template <class Kind, class Real>
 typename Kind::template Light<Real> light_of(const FuzzBlock<scalar_t<Real>>& block, int i) noexcept {
     if constexpr (hostile::kHasLobe<Kind>) {
@@ -124,7 +124,7 @@ constexpr FuzzTechnique<scalar_t<Real>> technique() {
     return {Kind::kName, light, check<Kind, Real>, hostile::kHasLobe<Kind>};
 }
 
-/// As techniques.json names the suite.
+/// The name of the suite in techniques.json.
 struct FuzzSuite {
     static constexpr std::string_view kName = "fuzz";
 };

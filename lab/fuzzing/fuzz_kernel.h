@@ -14,12 +14,12 @@ template <class T>
 struct FuzzBlock {
     static constexpr int kSize = 512; ///< a multiple of all numbers of lanes
     T coordinates[8][3][kSize];
-    T radius[kSize]; ///< of cylinders, whose axis has the first two vertices
+    T radius[kSize]; ///< of cylinders; the first two vertices are the ends of the axis
     T u[2][kSize];
     T lobe[5][kSize]; ///< m00, m02, m11, m20, m22 of LtcCoefficients, for techniques that take a lobe
 };
 
-/// One configuration for which a technique broke the contract, and what it returned.
+/// A configuration for which a technique broke the contract, and the results of the technique.
 template <class T>
 struct FuzzViolation {
     std::uint64_t index;
@@ -28,7 +28,7 @@ struct FuzzViolation {
     T pdf_of_wi, inverse[2], measure;
 };
 
-/// Violations of a block; the first ones in detail.
+/// The violations of a block, with the first ones in detail.
 template <class T>
 struct FuzzBlockResult {
     static constexpr int kKept = 3;
@@ -38,9 +38,9 @@ struct FuzzBlockResult {
 
 template <class T>
 struct FuzzTechnique {
-    const char* name; ///< of the class
+    const char* name; ///< name of the class
     FuzzLight light;
-    /// Checks the first columns of the block, their number rounded up to a whole number of packs.
+    /// Checks the first columns of the block. Their number is rounded up to a whole number of packs.
     void (*check)(const FuzzBlock<T>& block, int columns, FuzzBlockResult<T>& result);
     bool takes_lobe = false;
 };
@@ -54,7 +54,7 @@ struct FuzzTable {
 /// Techniques in packs of float or double.
 template <base::Isa, class T>
 FuzzTable<T> fuzz_table();
-/// No instruction set has packs of long double.
+/// Techniques in long double, for which no instruction set has packs.
 FuzzTable<long double> fuzz_table_long_double();
 
 } // namespace nusselt::lab

@@ -2,9 +2,9 @@
 /// Local maximisation without derivatives, for any scalar.
 ///
 /// J. A. Nelder, R. Mead 1965, A Simplex Method for Function Minimization, The Computer Journal 7(4),
-/// doi:10.1093/comjnl/7.4.308, with the usual coefficients (reflection 1, expansion 2, contraction 1/2,
-/// shrinking 1/2) and bounds after M. J. Box 1965: trial points are moved to the box, so that maxima on its
-/// boundary are found.
+/// doi:10.1093/comjnl/7.4.308, with the usual coefficients (reflection 1, expansion 2, contraction 1/2, shrinking
+/// 1/2) and bounds after M. J. Box 1965: trial points are moved into the box, so the search also finds maxima on its
+/// boundary.
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ namespace nusselt::lab {
 template <class Real, std::size_t N>
 using Point = std::array<Real, N>;
 
-/// Coordinates from low to high, ends included.
+/// A range from low to high for each coordinate, ends included.
 template <class Real, std::size_t N>
 struct Box {
     Point<Real, N> low, high;
@@ -33,7 +33,7 @@ struct Vertex {
     Real value;
 };
 
-/// The simplex of Nelder and Mead, from best to worst vertex.
+/// The simplex of Nelder and Mead, with vertices sorted from best to worst.
 template <class Real, std::size_t N, class Function>
 class Simplex {
     using P = Point<Real, N>;
@@ -116,7 +116,7 @@ private:
         sort();
     }
 
-    // Stable: the order of equal values, and so the result, does not depend on the standard library.
+    // The sort is stable, so the order of equal values, and thus the result, does not depend on the standard library.
     void sort() {
         std::stable_sort(vertices_.begin(), vertices_.end(),
                          [](const V& a, const V& b) { return a.value > b.value; });

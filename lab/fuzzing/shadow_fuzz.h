@@ -1,6 +1,6 @@
 #pragma once
-/// Visibility of line samples by the million: whether light leaks through closed meshes, and whether degenerate lights,
-/// points and occluders break the visible parts of lines.
+/// Checks the visibility of millions of line samples: whether light leaks through closed meshes, and whether
+/// degenerate lights, points and occluders break the visible parts of lines.
 
 #include "base/isa.h"
 #include "proof/shadows/shadow_case.h"
@@ -28,29 +28,29 @@ struct ShadowFuzzSettings {
     int threads = 1;
 };
 
-/// A case with something wrong.
+/// A case with a defect.
 struct ShadowReport {
     std::uint64_t index; ///< ShadowFuzzSettings::first of a run that finds it alone
     std::string text;
 };
 
-/// The results of one kind of cases, each with denormal numbers and with denormals flushed to zero.
+/// The results for one kind of case. Each case runs with denormal numbers and with denormals flushed to zero.
 struct ShadowFuzzRow {
     std::string kind;
     std::uint64_t violations = 0;
-    std::uint64_t triangles = 0;       ///< of all cases
-    std::vector<ShadowReport> reports; ///< the reports of lowest index
+    std::uint64_t triangles = 0;       ///< number of triangles in all cases
+    std::vector<ShadowReport> reports; ///< the reports with the lowest indices
 };
 
-/// Called with the share of the work that is done, by one thread at a time.
+/// Called with the share of the work that is done, never by two threads at once.
 using ShadowFuzzProgress = std::function<void(double)>;
 
-/// Runs the checks on the cases of a seed. Cases depend on their index and the seed only; the result does not depend on
-/// the number of threads.
+/// Runs the checks on the cases of a seed. Cases only depend on their index and the seed, so the result does not
+/// depend on the number of threads.
 std::vector<ShadowFuzzRow> fuzz_shadows(const ShadowChecks& checks, const ShadowFuzzSettings& settings,
                                         const ShadowFuzzProgress& progress);
 
-/// The checks of the library in an instruction set.
+/// The checks, compiled for an instruction set.
 /// \param isa as base::choose_isa()
 /// \throws std::runtime_error for an instruction set that is unknown or that the CPU lacks
 ShadowChecks choose_shadow_checks(const std::optional<std::string>& isa);

@@ -45,7 +45,7 @@ struct Space {
         return allowed ? light.error(technique) : -std::numeric_limits<Real>::infinity();
     }
 
-    /// Climbs with simplices of decreasing size: they tend to collapse before they are at the summit.
+    /// Climbs with simplices of decreasing size, because simplices tend to collapse before they reach the summit.
     Vertex<Real, Light::kDimension> climb(Coordinates start, std::initializer_list<double> sizes) const {
         Vertex<Real, Light::kDimension> best{start, 0};
         for (const double size : sizes)
@@ -92,7 +92,7 @@ WorstCaseTarget make_target(const char* name, const char* description, long doub
 } // namespace
 
 const std::vector<WorstCaseTarget>& worst_case_targets() {
-    // The bounds are those of the doc comments of the techniques, or what the search found, rounded up.
+    // The bounds are those in the doc comments of the techniques, or the results of the search, rounded up.
     static const std::vector<WorstCaseTarget> targets = {
         make_target<proof::LineCase, 3>("lines", "line, 3 steps", 1e-7L, 1.3e-10L),
         make_target<proof::LineCase, 2>("lines-2", "line, 2 steps", 1e-7L, 3.6e-5L),

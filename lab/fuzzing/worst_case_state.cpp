@@ -23,7 +23,7 @@ long double number_of(const std::string& text) {
     return x;
 }
 
-/// nlohmann-json alone converts negative and broken numbers silently.
+/// Needed because nlohmann-json silently converts negative numbers and fractions.
 std::uint64_t whole_number_of(const nlohmann::json& json) {
     if (!json.is_number_unsigned()) throw std::runtime_error(json.dump() + " must be a whole number");
     return json.get<std::uint64_t>();

@@ -1,5 +1,5 @@
 #pragma once
-/// Files that remember how far a search for worst cases got.
+/// Files with the progress of a search for worst cases.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace nusselt::lab {
 /// The state from which a search continues.
 struct SearchProgress {
     std::uint64_t starts = 0;
-    std::vector<long double> parameters; ///< of the worst case, empty: none yet
+    std::vector<long double> parameters; ///< of the worst case; empty if there is none yet
 };
 
 struct SearchState {
@@ -24,7 +24,7 @@ struct SearchState {
 /// All digits of a number, in hexadecimal.
 std::string hexadecimal(long double x);
 
-/// The contents of a state file, nothing if there is none.
+/// The contents of a state file, or nothing if the file does not exist.
 /// \throws std::runtime_error naming the file if it cannot be read or has no such contents
 std::optional<SearchState> load_search_state(const std::filesystem::path& path);
 

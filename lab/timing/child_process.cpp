@@ -18,7 +18,7 @@ namespace {
     throw std::runtime_error("cannot run " + program + ": " + what);
 }
 
-/// A file descriptor.
+/// Owns a file descriptor.
 class Descriptor {
 public:
     explicit Descriptor(int value) : value_(value) {}
@@ -34,7 +34,7 @@ private:
     int value_;
 };
 
-constexpr int kNotStarted = 127; ///< exit code, as of shells
+constexpr int kNotStarted = 127; ///< exit code, as in shells
 
 std::string read_all(int descriptor) {
     std::string text;
@@ -47,7 +47,8 @@ std::string read_all(int descriptor) {
     }
 }
 
-/// Not posix_spawn(): its child begins in the memory of this process, all of which would count as the child's.
+/// Does not use posix_spawn(): its child starts in the memory of this process, all of which would count as the
+/// child's.
 pid_t start(const std::vector<std::string>& command, int output) {
     std::vector<char*> arguments;
     for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
@@ -55,7 +56,8 @@ pid_t start(const std::vector<std::string>& command, int output) {
     const pid_t child = ::fork();
     if (child < 0) fail(command[0], std::strerror(errno));
     if (child == 0) {
-        // Other threads may have held locks: system calls only. Both ends of the pipe are closed by exec.
+        // Other threads may have held locks, so the child only makes system calls. Its exec closes both ends of the
+        // pipe.
         if (::dup2(output, STDOUT_FILENO) >= 0) ::execv(arguments[0], arguments.data());
         ::_exit(kNotStarted);
     }

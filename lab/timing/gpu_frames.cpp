@@ -21,7 +21,7 @@ using render::Technique;
 
 constexpr int kSamples = 2;
 
-/// A frame with its pixels.
+/// A frame in progress, with its pixels.
 struct Running {
     explicit Running(const GpuFrame& frame)
         : image(*frame.scene, frame.settings),
@@ -67,7 +67,7 @@ scene::Scene with_only_light(const scene::Scene& scene, std::uint32_t emitter, s
     return changed;
 }
 
-/// As wide as the tube.
+/// A quadrilateral in place of a tube, with the same length and width.
 scene::PolygonLight quad_in_place(const scene::LineLight& tube) {
     const scene::Double3 begin = scene::to_double(tube.start), end = scene::to_double(tube.end);
     const scene::Double3 axis = normalized(end - begin);

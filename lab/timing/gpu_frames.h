@@ -11,43 +11,44 @@
 
 namespace nusselt::lab {
 
-/// What is rendered, again and again.
+/// A frame to be rendered repeatedly.
 struct GpuFrame {
     const render_vulkan::DeviceScene* scene;
     render::RenderSettings settings; ///< with one camera ray
 };
 
-/// What the passes took [s], a number for each repetition.
+/// The times of the passes [s], one for each repetition.
 struct GpuFrameTimes {
     std::vector<double> visibility;
     std::vector<double> shading;
-    std::uint64_t shadow_rays = 0; ///< of one frame; with ShadowRays::none those that were left out
+    std::uint64_t shadow_rays = 0; ///< of one frame; those left out with ShadowRays::none
 
-    /// Both passes.
+    /// The times of both passes together.
     std::vector<double> whole() const;
 };
 
 struct GpuFrameRounds {
-    int repetitions = 15; ///< odd numbers give true medians
-    int warm_up = 3;      ///< rounds before those
+    int repetitions = 15; ///< odd numbers give exact medians
+    int warm_up = 3;      ///< rounds before the repetitions
 };
 
-/// Renders frames in turn, so that a drift of the clock rate hits all alike. Shaders are compiled once, before that.
+/// Renders the frames in turn, so that a drift of the clock rate affects all alike. Compiles the shaders once, before
+/// the first frame.
 /// \throws std::invalid_argument see render_vulkan::Accumulator
 /// \throws gpu::Error if memory runs out, or the device is lost
 std::vector<GpuFrameTimes> time_gpu_frames(std::span<const GpuFrame> frames, const GpuFrameRounds& rounds);
 
-/// One frame over another one of the same rounds.
+/// Ratios of one frame to another one of the same rounds.
 struct GpuFrameRatio {
     double whole, shading;             ///< medians of the ratios of times
     std::optional<double> shadow_rays; ///< none if there are none
 };
 
-/// \param times, others of at least one repetition, both of the same number
+/// \param times,others times of the same number of repetitions, at least one
 GpuFrameRatio ratio_of(const GpuFrameTimes& times, const GpuFrameTimes& others);
 
-/// All techniques with all strategies that are of use with two samples of each technique per pixel in one frame: of
-/// projected solid angles and lobes with the clamped optimal heuristic, with visible normals by the balance heuristic.
+/// All techniques and strategies that make sense with two samples of each technique per pixel and frame: projected
+/// solid angles and lobes with the clamped optimal heuristic, and visible normals with the balance heuristic.
 std::vector<render::RenderSettings> timed_settings();
 
 /// Two of timed_settings().
@@ -55,23 +56,23 @@ struct SettingsPair {
     render::RenderSettings ours, baseline;
 };
 
-/// Projected solid angles and lobes over what was usual: Fig. 1 of Peters 2021, polygonal lights. As many samples; visible
-/// normals that miss the light need no shadow ray.
+/// Projected solid angles and lobes, compared with the techniques that were common before: Fig. 1 of Peters 2021,
+/// polygonal lights. Both take as many samples, but visible normals that miss the light need no shadow ray.
 SettingsPair strategies_pair();
 inline constexpr double kPublishedStrategiesRatio = 1.47 / 0.74;
 
 bool is_same(const render::RenderSettings& a, const render::RenderSettings& b);
 
-/// A scene whose only light is linear, and the same with a quad in its place.
+/// A scene whose only light is linear, and the same scene with a quadrilateral in its place.
 struct LineAndQuad {
     scene::Scene line, quad;
 };
 
-/// The line is the first tube of the scene. The quad shines to both sides, up and down unless the tube is upright, and is as
-/// wide as the tube, so that from there both have the same size.
+/// The line is the first tube of the scene. The quadrilateral is as wide as the tube and shines to both sides, up and
+/// down unless the tube is upright. Seen along its normal, it thus has the size of the tube.
 /// \returns nothing if the scene has no tube
 std::optional<LineAndQuad> line_and_quad(const scene::Scene& scene);
-/// Heitz and Hill 2017, Sec. 1.7: the shading pass, with the analytic technique.
+/// The ratio for the shading pass with the analytic technique in Heitz and Hill 2017, Sec. 1.7.
 inline constexpr double kPublishedLineRatio = 0.42 / 0.58;
 
 } // namespace nusselt::lab

@@ -1,11 +1,11 @@
-# The shaders of `nusselt-lab bench gpu-samplers`, and the table of them: those of the registry of techniques, the
-# published methods and a baseline for each kind of light. Polygons have their exact number of vertices as bound, as in a
-# renderer whose lights have that many.
+# The shaders of `nusselt-lab bench gpu-samplers` and their table: the techniques of the registry, the published
+# methods, and a baseline for each kind of light. The bound on the number of vertices is the exact number of each
+# polygon, as in a renderer whose lights all have that many.
 set(includes)
 set(rows)
 
-# For devices whose fma rounds twice or once. Polygons have room for the vertices that `technique` needs. For further
-# arguments see nusselt_add_technique_shader().
+# Adds variants for devices whose fma rounds twice or once. Polygons have room for the vertices that `technique`
+# needs. nusselt_add_technique_shader() describes the other arguments.
 function(add_timed_shaders name technique light vertex_count file struct)
     nusselt_snake_case(shader ${name})
     set(shader bench_${shader}_${light}_${vertex_count})
@@ -21,7 +21,7 @@ function(add_timed_shaders name technique light vertex_count file struct)
     set(rows ${rows} PARENT_SCOPE)
 endfunction()
 
-# All techniques for a kind of light, each after the formulas that it replaces, and before all of them the baseline.
+# Adds the baseline for a kind of light and then all its techniques, each after the formulas that it replaces.
 macro(add_timed_light light vertex_count)
     set(has_baseline)
     foreach(name IN LISTS nusselt_techniques)

@@ -23,7 +23,7 @@ constexpr std::uint32_t kRepeats = 128;  // lights or samples of each thread
 constexpr std::uint32_t kMostGroups = 1 << 15;
 constexpr std::size_t kMostColumns = 6 * kLargestVertexCount + 3 + 6; // a polygon and a lobe
 
-/// The lights of a run, a column for each number of a light.
+/// The lights of a run, with a column for each number of a light.
 using Columns = std::vector<float>;
 
 Vec3<float> position(const TimedLights& lights, int light, int j) {
@@ -69,7 +69,7 @@ void add_column(Columns& columns, std::size_t index, const float (&values)[kTime
               columns.begin() + static_cast<std::ptrdiff_t>(index * kTimedLights));
 }
 
-/// As shaders/bench reads them.
+/// The columns in the layout that shaders/bench reads.
 Columns columns_of(const TimedConfiguration& c, const TimedLights& lights) {
     Columns columns(kMostColumns * kTimedLights);
     std::size_t count =
@@ -98,7 +98,7 @@ public:
         return time / (static_cast<double>(groups) * kWorkGroup * kRepeats);
     }
 
-    /// So many groups that start and end of a run do not matter. Warms up, too.
+    /// A number of groups for which the start and the end of a run do not matter. Also warms up the device.
     std::uint32_t calibrated_groups() const {
         constexpr double kEnough = 4e6; // ns
         std::uint32_t groups = 1;
@@ -117,7 +117,7 @@ struct Timed {
     Workload lights, samples;
 };
 
-/// One row in the making.
+/// The measurements for one row.
 struct Running {
     const Timed* timed;
     const TimedConfiguration* configuration;

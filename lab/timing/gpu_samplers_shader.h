@@ -1,5 +1,5 @@
 #pragma once
-/// An entry of the table of shaders that the build makes.
+/// An entry of the table of shaders that the build generates.
 
 #include "lab/timing/sampler_timing_kernel.h"
 

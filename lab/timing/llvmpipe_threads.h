@@ -8,8 +8,8 @@
 
 namespace nusselt::lab {
 
-/// Mesa's software device runs on as many threads as it is told to: the environment variable LP_NUM_THREADS, empty if it
-/// is not set. None for other devices.
+/// The number of threads of Mesa's software device, from the environment variable LP_NUM_THREADS. Empty if it is not
+/// set; none for other devices.
 inline std::optional<std::string> llvmpipe_threads(const gpu::DeviceDescription& device) {
     if (device.name.find("llvmpipe") == std::string::npos) return std::nullopt;
     const char* threads = std::getenv("LP_NUM_THREADS");

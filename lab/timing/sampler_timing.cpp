@@ -15,15 +15,15 @@ std::vector<TimedTechnique> techniques_for(base::Isa isa) {
     return base::dispatch(isa, []<base::Isa chosen> { return timed_techniques<chosen>(); });
 }
 
-/// One row in the making.
+/// The measurements for one row.
 struct Series {
     const TimedTechnique* technique;
     const TimedConfiguration* configuration;
-    std::vector<double> prepare_ns, sample_ns, sample_one_ns; ///< per light or sample, with the baseline
+    std::vector<double> prepare_ns, sample_ns, sample_one_ns; ///< per light or sample, including the baseline
 };
 
 double nanoseconds_per_light(float (*run)()) {
-    // Short runs are repeated until the clock's resolution does not matter.
+    // Runs are repeated because the resolution of the clock would matter for short ones.
     constexpr int kRepetitions = 4;
     static volatile float sink;
     const auto begin = std::chrono::steady_clock::now();

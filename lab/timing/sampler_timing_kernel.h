@@ -1,5 +1,5 @@
 #pragma once
-/// What the units compiled per instruction set offer to sampler_timing.cpp: plain data and functions.
+/// The interface of the units compiled per instruction set to sampler_timing.cpp: plain data and functions.
 
 #include "base/isa.h"
 
@@ -10,8 +10,8 @@ namespace nusselt::lab {
 inline constexpr int kTimedLights = 256;
 inline constexpr int kLargestVertexCount = 8;
 
-/// Lights in shading space and random numbers, one column per light. Polygons with fewer vertices repeat the
-/// last one; lines and the axes of cylinders have two.
+/// Lights in shading space and random numbers, one column per light. Polygons with fewer vertices repeat the last
+/// one; lines and the axes of cylinders have two vertices.
 struct TimedLights {
     float coordinates[kLargestVertexCount][3][kTimedLights];
     float radius[kTimedLights];  ///< of cylinders [m]
@@ -19,7 +19,7 @@ struct TimedLights {
     float u[2][kTimedLights];
 };
 
-/// As techniques.json names them.
+/// The names are those in techniques.json.
 enum class LightKind { polygon, polygon_on_lobe, line, line_on_lobe, cylinder, cylinder_on_lobe };
 
 constexpr bool is_polygon(LightKind kind) {
@@ -39,13 +39,13 @@ struct TimedTechnique {
     LightKind kind;
     int lanes;
     int vertex_bound; ///< largest vertex count, 2 for lines and cylinders
-    void (*load)(
-        const TimedLights&); ///< to be called first: converts the lights to the type of the technique
-    /// Prepares every light. Returns a number that depends on the results, as the others.
+    /// Converts the lights to the type of the technique. Must be called first.
+    void (*load)(const TimedLights&);
+    /// Prepares every light. Like the other functions, it returns a number that depends on the results.
     float (*prepare)();
-    /// Takes a sample of each prepared light: lanes have lights of their own.
+    /// Takes a sample of each prepared light. Each lane has a different light.
     float (*sample)();
-    /// Takes kTimedLights samples of the first light: one light in all lanes.
+    /// Takes kTimedLights samples of the first light, which is in all lanes.
     float (*sample_one)();
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The lights that samplers are timed with, on CPU and GPU, and what becomes of the times.
+/// The lights for timing samplers on CPU and GPU, and the evaluation of the times.
 
 #include "lab/timing/sampler_timing_kernel.h"
 
@@ -18,17 +18,17 @@ struct TimedConfiguration {
     bool above_zenith;      ///< centred at the zenith
 };
 
-/// Everything that is timed.
+/// All classes of lights for which techniques are timed.
 std::vector<TimedConfiguration> timed_configurations();
 
-/// Regular polygons (or segments) of random orientation; those at the zenith lie flat. The radius of cylinders is an
-/// eighth of their length. All lights are on the same glossy lobe.
+/// Regular polygons (or segments) of random orientation. Those at the zenith are horizontal. The radius of cylinders
+/// is an eighth of their length. All lights are on the same glossy lobe.
 void make_timed_lights(const TimedConfiguration& c, TimedLights& lights);
 
-/// The given share of the sorted values lies below the result.
+/// The value below which the given share of the values lies.
 double quantile(std::vector<double> values, double share);
 
-/// The plain transcription that a technique competes with.
+/// The plain transcription with which a technique competes.
 std::string competitor_of(const std::string& technique);
 
 } // namespace nusselt::lab

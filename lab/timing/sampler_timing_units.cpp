@@ -47,7 +47,7 @@ float lane_sum(const Real& x) {
     }
 }
 
-/// The technique for one light, in all lanes.
+/// The technique for one light, the same in all lanes.
 template <template <class> class Technique, class Real, class Light>
 Technique<Real> of_one_light(const Light& light) {
     const Technique<float> single(light);
@@ -128,7 +128,7 @@ struct Loaded {
     }
 };
 
-/// A technique of practically no cost that keeps the loops alive.
+/// A technique of practically no cost, whose loops the compiler cannot remove.
 template <class Real>
 struct Baseline {
     Vec3<Real> v;
@@ -142,13 +142,13 @@ struct Baseline {
     LightSample<Real> sample(const Vec2<Real>& u) const { return {v, u.x + u.y, v}; }
 };
 
-/// Makes the compiler believe that somebody reads all of an object.
+/// Makes the compiler believe that an object is read completely.
 template <class T>
 void escape(const T& object) {
     asm volatile("" : : "r"(&object) : "memory");
 }
 
-/// Memory for a technique of each group; filled by prepare().
+/// Memory for the techniques of all groups of lights, which prepare() fills.
 template <template <class> class Technique, class Input, class Real>
 struct Prepared {
     using Data = Loaded<Input, Real>;
@@ -207,7 +207,7 @@ constexpr TimedTechnique timed(const char* name) {
 using Native = Pack<float, kNativeLanes<float>>;
 using Pair = Pack<float, 2 * kNativeLanes<float>>;
 
-/// A technique as scalar code, with a light per lane of a register, and with two registers in flight.
+/// Adds a technique as scalar code, with a light per lane of one register, and with two registers in flight.
 template <template <class> class Technique, class Input>
 void add(std::vector<TimedTechnique>& techniques, const char* name) {
     techniques.push_back(timed<Technique, Input, float>(name));
@@ -215,12 +215,12 @@ void add(std::vector<TimedTechnique>& techniques, const char* name) {
     techniques.push_back(timed<Technique, Input, Pair>(name));
 }
 
-/// As techniques.json names the suite.
+/// The name of the suite in techniques.json.
 struct TimingSuite {
     static constexpr std::string_view kName = "timing";
 };
 
-/// The techniques of a list, each after the formulas that it replaces, and before all of them the baseline.
+/// Adds the baseline and then the techniques of a list, each after the formulas that it replaces.
 template <class First, class... Rest>
 void add_all(hostile::KindList<First, Rest...> list, std::vector<TimedTechnique>& techniques) {
     add<Baseline, Input<First>>(techniques, "Baseline");
@@ -232,11 +232,11 @@ void add_all(hostile::KindList<First, Rest...> list, std::vector<TimedTechnique>
     });
 }
 
-/// Everything that is timed.
+/// All techniques that are timed.
 inline std::vector<TimedTechnique> techniques() {
     using namespace hostile;
     std::vector<TimedTechnique> result;
-    // Baselines are those of the light that functions take: rectangles are polygons.
+    // A baseline belongs to the type of light that techniques take, so rectangles share that of polygons.
     add_all(TestedBy<TimingSuite, PolygonKinds<4>, RectangleKinds>(), result);
     add_all(TestedBy<TimingSuite, PolygonKinds<8>>(), result);
     add_all(TestedBy<TimingSuite, PolygonOnLobeKinds<4>>(), result);

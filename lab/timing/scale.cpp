@@ -33,7 +33,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// Writes, loads and renders; memory with all that the program needs anyway.
+/// Writes, loads and renders a scene. The memory includes what the program needs for any scene.
 ScaleRow measure_row(ScaleScene scene, std::uint64_t triangles, const std::filesystem::path& program) {
     const TemporaryFolder folder;
     ScaleRow row{};
@@ -52,7 +52,7 @@ ScaleRow measure_row(ScaleScene scene, std::uint64_t triangles, const std::files
     return row;
 }
 
-/// Of a quantity from the last row but one to the last.
+/// The exponent of a quantity's growth from the last row but one to the last.
 template <class Quantity>
 std::optional<double> exponent(const std::vector<ScaleRow>& rows, const Quantity& quantity) {
     if (rows.size() < 2) return {};
@@ -83,7 +83,7 @@ std::vector<ScaleRow> measure_scale(ScaleScene scene, std::uint64_t largest,
 
 std::optional<double> time_exponent(const std::vector<ScaleRow>& rows) {
     return exponent(rows, [](const ScaleRow& row) {
-        // Rendering of terrain costs time per pixel, above all.
+        // The time for rendering terrain mostly depends on the number of pixels.
         const bool counts = row.scene == ScaleScene::light;
         return row.load_seconds + row.hierarchy_seconds + (counts ? row.render_seconds : 0);
     });

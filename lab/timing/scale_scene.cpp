@@ -25,7 +25,7 @@ double bump(std::uint64_t column, std::uint64_t row) {
     return static_cast<double>(hash >> 11) * 0x1p-53;
 }
 
-/// Writes numbers in little-endian order, as the processors that we support store them.
+/// Writes numbers in little-endian order, in which all supported processors store them.
 class BinaryFile {
 public:
     explicit BinaryFile(const std::filesystem::path& path) : path_(path), stream_(path, std::ios::binary) {}
@@ -46,8 +46,8 @@ private:
     std::ofstream stream_;
 };
 
-/// \param size   squares per side, each of two triangles
-/// \param point  of a grid, by column and row from 0 to size
+/// \param size  squares per side, each of two triangles
+/// \param point returns a point of the grid, given column and row from 0 to size
 void write_grid(const std::filesystem::path& path, std::uint32_t size,
                 const std::function<Point(std::uint32_t, std::uint32_t)>& point) {
     const std::uint64_t stride = std::uint64_t{size} + 1;
@@ -113,14 +113,14 @@ std::uint64_t write_scale_scene(ScaleScene scene, std::uint64_t triangles,
     const auto size = static_cast<std::uint32_t>(
         std::max(1.0, std::floor(std::sqrt(0.5 * static_cast<double>(triangles)))));
     const double step = 1.0 / size;
-    // Bumps as wide as a square, and as high.
+    // The bumps are as wide and as high as a square of the grid.
     const auto hill = [=](std::uint32_t column, std::uint32_t row) {
         const double x = 10 * (column * step - 0.5);
         const double z = 10 * (row * step - 0.5);
         return Point{x, 0.3 * std::sin(2 * x) * std::cos(3 * z) + 5 * step * bump(column, row), z};
     };
     const auto bumpy_sphere = [=](std::uint32_t column, std::uint32_t row) {
-        // Without poles, where triangles would vanish.
+        // Leaves out the poles, where triangles would vanish.
         const double theta = std::numbers::pi * (0.02 + 0.96 * row * step);
         const double phi = 2 * std::numbers::pi * (column % size) * step;
         const double radius = 1 + step * bump(column % size, row);
