@@ -6,7 +6,7 @@
 
 namespace nusselt::proof {
 
-/// \param values at least one; of an even number the larger one of both in the middle
+/// \param values at least one value; for an even number, the median is the larger of the two in the middle
 template <class Real>
 Real median(std::vector<Real> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

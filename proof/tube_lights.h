@@ -1,5 +1,6 @@
 #pragma once
-/// Closed cylinders, one for each case that their sampling distinguishes: for unit tests and `nusselt-lab bench tubes`.
+/// Closed cylinders for unit tests and `nusselt-lab bench tubes`, one for each case that their sampling
+/// distinguishes.
 
 #include <nusselt/core/vec.h>
 #include <nusselt/ltc/coefficients.h>
@@ -16,8 +17,8 @@ struct TubeLight {
     double radius;           ///< [m]
 };
 
-/// Lights seen from the side, from before a cap, and cut by the horizon in each way. All but "close" are exact in
-/// float.
+/// Lights seen from the side and from in front of a cap, and cut by the horizon in every way. All but "close" are
+/// exact in float.
 inline std::vector<TubeLight> tube_lights() {
     return {
         {"above", {-1, 2, 0.5}, {1.5, 1, 1.25}, 0.3125},
@@ -36,7 +37,7 @@ inline std::vector<TubeLight> tube_lights() {
     };
 }
 
-/// A lobe that all of them meet. Exact in float.
+/// A lobe that overlaps all of these lights. It is exact in float.
 inline constexpr LtcCoefficients<double> kGlossyLobe = {0.875, -0.4375, 1.25, 0.15625, 0.375, 1};
 
 } // namespace nusselt::proof

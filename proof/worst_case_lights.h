@@ -1,6 +1,6 @@
 #pragma once
-/// The smallest families of lights that have every sector and every line up to symmetry, for the search for
-/// the worst backward error.
+/// The smallest families of lights that contain every sector and every line up to symmetry, for the search for the
+/// worst backward error.
 
 #include <nusselt/estimate/backward_error.h>
 #include <nusselt/random/pcg.h>
@@ -14,8 +14,8 @@
 
 namespace nusselt::proof {
 
-/// Coordinates of the search are logits, from -kReach to kReach: steps are relative to the distance from
-/// whichever end is closer, because errors peak at 1e-5 of a range from its ends.
+/// Coordinates of the search are logits from -kReach to kReach. Steps are thus relative to the distance from the
+/// closer end, because errors peak within 1e-5 of the ends of a range.
 inline constexpr int kReach = 16;
 
 /// Maps the coordinates of the search to [0, 1], ends included.
@@ -29,16 +29,17 @@ Real share_of(Real coordinate) {
 /// Random coordinates of the search.
 class RandomCoordinates {
 public:
-    /// \param index of the sequence.
+    /// \param index number of the sequence.
     RandomCoordinates(std::uint64_t seed, std::uint64_t index) : generator_(start_of(seed, index)) {}
 
-    /// Uniform in the quantity of the coordinate.
+    /// A random coordinate, uniform in the quantity that it stands for.
     double uniform() {
         const double u = (generator_() + 0.5) * 0x1p-32;
         return std::fmin(std::fmax(std::log(u / (1 - u)), -kReach), kReach);
     }
 
-    /// Half of the time uniform in the coordinate, so that all distances from the ends are equally frequent.
+    /// Like uniform(), but half of the coordinates are uniform themselves, so that all distances from the ends are
+    /// equally frequent.
     double hard() {
         if (generator_() % 2 == 0) return uniform();
         return kReach * (generator_() * 0x1p-31 - 1);
@@ -54,15 +55,15 @@ private:
     Pcg32 generator_;
 };
 
-/// A sector between two great circles, which a decentral polygon is cut into, and a random number. Everything
-/// that the method has of a sector: a trapezoid with two vertical edges has exactly one, and any azimuth of
-/// its begin is as good as another one.
+/// A random number and a sector between two great circles, like those into which a decentral polygon is cut. The
+/// family is complete: a trapezoid with two vertical edges has exactly one sector, and the azimuth at which it starts
+/// does not matter.
 template <class Real>
 struct SectorCase {
     static constexpr std::size_t kDimension = 6;
     static constexpr std::array<const char*, kDimension> kNames = {
         "azimuth_range", "inner_begin", "inner_end", "outer_begin", "outer_end", "u"};
-    /// The range of azimuths in radians, tangents of the elevations of both circles at its ends, random number.
+    /// The range of azimuths in radians, the tangents of both circles' elevations at its ends, and the random number.
     std::array<Real, kDimension> parameters;
 
     /// Ranges reach up to 179.999 degrees, as in the paper.
@@ -88,7 +89,7 @@ struct SectorCase {
 
     template <class Sampler>
     Real error(const Sampler& technique) const {
-        // The method error does not depend on the inclination.
+        // The error of the method does not depend on the inclination.
         const Vec2<Real> u{parameters[5], Real(0.5)};
         return backward_error(technique, u, technique.sample(u).wi);
     }
@@ -99,12 +100,12 @@ template <class Real>
 struct LineCase {
     static constexpr std::size_t kDimension = 4;
     static constexpr std::array<const char*, kDimension> kNames = {"tilt", "begin", "end", "u"};
-    /// The angle between the normal and the plane perpendicular to the line; angles from the direction of the
-    /// closest point to begin and end; random number. In radians.
+    /// The angle between the normal and the plane perpendicular to the line; the angles from the direction of the
+    /// closest point to the start and the end; and the random number. Angles are in radians.
     std::array<Real, kDimension> parameters;
 
     static LineCase at(const std::array<Real, kDimension>& coordinates) {
-        // Shorter lines, or lines seen closer to their own axis, would show the rounding of directions.
+        // For shorter lines, or lines seen closer to their own axis, the rounding of directions would dominate.
         const Real shortest = Real(1e-3L);
         const Real steepest = kPi<Real> / 2 - Real(1e-6L);
         const Real last_begin = steepest - shortest;

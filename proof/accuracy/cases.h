@@ -1,5 +1,5 @@
 #pragma once
-/// Single lights of the accuracy tables, with what judges a sample of them.
+/// Single lights of the accuracy tables, with everything needed to judge their samples.
 
 #include "proof/accuracy/references.h"
 
@@ -11,19 +11,20 @@
 
 namespace nusselt::proof {
 
-/// Lights dimmer than this are left out: their share of an image is nothing, their relative error anything.
+/// Lights dimmer than this are left out: they contribute nothing to an image, but their relative errors may be
+/// arbitrary.
 inline constexpr Exact kSmallestMeasure = 1e-12L;
 
-/// A light in a number type, with everything that judges a method.
+/// A light in a number type, with everything needed to judge a method.
 template <class Technique, class Real>
 struct Case {
     typename Technique::template Light<Real> light;
     typename Technique::template Random<float> u;
     typename Technique::template Light<Exact> exact_light;
     typename Technique::Reference exact;
-    bool cyclic; ///< u = 0 and u = 1 are the same
+    bool cyclic; ///< whether u = 0 and u = 1 coincide
 
-    /// Of two values of the first random number.
+    /// The difference between two values of the first random number.
     Exact difference(Exact a, Exact b) const {
         const Exact apart = std::fabs(a - b);
         return cyclic ? std::min(apart, 1 - apart) : apart;
@@ -36,7 +37,7 @@ struct Case {
     }
 };
 
-/// Four roundings of the method, and what the reference itself may err.
+/// Four roundings of the method plus the error of the reference itself.
 template <class Real>
 inline constexpr Exact kTolerance = 4 * Exact{std::numeric_limits<Real>::epsilon()} +
                                     16 * std::numeric_limits<Exact>::epsilon();
@@ -48,12 +49,12 @@ bool is_dark(const typename Technique::Class& lights) {
            (lights.visibility == Visibility::no_one_above_horizon && Technique::kClips);
 }
 
-/// The lights of a class from `begin` on, without those that are too dim.
+/// The lights of a class with numbers from `begin` to `end`, without those that are too dim.
 template <class Technique, class Real>
 std::vector<Case<Technique, Real>> make_cases(const typename Technique::Class& lights, int begin, int end) {
     std::vector<Case<Technique, Real>> cases;
     for (int i = begin; i < end; ++i) {
-        // Both follow from the number of the light alone, so that related classes have related lights.
+        // Both only depend on the number of the light, so that related classes have related lights.
         Engine light_engine(2 * static_cast<std::uint64_t>(i));
         Engine random_engine(2 * static_cast<std::uint64_t>(i) + 1);
         const auto light = Technique::template make<Real>(lights.make(light_engine));

@@ -1,5 +1,5 @@
 #pragma once
-/// Lights of the accuracy tables as techniques take them, and how far directions miss them.
+/// Lights of the accuracy tables in the types that techniques take, and the angles by which directions miss them.
 
 #include "proof/accuracy/lights.h"
 #include "proof/accuracy/row.h"
@@ -31,7 +31,7 @@ struct PairInput {
     }
 };
 
-/// Polygons as techniques with a bound of N vertices take them.
+/// Polygons for techniques with a bound of N vertices.
 template <int N>
 struct PolygonInput : PairInput {
     using Class = PolygonClass;
@@ -39,10 +39,10 @@ struct PolygonInput : PairInput {
     template <class Real>
     using Light = ConvexPolygon<Real, N>;
 
-    /// The transcriptions of the papers have no notion of unused slots for vertices.
+    /// The transcriptions of the papers do not support unused vertex slots.
     static bool fits_plain(const PolygonClass& lights) { return lights.vertex_count == N; }
 
-    /// The light in a number type, as to_shading_space() makes it: positions follow from the edges.
+    /// The light in a number type. As in to_shading_space(), the edges determine the positions.
     template <class Real>
     static Light<Real> make(const PolygonLight& source) {
         const Vec3<Exact> zero{0, 0, 0};
@@ -89,7 +89,7 @@ struct PolygonInput : PairInput {
     }
 };
 
-/// Likewise for lines.
+/// Lines, with the same functions as PolygonInput.
 struct LineInput {
     using Class = LineClass;
     static constexpr int kVertexBound = 2;
@@ -100,13 +100,14 @@ struct LineInput {
 
     static bool fits_plain(const LineClass&) { return true; }
 
-    /// The direction has to be a unit vector up to rounding in each number type.
+    /// The direction is computed in the number type, in which it must be a unit vector up to rounding.
     template <class Real>
     static Light<Real> make(const LineSegment<float>& source) {
         const Vec3<Real> s = broadcast<Real>(source.s);
         return {broadcast<Real>(source.p0), std::is_same_v<Real, float> ? s : normalize(s), source.length};
     }
-    /// Close to its line, a light turned by one rounding would be another light.
+    /// Keeps the rounded direction: if the point is close to the line, a light turned by one rounding would be a
+    /// different light.
     template <class Real>
     static Light<Exact> exact(const Light<Real>& rounded) {
         const Vec3<Exact> s = broadcast<Exact>(rounded.s);
@@ -133,7 +134,7 @@ struct LineInput {
     }
 };
 
-/// Cylinders as techniques take them.
+/// Cylinders, with the same functions as PolygonInput.
 struct CylinderInput : PairInput {
     using Class = CylinderClass;
     static constexpr int kVertexBound = 2;
@@ -153,7 +154,8 @@ struct CylinderInput : PairInput {
     /// Angle by which a unit direction misses a light, 0 on it.
     static Exact miss(const Light<Exact>& light, const Vec3<Exact>& wi) {
         if (intersect(light, wi).hits) return 0;
-        // The ray to the point that is closest to its ray, seen from the origin: the quotient has one minimum.
+        // Searches the point along the ray that is closest to the cylinder as seen from the origin. The quotient has
+        // one minimum.
         Exact low = 0;
         Exact high = length(light.axis.p0) + light.axis.length + light.radius;
         const auto angle = [&](Exact t) { return distance_to(light, t * wi) / t; };
@@ -165,7 +167,7 @@ struct CylinderInput : PairInput {
         return std::max(angle(high), Exact{0});
     }
 
-    /// Direction of the axis, to the nearer cap: where it hits the cylinder, azimuths go all around it.
+    /// Direction of the axis towards the nearer cap. If it hits the cylinder, azimuths go all around it.
     static Vec3<Exact> along_axis(const Light<Exact>& light) {
         return dot(light.axis.p0, light.axis.s) > 0 ? light.axis.s : -light.axis.s;
     }
@@ -218,7 +220,7 @@ struct OnLobeInput {
     }
 
 private:
-    /// Lobes have float coefficients in every number type.
+    /// Lobes have coefficients of float precision in every number type.
     template <class Real, class Source>
     static LtcCoefficients<Real> in_type(const LtcCoefficients<Source>& c) {
         const auto entry = [](Source x) { return static_cast<Real>(static_cast<float>(x)); };
@@ -226,7 +228,7 @@ private:
     }
 };
 
-/// Rectangles made of polygons.
+/// Rectangles that are made from polygons.
 struct RectangleInput : PolygonInput<4> {
     template <class Real>
     static Light<Real> make(const PolygonLight& source) {
@@ -256,7 +258,7 @@ auto input_of() {
 
 } // namespace detail
 
-/// What a technique takes.
+/// The input that a technique takes.
 template <class Kind>
 using InputOf = decltype(detail::input_of<Kind>());
 

@@ -9,8 +9,8 @@ namespace nusselt::proof {
 
 namespace {
 
-// Draws of random numbers are statements of their own or elements of braces: compilers are free to evaluate
-// operands and arguments in any order, and all shall make the same lights.
+// Random numbers are drawn in separate statements or as elements in braces. Compilers may evaluate operands and
+// arguments in any order, but all of them must make the same lights.
 
 using Vec = Vec3<double>;
 
@@ -35,14 +35,14 @@ Vec3<float> to_float(const Vec& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// The polygon with vertex 0 at `first` and these edges, rounded to float, and one more that closes it.
+/// The polygon with vertex 0 at `first`, with these edges, rounded to float, and one more edge that closes it.
 PolygonLight from_edges(const Vec& first, std::initializer_list<Vec> edges) {
     PolygonLight polygon{to_float(first), {}, 1};
     for (const Vec& edge : edges) polygon.edge[polygon.count++ - 1] = to_float(edge);
     return polygon;
 }
 
-/// A rectangle with the given centre, half sides a and b, beginning at a random corner.
+/// A rectangle with the given centre and half sides a and b. Its first vertex is a random corner.
 PolygonLight rectangle(Engine& engine, const Vec& centre, Vec a, Vec b) {
     const int turns = std::uniform_int_distribution<int>(0, 3)(engine);
     for (int i = 0; i < turns; ++i) {
@@ -57,7 +57,7 @@ struct Sides {
     Vec a, b;
 };
 
-/// Orthogonal vectors of random orientation and these lengths.
+/// Orthogonal vectors with random orientation and these lengths.
 Sides random_sides(Engine& engine, double a_length, double b_length) {
     const Vec a = direction(engine);
     const Vec b = normalize(cross(a, direction(engine)));
@@ -95,14 +95,14 @@ LineSegment<float> line_around(Engine& engine, const Vec& centre, double half_le
     return line(centre - half, centre + half);
 }
 
-/// A multiple of 2^-18: sums of a few such vectors are exact in float.
+/// Rounds a vector to multiples of 2^-18. Sums of a few such vectors are exact in float.
 Vec with_few_bits(const Vec& v) {
     constexpr double kUnit = 1.0 / (1 << 18);
     return {kUnit * std::round(v.x / kUnit), kUnit * std::round(v.y / kUnit),
             kUnit * std::round(v.z / kUnit)};
 }
 
-/// Exactly planar: the images of some corners of an octagon with integer coordinates.
+/// An exactly planar polygon: its vertices are images of some corners of an octagon with integer coordinates.
 PolygonLight decentral_polygon(Engine& engine, int count) {
     constexpr int kOctagon[8][2] = {{-1, -3}, {1, -3}, {3, -1}, {3, 1}, {1, 3}, {-1, 3}, {-3, 1}, {-3, -1}};
     const Vec centre = with_few_bits(at_height(engine, uniform(engine, 0.5, 0.7)));
@@ -123,7 +123,7 @@ PolygonLight triangle(Engine& engine) {
     return from_edges(at_height(engine, uniform(engine, 0.3, 0.8)), {s.a, s.b});
 }
 
-/// All vertices on one line, exactly.
+/// A polygon whose vertices are exactly on one line.
 PolygonLight without_area(Engine& engine) {
     const Vec first = at_height(engine, uniform(engine, 0.3, 0.8));
     const Vec3<float> rounded = to_float(0.3 * direction(engine));
@@ -139,7 +139,7 @@ PolygonLight without_area(Engine& engine) {
     }
 }
 
-/// A parallelogram in a plane through the origin: combinations of two integer vectors.
+/// A parallelogram in a plane through the origin. Its vertices are combinations of two integer vectors.
 PolygonLight edge_on(Engine& engine) {
     const auto integer = [&](int low) {
         return static_cast<double>(std::uniform_int_distribution<int>(low, 15)(engine)) / 16;
@@ -180,7 +180,8 @@ const std::vector<PolygonClass>& polygon_classes() {
          [](Engine& e) { return close_square(e, 0.6, 1.5); }},
         {"edge in a vertical plane through the point", Visibility::everyone, 4,
          [](Engine& e) {
-             // The first edge keeps its azimuth exactly: twice or half the vertex in x and y.
+             // The ends of the first edge have exactly the same azimuth: x and y of one are twice or half those of
+             // the other.
              const Vec first = at_height(e, uniform(e, 0.2, 0.8));
              const Vec3<float> f = to_float(first);
              const double stretch = uniform(e, 0, 1) < 0.5 ? 1.0 : -0.5;
@@ -252,7 +253,7 @@ const std::vector<LineClass>& line_classes() {
          [](Engine& e) { return line_around(e, at_height(e, -0.5), 0.4); }},
         {"along an axis through the point", Visibility::no_one,
          [](Engine& e) {
-             // The only directions with the length 1 in every number type.
+             // These are the only directions that have length 1 in every number type.
              const Vec axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
              const Vec& s = axes[std::uniform_int_distribution<int>(0, 2)(e)];
              const double begin = uniform(e, 0.1, 1);

@@ -1,6 +1,6 @@
 #pragma once
-/// Classes of hard lights in shading space. Their coordinates are floats, so that every number type gets the
-/// same light; those without area and those seen edge-on are so exactly.
+/// Classes of difficult lights in shading space. Their coordinates are floats, so every number type gets the same
+/// light. Lights without area or seen edge-on are exactly that.
 
 #include <nusselt/geometry/convex_polygon.h>
 #include <nusselt/geometry/cylinder.h>
@@ -16,14 +16,14 @@ namespace nusselt::proof {
 
 using Engine = std::mt19937_64;
 
-/// A convex polygon by its first vertex and its edges. The last edge closes it.
+/// A convex polygon, given by its first vertex and its edges. The last edge closes it.
 struct PolygonLight {
     Vec3<float> first;
     Vec3<float> edge[7];
     int count; ///< of vertices, 3 to 8
 };
 
-/// Who sees anything of a light.
+/// Which techniques see anything of a light.
 enum class Visibility {
     everyone,
     no_one_above_horizon, ///< dark to the techniques that clip
@@ -51,11 +51,11 @@ struct CylinderClass {
 
 const std::vector<PolygonClass>& polygon_classes();
 const std::vector<LineClass>& line_classes();
-/// Those of proof/tube_lights.h, turned around the normal and moved a little, distant ones, ones that almost touch
-/// the point, and dark ones.
+/// The lights of proof/tube_lights.h, turned around the normal and moved a little, as well as distant lights, lights
+/// that almost touch the point, and dark lights.
 const std::vector<CylinderClass>& cylinder_classes();
 
-/// Draws a lobe, for example of a fitted table.
+/// Draws a lobe, for example from a fitted table.
 using LobeSource = LtcCoefficients<float> (*)(Engine&);
 
 /// A class of lights, each with a lobe.
@@ -81,7 +81,7 @@ std::vector<OnLobes<Base>> on_lobes(const std::vector<Base>& bases, LobeSource l
     std::vector<OnLobes<Base>> result;
     for (const Base& base : bases) {
         result.push_back({&base, lobe});
-        // These lie in front of the eye, from where lobes lean.
+        // These lights are on the side of the eye, from which lobes lean away.
         if (base.name == std::string_view("in the horizon plane"))
             result.back().visibility = Visibility::no_one;
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// What the errors of a technique are measured against.
+/// The references for the errors of techniques.
 
 #include "proof/accuracy/inputs.h"
 
@@ -13,7 +13,7 @@ struct Judged : InputOf<AnyKind> {
     using Input = InputOf<Kind>;
     static constexpr const char* kName = Kind::kName;
     static constexpr bool kClips = Kind::kHorizon == hostile::Horizon::clipped;
-    /// Whether measure() is what the shading point sees.
+    /// Whether measure() only depends on the part of the light that the shading point sees.
     static constexpr bool kMeasuresVisible = Kind::kMeasure != hostile::Measure::area;
     static constexpr bool kCyclic = Kind::kCyclic;
     static constexpr bool kHasFloor = !Kind::kBiased;
@@ -21,7 +21,7 @@ struct Judged : InputOf<AnyKind> {
     using Plain = typename Kind::template Published<Real>;
     template <class Real>
     using Ours = typename Kind::template Technique<Real>;
-    using TwoSteps = typename Kind::template FewSteps<Exact>; ///< the steps of float without its rounding
+    using TwoSteps = typename Kind::template FewSteps<Exact>; ///< as many steps as float, no rounding
     using Reference = typename Kind::template Reference<Exact>;
 
     /// The unit direction around which the first random number turns.
@@ -32,11 +32,12 @@ struct Judged : InputOf<AnyKind> {
             else
                 return {0, 0, 1};
         } else if constexpr (Kind::kMeasure == hostile::Measure::area) {
-            // u.x = 0 and u.x = 1 always coincide.
+            // Here, u.x = 0 and u.x = 1 always coincide.
             return normalize(light.axis.p0 + (light.axis.length / 2) * light.axis.s);
         } else {
             const Vec3<Exact> s = CylinderInput::along_axis(light);
-            // Beyond the horizon of the lobe there are no azimuths all around: the opposite direction hits nothing.
+            // If the axis is beyond the horizon of the lobe, azimuths do not go all around it. The opposite direction
+            // hits nothing.
             if constexpr (hostile::kHasLobe<Kind>)
                 return Ltc<Exact>(light.lobe).to_cosine(s).z > 0 ? s : -s;
             else

@@ -11,7 +11,7 @@ namespace nusselt::proof {
 
 namespace {
 
-/// To three digits: what the tables and the committed baseline keep.
+/// Rounds to three digits, the precision of the tables and of the committed baseline.
 double rounded(double x) { return std::strtod(fmt::format("{:.2e}", x).c_str(), nullptr); }
 
 ErrorQuantiles quantiles(std::vector<double>& errors) {
@@ -51,7 +51,7 @@ void AccuracyRowBuilder::add_measure(Exact measured, Exact exact) {
 }
 
 void AccuracyRowBuilder::add_direction(Exact backward_error, Exact missed_by, Exact tolerance) {
-    // A direction of length zero has no inverse: the largest possible error.
+    // A direction of length zero has no inverse, which counts as the largest possible error.
     const bool usable = !std::isnan(backward_error) && !std::isnan(missed_by);
     backward_.push_back(usable ? static_cast<double>(backward_error) : 1.0);
     row_.off_the_light += !usable || missed_by > tolerance;

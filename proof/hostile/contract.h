@@ -1,5 +1,5 @@
 #pragma once
-/// The contract of a technique for any light and random number: it never fails. For scalars and packs alike.
+/// The contract of a technique: it never fails, for any light and random number. Works for scalars and packs alike.
 
 #include <limits>
 
@@ -12,7 +12,7 @@ namespace hostile {
 template <class Real, class Random>
 struct Outputs {
     LightSample<Real> sample;
-    Real pdf; ///< of the sampled direction, asked for again
+    Real pdf; ///< result of pdf() for the sampled direction
     Random inverse;
     Real measure;
 };
@@ -28,7 +28,7 @@ outputs_of(const typename Kind::template Light<Real>& light,
 
 template <class Real>
 mask_t<Real> all_finite(const Vec3<Real>& v) noexcept {
-    // A sum of finite numbers may overflow; these products are 0 or NaN.
+    // A sum of finite numbers might overflow. These products are 0 or NaN.
     const Real zero = Real(0) * v.x + Real(0) * v.y + Real(0) * v.z;
     return zero == Real(0);
 }
@@ -88,7 +88,7 @@ mask_t<Real> is_off(const Light&, const Bounds<Real>& bounds, const Vec3<Real>& 
                     const Real& slack) noexcept {
     return !bounds.contain(p, slack);
 }
-/// A point of a cylinder is on its lateral surface or on a cap.
+/// A point of a cylinder must be on its lateral surface or on a cap.
 template <class Real>
 mask_t<Real> is_off(const Cylinder<Real>& light, const Bounds<Real>&, const Vec3<Real>& p,
                     const Real& slack) noexcept {
@@ -100,7 +100,8 @@ mask_t<Real> is_off(const Cylinder<Real>& light, const Bounds<Real>&, const Vec3
     return !on_surface;
 }
 
-/// Width of a polygon relative to its extent, at most 1. Rounding of vertices tilts its plane by its ratio to the width.
+/// Width of a polygon relative to its extent, at most 1. Rounded vertices tilt the plane by the ratio of the rounding
+/// error to the width.
 template <class Real, int N>
 Real relative_width(const ConvexPolygon<Real, N>& light, const Real& extent) noexcept {
     // Areas must not overflow.
@@ -115,11 +116,11 @@ Real relative_width(const ConvexPolygon<Real, N>& light, const Real& extent) noe
     return min(area / select(longest > Real(0), longest, Real(1)), Real(1));
 }
 
-/// The error of the angles of a technique apart from rounding: the bound on the error of FastAngles.
+/// The error of the angles of a technique apart from rounding: the error bound of FastAngles for biased techniques.
 template <class Kind>
 inline constexpr double kAngleError = Kind::kBiased ? 1.3e-5 : 0;
 
-/// The distance of vertices from the plane of a polygon [m]: rounding, in the precision in which they were made.
+/// The distance of vertices from the plane of a polygon [m], from rounding in the precision in which they were made.
 template <class Real, int N>
 Real warp(const ConvexPolygon<Real, N>& light) noexcept {
     const Real distance = plane_distance(light);
@@ -129,8 +130,8 @@ Real warp(const ConvexPolygon<Real, N>& light) noexcept {
 }
 
 /// The largest distance of a hit point from the ray along wi [m]. A tilt of the plane turns the directions to a light
-/// seen edge-on; then the point where a ray meets the plane moves the more the flatter it does. Of wi and the way to p
-/// the flatter one counts: rounding may have turned wi away from the plane.
+/// seen edge-on. The point where a ray meets the plane moves more at smaller angles to the plane. The smaller of the
+/// angles of wi and of the way to p counts, because rounding may have turned wi away from the plane.
 template <class Real, int N>
 Real aim_slack(const ConvexPolygon<Real, N>& light, const Vec3<Real>& wi, const Vec3<Real>& p,
                const Real& extent, const Real& slack) noexcept {
@@ -140,7 +141,7 @@ Real aim_slack(const ConvexPolygon<Real, N>& light, const Vec3<Real>& wi, const 
     const Real sturdiness =
         width * min(abs(dot(light.normal, wi)), distance / select(reach > Real(0), reach, Real(1)));
     const Real squared = sturdiness * sturdiness;
-    // No requirement for a point in the plane up to rounding.
+    // Nothing is required if the plane contains the shading point up to rounding.
     const Real rounding = slack + Real(84) * warp(light);
     const auto apart = (squared > Real(0)) & (width * distance > rounding);
     return select(apart, rounding / squared, Real(std::numeric_limits<scalar_t<Real>>::max()));
@@ -156,9 +157,9 @@ Real aim_slack(const Cylinder<Real>&, const Vec3<Real>&, const Vec3<Real>&, cons
     return slack;
 }
 
-/// The largest difference between the density of a sample of the area of a light and that of its direction, relative to
-/// the density: rounding moves the point where the direction meets the light, the more the flatter it does. Infinite
-/// where the density is nothing but rounding.
+/// The largest difference between the density of a sample of the area of a light and that of its direction, relative
+/// to the density: rounding moves the point where the direction meets the light, and it moves it more at smaller
+/// angles to the light. Infinite where the density consists of rounding errors.
 template <class Real, int N>
 Real area_pdf_tolerance(const ConvexPolygon<Real, N>& light, const Vec3<Real>& p, const Real& extent,
                         const Real& slack) noexcept {
@@ -171,8 +172,8 @@ Real area_pdf_tolerance(const LineSegment<Real>& light, const Vec3<Real>& p, con
     return Real(4) * slack / length(cross(light.s, p));
 }
 
-/// On the lateral surface the cosine itself changes, the more the flatter the direction is. Next to a rim the direction
-/// may meet either side of it.
+/// On the lateral surface, the cosine changes, too, and more so at smaller angles. Next to a rim, the direction may
+/// meet the surface on either side of the rim.
 template <class Real>
 Real area_pdf_tolerance(const Cylinder<Real>& light, const Vec3<Real>& p, const Real&,
                         const Real& slack) noexcept {
@@ -193,7 +194,7 @@ Real area_pdf_tolerance(const Cylinder<Real>& light, const Vec3<Real>& p, const 
                   Real(std::numeric_limits<T>::max()));
 }
 
-/// Calls report(mask, text) for each rule of the contract: the lanes that break it, and what they do.
+/// Calls report(mask, text) for each rule of the contract, with the lanes that break it and a description.
 template <class Kind, class Real, class Report>
 void check_contract(const typename Kind::template Light<Real>& light,
                     const Outputs<Real, typename Kind::template Random<Real>>& out,
@@ -214,17 +215,17 @@ void check_contract(const typename Kind::template Light<Real>& light,
     report(sampled & !(abs(dot(wi, wi) - Real(1)) <= Real(kTolerance)), "wi is not a unit vector");
     report(sampled & !all_finite(p), "p is not finite");
     const Bounds<Real> bounds(light);
-    // Where numbers are denormal, rounding is absolute.
+    // The rounding errors of denormal numbers are absolute.
     const Real slack = fma(Real(kTolerance), bounds.extent, Real(16 * std::numeric_limits<T>::min()));
     report(sampled & is_off(light, bounds, p, slack), "p is off the light");
-    // The largest errors of 6e4 ordinary lights are 12 times that of the angles.
+    // For 6e4 ordinary lights, the largest errors are 12 times the error of the angles.
     const Real turned = Real(static_cast<T>(32 * kAngleError<Kind>)) * bounds.extent;
     const Real aim = aim_slack(light, wi, p, bounds.extent, slack + turned);
     const auto on_line = largest_coordinate(cross(wi, p)) <= aim;
     const auto ahead = dot(wi, p) >= -aim;
     report(sampled & !(on_line & ahead), "wi does not lead to p");
     if constexpr (Kind::kMeasure == Measure::area) {
-        // Larger tolerances mean that the density is noise.
+        // With larger tolerances, the density is noise.
         const Real tolerance = area_pdf_tolerance(light, p, bounds.extent, slack);
         report(sampled & (tolerance < Real(0.1)) & !(abs(out.pdf / pdf - Real(1)) <= tolerance),
                "the density of the sample is not pdf(wi)");
@@ -233,7 +234,7 @@ void check_contract(const typename Kind::template Light<Real>& light,
     }
 }
 
-/// The first rule that a scalar technique breaks; nullptr if none.
+/// A description of the first rule that a scalar technique breaks, or nullptr.
 template <class Kind, class T>
 const char* violation(const typename Kind::template Light<T>& light,
                       const Outputs<T, typename Kind::template Random<T>>& out) noexcept {

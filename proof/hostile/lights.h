@@ -1,5 +1,5 @@
 #pragma once
-/// Seeded generators of lights that break samplers: everything here is legal input.
+/// Seeded generators of lights that tend to break samplers. All of them are valid input.
 ///
 /// Shared by the unit tests and `nusselt-lab fuzz`.
 
@@ -18,7 +18,7 @@ NUSSELT_NAMESPACE_BEGIN
 namespace hostile {
 
 /// SplitMix64 of G. Steele, D. Lea, C. Flood 2014, Fast Splittable Pseudorandom Number Generators, OOPSLA. Each pair
-/// of seed and index has a stream of its own; nothing depends on the standard library's distributions.
+/// of seed and index has a separate stream. Nothing depends on the standard library's distributions.
 class RandomSource {
 public:
     explicit RandomSource(std::uint64_t seed, std::uint64_t index = 0) : state_(mix(mix(seed) + index)) {}
@@ -52,7 +52,7 @@ private:
     std::uint64_t state_;
 };
 
-/// Hostile lights with coordinates of type T: always the same ones for a seed and index.
+/// Hostile lights with coordinates of type T. A seed and index always give the same lights.
 template <class T>
 class HostileLights {
     using Vec = Vec3<double>;
@@ -60,7 +60,7 @@ class HostileLights {
 public:
     explicit HostileLights(std::uint64_t seed, std::uint64_t index = 0) : random_(seed, index) {}
 
-    /// Random numbers include 0, the largest below 1, tiny and denormal ones.
+    /// A random number in [0, 1), often 0, the largest number below 1, a tiny number or a denormal one.
     T random_number() {
         switch (random_.index(8)) {
         case 0:
@@ -77,7 +77,7 @@ public:
     }
 
     /// The vertices of a polygon in either winding.
-    /// \returns how many there are, 3 to N
+    /// \returns their number, 3 to N
     template <int N>
     int vertices(Vec3<T> (&result)[N]) {
         static_assert(4 <= N && N <= kMaxVertices);
@@ -96,7 +96,7 @@ public:
         return make_polygon<N>(v, count);
     }
 
-    /// Begin and end of a line.
+    /// The start and the end of a line.
     void ends(Vec3<T> (&result)[2]) {
         const Vec middle = random_.direction();
         const Vec half = random_.log_between(1e-6, 1e6) * random_.direction();
@@ -114,7 +114,7 @@ public:
         return make_line(v[0], v[1]);
     }
 
-    /// A cylinder with this axis: thin or fat, or with the point almost on its surface.
+    /// The radius of a cylinder with this axis: thin or thick, or with the point almost on its surface.
     T radius(const Vec3<T> (&ends)[2]) {
         const Vec begin = broadcast<double>(ends[0]);
         const Vec axis = broadcast<double>(ends[1]) - begin;
@@ -128,7 +128,7 @@ public:
         if (choice == 3) radius = extent * random_.between(0.1, 1);
         if (choice == 4) radius = extent * random_.log_between(1e-9, 1e3);
         if (choice == 5) radius = random_.index(2) == 0 ? 0 : kSmallest * random_.log_between(1, 1e9);
-        // The coordinates of the ends have the same limit.
+        // This is also the limit for the coordinates of the ends.
         return static_cast<T>(std::min(radius, 1e15));
     }
     Cylinder<T> cylinder() {
@@ -161,7 +161,7 @@ private:
     static constexpr int kMaxVertices = 8;
     static constexpr double kTurn = 6.283185307179586;
     static constexpr T kLargestBelowOne = 1 - std::numeric_limits<T>::epsilon() / 2;
-    /// Double is what lights are made in.
+    /// The smallest positive number. Lights are computed in double, so its limits apply, too.
     static constexpr double kSmallest = std::max(static_cast<T>(std::numeric_limits<double>::denorm_min()),
                                                  std::numeric_limits<T>::denorm_min());
 
@@ -170,7 +170,7 @@ private:
         int count = 0;
     };
 
-    /// Mostly moderate, sometimes such that coordinates are denormal or about 1e15.
+    /// Mostly moderate, but sometimes coordinates become denormal or reach about 1e15.
     double unit_of_length() {
         constexpr double kSmallestNormal =
             std::max(static_cast<T>(std::numeric_limits<double>::min()), std::numeric_limits<T>::min());
@@ -190,7 +190,7 @@ private:
         return {static_cast<T>(unit * v.x), static_cast<T>(unit * v.y), static_cast<T>(unit * v.z)};
     }
 
-    /// Inscribed in an ellipse of random orientation, of any size relative to its distance.
+    /// A polygon inscribed in an ellipse of random orientation, with any size relative to its distance.
     Vertices round_polygon(int largest_count) {
         const Vec center = random_.direction();
         const Vec a = random_.direction();
@@ -224,7 +224,7 @@ private:
         for (int j = 0; j < v.count; ++j) v.at[j] = v.at[j] + by;
     }
 
-    /// Nothing, or any small offset down to denormal ones, to be added where a coordinate is zero.
+    /// Zero, or a small offset, possibly denormal, to be added to coordinates that would be zero.
     double nudge() {
         if (random_.index(2) == 0) return 0;
         const double size = random_.index(2) == 0 ? random_.log_between(1e-12, 1e-3)
@@ -315,7 +315,7 @@ private:
 
     void deform(Vec& begin, Vec& end) {
         switch (random_.index(12)) {
-        case 0: // points at the point
+        case 0: // directed at the point
             end = random_.log_between(1e-3, 1e3) * begin;
             break;
         case 1: // almost
@@ -325,14 +325,14 @@ private:
         case 2: // passes through the point
             end = -random_.log_between(1e-3, 1e3) * begin;
             break;
-        case 3: // begins at the point or next to it
+        case 3: // starts at the point or next to it
             begin = nudges();
             break;
         case 4: // in the plane of the horizon, or almost
             begin.z = nudge();
             end.z = random_.index(2) == 0 ? begin.z : nudge();
             break;
-        case 5: // begins on the horizon, or almost
+        case 5: // starts on the horizon, or almost
             begin.z = nudge();
             break;
         case 6: // no length

@@ -1,5 +1,5 @@
 #pragma once
-/// The lines of a case, and what its occluders hide of them, without any acceleration structure.
+/// The lines of a case, and the parts of them that its occluders hide, without an acceleration structure.
 
 #include <utility>
 
@@ -41,8 +41,8 @@ inline Occluder in_order_of_position(Occluder triangle) {
 
 /// Calls `use` with the TriangleShadow<float> or PartialShadow<float> of each occluder that may hide something in the
 /// rectangle.
-/// \tparam N     triangles whose shadows are made at once.
-/// \param  order applied to each occluder beforehand, as in_order_of_position().
+/// \tparam N number of triangles whose shadows are made at once.
+/// \param order function applied to each occluder first, such as in_order_of_position().
 template <int N, class Order, class Use>
 void for_each_shadow(const ShadowFrame<float>& frame, const Occluder* occluders, int count,
                      const LineBounds<float>& bounds, const Order& order, const Use& use) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Closed meshes of triangles, with a point inside.
+/// Closed triangle meshes, each with a point inside.
 
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@ struct Mesh {
     Vec3<double> inside{0, 0, 0};              ///< well away from the surface
 };
 
-/// An icosahedron whose triangles are divided into four as often as asked for.
+/// An icosahedron whose triangles are divided into four `divisions` times.
 inline Mesh make_icosphere(int divisions) {
     const double g = (1 + std::sqrt(5.0)) / 2;
     Mesh mesh;
@@ -30,7 +30,7 @@ inline Mesh make_icosphere(int divisions) {
             mesh.vertices.push_back(normalize(Vec3<double>{a, b, 0}));
             mesh.vertices.push_back(normalize(Vec3<double>{b, 0, a}));
         }
-    // Corners of a face are the triples of neighbours.
+    // The corners of each face are three mutual neighbours.
     const double side = 2 / std::sqrt(1 + g * g);
     const auto adjacent = [&](int i, int j) {
         const Vec3<double> d = mesh.vertices[i] - mesh.vertices[j];
@@ -58,7 +58,7 @@ inline Mesh make_icosphere(int divisions) {
     return mesh;
 }
 
-/// A torus of radius 1 around the z-axis; the tube has a radius of 0.4.
+/// A torus of radius 1 around the z-axis, with a tube of radius 0.4.
 inline Mesh make_torus(int around, int tube) {
     Mesh mesh;
     for (int i = 0; i < around; ++i)
@@ -75,8 +75,8 @@ inline Mesh make_torus(int around, int tube) {
     return mesh;
 }
 
-/// The surface of some cells of a grid, such as a box or a room with corners, divided into squares.
-/// \param cells     which of 3 x 3 x 3 cells are inside, bit x + 3 y + 9 z; cell 0 is in any case.
+/// The surface of some cells of a grid, such as a box or an angular room, divided into squares.
+/// \param cells     which of the 3 x 3 x 3 cells are inside, as bits x + 3 y + 9 z; cell 0 always is.
 /// \param divisions squares along each edge of a cell.
 inline Mesh make_cells(unsigned cells, int divisions) {
     const auto inside = [&](const std::array<int, 3>& c) {

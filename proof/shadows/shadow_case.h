@@ -1,9 +1,9 @@
 #pragma once
-/// A light, a point and occluders as plain numbers: what generators hand to code compiled for each instruction set.
+/// A light, a point and occluders as plain numbers, which generators pass to code compiled for each instruction set.
 
 namespace nusselt::proof {
 
-/// Lines that a case takes, whatever the instruction set.
+/// Number of lines in a case, for every instruction set.
 inline constexpr int kLinesPerCase = 16;
 
 /// A triangle with corners in any order.
@@ -16,7 +16,7 @@ struct ShadowCase {
     float point[3];
     float angle;               ///< of the lines, see LineFamily
     float u[kLinesPerCase];    ///< of the offset of each line, in [0, 1)
-    int corner[kLinesPerCase]; ///< 3 * occluder + corner that the line passes instead; negative: see u
+    int corner[kLinesPerCase]; ///< the line passes 3 * occluder + corner; if negative, see u
     const Occluder* occluders;
     int occluder_count;
 };

@@ -43,13 +43,13 @@ inline void round_to(float (&target)[3], const Vec3<double>& v) {
 
 } // namespace detail
 
-/// A point in a closed mesh, and a light outside: nothing of the light may be visible.
+/// A point in a closed mesh and a light outside, of which nothing may be visible.
 /// \param index   of the case; cases depend on it and the seed only.
 /// \param storage of the occluders, to which the result points.
 inline ShadowCase make_leak_case(std::uint64_t seed, std::uint64_t index, std::vector<Occluder>& storage) {
     hostile::RandomSource random(seed, index);
     Mesh mesh = make_closed_mesh(random);
-    // Some stay aligned with the axes, as walls are.
+    // Some meshes stay aligned with the axes, as walls are.
     if (random.index(3) > 0) {
         const Vec3<double> x = random.direction();
         const Vec3<double> y = normalize(cross(x, random.direction()));
@@ -61,7 +61,7 @@ inline ShadowCase make_leak_case(std::uint64_t seed, std::uint64_t index, std::v
         mesh.inside = map(mesh.inside);
     }
 
-    // Towards the surface, but not so close that rounding could move it to the other side.
+    // Moves the point towards the surface, but not so close that rounding could move it to the other side.
     const Vec3<double> towards = random.direction();
     const double share = random.index(2) == 0 ? random.uniform() : 1 - random.log_between(1e-3, 1);
     Vec3<double> point = mesh.inside;
@@ -74,7 +74,8 @@ inline ShadowCase make_leak_case(std::uint64_t seed, std::uint64_t index, std::v
     const double room = distance - 1.01 * radius;
     const Vec3<double> axis = random.index(3) == 0 ? Vec3<double>{0, 0, 1} : random.direction();
     const Vec3<double> side = normalize(cross(axis, random.direction()));
-    // Any light in this ball, or any in the plane through its centre across the axis, is outside.
+    // Every light in this ball is outside the mesh, and so is every light in the plane through its centre across the
+    // axis.
     const bool is_tilted = random.index(2) == 0;
     const double size =
         is_tilted ? room * random.log_between(1e-4, 0.7) : radius * random.log_between(1e-4, 1e2);
@@ -109,7 +110,7 @@ inline ShadowCase make_leak_case(std::uint64_t seed, std::uint64_t index, std::v
     return result;
 }
 
-/// Lights, points and occluders that are degenerate, touching, coplanar, tiny or huge.
+/// Lights, points and occluders that are degenerate, in contact, coplanar, tiny or huge.
 /// \param index   of the case; cases depend on it and the seed only.
 /// \param storage of the occluders, to which the result points.
 inline ShadowCase make_hostile_case(std::uint64_t seed, std::uint64_t index, std::vector<Occluder>& storage) {
@@ -120,7 +121,7 @@ inline ShadowCase make_hostile_case(std::uint64_t seed, std::uint64_t index, std
     const auto on_light = [&] {
         const int vertex = random.index(4);
         if (random.index(3) == 0) return light.vertex[vertex];
-        // An edge, or anywhere in the plane.
+        // Somewhere on an edge, or anywhere in the plane.
         const auto share = [&] { return static_cast<float>(random.between(-0.5, 1.5)); };
         const Vec3<float> on_edge = fma(share(), light.edge[vertex], light.vertex[vertex]);
         if (random.index(2) == 0) return on_edge;

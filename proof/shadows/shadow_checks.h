@@ -9,9 +9,9 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace shadows {
 
-/// Lines of which something is visible although no gap may be left, however short.
-/// \param order applied to each occluder beforehand, as in_order_of_position().
-/// \param alter applied to what an occluder hides of lines.
+/// Counts lines of which something is visible, although not even a short gap may be left.
+/// \param order function applied to each occluder first, such as in_order_of_position().
+/// \param alter function applied to the part that an occluder hides of lines.
 template <class Order, class Alter>
 int count_leaks(const ShadowCase& test, const Order& order, const Alter& alter) {
     const CaseLines lines(test);
@@ -38,7 +38,7 @@ int count_leaks(const ShadowCase& test, const Order& order, const Alter& alter) 
     return leaks;
 }
 
-/// Lines of which VisibleParts finds something visible.
+/// Counts lines of which VisibleParts finds something visible.
 inline int count_visible(const ShadowCase& test) {
     const CaseLines lines(test);
     constexpr int kCapacity = 64;
@@ -59,8 +59,8 @@ inline const char* leak(const ShadowCase& test) {
     return count_visible(test) > 0 ? "something is visible through a closed mesh" : nullptr;
 }
 
-/// Whether lines lose what is hidden and nothing else: parts are finite, disjoint and within the line, and no occluder
-/// makes more of it visible.
+/// Checks that lines lose what is hidden and nothing else: parts are finite, disjoint and within the line, and no
+/// occluder makes more of the line visible.
 /// \param[out] visible share of each line in the end.
 /// \returns what is wrong, or null
 inline const char* broken_parts(const ShadowCase& test, float (&visible)[kLinesPerCase]) {

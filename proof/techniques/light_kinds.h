@@ -15,10 +15,10 @@ namespace hostile {
 enum class Measure { area, solid_angle, projected_solid_angle, lobe };
 enum class Horizon { ignored, clipped };
 
-/// What a technique lacks.
+/// Stands for something that a technique lacks.
 struct Absent {};
 
-/// A light and the lobe of the surface: all that a technique for LTCs depends on.
+/// A light and the lobe of the surface, which together determine a technique for LTCs.
 template <class Real, int N>
 struct PolygonOnLobe : ConvexPolygon<Real, N> {
     LtcCoefficients<Real> lobe;
@@ -45,13 +45,13 @@ struct WithLobe : Technique {
         : Technique(static_cast<const Single&>(single)) {}
 };
 
-/// What a row of the registry overrides.
+/// The defaults that rows of the registry override.
 struct AnyKind {
     static constexpr bool kCyclic = false; ///< u.x = 0 and u.x = 1 coincide if the pole is in the light
     static constexpr bool kBiased = false; ///< samples deviate from their density by design
     static constexpr std::string_view kExemptions = ""; ///< suites of tests that leave the technique out
 
-    /// The light that a technique takes in place of one that a generator made.
+    /// Converts a light from a generator to one that the technique takes.
     template <class Light>
     static const Light& from(const Light& light) noexcept {
         return light;
@@ -77,9 +77,9 @@ struct PolygonOnLobeKind : AnyPolygonKind {
     using Light = PolygonOnLobe<Real, N>;
 };
 
-/// Rectangles, as polygons.
+/// Rectangles in the form of polygons.
 struct RectangleKind : PolygonKind<4> {
-    /// The rectangle with the first edge of a polygon and its extent perpendicular to that.
+    /// The rectangle with the first edge of a polygon and the polygon's extent perpendicular to it.
     template <class Real>
     NUSSELT_HD static ConvexPolygon<Real, 4> from(const ConvexPolygon<Real, 4>& polygon) noexcept {
         const Vec3<Real> a = polygon.edge[0];
@@ -142,7 +142,7 @@ inline constexpr bool kIsExempt = [] {
     return rest == Suite::kName;
 }();
 
-/// Techniques as types.
+/// A list of techniques as types.
 template <class... Kinds>
 struct KindList {
     /// Calls visit.template operator()<Kind>() for each technique.
