@@ -25,8 +25,8 @@ TEST(CylinderArea, SamplesAreOnTheSurface) {
                 const double along = dot(from_begin, cylinder.axis.s);
                 const double across = length(from_begin - along * cylinder.axis.s);
                 const double from_caps = std::min(std::abs(along), std::abs(along - cylinder.axis.length));
-                const double from_mantle = std::abs(across - cylinder.radius);
-                EXPECT_NEAR(std::min(from_caps, from_mantle), 0, 1e-12) << light.name;
+                const double from_side = std::abs(across - cylinder.radius);
+                EXPECT_NEAR(std::min(from_caps, from_side), 0, 1e-12) << light.name;
                 EXPECT_LE(across, cylinder.radius + 1e-12) << light.name;
                 EXPECT_NEAR(length(s.wi), 1, 1e-14) << light.name;
                 EXPECT_GE(s.pdf, 0) << light.name;
