@@ -41,7 +41,7 @@ TEST(Gzip, PartsAreJoinedAndPaddingIsSkipped) {
 }
 
 TEST(Gzip, BrokenFiles) {
-    const std::string good = gzipped(std::string(1000, 'y') + "end");
+    const std::string good = gzipped(std::string(1000, 'y').append("end"));
     for (std::size_t size = 2; size < good.size(); ++size)
         EXPECT_EQ(reason(std::string_view(good).substr(0, size), kPlenty), "its gzip data ends early")
             << size;
