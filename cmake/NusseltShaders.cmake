@@ -18,12 +18,15 @@ else()
     set(NUSSELT_BUILD_GPU ON)
 endif()
 
-# nusselt_add_shader(target name source [ENVIRONMENT environment] [DEFINES define...]): compiles a source for
+find_program(GZIP gzip REQUIRED)
+
+# nusselt_add_shader(target name source [COMPRESSED] [ENVIRONMENT environment] [DEFINES define...]): compiles a source for
 # vulkan1.1 or another environment of glslang and makes
 # `#include "shaders/<name>.h"` available to the sources of the target. The header has the array k<Name>, with name in
-# PascalCase. A relative source is one of the current source directory; shaders include others relative to shaders/.
+# PascalCase: the words of the SPIR-V, or the bytes of a gzip file of them if it is COMPRESSED. A relative source is one of
+# the current source directory; shaders include others relative to shaders/.
 function(nusselt_add_shader target name source)
-    cmake_parse_arguments(arg "" "ENVIRONMENT" "DEFINES" ${ARGN})
+    cmake_parse_arguments(arg "COMPRESSED" "ENVIRONMENT" "DEFINES" ${ARGN})
     if(NOT arg_ENVIRONMENT)
         set(arg_ENVIRONMENT vulkan1.1)
     endif()
@@ -32,19 +35,44 @@ function(nusselt_add_shader target name source)
     nusselt_shader_array(array ${name})
     set(spirv ${folder}/${name}.spv)
     set(header ${folder}/${name}.h)
+    set(embedded ${spirv})
+    set(type std::uint32_t)
+    set(compress)
+    if(arg_COMPRESSED)
+        set(embedded ${spirv}.gz)
+        set(type "unsigned char")
+        set(compress COMMAND ${GZIP} --no-name --force --keep ${spirv})
+    endif()
+    set(symbol ${target}_shader_${name})
     list(TRANSFORM arg_DEFINES PREPEND -D)
     file(MAKE_DIRECTORY ${folder})
-    add_custom_command(OUTPUT ${header} BYPRODUCTS ${spirv}
+    add_custom_command(OUTPUT ${header} ${embedded}
         COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env ${arg_ENVIRONMENT} -g0 -I${PROJECT_SOURCE_DIR}/shaders ${arg_DEFINES}
             --depfile ${spirv}.d -o ${spirv} ${source}
-        COMMAND ${CMAKE_COMMAND} -D INPUT=${spirv} -D OUTPUT=${header} -D ARRAY=${array}
-            -P ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake
-        DEPENDS ${source} ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake
+        ${compress}
+        COMMAND ${CMAKE_COMMAND} -D INPUT=${embedded} -D OUTPUT=${header} -D ARRAY=${array} -D SYMBOL=${symbol} -D TYPE=${type}
+            -P ${PROJECT_SOURCE_DIR}/cmake/embedded_shader.cmake
+        DEPENDS ${source} ${PROJECT_SOURCE_DIR}/cmake/embedded_shader.cmake
         DEPFILE ${spirv}.d
         COMMENT "Compiling shader ${name}"
         VERBATIM)
+    nusselt_embed(${target} ${symbol} ${embedded})
     target_sources(${target} PRIVATE ${header})
     target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+endfunction()
+
+# nusselt_embed(target symbol file): the linker finds the bytes of the file at the symbol. Reading them as C++ would take
+# longer than compiling the shaders.
+function(nusselt_embed target symbol file)
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/shaders/${target}.cpp)
+    get_target_property(embedded ${target} NUSSELT_EMBEDDED)
+    if(NOT embedded)
+        file(GENERATE OUTPUT ${source} CONTENT "$<JOIN:$<TARGET_PROPERTY:${target},NUSSELT_EMBEDDED>,;\n>;\n")
+        target_sources(${target} PRIVATE ${source})
+    endif()
+    set_property(TARGET ${target} APPEND PROPERTY NUSSELT_EMBEDDED
+        "asm(\".section .rodata\\n.balign 4\\n.globl ${symbol}\\n.hidden ${symbol}\\n${symbol}:\\n.incbin \\\"${file}\\\"\\n.previous\")")
+    set_property(SOURCE ${source} APPEND PROPERTY OBJECT_DEPENDS ${file})
 endfunction()
 
 # nusselt_shader_array(variable name): the name of the array that nusselt_add_shader() makes of a shader.

@@ -1,8 +1,24 @@
 #include "render_vulkan/shading_shaders.h"
 
+#include "scene/input/file_bytes.h"
+
+#include <cstring>
 #include <stdexcept>
 
 namespace nusselt::render_vulkan {
+
+namespace {
+
+std::vector<std::uint32_t> inflated_words(std::span<const unsigned char> gzip) {
+    scene::Budget bytes(1 << 24, "a shader is larger than 16 MiB");
+    const scene::FileBytes spirv =
+        scene::inflated({reinterpret_cast<const char*>(gzip.data()), gzip.size()}, bytes);
+    std::vector<std::uint32_t> words(spirv.view().size() / sizeof(std::uint32_t));
+    std::memcpy(words.data(), spirv.view().data(), words.size() * sizeof(std::uint32_t));
+    return words;
+}
+
+} // namespace
 
 ShadingPassKind sampling_pass(ShadowRays way) {
     switch (way) {
@@ -16,9 +32,9 @@ ShadingPassKind sampling_pass(ShadowRays way) {
     throw std::logic_error("this way of tracing shadow rays has no shader");
 }
 
-std::span<const std::uint32_t> shading_shader(ShadingPassKind pass, const ShaderVariant& variant) {
+std::vector<std::uint32_t> shading_shader(ShadingPassKind pass, const ShaderVariant& variant) {
     for (const ShadingShader& shader : shading_shaders())
-        if (shader.pass == pass && shader.variant == variant) return shader.words;
+        if (shader.pass == pass && shader.variant == variant) return inflated_words(shader.gzip);
     throw std::logic_error("this variant has no compiled shader");
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace nusselt::render_vulkan {
 
@@ -31,13 +32,14 @@ struct ShaderVariant {
 struct ShadingShader {
     ShadingPassKind pass;
     ShaderVariant variant;
-    std::span<const std::uint32_t> words; ///< SPIR-V
+    std::span<const unsigned char> gzip; ///< compressed SPIR-V: the variants together have 11 MB
 };
 
 /// All passes in all variants.
 std::span<const ShadingShader> shading_shaders();
 
+/// The words of the SPIR-V.
 /// \throws std::logic_error if the pass is not compiled for the variant
-std::span<const std::uint32_t> shading_shader(ShadingPassKind pass, const ShaderVariant& variant);
+std::vector<std::uint32_t> shading_shader(ShadingPassKind pass, const ShaderVariant& variant);
 
 } // namespace nusselt::render_vulkan
