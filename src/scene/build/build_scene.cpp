@@ -104,7 +104,7 @@ void renumber(std::vector<BuiltShape>& shapes, const FormatWords& words) {
         const auto first_vertex = static_cast<std::uint32_t>(vertices);
         const auto first_light = static_cast<std::int32_t>(lights);
         vertices += mesh.positions.size();
-        lights += std::as_const(mesh.lights).of<PolygonLight>().size();
+        lights += std::as_const(mesh.lights).of<SurfaceLight>().size();
         triangles += mesh.triangles.size();
         check_counts(vertices, triangles, words.instance);
         if (first_vertex > 0)

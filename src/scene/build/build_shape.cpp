@@ -14,6 +14,24 @@ namespace nusselt::scene {
 
 namespace {
 
+/// How shapes become lights of one kind that are no surfaces.
+struct LightBuilder {
+    bool (*takes)(const Geometry& geometry, const Emission& emission, const Transform& world_from_object);
+    BuiltShape (*build)(const PlacedShape& placed, const FormatWords& words);
+};
+
+/// Which shapes become which kind of light is decided here: the first row that takes a shape builds it. What no row takes
+/// becomes a surface, whose lights are polygons if it emits.
+constexpr LightBuilder kLightBuilders[] = {{becomes_tube, build_tube}};
+
+/// The row that takes a shape, null if it becomes a surface.
+const LightBuilder* find_light_builder(const Geometry& geometry, const Emission& emission,
+                                       const Transform& world_from_object) {
+    for (const LightBuilder& builder : kLightBuilders)
+        if (builder.takes(geometry, emission, world_from_object)) return &builder;
+    return nullptr;
+}
+
 Mesh read_mesh(const MeshFile& file, SceneBudget& budget) {
     try {
         return file.read(FileBytes(file.path, budget.inflated_bytes).view());
@@ -96,13 +114,17 @@ BuiltShape build_surface(const PlacedShape& placed, SceneBudget& budget, const F
 
 } // namespace
 
+bool becomes_surface(const Geometry& geometry, const Emission& emission, const Transform& world_from_object) {
+    return find_light_builder(geometry, emission, world_from_object) == nullptr;
+}
+
 std::string subject_of(const ShapeDescription& shape) { return "shape \"" + shape.kind + '"'; }
 
 BuiltShape build_shape(const PlacedShape& placed, SceneBudget& budget, const FormatWords& words) {
     const ShapeDescription& shape = *placed.shape;
-    BuiltShape built = becomes_tube(shape.geometry, shape.emission, placed.world_from_object)
-                           ? build_tube(placed, words)
-                           : build_surface(placed, budget, words);
+    const LightBuilder* const light =
+        find_light_builder(shape.geometry, shape.emission, placed.world_from_object);
+    BuiltShape built = light != nullptr ? light->build(placed, words) : build_surface(placed, budget, words);
     built.warnings.append(shape.warnings);
     return built;
 }

@@ -11,10 +11,14 @@ namespace nusselt::scene {
 
 /// The contribution of one shape to the scene.
 struct BuiltShape : Mesh {
-    std::vector<std::int32_t> triangle_light; ///< empty, or per triangle an index among the polygons
+    /// Empty, or for each triangle the index of a SurfaceLight among those of the shape.
+    std::vector<std::int32_t> triangle_light;
     Lights lights;
     Warnings warnings;
 };
+
+/// Whether the builder turns such a shape into a surface, which needs a material, and not into a light that is none.
+bool becomes_surface(const Geometry& geometry, const Emission& emission, const Transform& world_from_object);
 
 /// The beginning of messages about a shape.
 std::string subject_of(const ShapeDescription& shape);

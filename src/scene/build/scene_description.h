@@ -26,10 +26,11 @@ struct ShapeDescription {
     Transform world_from_object;
     /// Whether the shape emits to the other side, and shading normals point there.
     bool reverse_orientation = false;
-    Emission emission;          ///< black for surfaces that do not emit
-    bool is_invisible = false;  ///< of a shape that emits: only its light is there, cameras see no surface
-    int material = kNoMaterial; ///< index into SceneDescription::materials; tubular lights need none
-    Warnings warnings;          ///< of the importer; those of the builder come before
+    Emission emission;         ///< black for surfaces that do not emit
+    bool is_invisible = false; ///< of a shape that emits: only its light is there, cameras see no surface
+    int material =
+        kNoMaterial;   ///< index into SceneDescription::materials; lights that are no surfaces need none
+    Warnings warnings; ///< of the importer; those of the builder come before
 };
 
 /// Shapes that instances share.

@@ -5,7 +5,7 @@
 
 namespace nusselt::scene {
 
-/// Whether a shape at this place is a tubular light, which needs no material.
+/// Whether a shape at this place is a tubular light: tubes are, and cylinders that emit and stay round.
 bool becomes_tube(const Geometry& geometry, const Emission& emission, const Transform& world_from_object);
 
 /// A tubular light in world space and nothing else. Tubes that do not emit are left out with a warning.

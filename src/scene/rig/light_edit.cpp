@@ -21,7 +21,7 @@ constexpr std::uint32_t kShared = kNobody - 1;
 
 /// Alpha 0 makes lights without a surface.
 bool is_invisible(const EditableLight& light) {
-    return has_polygons(light) && light.triangles.empty() && !light.has_new_surface;
+    return is_surface(light) && light.triangles.empty() && !light.has_new_surface;
 }
 
 /// The emission of a part of a light.
@@ -95,7 +95,7 @@ std::vector<EditableLight> editable_lights(const Scene& scene) {
     return lights;
 }
 
-bool has_polygons(const EditableLight& light) { return !light.parts.of<PolygonLight>().empty(); }
+bool is_surface(const EditableLight& light) { return !light.parts.of<SurfaceLight>().empty(); }
 
 bool is_black(const EditableLight& light) {
     for (const LightList& list : light.parts)
@@ -121,13 +121,13 @@ double luminous_power(const EditableLight& light) {
 void LightEditor::replace_shape(EditableLight& light, const Lights& shape, std::uint32_t material) {
     if (have_same_shape(light.parts, shape)) return;
     const bool stays_invisible = is_invisible(light);
-    if (!has_polygons(light)) light.material = material;
+    if (!is_surface(light)) light.material = material;
     unused_triangles_.insert(unused_triangles_.end(), light.triangles.begin(), light.triangles.end());
     light.triangles.clear();
     const Emission emission = emission_of(light.parts);
     light.parts = shape;
     set_emission(emission, light.parts);
-    light.has_new_surface = has_polygons(light) && !stays_invisible;
+    light.has_new_surface = is_surface(light) && !stays_invisible;
 }
 
 void LightEditor::transform(EditableLight& light, const Transform& transform) {
@@ -200,8 +200,8 @@ void LightEditor::put_lights_back() {
     for (EditableLight& light : lights_) {
         if (!emits(light)) continue;
         const auto emitter = static_cast<std::uint32_t>(scene_.emitters.size());
-        // Lights with triangles are polygons, which come first.
-        const std::size_t first_light = scene_.lights.of<PolygonLight>().size();
+        // A number is needed only for lights with triangles, and those come first.
+        const std::size_t first_light = scene_.lights.of<SurfaceLight>().size();
         scene_.emitters.push_back({light.name});
         for (LightList& list : light.parts)
             for (std::size_t i = 0; i < list.size(); ++i) list.emitter(i) = emitter;
@@ -260,7 +260,7 @@ void LightEditor::add_surfaces() {
     for (const EditableLight& light : lights_) {
         if (!light.has_new_surface || light.is_removed) continue;
         const auto base = static_cast<std::uint32_t>(scene_.positions.size());
-        const PolygonVertices& vertices = light.parts.of<PolygonLight>()[0].vertices;
+        const PolygonVertices& vertices = light.parts.of<SurfaceLight>()[0].vertices;
         for (const Float3& p : vertices) {
             scene_.positions.push_back(p);
             scene_.normals.push_back({0, 0, 0});

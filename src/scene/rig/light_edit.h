@@ -26,8 +26,8 @@ struct EditableLight {
 
 /// The lights of a scene, in the order of Scene::emitters.
 std::vector<EditableLight> editable_lights(const Scene& scene);
-/// Whether its surface is made of polygons.
-bool has_polygons(const EditableLight& light);
+/// Whether lights of its kind are surfaces.
+bool is_surface(const EditableLight& light);
 /// Whether no part of it emits anything.
 bool is_black(const EditableLight& light);
 /// Centroid of the surface.

@@ -245,7 +245,7 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
     const LightChanges& changes = entry.changes;
     rename(entry, light);
     if (changes.shape) {
-        const bool has_material = has_polygons(light) || std::holds_alternative<LightAddition>(entry.lights);
+        const bool has_material = is_surface(light) || std::holds_alternative<LightAddition>(entry.lights);
         editor_.replace_shape(light, *changes.shape, has_material ? light.material : black_material());
     }
     move(entry, light, offset);
