@@ -22,6 +22,8 @@ public:
     KernelScene view(BrdfChoice brdf) const;
     /// The lights of each kind, for jobs that have not chosen yet how to take them.
     std::vector<LightSet> light_sets(base::Isa isa) const;
+    /// Whether the scene has lights that LightSamples::lines samples by lines.
+    bool take_lines() const;
 
 private:
     /// The lights of one kind.

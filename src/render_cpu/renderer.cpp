@@ -157,7 +157,7 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.tracer = tracer;
     job.light_samples = settings.light_samples;
     job.lines = settings.lines;
-    if (settings.light_samples == LightSamples::lines && !scene_.lights.of<scene::PolygonLight>().empty()) {
+    if (settings.light_samples == LightSamples::lines && arrays_.take_lines()) {
         line_bvh = lines_.get(scene_, arena_);
         job.line_bvh = &line_bvh;
     }

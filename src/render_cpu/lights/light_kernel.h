@@ -19,6 +19,7 @@ struct LightKernel {
     /// \throws std::runtime_error if a light cannot be rendered
     std::shared_ptr<const void> (*make_records)(const scene::Scene& scene, const scene::LightList& lights);
     std::array<LightCode, 3> code; ///< in the order of Isa
+    bool takes_lines = false;      ///< whether LightSamples::lines samples such lights by lines
 };
 
 std::span<const LightKernel> light_kernels();
