@@ -27,9 +27,9 @@ public:
     const gpu::Device& device() const { return device_; }
     const scene::Film& film() const { return film_; }
     std::uint32_t drawn_triangles() const { return drawn_triangles_; }
-    int polygon_slots() const { return polygon_slots_; } ///< see SceneRecords
+    int polygon_slots() const { return polygon_slots_; } ///< see LightRecords
     const SceneKinds& kinds() const { return kinds_; }
-    std::uint32_t light_count() const { return record_.polygon_lights + record_.line_lights; }
+    std::uint32_t light_count() const { return light_count_; }
     const SceneBuffers& buffers() const { return buffers_; }
     const SceneTextures& textures() const { return textures_; }
     const gpu::Buffer& ltc_table() const { return ltc_table_; } ///< decoded samples
@@ -45,6 +45,7 @@ private:
     interface::SceneRecord record_;
     std::uint32_t drawn_triangles_;
     int polygon_slots_;
+    std::uint32_t light_count_;
     SceneKinds kinds_;
     SceneBuffers buffers_;
     SceneTextures textures_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <span>
+#include <vector>
 
 namespace nusselt::render_vulkan {
 
@@ -21,7 +22,7 @@ struct SceneBuffers {
     SceneBuffers(const gpu::Device& device, const SceneRecords& records);
 
     gpu::Buffer scene, vertices, triangles, instances, materials;
-    gpu::Buffer polygon_lights, polygon_corners, line_lights;
+    std::vector<gpu::Buffer> lights; ///< by binding, from interface::kFirstLightBinding on
 };
 
 template <class T>

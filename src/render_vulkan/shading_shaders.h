@@ -22,7 +22,7 @@ ShadingPassKind sampling_pass(ShadowRays way);
 
 /// What a shader is compiled for.
 struct ShaderVariant {
-    int polygon_slots; ///< 4 or 8, see SceneRecords
+    int polygon_slots; ///< 4 or 8, see LightRecords
     bool fused_fma;    ///< see gpu::has_fused_fma()
     TextureAccess textures;
     bool operator==(const ShaderVariant&) const = default;
