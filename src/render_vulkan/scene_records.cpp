@@ -50,7 +50,7 @@ void add_triangles(const scene::Scene& scene, const scene::LightMesh& lights, Sc
     }
 }
 
-/// \returns the number of triangles of the world and of instances
+/// \returns how many triangles the world and all instances have
 std::uint64_t add_instances(const scene::Scene& scene, SceneRecords& records) {
     std::uint64_t drawn = world_triangle_count(scene);
     for (const scene::Instance& instance : scene.instances) {
@@ -96,7 +96,7 @@ interface::MaterialRecord make_record(const scene::Material& material) {
     return record;
 }
 
-/// A function of three coordinates that is linear but for a constant.
+/// An affine function of three coordinates.
 struct Row {
     Double3 linear;
     double constant = 0;
@@ -135,8 +135,8 @@ void set_camera(const scene::Camera& camera, const scene::Film& film, double rad
     record.width = pixels.x_end - pixels.x_begin;
     record.height = pixels.y_end - pixels.y_begin;
 
-    // A point is t (corner + x right + y down) from the origin of a perspective camera, and
-    // x origin_right + y origin_down + t corner from that of an orthographic one.
+    // Relative to the origin, a point is t (corner + x right + y down) for a perspective camera, and
+    // x origin_right + y origin_down + t corner for an orthographic one.
     const bool is_perspective = length(to_double(camera.origin_right)) == 0;
     std::array<Row, 3> raster =
         is_perspective
@@ -151,7 +151,7 @@ void set_camera(const scene::Camera& camera, const scene::Film& film, double rad
     copy(y, record.clip_from_world + 4);
     copy(w, record.clip_from_world + 8);
     copy(raster[2], record.distance_from_world);
-    // Beyond this share of the scene's size, depth is as accurate relative to the distance as single precision is.
+    // Beyond this fraction of the scene's size, depth has the relative accuracy of single precision.
     constexpr double kDepthUnit = 1e-2;
     const double unit = kDepthUnit * radius / length(to_double(camera.corner));
     record.inverse_depth_unit = unit > 0 ? static_cast<float>(1 / unit) : 1;

@@ -1,5 +1,5 @@
 #pragma once
-/// From scenes to the records that shaders read.
+/// Turns scenes into the records that shaders read.
 
 #include "interface/scene.h"
 #include "render_vulkan/lights/light_records.h"
@@ -22,7 +22,7 @@ struct SceneKinds {
 /// All specialisation constants by their numbers; those of settings are 0.
 std::vector<std::uint32_t> constants_of(const SceneKinds& kinds);
 
-/// The arrays of shaders/interface/scene.h, but for textures.
+/// The arrays of shaders/interface/scene.h, without those of textures.
 struct SceneRecords {
     interface::SceneRecord scene;
     std::vector<interface::VertexRecord> vertices;    ///< of the scene, then of lights that are no surfaces
@@ -38,7 +38,7 @@ struct SceneRecords {
 ///         be inverted
 SceneRecords make_scene_records(const scene::Scene& scene);
 
-/// What the record says of the camera and the pixels.
+/// Writes the camera and the pixels to the record.
 /// \param radius of the scene, see scene::Scene [m]
 void set_camera(const scene::Camera& camera, const scene::Film& film, double radius,
                 interface::SceneRecord& record);

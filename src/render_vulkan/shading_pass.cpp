@@ -14,12 +14,12 @@ namespace {
 // As in shaders/passes.
 constexpr std::uint32_t kWorkGroupSide = 8;
 static_assert(kRowsTogether == kWorkGroupSide);
-/// All but those for shadow rays.
+/// Storage buffers of all shading passes; those for shadow rays follow.
 constexpr std::uint32_t kShadingBuffers = interface::kFirstBindingAfterLights + 4;
 
 std::uint32_t groups_for(std::uint32_t pixels) { return (pixels - 1) / kWorkGroupSide + 1; }
 
-/// Whether no light is sampled.
+/// Whether the pass integrates lights instead of sampling them.
 bool is_analytic(const std::vector<std::uint32_t>& constants) {
     return constants[interface::kTechniqueConstant] ==
            static_cast<std::uint32_t>(render::Technique::ltc_analytic);

@@ -40,7 +40,7 @@ Mesh read_mesh(const MeshFile& file, SceneBudget& budget) {
     }
 }
 
-/// The triangles of a surface in its own coordinates.
+/// Makes the triangles of a surface in its own coordinates.
 class MeshMaker {
 public:
     MeshMaker(const PlacedShape& placed, SceneBudget& budget, Warnings& warnings)
@@ -60,7 +60,7 @@ private:
     Warnings& warnings_;
 };
 
-/// Whether the emitting side is the reverse of that of the right-hand rule in world space.
+/// Whether the emitting side is opposite to the one that the right-hand rule gives in world space.
 bool flips_orientation(const PlacedShape& placed) {
     return placed.shape->reverse_orientation != (linear_determinant(placed.world_from_object) < 0);
 }
@@ -80,7 +80,7 @@ void move_to_world(const PlacedShape& placed, Mesh& mesh) {
     }
     for (Float3& n : mesh.normals) {
         if (placed.shape->reverse_orientation) n = {-n.x, -n.y, -n.z};
-        // Meshes come with broken normals; the geometric one is better than NaN.
+        // Some meshes have normals with NaN; zero stands for the geometric normal.
         if (!is_valid_coordinate(n)) n = {0, 0, 0};
     }
     constexpr float kMaxTextureCoordinate = 1e6f;
@@ -91,7 +91,7 @@ void move_to_world(const PlacedShape& placed, Mesh& mesh) {
         for (Triangle& triangle : mesh.triangles) std::swap(triangle.vertex[1], triangle.vertex[2]);
 }
 
-/// Renderers normalise normals in float, so their squares must not vanish there.
+/// Renderers normalise normals in single precision, where their squares must not vanish.
 void remove_degenerate_triangles(Mesh& mesh) {
     const auto is_degenerate = [&](const Triangle& triangle) {
         const Double3 p0 = to_double(mesh.positions[triangle.vertex[0]]);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostSides = 64;
 
-/// Whether a shape belongs to the world as a light, also where instances share it.
+/// Whether a shape is a light. Lights belong to the world: instances copy them.
 bool is_light(const ShapeDescription& shape) {
     return !is_black(shape.emission.radiance) ||
            !becomes_surface(shape.geometry, shape.emission, shape.world_from_object);
@@ -47,7 +47,7 @@ struct ValueCount {
     std::size_t operator()(const Tube&) const { return 7; }
 };
 
-/// Lights of instances are copied, since they are in the world.
+/// Limits the copies of lights: those of instances are copied, because lights belong to the world.
 void check_copies(const SceneDescription& description) {
     std::vector<std::size_t> emitters;
     std::vector<std::size_t> value_counts;
@@ -130,7 +130,7 @@ PlacedShapes place_shapes(SceneDescription& description) {
 }
 
 void limit_tessellation(std::vector<PlacedShape>& shapes) {
-    constexpr double kFineShapes = 1000; // may have all sides
+    constexpr double kFineShapes = 1000; // so many may have all sides
     constexpr int kFewest = 8;
     const auto count = static_cast<double>(std::count_if(
         shapes.begin(), shapes.end(), [](const PlacedShape& placed) { return is_round(*placed.shape); }));

@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t kShared = kNobody - 1;
 
-/// Alpha 0 makes lights without a surface.
+/// Whether a light that could have a surface has none, because its alpha is 0.
 bool is_invisible(const EditableLight& light) {
     return is_surface(light) && light.triangles.empty() && !light.has_new_surface;
 }
@@ -48,7 +48,7 @@ void set_emission(const Emission& emission, Lights& parts) {
     }
 }
 
-/// Whether both are the same single light but for its emission.
+/// Whether both are single lights that differ at most in their emission.
 bool have_same_shape(const Lights& a, const Lights& b) {
     if (a.size() != 1 || b.size() != 1) return false;
     for (const LightList& list : a)
@@ -140,13 +140,13 @@ void LightEditor::transform(EditableLight& light, const Transform& transform) {
     }
 }
 
-/// Notes of each vertex which light uses it, as far as that is one.
+/// Finds for each vertex the only light that uses it, if there is one.
 void LightEditor::find_vertex_owners() {
     const std::vector<std::uint32_t> emitter_of = light_emitters(scene_);
     vertex_owner_.assign(scene_.positions.size(), kNobody);
     for (std::size_t i = 0; i < scene_.triangles.size(); ++i) {
         const std::int32_t light = scene_.triangle_light[i];
-        // A vertex that belongs to a surface without light is never a light's own.
+        // Vertices of surfaces that do not emit never belong to a light alone.
         const std::uint32_t user = light < 0 ? kShared : emitter_of[static_cast<std::size_t>(light)];
         for (const std::uint32_t vertex : scene_.triangles[i].vertex) {
             std::uint32_t& owner = vertex_owner_[vertex];
@@ -155,12 +155,12 @@ void LightEditor::find_vertex_owners() {
     }
 }
 
-/// The vertices of the surface in the scene, each once. Those that other surfaces use too are copied first.
+/// The vertices of the surface in the scene, without repetitions. Copies those that other surfaces use, too.
 std::vector<std::uint32_t> LightEditor::own_vertices(EditableLight& light) {
     if (light.triangles.empty()) return {};
     if (vertex_owner_.empty()) find_vertex_owners();
     const auto self = static_cast<std::uint32_t>(&light - lights_.data());
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> copies; // of which vertex, copy
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> copies; // vertex and its copy
     std::vector<std::uint32_t> vertices;
     for (const std::uint32_t triangle : light.triangles)
         for (const std::uint32_t vertex : scene_.triangles[triangle].vertex) vertices.push_back(vertex);
@@ -229,7 +229,7 @@ void LightEditor::remove_surfaces() {
     erase_marked(scene_.triangles, is_unused);
     erase_marked(scene_.triangle_material, is_unused);
     erase_marked(scene_.triangle_light, is_unused);
-    // Lights stand before all objects.
+    // Triangles of lights come before those of objects.
     for (Object& object : scene_.objects) object.first_triangle -= static_cast<std::uint32_t>(removed.size());
     remove_vertices(removed);
 }

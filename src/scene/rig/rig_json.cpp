@@ -92,7 +92,7 @@ Double3 read_scale(const JsonNode& node) {
     return to_double(scale);
 }
 
-/// Offsets of a grid, the first axis running fastest.
+/// The offsets of a grid; the first axis varies fastest.
 std::vector<Double3> read_copies(const JsonNode& node) {
     node.check_fields({"count", "step"});
     const JsonNode count = node.at("count");
@@ -114,7 +114,7 @@ std::vector<Double3> read_copies(const JsonNode& node) {
     return offsets;
 }
 
-/// The only one of these fields that an entry has, or nothing. Throws if it has several.
+/// The one of these fields that an entry has; empty if it has none. Throws if it has several.
 std::optional<JsonNode> find_one(const JsonNode& entry, const std::vector<std::string_view>& fields) {
     std::optional<JsonNode> found;
     std::string_view found_name;
