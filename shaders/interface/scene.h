@@ -3,12 +3,10 @@
 /// A scene in storage buffers, for C++ and GLSL alike. All members are words of 32 bits or arrays of them, so that both
 /// languages lay them out in the same way. Positions and radiance are as in src/scene/model/scene.h.
 
+#include "interface/lights.h"
+
 #ifdef __cplusplus
-#include <cstdint>
-
 namespace nusselt::interface {
-
-using uint = std::uint32_t;
 #endif
 
 const uint kNoTexture = 0xffffffffu;
@@ -85,21 +83,6 @@ struct TextureRecord {
     uint is_nearest; ///< or bilinear
 };
 
-struct PolygonLightRecord {
-    float normal[3];
-    float radiance[3];
-    uint is_two_sided;
-};
-
-struct LineLightRecord {
-    float begin[3];
-    float direction[3];
-    float len; ///< GLSL has another use for `length`
-    float radius;
-    uint is_solid; ///< a cylinder, or a linear light
-    float radiance[3];
-};
-
 /// Data with one number or vector per scene.
 struct SceneRecord {
     // The camera, in pixels of the whole film; see scene::Camera.
@@ -122,8 +105,7 @@ struct SceneRecord {
     uint instances;
     uint first_light_drawn;    ///< number of the first triangle of lights that are no surfaces, among all that are drawn
     uint first_light_triangle; ///< the same triangle among all records
-    uint polygon_lights;
-    uint line_lights;
+    LightRange lights[kLightKinds]; ///< by kind
     int ltc_samples[3]; ///< of the table of lobes: f0, inclination, roughness
 };
 

@@ -7,20 +7,19 @@
 namespace nusselt::interface {
 #endif
 
-// Numbers of specialisation constants: what a scene has, see shaders/passes/scene_kinds.glsl, ...
-const int kPolygonsConstant = 0;
-const int kLinesConstant = 1;
-const int kTubesConstant = 2;
-const int kInstancesConstant = 3;
-const int kPartialConstant = 4;
-const int kFrostbiteConstant = 5;
-const int kTextureKindsConstant = 6;
-// ... then settings.
-const int kTechniqueConstant = 7;
-const int kStrategiesConstant = 8;
-const int kMisConstant = 9;
-const int kSamplerConstant = 10;
-const int kBrdfConstant = 11;
+// Numbers of specialisation constants: what a scene has (shaders/passes/scene_kinds.glsl), ...
+const int kInstancesConstant = 0;
+const int kPartialConstant = 1;
+const int kFrostbiteConstant = 2;
+const int kTextureKindsConstant = 3;
+// ... then settings, ...
+const int kTechniqueConstant = 4;
+const int kStrategiesConstant = 5;
+const int kMisConstant = 6;
+const int kSamplerConstant = 7;
+const int kBrdfConstant = 8;
+// ... then those of lights (shaders/interface/lights.h).
+const int kFirstLightConstant = 9;
 
 // Values of one setting are numbered from 0 without gaps.
 const int kTechniqueArea = 0;

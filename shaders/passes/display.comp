@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-/// From two accumulated images and a reference to the 8-bit pixels of a window, and the squared errors of both.
+/// Turns two accumulated images into the 8-bit pixels of a window, and sums up their squared errors from a reference.
 
 #include "interface/display.h"
 #include "interface/scene.h"
@@ -10,9 +10,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, std430) readonly buffer LeftSums { PixelSum left_sums[]; };
 layout(set = 0, binding = 1, std430) readonly buffer RightSums { PixelSum right_sums[]; };
 layout(set = 0, binding = 2, std430) readonly buffer ReferenceSums { PixelSum reference_sums[]; };
-/// Red in the lowest byte; row by row from the top.
+/// Row by row from the top, with red in the lowest byte.
 layout(set = 0, binding = 3, std430) writeonly buffer Shown { uint shown[]; };
-/// Of each work group the sums over its pixels and channels: of the left, of the right image.
+/// For each work group the sums over its pixels and channels: for the left and for the right image.
 layout(set = 0, binding = 4, std430) writeonly buffer Errors { vec2 squared_errors[]; };
 
 layout(push_constant) uniform Push { DisplayRecord display; };
@@ -22,21 +22,21 @@ shared vec2 group_errors[kGroupSize];
 
 vec3 mean_of(PixelSum sum, float scale) { return scale * vec3(sum.sum[0], sum.sum[1], sum.sum[2]); }
 
-/// The transfer function of sRGB, of values that are clamped to [0, 1]. NaN becomes 0.
+/// The transfer function of sRGB for values that are clamped to [0, 1]. NaN becomes 0.
 vec3 to_srgb(vec3 linear) {
     linear = mix(clamp(linear, 0.0, 1.0), vec3(0.0), isnan(linear));
     return mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, greaterThan(linear, vec3(0.0031308)));
 }
 
-/// Black for a thousandth or less of what the reference shows, then blue, magenta, orange, and white for all of it and for
-/// what is no number.
+/// The colour of a relative error: black up to a thousandth, then blue, magenta and orange, and white from 1 on and for
+/// NaN.
 vec3 error_colour(vec3 value, vec3 reference) {
-    // What a display cannot show to be black counts like the darkest grey.
+    // References that a display shows as black count like the darkest grey.
     const float kDarkest = 0.005;
     vec3 difference = abs(value - reference);
     float relative = dot(difference, vec3(1.0)) / (dot(abs(reference), vec3(1.0)) + 3.0 * kDarkest);
     const vec3 kRamp[5] = vec3[5](vec3(0.0), vec3(0.1, 0.1, 0.6), vec3(0.75, 0.15, 0.6), vec3(1.0, 0.6, 0.1), vec3(1.0));
-    bool is_small = relative < 1.0; // NaN is not
+    bool is_small = relative < 1.0; // false for NaN
     float at = is_small ? 4.0 * clamp(1.0 + log2(max(relative, 1e-6)) / log2(1000.0), 0.0, 1.0) : 4.0;
     int cell = clamp(int(at), 0, 3);
     return mix(kRamp[cell], kRamp[cell + 1], at - float(cell));

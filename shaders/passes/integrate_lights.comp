@@ -1,14 +1,14 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-/// Reflected light by integrals of linearly transformed cosines, without samples and without shadows, as
-/// src/render_cpu/kernel/analytic.h.
+/// Integrates linearly transformed cosines over all lights, without samples and without shadows, as
+/// src/render_cpu/kernel/analytic.h does.
 
 #include "passes/lights.glsl"
 #include "passes/reflection.glsl"
 #include "passes/shading.glsl"
 
-/// The light that a shading point reflects.
+/// A shading point and the light that it reflects.
 struct Reflected {
     Surface surface;
     GlossySurface glossy;
@@ -16,8 +16,8 @@ struct Reflected {
     Counts counts;
 };
 
-/// Adds what is reflected of a light.
-/// \param integrals of the diffuse and the specular lobe over the light.
+/// Adds what the surface reflects of a light.
+/// \param integrals over the light, of the diffuse and of the specular lobe
 void add_light(inout Reflected reflected, LightRole role, vec2 integrals) {
     vec3 share = integrals.x * reflected.glossy.diffuse_albedo + integrals.y * reflected.glossy.specular_albedo;
     if (is_finite(share))
@@ -32,8 +32,7 @@ void add_light(inout Reflected reflected, LightRole role, vec2 integrals) {
 vec3 reflected_light(Surface surface, ivec2 pixel, inout Counts counts) {
     if (kTechnique != kTechniqueLtcAnalytic) note_unknown_setting();
     Reflected reflected = Reflected(surface, make_reflection(surface).glossy, vec3(0.0), counts);
-    add_polygons(reflected);
-    add_lines(reflected);
+    ADD_ALL_LIGHTS
     counts = reflected.counts;
     return reflected.radiance;
 }

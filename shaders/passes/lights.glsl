@@ -1,15 +1,38 @@
 #ifndef NUSSELT_PASSES_LIGHTS_GLSL
 #define NUSSELT_PASSES_LIGHTS_GLSL
-/// The kinds of light: each has a row here, in sample_lights.glsl and in integrate_lights.comp, and files in passes/lights.
+/// The table of kinds of light. Another kind is a row here, with files in passes/lights that this file, sample_lights.glsl and
+/// integrate_lights.comp include.
 
 #include "passes/lights/line.glsl"
 #include "passes/lights/polygon.glsl"
 
+/// A row has the number of the kind in interface/lights.h and two functions:
+///
+///     vec3 emission(uint index, vec3 direction): the radiance that a ray sees of a light of this kind;
+///     void add_lights(inout reflected): adds what a surface reflects of all lights of this kind; each pass has its own.
+#define LIGHT_KINDS(ROW) \
+    ROW(kPolygonKind, polygon_emission, add_polygons) \
+    ROW(kLineKind, line_emission, add_lines)
+
+/// Without a row for each kind, the array has no elements, which does not compile.
+struct AllKinds {
+#define COUNT_ROW(kind, emission, add_lights) +1
+    int rows[0 LIGHT_KINDS(COUNT_ROW) == kLightKinds ? 1 : 0];
+#undef COUNT_ROW
+};
+
 /// Radiance that a ray sees of a light. \param number among all lights of the scene
 vec3 light_emission(uint number, vec3 direction) {
-    if (number < scene.polygon_lights) return polygon_emission(number, direction);
-    return line_emission(number - scene.polygon_lights);
+#define EMISSION_OF_ROW(kind, emission, add_lights) \
+    if (is_of_kind(kind, number)) return emission(number - scene.lights[kind].first, direction);
+    LIGHT_KINDS(EMISSION_OF_ROW)
+#undef EMISSION_OF_ROW
+    return vec3(0.0);
 }
+
+/// Adds the light of all kinds to what a pass has defined as `reflected`.
+#define ADD_LIGHTS_OF_ROW(kind, emission, add_lights) add_lights(reflected);
+#define ADD_ALL_LIGHTS LIGHT_KINDS(ADD_LIGHTS_OF_ROW)
 
 /// Radiance that a camera sees of lights themselves.
 vec3 emission_of(DrawnTriangle drawn, Ray ray) {

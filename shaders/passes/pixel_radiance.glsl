@@ -1,8 +1,8 @@
-/// The entry point of shading passes: adds one frame to the pixels, what a camera ray per pixel sees. A pass has defined
+/// The entry point of shading passes: adds one frame, the radiance along one camera ray per pixel. The pass must define
 /// before:
 ///
-///     vec3 reflected_light(Surface surface, ivec2 pixel, inout Counts counts): radiance that a surface reflects to the
-///     camera.
+///     vec3 reflected_light(Surface surface, ivec2 pixel, inout Counts counts): the radiance that a surface reflects to
+///     the camera.
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, int(frame.first_row));

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_PASSES_REFLECTION_GLSL
 #define NUSSELT_PASSES_REFLECTION_GLSL
-/// How a shading point reflects: its BRDF, and the lobe that fits the specular component.
+/// The BRDF of a shading point, and the lobe that fits its specular component.
 
 #include "nusselt/bsdf/lambert.glsl"
 #include "nusselt/estimate/surface.glsl"
@@ -8,12 +8,12 @@
 #include "passes/surface.glsl"
 
 /// Decoded samples of the table of the specular Frostbite BRDF, six floats for each.
-layout(set = 0, binding = 10, std430) readonly buffer LtcTable { float ltc_table[]; };
+layout(set = 0, binding = kFirstBindingAfterLights, std430) readonly buffer LtcTable { float ltc_table[]; };
 
 struct Reflection {
-    bool is_frostbite; ///< or Lambert
+    bool is_frostbite; ///< otherwise Lambert
     Lambert lambert;
-    GlossySurface glossy; ///< of surfaces without lobes, or settings without use for them, the specular albedo is 0
+    GlossySurface glossy; ///< with a specular albedo of 0 where the surface has no lobe or the settings use none
 };
 
 BrdfComponents reflection_eval_components(Reflection self, vec3 wi) {

@@ -1,5 +1,5 @@
-/// Reflected light by samples of all lights, as src/render_cpu/kernel/paired_techniques.h. The entry point includes one of
-/// the ways to trace shadow rays before this file.
+/// Samples all lights and sums up what surfaces reflect, as src/render_cpu/kernel/paired_techniques.h does. The entry point
+/// must define occluded(), which traces a shadow ray, before it includes this file.
 
 #include "nusselt/estimate/direct_light.glsl"
 #include "nusselt/random/light_random.glsl"
@@ -7,8 +7,8 @@
 #include "passes/lights/techniques.glsl"
 #include "passes/shading.glsl"
 
-/// Heuristics and samplers have the same numbers here and in shaders/nusselt: otherwise an array has no elements, which does
-/// not compile.
+/// Heuristics and samplers must have the same numbers here and in shaders/nusselt: otherwise an array has no elements, which
+/// does not compile.
 struct SameNumbers {
     int balance[kMisBalance == kNusseltMisBalance ? 1 : 0];
     int power[kMisPower == kNusseltMisPower ? 1 : 0];
@@ -23,7 +23,7 @@ struct SameNumbers {
     int stratified[kSamplerStratified == kNusseltSamplerStratified ? 1 : 0];
 };
 
-/// As nusselt::kShadowEnd: occluders count up to this share of the way.
+/// Occluders count up to this fraction of the distance to the light, as nusselt::kShadowEnd.
 const float kShadowEnd = 0.9999;
 
 /// A shading point, the light that it reflects, and the sum over samples of one light.
@@ -36,7 +36,7 @@ struct Estimate {
     Counts counts;
 };
 
-/// Whether the way from the surface to a point is free. \param p relative to the position, in shading space.
+/// Whether the surface sees a point. \param p relative to the position, in shading space
 bool is_visible(inout Estimate estimate, vec3 p) {
     Surface surface = estimate.surface;
     vec3 to_light = frame_to_world(surface.shading, p);
@@ -46,9 +46,9 @@ bool is_visible(inout Estimate estimate, vec3 p) {
     return !occluded(surface.position + offset, to_light - offset, kShadowEnd);
 }
 
-/// Adds what a sample contributes, after its shadow ray.
+/// Traces the shadow ray of a sample and adds its contribution.
 void add_sample(inout Estimate estimate, DirectLightSample s) {
-    // Direction and point have no meaning without a density.
+    // The direction and the point are undefined where the density is 0.
     bool has_way = s.shadowed == vec3(0.0) || (is_finite(s.wi) && is_finite(s.p));
     if (!(has_way && is_finite(s.shadowed) && is_finite(s.constant))) {
         ++estimate.counts.rejected_samples;
@@ -60,7 +60,7 @@ void add_sample(inout Estimate estimate, DirectLightSample s) {
     compensated_sum_add(estimate.sum, term);
 }
 
-/// What a sample of the only technique contributes through all components of the BRDF.
+/// The contribution of a sample through all components of the BRDF, where it is the only technique.
 DirectLightSample reflect_sample(Reflection reflection, LightSample s) {
     // Comparisons with NaN are false: negated they keep it, so that it is counted.
     bool sampled = !(s.pdf == 0.0 || s.wi.z <= 0.0);
@@ -75,14 +75,14 @@ struct TechniquePair {
     OneSampleChoice choice;
 };
 
-/// \param integrals of the normalised components over the light.
+/// \param integrals over the light, of the normalised components
 TechniquePair make_technique_pair(GlossySurface surface, vec2 integrals) {
     DirectLight estimator = direct_light_prepare(surface.diffuse_albedo, surface.specular_albedo, integrals.x, integrals.y,
                                                  1.0, 1.0);
     return TechniquePair(estimator, one_sample_choice_prepare(estimator.techniques));
 }
 
-/// How many samples a number of a sample stands for.
+/// How many samples share the number of a sample.
 int samples_per_number(bool is_paired) { return is_paired && kMis != kNusseltMisOneSample ? 2 : 1; }
 
 /// Which technique takes a sample, and with which random numbers.
@@ -91,14 +91,14 @@ struct Draw {
     vec2 u;
 };
 
-/// \param pair number of the pair of random numbers: of the technique, unless a random number chooses that.
+/// \param pair the number of the pair of random numbers: that of the technique, unless a random number chooses it
 Draw choose_technique(bool is_paired, TechniquePair techniques, int pair, vec2 u) {
     if (!is_paired || kMis != kNusseltMisOneSample) return Draw(pair, u);
     OneSampleDecision decision = one_sample_choice_decide(techniques.choice, u.x);
     return Draw(decision.chosen, vec2(decision.u, u.y));
 }
 
-/// \param pdf densities of both techniques in the direction of the sample.
+/// \param pdf the densities of both techniques in the direction of the sample
 DirectLightSample combine(TechniquePair techniques, Reflection reflection, int technique, LightSample s, vec2 pdf) {
     MisSample at = direct_light_densities_at(techniques.estimator, s, pdf.x, pdf.y,
                                              reflection_eval_components(reflection, s.wi));
@@ -108,7 +108,7 @@ DirectLightSample combine(TechniquePair techniques, Reflection reflection, int t
         s, mis_estimate(kMis, technique, frame.visibility_estimate, techniques.estimator.techniques, at));
 }
 
-/// \param index of the sample in this frame.
+/// \param index of the sample in this frame
 vec2 random_for_light(ivec2 pixel, uint index, uint light, int pair) {
     return light_random(kSampler, frame.seed, uint(scene.x_begin + pixel.x), uint(scene.y_begin + pixel.y),
                         frame.number * frame.light_samples + index, frame.count * frame.light_samples, light,
@@ -119,16 +119,15 @@ vec2 random_for_light(ivec2 pixel, uint index, uint light, int pair) {
 #include "passes/lights/polygon_samples.glsl"
 
 vec3 reflected_light(Surface surface, ivec2 pixel, inout Counts counts) {
-    Estimate estimate;
-    estimate.surface = surface;
-    estimate.reflection = make_reflection(surface);
-    estimate.pixel = pixel;
-    estimate.counts = counts;
-    estimate.radiance = vec3(0.0);
-    add_polygons(estimate);
-    add_lines(estimate);
-    counts = estimate.counts;
-    return estimate.radiance;
+    Estimate reflected;
+    reflected.surface = surface;
+    reflected.reflection = make_reflection(surface);
+    reflected.pixel = pixel;
+    reflected.counts = counts;
+    reflected.radiance = vec3(0.0);
+    ADD_ALL_LIGHTS
+    counts = reflected.counts;
+    return reflected.radiance;
 }
 
 #include "passes/pixel_radiance.glsl"

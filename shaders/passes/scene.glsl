@@ -1,6 +1,6 @@
 #ifndef NUSSELT_PASSES_SCENE_GLSL
 #define NUSSELT_PASSES_SCENE_GLSL
-/// The buffers of a scene that all passes see, and what is drawn of it.
+/// The buffers of a scene that all passes read, and the triangles that are drawn.
 
 #include "interface/scene.h"
 #include "passes/scene_kinds.glsl"
@@ -18,12 +18,12 @@ vec3 to_vec(float v[3]) { return vec3(v[0], v[1], v[2]); }
 
 /// A drawn triangle.
 struct DrawnTriangle {
-    uint triangle; ///< among all records
-    int instance;  ///< that it is part of, -1 for none
-    bool is_surface; ///< or of a light that is none
+    uint triangle; ///< index into triangles[]
+    int instance;  ///< index into instances[], -1 for triangles of the world
+    bool is_surface; ///< otherwise part of a light that is no surface
 };
 
-/// \param number among all that are drawn.
+/// \param number among all triangles that are drawn
 DrawnTriangle drawn_triangle(uint number) {
     if (number >= scene.first_light_drawn)
         return DrawnTriangle(scene.first_light_triangle + (number - scene.first_light_drawn), -1, false);
@@ -49,14 +49,14 @@ vec3 linear_image(int instance, vec3 v) {
                 m[8] * v.x + m[9] * v.y + m[10] * v.z);
 }
 
-/// From the coordinates of an instance to those of the world. \param instance -1: there is none
+/// Transforms a point from the coordinates of an instance to those of the world. \param instance -1 for none
 vec3 world_point(int instance, vec3 p) {
     if (instance < 0) return p;
     float m[12] = instances[instance].world_from_object;
     return linear_image(instance, p) + vec3(m[3], m[7], m[11]);
 }
 
-/// Likewise.
+/// Transforms a vector likewise.
 vec3 world_vector(int instance, vec3 v) { return instance < 0 ? v : linear_image(instance, v); }
 
 struct Ray {
@@ -64,8 +64,8 @@ struct Ray {
     vec3 direction; ///< not of unit length
 };
 
-/// The same numbers as on the CPU: what is partly there depends on their bits.
-/// \param pixel of the image.
+/// The same bits as on the CPU, because the decisions of surfaces with an alpha below 1 depend on them.
+/// \param pixel of the image
 Ray camera_ray(ivec2 pixel) {
     precise vec2 raster = vec2(0.5 + frame.offset[0], 0.5 + frame.offset[1]) +
                           vec2(float(scene.x_begin + pixel.x), float(scene.y_begin + pixel.y));
@@ -87,7 +87,7 @@ TriangleEdges triangle_edges(uint triangle) {
                          vertex_position(triangles[triangle].vertex[2]) - v0);
 }
 
-/// Barycentric coordinates where a ray meets a triangle, which may go past it by as much as drawing rounds.
+/// Barycentric coordinates where a ray meets a triangle. Rasterisation rounds, so the ray may narrowly miss it.
 vec2 barycentrics(DrawnTriangle drawn, TriangleEdges edges, Ray ray) {
     vec3 e1 = world_vector(drawn.instance, edges.e1);
     vec3 e2 = world_vector(drawn.instance, edges.e2);
@@ -96,7 +96,7 @@ vec2 barycentrics(DrawnTriangle drawn, TriangleEdges edges, Ray ray) {
     float inverse = 1.0 / dot(e1, across);
     float u = dot(from_v0, across) * inverse;
     float v = dot(ray.direction, cross(from_v0, e1)) * inverse;
-    // Past the end of a surface that is seen edge-on, the place where the ray meets its plane may be far off. NaN
+    // A ray that misses a surface seen edge-on may meet its plane far away. NaN
     // becomes 0.
     u = u > 0.0 ? u : 0.0;
     v = v > 0.0 ? v : 0.0;

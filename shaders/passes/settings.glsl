@@ -1,6 +1,6 @@
 #ifndef NUSSELT_PASSES_SETTINGS_GLSL
 #define NUSSELT_PASSES_SETTINGS_GLSL
-/// What is chosen when a pipeline is made: numbers of shaders/interface/settings.h.
+/// The settings of a pipeline, with the numbers of shaders/interface/settings.h.
 
 #include "interface/settings.h"
 
@@ -10,14 +10,14 @@ layout(constant_id = kMisConstant) const int kMis = 0;
 layout(constant_id = kSamplerConstant) const int kSampler = 0;
 layout(constant_id = kBrdfConstant) const int kBrdf = 0;
 
-/// Whether a branch had no code for a setting. The renderer then reports an error: see report_unknown_setting().
+/// Whether a branch had no code for a setting. The renderer then reports an error, see report_unknown_setting().
 bool has_unknown_setting = false;
 
 void note_unknown_setting() { has_unknown_setting = true; }
 
 bool is_known(int value, int count) { return value >= 0 && value < count; }
 
-/// Notes settings with numbers that are none of their values.
+/// Notes settings whose numbers are none of the known values.
 void check_settings() {
     bool all_known = is_known(kTechnique, kTechniqueCount) && is_known(kStrategies, kStrategiesCount) &&
                      is_known(kMis, kMisCount) && is_known(kSampler, kSamplerCount) && is_known(kBrdf, kBrdfCount);

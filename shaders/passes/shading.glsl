@@ -1,20 +1,20 @@
 #ifndef NUSSELT_PASSES_SHADING_GLSL
 #define NUSSELT_PASSES_SHADING_GLSL
-/// What all ways to shade pixels share: which pixel, what it sees, and where the result goes.
+/// The parts that all shading passes share: pixels, sums and counters.
 
 #include "passes/lights.glsl"
 #include "passes/settings.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 11, std430) readonly buffer Numbers { uint drawn_numbers[]; };
-layout(set = 0, binding = 12, std430) buffer Sums { PixelSum pixel_sums[]; };
-layout(set = 0, binding = 13, std430) buffer Work { WorkRecord work; };
+layout(set = 0, binding = kFirstBindingAfterLights + 1, std430) readonly buffer Numbers { uint drawn_numbers[]; };
+layout(set = 0, binding = kFirstBindingAfterLights + 2, std430) buffer Sums { PixelSum pixel_sums[]; };
+layout(set = 0, binding = kFirstBindingAfterLights + 3, std430) buffer Work { WorkRecord work; };
 
 bool has_pixel(ivec2 pixel) { return pixel.x < scene.width && pixel.y < scene.height; }
 uint pixel_index(ivec2 pixel) { return uint(pixel.y) * uint(scene.width) + uint(pixel.x); }
 
-/// Adds what one camera ray of a pixel sees, weighted.
+/// Adds the weighted radiance along one camera ray to a pixel.
 void add_to_pixel(ivec2 pixel, vec3 arriving) {
     uint index = pixel_index(pixel);
     vec3 sum = to_vec(pixel_sums[index].sum);
@@ -27,10 +27,10 @@ void add_to_pixel(ivec2 pixel, vec3 arriving) {
     }
 }
 
-/// Sum with the error of a single rounding, however many terms there are (Kahan).
+/// A sum with the error of a single rounding, however many terms there are (Kahan).
 struct CompensatedSum {
     vec3 sum;
-    vec3 excess; ///< what `sum` has too much
+    vec3 excess; ///< by how much `sum` is too large
 };
 
 void compensated_sum_add(inout CompensatedSum self, vec3 term) {
@@ -43,7 +43,7 @@ void compensated_sum_add(inout CompensatedSum self, vec3 term) {
 
 bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 
-/// Work for a pixel.
+/// The work that a pixel took.
 struct Counts {
     uint shadow_rays;
     uint rejected_samples;
@@ -60,15 +60,15 @@ void add_counts(Counts counts) {
     }
 }
 
-/// Mesa's software device leaves all loops of a shader together after 65535 rounds, and goes on as if they were done: counts
-/// pixels where that was the case.
+/// Counts pixels whose loops the driver ended too early. Mesa's software device leaves all loops after 65535 rounds of all
+/// loops of a shader together, and goes on as if they had finished.
 void note_unfinished() {
     uint rounds = 0u;
     while (rounds < frame.loop_probe) ++rounds;
     if (rounds != frame.loop_probe) atomicAdd(work.unfinished, 1u);
 }
 
-/// Counts pixels that were shaded with a setting that no branch knows.
+/// Counts pixels that were shaded with a setting for which no branch has code.
 void report_unknown_setting() {
     if (has_unknown_setting) atomicAdd(work.unknown_settings, 1u);
 }

@@ -1,12 +1,12 @@
 #ifndef NUSSELT_PASSES_SURFACE_GLSL
 #define NUSSELT_PASSES_SURFACE_GLSL
-/// From drawn triangles to shading points, as src/render_cpu/kernel/surface.h does.
+/// Turns drawn triangles into shading points, as src/render_cpu/kernel/surface.h does.
 
 #include "nusselt/ltc/ltc.glsl"
 #include "passes/texture.glsl"
 
-/// Smallest cosine between shading normal and direction to the eye: normals of a mesh that face away from the eye are bent
-/// back to it.
+/// The smallest cosine between the shading normal and the direction to the eye: normals of a mesh that face away from the
+/// eye are bent back to it.
 const float kSmallestEyeCosine = 1e-3;
 
 /// Shadow rays start off the surface by this share of the scene's radius ...
@@ -22,8 +22,8 @@ struct Surface {
     Frame shading;         ///< shading_frame() of the shading normal, on the side of the eye as well
     vec3 wo;               ///< unit direction to the eye, in shading space
     float offset;          ///< how far along the geometric normal shadow rays start [m]
-    int light;             ///< polygonal light that the surface belongs to, -1 for none
-    // What materials and textures say.
+    int light;             ///< number of the light that the surface belongs to, -1 for none
+    // From the material and its textures.
     bool is_frostbite;
     vec3 diffuse;
     vec3 f0;
@@ -47,8 +47,8 @@ vec3 world_normal(int instance, vec3 n) {
                 m[6] * n.x + m[7] * n.y + m[8] * n.z);
 }
 
-/// Rounding errors of a point in the world are below those of a coordinate of this size.
-/// \param p in object space.
+/// A coordinate whose rounding errors are larger than those of the point in the world.
+/// \param p in object space
 float largest_coordinate(int instance, vec3 p) {
     if (instance < 0) return largest_component(p);
     float m[12] = instances[instance].world_from_object;
@@ -58,20 +58,20 @@ float largest_coordinate(int instance, vec3 p) {
     return instances[instance].rounding * largest_component(x);
 }
 
-/// Directions along a surface, in the world.
+/// Two tangents of a surface, in the world.
 struct Tangents {
     vec3 u, v;
     float volume; ///< normal . u x v
 };
 
 /// The derivatives of the position by the texture coordinates, times the determinant.
-/// \param du,dv of the edges
+/// \param du,dv differences of the texture coordinates along the edges
 Tangents position_derivatives(vec2 du, vec2 dv, vec3 e1, vec3 e2, vec3 n) {
     return Tangents(dv.y * e1 - dv.x * e2, du.x * e2 - du.y * e1, dot(n, cross(e1, e2)));
 }
 
-/// What pbrt v3 has in their place on meshes with normals: orthonormal in the object, and both reversed.
-/// \param metric what other meshes have.
+/// The tangents that pbrt v3 uses instead on meshes with normals: orthonormal in the object, and both reversed.
+/// \param metric the tangents of other meshes
 Tangents tangents_in_uv(DrawnTriangle drawn, TriangleEdges edges, vec2 at, vec2 du, vec2 dv, vec3 n, Tangents metric) {
     vec3 normal = nusselt_normalize(mesh_normal(drawn.triangle, at));
     if (!(dot(normal, normal) > 0.5)) return metric;
@@ -113,7 +113,7 @@ vec3 perturbed_normal(DrawnTriangle drawn, TriangleEdges edges, TriangleEdges wo
                         (material.bump_texture.scale[1] * derivatives.y) * cross(n, along.u);
         perturbed = nusselt_normalize(n - (material.bump_height / along.volume) * gradient);
     }
-    // Without texture coordinates there are no directions. NaN fails the second comparison.
+    // Without texture coordinates the tangents are undefined. NaN fails the second comparison.
     return determinant != 0.0 && dot(perturbed, perturbed) > 0.5 ? perturbed : n;
 }
 
@@ -122,7 +122,7 @@ vec3 perturbed_normal(DrawnTriangle drawn, TriangleEdges edges, TriangleEdges wo
 /// \returns the normal on the side of the eye, bent to it where it faces away
 vec3 visible_normal(vec3 n, vec3 wo) { return nusselt_normalize(n + nusselt_max(kSmallestEyeCosine - dot(n, wo), 0.0) * wo); }
 
-/// A factor above 1 is good for dark images, but reflectances must not exceed 1.
+/// Factors above 1 brighten dark images, but reflectances must not exceed 1.
 vec3 times_texture(vec3 factor, TextureLookup lookup, vec2 uv) {
     return nusselt_min(factor * look_up_texture(lookup.texture, lookup_place(lookup, uv)), vec3(1.0));
 }
@@ -140,8 +140,8 @@ void look_up_material(inout Surface surface, MaterialRecord material, vec2 uv) {
         surface.roughness = times_texture(vec3(surface.roughness), material.roughness_texture, uv).x;
 }
 
-/// \param drawn not a tube
-/// \param ray   that hits it
+/// \param drawn a surface
+/// \param ray   a camera ray that hits it
 Surface make_surface(DrawnTriangle drawn, Ray ray) {
     vec3 wo = -nusselt_normalize(ray.direction);
     TriangleEdges edges = triangle_edges(drawn.triangle);

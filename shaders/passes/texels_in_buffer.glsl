@@ -1,6 +1,6 @@
 #ifndef NUSSELT_PASSES_TEXELS_IN_BUFFER_GLSL
 #define NUSSELT_PASSES_TEXELS_IN_BUFFER_GLSL
-/// Codes of texels in the buffer that has the values of textures as well: on any device, as far as that buffer reaches.
+/// Codes of texels in the same buffer as the values of textures: works on any device, up to the size limit of buffers.
 
 #include "passes/scene.glsl"
 
@@ -12,7 +12,7 @@ uint code_at(TextureRecord texture_record, uint index) {
 }
 
 /// \param number of the texture
-/// \returns of grey textures the code as x
+/// \returns for grey textures the code as x
 uvec3 texel_codes(uint number, TextureRecord texture_record, int column, int row) {
     uint texel = uint(row) * uint(texture_record.width) + uint(column);
     uint index = uint(texture_record.channels) * texel;

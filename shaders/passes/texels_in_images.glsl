@@ -1,6 +1,6 @@
 #ifndef NUSSELT_PASSES_TEXELS_IN_IMAGES_GLSL
 #define NUSSELT_PASSES_TEXELS_IN_IMAGES_GLSL
-/// Codes of texels in images of their own: on devices where shaders index images, as many and as large as fit their memory.
+/// Codes of texels in one image for each texture, on devices whose shaders can index images.
 
 #extension GL_EXT_nonuniform_qualifier : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,7 +1,7 @@
 #ifndef NUSSELT_PASSES_TEXTURE_GLSL
 #define NUSSELT_PASSES_TEXTURE_GLSL
-/// Texture lookups. Filtered here, not by samplers: their weights have eight bits, and images shall agree with those of
-/// the CPU (src/render_cpu/kernel/texture.h).
+/// Texture lookups. The weights of samplers have eight bits only, so this code filters: images must agree with those of the
+/// CPU (src/render_cpu/kernel/texture.h).
 
 #ifndef TEXTURE_IMAGES
 #error TEXTURE_IMAGES must be 1 where the device indexes images in shaders, else 0
@@ -19,7 +19,7 @@
 struct TexelPair {
     int first, second;
     float weight;   ///< of the second
-    float coverage; ///< share of both that lies within the texture
+    float coverage; ///< fraction of both that lies within the texture
 };
 
 TexelPair texel_pair(float coordinate, int size, TextureRecord texture_record) {
@@ -29,7 +29,7 @@ TexelPair texel_pair(float coordinate, int size, TextureRecord texture_record) {
     float sound = is_finite(coordinate) ? coordinate : 0.0;
     bool repeats = texture_record.wrap == kWrapRepeat;
     precise float scaled = (repeats ? sound - floor(sound) : sound) * count;
-    // Beyond one texel outside of a texture that does not repeat nothing changes any more.
+    // Textures that do not repeat are constant from one texel outside on.
     precise float position = texture_record.is_nearest != 0u ? floor(scaled) : scaled - 0.5;
     position = max(min(position, count + 1.0), -2.0);
     float below = floor(position);
@@ -40,7 +40,7 @@ TexelPair texel_pair(float coordinate, int size, TextureRecord texture_record) {
                      max(min(min(position + 1.0, count - position), 1.0), 0.0));
 }
 
-/// One number of a texel.
+/// One channel of a texel.
 float decoded(TextureRecord texture_record, uint code) {
     return uintBitsToFloat(texture_record.packing == 0u ? code : texture_words[texture_record.first_value + code]);
 }
@@ -52,7 +52,7 @@ vec3 texel_at(uint number, TextureRecord texture_record, int column, int row) {
     return vec3(red, decoded(texture_record, codes.y), decoded(texture_record, codes.z));
 }
 
-/// \param uv times the scale of the lookup, plus its offset.
+/// \param uv see lookup_place()
 vec3 look_up_texture(uint number, vec2 uv) {
     TextureRecord texture_record = textures[number];
     TexelPair x = texel_pair(uv.x, texture_record.width, texture_record);
@@ -65,13 +65,13 @@ vec3 look_up_texture(uint number, vec2 uv) {
     return texture_record.wrap == kWrapBlack ? (x.coverage * y.coverage) * value : value;
 }
 
-/// Where a surface with these texture coordinates looks up a texture.
+/// The place at which a surface with these texture coordinates looks up a texture.
 vec2 lookup_place(TextureLookup lookup, vec2 uv) {
     return vec2(lookup.scale[0] * uv.x + lookup.offset[0], lookup.scale[1] * uv.y + lookup.offset[1]);
 }
 
-/// The derivatives of a height by the two texture coordinates, as differences over one texel: bilinear textures have
-/// jumps in their derivatives, these differences have none.
+/// The derivatives of a height by the two texture coordinates, as differences over one texel: those are continuous, while
+/// the derivatives of bilinear textures jump.
 vec2 height_derivatives(uint number, vec2 uv) {
     vec2 size = vec2(float(textures[number].width), float(textures[number].height));
     vec2 half_texel = vec2(0.5) / size;
@@ -81,7 +81,7 @@ vec2 height_derivatives(uint number, vec2 uv) {
                        look_up_texture(number, uv + y).x - look_up_texture(number, uv - y).x);
 }
 
-/// The probability that a surface is there.
+/// The probability that a ray meets a surface.
 float alpha_of(MaterialRecord material, vec2 uv) {
     if ((kTextureKinds & material.texture_kinds & kAlphaTexture) == 0u) return material.alpha;
     vec2 at = lookup_place(material.alpha_texture, uv);

@@ -1,10 +1,10 @@
 #ifndef NUSSELT_PASSES_TRACE_BVH_GLSL
 #define NUSSELT_PASSES_TRACE_BVH_GLSL
-/// Shadow rays by the hierarchy of src/visibility/triangle_bvh.h. A shader that includes this file has declared before
-/// (interface/bvh.h has the structs):
+/// Traces shadow rays in the hierarchy of src/visibility/triangle_bvh.h. A shader that includes this file must declare
+/// before (interface/bvh.h has the structs):
 ///
 ///     buffers with arrays `BvhNode bvh_nodes[]`, `BvhTriangle bvh_triangles[]`, `BvhInstance bvh_instances[]`;
-///     constants `bool kHasInstances` and `bool kHasPartial`: what there is in the scene;
+///     constants `bool kHasInstances` and `bool kHasPartial`: whether the scene has such surfaces;
 ///     `float alpha_at(uint triangle, vec2 barycentrics, uint instance)`: alpha of Scene::triangles[triangle] at
 ///     v0 + x (v1 - v0) + y (v2 - v0), as part of Scene::instances[instance] or with ~0u for those of the world.
 
@@ -31,7 +31,7 @@ BvhRay bvh_ray(vec3 origin, vec3 direction, float t_far) {
     BvhRay ray;
     ray.origin = origin;
     ray.t_far = t_far * reciprocal_power_of_two(scale);
-    // Parallel to the sides of boxes: far steeper than single precision tells.
+    // Rays parallel to the sides of boxes become steeper than single precision can tell.
     vec3 steepest = vec3(1e-18);
     ray.inverse = 1.0 / mix(d, mix(steepest, -steepest, lessThan(d, vec3(0.0))), lessThan(abs(d), steepest));
     // The shear of S. Woop, C. Benthin, I. Wald 2013, Watertight Ray/Triangle Intersection, JCGT 2(1), without sorting axes.
@@ -78,7 +78,7 @@ vec3 sheared(BvhRay ray, vec3 corner) {
     return q;
 }
 
-/// On which side of the edge from a to b the ray passes. A difference of two rounded products has never the wrong sign, but
+/// On which side of the edge from a to b the ray passes. A difference of two rounded products never has the wrong sign, but
 /// may vanish; with the corners swapped it is exactly the negative.
 float edge_side(vec3 a, vec3 b) {
     precise float side = b.x * a.y - b.y * a.x;
@@ -93,7 +93,7 @@ bool hits_triangle(BvhRay ray, BvhTriangle triangle, out vec2 barycentrics) {
     vec3 weights = vec3(edge_side(b, c), edge_side(c, a), edge_side(a, b));
     float least = min(weights.x, min(weights.y, weights.z));
     float most = max(weights.x, max(weights.y, weights.z));
-    // Edges belong to both sides, so that nothing passes between neighbours.
+    // Edges belong to both triangles, so that no ray passes between neighbours.
     if (least < 0.0 && most > 0.0) return false;
     float sum = weights.x + weights.y + weights.z;
     if (sum == 0.0) return false;
@@ -111,10 +111,10 @@ BvhRay ray_in_space(ShadowRay ray, uint number) {
     return bvh_ray(linear * ray.origin + vec3(m[3], m[7], m[11]), linear * ray.direction, ray.t_far);
 }
 
-/// Goes on to the next leaf whose box the ray hits, which is where lanes wait for each other: those of a group then test
-/// triangles together.
-/// \param node where to begin; then what follows the leaf
-/// \returns the link of the leaf, kBvhInner if there are no more before the end
+/// Finds the next leaf whose box the ray hits. Lanes of a group wait for each other there, and then test triangles
+/// together.
+/// \param node where to begin; afterwards the node that follows the leaf
+/// \returns the link of the leaf, kBvhInner if none follows
 uint next_leaf(BvhRay ray, inout uint node, uint end) {
     uint leaf = kBvhInner;
     while (node < end && leaf == kBvhInner) {
@@ -127,7 +127,7 @@ uint next_leaf(BvhRay ray, inout uint node, uint end) {
     return leaf;
 }
 
-// Flags and not returns leave the loops below: where drivers turn returns into flags, these guard all that follows, which
+// The loops below end by flags: drivers that turn returns into flags would guard all code that follows with them, which
 // costs a quarter of the rays per second.
 
 /// \param local the ray where the leaf is
@@ -148,14 +148,14 @@ bool hits_leaf(ShadowRay ray, BvhRay local, uint index, uint instance) {
     return hits;
 }
 
-/// Whether something is in the way from the origin to origin + t_far * direction, both ends excluded. Rays with NaN,
+/// Whether a surface lies between the origin and origin + t_far * direction, both ends excluded. Rays with NaN,
 /// coordinates beyond 1e18, a direction of zero or a negative t_far count as blocked.
 bool occluded(vec3 origin, vec3 direction, float t_far) {
     ShadowRay ray = ShadowRay(origin, direction, t_far);
     if (!is_valid(ray)) return true;
     uint space = 0u; // number of an instance
     uint node = bvh_instances[0].first_node;
-    uint node_of_world = node; // where to go on after an instance
+    uint node_of_world = node; // where the traversal continues after an instance
     for (;;) {
         BvhRay local = ray_in_space(ray, space);
         uint end = bvh_instances[space].end_node;

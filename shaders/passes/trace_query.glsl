@@ -1,7 +1,7 @@
 #ifndef NUSSELT_PASSES_TRACE_QUERY_GLSL
 #define NUSSELT_PASSES_TRACE_QUERY_GLSL
-/// Shadow rays by ray queries (Vulkan 1.2, GL_EXT_ray_query). A shader that includes this file has declared before
-/// (interface/query.h has the struct, src/visibility/query_geometry.h makes what they hold):
+/// Traces shadow rays by ray queries (Vulkan 1.2, GL_EXT_ray_query). A shader that includes this file must declare before
+/// (interface/query.h has the struct, src/visibility/query_geometry.h makes the contents):
 ///
 ///     `accelerationStructureEXT query_scene`: of bottom levels with opaque triangles as geometry 0 and partial ones as
 ///     geometry 1, custom indices being the numbers of instances;
@@ -20,7 +20,7 @@ bool occluded(vec3 origin, vec3 direction, float t_far) {
     rayQueryInitializeEXT(query, query_scene, gl_RayFlagsTerminateOnFirstHitEXT, 0xffu, origin, 0.0, direction, t_far);
     while (rayQueryProceedEXT(query)) {
         if (!kHasPartial) continue;
-        // Only surfaces that are partly there ask.
+        // Only surfaces with an alpha below 1 are candidates.
         uint number = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false));
         uint primitive = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
         uint triangle = query_partial_triangles[query_instances[number].first_partial + primitive];

@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-/// The number of the triangle that a camera ray hits, plus one.
+/// Writes the number of the triangle that a camera ray hits, plus one.
 
 #include "passes/shadow_ray.glsl"
 #include "passes/texture.glsl"
@@ -22,7 +22,7 @@ bool is_there(Ray ray) {
 void main() {
     Ray ray = camera_ray(ivec2(gl_FragCoord.xy));
     float t = (plane.w - dot(plane.xyz, ray.origin - to_vec(scene.origin))) / dot(plane.xyz, ray.direction);
-    // Triangles that are seen edge-on.
+    // The division is inaccurate for triangles that are seen edge-on.
     t = clamp(t, distances.x, distances.y);
     if (!(t > 0.0)) discard;
     if (kHasPartial && !is_there(ray)) discard;

@@ -5,9 +5,9 @@
 #include "passes/scene.glsl"
 
 layout(location = 0) flat out uint drawn_number;
-/// Of the triangle, relative to the origin of the camera: a normal of any length, and its product with all points.
+/// The plane of the triangle relative to the origin of the camera: a normal of any length, and its product with all points.
 layout(location = 1) flat out vec4 plane;
-/// Smallest and largest distance of its vertices, in units of the directions of camera rays.
+/// The smallest and largest distance of its vertices, in units of the directions of camera rays.
 layout(location = 2) flat out vec2 distances;
 
 /// Clip coordinates x, y and w. \param p relative to the origin of the camera.
@@ -17,7 +17,7 @@ vec3 clip_coordinates(vec3 p) {
                 m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]);
 }
 
-/// \param p as above.
+/// \param p relative to the origin of the camera
 float distance_along_rays(vec3 p) {
     float m[4] = scene.distance_from_world;
     return m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3];
@@ -34,7 +34,7 @@ void main() {
     DrawnTriangle drawn = drawn_triangle(drawn_number);
     plane = vec4(0.0);
     distances = vec2(0.0);
-    // What is flat comes from the first vertex.
+    // Flat outputs come from the first vertex.
     if (corner == 0u) {
         vec3 a = from_camera(drawn, 0u);
         vec3 b = from_camera(drawn, 1u);

@@ -1,5 +1,5 @@
 #pragma once
-/// The processor as a backend.
+/// The backend that renders on the processor.
 
 #include "base/isa.h"
 #include "render/backend.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// Frames as kernels see them.
+/// Frames in the form that kernels write to.
 
 #include "render/frame.h"
 #include "render_cpu/kernel.h"
@@ -8,7 +8,7 @@
 
 namespace nusselt::render_cpu {
 
-/// The arrays in which a kernel stores the layers of a frame, valid as long as these layers.
+/// The arrays in which a kernel stores the layers of a frame. They are valid as long as the layers are.
 class FrameTargets {
 public:
     explicit FrameTargets(Frame& frame);

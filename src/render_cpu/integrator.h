@@ -18,7 +18,7 @@ struct Integrator {
     std::array<RenderTile, 3> kernels; ///< in the order of Isa
 };
 
-/// The first one is the default.
+/// All integrators; the first one is the default.
 std::span<const Integrator> integrators();
 
 /// The kernel, which must only be called where the instruction set is supported.

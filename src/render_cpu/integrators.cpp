@@ -2,7 +2,7 @@
 
 namespace nusselt::render_cpu {
 
-// Each one is in kernel/integrators, in the file of its name.
+// Each one is in the file of its name in kernel/integrators.
 RenderTile direct_light(LaneCount<4>), direct_light(LaneCount<8>), direct_light(LaneCount<16>);
 
 std::span<const Integrator> integrators() {

@@ -1,5 +1,5 @@
 #pragma once
-/// What the renderer hands to the kernels: plain data only, so that code compiled for different instruction
+/// The data that the renderer passes to kernels: plain data only, so that code compiled for different instruction
 /// sets agrees on it. No type of the library appears here, nor any inline function.
 
 #include "base/isa.h"
@@ -57,59 +57,59 @@ enum TextureKind : std::uint32_t {
 struct RenderJob;
 struct LightSet;
 
-/// A packet of shading points that get light. Each instruction set derives its own from it.
+/// A packet of shading points that receive light. Each instruction set derives its own type.
 struct LitPacket {};
 
 /// Adds the radiance that a packet reflects of one light.
 /// \param index among the lights of the set
 using AddLight = void (*)(LitPacket& packet, const LightSet& lights, std::int32_t index) noexcept;
 
-/// Lights of one kind may have up to so many shapes, each with code of its own.
+/// The largest number of shapes of one kind of light. Each shape has its own code.
 inline constexpr int kMostShapes = 2;
 
-/// What kernels know of a kind of light, compiled for one instruction set.
+/// The code for a kind of light, compiled for one instruction set.
 struct LightCode {
-    /// How a job takes the light of each shape.
+    /// Chooses how a job samples or integrates the lights of each shape.
     void (*choose)(const RenderJob& job, AddLight (&add)[kMostShapes]) noexcept;
-    /// Which shape a light has.
+    /// The shape of a light, an index into LightSet::add.
     std::int32_t (*shape_of)(const LightSet& lights, std::int32_t index) noexcept;
-    /// The radiance that a ray sees of a light that it meets.
+    /// The radiance along a ray that meets the light.
     scene::Float3 (*emission)(const LightSet& lights, std::int32_t index,
                               const scene::Float3& direction) noexcept;
 };
 
 /// The lights of one kind.
 struct LightSet {
-    const void* records; ///< in the form that the code of this kind knows
+    const void* records; ///< in the form that the code of this kind reads
     std::int32_t first;  ///< number of its first light among all lights of the scene
     std::int32_t count;
     LightCode code;
     AddLight add[kMostShapes];
 };
 
-/// As LtcTableView, of the specular Frostbite BRDF; no entries if the job has no use for them.
+/// The LtcTableView of the specular Frostbite BRDF; without entries if the job does not use them.
 struct LtcTableRecord {
     const float* entries;
     std::int32_t roughnesses, inclinations, f0s;
 };
 
-/// An instance as kernels need it, floats only.
+/// An instance as kernels need it, in floats only.
 struct InstanceRecord {
     float world_from_object[12]; ///< as Instance::world_from_object
     /// Rows of three: inverse transpose of the linear part, times a number above 0.
     float normal_from_object[9];
     float handedness; ///< -1 for mirror images, else 1
-    float rounding;   ///< how many times rounding errors grow on the way to the object and back
+    float rounding;   ///< factor by which rounding errors grow on the way to the object and back
 };
 
-/// How camera rays spread over a pixel along one axis.
+/// The distribution of camera rays over a pixel along one axis.
 struct FilterAxis {
     float reach;             ///< as PixelFilterTable::reach; the radius of a box [pixels]
     const float* cumulative; ///< see PixelFilterTable, null for boxes
     const float* weights;
 };
 
-/// Views of the arrays of a scene::Scene, with what kernels need precomputed.
+/// Views of the arrays of a scene::Scene, and of precomputed arrays.
 struct KernelScene {
     const scene::Float3* positions;
     const scene::Float3* normals;
@@ -134,7 +134,7 @@ struct KernelScene {
     float radius; ///< of the scene [m]
 };
 
-/// Where jobs store layers beside the image, each in the form of RenderJob::pixels. Null for those that are not wanted.
+/// Where jobs store layers beside the image, each in the form of RenderJob::pixels. Layers that nobody asked for are null.
 struct LayerTargets {
     float* albedo;
     float* normal;
@@ -169,17 +169,17 @@ struct RenderJob {
     std::int32_t y_begin;
     std::int32_t width; ///< of the image
     float* pixels;      ///< three floats for each, as image::Image
-    bool has_layers;    ///< whether any layer is wanted
+    bool has_layers;    ///< whether any layer was asked for
     LayerTargets layers;
 };
 
-/// Floats per emitter that a kernel needs to sum up layers of lights: two vectors for up to 16 lanes.
+/// Floats per emitter in which a kernel sums up layers of lights: two vectors for up to 16 lanes.
 inline constexpr std::size_t kLightSumFloats = 2 * 3 * 16;
 
-/// Working memory that line samples take.
+/// Working memory for line samples.
 inline constexpr std::size_t kLineMemoryBytes = std::size_t(1) << 16;
 
-/// Work done for tiles. Times are ticks of the time stamp counter.
+/// The work that tiles took. Times are ticks of the time stamp counter.
 struct TileStatistics {
     std::uint64_t primary_ticks;
     std::uint64_t shading_ticks;
@@ -187,7 +187,7 @@ struct TileStatistics {
     std::uint64_t primary_rays;
     std::uint64_t shadow_rays;
     std::uint64_t rejected_samples; ///< see RenderStatistics
-    // Of line samples, see LineStatistics.
+    // For line samples, see LineStatistics.
     std::uint64_t line_visibility_ticks;
     std::uint64_t lines;
     std::uint64_t line_parts;
@@ -198,15 +198,15 @@ struct TileStatistics {
 
 /// Working memory of one thread, aligned to 64 bytes.
 struct TileMemory {
-    float* light_sums; ///< kLightSumFloats for each emitter; not used without layers of lights
-    void* lines;       ///< kLineMemoryBytes; not used without line samples
+    float* light_sums; ///< kLightSumFloats for each emitter; unused without layers of lights
+    void* lines;       ///< kLineMemoryBytes; unused without line samples
 };
 
 /// Renders a tile and adds its work to the statistics. Any number of threads may render different tiles.
 using RenderTile = void (*)(const RenderJob& job, const Tile& tile, const TileMemory& memory,
                             TileStatistics& statistics);
 
-/// Tells kernels apart that are compiled from the same source for different instruction sets.
+/// Distinguishes kernels that are compiled from the same source for different instruction sets.
 template <int kLanes>
 struct LaneCount {};
 

@@ -102,6 +102,11 @@ std::vector<LightSet> KernelArrays::light_sets(base::Isa isa) const {
     return sets;
 }
 
+bool KernelArrays::take_lines() const {
+    return std::any_of(light_sets_.begin(), light_sets_.end(),
+                       [](const Lights& lights) { return lights.count > 0 && lights.kernel->takes_lines; });
+}
+
 KernelScene KernelArrays::view(BrdfChoice brdf) const {
     KernelScene view{};
     view.positions = scene_.positions.data();

@@ -10,7 +10,7 @@
 
 namespace nusselt::render_cpu {
 
-/// Owns what kernels need beyond the arrays of a scene.
+/// Owns the data that kernels need besides the arrays of a scene.
 class KernelArrays {
 public:
     /// \param scene,kernels must outlive this object
@@ -18,10 +18,12 @@ public:
     ///         a light with fewer than 3 vertices, an instance whose transform cannot be inverted or a pixel filter without weight
     KernelArrays(const scene::Scene& scene, std::span<const LightKernel> kernels);
 
-    /// Views of this object and its scene, but for the sets of lights.
+    /// Views of this object and its scene, without the sets of lights.
     KernelScene view(BrdfChoice brdf) const;
-    /// The lights of each kind, for jobs that have not chosen yet how to take them.
+    /// The lights of each kind, before a job chooses how to sample them.
     std::vector<LightSet> light_sets(base::Isa isa) const;
+    /// Whether the scene has lights that LightSamples::lines samples by lines.
+    bool take_lines() const;
 
 private:
     /// The lights of one kind.

@@ -80,7 +80,7 @@ private:
     std::uint64_t finished_pixels_ = 0;
 };
 
-/// Working memory of one thread, as kernels want it.
+/// Working memory of one thread, aligned as kernels need it.
 class ThreadMemory {
 public:
     ThreadMemory(std::size_t summed_emitters, std::size_t line_bytes)
@@ -106,7 +106,7 @@ Renderer::Renderer(const scene::Scene& scene, int thread_count, const Integrator
     : scene_(scene),
       thread_count_(thread_count),
       integrator_(&integrator),
-      // By default oneTBB refuses more threads than the machine runs at once, with a message of its own.
+      // Otherwise oneTBB refuses more threads than the machine runs at once, with a message of its own.
       thread_limit_(tbb::global_control::max_allowed_parallelism,
                     static_cast<std::size_t>(std::max(thread_count, default_thread_count()))),
       arena_(thread_count),
@@ -157,7 +157,7 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.tracer = tracer;
     job.light_samples = settings.light_samples;
     job.lines = settings.lines;
-    if (settings.light_samples == LightSamples::lines && !scene_.lights.of<scene::PolygonLight>().empty()) {
+    if (settings.light_samples == LightSamples::lines && arrays_.take_lines()) {
         line_bvh = lines_.get(scene_, arena_);
         job.line_bvh = &line_bvh;
     }

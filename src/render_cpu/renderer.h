@@ -1,5 +1,5 @@
 #pragma once
-/// Renders direct light of a scene with all cores.
+/// Renders the direct light of a scene on the processor.
 
 #include "base/isa.h"
 #include "image/image.h"
@@ -55,7 +55,7 @@ public:
     const visibility::EmbreeScene& visibility() const { return embree_; }
 
 private:
-    /// The hierarchy for line samples, which is built when it is needed first.
+    /// The hierarchy for line samples, built when it is first needed.
     class Lines {
     public:
         visibility::LineBvhView get(const scene::Scene& scene, tbb::task_arena& arena);

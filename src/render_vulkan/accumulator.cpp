@@ -90,8 +90,8 @@ FrameTimes Accumulator::add(const interface::FrameRecord& frame) {
 }
 
 std::uint32_t Accumulator::samples_at_once(const interface::FrameRecord& frame) const {
-    // Mesa's software device bounds the rounds of all loops of a shader together, those through the hierarchy included, by
-    // 65535: that is a thousand for each of 32 pairs of samples.
+    // Mesa's software device ends the loops of a shader after 65535 rounds in total, those through the hierarchy included:
+    // that leaves a thousand for each of 32 pairs of samples.
     const std::uint32_t most = scene_.device().description().is_software ? 32 : 4096;
     return std::min(frame.light_samples, most);
 }
@@ -102,7 +102,7 @@ std::uint32_t Accumulator::lights_at_once(const interface::FrameRecord& frame) c
 }
 
 std::uint32_t Accumulator::rows_at_once(const interface::FrameRecord& frame) const {
-    // A tenth of a second or so of a GPU: drivers stop what takes seconds, since displays wait for it.
+    // About a tenth of a second of a GPU: drivers stop work that takes seconds, since displays wait for it.
     constexpr double kMostSamples = 1e8;
     const std::uint32_t lights = std::clamp(scene_.light_count(), 1u, lights_at_once(frame));
     const double rows = kMostSamples / (static_cast<double>(lights) * samples_at_once(frame) * width());

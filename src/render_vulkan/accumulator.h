@@ -1,5 +1,5 @@
 #pragma once
-/// Images on a device that frames are added to.
+/// Images on a device that accumulate frames.
 
 #include "gpu/raster_pass.h"
 #include "image/image.h"
@@ -14,71 +14,71 @@
 
 namespace nusselt::render_vulkan {
 
-/// What the passes of one or more frames took [s].
+/// The time that the passes of one or more frames took on the device [s].
 struct FrameTimes {
-    double visibility = 0; ///< drawing of what camera rays hit
-    double shading = 0;    ///< with shadow rays
+    double visibility = 0; ///< drawing what camera rays hit
+    double shading = 0;    ///< including shadow rays
 };
 
-/// What was done for all frames of an image.
+/// The work that all frames of an image took.
 struct FrameWork {
-    std::uint64_t shadow_rays = 0; ///< with ShadowRays::none those that were left out
+    std::uint64_t shadow_rays = 0; ///< with ShadowRays::none, those left out
     /// Light samples that count as black because their direction, density or reflected radiance is NaN or infinite: 0
     /// unless there is NaN or overflow in the scene, or a bug.
     std::uint64_t rejected_samples = 0;
 };
 
 /// \param device its name, for messages
-/// \throws gpu::Error if shaders were not done or did not know their settings, so that the image is wrong
+/// \throws gpu::Error if the image is wrong: a shader did not finish, or had no code for its settings
 FrameWork checked_work(const interface::WorkRecord& work, const std::string& device);
 
-/// An image of a scene: the mean over frames.
+/// An image of a scene, the mean over frames.
 class Accumulator {
 public:
-    /// \param scene must outlive this.
+    /// \param scene must outlive this object
     /// \throws std::invalid_argument see validate(), and for settings that are not supported
     /// \throws gpu::Error if memory runs out
     Accumulator(const DeviceScene& scene, const render::RenderSettings& settings);
 
-    /// Black pixels, for other settings. \throws std::invalid_argument as the constructor does
+    /// Begins again with black pixels and other settings. \throws std::invalid_argument as the constructor does
     void restart(const render::RenderSettings& settings);
 
-    /// Compiles the shaders for the settings unless that is done. The next frame does it otherwise.
+    /// Compiles the shaders for the settings unless they are ready. Otherwise the next frame does.
     /// \throws gpu::Error if the driver cannot compile them
     void compile();
 
-    /// Adds a frame and waits until it is done.
-    /// \param frame of the settings, see FrameRecords
+    /// Adds a frame and waits until it is finished.
+    /// \param frame made for the settings, see FrameRecords
     /// \throws gpu::Error if the device is lost, or as compile() does
     FrameTimes add(const interface::FrameRecord& frame);
 
     std::uint32_t frames() const { return frames_; }
     std::uint32_t width() const { return pixels_.width; }
     std::uint32_t height() const { return pixels_.height; }
-    /// Black without a frame.
+    /// Black before the first frame.
     image::Image mean() const;
     /// \throws gpu::Error see checked_work()
     FrameWork work() const;
-    /// One interface::PixelSum per pixel: divided by frames() they are the image.
+    /// One interface::PixelSum per pixel, the image times frames().
     const gpu::Buffer& sums() const { return pixels_.sums; }
 
 private:
-    // How much is shaded in one submission.
+    // How much one submission shades.
     std::uint32_t samples_at_once(const interface::FrameRecord& frame) const; ///< of each light
     std::uint32_t lights_at_once(const interface::FrameRecord& frame) const;
     std::uint32_t rows_at_once(const interface::FrameRecord& frame) const;
-    /// The frame in pieces of that size.
+    /// Splits a frame into pieces of that size.
     std::vector<interface::FrameRecord> parts_of(const interface::FrameRecord& frame) const;
 
     const DeviceScene& scene_;
     std::vector<std::uint32_t> constants_; ///< of the shading pass
     PixelBuffers pixels_;
     gpu::RasterPass visibility_;
-    std::optional<ShadingPass> shading_; ///< none until it is compiled
+    std::optional<ShadingPass> shading_; ///< empty until it is compiled
     std::uint32_t frames_ = 0;
 };
 
-/// Names the first setting that is not supported on GPUs; nothing if all are.
+/// Names the first setting that is not supported on GPUs; empty if all are.
 std::optional<std::string> why_unsupported(const render::RenderSettings& settings);
 
 } // namespace nusselt::render_vulkan

@@ -9,8 +9,8 @@ namespace nusselt::render_vulkan {
 
 namespace {
 
-/// Copies the pixels of a tile.
-/// \param from an image with the same pixels as that of the frame
+/// Copies the pixels of a tile to a frame.
+/// \param from an image of the same size as that of the frame
 void copy_tile(const image::Image& from, const render::Tile& tile, render::Frame& frame) {
     const auto width = static_cast<std::size_t>(from.width);
     for (int y = tile.y_begin; y < tile.y_end; ++y) {

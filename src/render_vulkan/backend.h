@@ -1,5 +1,5 @@
 #pragma once
-/// A GPU as a backend.
+/// The backend that renders on a GPU.
 
 #include "gpu/device.h"
 #include "render/backend.h"

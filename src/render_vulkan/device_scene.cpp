@@ -1,5 +1,6 @@
 #include "render_vulkan/device_scene.h"
 
+#include "render_vulkan/record_values.h"
 #include "tables/ltc_table.h"
 
 #include <algorithm>
@@ -31,7 +32,8 @@ DeviceScene::DeviceScene(const gpu::Device& device, const scene::Scene& scene, S
       radius_(scene.radius),
       record_(records.scene),
       drawn_triangles_(records.drawn_triangles),
-      polygon_slots_(records.polygon_slots),
+      polygon_slots_(records.lights.polygon_slots),
+      light_count_(checked_count(scene.lights.size(), "lights")),
       kinds_(records.kinds),
       buffers_(device, records),
       textures_(device, scene.textures, textures),

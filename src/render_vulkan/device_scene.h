@@ -1,5 +1,5 @@
 #pragma once
-/// A scene on a device, and what kinds of things it has.
+/// A scene in the memory of a device, as passes need it.
 
 #include "render_vulkan/scene_buffers.h"
 #include "render_vulkan/scene_textures.h"
@@ -11,28 +11,28 @@
 
 namespace nusselt::render_vulkan {
 
-/// A scene in the memory of a device, as passes need it. It does not refer to the scene that it was made from.
+/// Holds copies: it does not refer to the scene that it was made from.
 class DeviceScene {
 public:
-    /// \param device must outlive this.
+    /// \param device must outlive this object
     /// \param textures see SceneTextures
     /// \throws std::runtime_error if the scene does not fit the device: see make_scene_records(), SceneTextures,
     ///         ShadowScene, upload().
     DeviceScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays,
                 std::optional<TextureAccess> textures = {});
 
-    /// Another camera for the next frames, with the same film. Not while commands run.
+    /// Sets another camera with the same film for the next frames. No commands may be running.
     void set_camera(const scene::Camera& camera);
 
     const gpu::Device& device() const { return device_; }
     const scene::Film& film() const { return film_; }
     std::uint32_t drawn_triangles() const { return drawn_triangles_; }
-    int polygon_slots() const { return polygon_slots_; } ///< see SceneRecords
+    int polygon_slots() const { return polygon_slots_; } ///< see LightRecords
     const SceneKinds& kinds() const { return kinds_; }
-    std::uint32_t light_count() const { return record_.polygon_lights + record_.line_lights; }
+    std::uint32_t light_count() const { return light_count_; }
     const SceneBuffers& buffers() const { return buffers_; }
     const SceneTextures& textures() const { return textures_; }
-    const gpu::Buffer& ltc_table() const { return ltc_table_; } ///< decoded samples
+    const gpu::Buffer& ltc_table() const { return ltc_table_; } ///< decoded
     const ShadowScene& shadows() const { return shadows_; }
 
 private:
@@ -45,6 +45,7 @@ private:
     interface::SceneRecord record_;
     std::uint32_t drawn_triangles_;
     int polygon_slots_;
+    std::uint32_t light_count_;
     SceneKinds kinds_;
     SceneBuffers buffers_;
     SceneTextures textures_;

@@ -13,7 +13,7 @@ namespace {
 
 std::uint32_t groups_for(std::uint32_t pixels) { return (pixels - 1) / interface::kDisplayGroupSide + 1; }
 
-/// From sums to means.
+/// The factor that turns sums into means.
 float scale_of(const Accumulator& image) {
     return image.frames() > 0 ? 1.0f / static_cast<float>(image.frames()) : 0.0f;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// From images on a device to what a window shows.
+/// Turns images on a device into the pixels of a window.
 
 #include "gpu/buffer.h"
 #include "gpu/compute_pipeline.h"
@@ -12,10 +12,10 @@
 
 namespace nusselt::render_vulkan {
 
-/// What is shown of an image.
+/// How an image is shown.
 enum class Shown : std::uint32_t {
     image, ///< with the transfer function of sRGB
-    error, ///< how far it is from the reference, relative to that: black up to 0.1 %, white from 100 % on
+    error, ///< its relative error from the reference: black up to 0.1 %, white from 100 % on
 };
 
 inline constexpr std::array kShown = {Shown::image, Shown::error};
@@ -23,7 +23,7 @@ std::string_view name_of(Shown shown);
 
 struct DisplaySettings {
     double exposure = 0; ///< [stops]
-    double wipe = 1;     ///< the right image is seen to the right of this share of the width
+    double wipe = 1;     ///< the right image begins at this fraction of the width
     Shown shown = Shown::image;
 };
 
@@ -33,23 +33,23 @@ struct DisplayErrors {
     double right = 0;
 };
 
-/// Puts two images of equal size side by side.
+/// Shows two images of equal size side by side.
 class DisplayPass {
 public:
-    /// \param device must outlive this.
+    /// \param device must outlive this object
     /// \throws gpu::Error if memory runs out or the driver cannot compile the shader
     DisplayPass(const gpu::Device& device, std::uint32_t width, std::uint32_t height);
 
-    /// Fills pixels() and waits until that is done. All images have the size of the pass; without a frame they are black.
+    /// Fills pixels() and waits for them. All images have the size of the pass; those without a frame are black.
     /// \throws gpu::Error if the device is lost
     DisplayErrors show(const Accumulator& left, const Accumulator& right, const Accumulator& reference,
                        const DisplaySettings& settings);
 
     std::uint32_t width() const { return width_; }
     std::uint32_t height() const { return height_; }
-    /// Row by row from the top; red in the lowest byte, the highest is 255.
+    /// Row by row from the top, with red in the lowest byte and 255 in the highest.
     const std::vector<std::uint32_t>& pixels() const { return pixels_; }
-    double seconds() const { return seconds_; } ///< that the device took for the last ones
+    double seconds() const { return seconds_; } ///< the time that the last ones took on the device
 
 private:
     const gpu::Device& device_;

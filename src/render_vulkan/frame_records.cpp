@@ -23,7 +23,7 @@ Sampler sampler_of(render::SampleOrder order) {
     return Sampler::sobol;
 }
 
-/// The offset along one axis for a random number. Multiplies the weight.
+/// Maps a random number to the offset along one axis, and multiplies the weight by that of the filter.
 float filtered_offset(const render::PixelFilterTable& table, float radius, float u, float& weight) {
     if (table.cumulative.empty()) return radius * (2 * u - 1);
     const auto next = std::upper_bound(table.cumulative.begin() + 1, table.cumulative.end() - 1, u);
@@ -54,7 +54,7 @@ interface::FrameRecord FrameRecords::make(std::uint32_t number) const {
     }
     record.number = number;
     record.count = count_;
-    // Integrals are the same for all samples.
+    // Integrals need no samples.
     const bool is_analytic = settings_.technique == render::Technique::ltc_analytic;
     record.light_samples = is_analytic ? 1 : static_cast<std::uint32_t>(settings_.samples) / count_;
     record.seed = settings_.seed;

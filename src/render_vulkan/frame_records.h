@@ -8,7 +8,7 @@
 
 namespace nusselt::render_vulkan {
 
-/// Makes the parameters of one frame after the other.
+/// Makes the parameters of each frame.
 class FrameRecords {
 public:
     /// \throws std::runtime_error see make_filter_table()
@@ -16,8 +16,8 @@ public:
 
     std::uint32_t count() const { return count_; }
 
-    /// All pixels have the same offset from their centres: it is random, as the pixel filter distributes it.
-    /// \param number below count().
+    /// All pixels share one random offset from their centres, with the distribution of the pixel filter.
+    /// \param number below count()
     interface::FrameRecord make(std::uint32_t number) const;
 
 private:

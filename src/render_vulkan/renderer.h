@@ -18,17 +18,17 @@ namespace nusselt::render_vulkan {
 /// A scene on a device, ready for rendering. One rendering at a time.
 class VulkanRenderer {
 public:
-    /// \param device must outlive the renderer.
-    /// \param scene  its film gives the size of images.
+    /// \param device must outlive the renderer
+    /// \param scene  its film gives the size of images
     /// \param textures see SceneTextures
     /// \throws std::runtime_error if the scene does not fit the device: see DeviceScene
     VulkanRenderer(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays,
                    std::optional<TextureAccess> textures = {});
     ~VulkanRenderer();
 
-    /// Camera rays are frames: in each of them, all pixels have the same place in their pixel.
-    /// \throws std::invalid_argument see validate(), and for settings that only the CPU has.
-    /// \throws std::runtime_error if the device runs out of memory or is lost.
+    /// Renders one frame per camera ray: in a frame, all rays have the same position in their pixels.
+    /// \throws std::invalid_argument see validate(), and for settings that only the CPU renderer supports
+    /// \throws std::runtime_error if the device runs out of memory or is lost
     /// \returns the mean over all frames that were rendered
     render::RenderResult render(const render::RenderSettings& settings,
                                 const render::RenderMonitor& monitor = {});

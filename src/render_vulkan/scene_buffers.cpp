@@ -16,9 +16,9 @@ SceneBuffers::SceneBuffers(const gpu::Device& device, const SceneRecords& record
       vertices(upload_all(device, records.vertices, "vertices")),
       triangles(upload_all(device, records.triangles, "triangles")),
       instances(upload_all(device, records.instances, "instances")),
-      materials(upload_all(device, records.materials, "materials")),
-      polygon_lights(upload_all(device, records.polygon_lights, "polygonal lights")),
-      polygon_corners(upload_all(device, records.polygon_corners, "corners of lights")),
-      line_lights(upload_all(device, records.line_lights, "linear lights")) {}
+      materials(upload_all(device, records.materials, "materials")) {
+    for (const LightArray& array : records.lights.arrays)
+        lights.push_back(upload_all(device, array.words, array.what));
+}
 
 } // namespace nusselt::render_vulkan

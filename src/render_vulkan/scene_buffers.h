@@ -1,27 +1,28 @@
 #pragma once
-/// A scene in the memory of a device.
+/// The buffers of a scene.
 
 #include "gpu/buffer.h"
 #include "render_vulkan/scene_records.h"
 
 #include <algorithm>
 #include <span>
+#include <vector>
 
 namespace nusselt::render_vulkan {
 
-/// A buffer with these values, and one value's worth of nothing if there are none.
-/// \param what they are, for messages.
-/// \throws gpu::Error if the device has no memory for them or no buffers as large.
+/// A buffer with these values. It has room for one value if there are none, since buffers cannot be empty.
+/// \param what the values are, for messages
+/// \throws gpu::Error if the device has no memory for them, or limits buffers to a smaller size
 template <class T>
 gpu::Buffer upload(const gpu::Device& device, std::span<const T> values, const char* what);
 
-/// The buffers of shaders/passes/scene.glsl and lights, but for textures.
+/// The buffers of shaders/passes/scene.glsl and shaders/passes/lights, without those of textures.
 struct SceneBuffers {
-    /// \throws gpu::Error as upload() does.
+    /// \throws gpu::Error as upload() does
     SceneBuffers(const gpu::Device& device, const SceneRecords& records);
 
     gpu::Buffer scene, vertices, triangles, instances, materials;
-    gpu::Buffer polygon_lights, polygon_corners, line_lights;
+    std::vector<gpu::Buffer> lights; ///< by binding, from interface::kFirstLightBinding on
 };
 
 template <class T>

@@ -2,20 +2,15 @@
 
 #include "render/film.h"
 #include "render/instance_transform.h"
+#include "render_vulkan/record_values.h"
 #include "scene/model/lights/light_geometry.h"
 #include "scene/model/scene_size.h"
 #include "scene/model/vector_math.h"
 #include "visibility/alpha.h"
 
-#include <nusselt/geometry/convex_polygon.h>
-#include <nusselt/geometry/line_segment.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
-#include <limits>
-#include <stdexcept>
 #include <string>
 
 namespace nusselt::render_vulkan {
@@ -23,25 +18,6 @@ namespace nusselt::render_vulkan {
 namespace {
 
 using scene::Double3;
-
-constexpr std::uint64_t kMostNumbers = std::numeric_limits<std::uint32_t>::max();
-
-/// Throws std::runtime_error if 32 bits cannot number that many things.
-std::uint32_t checked_count(std::uint64_t count, const std::string& what) {
-    if (count > kMostNumbers)
-        throw std::runtime_error(std::to_string(count) + " " + what + " exceed the limit of " +
-                                 std::to_string(kMostNumbers) + " on GPUs; use --backend cpu");
-    return static_cast<std::uint32_t>(count);
-}
-
-void copy(const scene::Float3& from, float (&to)[3]) {
-    to[0] = from.x;
-    to[1] = from.y;
-    to[2] = from.z;
-}
-
-Vec3<float> to_vec(const scene::Float3& v) { return {v.x, v.y, v.z}; }
-scene::Float3 to_float3(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
 
 void add_vertices(const scene::Scene& scene, const scene::LightMesh& lights, SceneRecords& records) {
     records.vertices.reserve(scene.positions.size() + lights.positions.size());
@@ -74,7 +50,7 @@ void add_triangles(const scene::Scene& scene, const scene::LightMesh& lights, Sc
     }
 }
 
-/// \returns the number of triangles of the world and of instances
+/// \returns how many triangles the world and all instances have
 std::uint64_t add_instances(const scene::Scene& scene, SceneRecords& records) {
     std::uint64_t drawn = world_triangle_count(scene);
     for (const scene::Instance& instance : scene.instances) {
@@ -120,71 +96,7 @@ interface::MaterialRecord make_record(const scene::Material& material) {
     return record;
 }
 
-template <int N>
-void add_polygon(const scene::PolygonLight& light, SceneRecords& records) {
-    Vec3<float> corners[N] = {};
-    for (std::size_t j = 0; j < light.vertices.size(); ++j) corners[j] = to_vec(light.vertices[j]);
-    const auto polygon = make_polygon<N>(corners, static_cast<int>(light.vertices.size()));
-    for (const Vec3<float>& vertex : polygon.vertex) records.polygon_corners.push_back(to_float3(vertex));
-    for (const Vec3<float>& edge : polygon.edge) records.polygon_corners.push_back(to_float3(edge));
-    interface::PolygonLightRecord& record = records.polygon_lights.emplace_back();
-    copy(to_float3(polygon.normal), record.normal);
-    copy(light.radiance, record.radiance);
-    record.is_two_sided = light.two_sided ? 1 : 0;
-}
-
-/// Adds lights. \returns whether the list is one of polygons
-bool add_polygons(const scene::LightList& list, SceneRecords& records) {
-    const auto* const polygons = dynamic_cast<const scene::LightsOf<scene::PolygonLight>*>(&list);
-    if (polygons == nullptr) return false;
-    const std::vector<scene::PolygonLight>& lights = polygons->lights;
-    const bool are_small = std::all_of(lights.begin(), lights.end(),
-                                       [](const auto& light) { return light.vertices.size() <= 4; });
-    records.polygon_slots = are_small ? 4 : 8;
-    checked_count(6 * lights.size() * 8, "coordinates of lights");
-    for (const scene::PolygonLight& light : lights) {
-        if (are_small)
-            add_polygon<4>(light, records);
-        else
-            add_polygon<8>(light, records);
-    }
-    records.kinds.polygons = !lights.empty();
-    return true;
-}
-
-/// Likewise.
-bool add_lines(const scene::LightList& list, SceneRecords& records) {
-    const auto* const lines = dynamic_cast<const scene::LightsOf<scene::LineLight>*>(&list);
-    if (lines == nullptr) return false;
-    for (const scene::LineLight& light : lines->lights) {
-        const auto line = make_line(to_vec(light.start), to_vec(light.end));
-        interface::LineLightRecord& record = records.line_lights.emplace_back();
-        copy(to_float3(line.p0), record.begin);
-        copy(to_float3(line.s), record.direction);
-        record.len = line.length;
-        record.radius = light.radius;
-        const bool is_solid = light.model == scene::TubeModel::solid;
-        record.is_solid = is_solid ? 1 : 0;
-        (is_solid ? records.kinds.tubes : records.kinds.lines) = true;
-        copy(light.radiance, record.radiance);
-    }
-    return true;
-}
-
-/// The kinds of light that shaders know: each row has a file in shaders/passes/lights.
-constexpr bool (*kLightKinds[])(const scene::LightList& list, SceneRecords& records) = {add_polygons,
-                                                                                        add_lines};
-
-void add_lights(const scene::Scene& scene, SceneRecords& records) {
-    for (const scene::LightList& list : scene.lights) {
-        const auto has_added = [&](const auto& add) { return add(list, records); };
-        if (!std::any_of(std::begin(kLightKinds), std::end(kLightKinds), has_added) && list.size() > 0)
-            throw std::runtime_error(std::string(list.name()) +
-                                     " lights are not supported on GPUs; use --backend cpu");
-    }
-}
-
-/// A function of three coordinates that is linear but for a constant.
+/// An affine function of three coordinates.
 struct Row {
     Double3 linear;
     double constant = 0;
@@ -223,8 +135,8 @@ void set_camera(const scene::Camera& camera, const scene::Film& film, double rad
     record.width = pixels.x_end - pixels.x_begin;
     record.height = pixels.y_end - pixels.y_begin;
 
-    // A point is t (corner + x right + y down) from the origin of a perspective camera, and
-    // x origin_right + y origin_down + t corner from that of an orthographic one.
+    // Relative to the origin, a point is t (corner + x right + y down) for a perspective camera, and
+    // x origin_right + y origin_down + t corner for an orthographic one.
     const bool is_perspective = length(to_double(camera.origin_right)) == 0;
     std::array<Row, 3> raster =
         is_perspective
@@ -239,21 +151,23 @@ void set_camera(const scene::Camera& camera, const scene::Film& film, double rad
     copy(y, record.clip_from_world + 4);
     copy(w, record.clip_from_world + 8);
     copy(raster[2], record.distance_from_world);
-    // Beyond this share of the scene's size, depth is as accurate relative to the distance as single precision is.
+    // Beyond this fraction of the scene's size, depth has the relative accuracy of single precision.
     constexpr double kDepthUnit = 1e-2;
     const double unit = kDepthUnit * radius / length(to_double(camera.corner));
     record.inverse_depth_unit = unit > 0 ? static_cast<float>(1 / unit) : 1;
 }
 
 std::vector<std::uint32_t> constants_of(const SceneKinds& kinds) {
-    const auto number_of = [](bool value) { return value ? 1u : 0u; };
-    return {number_of(kinds.polygons),
-            number_of(kinds.lines),
-            number_of(kinds.tubes),
-            number_of(kinds.instances),
-            number_of(kinds.partial),
-            number_of(kinds.frostbite),
-            kinds.textures};
+    std::vector<std::uint32_t> constants(interface::kConstantCount);
+    const auto set = [&](int number, std::uint32_t value) {
+        constants[static_cast<std::size_t>(number)] = value;
+    };
+    set(interface::kInstancesConstant, kinds.instances ? 1 : 0);
+    set(interface::kPartialConstant, kinds.partial ? 1 : 0);
+    set(interface::kFrostbiteConstant, kinds.frostbite ? 1 : 0);
+    set(interface::kTextureKindsConstant, kinds.textures);
+    std::copy(kinds.lights.begin(), kinds.lights.end(), constants.begin() + interface::kFirstLightConstant);
+    return constants;
 }
 
 SceneRecords make_scene_records(const scene::Scene& scene) {
@@ -272,7 +186,8 @@ SceneRecords make_scene_records(const scene::Scene& scene) {
         records.kinds.frostbite |= material.model == scene::BrdfModel::frostbite;
         records.kinds.textures |= records.materials.back().texture_kinds;
     }
-    add_lights(scene, records);
+    records.lights = make_light_records(scene);
+    records.kinds.lights = records.lights.has_shape;
     records.kinds.instances = !scene.instances.empty();
 
     interface::SceneRecord& record = records.scene;
@@ -282,8 +197,7 @@ SceneRecords make_scene_records(const scene::Scene& scene) {
     record.instances = static_cast<std::uint32_t>(scene.instances.size());
     record.first_light_drawn = static_cast<std::uint32_t>(first_light);
     record.first_light_triangle = static_cast<std::uint32_t>(scene.triangles.size());
-    record.polygon_lights = static_cast<std::uint32_t>(records.polygon_lights.size());
-    record.line_lights = static_cast<std::uint32_t>(records.line_lights.size());
+    std::copy(records.lights.ranges.begin(), records.lights.ranges.end(), record.lights);
     return records;
 }
 

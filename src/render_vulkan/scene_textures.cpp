@@ -15,7 +15,7 @@ namespace {
 
 using Codes = std::vector<TextureCodes>;
 
-/// Images have one or four channels: there are no others that all devices know.
+/// Images have one or four channels: not all devices support other numbers.
 int image_channels(const scene::Texture& texture) { return texture.channels == 1 ? 1 : 4; }
 
 vk::Format image_format(int channels, std::uint32_t packing) {
@@ -37,7 +37,7 @@ std::vector<gpu::ImageDescription> describe(std::span<const scene::Texture> text
     return images;
 }
 
-/// Why texels cannot be in images; nothing if they can.
+/// The reason why texels cannot be in images; empty if they can.
 std::optional<std::string> why_no_images(const gpu::Device& device,
                                          std::span<const gpu::ImageDescription> images) {
     if (images.empty()) return "the scene has no textures";
@@ -56,8 +56,8 @@ std::uint32_t wrap_of(scene::TextureWrap wrap) {
     return interface::kWrapRepeat;
 }
 
-/// Appends bytes to words, and bytes without meaning up to the next word.
-/// \returns the word that they begin with
+/// Appends bytes to words, padded up to the next word.
+/// \returns the index of their first word
 std::uint32_t append(std::span<const std::byte> bytes, std::vector<std::uint32_t>& words) {
     const std::size_t first = words.size();
     words.resize(first + (bytes.size() + sizeof(std::uint32_t) - 1) / sizeof(std::uint32_t));

@@ -11,21 +11,21 @@
 
 namespace nusselt::render_vulkan {
 
-/// Where shaders read texels.
+/// Where shaders read texels from.
 enum class TextureAccess {
-    images, ///< an image for each texture, on devices where shaders choose from images
-    buffer, ///< one buffer for all, which the device limits
+    images, ///< an image for each texture, on devices whose shaders can index images
+    buffer, ///< one buffer for all textures, whose size the device limits
 };
 
 std::string_view name_of(TextureAccess access);
 
-/// Both ways keep all bits of all texels, in as few as that takes: see TextureCodes.
+/// Texels keep all their bits, in as little memory as that takes; see TextureCodes.
 class SceneTextures {
 public:
-    /// \param device   must outlive this.
-    /// \param textures of the scene; not referred to afterwards.
-    /// \param access   without it: images where the device has what that takes, else the buffer.
-    /// \throws gpu::Error if the device does not have what `access` takes, or not enough memory.
+    /// \param device   must outlive this object
+    /// \param textures of the scene; copied
+    /// \param access   default: images where the device supports them, else the buffer
+    /// \throws gpu::Error if the device does not support `access` or runs out of memory
     SceneTextures(const gpu::Device& device, std::span<const scene::Texture> textures,
                   std::optional<TextureAccess> access);
 

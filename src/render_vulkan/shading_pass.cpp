@@ -14,11 +14,12 @@ namespace {
 // As in shaders/passes.
 constexpr std::uint32_t kWorkGroupSide = 8;
 static_assert(kRowsTogether == kWorkGroupSide);
-constexpr std::uint32_t kShadingBuffers = 14; ///< all but those for shadow rays
+/// Storage buffers of all shading passes; those for shadow rays follow.
+constexpr std::uint32_t kShadingBuffers = interface::kFirstBindingAfterLights + 4;
 
 std::uint32_t groups_for(std::uint32_t pixels) { return (pixels - 1) / kWorkGroupSide + 1; }
 
-/// Whether no light is sampled.
+/// Whether the pass integrates lights instead of sampling them.
 bool is_analytic(const std::vector<std::uint32_t>& constants) {
     return constants[interface::kTechniqueConstant] ==
            static_cast<std::uint32_t>(render::Technique::ltc_analytic);
@@ -62,7 +63,6 @@ std::vector<std::uint32_t> shading_constants(const render::RenderSettings& setti
                                              const SceneKinds& kinds) {
     std::vector<std::uint32_t> constants = constants_of(kinds);
     const auto set = [&](int number, auto value) {
-        constants.resize(std::max(constants.size(), static_cast<std::size_t>(number) + 1));
         constants[static_cast<std::size_t>(number)] = static_cast<std::uint32_t>(value);
     };
     set(interface::kTechniqueConstant, settings.technique);
@@ -79,11 +79,11 @@ ShadingPass::ShadingPass(const DeviceScene& scene, const std::vector<std::uint32
     const SceneBuffers& data = scene.buffers();
     const SceneTextures& textures = scene.textures();
     const ShadowScene& shadows = scene.shadows();
-    std::vector<const gpu::Buffer*> buffers = {&data.scene,       &data.vertices,       &data.triangles,
-                                               &data.instances,   &data.materials,      &textures.records(),
-                                               &textures.words(), &data.polygon_lights, &data.polygon_corners,
-                                               &data.line_lights, &scene.ltc_table(),   &pixels.numbers,
-                                               &pixels.sums,      &pixels.work};
+    std::vector<const gpu::Buffer*> buffers = {&data.scene,      &data.vertices,  &data.triangles,
+                                               &data.instances,  &data.materials, &textures.records(),
+                                               &textures.words()};
+    for (const gpu::Buffer& array : data.lights) buffers.push_back(&array);
+    buffers.insert(buffers.end(), {&scene.ltc_table(), &pixels.numbers, &pixels.sums, &pixels.work});
     if (!is_analytic(constants)) {
         for (const gpu::Buffer* buffer : shadows.buffers()) buffers.push_back(buffer);
         if (shadows.structure() != nullptr) pipeline_.bind(*shadows.structure());

@@ -1,5 +1,5 @@
 #pragma once
-/// Shading of what a visibility pass has drawn.
+/// Shades the triangles that a visibility pass has drawn.
 
 #include "gpu/compute_pipeline.h"
 #include "render/settings.h"
@@ -10,24 +10,24 @@
 
 namespace nusselt::render_vulkan {
 
-/// The buffers of shaders/passes/shading.glsl, for an image.
+/// The buffers of shaders/passes/shading.glsl for one image.
 struct PixelBuffers {
-    /// All pixels are zero, and nothing was done.
+    /// All sums and counters are zero.
     PixelBuffers(const gpu::Device& device, std::uint32_t width, std::uint32_t height);
 
-    /// The same as at first.
+    /// Sets all sums and counters to zero.
     void clear();
 
     std::uint32_t width, height;
-    gpu::Buffer numbers; ///< what was drawn
+    gpu::Buffer numbers; ///< of drawn triangles
     gpu::Buffer sums;    ///< one interface::PixelSum per pixel
     gpu::Buffer work;    ///< an interface::WorkRecord
 };
 
-/// What chooses the pipeline for these settings: all but numbers of samples and seeds.
+/// The constants that choose a pipeline: all settings except seeds and numbers of samples.
 std::vector<std::uint32_t> shading_constants(const render::RenderSettings& settings, const SceneKinds& kinds);
 
-/// Rows of pixels that are shaded together.
+/// Rows of pixels that work groups shade together.
 inline constexpr std::uint32_t kRowsTogether = 8;
 
 /// Adds frames to pixels.
@@ -38,8 +38,8 @@ public:
                 const PixelBuffers& pixels);
 
     /// Adds the frame to some rows.
-    /// \param frame its `first_row` is where they begin, a multiple of kRowsTogether
-    /// \param rows how many, at least one; those beyond the image are left out
+    /// \param frame its `first_row` is the first of them, a multiple of kRowsTogether
+    /// \param rows their number, at least one; rows beyond the image are left out
     void record(const gpu::Device::Commands& commands, const interface::FrameRecord& frame,
                 std::uint32_t rows) const;
 

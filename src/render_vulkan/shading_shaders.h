@@ -18,12 +18,12 @@ enum class ShadingPassKind {
     sample_lights_unshadowed
 };
 
-/// The pass that samples lights and traces shadow rays in this way.
+/// The pass that samples lights with this kind of shadow rays.
 ShadingPassKind sampling_pass(ShadowRays way);
 
-/// What a shader is compiled for.
+/// The options that a shader is compiled with.
 struct ShaderVariant {
-    int polygon_slots; ///< 4 or 8, see SceneRecords
+    int polygon_slots; ///< 4 or 8, see LightRecords
     bool fused_fma;    ///< see gpu::has_fused_fma()
     TextureAccess textures;
     bool operator==(const ShaderVariant&) const = default;

@@ -1,5 +1,5 @@
 #pragma once
-/// What shaders trace shadow rays in.
+/// The data in which shaders trace shadow rays.
 
 #include "gpu/acceleration_structure.h"
 #include "gpu/buffer.h"
@@ -16,25 +16,25 @@ namespace nusselt::render_vulkan {
 enum class ShadowRays {
     query, ///< by the device, with VK_KHR_ray_query
     bvh,   ///< by shaders, in a hierarchy of their own
-    none,  ///< not at all: nothing is in the way, for the cost of all else
+    none,  ///< not at all, to measure the cost of everything else
 };
 
 inline constexpr std::array kShadowRays = {ShadowRays::query, ShadowRays::bvh, ShadowRays::none};
 std::string_view name_of(ShadowRays way);
 
-/// Queries where the device has them, unless it is a software device.
+/// Queries where the device supports them, unless it is a software device.
 ShadowRays default_shadow_rays(const gpu::Device& device);
 
 class ShadowScene {
 public:
-    /// \throws gpu::Error if the device has no ray queries but is asked for them, or not enough memory.
+    /// \throws gpu::Error if the device has no memory for it, or does not support the ray queries asked for
     /// \throws std::runtime_error see make_triangle_bvh()
     ShadowScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays way);
 
     ShadowRays way() const { return way_; }
-    /// For the bindings of shaders/passes/sample_lights_*.comp.
+    /// In the order of the bindings of shaders/passes/sample_lights_*.comp.
     std::vector<const gpu::Buffer*> buffers() const;
-    /// The binding after those; null if there is none.
+    /// For the binding after those; null without ray queries.
     const gpu::AccelerationStructure* structure() const { return structure_ ? &*structure_ : nullptr; }
 
 private:

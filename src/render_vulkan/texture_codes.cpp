@@ -11,16 +11,16 @@ namespace {
 
 constexpr std::size_t kMostValues = std::size_t{1} << 16;
 
-/// Numbers different values in the order in which they come.
+/// Numbers distinct values in the order of their first occurrence.
 class ValueList {
 public:
-    /// \param most how many different values there may be, at most kMostValues.
+    /// \param most the largest number of distinct values, at most kMostValues
     explicit ValueList(std::size_t most) : most_(most), slots_(std::bit_ceil(2 * most + 1)) {}
 
-    /// The number of a value; nothing if it would be one too many.
+    /// The number of a value; empty if that would exceed the largest number.
     std::optional<std::uint16_t> number_of(std::uint32_t value) {
         const std::size_t mask = slots_.size() - 1;
-        // Neighbouring floats differ in their low bits, round ones in their high bits: the product's middle has both.
+        // Neighbouring floats differ in their low bits, round ones in their high bits: both reach the middle of the product.
         std::size_t slot = (std::uint64_t{value} * 0x9e3779b97f4a7c15u >> 32) & mask;
         while (slots_[slot] != 0) {
             const std::size_t number = slots_[slot] - 1;
@@ -50,7 +50,7 @@ void write_code(std::size_t code, std::byte* to) {
 } // namespace
 
 TextureCodes encode_texels(std::span<const float> texels) {
-    // Codes of two bytes and values of four take less than numbers of four bytes.
+    // Codes of two bytes and values of four bytes save memory only if at most half of the numbers are distinct.
     const std::size_t most = std::min(kMostValues, texels.size() / 2);
     if (most == 0) return {};
     ValueList list(most);

@@ -32,7 +32,7 @@ struct alignas(64) TriangleBlock {
     /// x, y, z of the first, second and third corner [m], in lexicographic order: the same for all triangles that share
     /// them.
     float corner[9][kBvhWidth];
-    std::int32_t light[kBvhWidth]; ///< index into Scene::polygon_lights, -1 for surfaces that do not emit
+    std::int32_t light[kBvhWidth]; ///< as Scene::triangle_light, -1 for surfaces that do not emit
 };
 
 /// No reference: nothing is there.

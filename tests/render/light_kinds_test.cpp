@@ -2,7 +2,9 @@
 // lights of any kind must reach them.
 
 #include "scenes.h"
-#include "toy_light/disc.h"
+#include "toy_light/disc_kernel.h"
+#include "toy_light/faulty_disc.h"
+#include "toy_light/row_contract.h"
 
 #include "scene/model/bounds.h"
 #include "scene/model/fingerprint.h"
@@ -11,9 +13,11 @@
 #include "scene/model/scene_size.h"
 #include "scene/rig/light_edit.h"
 #include "scene/rig/rig.h"
+#include "scene/rig/rig_text.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -31,13 +35,21 @@ constexpr float kRadius = 0.5f;
 constexpr float kRadiance = 3;
 constexpr int kSize = 16;
 
+/// It shines down.
+DiscLight make_disc() {
+    return {.center = {0, 0, kHeight},
+            .normal = {0, 0, -1},
+            .radius = kRadius,
+            .radiance = {kRadiance, kRadiance, kRadiance}};
+}
+
 void add_disc(scene::Scene& scene, DiscLight light) {
     light.emitter = static_cast<std::uint32_t>(scene.emitters.size());
     scene.emitters.push_back({"disc"});
     scene.lights.of<DiscLight>().push_back(light);
 }
 
-/// A floor, seen from above by parallel rays, below a disc that shines down. The camera is below the disc, too.
+/// A floor, seen from above by parallel rays, below a disc. The camera is below the disc, too.
 scene::Scene make_disc_scene() {
     scene::Scene scene = make_floor(kSize);
     scene.camera = {.origin = {-1, -1, 1},
@@ -46,10 +58,7 @@ scene::Scene make_disc_scene() {
                     .corner = {0, 0, -1},
                     .right = {0, 0, 0},
                     .down = {0, 0, 0}};
-    add_disc(scene, {.center = {0, 0, kHeight},
-                     .normal = {0, 0, -1},
-                     .radius = kRadius,
-                     .radiance = {kRadiance, kRadiance, kRadiance}});
+    add_disc(scene, make_disc());
     scene.radius = scene_radius(scene);
     return scene;
 }
@@ -152,6 +161,32 @@ TEST_F(LightKinds, AreSeenByCameras) {
     EXPECT_EQ(first_value("light.disc"), kRadiance);
 }
 
+TEST_F(LightKinds, EmitWhatTheirRowSays) {
+    // A row whose emission is wrong: no other code may answer for it.
+    std::vector<render_cpu::LightKernel> wrong = kernels_;
+    for (render_cpu::LightCode& code : wrong.back().code)
+        code.emission = [](const render_cpu::LightSet&, std::int32_t, const scene::Float3&) noexcept {
+            return scene::Float3{7, 7, 7};
+        };
+    const scene::Scene scene = make_scene_that_sees_disc();
+    const render_cpu::Renderer disc(scene, 2, integrator_, wrong);
+    EXPECT_EQ(region_means(disc.render({}, base::choose_isa()).image, 1)[0], 7);
+}
+
+TEST_F(LightKinds, TakeLinesIfTheirRowSaysSo) {
+    render::RenderSettings settings;
+    settings.light_samples = render::LightSamples::lines;
+    const scene::Scene scene = make_disc_scene();
+    const auto build_seconds = [&](const std::vector<render_cpu::LightKernel>& kernels) {
+        const render_cpu::Renderer disc(scene, 2, integrator_, kernels);
+        return disc.render(settings, base::choose_isa()).statistics.lines.build_seconds;
+    };
+    EXPECT_EQ(build_seconds(kernels_), 0);
+    std::vector<render_cpu::LightKernel> with_lines = kernels_;
+    with_lines.back().takes_lines = true;
+    EXPECT_GT(build_seconds(with_lines), 0);
+}
+
 TEST_F(LightKinds, WithoutARowAreErrors) {
     const scene::Scene scene = make_disc_scene();
     try {
@@ -172,6 +207,49 @@ TEST_F(LightKinds, ArePartOfTheScene) {
     EXPECT_NE(fingerprint(scene), before);
     EXPECT_EQ(light_report(make_disc_scene()), "0 polygon lights, 0 line lights, 1 disc lights\n"
                                                "  disc: radius 0.5 m, power 7.4022 7.4022 7.4022 W\n");
+}
+
+TEST_F(LightKinds, AreWrittenAsRigs) {
+    EXPECT_EQ(to_rig_text(make_disc_scene()), R"({"version": 1,
+  "lights": [
+    {"light": 0,
+     "name": "disc",
+     "center": [0, 0, 1.5],
+     "radiance": [3, 3, 3]}]}
+)");
+}
+
+template <scene::Fault fault>
+std::vector<std::string> defects_with() {
+    return row_defects(scene::FaultyDisc<fault>{make_disc()});
+}
+
+TEST(LightRows, FulfilTheContract) {
+    const std::vector<std::string> none;
+    EXPECT_EQ(row_defects(make_disc()), none);
+    const std::initializer_list<scene::Float3> corners = {{1, 1, 1}, {2, 1, 1}, {2, 2, 1.5f}, {1, 2, 1.5f}};
+    for (const bool two_sided : {false, true})
+        EXPECT_EQ(row_defects(scene::PolygonLight{
+                      .vertices = corners, .radiance = {1, 2, 3}, .two_sided = two_sided}),
+                  none);
+    for (const auto model : {scene::TubeModel::linear, scene::TubeModel::solid})
+        EXPECT_EQ(
+            row_defects(scene::LineLight{
+                .start = {1, 2, 3}, .end = {2, 2, 3}, .radius = 0.1f, .radiance = {1, 2, 3}, .model = model}),
+            none);
+}
+
+TEST(LightRows, WithAFaultAreNoticed) {
+    using scene::Fault;
+    const std::pair<std::vector<std::string>, const char*> faults[] = {
+        {defects_with<Fault::bounds>(), "add_to"},         {defects_with<Fault::hash>(), "hash"},
+        {defects_with<Fault::area>(), "emitting_area"},    {defects_with<Fault::moment>(), "add_moment"},
+        {defects_with<Fault::validity>(), "is_valid"},     {defects_with<Fault::transform>(), "transform"},
+        {defects_with<Fault::same_shape>(), "same_shape"}, {defects_with<Fault::sides>(), "two_sided"},
+        {defects_with<Fault::mesh>(), "add_mesh"},         {defects_with<Fault::hit>(), "hit"},
+        {defects_with<Fault::description>(), "describe"},  {defects_with<Fault::rig_field>(), "rig_field"}};
+    for (const auto& [defects, member] : faults)
+        EXPECT_EQ(std::count(defects.begin(), defects.end(), member), 1) << member;
 }
 
 TEST_F(LightKinds, AreHitByRays) {

@@ -1,4 +1,6 @@
 #include "common/source_folder.h"
+#include "toy_light/disc.h"
+#include "toy_light/faulty_disc.h"
 #include "viewer/picking.h"
 
 #include "scene/import/importers.h"
@@ -41,6 +43,34 @@ TEST(Picking, FindsPanelsAndTubes) {
         EXPECT_EQ(light_at(scene, {}, scene.camera, {middle.x, middle.y + 200}), std::nullopt);
         EXPECT_EQ(light_at(scene, {}, scene.camera, {1, 1}), std::nullopt);
     }
+}
+
+/// A scene with one light, a metre in front of the camera.
+template <class Light>
+scene::Scene scene_of(Light light) {
+    scene::Scene scene;
+    scene.emitters = {{"light"}};
+    light.center = {0, 0, 1};
+    light.normal = {0, 0, -1};
+    light.radius = 0.1f;
+    scene.lights.of<Light>() = {light};
+    scene.camera = {.corner = {0, 0, 1}, .right = {1e-2f, 0, 0}, .down = {0, 1e-2f, 0}};
+    return scene;
+}
+
+TEST(Picking, FindsLightsOfAnyKind) {
+    const scene::Scene scene = scene_of(scene::DiscLight());
+    EXPECT_EQ(light_at(scene, {}, scene.camera, {9, 0}), std::size_t{0});
+    EXPECT_EQ(light_at(scene, {}, scene.camera, {11, 0}), std::nullopt);
+    LightEdits edits;
+    edits.set(0, {{0.15, 0, 0}, 1, 1, true});
+    EXPECT_EQ(light_at(scene, edits, scene.camera, {9, 0}), std::size_t{0});
+    EXPECT_EQ(light_at(scene, edits, scene.camera, {-9, 0}), std::nullopt);
+    const Double3 way = drag_of(scene, {}, 0, scene.camera, {0, 0}, {20, 0});
+    EXPECT_NEAR(way.x, 0.2, 1e-6);
+    // Where a row misses all rays, no other code finds the light.
+    const scene::Scene never_hit = scene_of(scene::FaultyDisc<scene::Fault::hit>());
+    EXPECT_EQ(light_at(never_hit, {}, never_hit.camera, {0, 0}), std::nullopt);
 }
 
 TEST(Picking, FollowsEdits) {

@@ -6,16 +6,15 @@
 #include "nusselt/geometry/line_segment.glsl"
 #include "passes/lights/light_role.glsl"
 
-layout(set = 0, binding = 9, std430) readonly buffer LineLights { LineLightRecord line_lights[]; };
+layout(constant_id = kLinesConstant) const bool kHasLines = true; ///< linear lights without extent
+layout(constant_id = kTubesConstant) const bool kHasTubes = true;
 
-// Lines come behind polygons.
-uint first_line() { return max(frame.first_light, scene.polygon_lights) - scene.polygon_lights; }
-uint lines_end() { return max(frame.light_end, scene.polygon_lights) - scene.polygon_lights; }
+layout(set = 0, binding = kLineLightsBinding, std430) readonly buffer LineLights { LineLightRecord line_lights[]; };
 
 struct LocalLine {
-    LineSegment shape; ///< in shading space; of tubes the axis
-    bool is_solid;     ///< a tube as the cylinder that it is
-    float radius;      ///< of tubes
+    LineSegment shape; ///< in shading space; for tubes the axis
+    bool is_solid;     ///< a tube, not a linear light
+    float radius;      ///< for tubes
     LightRole role;
 };
 
@@ -36,10 +35,10 @@ LocalLine local_line(Surface surface, uint index) {
     if (is_solid) highest += record.radius * sqrt(nusselt_max(1.0 - local.s.z * local.s.z, 0.0));
     vec3 emission = to_vec(record.radiance);
     if (!is_solid) emission = record.radius * emission;
-    return LocalLine(local, is_solid, record.radius, LightRole(!(highest <= 0.0), emission, scene.polygon_lights + index));
+    return LocalLine(local, is_solid, record.radius, LightRole(!(highest <= 0.0), emission, light_number(kLineKind, index)));
 }
 
-/// Radiance that a ray sees.
-vec3 line_emission(uint index) { return to_vec(line_lights[index].radiance); }
+/// The radiance along a ray that meets the light.
+vec3 line_emission(uint index, vec3 direction) { return to_vec(line_lights[index].radiance); }
 
 #endif

@@ -1,12 +1,12 @@
 #ifndef NUSSELT_PASSES_LIGHTS_LINE_INTEGRALS_GLSL
 #define NUSSELT_PASSES_LIGHTS_LINE_INTEGRALS_GLSL
-/// Integrals over all linear lights and tubes.
+/// Integrates over all linear lights and tubes.
 
 #include "nusselt/ltc/line_shading.glsl"
 #include "passes/lights/line.glsl"
 
 void add_lines(inout Reflected reflected) {
-    for (uint i = first_line(); (kHasLines || kHasTubes) && i < lines_end(); ++i) {
+    for (uint i = first_index(kLineKind); (kHasLines || kHasTubes) && i < end_index(kLineKind); ++i) {
         LocalLine light = local_line(reflected.surface, i);
         if (!light.role.is_lit) continue;
         vec2 integrals =

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_PASSES_LIGHTS_LINE_SAMPLES_GLSL
 #define NUSSELT_PASSES_LIGHTS_LINE_SAMPLES_GLSL
-/// Techniques for linear lights and tubes, and samples of all of them.
+/// Techniques for linear lights and tubes, and the loop that samples these lights.
 
 #include "nusselt/sampling/cylinder_area.glsl"
 #include "nusselt/sampling/cylinder_ltc.glsl"
@@ -13,7 +13,7 @@
 #include "passes/lights/line.glsl"
 #include "passes/lights/techniques.glsl"
 
-/// No sample of the BRDF hits a line.
+/// Samples of the BRDF never hit a line.
 bool is_line_paired(GlossySurface surface) {
     return kStrategies == kStrategiesDiffuseLtc && glossy_surface_is_glossy(surface);
 }
@@ -51,7 +51,7 @@ LightSample techniques_sample(LineTechniques self, int technique, vec2 u) {
     return unknown_sample();
 }
 
-/// Of both techniques. Pairs begin with a projected solid angle.
+/// The densities of both techniques. Pairs begin with a projected solid angle.
 vec2 techniques_pdf(LineTechniques self, vec3 wi) {
     return vec2(line_projected_solid_angle_pdf(self.projected, wi), line_ltc_pdf(self.ltc, wi));
 }
@@ -89,7 +89,7 @@ LightSample techniques_sample(TubeTechniques self, int technique, vec2 u) {
     return unknown_sample();
 }
 
-/// Of both techniques. Pairs begin with a projected solid angle.
+/// The densities of both techniques. Pairs begin with a projected solid angle.
 vec2 techniques_pdf(TubeTechniques self, vec3 wi) {
     return vec2(cylinder_projected_solid_angle_pdf(self.projected, wi), cylinder_ltc_pdf(self.ltc, wi));
 }
@@ -112,7 +112,7 @@ vec2 techniques_integrals(TubeTechniques self) {
 #undef TECHNIQUES
 
 void add_lines(inout Estimate estimate) {
-    for (uint i = first_line(); (kHasLines || kHasTubes) && i < lines_end(); ++i) {
+    for (uint i = first_index(kLineKind); (kHasLines || kHasTubes) && i < end_index(kLineKind); ++i) {
         LocalLine light = local_line(estimate.surface, i);
         if (kHasTubes && light.is_solid)
             add_light(estimate, tube_of(light));

@@ -2,7 +2,7 @@
 #define NUSSELT_PASSES_LIGHTS_POLYGON_GLSL
 /// Polygonal lights as a shading point and a camera see them, as in src/render_cpu/kernel/lights/polygon_light.h.
 
-/// NUSSELT_MAX_VERTICES is LIGHT_VERTICES, or one more where lights are clipped twice.
+// NUSSELT_MAX_VERTICES is LIGHT_VERTICES, or one more where lights are clipped twice.
 #ifndef LIGHT_VERTICES
 #error LIGHT_VERTICES must be 4 or 8: the vertices that each polygonal light has room for
 #endif
@@ -10,11 +10,11 @@
 #include "nusselt/geometry/convex_polygon.glsl"
 #include "passes/lights/light_role.glsl"
 
-layout(set = 0, binding = 7, std430) readonly buffer PolygonLights { PolygonLightRecord polygon_lights[]; };
-/// Of each polygonal light LIGHT_VERTICES vertices, then as many edges.
-layout(set = 0, binding = 8, std430) readonly buffer PolygonCorners { float polygon_corners[]; };
+layout(constant_id = kPolygonsConstant) const bool kHasPolygons = true;
 
-uint polygons_end() { return min(scene.polygon_lights, frame.light_end); }
+layout(set = 0, binding = kPolygonLightsBinding, std430) readonly buffer PolygonLights { PolygonLightRecord polygon_lights[]; };
+/// For each polygonal light LIGHT_VERTICES vertices, then as many edges.
+layout(set = 0, binding = kPolygonCornersBinding, std430) readonly buffer PolygonCorners { float polygon_corners[]; };
 
 struct LocalPolygon {
     ConvexPolygon shape; ///< in shading space
@@ -40,16 +40,17 @@ LocalPolygon local_polygon(Surface surface, uint index) {
     ConvexPolygon world = make_polygon(corners, edges, to_vec(polygon_lights[index].normal));
     ConvexPolygon local = to_shading_space(world, surface.position, surface.shading);
     // A planar light does not light itself, but rounding may put a point of it in front of its plane.
-    bool is_lit = surface.light != int(index);
+    uint number = light_number(kPolygonKind, index);
+    bool is_lit = surface.light != int(number);
     // Comparisons with NaN are false: negated they keep it, so that it is counted.
     if (polygon_lights[index].is_two_sided == 0u) is_lit = is_lit && !(dot(local.normal, local.vertex[0]) >= 0.0);
     float highest = local.vertex[0].z;
     for (int j = 1; j < NUSSELT_MAX_VERTICES; ++j) highest = nusselt_max(highest, local.vertex[j].z);
     is_lit = is_lit && !(highest <= 0.0);
-    return LocalPolygon(local, LightRole(is_lit, to_vec(polygon_lights[index].radiance), index));
+    return LocalPolygon(local, LightRole(is_lit, to_vec(polygon_lights[index].radiance), number));
 }
 
-/// Radiance that a ray sees.
+/// The radiance along a ray that meets the light.
 vec3 polygon_emission(uint index, vec3 direction) {
     bool is_seen =
         polygon_lights[index].is_two_sided != 0u || dot(to_vec(polygon_lights[index].normal), direction) < 0.0;

@@ -1,12 +1,12 @@
 #ifndef NUSSELT_PASSES_LIGHTS_POLYGON_INTEGRALS_GLSL
 #define NUSSELT_PASSES_LIGHTS_POLYGON_INTEGRALS_GLSL
-/// Integrals over all polygonal lights.
+/// Integrates over all polygonal lights.
 
 #include "nusselt/ltc/polygon_shading.glsl"
 #include "passes/lights/polygon.glsl"
 
 void add_polygons(inout Reflected reflected) {
-    for (uint i = frame.first_light; kHasPolygons && i < polygons_end(); ++i) {
+    for (uint i = first_index(kPolygonKind); kHasPolygons && i < end_index(kPolygonKind); ++i) {
         LocalPolygon light = local_polygon(reflected.surface, i);
         if (!light.role.is_lit) continue;
         add_light(reflected, light.role,

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_PASSES_LIGHTS_POLYGON_SAMPLES_GLSL
 #define NUSSELT_PASSES_LIGHTS_POLYGON_SAMPLES_GLSL
-/// Techniques for polygonal lights, and samples of all of them.
+/// Techniques for polygonal lights, and the loop that samples these lights.
 
 #include "nusselt/sampling/polygon_area.glsl"
 #include "nusselt/sampling/polygon_brdf.glsl"
@@ -70,7 +70,7 @@ LightSample techniques_sample(PolygonTechniques self, int technique, vec2 u) {
     return unknown_sample();
 }
 
-/// Of both techniques. Pairs begin with a solid angle or a projected one.
+/// The densities of both techniques. Pairs begin with a solid angle or a projected one.
 vec2 techniques_pdf(PolygonTechniques self, vec3 wi) {
     vec2 pdf;
     if (kTechnique == kTechniqueSolidAngle)
@@ -90,7 +90,7 @@ vec2 techniques_pdf(PolygonTechniques self, vec3 wi) {
     return pdf;
 }
 
-/// What both techniques know of the integrals of the normalised components: nothing of what the BRDF samples.
+/// The integrals of the normalised components, as far as both techniques know them: 0 for samples of the BRDF.
 vec2 techniques_integrals(PolygonTechniques self) {
     float measure;
     if (kTechnique == kTechniqueSolidAngle)
@@ -112,7 +112,7 @@ vec2 techniques_integrals(PolygonTechniques self) {
 #undef TECHNIQUES
 
 void add_polygons(inout Estimate estimate) {
-    for (uint i = frame.first_light; kHasPolygons && i < polygons_end(); ++i)
+    for (uint i = first_index(kPolygonKind); kHasPolygons && i < end_index(kPolygonKind); ++i)
         add_light(estimate, local_polygon(estimate.surface, i));
 }
 

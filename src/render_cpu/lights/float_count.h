@@ -1,5 +1,5 @@
 #pragma once
-/// What kernels can address.
+/// The limit on the indices of kernels.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace nusselt::render_cpu {
 
-/// \throws std::runtime_error if 32-bit indices cannot reach that many numbers
+/// \throws std::runtime_error if 32-bit indices cannot address that many numbers
 inline void check_float_count(std::size_t count, const std::string& what) {
     constexpr std::size_t kMaxFloats = std::numeric_limits<std::int32_t>::max();
     if (count > kMaxFloats)

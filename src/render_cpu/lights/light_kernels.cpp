@@ -7,9 +7,11 @@ namespace nusselt::render_cpu {
 std::span<const LightKernel> light_kernels() {
     static const LightKernel kKernels[] = {
         {make_polygon_records,
-         {polygon_code(LaneCount<4>()), polygon_code(LaneCount<8>()), polygon_code(LaneCount<16>())}},
+         {polygon_code(LaneCount<4>()), polygon_code(LaneCount<8>()), polygon_code(LaneCount<16>())},
+         true},
         {make_line_records,
-         {line_code(LaneCount<4>()), line_code(LaneCount<8>()), line_code(LaneCount<16>())}},
+         {line_code(LaneCount<4>()), line_code(LaneCount<8>()), line_code(LaneCount<16>())},
+         false},
     };
     return kKernels;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Linear lights and tubes in the form that kernels know: plain data, see kernel.h.
+/// Linear lights and tubes in the form that kernels read: plain data, see kernel.h.
 
 #include "render_cpu/kernel.h"
 
@@ -7,7 +7,7 @@
 
 namespace nusselt::render_cpu {
 
-/// A tube, its axis in the form of LineSegment<float>.
+/// A tube, with its axis in the form of LineSegment<float>.
 struct LineRecord {
     scene::Float3 begin;
     scene::Float3 direction;
@@ -18,7 +18,7 @@ struct LineRecord {
     scene::Float3 radiance_times_radius;
 };
 
-/// An array of LineRecord. See LightKernel.
+/// Makes an array of LineRecord, see LightKernel.
 std::shared_ptr<const void> make_line_records(const scene::Scene& scene, const scene::LightList& list);
 
 // In kernel/lights/line.cpp.

@@ -16,7 +16,7 @@ namespace {
 Vec3<float> to_vec(const scene::Float3& v) { return {v.x, v.y, v.z}; }
 scene::Float3 to_float3(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
 
-/// How many vertices the form of a polygon has room for.
+/// How many vertices the record of a polygon has room for.
 std::int32_t slots_of(const scene::PolygonLight& light) { return light.vertices.size() <= 4 ? 4 : 8; }
 
 struct PolygonArrays {

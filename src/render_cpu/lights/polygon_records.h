@@ -1,5 +1,5 @@
 #pragma once
-/// Polygonal lights in the form that kernels know: plain data, see kernel.h.
+/// Polygonal lights in the form that kernels read: plain data, see kernel.h.
 
 #include "render_cpu/kernel.h"
 
@@ -14,7 +14,7 @@ struct PolygonRecord {
     scene::Float3 normal;
     scene::Float3 radiance;
     std::uint32_t first_corner;
-    std::int32_t slots; ///< of vertices, and as many of edges: 4 or 8
+    std::int32_t slots; ///< room for vertices, and for as many edges: 4 or 8
     std::int32_t two_sided;
 };
 
@@ -23,8 +23,8 @@ struct PolygonRecords {
     const scene::Float3* corners;
 };
 
-/// Of the type PolygonRecords. See LightKernel. Fails if polygons have fewer than 3 vertices, or if there are more of them
-/// than 32-bit indices reach.
+/// Makes PolygonRecords, see LightKernel. Fails if a polygon has fewer than 3 vertices, or if the scene has more polygons
+/// than 32-bit indices can address.
 std::shared_ptr<const void> make_polygon_records(const scene::Scene& scene, const scene::LightList& list);
 
 // In kernel/lights/polygon.cpp.

@@ -10,12 +10,12 @@ namespace nusselt::scene {
 
 namespace {
 
-// Largest distance of the pieces of a curved patch from it, relative to its longest side; lights cost time per piece.
+// The largest distance of the pieces of a curved patch from it, relative to its longest side; lights cost time per piece.
 constexpr double kSurfaceTolerance = 1e-3;
 constexpr double kLightTolerance = 1e-2;
-constexpr double kMaxPieces = 1e6; ///< of all patches of a mesh
+constexpr double kMaxPieces = 1e6; ///< for all patches of a mesh
 
-/// Corners in the order of scene files: (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
+/// Values at the corners in the order of scene files: (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
 template <class T>
 using Corners = std::array<T, 4>;
 
@@ -25,7 +25,7 @@ Double3 interpolate(const Corners<Double3>& c, double u, double v) {
 
 struct Patch {
     Corners<Double3> positions;
-    Corners<Double3> normals; ///< zero where there are none
+    Corners<Double3> normals; ///< zero for missing ones
     Corners<Double3> uvs;     ///< z is unused
 
     double longest_side() const {
@@ -72,7 +72,7 @@ void add_planar_patch(const Patch& patch, Mesh& mesh) {
 
 /// \returns the number of pieces per side
 int add_curved_patch(const Patch& patch, double tolerance, int max_pieces, Mesh& mesh) {
-    // Where two triangles replace a piece, they are off by a quarter of its twist in the middle.
+    // In the middle of a piece, the two triangles that replace it are off by a quarter of its twist.
     const double pieces = std::sqrt(length(patch.twist()) / (4 * tolerance * patch.longest_side()));
     const int n = std::clamp(static_cast<int>(std::ceil(pieces)), 1, max_pieces);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());

@@ -21,7 +21,7 @@ namespace nusselt::scene {
 
 namespace {
 
-/// Each shape has triangles of its own, so that files which are named often multiply in memory.
+/// Limits the memory that files take which many shapes name: each shape has its own triangles.
 void check_repeated_meshes(const std::vector<PlacedShape>& shapes, const FormatWords& words) {
     std::unordered_map<std::string, std::uint64_t> sizes;
     std::uint64_t repeated = 0;
@@ -51,7 +51,7 @@ std::vector<BuiltShape> build_shapes(const std::vector<PlacedShape>& shapes,
     return built;
 }
 
-/// Tells materials the coordinates at which their textures are looked up.
+/// Sets the coordinates at which materials look up their textures.
 void set_mappings(const std::vector<BakedTexture>& textures, std::vector<Material>& materials) {
     for (Material& material : materials) {
         for (TextureUse* use : {&material.diffuse_texture, &material.f0_texture, &material.roughness_texture,
@@ -64,8 +64,8 @@ void set_mappings(const std::vector<BakedTexture>& textures, std::vector<Materia
     }
 }
 
-/// "sphere at scene.pbrt:7", the file relative to the folder of the scene, or without a line where there is none. Shapes of
-/// equal names get numbers.
+/// Makes names such as "sphere at scene.pbrt:7", with the file relative to the folder of the scene, and without a line if
+/// it has none. Numbers distinguish equal names.
 class EmitterNames {
 public:
     explicit EmitterNames(const std::filesystem::path& scene) : folder_(scene.parent_path()) {}
@@ -95,7 +95,7 @@ void name_emitters(const std::vector<PlacedShape>& shapes, std::vector<BuiltShap
     }
 }
 
-/// Shifts what triangles refer to by what other meshes have before them.
+/// Shifts the indices of each shape by the vertices and lights of the shapes before it.
 void renumber(std::vector<BuiltShape>& shapes, const FormatWords& words) {
     std::size_t vertices = 0;
     std::size_t triangles = 0;
@@ -104,7 +104,7 @@ void renumber(std::vector<BuiltShape>& shapes, const FormatWords& words) {
         const auto first_vertex = static_cast<std::uint32_t>(vertices);
         const auto first_light = static_cast<std::int32_t>(lights);
         vertices += mesh.positions.size();
-        lights += std::as_const(mesh.lights).of<PolygonLight>().size();
+        lights += std::as_const(mesh.lights).of<SurfaceLight>().size();
         triangles += mesh.triangles.size();
         check_counts(vertices, triangles, words.instance);
         if (first_vertex > 0)
@@ -115,10 +115,10 @@ void renumber(std::vector<BuiltShape>& shapes, const FormatWords& words) {
     }
 }
 
-/// One array of the scene from those of the shapes, which are released: scenes fill the memory, so that there must be
-/// little that exists twice.
-/// \param sizes    how many elements each shape has in the scene
-/// \param missing  value of the elements of shapes without this array
+/// Joins the arrays of the shapes to one of the scene, and releases them: large scenes fill the memory, so that little may
+/// exist twice.
+/// \param sizes    the number of elements of each shape in the scene
+/// \param missing  the value of elements of shapes without this array
 template <class T, class Owner>
 std::vector<T> take_arrays(std::vector<BuiltShape>& shapes, std::vector<T> Owner::*array,
                            const std::vector<std::size_t>& sizes, const T& missing) {
@@ -142,7 +142,7 @@ std::vector<std::size_t> sizes_of(const std::vector<BuiltShape>& shapes, std::ve
     return sizes;
 }
 
-/// The material of the triangles of each shape. Surfaces without one share a black material, which is added.
+/// The material of the triangles of each shape. Adds a black material that surfaces without one share.
 std::vector<std::uint32_t> material_indices(const std::vector<PlacedShape>& shapes,
                                             const std::vector<std::size_t>& triangle_counts,
                                             std::vector<Material>& materials) {
@@ -176,8 +176,8 @@ void join_shapes(const std::vector<PlacedShape>& shapes, const FormatWords& word
     for (BuiltShape& shape : built) scene.lights.append(std::move(shape.lights));
 }
 
-/// The objects that have triangles, and their instances.
-/// \param triangle_counts  of all shapes
+/// Adds the objects that have triangles, and their instances.
+/// \param triangle_counts  for each shape
 void add_instances(const SceneDescription& description, const std::vector<PlacedObject>& objects,
                    const std::vector<std::size_t>& triangle_counts, Scene& scene) {
     std::vector<std::size_t> first_triangle(triangle_counts.size() + 1);

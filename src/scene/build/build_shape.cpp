@@ -14,6 +14,24 @@ namespace nusselt::scene {
 
 namespace {
 
+/// How shapes become lights of one kind that are no surfaces.
+struct LightBuilder {
+    bool (*takes)(const Geometry& geometry, const Emission& emission, const Transform& world_from_object);
+    BuiltShape (*build)(const PlacedShape& placed, const FormatWords& words);
+};
+
+/// Which shapes become which kind of light is decided here: the first row that takes a shape builds it. What no row takes
+/// becomes a surface, whose lights are polygons if it emits.
+constexpr LightBuilder kLightBuilders[] = {{becomes_tube, build_tube}};
+
+/// The row that takes a shape, null if it becomes a surface.
+const LightBuilder* find_light_builder(const Geometry& geometry, const Emission& emission,
+                                       const Transform& world_from_object) {
+    for (const LightBuilder& builder : kLightBuilders)
+        if (builder.takes(geometry, emission, world_from_object)) return &builder;
+    return nullptr;
+}
+
 Mesh read_mesh(const MeshFile& file, SceneBudget& budget) {
     try {
         return file.read(FileBytes(file.path, budget.inflated_bytes).view());
@@ -22,7 +40,7 @@ Mesh read_mesh(const MeshFile& file, SceneBudget& budget) {
     }
 }
 
-/// The triangles of a surface in its own coordinates.
+/// Makes the triangles of a surface in its own coordinates.
 class MeshMaker {
 public:
     MeshMaker(const PlacedShape& placed, SceneBudget& budget, Warnings& warnings)
@@ -42,7 +60,7 @@ private:
     Warnings& warnings_;
 };
 
-/// Whether the emitting side is the reverse of that of the right-hand rule in world space.
+/// Whether the emitting side is opposite to the one that the right-hand rule gives in world space.
 bool flips_orientation(const PlacedShape& placed) {
     return placed.shape->reverse_orientation != (linear_determinant(placed.world_from_object) < 0);
 }
@@ -62,7 +80,7 @@ void move_to_world(const PlacedShape& placed, Mesh& mesh) {
     }
     for (Float3& n : mesh.normals) {
         if (placed.shape->reverse_orientation) n = {-n.x, -n.y, -n.z};
-        // Meshes come with broken normals; the geometric one is better than NaN.
+        // Some meshes have normals with NaN; zero stands for the geometric normal.
         if (!is_valid_coordinate(n)) n = {0, 0, 0};
     }
     constexpr float kMaxTextureCoordinate = 1e6f;
@@ -73,7 +91,7 @@ void move_to_world(const PlacedShape& placed, Mesh& mesh) {
         for (Triangle& triangle : mesh.triangles) std::swap(triangle.vertex[1], triangle.vertex[2]);
 }
 
-/// Renderers normalise normals in float, so their squares must not vanish there.
+/// Renderers normalise normals in single precision, where their squares must not vanish.
 void remove_degenerate_triangles(Mesh& mesh) {
     const auto is_degenerate = [&](const Triangle& triangle) {
         const Double3 p0 = to_double(mesh.positions[triangle.vertex[0]]);
@@ -96,13 +114,17 @@ BuiltShape build_surface(const PlacedShape& placed, SceneBudget& budget, const F
 
 } // namespace
 
+bool becomes_surface(const Geometry& geometry, const Emission& emission, const Transform& world_from_object) {
+    return find_light_builder(geometry, emission, world_from_object) == nullptr;
+}
+
 std::string subject_of(const ShapeDescription& shape) { return "shape \"" + shape.kind + '"'; }
 
 BuiltShape build_shape(const PlacedShape& placed, SceneBudget& budget, const FormatWords& words) {
     const ShapeDescription& shape = *placed.shape;
-    BuiltShape built = becomes_tube(shape.geometry, shape.emission, placed.world_from_object)
-                           ? build_tube(placed, words)
-                           : build_surface(placed, budget, words);
+    const LightBuilder* const light =
+        find_light_builder(shape.geometry, shape.emission, placed.world_from_object);
+    BuiltShape built = light != nullptr ? light->build(placed, words) : build_surface(placed, budget, words);
     built.warnings.append(shape.warnings);
     return built;
 }

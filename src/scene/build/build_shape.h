@@ -1,5 +1,5 @@
 #pragma once
-/// One shape at one place: its triangles and lights.
+/// Builds one shape at one place: its triangles and lights.
 
 #include "scene/build/placed_shape.h"
 
@@ -11,19 +11,23 @@ namespace nusselt::scene {
 
 /// The contribution of one shape to the scene.
 struct BuiltShape : Mesh {
-    std::vector<std::int32_t> triangle_light; ///< empty, or per triangle an index among the polygons
+    /// Empty, or for each triangle the index of a SurfaceLight among those of the shape.
+    std::vector<std::int32_t> triangle_light;
     Lights lights;
     Warnings warnings;
 };
 
+/// Whether the builder turns such a shape into a surface, which needs a material, and not into a light that is none.
+bool becomes_surface(const Geometry& geometry, const Emission& emission, const Transform& world_from_object);
+
 /// The beginning of messages about a shape.
 std::string subject_of(const ShapeDescription& shape);
 
-/// Triangles in world space. Those of emitters are oriented such that (v1 - v0) x (v2 - v0) points to the side that emits:
+/// Makes triangles in world space. Those of emitters are oriented such that (v1 - v0) x (v2 - v0) points to the side that emits:
 /// the side of the shading normals if there are any, else that of the right-hand rule in the space of the shape,
 /// mirrored by `reverse_orientation` and once more by a transform that swaps handedness. Their triangle_light refers to
-/// polygons, to which coplanar neighbours have been merged. Takes the arrays of the shape unless others share them.
-/// Throws SceneError. Touches nothing but this shape, so that shapes may be built in parallel.
+/// polygons, into which coplanar neighbours are merged. Takes the arrays of the shape unless others share them.
+/// Throws SceneError. Changes nothing but this shape, so that shapes may be built in parallel.
 BuiltShape build_shape(const PlacedShape& placed, SceneBudget& budget, const FormatWords& words);
 
 } // namespace nusselt::scene

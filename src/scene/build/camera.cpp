@@ -12,7 +12,7 @@ namespace {
 /// Directions are normalised in float.
 constexpr double kMaxScale = 1e6;
 
-/// Corners of the image in camera space: screen coordinates at distance 1 or, for parallel rays, at the camera.
+/// The corners of the image in camera space: screen coordinates at distance 1 or, for parallel rays, at the camera.
 std::array<double, 4> screen_window(const CameraDescription& description, const Film& film) {
     if (description.screen_window) return *description.screen_window;
     const double aspect = description.aspect_ratio.value_or(static_cast<double>(film.width) / film.height);

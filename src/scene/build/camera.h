@@ -12,12 +12,12 @@ namespace nusselt::scene {
 
 enum class CameraKind { perspective, orthographic };
 
-/// A camera that looks along +z of its space, where +y is up and +x to the right.
+/// A camera that looks along +z of its space, with +y up and +x to the right.
 struct CameraDescription {
     Location origin;
     CameraKind kind = CameraKind::perspective;
     Transform camera_from_world;
-    double fov_degrees = 90;                            ///< of the shorter image axis; perspective only
+    double fov_degrees = 90;                            ///< along the shorter image axis; perspective only
     std::optional<double> aspect_ratio;                 ///< width / height; default: that of the film
     std::optional<std::array<double, 4>> screen_window; ///< x min, x max, y min, y max
 };

@@ -20,8 +20,8 @@ struct Emission {
 /// \param subject  what the format calls the emission
 void check_radiance(const Float3& radiance, std::string_view subject, const Location& location);
 
-/// The radiance of a shape of this area [m^2], counted once where it emits to both sides. Throws SceneError at
-/// `location` if it is not finite in single precision.
+/// The radiance of a shape of this area [m^2], which counts one side even if both emit. Throws SceneError at
+/// `location` if the radiance is not finite in single precision.
 /// \param subject  what the format calls the emission
 Float3 radiance_of(const Emission& emission, double area, std::string_view subject, const Location& location);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The shapes that importers hand to the builder, in coordinates of their own. The right-hand rule gives their normals.
+/// The shapes that importers pass to the builder, in their own coordinates. The right-hand rule gives their normals.
 
 #include "scene/build/mesh.h"
 #include "scene/input/diagnostics.h"
@@ -12,12 +12,12 @@
 
 namespace nusselt::scene {
 
-/// A mesh in a file of its own. The builder reads many of them at once.
+/// A mesh in a file of its own. The builder reads such files in parallel.
 struct MeshFile {
     std::filesystem::path path;
     /// Turns the contents into a mesh. Throws std::runtime_error with the reason if it cannot.
     Mesh (*read)(std::string_view bytes) = nullptr;
-    Location origin; ///< of the name of the file
+    Location origin; ///< where the scene names the file
 };
 
 /// Quads between four corners each, interpolated bilinearly; not empty.
@@ -29,9 +29,9 @@ struct BilinearPatches {
         indices; ///< four per patch: the corners at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1)
 };
 
-// Surfaces of revolution around the z axis. A sweep below 360 degrees leaves a part of the circle out.
+// Surfaces of revolution around the z axis. A sweep below 360 degrees leaves out a part of the circle.
 
-/// Between two heights, which are clamped to the radius.
+/// The part of a sphere between two heights, which are clamped to the radius.
 struct Sphere {
     double radius = 1; ///< positive
     double z_min = -1;
@@ -39,7 +39,7 @@ struct Sphere {
     double sweep_degrees = 360;
 };
 
-/// A disk with a hole, at a height. It faces +z.
+/// A disk with a hole, parallel to the xy plane. It faces +z.
 struct Disk {
     double radius = 1;       ///< positive
     double inner_radius = 0; ///< at least 0 and below the radius
@@ -47,7 +47,7 @@ struct Disk {
     double sweep_degrees = 360;
 };
 
-/// The lateral surface of a cylinder. One that emits and stays round becomes a tubular light.
+/// The lateral surface of a cylinder.
 struct Cylinder {
     double radius = 1; ///< positive
     double z_min = -1;

@@ -13,9 +13,9 @@ namespace nusselt::scene {
 inline constexpr std::uint64_t kMaxInflatedBytes = std::uint64_t{1} << 32;
 inline constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 31;
 inline constexpr std::uint64_t kMaxRepeatedMeshBytes = std::uint64_t{1}
-                                                       << 32; ///< of files that are read again
+                                                       << 32; ///< in files that several shapes name
 
-// Copies of lights. They are not instanced, so a short text may create very many of them.
+// Copies of lights. Instances copy lights, so that a short text may create very many.
 inline constexpr std::size_t kMaxLightCopies = std::size_t{1} << 17;
 inline constexpr std::size_t kMaxCopiedValues = std::size_t{1} << 26; ///< numbers that describe their shapes
 

@@ -16,7 +16,7 @@ struct Mesh {
     std::size_t degenerate_triangles = 0; ///< left out
 };
 
-/// The sum of the areas of all triangles, one side each [m^2].
+/// The sum of the areas of all triangles, counting one side [m^2].
 double area(const Mesh& mesh);
 
 } // namespace nusselt::scene

@@ -1,5 +1,6 @@
 #include "scene/build/placed_shape.h"
 
+#include "scene/build/build_shape.h"
 #include "scene/input/file_bytes.h"
 #include "scene/model/vector_math.h"
 
@@ -12,8 +13,10 @@ namespace {
 
 constexpr int kMostSides = 64;
 
-bool emits(const ShapeDescription& shape) {
-    return std::holds_alternative<Tube>(shape.geometry) || !is_black(shape.emission.radiance);
+/// Whether a shape is a light. Lights belong to the world: instances copy them.
+bool is_light(const ShapeDescription& shape) {
+    return !is_black(shape.emission.radiance) ||
+           !becomes_surface(shape.geometry, shape.emission, shape.world_from_object);
 }
 
 bool is_round(const ShapeDescription& shape) {
@@ -44,7 +47,7 @@ struct ValueCount {
     std::size_t operator()(const Tube&) const { return 7; }
 };
 
-/// Lights of instances are copied, since they are in the world.
+/// Limits the copies of lights: those of instances are copied, because lights belong to the world.
 void check_copies(const SceneDescription& description) {
     std::vector<std::size_t> emitters;
     std::vector<std::size_t> value_counts;
@@ -52,7 +55,7 @@ void check_copies(const SceneDescription& description) {
         std::size_t count = 0;
         std::size_t values = 0;
         for (const ShapeDescription& shape : object.shapes) {
-            if (!emits(shape)) continue;
+            if (!is_light(shape)) continue;
             ++count;
             values += std::visit(ValueCount(), shape.geometry);
         }
@@ -110,7 +113,7 @@ PlacedShapes place_shapes(SceneDescription& description) {
     for (const InstanceDescription& instance : description.instances) {
         has_instance[instance.object] = true;
         for (ShapeDescription& shape : description.objects[instance.object].shapes)
-            if (emits(shape))
+            if (is_light(shape))
                 placed.shapes.push_back(
                     {&shape, instance.world_from_object * shape.world_from_object, true, kMostSides});
     }
@@ -119,14 +122,15 @@ PlacedShapes place_shapes(SceneDescription& description) {
         object.first_shape = placed.shapes.size();
         if (!has_instance[i]) continue;
         for (ShapeDescription& shape : description.objects[i].shapes)
-            if (!emits(shape)) placed.shapes.push_back({&shape, shape.world_from_object, false, kMostSides});
+            if (!is_light(shape))
+                placed.shapes.push_back({&shape, shape.world_from_object, false, kMostSides});
         object.shape_count = placed.shapes.size() - object.first_shape;
     }
     return placed;
 }
 
 void limit_tessellation(std::vector<PlacedShape>& shapes) {
-    constexpr double kFineShapes = 1000; // may have all sides
+    constexpr double kFineShapes = 1000; // so many may have all sides
     constexpr int kFewest = 8;
     const auto count = static_cast<double>(std::count_if(
         shapes.begin(), shapes.end(), [](const PlacedShape& placed) { return is_round(*placed.shape); }));

@@ -1,5 +1,5 @@
 #pragma once
-/// The places of shapes: in the world or in objects, once or once per instance.
+/// Places shapes: in the world or in objects, once or once per instance.
 
 #include "scene/build/scene_description.h"
 
@@ -13,9 +13,9 @@ namespace nusselt::scene {
 /// A shape at one of its places.
 struct PlacedShape {
     ShapeDescription* shape = nullptr;
-    Transform world_from_object; ///< of a surface of an object: to the coordinates of that object
-    bool is_shared = false;      ///< whether its geometry is needed elsewhere, too
-    int max_sides = 0;           ///< pieces around the full circle of round shapes, at most
+    Transform world_from_object; ///< for a surface of an object: to the coordinates of that object
+    bool is_shared = false;      ///< whether other places need its geometry, too
+    int max_sides = 0;           ///< the most pieces around the full circle of round shapes
 };
 
 /// The surfaces of an object: a range of placed shapes.
@@ -29,21 +29,21 @@ struct PlacedShapes {
     /// other shapes of the objects that have instances.
     std::vector<PlacedShape> shapes;
     std::vector<PlacedObject>
-        objects; ///< for each object of the description; without shapes where it has no instance
+        objects; ///< one for each object of the description, without shapes if it has no instance
 };
 
 /// The result refers to the shapes of `description`. Throws SceneError if instances copy too many lights.
 PlacedShapes place_shapes(SceneDescription& description);
 
-/// Makes round shapes coarser if there are many, so that they fit into the memory: a line of text must not take much more
-/// than it would as a mesh.
+/// Makes round shapes coarser in scenes with many of them, so that they fit into the memory: a line of text must not take
+/// much more than it would as a mesh.
 void limit_tessellation(std::vector<PlacedShape>& shapes);
 
-/// The rows of an affine transform as instances have them. Nothing if it has no inverse, is not affine, or has
-/// elements beyond 1e15, which ray tracing cannot bear, in itself or its inverse.
+/// The rows of an affine transform in the form of Instance. Empty if the transform has no inverse or is not affine, or if
+/// one of both has elements beyond 1e15, which ray tracing does not support.
 std::optional<std::array<float, 12>> instance_rows(const Transform& t);
 
-/// The same for an instance of the object of this name. Throws SceneError where there are none.
+/// The rows for an instance of the object of this name. Throws SceneError in the cases above.
 std::array<float, 12> instance_rows(const InstanceDescription& instance, std::string_view object,
                                     const FormatWords& words);
 

@@ -1,12 +1,12 @@
 #pragma once
-/// Polygonal lights: the records of the model from the triangles of shapes that emit.
+/// Makes the polygonal lights of the model from the triangles of shapes that emit.
 
 #include "scene/build/build_shape.h"
 
 namespace nusselt::scene {
 
-/// Orients the triangles of an emissive shape in world space to the side that emits, and merges them to polygons.
-/// If the shape is invisible, its triangles are removed.
+/// Orients the triangles of an emissive shape in world space to the side that emits, and merges them into polygons.
+/// Removes the triangles if the shape is invisible.
 void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words, BuiltShape& built);
 
 } // namespace nusselt::scene

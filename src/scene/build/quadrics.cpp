@@ -14,7 +14,7 @@ namespace {
 constexpr int kLightSides = 16;
 constexpr int kDiskLightSides = 32;
 
-/// A point of a surface at parameters (u, v) in [0, 1]^2, whose normal is that of (d/du) x (d/dv).
+/// A point of a surface at parameters (u, v) in [0, 1]^2, with the normal (d/du) x (d/dv).
 struct SurfacePoint {
     Double3 position;
     Double3 normal;
@@ -34,11 +34,11 @@ void add_triangle(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c)
         const Float3& q = mesh.positions[j];
         return p.x == q.x && p.y == q.y && p.z == q.z;
     };
-    // At poles quads are triangles.
+    // Quads at poles are triangles.
     if (!are_equal(a, b) && !are_equal(b, c) && !are_equal(c, a)) mesh.triangles.push_back({{a, b, c}});
 }
 
-/// \param evaluate  SurfacePoint as a function of u and v
+/// \param evaluate  maps u and v to a SurfacePoint
 template <class Surface>
 Mesh grid(const ShapeDescription& shape, int columns, int rows, const Surface& evaluate, Warnings& warnings) {
     Mesh mesh;
@@ -75,7 +75,7 @@ double area_ratio(const ShapeDescription& shape, const Mesh& mesh, double exact_
     return exact_area / flat_area;
 }
 
-/// (cosine, sine), exactly periodic, so that the ends of a full circle coincide.
+/// (cosine, sine). They are exactly periodic, so that the ends of a full circle coincide.
 std::pair<double, double> direction(double u, double sweep) {
     const double angle = u == 1 && sweep == 2 * std::numbers::pi ? 0 : u * sweep;
     return {std::cos(angle), std::sin(angle)};

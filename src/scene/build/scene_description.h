@@ -1,5 +1,5 @@
 #pragma once
-/// A scene in neutral terms, which importers pass to the builder, with the place in the file of each part.
+/// A scene in neutral terms, which importers pass to the builder, with the location of each part in its file.
 
 #include "scene/build/camera.h"
 #include "scene/build/emission.h"
@@ -15,21 +15,22 @@
 
 namespace nusselt::scene {
 
-/// Index of the material of shapes that have none. Their surfaces are black.
+/// The material index of shapes without a material. Their surfaces are black.
 constexpr int kNoMaterial = -1;
 
-/// A shape with all that applies to it.
+/// A shape with its transform, material and emission.
 struct ShapeDescription {
     std::string kind; ///< its name in messages and in the names of lights, such as "sphere"
     Location origin;
     Geometry geometry;
     Transform world_from_object;
-    /// Whether the shape emits to the other side, and shading normals point there.
+    /// Whether the shape emits to the other side, where its shading normals point then.
     bool reverse_orientation = false;
-    Emission emission;          ///< black for surfaces that do not emit
-    bool is_invisible = false;  ///< of a shape that emits: only its light is there, cameras see no surface
-    int material = kNoMaterial; ///< index into SceneDescription::materials; tubular lights need none
-    Warnings warnings;          ///< of the importer; those of the builder come before
+    Emission emission;         ///< black for surfaces that do not emit
+    bool is_invisible = false; ///< for a shape that emits: it has a light but no surface
+    int material =
+        kNoMaterial;   ///< index into SceneDescription::materials; lights that are no surfaces need none
+    Warnings warnings; ///< of the importer; those of the builder come first
 };
 
 /// Shapes that instances share.
@@ -44,22 +45,22 @@ struct InstanceDescription {
     Location origin;
 };
 
-/// The words of a format for the parts of a scene. Messages use the same words.
+/// The words of a format for the parts of a scene, for messages.
 struct FormatWords {
     std::string instance = "instance";
     std::string emission = "emission";
     std::string reversal = "reversal"; ///< of the orientation of a shape
 };
 
-/// A scene as an importer read it; meshes in files of their own and images are still to be read.
+/// A scene as an importer read it. The builder reads images, and meshes in files of their own.
 struct SceneDescription {
     std::unique_ptr<SceneBudget> budget = std::make_unique<SceneBudget>();
-    std::deque<SourceFile> sources; ///< all locations point into these; the first one is the main file
+    std::deque<SourceFile> sources; ///< the files that locations refer to, the main file first
     FormatWords words;
     std::vector<ShapeDescription> shapes; ///< the shapes of the world
     std::vector<ObjectDescription> objects;
     std::vector<InstanceDescription> instances;
-    std::vector<Material> materials; ///< their textures are indices of requests of `textures`
+    std::vector<Material> materials; ///< their textures are indices into the requests of `textures`
     TexturePlan textures;
     CameraDescription camera;
     Film film;

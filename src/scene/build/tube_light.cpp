@@ -9,8 +9,8 @@ namespace nusselt::scene {
 
 namespace {
 
-/// The factor by which a transform scales the cross section of a cylinder around the z axis; nothing if it does not
-/// stay round, or if the axis does not stay perpendicular to it.
+/// The factor by which a transform scales the cross section of a cylinder around the z axis; empty if the section does
+/// not stay round and perpendicular to the axis.
 std::optional<double> cross_section_scale(const Transform& world_from_object) {
     const Double3 x = transform_vector(world_from_object, {1, 0, 0});
     const Double3 y = transform_vector(world_from_object, {0, 1, 0});

@@ -81,7 +81,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-std::string_view nearest(std::string_view name, std::initializer_list<std::string_view> known) {
+std::string_view nearest(std::string_view name, std::span<const std::string_view> known) {
     // The distance to a longer text is at least the difference of the lengths.
     const std::string_view head = name.substr(0, 64);
     return *std::min_element(known.begin(), known.end(), [&](std::string_view a, std::string_view b) {
@@ -146,7 +146,7 @@ void JsonNode::fail_type(std::string_view expected) const {
     fail("must be " + std::string(expected) + ", found " + excerpt(*value_));
 }
 
-void JsonNode::check_fields(std::initializer_list<std::string_view> known) const {
+void JsonNode::check_fields(std::span<const std::string_view> known) const {
     if (!value_->is_object()) fail_type("an object, in braces");
     for (const auto& [name, value] : value_->items())
         if (std::find(known.begin(), known.end(), name) == known.end())

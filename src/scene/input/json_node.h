@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,7 +36,10 @@ public:
     bool is_text() const { return value_->is_string(); }
 
     /// Throws unless this is an object all of whose fields are among these.
-    void check_fields(std::initializer_list<std::string_view> known) const;
+    void check_fields(std::span<const std::string_view> known) const;
+    void check_fields(std::initializer_list<std::string_view> known) const {
+        check_fields(std::span(known.begin(), known.size()));
+    }
     /// The field of an object, nothing if it has none.
     std::optional<JsonNode> find(std::string_view field) const;
     /// The field of an object. Throws if it has none.

@@ -1,5 +1,5 @@
 #pragma once
-/// Bounding boxes of what is in a scene.
+/// Bounding boxes of the parts of a scene.
 
 #include "scene/model/scene.h"
 #include "scene/model/vector_math.h"
@@ -23,7 +23,7 @@ struct Bounds {
 /// The bounds of the triangles from `first` on, in their own coordinates.
 Bounds triangle_bounds(const Scene& scene, std::size_t first, std::size_t count);
 
-/// The box around the image of a box under an affine transform, whose rows are as in Instance.
+/// The box around the image of a box under an affine transform with the rows of Instance.
 Bounds transformed(const Bounds& box, const std::array<float, 12>& rows);
 
 /// The box around surfaces, instances and lights.

@@ -1,5 +1,5 @@
 #pragma once
-/// A hash of data, to recognise it again. Not made to withstand someone who wants two data to have the same hash.
+/// A hash that recognises data. It is not cryptographic: collisions can be constructed.
 
 #include "scene/model/float3.h"
 
@@ -11,12 +11,12 @@
 
 namespace nusselt::scene {
 
-/// Types whose bytes are all part of their value, so that arrays of them can be taken at once.
+/// Types whose bytes are all part of their value, so that arrays of them can be hashed at once.
 template <class T>
 inline constexpr bool kIsPlain =
     std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Float2> || std::is_same_v<T, Float3>;
 
-/// Takes about a nanosecond for 4 bytes. Depends on the order and the sizes of what is added.
+/// Takes about a nanosecond for 4 bytes. The hash depends on the order and the sizes of the values.
 class ContentHash {
 public:
     void add_bytes(const void* data, std::size_t size) {

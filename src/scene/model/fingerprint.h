@@ -6,8 +6,8 @@
 
 namespace nusselt::scene {
 
-/// A hash of everything that images of a scene depend on: another one where a vertex, texel, light, material, the camera
-/// or the film differs. Names and warnings do not count, as they may hold the paths of files.
+/// A hash of everything that images of a scene depend on: it changes with any vertex, texel, light or material, with the
+/// camera and the film. Names and warnings do not count, because they may contain paths of files.
 /// \returns 16 hexadecimal digits
 std::string fingerprint(const Scene& scene);
 

@@ -21,7 +21,7 @@ Double3 area_vector(const std::vector<Double3>& vertices);
 /// 1e-6 of the largest coordinate are tolerated.
 std::optional<std::string> find_polygon_defect(const std::vector<Double3>& vertices);
 
-/// Whether an outline turns by so little at a corner that it may be dropped.
+/// Whether an outline turns so little at a corner that the corner may be dropped.
 bool is_straight(const Float3& before, const Float3& corner, const Float3& after);
 
 /// Removes vertices that coincide with a neighbour or lie on the line through both neighbours.

@@ -15,10 +15,10 @@
 
 namespace nusselt::scene {
 
-/// What a texture is outside of the unit square.
+/// The values of a texture outside of the unit square.
 enum class TextureWrap : std::uint32_t {
-    repeat, ///< the same again
-    clamp,  ///< the nearest texel of the border
+    repeat, ///< those of the unit square, repeated
+    clamp,  ///< those of the nearest texel of the border
     black,  ///< 0
 };
 
@@ -48,7 +48,7 @@ enum class BrdfModel : std::uint32_t {
     frostbite, ///< Disney diffuse (renormalised) plus GGX
 };
 
-/// What heights of bump maps are measured in.
+/// The unit of the heights of bump maps.
 enum class BumpUnit : std::uint32_t {
     metre,
     /// As in pbrt v3, on triangles with normals: the derivatives of the position by the texture coordinates count as
@@ -56,8 +56,8 @@ enum class BumpUnit : std::uint32_t {
     texture_coordinate,
 };
 
-/// What a surface reduces to (docs/materials.md lists the reductions). Textures are
-/// multiplied with the numbers beside them; where those are no colours, the first channel of a texture counts.
+/// The material of a surface (docs/materials.md lists how others reduce to it). Textures are
+/// multiplied by the numbers beside them; where those are no colours, the first channel of a texture counts.
 struct Material {
     std::string name = {};
     BrdfModel model = BrdfModel::lambert;
@@ -77,7 +77,7 @@ struct Material {
     TextureUse normal_texture = {};
 };
 
-/// One light as the user sees it: an emissive shape, which may consist of many polygons, or a tube. Light rigs and
+/// One light as the user sees it: an emissive shape, which may consist of many lights of the renderer. Light rigs and
 /// layers of images refer to lights by these.
 struct Emitter {
     std::string name;
@@ -99,7 +99,7 @@ struct Camera {
 
 enum class FilterKind : std::uint32_t { box, triangle, gaussian, mitchell };
 
-/// How a pixel weighs radiance around its centre. The defaults are a box of one pixel.
+/// How a pixel weights radiance around its centre. The defaults are a box of one pixel.
 struct PixelFilter {
     FilterKind kind = FilterKind::box;
     float radius_x = 0.5f; ///< half the width of its support in pixels
@@ -120,7 +120,7 @@ struct PixelBounds {
 struct Film {
     int width = 640;
     int height = 480;
-    std::optional<PixelBounds> crop = {}; ///< the pixels to render, not empty; nothing for all
+    std::optional<PixelBounds> crop = {}; ///< the pixels to render, at least one; default: all
     PixelFilter filter = {};
     std::string filename = {}; ///< as written in the scene file; may be empty
 };
@@ -129,7 +129,7 @@ struct Triangle {
     std::uint32_t vertex[3];
 };
 
-/// Surfaces that instances share, in coordinates of their own: a range of Scene::triangles. They do not emit.
+/// Surfaces that instances share, in their own coordinates: a range of Scene::triangles. They do not emit.
 struct Object {
     std::string name;
     std::uint32_t first_triangle = 0;
@@ -144,7 +144,7 @@ struct Instance {
 };
 
 struct Scene {
-    // Vertices, all arrays equally long. A zero normal means: use the geometric normal of the triangle.
+    // Vertices, all arrays equally long. A zero normal stands for the geometric normal of the triangle.
     std::vector<Float3> positions;
     std::vector<Float3> normals;
     std::vector<Float2> uvs;
@@ -152,7 +152,7 @@ struct Scene {
     // first, then those of objects.
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> triangle_material; ///< index into materials
-    /// Number among all lights, of which polygons come first; -1 for surfaces that do not emit.
+    /// The number of the light, a SurfaceLight, among all lights; -1 for surfaces that do not emit.
     std::vector<std::int32_t> triangle_light;
     std::vector<Object> objects;
     std::vector<Instance> instances;
@@ -160,7 +160,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Texture> textures;
     std::vector<Emitter> emitters;
-    Lights lights = no_lights_of_each_kind(); ///< those of a kind in the order of their emitters
+    Lights lights = no_lights_of_each_kind(); ///< lights of a kind are in the order of their emitters
     Camera camera;
     Film film;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// How much memory a scene takes, and how large it may be.
+/// The memory that a scene takes, and its limits.
 
 #include "scene/model/scene.h"
 
@@ -7,11 +7,10 @@
 
 namespace nusselt::scene {
 
-/// Bytes of all arrays of a scene, without what is allocated for growth.
+/// Bytes of all arrays of a scene, without spare capacity.
 std::size_t array_bytes(const Scene& scene);
 
-/// Throws std::runtime_error if a scene of so many vertices or triangles has more than the indices of 32 bits that are
-/// used for them can tell apart.
+/// Throws std::runtime_error if 32-bit indices cannot address that many vertices or triangles.
 /// \param copies  what the user should use instead of many equal shapes, in the words of the format
 void check_counts(std::size_t vertices, std::size_t triangles, std::string_view copies = "instances");
 

@@ -34,9 +34,9 @@ double linear_determinant(const Transform& t);
 /// Divides by the homogeneous coordinate.
 Double3 transform_point(const Transform& t, const Double3& p);
 Double3 transform_vector(const Transform& t, const Double3& v);
-/// Orthogonal to transformed tangents: the inverse transpose of the linear part, times a positive factor that depends on
-/// the transform alone, so that interpolation between normals of different length stays what it is. A rotation keeps the
-/// length. Zero for singular transforms without a plane.
+/// Transforms a normal by the inverse transpose of the linear part, times a positive factor. The factor depends on the
+/// transform alone, so that interpolation between normals of different length is preserved. Rotations keep the length.
+/// The result is zero for transforms of a rank below two.
 Double3 transform_normal(const Transform& t, const Double3& n);
 bool is_identity(const Transform& t);
 

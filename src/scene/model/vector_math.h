@@ -1,5 +1,5 @@
 #pragma once
-/// Double precision vectors for geometry that is prepared once per scene.
+/// Vectors in double precision, for geometry that is prepared once per scene.
 
 #include "scene/model/scene.h"
 
@@ -34,7 +34,7 @@ inline Double3 normalized(const Double3& v) {
 
 inline bool is_black(const Float3& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
-/// What ray tracing can bear [m]. Embree asserts above 1.8e18.
+/// The largest coordinate that ray tracing supports [m]. Embree asserts above 1.8e18.
 inline constexpr double kMaxCoordinate = 1e15;
 
 /// Whether all components are finite and at most kMaxCoordinate.

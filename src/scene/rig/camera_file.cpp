@@ -32,7 +32,7 @@ Float3 read_vector_or_zero(const JsonNode& camera, std::string_view field) {
 
 bool is_zero(const Float3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
-/// Whether rays through different pixels differ.
+/// Whether different pixels have different rays.
 bool spans_an_image(const Float3& right, const Float3& down) {
     return length(cross(to_double(right), to_double(down))) > 0;
 }

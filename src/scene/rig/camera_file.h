@@ -1,5 +1,5 @@
 #pragma once
-/// Files that hold a camera and the size of its images; docs/rendering.md describes them.
+/// Files with a camera and the size of its images; docs/rendering.md describes them.
 
 #include "scene/model/scene.h"
 
@@ -20,10 +20,10 @@ struct FilmedCamera {
 /// other; for parallel rays `origin_right` and `origin_down`, by how much the origin does.
 std::string to_camera_text(const FilmedCamera& view);
 
-/// Throws std::runtime_error, what() being "file: path of the value: message", if it cannot be read or is not as above.
+/// Throws std::runtime_error with "file: path of the value: message" if the file cannot be read or differs from this.
 FilmedCamera read_camera_file(const std::filesystem::path& path);
 
-/// Gives the scene another camera and a film of that size without a crop.
+/// Gives the scene this camera, and a film of this size without a crop.
 void apply_camera(const FilmedCamera& view, Scene& scene);
 
 } // namespace nusselt::scene

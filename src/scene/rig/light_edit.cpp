@@ -19,9 +19,9 @@ namespace {
 constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t kShared = kNobody - 1;
 
-/// Alpha 0 makes lights without a surface.
+/// Whether a light that could have a surface has none, because its alpha is 0.
 bool is_invisible(const EditableLight& light) {
-    return has_polygons(light) && light.triangles.empty() && !light.has_new_surface;
+    return is_surface(light) && light.triangles.empty() && !light.has_new_surface;
 }
 
 /// The emission of a part of a light.
@@ -48,7 +48,7 @@ void set_emission(const Emission& emission, Lights& parts) {
     }
 }
 
-/// Whether both are the same single light but for its emission.
+/// Whether both are single lights that differ at most in their emission.
 bool have_same_shape(const Lights& a, const Lights& b) {
     if (a.size() != 1 || b.size() != 1) return false;
     for (const LightList& list : a)
@@ -95,7 +95,7 @@ std::vector<EditableLight> editable_lights(const Scene& scene) {
     return lights;
 }
 
-bool has_polygons(const EditableLight& light) { return !light.parts.of<PolygonLight>().empty(); }
+bool is_surface(const EditableLight& light) { return !light.parts.of<SurfaceLight>().empty(); }
 
 bool is_black(const EditableLight& light) {
     for (const LightList& list : light.parts)
@@ -121,13 +121,13 @@ double luminous_power(const EditableLight& light) {
 void LightEditor::replace_shape(EditableLight& light, const Lights& shape, std::uint32_t material) {
     if (have_same_shape(light.parts, shape)) return;
     const bool stays_invisible = is_invisible(light);
-    if (!has_polygons(light)) light.material = material;
+    if (!is_surface(light)) light.material = material;
     unused_triangles_.insert(unused_triangles_.end(), light.triangles.begin(), light.triangles.end());
     light.triangles.clear();
     const Emission emission = emission_of(light.parts);
     light.parts = shape;
     set_emission(emission, light.parts);
-    light.has_new_surface = has_polygons(light) && !stays_invisible;
+    light.has_new_surface = is_surface(light) && !stays_invisible;
 }
 
 void LightEditor::transform(EditableLight& light, const Transform& transform) {
@@ -140,13 +140,13 @@ void LightEditor::transform(EditableLight& light, const Transform& transform) {
     }
 }
 
-/// Notes of each vertex which light uses it, as far as that is one.
+/// Finds for each vertex the only light that uses it, if there is one.
 void LightEditor::find_vertex_owners() {
     const std::vector<std::uint32_t> emitter_of = light_emitters(scene_);
     vertex_owner_.assign(scene_.positions.size(), kNobody);
     for (std::size_t i = 0; i < scene_.triangles.size(); ++i) {
         const std::int32_t light = scene_.triangle_light[i];
-        // A vertex that belongs to a surface without light is never a light's own.
+        // Vertices of surfaces that do not emit never belong to a light alone.
         const std::uint32_t user = light < 0 ? kShared : emitter_of[static_cast<std::size_t>(light)];
         for (const std::uint32_t vertex : scene_.triangles[i].vertex) {
             std::uint32_t& owner = vertex_owner_[vertex];
@@ -155,12 +155,12 @@ void LightEditor::find_vertex_owners() {
     }
 }
 
-/// The vertices of the surface in the scene, each once. Those that other surfaces use too are copied first.
+/// The vertices of the surface in the scene, without repetitions. Copies those that other surfaces use, too.
 std::vector<std::uint32_t> LightEditor::own_vertices(EditableLight& light) {
     if (light.triangles.empty()) return {};
     if (vertex_owner_.empty()) find_vertex_owners();
     const auto self = static_cast<std::uint32_t>(&light - lights_.data());
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> copies; // of which vertex, copy
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> copies; // vertex and its copy
     std::vector<std::uint32_t> vertices;
     for (const std::uint32_t triangle : light.triangles)
         for (const std::uint32_t vertex : scene_.triangles[triangle].vertex) vertices.push_back(vertex);
@@ -200,8 +200,8 @@ void LightEditor::put_lights_back() {
     for (EditableLight& light : lights_) {
         if (!emits(light)) continue;
         const auto emitter = static_cast<std::uint32_t>(scene_.emitters.size());
-        // Lights with triangles are polygons, which come first.
-        const std::size_t first_light = scene_.lights.of<PolygonLight>().size();
+        // A number is needed only for lights with triangles, and those come first.
+        const std::size_t first_light = scene_.lights.of<SurfaceLight>().size();
         scene_.emitters.push_back({light.name});
         for (LightList& list : light.parts)
             for (std::size_t i = 0; i < list.size(); ++i) list.emitter(i) = emitter;
@@ -229,7 +229,7 @@ void LightEditor::remove_surfaces() {
     erase_marked(scene_.triangles, is_unused);
     erase_marked(scene_.triangle_material, is_unused);
     erase_marked(scene_.triangle_light, is_unused);
-    // Lights stand before all objects.
+    // Triangles of lights come before those of objects.
     for (Object& object : scene_.objects) object.first_triangle -= static_cast<std::uint32_t>(removed.size());
     remove_vertices(removed);
 }
@@ -260,7 +260,7 @@ void LightEditor::add_surfaces() {
     for (const EditableLight& light : lights_) {
         if (!light.has_new_surface || light.is_removed) continue;
         const auto base = static_cast<std::uint32_t>(scene_.positions.size());
-        const PolygonVertices& vertices = light.parts.of<PolygonLight>()[0].vertices;
+        const PolygonVertices& vertices = light.parts.of<SurfaceLight>()[0].vertices;
         for (const Float3& p : vertices) {
             scene_.positions.push_back(p);
             scene_.normals.push_back({0, 0, 0});

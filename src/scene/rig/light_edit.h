@@ -1,5 +1,5 @@
 #pragma once
-/// Lights of a scene in a form in which they can be changed one by one.
+/// Lights of a scene in a form for changes of single lights.
 
 #include "scene/model/scene.h"
 #include "scene/model/transform.h"
@@ -15,10 +15,10 @@ namespace nusselt::scene {
 struct EditableLight {
     std::string name;
     Lights parts;
-    std::vector<std::uint32_t> triangles; ///< of its surface, as long as that is in the scene
-    /// Number of its first light in the scene, while it has triangles there.
+    std::vector<std::uint32_t> triangles; ///< of its surface, while that is in the scene
+    /// The number of its first light in the scene, while it has triangles there.
     std::uint32_t first_light = 0;
-    bool has_new_surface = false; ///< made of its polygon in the end
+    bool has_new_surface = false; ///< LightEditor::finish() makes a surface from its polygon
     std::uint32_t material = 0;   ///< of a new surface
     bool is_enabled = true;
     bool is_removed = false;
@@ -26,13 +26,13 @@ struct EditableLight {
 
 /// The lights of a scene, in the order of Scene::emitters.
 std::vector<EditableLight> editable_lights(const Scene& scene);
-/// Whether its surface is made of polygons.
-bool has_polygons(const EditableLight& light);
-/// Whether no part of it emits anything.
+/// Whether lights of its kind are surfaces.
+bool is_surface(const EditableLight& light);
+/// Whether no part of it emits light.
 bool is_black(const EditableLight& light);
-/// Centroid of the surface.
+/// The centroid of its parts, weighted by their areas.
 Double3 centroid(const EditableLight& light);
-/// Power that it emits, channels weighed by their luminance [W].
+/// The power that it emits, with channels weighted by their luminance [W].
 double luminous_power(const EditableLight& light);
 
 /// Takes the lights out of a scene and puts them back when they have been changed.
@@ -41,14 +41,14 @@ public:
     explicit LightEditor(Scene& scene) : scene_(scene), lights_(editable_lights(scene)) {}
 
     std::vector<EditableLight>& lights() { return lights_; }
-    /// Gives a light another shape, with the radiance and the sides of what it was; one without a shape becomes white and
-    /// one-sided. Polygons that take the place of polygons without a surface, as alpha 0 makes them, have none either.
-    /// \param material  of its surface if it had no polygons
+    /// Gives a light another shape. It keeps its radiance and its sides; a light without a shape becomes white and
+    /// one-sided. A light whose surface is invisible (alpha 0) stays invisible.
+    /// \param material  of its surface if it was no surface before
     void replace_shape(EditableLight& light, const Lights& shape, std::uint32_t material);
     /// Moves a light and its surface. The transform is affine; radii grow with the cube root of its determinant.
     void transform(EditableLight& light, const Transform& transform);
-    /// Puts the lights back. Of those that are black or not enabled the surface stays, of tubes nothing. Vertices of
-    /// surfaces that are replaced or removed go with them unless others use them.
+    /// Puts the lights back. Lights that are black or disabled are left out, but keep their surfaces. Surfaces that were
+    /// replaced or removed take along the vertices that no other surface uses.
     void finish();
 
 private:
@@ -61,8 +61,8 @@ private:
 
     Scene& scene_;
     std::vector<EditableLight> lights_;
-    std::vector<std::uint32_t> vertex_owner_;     ///< empty until it is needed
-    std::vector<std::uint32_t> unused_triangles_; ///< surfaces of shapes that were replaced
+    std::vector<std::uint32_t> vertex_owner_;     ///< empty until it is first needed
+    std::vector<std::uint32_t> unused_triangles_; ///< those of replaced shapes
 };
 
 } // namespace nusselt::scene

@@ -16,10 +16,10 @@ namespace nusselt::scene {
 
 namespace {
 
-/// The name of the material of lights that are added without one.
+/// The name of the material for new lights without one.
 constexpr const char* kBlackMaterial = "black surface of a light";
 
-// Defaults for materials that get a specular component.
+// Defaults for materials that gain a specular component.
 constexpr Float3 kDefaultF0 = {0.04f, 0.04f, 0.04f};
 constexpr float kDefaultRoughness = 0.5f;
 
@@ -34,9 +34,9 @@ constexpr float kDefaultRoughness = 0.5f;
 /// A name in quotes.
 std::string in_quotes(const std::string& name) { return '"' + shortened(name) + '"'; }
 
-/// The names of materials, or of the lights that have not been removed, by index. Scenes may have very many and rigs may
-/// select very often, so that nothing is copied.
-using NameOf = std::function<const std::string*(std::size_t)>; // null where there is nothing
+/// The names of materials, or of lights that have not been removed, by index. Pointers avoid copies: scenes may have very
+/// many names, and rigs may select very often.
+using NameOf = std::function<const std::string*(std::size_t)>; // null where there is none
 
 /// \param kind   "light" or "material"
 /// \param count  of the indices, from 0
@@ -133,7 +133,7 @@ public:
     void finish() { editor_.finish(); }
 
 private:
-    // Both throw if there is nothing.
+    // Both throw if nothing is selected.
     std::vector<std::size_t> select_materials(const std::string& where, const Selector& selector) const;
     std::vector<std::size_t> select_lights(const std::string& where, const Selector& selector);
     void add(const RigLight& entry, const LightAddition& addition);
@@ -219,7 +219,7 @@ void RigApplication::add(const RigLight& entry, const LightAddition& addition) {
 
 std::uint32_t RigApplication::surface_material(const RigLight& entry, const LightAddition& addition) {
     if (!addition.material) return black_material();
-    // Not a pattern: a surface has one material.
+    // The name is no pattern, because a surface has one material.
     const auto& materials = scene_.materials;
     const auto found = std::find_if(materials.begin(), materials.end(), [&](const Material& material) {
         return material.name == *addition.material;
@@ -245,7 +245,7 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
     const LightChanges& changes = entry.changes;
     rename(entry, light);
     if (changes.shape) {
-        const bool has_material = has_polygons(light) || std::holds_alternative<LightAddition>(entry.lights);
+        const bool has_material = is_surface(light) || std::holds_alternative<LightAddition>(entry.lights);
         editor_.replace_shape(light, *changes.shape, has_material ? light.material : black_material());
     }
     move(entry, light, offset);
@@ -294,7 +294,7 @@ void RigApplication::move(const RigLight& entry, EditableLight& light, const Dou
     }
     if (changes.rotation)
         transform = about(center, rotation(changes.rotation->degrees, changes.rotation->axis)) * transform;
-    // Compared in the precision of files, so that a centroid that was printed moves nothing.
+    // The difference is taken in the precision of files, so that a printed centroid moves nothing.
     if (changes.center)
         transform = translation(to_double(*changes.center) - to_double(to_float(center))) * transform;
     if (changes.move) transform = translation(*changes.move) * transform;
@@ -330,7 +330,7 @@ void RigApplication::change_emission(const RigLight& entry, EditableLight& light
 } // namespace
 
 bool matches(std::string_view text, std::string_view pattern) {
-    // After a star, the text that it stands for grows as long as the rest does not match; only the last star matters.
+    // The text that the last star stands for grows until the rest of the pattern matches.
     std::size_t t = 0;
     std::size_t p = 0;
     std::size_t after_star = pattern.npos;

@@ -92,7 +92,7 @@ Double3 read_scale(const JsonNode& node) {
     return to_double(scale);
 }
 
-/// Offsets of a grid, the first axis running fastest.
+/// The offsets of a grid; the first axis varies fastest.
 std::vector<Double3> read_copies(const JsonNode& node) {
     node.check_fields({"count", "step"});
     const JsonNode count = node.at("count");
@@ -114,7 +114,7 @@ std::vector<Double3> read_copies(const JsonNode& node) {
     return offsets;
 }
 
-/// The only one of these fields that an entry has, or nothing. Throws if it has several.
+/// The one of these fields that an entry has; empty if it has none. Throws if it has several.
 std::optional<JsonNode> find_one(const JsonNode& entry, const std::vector<std::string_view>& fields) {
     std::optional<JsonNode> found;
     std::string_view found_name;
@@ -138,10 +138,23 @@ struct ShapeField {
 
 constexpr ShapeField kShapeFields[] = {{"polygon", read_polygon}, {"panel", read_panel}, {"tube", read_tube}};
 
-std::optional<Lights> read_shape(const JsonNode& entry) {
+std::vector<std::string_view> shape_field_names() {
     std::vector<std::string_view> names;
     for (const ShapeField& field : kShapeFields) names.push_back(field.name);
-    if (!find_one(entry, names)) return std::nullopt;
+    return names;
+}
+
+/// "a polygon, a panel or a tube"
+std::string any_shape() {
+    const std::vector<std::string_view> names = shape_field_names();
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "a " : i + 1 < names.size() ? ", a " : " or a ") + std::string(names[i]);
+    return text;
+}
+
+std::optional<Lights> read_shape(const JsonNode& entry) {
+    if (!find_one(entry, shape_field_names())) return std::nullopt;
     for (const ShapeField& field : kShapeFields)
         if (const auto node = entry.find(field.name)) return field.read(*node);
     return std::nullopt;
@@ -170,7 +183,7 @@ LightChanges read_changes(const JsonNode& entry) {
 LightAddition read_addition(const JsonNode& entry, const LightChanges& changes) {
     LightAddition addition;
     addition.name = entry.at("add").text();
-    if (!changes.shape) entry.fail("must have a shape; add a polygon, a panel or a tube");
+    if (!changes.shape) entry.fail("must have a shape; add " + any_shape());
     if (!changes.radiance && !changes.power) entry.fail("must have a radiance or a power");
     if (const auto name = entry.find("name"))
         name->fail("is not supported for new lights; set their name in \"add\"");
@@ -186,9 +199,12 @@ LightAddition read_addition(const JsonNode& entry, const LightChanges& changes) 
 }
 
 RigLight read_light(const JsonNode& entry) {
-    entry.check_fields({"light",    "add",   "comment", "name",      "polygon", "panel",         "tube",
-                        "material", "scale", "rotate",  "center",    "move",    "copies",        "radiance",
-                        "kelvin",   "power", "enabled", "two_sided", "remove",  "scale_radiance"});
+    std::vector<std::string_view> fields = {"light", "add", "comment", "name"};
+    const std::vector<std::string_view> shapes = shape_field_names();
+    fields.insert(fields.end(), shapes.begin(), shapes.end());
+    fields.insert(fields.end(), {"material", "scale", "rotate", "center", "move", "copies", "radiance",
+                                 "kelvin", "power", "enabled", "two_sided", "remove", "scale_radiance"});
+    entry.check_fields(fields);
     if (!find_one(entry, {"light", "add"}))
         entry.fail(
             "must have the field \"light\", which selects lights, or \"add\" with the name of a new one");

@@ -1,5 +1,5 @@
 #pragma once
-/// Files of light rigs, see docs/lights.md.
+/// Reads files of light rigs, see docs/lights.md.
 
 #include "scene/rig/rig.h"
 
@@ -7,8 +7,8 @@
 
 namespace nusselt::scene {
 
-/// Reads a rig. Throws std::runtime_error, what() being "file: path of the value: message", if it cannot be read or if
-/// anything in it does not follow docs/lights.md.
+/// Reads a rig. Throws std::runtime_error with "file: path of the value: message" if the file cannot be read or does not
+/// follow docs/lights.md.
 Rig read_rig(const std::filesystem::path& path);
 
 } // namespace nusselt::scene

@@ -12,7 +12,7 @@ namespace {
 
 std::string boolean_text(bool value) { return value ? "true" : "false"; }
 
-/// The text that `get` finds for all parts of a light, nothing if they differ. Parts without a text do not count.
+/// The text that `get` returns for all parts of a light; empty if they differ. Parts with an empty text do not count.
 template <class Get>
 std::string common_text(const EditableLight& light, const Get& get) {
     std::string common;
@@ -27,7 +27,7 @@ std::string common_text(const EditableLight& light, const Get& get) {
     return common;
 }
 
-/// The shape of a light with one part as a field, empty if rigs know none.
+/// The field with the shape of a light of one part; empty for other lights, and for shapes without a field.
 std::string shape_field(const EditableLight& light) {
     if (light.parts.size() != 1) return "";
     for (const LightList& list : light.parts)
@@ -35,7 +35,7 @@ std::string shape_field(const EditableLight& light) {
     return "";
 }
 
-/// Names that JSON cannot hold are left out.
+/// A name in JSON; empty if JSON cannot represent it.
 std::string name_text(const std::string& name) {
     try {
         return name.empty() ? "" : nlohmann::json(name).dump();
@@ -46,11 +46,11 @@ std::string name_text(const std::string& name) {
 
 class Fields {
 public:
-    /// Leaves out empty values.
+    /// Adds a field unless its value is empty.
     void add(const std::string& name, const std::string& value) {
         if (!value.empty()) add("\"" + name + "\": " + value);
     }
-    /// Likewise, with the name.
+    /// Adds a field with its name unless it is empty.
     void add(const std::string& field) {
         if (!field.empty()) text_ += (text_.empty() ? "\n    {" : ",\n     ") + field;
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// Printing of light rigs.
+/// Writes the lights of a scene as a rig.
 
 #include "scene/model/scene.h"
 
@@ -7,8 +7,8 @@
 
 namespace nusselt::scene {
 
-/// The lights of a scene as the text of a rig that changes nothing. Shapes are given for lights that consist of one
-/// polygon or tube, the centroid for others; a radiance for lights all parts of which have the same.
+/// The text of a rig that selects all lights of a scene and changes nothing. It gives the shape of lights that consist of one
+/// part with a field in rigs, and the centroid of others; a radiance if all parts of a light share it.
 std::string to_rig_text(const Scene& scene);
 
 } // namespace nusselt::scene

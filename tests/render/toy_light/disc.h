@@ -1,12 +1,9 @@
 #pragma once
 /// A kind of light for tests: round, one-sided, sampled by its area. It shows what another kind takes: this folder, and a
-/// row in the table of kernels.
+/// row in the table of each renderer that supports it.
 
-#include "render_cpu/lights/light_kernel.h"
 #include "scene/model/lights/lights.h"
 #include "scene/model/scene.h"
-
-#include <vector>
 
 namespace nusselt::scene {
 
@@ -41,20 +38,3 @@ struct LightKind<DiscLight> {
 };
 
 } // namespace nusselt::scene
-
-namespace nusselt::render_cpu {
-
-// In disc_kernel.cpp.
-LightCode disc_code(LaneCount<4>), disc_code(LaneCount<8>), disc_code(LaneCount<16>);
-
-inline scene::DiscLight disc_record(const scene::DiscLight& light) { return light; }
-
-/// The kernels of the renderer and that of discs.
-inline std::vector<LightKernel> kernels_with_discs() {
-    std::vector<LightKernel> kernels(light_kernels().begin(), light_kernels().end());
-    kernels.push_back({make_record_array<scene::DiscLight, disc_record>,
-                       {disc_code(LaneCount<4>()), disc_code(LaneCount<8>()), disc_code(LaneCount<16>())}});
-    return kernels;
-}
-
-} // namespace nusselt::render_cpu

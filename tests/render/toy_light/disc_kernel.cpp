@@ -1,6 +1,6 @@
 // Discs for kernels: samples of their area in place of all techniques.
 
-#include "disc.h"
+#include "disc_kernel.h"
 #include "render_cpu/kernel/point_samples.h"
 
 NUSSELT_NAMESPACE_BEGIN

@@ -10,7 +10,7 @@ namespace nusselt::scene {
 
 namespace {
 
-/// The edges of a region that it shares with no triangle inside, sorted by the points at which they begin.
+/// The boundary edges of a region, sorted by the points at which they begin.
 std::vector<std::pair<PointId, PointId>> boundary_edges(const ConnectedMesh& mesh,
                                                         const std::vector<TriangleId>& triangles,
                                                         const std::vector<bool>& is_inside) {
@@ -26,7 +26,7 @@ std::vector<std::pair<PointId, PointId>> boundary_edges(const ConnectedMesh& mes
     return result;
 }
 
-/// The points of the boundary in order; empty if it is not a single simple loop.
+/// The points of the boundary in order; empty unless it is a single simple loop.
 std::vector<PointId> outline(const std::vector<std::pair<PointId, PointId>>& edges) {
     std::vector<PointId> points;
     PointId point = edges.front().first;
@@ -74,7 +74,7 @@ Double3 ConnectedMesh::area_vector(TriangleId triangle) const {
 std::optional<TriangleId> ConnectedMesh::flat_neighbour(EdgeId edge) const {
     const EdgeId other = mate(edge);
     if (other == kNoEdge) return std::nullopt;
-    constexpr double kMinCosine = 1 - 1e-6; // coarse, is_planar() decides
+    constexpr double kMinCosine = 1 - 1e-6; // coarse: is_planar() decides
     const Double3 a = area_vector(edge / 3);
     const Double3 b = area_vector(other / 3);
     if (dot(a, b) < kMinCosine * length(a) * length(b)) return std::nullopt;
@@ -101,7 +101,7 @@ std::optional<PolygonVertices> as_convex_polygon(const ConnectedMesh& mesh,
     const auto edges = boundary_edges(mesh, triangles, is_inside);
     if (edges.empty()) return std::nullopt;
     const std::vector<Float3> turns = turning_points(mesh, outline(edges));
-    // Rounding may leave some nearly straight ones.
+    // Rounding may leave corners that are nearly straight.
     if (turns.size() < 3 || turns.size() > 2 * kMaxPolygonVertices) return std::nullopt;
     const std::vector<Float3> corners = without_collinear_vertices(turns);
     if (corners.size() > kMaxPolygonVertices) return std::nullopt;

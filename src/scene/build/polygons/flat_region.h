@@ -1,5 +1,5 @@
 #pragma once
-/// Flat parts of triangle meshes, on the way to polygonal lights.
+/// Finds the flat parts of triangle meshes, which become polygonal lights.
 
 #include "scene/build/polygons/mesh_adjacency.h"
 #include "scene/model/vector_math.h"
@@ -27,7 +27,7 @@ public:
     const Float3& position(PointId point) const { return positions_[point]; }
     /// The right-hand normal, twice the area in length.
     Double3 area_vector(TriangleId triangle) const;
-    /// The neighbour at an edge that lies in the same plane, up to rounding; nothing if there is none.
+    /// The neighbour at an edge if it lies in the same plane, up to rounding; otherwise empty.
     std::optional<TriangleId> flat_neighbour(EdgeId edge) const;
 
 private:
@@ -39,7 +39,7 @@ private:
 /// Whether points lie in one plane with this unit normal, up to rounding.
 bool is_planar(const std::vector<Double3>& points, const Double3& unit_normal);
 
-/// Some triangles as one polygon, if they are planar and convex together, without holes, and have few enough corners.
+/// Joins triangles to one polygon if that is planar and convex, without holes, and has few enough corners.
 /// \param is_inside  per triangle of the mesh: whether it is one of `triangles`
 std::optional<PolygonVertices> as_convex_polygon(const ConnectedMesh& mesh,
                                                  const std::vector<TriangleId>& triangles,

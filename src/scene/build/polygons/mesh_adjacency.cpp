@@ -9,7 +9,7 @@ namespace nusselt::scene {
 
 namespace {
 
-/// Vertices at equal positions get the number of the first of them in the order of positions.
+/// Vertices at equal positions get the number of the first one in the order of positions.
 std::vector<std::uint32_t> number_points(const std::vector<Float3>& positions) {
     const auto key = [&](std::uint32_t vertex) {
         const Float3& p = positions[vertex];

@@ -13,9 +13,9 @@ using EdgeId = std::uint32_t;
 constexpr EdgeId kNoEdge = 0xffffffff;
 
 struct MeshAdjacency {
-    /// Per vertex: the same number for all vertices at equal positions, below the number of vertices.
+    /// For each vertex a number that all vertices at the same position share, below the number of vertices.
     std::vector<std::uint32_t> point_of_vertex;
-    /// Per edge: the edge between the same points in the opposite direction; kNoEdge unless exactly two triangles meet
+    /// For each edge the one between the same points in the opposite direction; kNoEdge unless exactly two triangles meet
     /// there, in opposite directions.
     std::vector<EdgeId> mates;
 };

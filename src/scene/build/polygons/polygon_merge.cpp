@@ -14,7 +14,7 @@ namespace {
 
 using PolygonId = std::uint32_t;
 
-/// Longer outlines, with the points on straight sides, do not grow any more: each step looks at the whole outline.
+/// Outlines with more points, those on straight sides included, stop growing: each step looks at the whole outline.
 constexpr std::size_t kMaxOutline = 64;
 
 /// The part of two outlines that coincides: `count` edges, from the edges at `a` and `b` on (in the direction of the
@@ -48,10 +48,10 @@ private:
     const std::vector<std::uint32_t>& index_of_;
     const std::vector<bool>& is_inside_;
     std::vector<Outline> outlines_; ///< emptied when merged into another
-    std::vector<PolygonId> parent_; ///< forest of what was merged into what
+    std::vector<PolygonId> parent_; ///< the forest of merged polygons
 };
 
-/// Whether an outline without right turns goes around its inside once only: seen from its first point, the others
+/// Whether an outline without right turns goes around its inside only once: seen from its first point, the others
 /// follow each other within half a turn.
 bool goes_around_once(const std::vector<Double3>& points, const Double3& normal) {
     const auto is_left = [&](const Double3& a, const Double3& b) {

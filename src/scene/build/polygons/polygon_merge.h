@@ -1,5 +1,5 @@
 #pragma once
-/// Merging of triangles into the polygons of lights.
+/// Merges triangles into the polygons of lights.
 
 #include "scene/model/scene.h"
 

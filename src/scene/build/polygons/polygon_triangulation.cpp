@@ -66,7 +66,7 @@ EarClipper::EarClipper(const std::vector<Double2>& corners) : corners_(corners) 
     for (std::uint32_t i = 0; i < n; ++i) is_ear_.push_back(is_ear(i));
 }
 
-/// Whether nothing of the outline is in the way of the diagonal that cuts a corner off.
+/// Whether the outline leaves the diagonal free that cuts off a corner.
 bool EarClipper::is_ear(std::uint32_t i) const {
     if (!is_convex(i)) return false;
     const Double2& a = corners_[previous_[i]];
@@ -75,7 +75,7 @@ bool EarClipper::is_ear(std::uint32_t i) const {
     const auto is_at = [](const Double2& p, const Double2& q) { return p.x == q.x && p.y == q.y; };
     for (std::uint32_t j = next_[next_[i]]; j != previous_[i]; j = next_[j]) {
         const Double2& p = corners_[j];
-        // Outlines with holes run through the same points twice.
+        // Outlines around holes run through the same points twice.
         if (is_at(p, a) || is_at(p, b) || is_at(p, c)) continue;
         if (signed_area(a, b, p) >= 0 && signed_area(b, c, p) >= 0 && signed_area(c, a, p) >= 0) return false;
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// Faces of meshes to triangles.
+/// Splits faces of meshes into triangles.
 
 #include "scene/model/vector_math.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Images that lights emit, each of which is replaced by its mean colour.
+/// Replaces images that lights emit by their mean colours.
 
 #include "scene/build/textures/texture_image.h"
 
@@ -8,7 +8,7 @@
 
 namespace nusselt::scene {
 
-/// Mean colours of images that lights emit, each decoded once.
+/// The mean colours of images that lights emit. Each image is decoded once.
 class EmissionImages {
 public:
     /// Throws SceneError at the location of the request if the image cannot be read.

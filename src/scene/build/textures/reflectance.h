@@ -1,5 +1,5 @@
 #pragma once
-/// Formulas that reduce the parameters of other renderers' materials to ours; docs/materials.md lists them.
+/// Formulas that convert the material parameters of other renderers to ours; docs/materials.md lists them.
 
 #include "scene/model/scene.h"
 

@@ -14,7 +14,7 @@ struct SurfaceFormula {
     TextureValue alpha = grey_value(1);
     TextureValue bump = grey_value(0); ///< height [bump_unit]
     BumpUnit bump_unit = BumpUnit::metre;
-    TextureValue normal = grey_value(0); ///< without a node for none
+    TextureValue normal = grey_value(0); ///< without a node if there is no normal map
 };
 
 /// The mean of the channels.
@@ -23,10 +23,10 @@ inline double mean(const Float3& c) {
 }
 
 /// The material of a surface, without name. Its textures are indices of requests to `planner`.
-/// \param origin  of the material
+/// \param origin  where the material is defined
 Material make_material(const SurfaceFormula& surface, TexturePlanner& planner, const Location& origin);
 
-/// The material of surfaces that only emit.
+/// The material of surfaces that emit but reflect nothing.
 Material black_material();
 
 } // namespace nusselt::scene

@@ -14,7 +14,7 @@ namespace nusselt::scene {
 
 namespace {
 
-/// Longer formulas are no work of an artist, and each step costs time for each texel.
+/// The most steps of a formula: no artist writes longer ones, and each step costs time for each texel.
 constexpr std::size_t kMaxFormulaLength = 64;
 
 using Texel = std::array<float, 3>;
@@ -47,7 +47,7 @@ Texel mean_texel(const Texture& image, const TextureNode& leaf) {
         [&](std::size_t c) { return static_cast<float>(sum[c] / static_cast<double>(count)); });
 }
 
-/// A row or column number, -1 outside a texture that is black there.
+/// A row or column number; -1 outside of a texture that is black there.
 int wrapped(double index, int size, TextureWrap wrap) {
     switch (wrap) {
     case TextureWrap::repeat:
@@ -179,11 +179,11 @@ private:
     std::vector<Texel> means_;
 };
 
-/// A request with what its formula consists of.
+/// A request with the parts of its formula.
 struct Recipe {
     TextureRequest request;
     std::vector<int> formula;
-    std::vector<int> images; ///< each once
+    std::vector<int> images; ///< without repetitions
 };
 
 Recipe make_recipe(const TexturePlan& plan, const TextureRequest& request) {
@@ -209,8 +209,8 @@ void charge(const Texture& texture, const Location& location, SceneBudget& budge
     }
 }
 
-/// An image as it is; its texels are moved if nobody else needs them.
-/// \param use_count  of the image
+/// Turns an image into a texture; moves its texels if nothing else needs them.
+/// \param use_count  how many textures need the image
 Texture plain_image(const TextureNode& leaf, const TextureRequest& request, Texture& image,
                     std::size_t use_count, SceneBudget& budget) {
     const bool is_grey = request.channels == 1 || image.channels == 1;

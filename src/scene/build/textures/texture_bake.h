@@ -1,5 +1,5 @@
 #pragma once
-/// Formulas of images as textures.
+/// Turns formulas of images into textures.
 
 #include "scene/build/textures/texture_plan.h"
 
@@ -9,7 +9,7 @@ namespace nusselt::scene {
 
 struct BakedTexture {
     Texture texture;
-    TextureMapping mapping; ///< of the coordinates of the surface to those of the texture
+    TextureMapping mapping; ///< from the coordinates of the surface to those of the texture
 };
 
 /// Decodes the images that requests need and evaluates their formulas, in parallel. A formula that is just an image

@@ -7,9 +7,9 @@ namespace nusselt::scene {
 
 namespace {
 
-/// Periods must agree up to this share.
+/// Periods must agree up to this fraction.
 constexpr double kTolerance = 1e-4;
-/// Grids are at most this long along an axis, or as the longest image.
+/// The largest length of a grid along an axis, unless an image is longer.
 constexpr double kMaxSize = 2048;
 
 /// A leaf repeats with period 1 in these coordinates.
@@ -37,7 +37,7 @@ double common_scale(double a, double b) {
     return integer_ratio(b, a) > 0 ? a : 0;
 }
 
-/// Extends a domain so that a further leaf is periodic, too. \returns false if that is impossible
+/// Extends a domain so that another leaf is periodic, too. \returns false if that is impossible
 bool join(TextureMapping& domain, const TextureMapping& leaf) {
     if (domain == leaf) return true;
     TextureMapping joined;
@@ -65,7 +65,7 @@ TextureDomain find_domain(const std::vector<TextureNode>& nodes, const std::vect
     std::vector<std::size_t> members;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         const TextureMapping mapping = unit_mapping(node_of(i));
-        // Beyond the border of a texture that does not repeat nothing can be joined.
+        // A texture that does not repeat cannot be extended beyond its border.
         const bool may_join = domain.wrap == TextureWrap::repeat || domain.mapping == mapping;
         if (may_join && node_of(i).wrap == domain.wrap && join(domain.mapping, mapping))
             members.push_back(i);

@@ -10,7 +10,7 @@ namespace nusselt::scene {
 
 /// The grid of a baked texture.
 struct TextureDomain {
-    TextureMapping mapping; ///< of the coordinates of the surface to the unit square of the grid
+    TextureMapping mapping; ///< from the coordinates of the surface to the unit square of the grid
     TextureWrap wrap = TextureWrap::repeat;
     TextureFilter filter = TextureFilter::nearest;
     std::array<int, 2> size = {1, 1};

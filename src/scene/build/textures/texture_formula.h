@@ -1,5 +1,5 @@
 #pragma once
-/// Textures as formulas of constants and images. Equal formulas are one node, so that each is evaluated once.
+/// Textures as formulas of constants and images. Equal formulas share a node, so that each is evaluated once.
 
 #include "scene/build/textures/reflectance.h"
 #include "scene/model/scene.h"
@@ -52,10 +52,10 @@ struct TextureNode {
     auto operator<=>(const TextureNode&) const = default;
 };
 
-/// Builds formulas. Constants are computed at once, and factors are kept apart from nodes where that is possible.
+/// Builds formulas. Computes constants at once, and keeps factors apart from nodes where possible.
 class TextureFormulas {
 public:
-    /// The node with its factor 1.
+    /// The node with a factor of 1.
     TextureValue add(const TextureNode& node);
     TextureValue product(const TextureValue& a, const TextureValue& b);
     /// a * (1 - amount) + b * amount
@@ -76,7 +76,7 @@ private:
     std::map<TextureNode, int> numbers_;
 };
 
-/// The nodes that a formula consists of, in their order; its own is the last one.
+/// The nodes of a formula in their order; the last one is the formula itself.
 std::vector<int> formula_nodes(const std::vector<TextureNode>& nodes, int node);
 
 } // namespace nusselt::scene

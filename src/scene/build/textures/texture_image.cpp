@@ -74,7 +74,7 @@ void decode_bytes(std::string_view file, ImageRequest::Encoding encoding, Budget
     texture.width = header.width;
     texture.height = header.height;
     charge(texture, texels);
-    // Grey with alpha becomes colour with alpha.
+    // No texture has two channels, so grey with alpha becomes colour with alpha.
     texture.channels = header.channels == 2 ? 4 : header.channels;
     texture.texels = image::decode_codes(file, texture.channels, [&](double code) {
         return encoding == ImageRequest::kSrgb ? image::linear_from_srgb(code) : std::pow(code, encoding);

@@ -1,5 +1,5 @@
 #pragma once
-/// Image files as textures.
+/// Reads image files as textures.
 
 #include "scene/build/limits.h"
 #include "scene/input/diagnostics.h"
@@ -19,7 +19,7 @@ struct ImageRequest {
 
     std::filesystem::path path;
     Encoding encoding = kSrgb;
-    Location location; ///< of the first directive that requests it
+    Location location; ///< of the first request
 };
 
 /// Decodes PNG (8 and 16 bits), JPEG, TGA and BMP by `encoding`, and HDR, EXR and PFM, which are linear. The format is

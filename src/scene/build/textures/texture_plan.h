@@ -18,7 +18,7 @@ struct TextureRequest {
     Location location; ///< of the material
 };
 
-/// All that the textures of a scene are made of.
+/// The images and formulas from which the textures of a scene are made.
 struct TexturePlan {
     std::vector<ImageRequest> images;
     std::vector<TextureNode> nodes;
@@ -29,11 +29,11 @@ struct TexturePlan {
 class TexturePlanner {
 public:
     TextureFormulas& formulas() { return formulas_; }
-    /// Index of an image for TextureNode::image.
+    /// The index of an image, for TextureNode::image.
     int image(ImageRequest request);
-    /// Asks for the node of a value as a texture.
+    /// Requests the node of a value as a texture.
     /// \param channels  3 or 1
-    /// \returns the index of the request; -1 for values without node
+    /// \returns the index of the request; -1 for values without a node
     int request(const TextureValue& value, int channels, const Location& location);
     /// All requests so far.
     TexturePlan plan() const { return {images_, formulas_.nodes(), requests_}; }
@@ -42,7 +42,7 @@ private:
     std::vector<ImageRequest> images_;
     std::map<std::pair<std::filesystem::path, ImageRequest::Encoding>, int> image_numbers_;
     std::vector<TextureRequest> requests_;
-    std::map<std::pair<int, int>, int> request_numbers_; ///< of a node and a number of channels
+    std::map<std::pair<int, int>, int> request_numbers_; ///< by node and number of channels
     TextureFormulas formulas_;
 };
 

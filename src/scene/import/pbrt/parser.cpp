@@ -489,8 +489,7 @@ void Parser::shape() {
         return;
     }
     if (shape.type == "plymesh") shape.mesh_path = resolve(shape.parameters.string("filename", ""));
-    // Tubes are no surfaces, they need no material.
-    if (!is_tube(shape)) {
+    if (is_surface(shape)) {
         shape.material = used_material(*state.material);
         if (shape.material == kInvisible && is_black(shape.emission.radiance)) return;
         if (shape.material == kInvisible) shape.material = invisible_light_material();

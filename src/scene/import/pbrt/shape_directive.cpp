@@ -1,6 +1,6 @@
 #include "scene/import/pbrt/shape_directive.h"
 
-#include "scene/build/tube_light.h"
+#include "scene/build/build_shape.h"
 #include "scene/import/pbrt/shape_readers.h"
 #include "scene/import/pbrt/syntax/name_table.h"
 #include "scene/model/vector_math.h"
@@ -27,12 +27,16 @@ constexpr std::pair<std::string_view, Reader> kReaders[] = {{"trianglemesh", rea
 
 bool is_supported(std::string_view type) { return find_named(kReaders, type) != nullptr; }
 
-bool is_tube(ShapeDirective& shape) {
-    if (shape.type == "line") return true;
-    if (shape.type != "cylinder") return false;
-    Cylinder cylinder;
-    cylinder.sweep_degrees = read_sweep(shape);
-    return becomes_tube(cylinder, shape.emission, shape.world_from_object);
+bool is_surface(ShapeDirective& shape) {
+    // What the builder looks at; the rest of the parameters is read later.
+    Geometry geometry;
+    if (shape.type == "line") geometry = Tube();
+    if (shape.type == "cylinder") {
+        Cylinder cylinder;
+        cylinder.sweep_degrees = read_sweep(shape);
+        geometry = cylinder;
+    }
+    return becomes_surface(geometry, shape.emission, shape.world_from_object);
 }
 
 ShapeDescription read_shape(ShapeDirective& shape) {
@@ -44,7 +48,7 @@ ShapeDescription read_shape(ShapeDirective& shape) {
     result.reverse_orientation = shape.reverse_orientation;
     result.emission = shape.emission;
     result.material = shape.material;
-    if (!is_black(shape.emission.radiance) && !is_tube(shape))
+    if (!is_black(shape.emission.radiance) && is_surface(shape))
         result.is_invisible = shape.parameters.real("alpha", 1) == 0;
     shape.parameters.warn_unused("shape \"" + shape.type + '"', result.warnings);
     return result;

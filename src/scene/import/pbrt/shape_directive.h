@@ -24,8 +24,8 @@ struct ShapeDirective {
 /// Whether read_shape() knows shapes of this type.
 bool is_supported(std::string_view type);
 
-/// Whether the shape becomes a tubular light, which needs no material.
-bool is_tube(ShapeDirective& shape);
+/// Whether the shape becomes a surface, which needs a material.
+bool is_surface(ShapeDirective& shape);
 
 /// Throws SceneError on parameters that are missing or have impossible values.
 ShapeDescription read_shape(ShapeDirective& shape);

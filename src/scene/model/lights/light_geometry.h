@@ -1,5 +1,5 @@
 #pragma once
-/// What rows of kinds of light say of their geometry.
+/// Types with which rows of kinds of light describe their geometry.
 
 #include "scene/model/scene.h"
 #include "scene/model/vector_math.h"
@@ -9,18 +9,18 @@
 
 namespace nusselt::scene {
 
-/// Triangles that camera rays meet, for lights that are no surfaces of the scene: they cast no shadows.
+/// Triangles that only camera rays meet, for lights that are no surfaces of the scene. They cast no shadows.
 struct LightMesh {
     std::vector<Float3> positions;
     std::vector<Triangle> triangles;
-    std::vector<std::uint32_t> lights; ///< of each triangle, its number among all lights of the scene
+    std::vector<std::uint32_t> lights; ///< for each triangle, the number of its light among all lights
 };
 
-/// Of all lights. Lights without extent give degenerate triangles.
-/// \throws std::runtime_error if there are too many, see check_counts()
+/// The mesh of all lights. Lights without extent give degenerate triangles.
+/// \throws std::runtime_error if it has too many triangles, see check_counts()
 LightMesh make_light_mesh(const Scene& scene);
 
-/// Sums that give a centroid.
+/// The sums from which a centroid follows.
 struct Moment {
     double weight = 0;
     Double3 sum;
@@ -32,10 +32,10 @@ struct Moment {
     Double3 centroid() const { return (1 / weight) * sum; }
 };
 
-/// A ray that someone aims at a light.
+/// A ray by which a user selects a light.
 struct SightRay {
     Double3 origin, direction;
-    /// How far beside a thin light it may pass, at the origin and for each unit of the direction [m].
+    /// How far from a thin light the ray may pass, at the origin and per unit of the direction [m].
     Double3 tolerance, tolerance_growth;
 
     double tolerance_at(double t) const { return length(tolerance + t * tolerance_growth); }

@@ -7,6 +7,9 @@
 
 namespace nusselt::scene {
 
+/// The only kind whose lights are surfaces: Scene::triangle_light refers to them. Its lights have the lowest numbers.
+using SurfaceLight = PolygonLight;
+
 /// An empty list for each kind. Lights are numbered in this order.
 Lights no_lights_of_each_kind();
 

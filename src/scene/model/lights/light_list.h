@@ -1,5 +1,5 @@
 #pragma once
-/// Lights of any kind. What is not about a certain kind asks lists of lights; the answers are in the row of the kind, a
+/// Lights of any kind. Code that is not about a certain kind asks lists of lights, and the row of the kind answers: a
 /// specialisation of LightKind.
 
 #include "scene/model/float3.h"
@@ -23,7 +23,7 @@ struct Transform;
 class ContentHash;
 
 /// The row of a kind of light. `Light` is plain data with the members `emitter`, an index into Scene::emitters, and
-/// `radiance` [W/(sr m^2)]. Functions of a row take one light, unless they say otherwise:
+/// `radiance` [W/(sr m^2)]. The functions of a row take one light, except for describe():
 ///
 ///     static constexpr std::string_view kName: as in "2 polygon lights";
 ///     static constexpr std::string_view kNoun: as in "is a tube";
@@ -32,15 +32,15 @@ class ContentHash;
 ///     static constexpr bool kHasBrdfSamples: whether samples of the BRDF can hit it;
 ///     add_to(light, Bounds&), hash(light, ContentHash&);
 ///     double emitting_area(light): of all sides that emit [m^2];
-///     add_moment(light, Moment&): weighed by areas;
+///     add_moment(light, Moment&): weighted by areas;
 ///     bool is_valid(light): whether renderers can work with its shape;
 ///     transform(Light&, transform): affine;
 ///     bool same_shape(light, light): whether both have the same place and shape;
-///     const bool* two_sided(light): whether it emits to both sides, null where it has one side only;
-///     add_mesh(light, LightMesh&): what cameras see where the light is no surface of the scene;
-///     double hit(light, SightRay): where a ray that someone aims at the light meets it, infinite for a miss;
-///     std::string describe(std::span<const Light>): lights of one emitter, for reports;
-///     std::string rig_field(light): its shape as a field of a light rig, `"name": value`; empty if rigs know none.
+///     const bool* two_sided(light): whether it emits to both sides, null for kinds with one side;
+///     add_mesh(light, LightMesh&): what cameras see of it, nothing for surfaces of the scene;
+///     double hit(light, SightRay): the parameter at which the ray meets it, infinite for a miss;
+///     std::string describe(std::span<const Light>): reports on lights of one emitter;
+///     std::string rig_field(light): its shape as a field of a light rig, `"name": value`; empty if there is none.
 template <class Light>
 struct LightKind;
 

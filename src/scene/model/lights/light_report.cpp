@@ -10,13 +10,13 @@ namespace nusselt::scene {
 
 namespace {
 
-/// Of the strongest channel [W].
+/// The power in the strongest channel [W].
 double power(const LightList& list, std::size_t i) {
     const Double3 radiance = to_double(list.radiance(i));
     return std::numbers::pi * list.emitting_area(i) * std::max({radiance.x, radiance.y, radiance.z});
 }
 
-/// Counts lights that contribute next to nothing but cost as much time as others.
+/// Reports lights that cost as much time as others but contribute next to nothing.
 std::string weak_lights(const LightList& list) {
     constexpr double kWeak = 1e-6;
     double total = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Lights of a scene for people to read.
+/// A report on the lights of a scene.
 
 #include "scene/model/scene.h"
 
@@ -7,7 +7,7 @@
 
 namespace nusselt::scene {
 
-/// Lines of text: how many lights of each kind the scene has, then its emitters with their shape and power.
+/// Lines of text: the number of lights of each kind, then the emitters with their shape and power.
 std::string light_report(const Scene& scene);
 
 } // namespace nusselt::scene

@@ -64,12 +64,12 @@ public:
     std::vector<Light> lights;
 };
 
-/// A list for each kind of light, in an order that numbers all lights.
+/// A list for each kind of light. Lights are numbered in the order of the lists.
 class Lights {
     using Handle = std::unique_ptr<LightList>;
 
 public:
-    /// Goes over the lists.
+    /// Iterates over the lists.
     template <class List>
     class Iterator {
     public:
@@ -104,7 +104,7 @@ public:
     MutableIterator begin() { return MutableIterator(lists_.data()); }
     MutableIterator end() { return MutableIterator(lists_.data() + lists_.size()); }
 
-    /// The lights of one kind. Kinds that have no list get one behind the others.
+    /// The lights of one kind. A kind without a list gets one after the others.
     template <class Light>
     std::vector<Light>& of() {
         if (LightsOf<Light>* const found = find<Light>()) return found->lights;
@@ -118,17 +118,17 @@ public:
         return found == nullptr ? kNone : found->lights;
     }
 
-    /// Takes the lights of others, each kind behind those that there are.
+    /// Moves the lights of others to the ends of the lists of their kinds.
     void append(Lights&& others);
-    /// Adds copies.
+    /// Copies likewise.
     void append(const Lights& others) { append(Lights(others)); }
     void append(const LightList& others, std::size_t i) { others.copy_to(list_like(others), i); }
-    /// Leaves lists without lights.
+    /// Empties all lists.
     void clear() {
         for (LightList& list : *this) list.clear();
     }
 
-    /// Of all kinds.
+    /// The number of lights of all kinds.
     std::size_t size() const {
         std::size_t sum = 0;
         for (const LightList& list : *this) sum += list.size();

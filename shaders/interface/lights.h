@@ -1,0 +1,59 @@
+#ifndef NUSSELT_INTERFACE_LIGHTS_H
+#define NUSSELT_INTERFACE_LIGHTS_H
+/// The table of kinds of light on devices, for C++ and GLSL alike. Another kind is a row of each part: src/render_vulkan/lights
+/// writes its records, and files in shaders/passes/lights read them.
+
+#include "interface/settings.h"
+
+#ifdef __cplusplus
+#include <cstdint>
+
+namespace nusselt::interface {
+
+using uint = std::uint32_t;
+#endif
+
+// Kinds are numbered from 0 without gaps.
+const int kPolygonKind = 0;
+const int kLineKind = 1;
+const int kLightKinds = 2;
+
+// Specialisation constants: whether a scene has lights of a shape. Those that it has not need no code.
+const int kPolygonsConstant = kFirstLightConstant;
+const int kLinesConstant = kFirstLightConstant + 1;
+const int kTubesConstant = kFirstLightConstant + 2;
+const int kConstantCount = kFirstLightConstant + 3;
+
+// Bindings of set 0, after those of shaders/passes/scene.glsl.
+const int kFirstLightBinding = 7;
+const int kPolygonLightsBinding = kFirstLightBinding;
+const int kPolygonCornersBinding = kFirstLightBinding + 1;
+const int kLineLightsBinding = kFirstLightBinding + 2;
+const int kFirstBindingAfterLights = kFirstLightBinding + 3;
+
+struct PolygonLightRecord {
+    float normal[3];
+    float radiance[3];
+    uint is_two_sided;
+};
+
+struct LineLightRecord {
+    float begin[3];
+    float direction[3];
+    float len; ///< `length` is a function of GLSL
+    float radius;
+    uint is_solid; ///< 1 for a cylinder, 0 for a linear light
+    float radiance[3];
+};
+
+/// The lights of one kind: consecutive numbers among all lights of the scene.
+struct LightRange {
+    uint first;
+    uint count;
+};
+
+#ifdef __cplusplus
+} // namespace nusselt::interface
+#endif
+
+#endif

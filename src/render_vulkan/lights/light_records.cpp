@@ -1,0 +1,37 @@
+#include "render_vulkan/lights/light_records.h"
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+namespace nusselt::render_vulkan {
+
+namespace {
+
+using WriteLights = bool (*)(const scene::LightList& list, LightRecords& records);
+
+/// By the number of the kind in shaders/interface/lights.h.
+constexpr WriteLights kKinds[] = {write_polygons, write_lines};
+static_assert(std::size(kKinds) == interface::kLightKinds);
+
+} // namespace
+
+LightRecords make_light_records(const scene::Scene& scene) {
+    LightRecords records;
+    std::uint32_t number = 0;
+    for (const scene::LightList& list : scene.lights) {
+        const auto count = static_cast<std::uint32_t>(list.size());
+        const auto* const kind = std::find_if(std::begin(kKinds), std::end(kKinds),
+                                              [&](WriteLights write) { return write(list, records); });
+        if (kind != std::end(kKinds))
+            records.ranges.at(static_cast<std::size_t>(kind - kKinds)) = {number, count};
+        else if (count > 0)
+            throw std::runtime_error(std::string(list.name()) +
+                                     " lights are not supported on GPUs; use --backend cpu");
+        number += count;
+    }
+    return records;
+}
+
+} // namespace nusselt::render_vulkan

@@ -1,0 +1,56 @@
+// Polygonal lights, for shaders/passes/lights/polygon.glsl.
+
+#include "render_vulkan/lights/light_records.h"
+#include "render_vulkan/record_values.h"
+
+#include <nusselt/geometry/convex_polygon.h>
+
+#include <algorithm>
+
+namespace nusselt::render_vulkan {
+
+namespace {
+
+struct PolygonArrays {
+    std::vector<interface::PolygonLightRecord> lights;
+    std::vector<scene::Float3> corners; ///< of each light the vertices, then the edges
+};
+
+template <int N>
+void add_polygon(const scene::PolygonLight& light, PolygonArrays& arrays) {
+    Vec3<float> corners[N] = {};
+    for (std::size_t j = 0; j < light.vertices.size(); ++j) corners[j] = to_vec(light.vertices[j]);
+    const auto polygon = make_polygon<N>(corners, static_cast<int>(light.vertices.size()));
+    for (const Vec3<float>& vertex : polygon.vertex) arrays.corners.push_back(to_float3(vertex));
+    for (const Vec3<float>& edge : polygon.edge) arrays.corners.push_back(to_float3(edge));
+    interface::PolygonLightRecord& record = arrays.lights.emplace_back();
+    copy(to_float3(polygon.normal), record.normal);
+    copy(light.radiance, record.radiance);
+    record.is_two_sided = light.two_sided ? 1 : 0;
+}
+
+} // namespace
+
+bool write_polygons(const scene::LightList& list, LightRecords& records) {
+    const auto* const polygons = dynamic_cast<const scene::LightsOf<scene::PolygonLight>*>(&list);
+    if (polygons == nullptr) return false;
+    const std::vector<scene::PolygonLight>& lights = polygons->lights;
+    const bool are_small = std::all_of(lights.begin(), lights.end(),
+                                       [](const auto& light) { return light.vertices.size() <= 4; });
+    records.polygon_slots = are_small ? 4 : 8;
+    checked_count(6 * lights.size() * 8, "coordinates of lights");
+    PolygonArrays arrays;
+    for (const scene::PolygonLight& light : lights) {
+        if (are_small)
+            add_polygon<4>(light, arrays);
+        else
+            add_polygon<8>(light, arrays);
+    }
+    records.array_at(interface::kPolygonLightsBinding) = make_light_array("polygonal lights", arrays.lights);
+    records.array_at(interface::kPolygonCornersBinding) =
+        make_light_array("corners of lights", arrays.corners);
+    records.has_shape_of(interface::kPolygonsConstant) = !lights.empty();
+    return true;
+}
+
+} // namespace nusselt::render_vulkan

@@ -1,0 +1,121 @@
+#pragma once
+/// What the row of every kind of light fulfils.
+
+#include "scene/model/bounds.h"
+#include "scene/model/content_hash.h"
+#include "scene/model/lights/light_geometry.h"
+#include "scene/model/scene.h"
+#include "scene/model/transform.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace nusselt::render_test {
+
+/// The questions that the contract asks a light, through the list of its kind as the product does.
+class LightUnderTest {
+public:
+    explicit LightUnderTest(scene::Lights light) : light_(std::move(light)) {}
+
+    const scene::LightList& list() const {
+        auto list = light_.begin();
+        while ((*list).size() == 0) ++list;
+        return *list;
+    }
+    scene::LightList& list() { return const_cast<scene::LightList&>(std::as_const(*this).list()); }
+
+    LightUnderTest transformed(const scene::Transform& transform) const {
+        LightUnderTest result = *this;
+        result.list().transform(transform);
+        return result;
+    }
+    scene::Bounds bounds() const {
+        scene::Bounds bounds;
+        list().add_to(bounds);
+        return bounds;
+    }
+    scene::Double3 centroid() const {
+        scene::Moment moment;
+        list().add_to(moment);
+        return moment.centroid();
+    }
+    std::uint64_t hash() const {
+        scene::ContentHash hash;
+        list().hash(hash);
+        return hash.value();
+    }
+    bool same_shape(const LightUnderTest& other) const { return list().same_shape(0, other.list(), 0); }
+    scene::LightMesh mesh() const {
+        scene::LightMesh mesh;
+        list().add_mesh(0, mesh);
+        return mesh;
+    }
+
+private:
+    scene::Lights light_;
+};
+
+inline bool contains(const scene::Bounds& box, const scene::Double3& p, double margin) {
+    return p.x >= box.low.x - margin && p.x <= box.high.x + margin && p.y >= box.low.y - margin &&
+           p.y <= box.high.y + margin && p.z >= box.low.z - margin && p.z <= box.high.z + margin;
+}
+
+/// The members of the row that contradict the others for this light, each once; none if the row is right.
+/// \param light valid, about one metre large, at most a few metres from the origin and not around it
+template <class Light>
+std::vector<std::string> row_defects(const Light& light) {
+    std::vector<std::string> defects;
+    const auto expect = [&](bool holds, const char* member) {
+        if (!holds && std::find(defects.begin(), defects.end(), member) == defects.end())
+            defects.emplace_back(member);
+    };
+    const LightUnderTest tested(scene::only(light));
+    const scene::Bounds box = tested.bounds();
+    // Cameras may see round lights as polygons of the same area, which are a little larger.
+    const double margin = 0.01 * length(box.high - box.low);
+    const scene::Double3 centroid = tested.centroid();
+    const scene::LightMesh mesh = tested.mesh();
+
+    expect(mesh.triangles.empty() == std::is_same_v<Light, scene::SurfaceLight>, "add_mesh");
+    const auto lies_in_box = [&](const scene::Float3& p) { return contains(box, to_double(p), margin); };
+    expect(std::all_of(mesh.positions.begin(), mesh.positions.end(), lies_in_box), "add_to");
+    expect(contains(box, centroid, margin), "add_moment");
+
+    const scene::Double3 towards = {0.3, -0.5, 0.8};
+    const scene::Double3 origin = centroid - 10.0 * towards;
+    expect(std::fabs(tested.list().hit(0, {origin, towards, {}, {}}) - 10) < 2, "hit");
+    expect(std::isinf(tested.list().hit(0, {origin, -1 * towards, {}, {}})), "hit");
+
+    const scene::Double3 way = {1, 2, 3};
+    const LightUnderTest moved = tested.transformed(scene::translation(way));
+    expect(length(moved.centroid() - centroid - way) < 1e-5, "transform");
+    expect(length(moved.bounds().low - box.low - way) < 1e-5, "transform");
+    expect(tested.same_shape(tested) && !tested.same_shape(moved), "same_shape");
+    expect(tested.hash() != moved.hash(), "hash");
+    LightUnderTest dimmed = tested;
+    dimmed.list().radiance(0).x /= 2;
+    expect(tested.same_shape(dimmed), "same_shape");
+    expect(tested.hash() != dimmed.hash(), "hash");
+
+    const double area = tested.list().emitting_area(0);
+    const LightUnderTest twice = tested.transformed(scene::scaling({2, 2, 2}));
+    expect(area > 0 && std::fabs(twice.list().emitting_area(0) / area - 4) < 1e-4, "emitting_area");
+    LightUnderTest turned = tested;
+    if (bool* const two_sided = turned.list().two_sided(0)) {
+        *two_sided = !*two_sided;
+        const double ratio = turned.list().emitting_area(0) / area;
+        expect(std::fabs(ratio - (*two_sided ? 2 : 0.5)) < 1e-6, "two_sided");
+    }
+    expect(tested.list().is_valid(0), "is_valid");
+    expect(!tested.transformed(scene::translation({1e16, 0, 0})).list().is_valid(0), "is_valid");
+
+    expect(tested.list().describe(0, 1).find("power ") != std::string::npos, "describe");
+    const std::string field = tested.list().rig_field(0);
+    expect(field.empty() || (field[0] == '"' && field.find("\": ") != std::string::npos), "rig_field");
+    return defects;
+}
+
+} // namespace nusselt::render_test

@@ -1,0 +1,101 @@
+/// Kinds of light are rows of tables; a kind without a twin in GLSL is refused.
+
+#include "gpu_test.h"
+#include "scenes.h"
+#include "toy_light/disc.h"
+
+#include "render_vulkan/backend.h"
+#include "render_vulkan/scene_records.h"
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace nusselt::render_vulkan_test {
+namespace {
+
+using render_vulkan::LightRecords;
+using render_vulkan::make_light_records;
+using render_vulkan::make_scene_records;
+using scene::DiscLight;
+
+std::string error_of(const std::function<void()>& run) {
+    try {
+        run();
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+constexpr const char* kRefusal = "disc lights are not supported on GPUs; use --backend cpu";
+
+scene::Scene make_scene_with_disc() {
+    scene::Scene scene = render_test::make_floor(4);
+    scene.emitters.push_back({"disc"});
+    scene.lights.of<DiscLight>().push_back({.center = {0, 0, 1}, .radius = 1, .radiance = {1, 1, 1}});
+    return scene;
+}
+
+TEST(LightRecords, RefuseKindsWithoutARow) {
+    scene::Scene scene = make_scene_with_disc();
+    EXPECT_EQ(error_of([&] { make_light_records(scene); }), kRefusal);
+    EXPECT_EQ(error_of([&] { make_scene_records(scene); }), kRefusal);
+    scene.lights.of<DiscLight>().clear();
+    EXPECT_EQ(error_of([&] { make_scene_records(scene); }), "");
+}
+
+class LightKindsOnGpu : public parity::GpuTest {};
+
+TEST_F(LightKindsOnGpu, WithoutARowAreRefused) {
+    const render_vulkan::VulkanBackend backend({.validation = gpu::Validation::on},
+                                               render_vulkan::ShadowRays::none);
+    scene::Scene scene = make_scene_with_disc();
+    EXPECT_EQ(error_of([&] { static_cast<void>(backend.prepare(scene)); }), kRefusal);
+    scene.lights.of<DiscLight>().clear();
+    EXPECT_EQ(error_of([&] { static_cast<void>(backend.prepare(scene)); }), "");
+}
+
+/// The constants of shapes that a scene has.
+std::vector<int> shapes_of(const scene::Scene& scene) {
+    std::vector<int> shapes;
+    const std::vector<std::uint32_t> constants = constants_of(make_scene_records(scene).kinds);
+    for (int i = interface::kFirstLightConstant; i < interface::kConstantCount; ++i)
+        if (constants.at(static_cast<std::size_t>(i)) != 0) shapes.push_back(i);
+    return shapes;
+}
+
+TEST(LightRecords, HaveWhatShadersReadOfEachKind) {
+    scene::Scene scene = render_test::make_floor(4);
+    EXPECT_EQ(shapes_of(scene), std::vector<int>());
+    const scene::PolygonLight polygon{0, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {1, 2, 3}, true};
+    scene.lights.of<scene::PolygonLight>() = {polygon, polygon};
+    EXPECT_EQ(shapes_of(scene), std::vector<int>{interface::kPolygonsConstant});
+    const scene::LineLight line{1, {0, 0, 1}, {1, 0, 1}, 0.1f, {2, 2, 2}, scene::TubeModel::linear};
+    scene.lights.of<scene::LineLight>() = {line, line, line};
+    EXPECT_EQ(shapes_of(scene), (std::vector<int>{interface::kPolygonsConstant, interface::kLinesConstant}));
+    scene.lights.of<scene::LineLight>()[1].model = scene::TubeModel::solid;
+    scene.lights.of<scene::PolygonLight>().resize(1);
+    EXPECT_EQ(shapes_of(scene), (std::vector<int>{interface::kPolygonsConstant, interface::kLinesConstant,
+                                                  interface::kTubesConstant}));
+
+    const render_vulkan::SceneRecords records = make_scene_records(scene);
+    const interface::LightRange& polygons = records.scene.lights[interface::kPolygonKind];
+    const interface::LightRange& lines = records.scene.lights[interface::kLineKind];
+    EXPECT_EQ(polygons.first, 0u);
+    EXPECT_EQ(polygons.count, 1u);
+    EXPECT_EQ(lines.first, 1u);
+    EXPECT_EQ(lines.count, 3u);
+    LightRecords lights = records.lights;
+    const auto bytes_at = [&](int binding) {
+        return sizeof(std::uint32_t) * lights.array_at(binding).words.size();
+    };
+    EXPECT_EQ(bytes_at(interface::kPolygonLightsBinding), sizeof(interface::PolygonLightRecord));
+    EXPECT_EQ(bytes_at(interface::kPolygonCornersBinding), 2 * 4 * sizeof(scene::Float3));
+    EXPECT_EQ(bytes_at(interface::kLineLightsBinding), 3 * sizeof(interface::LineLightRecord));
+}
+
+} // namespace
+} // namespace nusselt::render_vulkan_test
