@@ -15,7 +15,7 @@ TEST(Message, IsOneLineWithoutControlCharacters) {
 }
 
 TEST(Message, IsCutBetweenCharacters) {
-    EXPECT_EQ(message_line(std::string(9000, 'x')), std::string(8000, 'x') + "...");
+    EXPECT_EQ(message_line(std::string(9000, 'x')), std::string(8000, 'x').append("..."));
     EXPECT_EQ(shortened("abc\xc3\xa4", 4), "abc...");
     EXPECT_EQ(shortened("abc\xc3\xa4", 5), "abc\xc3\xa4");
 }
