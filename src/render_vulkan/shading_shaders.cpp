@@ -1,20 +1,32 @@
 #include "render_vulkan/shading_shaders.h"
 
-#include "scene/input/file_bytes.h"
-
-#include <cstring>
+#include <new>
 #include <stdexcept>
+#include <zlib.h>
 
 namespace nusselt::render_vulkan {
 
 namespace {
 
+/// The words of a gzip file that the build made.
 std::vector<std::uint32_t> inflated_words(std::span<const unsigned char> gzip) {
-    scene::Budget bytes(1 << 24, "a shader is larger than 16 MiB");
-    const scene::FileBytes spirv =
-        scene::inflated({reinterpret_cast<const char*>(gzip.data()), gzip.size()}, bytes);
-    std::vector<std::uint32_t> words(spirv.view().size() / sizeof(std::uint32_t));
-    std::memcpy(words.data(), spirv.view().data(), words.size() * sizeof(std::uint32_t));
+    // Its last four bytes are the size of what it holds, the least significant one first.
+    const auto size = gzip.last<4>();
+    const std::uint32_t bytes =
+        size[0] | std::uint32_t{size[1]} << 8 | std::uint32_t{size[2]} << 16 | std::uint32_t{size[3]} << 24;
+    std::vector<std::uint32_t> words(bytes / sizeof(std::uint32_t));
+
+    z_stream stream = {};
+    stream.next_in = const_cast<unsigned char*>(gzip.data()); // zlib does not write to its input
+    stream.avail_in = static_cast<uInt>(gzip.size());
+    stream.next_out = reinterpret_cast<unsigned char*>(words.data());
+    stream.avail_out = bytes;
+    constexpr int kLargestWindow = 15;
+    constexpr int kGzipOnly = 16;
+    if (inflateInit2(&stream, kLargestWindow + kGzipOnly) != Z_OK) throw std::bad_alloc();
+    const int result = inflate(&stream, Z_FINISH);
+    inflateEnd(&stream);
+    if (result != Z_STREAM_END) throw std::logic_error("an embedded shader cannot be decompressed");
     return words;
 }
 
