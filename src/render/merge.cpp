@@ -283,7 +283,8 @@ image::LayeredImage Merger::result() const {
     for (const auto& [seed, pixels] : state.sampled) seeds.insert(seed);
     if (seeds.size() > 1) metadata.erase("camera_rays");
     metadata["seed"] = joined(seeds);
-    metadata["isa"] = joined(state.isas);
+    // GPUs have none.
+    if (!state.isas.empty()) metadata["isa"] = joined(state.isas);
     metadata["render_seconds"] = image::metadata_text(state.render_seconds);
     metadata["finished_fraction"] =
         image::metadata_text(static_cast<double>(finished) / static_cast<double>(state.samples.size()));

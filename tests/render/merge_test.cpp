@@ -72,6 +72,13 @@ TEST(Merge, ResultsCanBeMergedAgain) {
     EXPECT_NE(problem_with({first, make_input("1", 10, 3, 4, 0)}), "");
 }
 
+TEST(Merge, OfImagesFromGpusNamesNoInstructionSet) {
+    std::vector<LayeredImage> images = {make_input("1", 1, 1, 4, 4), make_input("2", 2, 2, 4, 4)};
+    EXPECT_EQ(merged(images).metadata.at("isa"), "avx2");
+    for (LayeredImage& image : images) image.metadata.erase("isa");
+    EXPECT_FALSE(merged(images).metadata.contains("isa"));
+}
+
 TEST(Merge, OfEmptyPartsStaysAPart) {
     const LayeredImage nothing = merged({make_input("0", 0, 0, 0, 0), make_input("0", 0, 0, 0, 0)});
     EXPECT_EQ(nothing.layers.back().name, "samples");

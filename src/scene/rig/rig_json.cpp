@@ -188,9 +188,9 @@ LightAddition read_addition(const JsonNode& entry, const LightChanges& changes) 
     if (const auto name = entry.find("name"))
         name->fail("is not supported for new lights; set their name in \"add\"");
     if (const auto material = entry.find("material")) {
-        for (const LightList& list : std::as_const(*changes.shape))
-            if (list.size() > 0 && list.two_sided(0) == nullptr)
-                material->fail(std::string(list.noun()) + "s have no material");
+        if (changes.shape->of<SurfaceLight>().empty())
+            for (const LightList& list : std::as_const(*changes.shape))
+                if (list.size() > 0) material->fail(std::string(list.noun()) + "s have no material");
         addition.material = material->text();
     }
     const auto copies = entry.find("copies");
