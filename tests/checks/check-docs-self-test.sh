@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Shows that scripts/check-docs.py accepts good pages and finds each kind of offence.
 set -euo pipefail
-scripts=$(cd "$(dirname "$0")" && pwd)
+scripts=$(cd "$(dirname "$0")/../../scripts" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 mkdir -p "$tree/docs/techniques/images" "$tree/examples"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Shows that scripts/check-files.sh accepts a good tree and finds each kind of offence.
 set -euo pipefail
-scripts=$(cd "$(dirname "$0")" && pwd)
+scripts=$(cd "$(dirname "$0")/../../scripts" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 mkdir -p "$tree"/{include,src,proof,lab,apps,tests,examples,shaders,scripts,cmake}
