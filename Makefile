@@ -1,4 +1,4 @@
-# make demo, make check and make test need Debian 12, git and make; scripts/setup.sh installs the rest.
+# make demo, make check and make test need Debian 12 or 13, git and make; scripts/setup.sh installs the rest.
 
 .PHONY: build demo check test test-full single-header shaders clean help
 

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Checks of the documentation. Usage: scripts/check-docs.py code|links ROOT, or pictures ROOT PROGRAM
+"""Checks of the documentation. Usage: scripts/check-docs.py code|links|checks ROOT, or pictures ROOT PROGRAM
   code      each paragraph of C++ in README.md and docs/ is part of a file in examples/, which the tests compile;
             comments and white space do not count
   links     files that README.md and docs/ link to exist
+  checks    the table of checks in docs/testing.md names those of tests/checks/CMakeLists.txt, but no self-tests
   pictures  docs/techniques/images/NAME.svg is what `PROGRAM map NAME` draws
 scripts/fill-docs.py checks tables.
 """
+import fnmatch
 import pathlib
 import re
 import subprocess
@@ -37,6 +39,19 @@ def links(root):
                 yield f"{page}: the file {target} is missing"
 
 
+def checks(root):
+    page = root / "docs/testing.md"
+    rows = re.findall(r"^\| `checks\.([^`]+)` \|", page.read_text(), re.MULTILINE)
+    names = re.findall(r"nusselt_add_check\((\S+)", (root / "tests/checks/CMakeLists.txt").read_text())
+    names = [name for name in names if not name.endswith("_self_test")]
+    for name in names:
+        if not any(fnmatch.fnmatchcase(name, row) for row in rows):
+            yield f"{page}: no row for checks.{name}"
+    for row in rows:
+        if not fnmatch.filter(names, row):
+            yield f"{page}: tests/checks/CMakeLists.txt has no checks.{row}"
+
+
 def pictures(root, program):
     for picture in sorted((root / "docs/techniques/images").glob("*.svg")):
         with tempfile.TemporaryDirectory() as folder:
@@ -46,7 +61,7 @@ def pictures(root, program):
                 yield f"{picture}: outdated; run scripts/update-docs.sh pictures"
 
 
-CHECKS = {"code": code, "links": links, "pictures": pictures}
+CHECKS = {"code": code, "links": links, "checks": checks, "pictures": pictures}
 
 if __name__ == "__main__":
     if len(sys.argv) < 3 or sys.argv[1] not in CHECKS:

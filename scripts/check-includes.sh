@@ -25,7 +25,8 @@ BEGIN {
     allow("include/estimate", below)
     allow("include/all", below " include/estimate")
 
-    # Proofs are right above the library; tests, fuzzers and the laboratory share them.
+    # Proofs are right above the library; tests, fuzzers and the laboratory share them. They check shadows in the form that
+    # src/visibility stores (stored_shadows.h).
     allow("proof", "library src/visibility")
     allow("src/base", "")
     allow("src/image", "library src/base")

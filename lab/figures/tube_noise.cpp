@@ -8,11 +8,11 @@
 #include <nusselt/sampling/cylinder_solid_angle.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
+#include "base/stopwatch.h"
 #include "lab/timing/sampler_timing_lights.h"
 
 namespace nusselt::lab {
@@ -73,7 +73,7 @@ double time_samples(const std::vector<Cylinder<float>>& lights) {
     constexpr std::uint32_t kSamplesPerLight = 4;
     static volatile float sink;
     float total = 0;
-    const auto begin = std::chrono::steady_clock::now();
+    const base::Stopwatch stopwatch;
     std::uint32_t index = 0;
     for (std::uint32_t k = 0; k < kSamplesPerLight; ++k)
         for (const Cylinder<float>& light : lights) {
@@ -81,10 +81,10 @@ double time_samples(const std::vector<Cylinder<float>>& lights) {
             const auto s = Technique(light).sample({to_unit(bits.x), to_unit(bits.y)});
             total += s.wi.x + s.wi.y + s.wi.z + s.pdf + s.p.x + s.p.y + s.p.z;
         }
-    const auto end = std::chrono::steady_clock::now();
+    const double seconds = stopwatch.seconds();
     sink = total;
     (void)sink;
-    return std::chrono::duration<double>(end - begin).count();
+    return seconds;
 }
 
 } // namespace

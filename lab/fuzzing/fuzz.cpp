@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <mutex>
@@ -13,6 +12,7 @@
 
 #include "base/flush_denormals.h"
 #include "base/isa.h"
+#include "base/stopwatch.h"
 #include "proof/hostile/lights.h"
 
 namespace nusselt::lab {
@@ -123,14 +123,14 @@ struct Tally {
 
     /// Checks a block in both floating-point modes.
     void check(const FuzzBlock<T>& block, std::uint64_t first, int columns) {
-        const auto begin = std::chrono::steady_clock::now();
+        const base::Stopwatch stopwatch;
         FuzzBlockResult<T> result[2];
         technique->check(block, columns, result[0]);
         {
             const base::FlushDenormals flush;
             technique->check(block, columns, result[1]);
         }
-        seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        seconds += stopwatch.seconds();
         for (int mode = 0; mode < 2; ++mode) {
             violations += static_cast<std::uint64_t>(result[mode].count);
             const int kept = std::min(result[mode].count, result[mode].kKept);

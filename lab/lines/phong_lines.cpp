@@ -1,5 +1,6 @@
 #include "lab/lines/phong_lines.h"
 
+#include "base/stopwatch.h"
 #include "lab/lines/phong_lines_kernel.h"
 #include "proof/hostile/lights.h"
 #include "proof/median.h"
@@ -7,7 +8,6 @@
 #include <nusselt/line_samples/phong.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -78,10 +78,9 @@ struct Series {
 
 void time_once(const Case& lines, int exponent, Series& series) {
     float result[kPhongLines];
-    const auto begin = std::chrono::steady_clock::now();
+    const base::Stopwatch stopwatch;
     series.run(lines.parts, exponent, result);
-    const auto end = std::chrono::steady_clock::now();
-    series.nanoseconds.push_back(std::chrono::duration<double, std::nano>(end - begin).count() / kPhongLines);
+    series.nanoseconds.push_back(1e9 * stopwatch.seconds() / kPhongLines);
 }
 
 void judge(const Case& lines, int exponent, Series& series) {

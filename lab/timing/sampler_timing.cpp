@@ -1,10 +1,10 @@
 #include "lab/timing/sampler_timing.h"
 
-#include <chrono>
 #include <map>
 #include <memory>
 
 #include "base/isa.h"
+#include "base/stopwatch.h"
 #include "lab/timing/sampler_timing_lights.h"
 
 namespace nusselt::lab {
@@ -26,11 +26,11 @@ double nanoseconds_per_light(float (*run)()) {
     // Runs are repeated because the resolution of the clock would matter for short ones.
     constexpr int kRepetitions = 4;
     static volatile float sink;
-    const auto begin = std::chrono::steady_clock::now();
+    const base::Stopwatch stopwatch;
     for (int i = 0; i < kRepetitions; ++i) sink = run();
-    const auto end = std::chrono::steady_clock::now();
+    const double seconds = stopwatch.seconds();
     (void)sink;
-    return std::chrono::duration<double, std::nano>(end - begin).count() / (kRepetitions * kTimedLights);
+    return 1e9 * seconds / (kRepetitions * kTimedLights);
 }
 
 void add_ratios(std::vector<SamplerTiming>& rows) {

@@ -4,6 +4,7 @@
 #include "apps/nusselt-lab/bench/bench_output.h"
 
 #include "base/atomic_file.h"
+#include "base/stopwatch.h"
 #include "fit/table_error.h"
 #include "fit/table_fit.h"
 #include "image/io.h"
@@ -15,7 +16,6 @@
 #include <nlohmann/json.hpp>
 #include <tbb/task_arena.h>
 
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -60,16 +60,15 @@ int fit_columns(const FitLtcOptions& options, TableFit& table, tbb::task_arena& 
     // Fails now rather than after minutes if the file cannot be written.
     save();
 
-    using Clock = std::chrono::steady_clock;
-    auto saved = Clock::now();
+    base::Stopwatch since_saving;
     Progress progress;
     const int first = table.finished_columns();
     while (table.finished_columns() < table.columns() && !interrupted) {
         arena.execute([&] { table.run(kColumnsPerThread * arena.max_concurrency()); });
         progress.update(static_cast<double>(table.finished_columns() - first) / (table.columns() - first));
-        if (std::chrono::duration<double>(Clock::now() - saved).count() > kSecondsBetweenSaves) {
+        if (since_saving.seconds() > kSecondsBetweenSaves) {
             save();
-            saved = Clock::now();
+            since_saving = base::Stopwatch();
         }
     }
     progress.finish();
@@ -217,9 +216,9 @@ int run_fit_ltc(const FitLtcOptions& options) {
     TableFit fitted(brdf, size_of(options.size));
     tbb::task_arena arena(options.threads.value_or(render_cpu::default_thread_count()));
     const InterruptGuard guard;
-    const auto begin = std::chrono::steady_clock::now();
+    const base::Stopwatch stopwatch;
     const int columns = fit_columns(options, fitted, arena);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const double seconds = stopwatch.seconds();
     if (interrupted) {
         fmt::print(stderr, "stopped after {} of {} columns; {}\n", fitted.finished_columns(),
                    fitted.columns(),

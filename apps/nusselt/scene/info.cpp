@@ -1,12 +1,12 @@
 #include "info.h"
 #include "lights.h"
 
+#include "base/stopwatch.h"
 #include "scene/model/bounds.h"
 #include "scene/model/lights/light_report.h"
 #include "scene/model/scene_size.h"
 #include "scene/model/vector_math.h"
 
-#include <chrono>
 #include <fmt/format.h>
 #include <memory>
 #include <numbers>
@@ -135,9 +135,9 @@ void setup_info(CLI::App& app, int& exit_code) {
 }
 
 int run_info(const InfoOptions& options) {
-    const auto begin = std::chrono::steady_clock::now();
+    const base::Stopwatch stopwatch;
     const scene::Scene scene = load_scene(options.scene, options.rigs);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    const double seconds = stopwatch.seconds();
 
     print_geometry(scene);
     print_materials(scene);
@@ -146,7 +146,7 @@ int run_info(const InfoOptions& options) {
     print_film(scene.film);
     fmt::print("\n{} warnings\n", scene.warnings.size());
     for (const std::string& warning : scene.warnings) fmt::print("  {}\n", warning);
-    fmt::print("\nloaded in {:.3f} s\n", elapsed.count());
+    fmt::print("\nloaded in {:.3f} s\n", seconds);
     return 0;
 }
 

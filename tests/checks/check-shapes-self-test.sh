@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # check-shapes.sh must pass for copies of the shapes, and fail for one with another coordinate.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cp scenes/shapes/soup.ply scenes/shapes/torus.ply "$work"

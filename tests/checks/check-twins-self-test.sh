@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Shows that scripts/check-twins.py accepts shaders that follow their headers and finds each kind of offence.
 set -euo pipefail
-check=$(cd "$(dirname "$0")" && pwd)/check-twins.py
+check=$(cd "$(dirname "$0")/../../scripts" && pwd)/check-twins.py
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 mkdir -p "$tree/include/nusselt/core" "$tree/shaders/nusselt/core"

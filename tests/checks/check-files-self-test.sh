@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Shows that scripts/check-files.sh accepts a good tree and finds each kind of offence.
 set -euo pipefail
-scripts=$(cd "$(dirname "$0")" && pwd)
+scripts=$(cd "$(dirname "$0")/../../scripts" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 mkdir -p "$tree"/{include,src,proof,lab,apps,tests,examples,shaders,scripts,cmake}
 cp "$scripts/../.clang-format" "$tree"
+touch "$tree/CMakeLists.txt" "$tree/Makefile"
 good=$'#include "/usr/include/math.h"\nint sum(int a, int b) { return a + b; } // and/or\n'
 
 # Expects that the check $1 succeeds or fails ($2) on a tree with the file content $3.
@@ -19,10 +20,10 @@ for check in format length folders paths; do expect "$check" passes "$good"; don
 expect format fails $'int  sum(int a,int b) { return a+b; }\n'
 expect length passes "$(yes '// line' | head -n 600)"
 expect length fails "$(yes '// line' | head -n 601)"
-for file in shaders/a.glsl shaders/a.comp scripts/a.py scripts/a.sh cmake/a.cmake tests/CMakeLists.txt; do
+for file in shaders/a.{glsl,comp,vert,frag} scripts/a.{py,sh} cmake/a.{cmake,h.in} tests/CMakeLists.txt CMakeLists.txt Makefile; do
     head -n 601 < <(yes '# line') >"$tree/$file"
     expect length fails "$good"
-    rm "$tree/$file"
+    : >"$tree/$file"
 done
 for i in $(seq 30); do touch "$tree/src/$i.h"; done
 expect folders fails "$good"

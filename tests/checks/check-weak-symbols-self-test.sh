@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Shows that scripts/check-weak-symbols.sh accepts inline functions inside an isa_ namespace and rejects shared ones.
-# Usage: scripts/check-weak-symbols-self-test.sh COMPILER
+# Usage: tests/checks/check-weak-symbols-self-test.sh COMPILER
 set -euo pipefail
 compiler=$1
-check=$(cd "$(dirname "$0")" && pwd)/check-weak-symbols.sh
+check=$(cd "$(dirname "$0")/../../scripts" && pwd)/check-weak-symbols.sh
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 

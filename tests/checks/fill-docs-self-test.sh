@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Shows that scripts/fill-docs.py fills tables, and that its check accepts good pages and finds each kind of offence.
 set -euo pipefail
-fill=$(cd "$(dirname "$0")" && pwd)/fill-docs.py
+fill=$(cd "$(dirname "$0")/../../scripts" && pwd)/fill-docs.py
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 mkdir -p "$tree/docs/data" "$tree/docs/techniques"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Shows that scripts/check-includes.sh accepts each allowed kind of #include and finds each wrong kind.
 set -euo pipefail
-check=$(cd "$(dirname "$0")" && pwd)/check-includes.sh
+check=$(cd "$(dirname "$0")/../../scripts" && pwd)/check-includes.sh
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Shows that scripts/check-docs.py accepts good pages and finds each kind of offence.
 set -euo pipefail
-scripts=$(cd "$(dirname "$0")" && pwd)
+scripts=$(cd "$(dirname "$0")/../../scripts" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-mkdir -p "$tree/docs/techniques/images" "$tree/examples"
+mkdir -p "$tree/docs/techniques/images" "$tree/examples" "$tree/tests/checks"
 page=$tree/docs/techniques/page.md
 
 # Expects that the check $1 succeeds or fails ($2); further arguments go to the check.
@@ -28,6 +28,22 @@ echo '[a](page.md#part), [b](https://example.org), ![c](images/a.svg)' >"$page"
 expect links fails
 echo drawn >"$tree/docs/techniques/images/a.svg"
 expect links passes
+
+# Checks in the table.
+checks=$tree/tests/checks/CMakeLists.txt
+page=$tree/docs/testing.md
+printf '| `checks.%s` | script |\n' a 'b_*' >"$page"
+printf 'nusselt_add_check(%s script)\n' a a_self_test b_1 b_2 >"$checks"
+expect checks passes
+echo 'nusselt_add_check(c script)' >>"$checks"
+expect checks fails
+printf '| `checks.c` | script |\n' >>"$page"
+expect checks passes
+printf '| `checks.d` | script |\n' >>"$page"
+expect checks fails
+printf '| `checks.%s` | script |\n' a 'b_*' c >"$page"
+echo 'nusselt_add_check(a_${check} script)' >>"$checks"
+expect checks fails
 
 # Pictures, drawn by a program that prints its argument.
 printf '#!/bin/sh\nprintf "%%s\\n" "$2" >"$3"\n' >"$tree/program"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Shows that the emulated baseline processor runs an ordinary program and stops one that uses AVX.
-# Usage: scripts/check-baseline-self-test.sh COMPILER EMULATOR...
+# Usage: tests/checks/check-baseline-self-test.sh COMPILER EMULATOR...
 set -euo pipefail
 compiler=$1
 emulator=("${@:2}")

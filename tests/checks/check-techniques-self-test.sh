@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Shows that check-techniques.py accepts the repository and rejects rows, texts and suites that are wrong.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 registry=$folder/include/nusselt/techniques.json
