@@ -131,10 +131,11 @@ private:
 
 /// Whether the smallest of several independent p-values is too small, at a significance level of 0.1 % for all tests
 /// together (Šidák's correction). As seeds are fixed, a given sampler always passes or always fails.
+/// A value that is not a number comes from an infinite estimate and is rejected, and so is a test of nothing.
 inline bool reject(const std::vector<double>& p_values) {
-    const double smallest = *std::min_element(p_values.begin(), p_values.end());
-    const double count = static_cast<double>(p_values.size());
-    return smallest < 1 - std::pow(1 - 1e-3, 1 / count);
+    const double limit = 1 - std::pow(1 - 1e-3, 1 / static_cast<double>(p_values.size()));
+    return p_values.empty() ||
+           !std::all_of(p_values.begin(), p_values.end(), [&](double p) { return p >= limit; });
 }
 
 /// Uniform random numbers in [0, 1) with the resolution of float.

@@ -2,6 +2,8 @@
 
 #include "hypothesis.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 namespace nusselt_test {
@@ -56,6 +58,9 @@ TEST(HypothesisTest, CorrectsForTheNumberOfTests) {
     EXPECT_TRUE(reject({0.5, 0.0004, 0.9}) == false);
     EXPECT_TRUE(reject({0.5, 0.0003, 0.9}));
     EXPECT_TRUE(reject({0.0009}));
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_TRUE(reject({kNaN, 0.5}) && reject({0.5, kNaN})) << "an infinite estimate is accepted";
+    EXPECT_TRUE(reject({})) << "a test without samples is accepted";
 }
 
 } // namespace
