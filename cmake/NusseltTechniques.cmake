@@ -174,7 +174,6 @@ function(nusselt_describe_technique name)
     using Published = ${published};
 };\n")
     if(light MATCHES "^polygon")
-        set(bound 4)
         string(APPEND text "using ${name}Kind = ${kind_name}<4>;\n")
         set(member "${kind_name}<N>")
         if(${row}_clips_twice)
