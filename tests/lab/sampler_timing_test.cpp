@@ -1,4 +1,5 @@
 #include "lab/timing/sampler_timing.h"
+#include "lab/timing/sampler_timing_lights.h"
 #include "proof/techniques/registry.h"
 
 #include <gtest/gtest.h>
@@ -39,6 +40,15 @@ TEST(SamplerTiming, TellsAnExpensiveTechniqueFromACheapOne) {
             ->prepare_ns;
     };
     EXPECT_GT(cost("PolygonProjectedSolidAngle"), 2 * cost("PolygonArea"));
+}
+
+TEST(SamplerTiming, ComparesWithPublishedFormulas) {
+    EXPECT_EQ(competitor_of("PolygonSolidAngle"), "PolygonSolidAnglePeters");
+    EXPECT_EQ(competitor_of("LineProjectedSolidAngle"), "LineProjectedSolidAnglePeters");
+    EXPECT_EQ(competitor_of("PolygonProjectedSolidAngleBiased"), "PolygonProjectedSolidAnglePeters")
+        << "those of the technique that it approximates";
+    EXPECT_EQ(competitor_of("PolygonLtcBiased"), "") << "the technique that it approximates has none";
+    EXPECT_EQ(competitor_of("PolygonSolidAnglePeters"), "") << "it has the published formulas itself";
 }
 
 TEST(SamplerTiming, NamesAnUnknownInstructionSet) {
