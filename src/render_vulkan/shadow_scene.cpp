@@ -25,18 +25,6 @@ gpu::AccelerationStructure make_structure(const gpu::Device& device, const scene
 
 } // namespace
 
-std::string_view name_of(ShadowRays way) {
-    switch (way) {
-    case ShadowRays::query:
-        return "query";
-    case ShadowRays::bvh:
-        return "bvh";
-    case ShadowRays::none:
-        break;
-    }
-    return "none";
-}
-
 ShadowRays default_shadow_rays(const gpu::Device& device) {
     // Mesa's software device takes up to ten times as long for its own ray queries (docs/performance.md).
     return device.features().ray_queries && !device.description().is_software ? ShadowRays::query

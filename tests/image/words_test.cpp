@@ -21,6 +21,13 @@ TEST(ShellWord, IsQuotedIfShellsWouldInterpretIt) {
         EXPECT_EQ(shell_word(word), "'" + std::string(word) + "'");
 }
 
+TEST(Listing, HasCommasAndOneConjunction) {
+    EXPECT_EQ(listing({}, "or"), "");
+    EXPECT_EQ(listing({"a"}, "or"), "a");
+    EXPECT_EQ(listing({"a", "b"}, "and"), "a and b");
+    EXPECT_EQ(listing({"a", "b", "c"}, "or"), "a, b or c");
+}
+
 } // namespace
 
 } // namespace nusselt::base::test
