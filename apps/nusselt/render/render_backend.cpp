@@ -5,7 +5,7 @@
 #include "base/words.h"
 #include "render_cpu/backend.h"
 #include "render_cpu/renderer.h"
-#include "render_vulkan/shadow_rays.h"
+#include "render_vulkan/shadows/shadow_rays.h"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "render_vulkan/shadow_scene.h"
+#include "render_vulkan/shadows/shadow_scene.h"
 
 #include "render_vulkan/scene_buffers.h"
 #include "visibility/query_geometry.h"

@@ -3,7 +3,7 @@
 
 #include "gpu/acceleration_structure.h"
 #include "gpu/buffer.h"
-#include "render_vulkan/shadow_rays.h"
+#include "render_vulkan/shadows/shadow_rays.h"
 #include "scene/model/scene.h"
 
 #include <optional>
