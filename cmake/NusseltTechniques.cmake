@@ -143,6 +143,10 @@ function(nusselt_describe_technique name)
     if(${row}_published)
         set(published "${${row}_published}<${arguments}>")
     endif()
+    set(competitor ${${row}_published})
+    if(NOT competitor)
+        set(competitor ${nusselt_technique_${reference}_published})
+    endif()
     if(light MATCHES "_on_lobe$")
         set(technique "WithLobe<${technique}>")
         set(precise "WithLobe<${precise}>")
@@ -163,6 +167,7 @@ function(nusselt_describe_technique name)
     static constexpr bool kCyclic = ${cyclic};
     static constexpr bool kBiased = ${biased};
     static constexpr const char* kPublishedName = \"${${row}_published}\";
+    static constexpr const char* kCompetitorName = \"${competitor}\";
     static constexpr std::string_view kExemptions = \"${exempt}\";
     template <class Real>
     using Technique = ${technique};
@@ -174,7 +179,6 @@ function(nusselt_describe_technique name)
     using Published = ${published};
 };\n")
     if(light MATCHES "^polygon")
-        set(bound 4)
         string(APPEND text "using ${name}Kind = ${kind_name}<4>;\n")
         set(member "${kind_name}<N>")
         if(${row}_clips_twice)

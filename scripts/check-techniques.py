@@ -135,8 +135,24 @@ TEXTS = [
 ]
 
 
+def check_families(root, rows):
+    """The table of pages, which people write, names the techniques of each page."""
+    path = root / "docs/techniques/README.md"
+    names = {row["name"] for row in rows}
+    families = {page: names.intersection(re.findall(r"`(\w+)`", classes)) for page, classes in
+                re.findall(r"^\| \[[^]]*\]\((\w+\.md)\) \| ([^|]*) \|", path.read_text(), re.MULTILINE)}
+    for page in sorted(families.keys() | {row["page"] for row in rows}):
+        listed = families.get(page, set())
+        expected = {row["name"] for row in rows if row["page"] == page}
+        for name in sorted(expected - listed):
+            yield f"{path}: the row of {page} does not name {name}"
+        for name in sorted(listed - expected):
+            yield f"{path}: the row of {page} names {name}, which has another page"
+
+
 def check_texts(root, update):
     rows = rows_of(root)
+    yield from check_families(root, rows)
     for file, begin, end, make in TEXTS:
         path = root / file
         text = path.read_text()

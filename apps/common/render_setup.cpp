@@ -1,5 +1,6 @@
 #include "render_setup.h"
 
+#include "base/isa.h"
 #include "render/film.h"
 #include "scene/model/limits.h"
 
@@ -57,7 +58,7 @@ void add_isa_option(CLI::App& command, std::optional<std::string>& isa) {
             "--isa", isa,
             "Instruction set. Default: the environment variable NUSSELT_ISA if set, else the best one\n"
             "that the processor supports")
-        ->check(CLI::IsMember({"sse42", "avx2", "avx512"}));
+        ->check(CLI::IsMember(names_of(base::kAllIsas)));
 }
 
 void add_resolution_option(CLI::App& command, std::optional<std::string>& resolution) {

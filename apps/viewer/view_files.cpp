@@ -1,6 +1,7 @@
 #include "view_files.h"
 
 #include "base/atomic_file.h"
+#include "base/words.h"
 #include "image/io.h"
 #include "image/srgb.h"
 #include "render/film.h"
@@ -10,11 +11,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <stdexcept>
-#include <string_view>
 
 namespace nusselt::viewer {
 
@@ -22,18 +21,6 @@ namespace {
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
     base::write_atomically(path, [&](std::ofstream& stream) { stream << text; });
-}
-
-/// A word of a shell command.
-std::string quoted(const std::string& text) {
-    const bool is_plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-        return std::isalnum(c) != 0 ||
-               std::string_view("/._-+:=,").find(static_cast<char>(c)) != std::string_view::npos;
-    });
-    if (is_plain) return text;
-    std::string word = "'";
-    for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
-    return word + "'";
 }
 
 /// The picture of a window as radiance that becomes the same bytes in a PNG file.
@@ -59,11 +46,12 @@ std::string command_of(const Session& session, const ViewState& state, const Sce
                        const std::optional<std::filesystem::path>& lights,
                        const std::filesystem::path& output) {
     const render::RenderSettings& settings = state.of(Side::left);
-    std::string command = "nusselt render " + quoted(files.scene.string());
-    for (const std::filesystem::path& rig : files.rigs) command += " --lights " + quoted(rig.string());
-    if (lights) command += " --lights " + quoted(lights->string());
-    command += " --camera " + quoted(camera.string()) + " --backend vulkan";
-    if (files.device) command += " --device " + quoted(*files.device);
+    std::string command = "nusselt render " + base::shell_word(files.scene.string());
+    for (const std::filesystem::path& rig : files.rigs)
+        command += " --lights " + base::shell_word(rig.string());
+    if (lights) command += " --lights " + base::shell_word(lights->string());
+    command += " --camera " + base::shell_word(camera.string()) + " --backend vulkan";
+    if (files.device) command += " --device " + base::shell_word(*files.device);
     command += fmt::format(" --shadow-rays {} --technique {} --strategies {}", name_of(session.shadow_rays()),
                            name_of(settings.technique), name_of(settings.strategies));
     if (settings.strategies != render::Strategies::diffuse)
@@ -77,7 +65,7 @@ std::string command_of(const Session& session, const ViewState& state, const Sce
     if (frames == 1) command += " --camera-rays 1";
     command += fmt::format(" --seed {}", frames == 1 ? session.seed(Side::left) : settings.seed);
     if (state.exposure != 0) command += fmt::format(" --exposure {}", state.exposure);
-    return command + " -o " + quoted(output.string());
+    return command + " -o " + base::shell_word(output.string());
 }
 
 std::string write_screenshot(const std::filesystem::path& path, const Session& session,

@@ -1,5 +1,6 @@
 #include "lab/timing/sampler_timing_lights.h"
 
+#include "proof/techniques/registry.h"
 #include "proof/tube_lights.h"
 
 #include <algorithm>
@@ -71,8 +72,11 @@ double quantile(std::vector<double> values, double share) {
 }
 
 std::string competitor_of(const std::string& technique) {
-    if (technique == "PolygonProjectedSolidAngleBiased") return "PolygonProjectedSolidAnglePeters";
-    return technique + "Peters";
+    std::string competitor;
+    hostile::KindsWithBounds<4>::for_each([&]<class Kind> {
+        if (technique == Kind::kName) competitor = Kind::kCompetitorName;
+    });
+    return competitor;
 }
 
 } // namespace nusselt::lab

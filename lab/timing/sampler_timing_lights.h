@@ -28,7 +28,8 @@ void make_timed_lights(const TimedConfiguration& c, TimedLights& lights);
 /// The value below which the given share of the values lies.
 double quantile(std::vector<double> values, double share);
 
-/// The plain transcription with which a technique competes.
+/// The class with which a technique competes: the one that follows the published formulas, or that of the technique that
+/// it approximates. Empty if neither exists.
 std::string competitor_of(const std::string& technique);
 
 } // namespace nusselt::lab

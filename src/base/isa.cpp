@@ -1,26 +1,28 @@
 #include "base/isa.h"
+#include "base/words.h"
 
-#include <array>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace nusselt::base {
 
 namespace {
 
-constexpr std::array kAllIsas = {Isa::sse42, Isa::avx2, Isa::avx512};
-
+/// \param origin of the name, for messages: empty or one that ends in ": "
 Isa parse_isa(std::string_view name, const std::string& origin) {
+    std::vector<std::string> known;
     for (const Isa isa : kAllIsas) {
+        known.emplace_back(name_of(isa));
         if (name != name_of(isa)) continue;
         if (!is_supported(isa))
-            throw std::runtime_error(origin + ": " + std::string(name) +
+            throw std::runtime_error(origin + "the instruction set " + std::string(name) +
                                      " is not supported by this processor");
         return isa;
     }
-    throw std::runtime_error(origin + ": unknown instruction set '" + std::string(name) +
-                             "'; use sse42, avx2 or avx512");
+    throw std::runtime_error(origin + "unknown instruction set '" + std::string(name) + "'; use " +
+                             listing(known, "or"));
 }
 
 } // namespace
@@ -58,9 +60,9 @@ bool is_supported(Isa isa) {
 }
 
 Isa choose_isa(std::optional<std::string_view> name) {
-    if (name) return parse_isa(*name, "--isa");
+    if (name) return parse_isa(*name, "");
     if (const char* variable = std::getenv("NUSSELT_ISA"); variable != nullptr && *variable != '\0')
-        return parse_isa(variable, "NUSSELT_ISA");
+        return parse_isa(variable, "NUSSELT_ISA: ");
     for (auto isa = kAllIsas.rbegin(); isa != kAllIsas.rend(); ++isa)
         if (is_supported(*isa)) return *isa;
     throw std::runtime_error("this processor is not supported because it lacks SSE 4.2 or POPCNT");

@@ -1,6 +1,7 @@
 #pragma once
 /// Instruction sets that some units are compiled for more than once, and the choice between them at run time.
 
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -8,6 +9,8 @@ namespace nusselt::base {
 
 /// Instruction sets, ordered from few to many lanes.
 enum class Isa { sse42, avx2, avx512 };
+
+inline constexpr std::array kAllIsas = {Isa::sse42, Isa::avx2, Isa::avx512};
 
 /// "sse42", "avx2" or "avx512".
 std::string_view name_of(Isa isa);

@@ -1,24 +1,11 @@
 #include "base/machine.h"
+#include "base/words.h"
 
 #include <filesystem>
 #include <fstream>
 #include <string_view>
 
 namespace nusselt::base {
-
-namespace {
-
-/// The argument, in single quotes if a shell would not take it as it is.
-std::string shell_word(const std::string& argument) {
-    constexpr std::string_view kPlain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
-    if (!argument.empty() && argument.find_first_not_of(kPlain) == std::string::npos) return argument;
-    std::string text = "'";
-    for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
-
-} // namespace
 
 std::string processor_name() {
     constexpr std::string_view kKey = "model name";

@@ -3,7 +3,7 @@
 
 #include "gpu/device.h"
 #include "render/backend.h"
-#include "render_vulkan/shadow_scene.h"
+#include "render_vulkan/shadows/shadow_scene.h"
 
 namespace nusselt::render_vulkan {
 

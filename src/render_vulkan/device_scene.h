@@ -3,7 +3,7 @@
 
 #include "render_vulkan/scene_buffers.h"
 #include "render_vulkan/scene_textures.h"
-#include "render_vulkan/shadow_scene.h"
+#include "render_vulkan/shadows/shadow_scene.h"
 #include "scene/model/scene.h"
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 #include "render/settings.h"
 #include "render_vulkan/accumulator.h"
 #include "render_vulkan/scene_textures.h"
-#include "render_vulkan/shadow_scene.h"
+#include "render_vulkan/shadows/shadow_scene.h"
 #include "scene/model/scene.h"
 
 #include <memory>

@@ -2,7 +2,7 @@
 /// The variants of the shading passes.
 
 #include "render_vulkan/scene_textures.h"
-#include "render_vulkan/shadow_scene.h"
+#include "render_vulkan/shadows/shadow_scene.h"
 
 #include <cstdint>
 #include <span>

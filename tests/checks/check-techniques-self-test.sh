@@ -40,6 +40,12 @@ rejects 'sed -i "s/^class LineArea/class LineCount {\n LightSample<Real> sample(
     "$folder/include/nusselt/sampling/line_area.h"' registry "LineCount is not in the registry"
 rejects 'sed -i "/line_area.h/d" "$folder/include/nusselt/nusselt.h"' texts "nusselt.h: does not follow"
 rejects 'sed -i "/^| .LineArea/d" "$folder/docs/techniques/README.md"' texts "README.md: does not follow"
+rejects 'sed -i "s/, .PolygonLtcBiased., / , /" "$folder/docs/techniques/README.md"' texts \
+    "the row of ltc.md does not name PolygonLtcBiased"
+rejects 'sed -i "/^| .Polygon, area/d" "$folder/docs/techniques/README.md"' texts \
+    "the row of polygon_area.md does not name PolygonArea"
+rejects 'sed -i "s/^\(| .Line, length.*\`LineArea\`\)/\1, \`LineLtc\`/" "$folder/docs/techniques/README.md"' texts \
+    "the row of line_area.md names LineLtc, which has another page"
 rejects 'sed -i "/<!-- .techniques -->/d" "$folder/docs/techniques/README.md"' texts "are missing"
 
 # A list of a suite without one technique, or with one that is exempt.

@@ -1,4 +1,5 @@
 #include "lab/timing/sampler_timing.h"
+#include "lab/timing/sampler_timing_lights.h"
 #include "proof/techniques/registry.h"
 
 #include <gtest/gtest.h>
@@ -41,12 +42,21 @@ TEST(SamplerTiming, TellsAnExpensiveTechniqueFromACheapOne) {
     EXPECT_GT(cost("PolygonProjectedSolidAngle"), 2 * cost("PolygonArea"));
 }
 
+TEST(SamplerTiming, ComparesWithPublishedFormulas) {
+    EXPECT_EQ(competitor_of("PolygonSolidAngle"), "PolygonSolidAnglePeters");
+    EXPECT_EQ(competitor_of("LineProjectedSolidAngle"), "LineProjectedSolidAnglePeters");
+    EXPECT_EQ(competitor_of("PolygonProjectedSolidAngleBiased"), "PolygonProjectedSolidAnglePeters")
+        << "those of the technique that it approximates";
+    EXPECT_EQ(competitor_of("PolygonLtcBiased"), "") << "the technique that it approximates has none";
+    EXPECT_EQ(competitor_of("PolygonSolidAnglePeters"), "") << "it has the published formulas itself";
+}
+
 TEST(SamplerTiming, NamesAnUnknownInstructionSet) {
     try {
         time_samplers({1, "mmx"});
         FAIL() << "no exception";
     } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find("mmx"), std::string::npos) << error.what();
+        EXPECT_STREQ(error.what(), "unknown instruction set 'mmx'; use sse42, avx2 or avx512");
     }
 }
 

@@ -26,7 +26,7 @@ scene::Scene lit_floor() {
 
 TEST(CpuBackend, FulfilsTheContract) {
     const scene::Scene scene = lit_floor();
-    for (const Isa isa : {Isa::sse42, Isa::avx2, Isa::avx512})
+    for (const Isa isa : base::kAllIsas)
         if (is_supported(isa)) render_test::expect_backend_contract(CpuBackend(isa, 2), scene, {});
 }
 

@@ -140,8 +140,7 @@ TEST_P(Crops, AreBitIdenticalToTheSamePixelsOfTheWholeFilm) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllIsas, Crops,
-                         testing::Values(base::Isa::sse42, base::Isa::avx2, base::Isa::avx512),
+INSTANTIATE_TEST_SUITE_P(AllIsas, Crops, testing::ValuesIn(base::kAllIsas),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
 } // namespace

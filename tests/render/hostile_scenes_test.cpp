@@ -58,7 +58,7 @@ std::string description_of(const RenderSettings& settings) {
 
 void expect_sane_images(const scene::Scene& scene) {
     const render_cpu::Renderer renderer(scene, 2);
-    for (const base::Isa isa : {base::Isa::sse42, base::Isa::avx2, base::Isa::avx512}) {
+    for (const base::Isa isa : base::kAllIsas) {
         if (!is_supported(isa)) continue;
         for (RenderSettings settings : all_settings()) {
             settings.samples = 4;

@@ -182,7 +182,7 @@ constexpr double kLargestShare = 2e-3;
 TEST_P(Instances, LookLikeCopiesOfTheirTriangles) {
     const scene::Scene scene = make_instanced_scene(GetParam().instances, {0, 0, 0});
     const scene::Scene flat = flattened(scene, transformed_normal);
-    for (const auto isa : {base::Isa::sse42, base::Isa::avx2, base::Isa::avx512}) {
+    for (const auto isa : base::kAllIsas) {
         if (!is_supported(isa)) continue;
         const image::Image expected = render(flat, isa);
         EXPECT_LE(differing_share(render(scene, isa), expected, kTolerance), kLargestShare) << name_of(isa);

@@ -35,7 +35,7 @@ const Integrator& toy(const std::string& name) {
 
 std::vector<Isa> supported_isas() {
     std::vector<Isa> isas;
-    for (const Isa isa : {Isa::sse42, Isa::avx2, Isa::avx512})
+    for (const Isa isa : base::kAllIsas)
         if (is_supported(isa)) isas.push_back(isa);
     return isas;
 }
@@ -51,7 +51,7 @@ TEST(Integrators, HaveNamesAndAKernelOfTheirOwnForEachInstructionSet) {
     std::set<render_cpu::RenderTile> kernels;
     for (const Integrator* row : all_integrators()) {
         EXPECT_TRUE(names.emplace(row->name).second) << row->name;
-        for (const Isa isa : {Isa::sse42, Isa::avx2, Isa::avx512})
+        for (const Isa isa : base::kAllIsas)
             EXPECT_TRUE(kernels.insert(kernel_for(*row, isa)).second) << row->name << " " << name_of(isa);
     }
     EXPECT_EQ(render_cpu::integrators().front().name, "direct_light");

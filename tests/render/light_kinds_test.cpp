@@ -120,7 +120,7 @@ TEST_F(LightKinds, AreTakenByAllSettings) {
     const scene::Scene scene = make_disc_scene();
     const render_cpu::Renderer disc = renderer(scene);
     const double expected = region_means(expected_image(), 1)[0];
-    for (const base::Isa isa : {base::Isa::sse42, base::Isa::avx2, base::Isa::avx512}) {
+    for (const base::Isa isa : base::kAllIsas) {
         if (!is_supported(isa)) continue;
         for (int technique = 0; technique < interface::kTechniqueCount; ++technique) {
             for (int strategies = 0; strategies < interface::kStrategiesCount; ++strategies) {

@@ -37,7 +37,7 @@ scene::Scene make_slats(int count, int size) {
 /// Between slats as many parts are visible, however few there is room for.
 TEST(LineParts, NoneIsLost) {
     constexpr int kImage = 4;
-    for (const base::Isa isa : {base::Isa::sse42, base::Isa::avx2, base::Isa::avx512}) {
+    for (const base::Isa isa : base::kAllIsas) {
         if (!is_supported(isa)) continue;
         RenderSettings settings = line_settings(16);
         settings.lines.orientation = LineOrientation::fixed;

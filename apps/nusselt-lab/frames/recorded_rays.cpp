@@ -1,6 +1,7 @@
 #include "recorded_rays.h"
 
 #include "base/flush_denormals.h"
+#include "base/isa.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
@@ -46,15 +47,10 @@ private:
 
 std::unique_ptr<RecordedRays> record_rays(const render_cpu::Renderer& renderer,
                                           const render::RenderSettings& settings, base::Isa isa) {
-    switch (isa) {
-    case base::Isa::sse42:
-        return std::make_unique<PacketsOfRays<4>>(renderer, settings, isa);
-    case base::Isa::avx2:
-        return std::make_unique<PacketsOfRays<8>>(renderer, settings, isa);
-    case base::Isa::avx512:
-        break;
-    }
-    return std::make_unique<PacketsOfRays<16>>(renderer, settings, isa);
+    return base::dispatch(isa, [&]<base::Isa chosen>() -> std::unique_ptr<RecordedRays> {
+        constexpr int kLanes = chosen == base::Isa::sse42 ? 4 : chosen == base::Isa::avx2 ? 8 : 16;
+        return std::make_unique<PacketsOfRays<kLanes>>(renderer, settings, isa);
+    });
 }
 
 } // namespace nusselt::app

@@ -1,6 +1,8 @@
 #include "bench_accuracy.h"
+#include "apps/common/render_setup.h"
 #include "apps/nusselt-lab/bench/bench_output.h"
 
+#include "base/isa.h"
 #include "lab/accuracy/accuracy_json.h"
 #include "lab/accuracy/accuracy_text.h"
 
@@ -33,7 +35,7 @@ void setup_bench_accuracy(CLI::App& bench, int& exit_code) {
             "--isa", options->isa,
             "Instruction set of the packs: sse42, avx2 or avx512. Default: the environment variable\n"
             "NUSSELT_ISA if set, else the best one that the processor supports")
-        ->check(CLI::IsMember({"sse42", "avx2", "avx512"}));
+        ->check(CLI::IsMember(names_of(base::kAllIsas)));
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_accuracy(*options); });
 }

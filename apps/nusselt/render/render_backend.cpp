@@ -2,15 +2,17 @@
 
 #include "apps/common/render_setup.h"
 
+#include "base/words.h"
 #include "render_cpu/backend.h"
 #include "render_cpu/renderer.h"
+#include "render_vulkan/shadows/shadow_rays.h"
 
 #include <fmt/core.h>
 
-#include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace nusselt::app {
 
@@ -33,30 +35,48 @@ void add_device_options(CLI::App& command, RenderOptions& options) {
             "How a GPU traces shadow rays: query (ray queries of its driver), bvh (our own hierarchy),\n"
             "or none, for an image without shadows. Default: query where the device supports it in\n"
             "hardware, else bvh")
-        ->check(CLI::IsMember({"query", "bvh", "none"}));
+        ->check(CLI::IsMember(names_of(render_vulkan::kShadowRays)));
 }
 
+namespace {
+
+/// The name of an option and whether it is used.
+using OptionUse = std::pair<std::string, bool>;
+
+std::vector<OptionUse> options_of_cpu(const RenderOptions& options) {
+    return {{"--checkpoint", options.checkpoint.has_value()},
+            {"--display-server", options.display_server.has_value()},
+            {"--isa", options.isa.has_value()}};
+}
+
+std::vector<OptionUse> options_of_gpu(const RenderOptions& options) {
+    return {{"--device", options.device.has_value()}, {"--shadow-rays", options.shadow_rays.has_value()}};
+}
+
+/// \throws CLI::ValidationError if one of the options, which are for one backend, is used
+void refuse(const std::vector<OptionUse>& options, const std::string& backend) {
+    for (const auto& [name, is_used] : options)
+        if (is_used) throw CLI::ValidationError(name, "supported only with --backend " + backend);
+}
+
+} // namespace
+
 void check_backend_options(const RenderOptions& options) {
-    const auto refuse = [](const std::string& option, const std::string& backend) {
-        throw CLI::ValidationError(option, "supported only with --backend " + backend);
-    };
-    if (options.backend == "cpu")
-        for (const auto& [name, is_used] : {std::pair("--device", options.device.has_value()),
-                                            std::pair("--shadow-rays", options.shadow_rays.has_value())})
-            if (is_used) refuse(name, "vulkan");
-    if (options.backend == "vulkan")
-        for (const auto& [name, is_used] : {std::pair("--checkpoint", options.checkpoint.has_value()),
-                                            std::pair("--display-server", options.display_server.has_value()),
-                                            std::pair("--isa", options.isa.has_value())})
-            if (is_used) refuse(name, "cpu");
+    if (options.backend == "cpu") refuse(options_of_gpu(options), "vulkan");
+    if (options.backend == "vulkan") refuse(options_of_cpu(options), "cpu");
 }
 
 namespace {
 
 /// The reason for which --backend auto renders on the CPU; nothing if it renders on a GPU.
 std::optional<std::string> why_on_cpu(const RenderOptions& options, const render::RenderSettings& settings) {
-    if (options.checkpoint || options.display_server || options.isa)
-        return "--checkpoint, --display-server and --isa are supported only there";
+    std::vector<std::string> names;
+    bool is_any_used = false;
+    for (const auto& [name, is_used] : options_of_cpu(options)) {
+        names.push_back(name);
+        is_any_used |= is_used;
+    }
+    if (is_any_used) return base::listing(names, "and") + " are supported only there";
     return why_not_on_gpu(options, settings);
 }
 

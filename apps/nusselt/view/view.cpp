@@ -6,7 +6,7 @@
 #include "apps/nusselt/scene/lights.h"
 
 #include "gpu/device.h"
-#include "render_vulkan/shadow_scene.h"
+#include "render_vulkan/shadows/shadow_scene.h"
 #include "scene/rig/camera_file.h"
 #include "viewer/run_viewer.h"
 

@@ -1,4 +1,5 @@
 #include "render_vulkan/lights/light_records.h"
+#include "render_vulkan/record_values.h"
 
 #include <algorithm>
 #include <iterator>
@@ -18,6 +19,7 @@ static_assert(std::size(kKinds) == interface::kLightKinds);
 } // namespace
 
 LightRecords make_light_records(const scene::Scene& scene) {
+    checked_count(scene.lights.size(), "lights"); // 32 bits then suffice for each list, too
     LightRecords records;
     std::uint32_t number = 0;
     for (const scene::LightList& list : scene.lights) {

@@ -1,4 +1,4 @@
-#include "render_vulkan/shadow_scene.h"
+#include "render_vulkan/shadows/shadow_scene.h"
 
 #include "render_vulkan/scene_buffers.h"
 #include "visibility/query_geometry.h"
@@ -24,18 +24,6 @@ gpu::AccelerationStructure make_structure(const gpu::Device& device, const scene
 }
 
 } // namespace
-
-std::string_view name_of(ShadowRays way) {
-    switch (way) {
-    case ShadowRays::query:
-        return "query";
-    case ShadowRays::bvh:
-        return "bvh";
-    case ShadowRays::none:
-        break;
-    }
-    return "none";
-}
 
 ShadowRays default_shadow_rays(const gpu::Device& device) {
     // Mesa's software device takes up to ten times as long for its own ray queries (docs/performance.md).

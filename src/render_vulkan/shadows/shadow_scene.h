@@ -3,24 +3,13 @@
 
 #include "gpu/acceleration_structure.h"
 #include "gpu/buffer.h"
+#include "render_vulkan/shadows/shadow_rays.h"
 #include "scene/model/scene.h"
 
-#include <array>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 namespace nusselt::render_vulkan {
-
-/// How shadow rays are traced.
-enum class ShadowRays {
-    query, ///< by the device, with VK_KHR_ray_query
-    bvh,   ///< by shaders, in a hierarchy of their own
-    none,  ///< not at all, to measure the cost of everything else
-};
-
-inline constexpr std::array kShadowRays = {ShadowRays::query, ShadowRays::bvh, ShadowRays::none};
-std::string_view name_of(ShadowRays way);
 
 /// Queries where the device supports them, unless it is a software device.
 ShadowRays default_shadow_rays(const gpu::Device& device);
