@@ -49,6 +49,8 @@ class LightList {
 public:
     virtual ~LightList() = default;
     virtual std::unique_ptr<LightList> copy() const = 0;
+    /// A list of the same kind without lights.
+    virtual std::unique_ptr<LightList> empty_list() const = 0;
     /// Takes the lights of another list of this kind.
     virtual void append(LightList&& others) = 0;
     virtual void clear() = 0;

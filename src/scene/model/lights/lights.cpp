@@ -9,8 +9,7 @@ namespace nusselt::scene {
 LightList& Lights::list_like(const LightList& other) {
     for (LightList& list : *this)
         if (typeid(list) == typeid(other)) return list;
-    lists_.push_back(other.copy());
-    lists_.back()->clear();
+    lists_.push_back(other.empty_list());
     return *lists_.back();
 }
 

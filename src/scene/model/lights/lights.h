@@ -11,6 +11,7 @@ public:
     using Kind = LightKind<Light>;
 
     std::unique_ptr<LightList> copy() const override { return std::make_unique<LightsOf>(*this); }
+    std::unique_ptr<LightList> empty_list() const override { return std::make_unique<LightsOf>(); }
     void append(LightList&& others) override {
         std::vector<Light>& added = static_cast<LightsOf&>(others).lights;
         if (lights.empty())
