@@ -21,10 +21,10 @@ endif()
 find_program(GZIP gzip REQUIRED)
 
 # nusselt_add_shader(target name source [COMPRESSED] [ENVIRONMENT environment] [DEFINES define...]): compiles a source for
-# vulkan1.1 or another environment of glslang and makes
-# `#include "shaders/<name>.h"` available to the sources of the target. The header has the array k<Name>, with name in
-# PascalCase: the words of the SPIR-V, or the bytes of a gzip file of them if it is COMPRESSED. A relative source is one of
-# the current source directory; shaders include others relative to shaders/.
+# vulkan1.1 or another environment of glslang and makes `#include "shaders/<name>.h"` available to the sources of the
+# target. The header has the array k<Name>, with name in PascalCase: the words of the SPIR-V, or the bytes of a gzip file
+# of them if it is COMPRESSED. A relative source is one of the current source directory; shaders include others relative
+# to shaders/.
 function(nusselt_add_shader target name source)
     cmake_parse_arguments(arg "COMPRESSED" "ENVIRONMENT" "DEFINES" ${ARGN})
     if(NOT arg_ENVIRONMENT)

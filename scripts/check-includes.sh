@@ -32,7 +32,7 @@ BEGIN {
     allow("src/image", "library src/base")
     # The scene: renderers see its model, which does not depend on formats. Importers describe the content of a file, the
     # builder makes the model from it, rigs change it.
-    allow("src/scene/input", "")
+    allow("src/scene/input", "src/base")
     allow("src/scene/model", "library src/scene/input")
     allow("src/scene/colour", "src/scene/input src/scene/model")
     allow("src/scene/build", "src/image src/scene/input src/scene/model")

@@ -1,8 +1,9 @@
 #include "render_vulkan/shading_shaders.h"
 
-#include <new>
+#include "base/gzip.h"
+
 #include <stdexcept>
-#include <zlib.h>
+#include <string_view>
 
 namespace nusselt::render_vulkan {
 
@@ -16,17 +17,10 @@ std::vector<std::uint32_t> inflated_words(std::span<const unsigned char> gzip) {
         size[0] | std::uint32_t{size[1]} << 8 | std::uint32_t{size[2]} << 16 | std::uint32_t{size[3]} << 24;
     std::vector<std::uint32_t> words(bytes / sizeof(std::uint32_t));
 
-    z_stream stream = {};
-    stream.next_in = const_cast<unsigned char*>(gzip.data()); // zlib does not write to its input
-    stream.avail_in = static_cast<uInt>(gzip.size());
-    stream.next_out = reinterpret_cast<unsigned char*>(words.data());
-    stream.avail_out = bytes;
-    constexpr int kLargestWindow = 15;
-    constexpr int kGzipOnly = 16;
-    if (inflateInit2(&stream, kLargestWindow + kGzipOnly) != Z_OK) throw std::bad_alloc();
-    const int result = inflate(&stream, Z_FINISH);
-    inflateEnd(&stream);
-    if (result != Z_STREAM_END) throw std::logic_error("an embedded shader cannot be decompressed");
+    std::string_view input(reinterpret_cast<const char*>(gzip.data()), gzip.size());
+    char* output = reinterpret_cast<char*>(words.data());
+    if (!base::InflateStream().step(input, output, bytes))
+        throw std::logic_error("an embedded shader is larger than its gzip file says");
     return words;
 }
 

@@ -1,57 +1,14 @@
 #include "scene/input/file_bytes.h"
 
+#include "base/gzip.h"
+
 #include <algorithm>
 #include <fstream>
-#include <limits>
 #include <new>
 #include <stdexcept>
 #include <system_error>
-#include <zlib.h>
 
 namespace nusselt::scene {
-
-namespace {
-
-/// zlib's stream of one gzip file.
-class InflateStream {
-public:
-    InflateStream() {
-        constexpr int kLargestWindow = 15;
-        constexpr int kGzipOnly = 16;
-        if (inflateInit2(&stream_, kLargestWindow + kGzipOnly) != Z_OK) throw std::bad_alloc();
-    }
-    ~InflateStream() { inflateEnd(&stream_); }
-    InflateStream(const InflateStream&) = delete;
-    InflateStream& operator=(const InflateStream&) = delete;
-
-    /// Moves bytes from the front of `input` to the front of `output`, which both shrink.
-    /// \return whether a part of the file is complete
-    bool step(std::string_view& input, char*& output, std::size_t output_size) {
-        constexpr std::size_t kMaxStep = std::numeric_limits<uInt>::max();
-        // zlib does not write to its input.
-        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(input.data()));
-        stream_.avail_in = static_cast<uInt>(std::min(input.size(), kMaxStep));
-        stream_.next_out = reinterpret_cast<Bytef*>(output);
-        stream_.avail_out = static_cast<uInt>(std::min(output_size, kMaxStep));
-        const uInt available = stream_.avail_in;
-        const int result = inflate(&stream_, Z_NO_FLUSH);
-        if (result == Z_MEM_ERROR) throw std::bad_alloc();
-        if (result == Z_BUF_ERROR && input.empty()) throw std::runtime_error("its gzip data ends early");
-        if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR)
-            throw std::runtime_error("its gzip data is broken" + (stream_.msg != nullptr
-                                                                      ? ": " + std::string(stream_.msg)
-                                                                      : std::string()));
-        input.remove_prefix(available - stream_.avail_in);
-        output = reinterpret_cast<char*>(stream_.next_out);
-        return result == Z_STREAM_END;
-    }
-    void restart() { inflateReset(&stream_); }
-
-private:
-    z_stream stream_ = {};
-};
-
-} // namespace
 
 FileBytes::FileBytes(const std::filesystem::path& path, Budget& inflated_bytes) {
     std::error_code error;
@@ -91,7 +48,7 @@ bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 FileBytes inflated(std::string_view gzip, Budget& bytes) {
     // So little that it does not matter if a budget is exceeded before it is asked.
     constexpr std::size_t kMaxStep = std::size_t{1} << 20;
-    InflateStream stream;
+    base::InflateStream stream;
     FileBytes result;
     std::size_t used = 0;
     std::string_view rest = gzip;
