@@ -1,6 +1,7 @@
 #include "scene/build/build_scene.h"
 
 #include "scene/build/build_shape.h"
+#include "scene/build/parallel.h"
 #include "scene/build/textures/surface_formula.h"
 #include "scene/build/textures/texture_bake.h"
 #include "scene/input/file_bytes.h"
@@ -13,7 +14,6 @@
 #include <optional>
 #include <string>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 #include <unordered_map>
 #include <utility>
 
@@ -45,7 +45,7 @@ void check_repeated_meshes(const std::vector<PlacedShape>& shapes, const FormatW
 std::vector<BuiltShape> build_shapes(const std::vector<PlacedShape>& shapes,
                                      const SceneDescription& description) {
     std::vector<BuiltShape> built(shapes.size());
-    tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) {
+    parallel_for_each_index(shapes.size(), [&](std::size_t i) {
         built[i] = build_shape(shapes[i], *description.budget, description.words);
     });
     return built;
@@ -233,9 +233,12 @@ Scene build_scene(SceneDescription description) {
     std::vector<BuiltShape> built;
     std::vector<BakedTexture> textures;
     Warnings texture_warnings;
-    tbb::parallel_invoke(
-        [&] { textures = bake_textures(description.textures, *description.budget, texture_warnings); },
-        [&] { built = build_shapes(placed.shapes, description); });
+    parallel_for_each_index(2, [&](std::size_t part) {
+        if (part == 0)
+            built = build_shapes(placed.shapes, description);
+        else
+            textures = bake_textures(description.textures, *description.budget, texture_warnings);
+    });
     description.warnings.append(texture_warnings);
     set_mappings(textures, scene.materials);
     for (BakedTexture& texture : textures) scene.textures.push_back(std::move(texture.texture));

@@ -1,5 +1,6 @@
 #include "scene/build/textures/texture_bake.h"
 
+#include "scene/build/parallel.h"
 #include "scene/build/textures/texture_domain.h"
 
 #include <algorithm>
@@ -316,12 +317,12 @@ std::vector<BakedTexture> bake_textures(const TexturePlan& plan, SceneBudget& bu
     }
     std::vector<Warnings> image_warnings(plan.images.size());
     std::vector<Texture> images(plan.images.size());
-    tbb::parallel_for(std::size_t{0}, images.size(), [&](std::size_t i) {
+    parallel_for_each_index(images.size(), [&](std::size_t i) {
         if (use_count[i] > 0) images[i] = decode_image(plan.images[i], budget, image_warnings[i]);
     });
     std::vector<Warnings> bake_warnings(recipes.size());
     std::vector<BakedTexture> textures(recipes.size());
-    tbb::parallel_for(std::size_t{0}, recipes.size(), [&](std::size_t i) {
+    parallel_for_each_index(recipes.size(), [&](std::size_t i) {
         const Recipe& recipe = recipes[i];
         const TextureNode& root = plan.nodes[static_cast<std::size_t>(recipe.request.node)];
         if (root.operation == TextureOperation::image) {
