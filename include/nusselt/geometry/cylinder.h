@@ -146,12 +146,13 @@ NUSSELT_INLINE CylinderView<Real> make_cylinder_view(const Cylinder<Real>& cylin
     v.gap = distance - v.radius;
     v.sum = distance + v.radius;
 
-    // Tell whether anything is visible: the origin must not be inside or next to the surface.
+    // Tell whether anything is visible: the origin must not be inside or next to the surface. From twice kTiny on, any
+    // point of the surface has a coordinate that inverse_length() can divide by.
     v.l0 = dot(v.start, v.s);
     v.l1 = dot(v.end, v.s);
     v.outside = (v.gap >= Real(0)) & (distance > Real(0));
     const Real apart = max(max(v.l0, -v.l1), v.gap);
-    v.visible = (v.length > Real(0)) & (v.radius > Real(0)) & (apart > Real(kTiny<scalar_t<Real>>));
+    v.visible = (v.length > Real(0)) & (v.radius > Real(0)) & (apart > Real(2 * kTiny<scalar_t<Real>>));
 
     // Complete the axis to a basis, towards the closest point if there is one.
     const Vec3<Real> upwards = normalize(cross(v.s, cross(up, v.s)));

@@ -22,6 +22,8 @@ NUSSELT_NAMESPACE_BEGIN
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr], the constant 1 / measure().
 /// Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
 /// Edge cases: no area, or origin in the plane of the rectangle: pdf = 0, measure 0.
+///             An origin closer to the rectangle than 2^-60 (float) or 2^-480 (double) of its size counts as being at
+///             that distance.
 template <class Real>
 class RectangleSolidAngle {
 public:

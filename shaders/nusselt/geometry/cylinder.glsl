@@ -1,6 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_CYLINDER_GLSL
 #define NUSSELT_GEOMETRY_CYLINDER_GLSL
-// Follows include/nusselt/geometry/cylinder.h @ ffa86591882e
+// Follows include/nusselt/geometry/cylinder.h @ 14b2165359d8
 /// Solid cylinders, and the rectangles that half-planes through a shading point cut out of them. Twin of
 /// include/nusselt/geometry/cylinder.h.
 
@@ -72,7 +72,7 @@ CylinderView make_cylinder_view(Cylinder cylinder, vec3 up) {
     v.l1 = dot(v.end, v.s);
     v.outside = v.gap >= 0.0 && distance > 0.0;
     float apart = nusselt_max(nusselt_max(v.l0, -v.l1), v.gap);
-    v.visible = v.len > 0.0 && v.radius > 0.0 && apart > kNusseltTiny;
+    v.visible = v.len > 0.0 && v.radius > 0.0 && apart > 2.0 * kNusseltTiny;
 
     if (v.outside) {
         v.m = nusselt_normalize(closest);

@@ -9,6 +9,7 @@
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr], the constant 1 / measure.
 /// Space: any frame with the shading point as origin; nothing is clipped.
 /// Edge cases: no area, or origin in the plane of the rectangle: pdf = 0, measure 0.
+///             An origin closer to the rectangle than 2^-60 of its size counts as being at that distance.
 
 #include "../core/light_sample.glsl"
 #include "../core/trig.glsl"

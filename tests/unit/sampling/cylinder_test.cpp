@@ -170,6 +170,26 @@ TYPED_TEST(CylinderTest, IsDarkWithoutAnOutside) {
     }
 }
 
+/// A point next to the surface sees nothing once its distance is so small that the square underflows, or else samples unit
+/// vectors.
+TYPED_TEST(CylinderTest, SamplesUnitVectorsAtAnyDistance) {
+    int lit = 0;
+    for (int exponent = -80; exponent >= -110; --exponent) {
+        for (const float fraction : {1.0f, 1.25f, 1.5f, 1.75f}) {
+            const float distance = std::ldexp(fraction, exponent);
+            typename TypeParam::template Light<float> light{};
+            static_cast<nusselt::Cylinder<float>&>(light) = {
+                {{0, 0.6f * distance, 0.8f * distance}, {1, 0, 0}, 1}, std::ldexp(1.0f, exponent - 5)};
+            if constexpr (kHasLobe<TypeParam>) light.lobe = {1, 0, 1, 0, 1, 1};
+            const typename TypeParam::template Technique<float> technique(light);
+            if (technique.measure() > 0) ++lit;
+            for (const float u : {0.0f, 0.3f, 0.9f})
+                EXPECT_NEAR(length(technique.sample({0.4f, u}).wi), 1, 1e-5) << distance;
+        }
+    }
+    EXPECT_GE(lit, 60);
+}
+
 /// The technique for linear lights to which that for a thin cylinder tends.
 template <class Kind>
 using LineKindOf = std::conditional_t<Kind::kMeasure == Measure::lobe, LineLtcKind,
