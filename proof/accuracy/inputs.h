@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 namespace nusselt::proof {
 
@@ -162,7 +163,9 @@ struct CylinderInput : PairInput {
         for (int i = 0; i < 200; ++i) {
             const Exact left = low + (high - low) / 3;
             const Exact right = high - (high - low) / 3;
-            (angle(left) < angle(right) ? high : low) = angle(left) < angle(right) ? right : left;
+            const bool before_right = angle(left) < angle(right);
+            Exact& end = before_right ? high : low;
+            if (std::exchange(end, before_right ? right : left) == end) break;
         }
         return std::max(angle(high), Exact{0});
     }
@@ -178,7 +181,10 @@ private:
         const Exact along = dot(offset, light.axis.s);
         const Exact beyond = std::max(-along, along - light.axis.length);
         const Exact outwards = length(cross(offset, light.axis.s)) - light.radius;
-        return std::hypot(std::max(beyond, Exact{0}), std::max(outwards, Exact{0}));
+        // Most points lie beside the cylinder or beyond a cap, not both, and hypot() is slow.
+        if (beyond <= 0) return std::max(outwards, Exact{0});
+        if (outwards <= 0) return beyond;
+        return std::hypot(beyond, outwards);
     }
 };
 
