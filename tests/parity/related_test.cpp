@@ -53,10 +53,9 @@ TYPED_TEST_SUITE(RelatedParity, Techniques, PairNames);
 TYPED_TEST(RelatedParity, IsAsAccurateAsCppOnOrdinaryLights) {
     const std::set<std::string> ordinary{"decentral", "central", "ordinary"};
     const int count = random_lights() / 10;
-    for (const Variant variant : variants_for(this->device())) {
-        const Verdict verdict =
-            judge_twin<TypeParam>(this->device(), shader_of<TypeParam>(variant), count,
-                                  [&](const auto& lights) { return ordinary.count(lights.name) > 0; });
+    const auto is_judged = [&](const auto& lights) { return ordinary.count(lights.name) > 0; };
+    const auto shaders = shaders_for<TypeParam>(this->device());
+    for (const Verdict& verdict : judge_twins<TypeParam>(this->device(), shaders, count, is_judged)) {
         EXPECT_GE(verdict.lights, count);
         expect_parity(verdict);
     }

@@ -17,10 +17,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 namespace nusselt::parity {
 
@@ -104,32 +107,46 @@ inline std::vector<Variant> variants_for(const gpu::Device& device) {
     return {Variant::split};
 }
 
-/// Judges the twin on at least `count` lights of a class.
+/// The shaders of a technique that give correct results on a device.
 template <class Pair>
-Verdict judge_class(const typename Pair::Traits::Class& lights, int count,
-                    Twin<typename Pair::Traits>& twin) {
+std::vector<std::span<const std::uint32_t>> shaders_for(const gpu::Device& device) {
+    std::vector<std::span<const std::uint32_t>> shaders;
+    for (const Variant variant : variants_for(device)) shaders.push_back(shader_of<Pair>(variant));
+    return shaders;
+}
+
+template <class Pair>
+using Twins = std::deque<Twin<typename Pair::Traits>>;
+
+/// Judges twins of one technique on at least `count` lights of a class, the same for each: most of the time goes into the
+/// exact results.
+template <class Pair>
+std::vector<Verdict> judge_class(const typename Pair::Traits::Class& lights, int count, Twins<Pair>& twins) {
     using Traits = typename Pair::Traits;
     constexpr int kBlock = 4096;
     const bool dark = proof::is_dark<Traits>(lights);
-    Errors device, cpp, floor;
+    std::vector<Errors> device(twins.size());
+    Errors cpp, floor;
     std::mutex mutex;
     const auto judge_lights = [&](int begin, int end) {
         const auto cases = proof::make_cases<Traits, float>(lights, begin, end);
         std::vector<typename Twin<Traits>::Input> inputs;
         for (const auto& c : cases) inputs.push_back({c.light, c.u});
-        std::vector<typename Twin<Traits>::Outputs> outputs;
+        std::vector<std::vector<typename Twin<Traits>::Outputs>> outputs;
         {
             const std::lock_guard lock(mutex);
-            outputs = twin.run(inputs);
+            for (auto& twin : twins) outputs.push_back(twin.run(inputs));
         }
-        Errors block_device, block_cpp, block_floor;
+        std::vector<Errors> block_device(twins.size());
+        Errors block_cpp, block_floor;
         for (std::size_t i = 0; i < cases.size(); ++i) {
-            Pair::judge(cases[i], dark, outputs[i], block_device);
+            for (std::size_t k = 0; k < twins.size(); ++k)
+                Pair::judge(cases[i], dark, outputs[k][i], block_device[k]);
             Pair::judge(cases[i], dark, Pair::outputs_of(inputs[i]), block_cpp);
             if (!dark) Pair::judge(cases[i], dark, rounded_outputs(cases[i]), block_floor);
         }
         const std::lock_guard lock(mutex);
-        device.append(block_device);
+        for (std::size_t k = 0; k < twins.size(); ++k) device[k].append(block_device[k]);
         cpp.append(block_cpp);
         floor.append(block_floor);
         return static_cast<int>(cases.size());
@@ -146,33 +163,49 @@ Verdict judge_class(const typename Pair::Traits::Class& lights, int count,
         begin += size;
         judged += bright;
     }
-    Verdict verdict = compare(device, cpp, floor, Pair::kImages);
-    verdict.lights = judged;
-    return verdict;
+    std::vector<Verdict> verdicts;
+    for (const Errors& errors : device) {
+        verdicts.push_back(compare(errors, cpp, floor, Pair::kImages));
+        verdicts.back().lights = judged;
+    }
+    return verdicts;
 }
 
-/// Judges the twin on all classes for which `is_judged` holds, with at least `count` lights in total.
+/// Judges shaders of one technique on all classes for which `is_judged` holds, with at least `count` lights in total.
+/// \return a verdict for each shader
 template <class Pair>
-Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> shader, int count,
-                   const std::function<bool(const typename Pair::Traits::Class&)>& is_judged) {
+std::vector<Verdict> judge_twins(const gpu::Device& device,
+                                 const std::vector<std::span<const std::uint32_t>>& shaders, int count,
+                                 const std::function<bool(const typename Pair::Traits::Class&)>& is_judged) {
     using Class = typename Pair::Traits::Class;
-    Twin<typename Pair::Traits> twin(device, shader);
+    Twins<Pair> twins;
+    for (const auto& shader : shaders) twins.emplace_back(device, shader);
     std::vector<const Class*> judged;
     for (const auto& lights : lab::classes_of(static_cast<const Class*>(nullptr)))
         if (is_judged(lights)) judged.push_back(&lights);
     const int per_class = (count + static_cast<int>(judged.size()) - 1) / static_cast<int>(judged.size());
-    Verdict verdict;
-    for (const auto* lights : judged)
-        verdict.add(lights->name + std::string(": "), judge_class<Pair>(*lights, per_class, twin));
-    return verdict;
+    std::vector<Verdict> verdicts(shaders.size());
+    for (const auto* lights : judged) {
+        const auto of_class = judge_class<Pair>(*lights, per_class, twins);
+        for (std::size_t k = 0; k < verdicts.size(); ++k)
+            verdicts[k].add(lights->name + std::string(": "), of_class[k]);
+    }
+    return verdicts;
 }
 
-/// Judges the twin on the classes that match the bound of the technique: 4 or 8 vertices, or lines.
+/// Judges shaders of one technique on the classes that match its bound: 4 or 8 vertices, or lines.
 template <class Pair>
-Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> shader, int count) {
-    return judge_twin<Pair>(device, shader, count, [](const auto& lights) {
+std::vector<Verdict> judge_twins(const gpu::Device& device,
+                                 const std::vector<std::span<const std::uint32_t>>& shaders, int count) {
+    return judge_twins<Pair>(device, shaders, count, [](const auto& lights) {
         return lab::fits_bound(lights, Pair::Traits::kVertexBound);
     });
+}
+
+/// Judges one shader of a technique likewise.
+template <class Pair>
+Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> shader, int count) {
+    return judge_twins<Pair>(device, {shader}, count).front();
 }
 
 /// Fails if errors on the device exceed a budget, or if a budget cannot be exceeded for no known reason.

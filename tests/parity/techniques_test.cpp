@@ -11,17 +11,16 @@ TYPED_TEST_SUITE(TechniqueParity, Techniques, PairNames);
 
 TYPED_TEST(TechniqueParity, IsAsAccurateAsCpp) {
     const int count = random_lights_of<TypeParam>();
-    for (const Variant variant : variants_for(this->device())) {
-        const Verdict verdict = judge_twin<TypeParam>(this->device(), shader_of<TypeParam>(variant), count);
+    const auto shaders = shaders_for<TypeParam>(this->device());
+    for (const Verdict& verdict : judge_twins<TypeParam>(this->device(), shaders, count)) {
         EXPECT_GE(verdict.lights, count);
         expect_parity(verdict);
     }
 }
 
 TYPED_TEST(TechniqueParity, KeepsTheContractOnHostileLights) {
-    for (const Variant variant : variants_for(this->device()))
-        EXPECT_EQ(first_violation<TypeParam>(this->device(), shader_of<TypeParam>(variant), hostile_lights()),
-                  "");
+    for (const auto shader : shaders_for<TypeParam>(this->device()))
+        EXPECT_EQ(first_violation<TypeParam>(this->device(), shader, hostile_lights()), "");
 }
 
 } // namespace

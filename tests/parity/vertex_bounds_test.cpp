@@ -19,18 +19,18 @@ TYPED_TEST_SUITE(VertexBounds, Techniques, PairNames);
 /// Judges lights that use all vertex slots, and lights that are clipped.
 TYPED_TEST(VertexBounds, IsAsAccurateAsCpp) {
     constexpr int kBound = TypeParam::Traits::kVertexBound;
-    for (const Variant variant : variants_for(this->device())) {
-        const auto shader = shader_of<TypeParam>(variant);
-        const auto is_judged = [](const proof::PolygonClass& lights) {
-            return lights.vertex_count == kBound ||
-                   (kBound > 4 && lights.name == std::string_view("crossing the horizon"));
-        };
-        const auto& classes = proof::polygon_classes();
-        const auto judged = std::count_if(classes.begin(), classes.end(), is_judged);
-        expect_parity(judge_twin<TypeParam>(this->device(), shader,
-                                            lights_per_class() * static_cast<int>(judged), is_judged));
+    const auto is_judged = [](const proof::PolygonClass& lights) {
+        return lights.vertex_count == kBound ||
+               (kBound > 4 && lights.name == std::string_view("crossing the horizon"));
+    };
+    const auto& classes = proof::polygon_classes();
+    const auto judged = std::count_if(classes.begin(), classes.end(), is_judged);
+    const int count = lights_per_class() * static_cast<int>(judged);
+    const auto shaders = shaders_for<TypeParam>(this->device());
+    for (const Verdict& verdict : judge_twins<TypeParam>(this->device(), shaders, count, is_judged))
+        expect_parity(verdict);
+    for (const auto shader : shaders)
         EXPECT_EQ(first_violation<TypeParam>(this->device(), shader, hostile_lights() / 10), "");
-    }
 }
 
 class RolledLoops : public GpuTest {};
