@@ -41,7 +41,7 @@ BEGIN {
     allow("src/scene/import/ply", below)
     allow("src/scene/import/pbrt", below " src/scene/import/ply")
     # The table of importers.
-    allow("src/scene/import", below " src/scene/import/pbrt")
+    allow("src/scene/import", below " src/base src/scene/import/pbrt")
     scene = "src/scene/input src/scene/model src/scene/rig src/scene/import"
     allow("src/visibility", "library src/scene/model src/interface")
     allow("src/tables", "library")

@@ -83,6 +83,35 @@ protected:
     }
 };
 
+TEST_F(Importers, OtherFormatsAreNamedWithWhatToDo) {
+    struct Case {
+        const char* file;
+        std::string contents;
+        const char* expected;
+    };
+    const Case cases[] = {
+        {"a.gltf", "{\"asset\": {\"version\": \"2.0\"}}", "is a glTF file, which cannot be read; convert it"},
+        {"a.glb", "glTF\2", "assimp export"},
+        {"A.GLTF", "{}", "is a glTF file"},
+        {"a.obj", "v 0 0 0\n", "is a Wavefront OBJ file, which cannot be read; convert it"},
+        {"a.usda", "#usda 1.0\n", "is a USD file, which cannot be read; export it from Blender"},
+        {"a.xml", "<scene version=\"3.0.0\"/>", "is a Mitsuba scene"},
+        {"a.blend", "BLENDER-v300RENDH", "is a file of Blender"},
+        {"without-extension", "BLENDER-v300RENDH", "is a file of Blender"},
+        {"compressed.blend", "\x28\xb5\x2f\xfd", "is a file of Blender"},
+        {"a.ply", "ply\nformat ascii 1.0\n", "name it in a scene file by Shape \"plymesh\""},
+    };
+    for (const Case& c : cases) {
+        write(c.file, c.contents);
+        try {
+            load_scene(folder_ / c.file);
+            ADD_FAILURE() << c.file << " is read";
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find(c.expected), std::string::npos) << error.what();
+        }
+    }
+}
+
 TEST_F(Importers, HaveNamesAndExtensionsOfTheirOwn) {
     for (const Importer& a : formats()) {
         EXPECT_FALSE(a.name.empty());
@@ -135,11 +164,11 @@ TEST_F(Importers, ContentsTellTheFormatOfFilesWithOtherExtensions) {
 
 TEST_F(Importers, UnknownFormatsAreNamedWithTheKnownOnes) {
     const std::string expected =
-        "scene file 'scene.obj': unknown format; use one of pbrt (.pbrt), toy (.toy)";
-    EXPECT_EQ(error_of("scene.obj", "v 0 0 0\n"), expected);
-    EXPECT_EQ(error_of("scene.obj", ""), expected);
-    EXPECT_EQ(error_of("scene.obj", "# only a comment"), expected);
-    EXPECT_EQ(error_of("scene.obj", std::string("\0\xff", 2)), expected);
+        "scene file 'scene.xyz': unknown format; use one of pbrt (.pbrt), toy (.toy)";
+    EXPECT_EQ(error_of("scene.xyz", "v 0 0 0\n"), expected);
+    EXPECT_EQ(error_of("scene.xyz", ""), expected);
+    EXPECT_EQ(error_of("scene.xyz", "# only a comment"), expected);
+    EXPECT_EQ(error_of("scene.xyz", std::string("\0\xff", 2)), expected);
     // The program itself does not support the format of the tests.
     write("scene.toy", kToyScene);
     EXPECT_THROW(load_scene(folder_ / "scene.toy"), std::runtime_error);

@@ -107,6 +107,20 @@ TEST_F(Syntax, UnknownThingsAreWarnedOfOnceWithTheirLine) {
     EXPECT_EQ(scene.triangles.size(), 1u);
 }
 
+/// pbrt v4 has a name and one value; some files have a type and brackets as in parameters.
+TEST_F(Syntax, OptionsAreANameAndAValue) {
+    const Scene scene = load("Option \"disablepixeljitter\" true\n"
+                             "Option \"displacementedgescale\" 2.5\n"
+                             "Option \"bool forcediffuse\" [ false ]\n"
+                             "Option \"string msereferenceimage\" \"x.exr\"\n"
+                             "Camera \"perspective\" WorldBegin\n" +
+                             std::string(kTriangle));
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_NE(error("Option \"seed\"").find("scene.pbrt:1: Option: expected a value"), std::string::npos);
+    EXPECT_NE(error("Option \"seed\" [ 1").find("not closed"), std::string::npos);
+}
+
 TEST_F(Syntax, BlocksRestoreWhatTheyPromise) {
     const Scene scene =
         load("Camera \"perspective\" WorldBegin\n"

@@ -1,6 +1,7 @@
 #include "scene/import/importers.h"
 
 #include "scene/build/build_scene.h"
+#include "scene/import/other_formats.h"
 #include "scene/import/pbrt/parser.h"
 #include "scene/input/file_bytes.h"
 
@@ -39,6 +40,8 @@ const Importer& find_importer(const std::filesystem::path& path, std::span<const
     } catch (const std::runtime_error& error) {
         throw std::runtime_error("scene file '" + path.string() + "': " + error.what());
     }
+    if (const auto other = describe_other_format(path, contents.view()))
+        throw std::runtime_error("scene file '" + path.string() + "' " + *other);
     for (const Importer& format : formats)
         if (format.recognizes(contents.view())) return format;
     fail_unknown(path, formats);

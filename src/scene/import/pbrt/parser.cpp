@@ -80,7 +80,7 @@ private:
     void film();
     void pixel_filter();
     void ignore_with_parameters();
-    void ignore_option() { read_parameters(); }
+    void ignore_option();
     void ignore_medium();
     void medium_interface();
     void color_space();
@@ -125,7 +125,8 @@ private:
     std::optional<Location> world_begin_;
     PbrtVersion version_ = PbrtVersion::v4; ///< until the film determines it
 
-    Location location_; ///< of the directive that is being read
+    Location location_;             ///< of the directive that is being read
+    bool knows_directives_ = false; ///< whether the files have a directive that is known
 };
 
 const std::unordered_map<std::string_view, Parser::Handler>& Parser::handlers() {
@@ -180,6 +181,9 @@ const std::unordered_map<std::string_view, Parser::Handler>& Parser::handlers() 
 SceneDescription Parser::run() {
     coordinate_systems_["world"] = {};
     parse_file();
+    if (!knows_directives_)
+        throw SceneError({&scene_.sources.front(), 1},
+                         "none of the directives of pbrt's format is in this file; is it a scene?");
     state_.warn_if_open(scene_.warnings);
     left_out_shapes_.warn("unsupported shapes are skipped, starting here", scene_.warnings);
     ignored_lights_.warn("light sources other than area lights are skipped, starting here", scene_.warnings);
@@ -208,6 +212,7 @@ void Parser::parse_directive(const Token& directive) {
         throw SceneError(location_, "expected a directive, found " + Tokenizer::describe(directive));
     const auto handler = handlers().find(directive.text);
     if (handler != handlers().end()) {
+        knows_directives_ = true;
         (this->*handler->second)();
     } else {
         skip_unknown_directive(directive);
@@ -301,6 +306,18 @@ void Parser::object_end() {
 
 void Parser::object_instance() {
     objects_.add_instance(read_string(), state_.current().ctm, location_, scene_.words);
+}
+
+void Parser::ignore_option() {
+    // Other than the parameters of directives, an option is a name and one value, as in `Option "disablepixeljitter" true`.
+    read_string();
+    const Token value = reader_.tokens().next();
+    if (value.kind == TokenKind::end || value.kind == TokenKind::close_bracket)
+        throw SceneError(location_, "Option: expected a value, found " + Tokenizer::describe(value));
+    if (value.kind != TokenKind::open_bracket) return;
+    while (reader_.tokens().peek().kind != TokenKind::end)
+        if (reader_.tokens().next().kind == TokenKind::close_bracket) return;
+    throw SceneError(location_, "Option: the bracket is not closed");
 }
 
 void Parser::attribute() {

@@ -1,0 +1,77 @@
+#include "scene/import/other_formats.h"
+
+#include "base/words.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace nusselt::scene {
+
+namespace {
+
+enum class Remedy { convert, export_from_blender, get_pbrt_version, name_in_scene };
+
+struct OtherFormat {
+    std::string_view name;       ///< with its article
+    std::string_view extensions; ///< with a dot before and a space behind each
+    std::string_view start;      ///< of its files; empty if they have no common start
+    Remedy remedy;
+};
+
+constexpr OtherFormat kOtherFormats[] = {
+    {"a glTF file", ".gltf .glb ", "glTF", Remedy::convert},
+    {"a Wavefront OBJ file", ".obj ", "", Remedy::convert},
+    {"an FBX file", ".fbx ", "Kaydara FBX", Remedy::convert},
+    {"a COLLADA file", ".dae ", "", Remedy::convert},
+    {"a USD file", ".usd .usda .usdc .usdz ", "#usda", Remedy::export_from_blender},
+    {"a USD file", "", "PXR-USDC", Remedy::export_from_blender},
+    {"a file of Blender", ".blend ", "BLENDER", Remedy::export_from_blender},
+    {"a Mitsuba scene", ".xml ", "", Remedy::get_pbrt_version},
+    {"a mesh without a scene", ".ply ", "ply", Remedy::name_in_scene},
+};
+
+std::string lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+std::string to_text(Remedy remedy, const std::filesystem::path& path) {
+    const auto command = [](const std::filesystem::path& input, const std::filesystem::path& output) {
+        return "`assimp export " + base::shell_word(input.string()) + ' ' +
+               base::shell_word(output.string()) + "` (Debian package assimp-utils)";
+    };
+    const std::filesystem::path stem = path.stem();
+    switch (remedy) {
+    case Remedy::convert:
+        return "convert it with " + command(path, stem.string() + ".pbrt");
+    case Remedy::export_from_blender:
+        return "export it from Blender as glTF, and convert that with " +
+               command(stem.string() + ".glb", stem.string() + ".pbrt");
+    case Remedy::get_pbrt_version:
+        return "look for its version in the format of pbrt";
+    case Remedy::name_in_scene:
+        break;
+    }
+    return "name it in a scene file by Shape \"plymesh\" \"string filename\" \"" + path.filename().string() +
+           '"';
+}
+
+bool is_of(const OtherFormat& format, const std::string& extension, std::string_view contents) {
+    if (!format.start.empty() && contents.starts_with(format.start)) return true;
+    return !extension.empty() && format.extensions.find(extension + ' ') != std::string_view::npos;
+}
+
+} // namespace
+
+std::optional<std::string> describe_other_format(const std::filesystem::path& path,
+                                                 std::string_view contents) {
+    const std::string extension = lower_case(path.extension().string());
+    for (const OtherFormat& format : kOtherFormats)
+        if (is_of(format, extension, contents))
+            return "is " + std::string(format.name) + ", which cannot be read; " +
+                   to_text(format.remedy, path);
+    return std::nullopt;
+}
+
+} // namespace nusselt::scene
