@@ -1,14 +1,18 @@
 #include "program.h"
 
+#include "base/words.h"
 #include "scene/input/message.h"
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
+#include <vector>
 
 namespace nusselt::app {
 
@@ -27,6 +31,43 @@ int finished(const Program& program, int exit_code) {
     return written || exit_code != 0 ? exit_code : report_lost_output(program);
 }
 
+/// The command that was called: the last one of `nusselt-lab bench lines`.
+const CLI::App& called(const CLI::App& app) {
+    const std::vector<CLI::App*> commands = app.get_subcommands();
+    return commands.empty() ? app : called(*commands.front());
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::App* subcommand : command.get_subcommands({})) names.push_back(subcommand->get_name());
+    return names;
+}
+
+/// What is wrong with a command line. Words that nothing takes come first: often they are the cause of what is missing.
+std::string usage_problem(const CLI::App& app, const CLI::Error& error) {
+    const std::vector<std::string> unknown = app.remaining(true);
+    const CLI::App& command = called(app);
+    const std::vector<std::string> commands = command_names(command);
+    const bool has_too_much = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+    if (unknown.empty() || (!has_too_much && commands.empty())) return error.what();
+    const auto option = std::find_if(unknown.begin(), unknown.end(),
+                                     [](const std::string& word) { return word.starts_with("-"); });
+    const bool is_option = option != unknown.end();
+    const std::string& word = is_option ? *option : unknown.front();
+    const std::string kind = is_option          ? "unknown option"
+                             : commands.empty() ? "unexpected"
+                                                : "unknown command";
+    const auto meant = base::likely_meant(word, is_option ? option_names(command) : commands);
+    return fmt::format("{} '{}'{}", kind, word, meant ? " (did you mean '" + *meant + "'?)" : "");
+}
+
 } // namespace
 
 int run_program(const Program& program, int argc, char** argv) {
@@ -38,8 +79,9 @@ int run_program(const Program& program, int argc, char** argv) {
     app.require_subcommand(1);
     app.set_version_flag("--version", program.name + " " NUSSELT_VERSION);
     app.set_help_all_flag("--help-all", "Print the help of all commands and exit");
-    app.failure_message([&program](const CLI::App*, const CLI::Error& error) {
-        return fmt::format("{}: {}; see --help\n", program.name, error.what());
+    app.failure_message([&program](const CLI::App* failed, const CLI::Error& error) {
+        return fmt::format("{}: {}; see --help\n", program.name,
+                           scene::message_line(usage_problem(*failed, error)));
     });
     int exit_code = 0;
     for (const SetupCommand setup : program.commands) setup(app, exit_code);

@@ -48,25 +48,41 @@ private:
     const std::filesystem::path& path_;
 };
 
+/// The file to which a path leads through symbolic links, which may not exist yet; the path itself without links.
+std::filesystem::path target_of(const std::filesystem::path& path) {
+    // As many as Linux follows.
+    constexpr int kMaxLinks = 40;
+    std::filesystem::path target = path;
+    std::error_code error;
+    for (int i = 0; i < kMaxLinks; ++i) {
+        const std::filesystem::path next = std::filesystem::read_symlink(target, error);
+        if (error) return target;
+        target = target.parent_path() / next; // an absolute path replaces the folder
+    }
+    fail(path, "its symbolic links form a loop; remove them or choose another name");
+}
+
 } // namespace
 
-void write_atomically(const std::filesystem::path& path, const std::function<void(std::ofstream&)>& write) {
+void write_atomically(const std::filesystem::path& name, const std::function<void(std::ofstream&)>& write) {
     std::error_code error;
+    // Renaming would replace a link instead of the file to which it leads.
+    const std::filesystem::path path = target_of(name);
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
     const std::filesystem::file_status folder_status = std::filesystem::status(folder, error);
     if (!std::filesystem::status_known(folder_status)) {
-        fail(path, "the folder '" + folder.string() + "' is not accessible (" + error.message() +
+        fail(name, "the folder '" + folder.string() + "' is not accessible (" + error.message() +
                        "); check the permissions of the folders above it or choose another path");
     }
     if (!std::filesystem::is_directory(folder_status))
-        fail(path, "the folder '" + folder.string() + "' does not exist; create it or choose another path");
+        fail(name, "the folder '" + folder.string() + "' does not exist; create it or choose another path");
     if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
-        fail(path, "this is a folder or a device; use the name of a file");
+        fail(name, "this is a folder or a device; use the name of a file");
 
     const std::filesystem::path temporary = temporary_path(path);
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
     if (!stream) {
-        fail(path, "cannot create a file in '" + folder.string() + "' (" + std::strerror(errno) +
+        fail(name, "cannot create a file in '" + folder.string() + "' (" + std::strerror(errno) +
                        "); check its permissions or choose another folder");
     }
     const RemoveAtExit remove_temporary(temporary);
@@ -76,14 +92,23 @@ void write_atomically(const std::filesystem::path& path, const std::function<voi
         if (stream) throw; // what a failed stream made `write` throw is reported below
     }
     stream.close();
-    if (!stream) fail(path, "cannot store the data; check the free space of the disk");
+    if (!stream) fail(name, "cannot store the data; check the free space of the disk");
     // Without this, a crash of the machine could leave the new name with the bytes of neither file.
     if (const int problem = store(temporary); problem != 0)
-        fail(path, std::string("cannot store the data (") + std::strerror(problem) + "); check the disk");
+        fail(name, std::string("cannot store the data (") + std::strerror(problem) + "); check the disk");
     std::filesystem::rename(temporary, path, error);
-    if (error) fail(path, "cannot rename the temporary file (" + error.message() + ")");
+    if (error) fail(name, "cannot rename the temporary file (" + error.message() + ")");
     // Errors are ignored: without read permission for the folder, the system decides when the name is stored.
     store(folder);
+}
+
+void check_writable(const std::filesystem::path& path) {
+    struct Abandoned {};
+    try {
+        write_atomically(path, [](std::ofstream&) { throw Abandoned(); });
+    } catch (const Abandoned&) {
+        // The exception shows success: the temporary file could be created, and is removed again.
+    }
 }
 
 } // namespace nusselt::base

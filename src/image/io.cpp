@@ -122,18 +122,9 @@ void write_image(const std::filesystem::path& path, const Image& image, const Me
     }
 }
 
-void check_writable(const std::filesystem::path& path) {
-    struct Abandoned {};
-    try {
-        base::write_atomically(path, [](std::ofstream&) { throw Abandoned(); });
-    } catch (const Abandoned&) {
-        // The exception shows success: the temporary file could be created, and is removed again.
-    }
-}
-
 void check_writable_image(const std::filesystem::path& path) {
     output_format(path);
-    check_writable(path);
+    base::check_writable(path);
 }
 
 Image read_image(const std::filesystem::path& path) {

@@ -31,11 +31,7 @@ namespace nusselt::image {
 void write_image(const std::filesystem::path& path, const Image& image, const Metadata& metadata = {},
                  double exposure = 0);
 
-/// Tells before a long computation whether base::write_atomically() could create this file. An existing file stays as it is.
-/// \throws std::runtime_error see there
-void check_writable(const std::filesystem::path& path);
-
-/// check_writable(), and whether write_image() knows the extension. \throws std::runtime_error
+/// base::check_writable(), and whether write_image() knows the extension. \throws std::runtime_error
 void check_writable_image(const std::filesystem::path& path);
 
 /// Reads `.exr` (channels R, G, B or Y alone, in half, float or integers; the data window of the first part), `.hdr`

@@ -49,12 +49,12 @@ TEST_F(CommandLine, ProgramsKeepToTheirOwnCommands) {
     for (const char* command : {"bench", "fuzz", "map", "reproduce", "fit-ltc"}) {
         const Outcome outcome = run(command);
         EXPECT_EQ(outcome.exit_code, 2) << command;
-        expect_message(outcome.err, "subcommand");
+        expect_message(outcome.err, std::string("unknown command '") + command + "'");
     }
     for (const char* command : {"render", "view", "merge", "info", "compare", "convert"}) {
         const Outcome outcome = run_lab(std::string(command) + " a b");
         EXPECT_EQ(outcome.exit_code, 2) << command;
-        expect_lab_message(outcome.err, "subcommand");
+        expect_lab_message(outcome.err, std::string("unknown command '") + command + "'");
     }
 }
 
@@ -81,6 +81,18 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo) {
         EXPECT_EQ(wrong.exit_code, 2) << arguments;
         expect_lab_message(wrong.err, "--help");
     }
+}
+
+TEST_F(CommandLine, SuggestsWhatWasMeant) {
+    expect_message(run("rendr a.pbrt").err, "unknown command 'rendr' (did you mean 'render'?)");
+    expect_message(run("lihgts a.pbrt").err, "unknown command 'lihgts' (did you mean 'lights'?)");
+    expect_message(run("polish").err, "unknown command 'polish';");
+    expect_message(run("render --ssp 3 a.pbrt").err, "unknown option '--ssp' (did you mean '--spp'?)");
+    expect_message(run("render a.pbrt --frobnicate").err, "unknown option '--frobnicate';");
+    expect_message(run("render a.pbrt b.pbrt").err, "unexpected 'b.pbrt'");
+    expect_message(run("info a.pbrt 'b\nc'").err, "unexpected 'b?c'");
+    expect_lab_message(run_lab("bench sampler").err, "unknown command 'sampler' (did you mean 'samplers'?)");
+    expect_lab_message(run_lab("fuzz --sed 3").err, "unknown option '--sed' (did you mean '--seed'?)");
 }
 
 TEST_F(CommandLine, ErrorsExitWithOneAndOneLine) {
@@ -219,6 +231,14 @@ TEST_F(CommandLine, TellsWhatASceneAndTheProgramContain) {
     EXPECT_EQ(list.exit_code, 0);
     for (const char* name : {"line-diffuse", "planes"})
         EXPECT_NE(list.out.find(name), std::string::npos) << list.out;
+}
+
+TEST_F(CommandLine, ReproduceChecksItsFolderBeforeItRenders) {
+    const Outcome outcome = run_lab("reproduce --scenes '" + kScenes + "' -o /dev/null/x");
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.out, "");
+    expect_lab_message(outcome.err, "cannot create the folder '/dev/null/x'");
+    expect_lab_message(outcome.err, "--output");
 }
 
 TEST_F(CommandLine, ReproduceWritesAPage) {
@@ -392,6 +412,18 @@ int run_until_interrupted(const char* program, std::vector<const char*> argument
     EXPECT_EQ(::waitpid(child, &status, 0), child);
     std::fclose(messages);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// A limit on the size of files lets the large image fail once everything is rendered.
+TEST_F(CommandLine, AnImageThatCannotBeWrittenDoesNotLoseTheOthers) {
+    const Outcome outcome =
+        run("render '" + kScenes + "/room.pbrt' --resolution 160x120 --spp 1 -o a.pfm -o b.png -o c.pfm",
+            "ulimit -f 200;"); // 100 or 200 kB
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.out, "b.png\n");
+    EXPECT_EQ(image::read_image(path("b.png")).width, 160);
+    for (const char* name : {"'a.pfm'", "'c.pfm'"})
+        EXPECT_NE(outcome.err.find(std::string("cannot write ") + name), std::string::npos) << outcome.err;
 }
 
 TEST_F(CommandLine, CtrlCWritesWhatIsThere) {

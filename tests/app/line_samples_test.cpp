@@ -105,13 +105,13 @@ TEST_F(CommandLine, PartsOfLineSamplesMergeToTheWholeImage) {
     ASSERT_EQ(run(lines + "-o whole.exr").exit_code, 0);
     ASSERT_EQ(run(lines + "--part 1/2 -o 1.exr").exit_code, 0);
     ASSERT_EQ(run(lines + "--part 2/2 -o 2.exr").exit_code, 0);
-    const Outcome merged = run("merge merged.exr 1.exr 2.exr");
+    const Outcome merged = run("merge -o merged.exr 1.exr 2.exr");
     ASSERT_EQ(merged.exit_code, 0) << merged.err;
     const Outcome same = run("compare merged.exr whole.exr --max mse=0");
     EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
 
     ASSERT_EQ(run(lines + "--part 2/2 --offsets uniform -o other.exr").exit_code, 0);
-    const Outcome refused = run("merge wrong.exr 1.exr other.exr");
+    const Outcome refused = run("merge -o wrong.exr 1.exr other.exr");
     EXPECT_EQ(refused.exit_code, 1);
     expect_message(refused.err, "offsets");
 }

@@ -112,6 +112,19 @@ TEST_F(RenderCheckpoint, KilledAtAnyTimeItGoesOnToTheSameImage) {
     EXPECT_FALSE(std::filesystem::exists(path("state")));
 }
 
+/// Clusters send SIGTERM before they take a machine away; terminals that are closed send SIGHUP, often twice.
+TEST_F(RenderCheckpoint, SignalsOfClustersAndTerminalsStoreAllThatIsFinished) {
+    const image::LayeredImage expected = whole();
+    for (const int signal : {SIGTERM, SIGHUP}) {
+        std::filesystem::remove(path("state"));
+        EXPECT_EQ(end_when_stored(signal), 128 + signal);
+        EXPECT_TRUE(std::filesystem::exists(path("state")));
+        EXPECT_LT(std::stod(image::read_exr_metadata(path("a.exr")).at("finished_fraction")), 1);
+    }
+    EXPECT_EQ(run(command()).exit_code, 0);
+    expect_same_image(expected);
+}
+
 TEST_F(RenderCheckpoint, CtrlCStoresAllThatIsFinished) {
     const image::LayeredImage expected = whole();
     EXPECT_EQ(end_when_stored(SIGINT), 130);

@@ -43,7 +43,7 @@ TEST_F(RenderParts, MergedAreTheWholeImageBitByBit) {
         inputs += " " + name;
     }
     EXPECT_NE(image::find_layer(layers("part1.exr"), "samples"), nullptr);
-    expect_success("merge merged.exr" + inputs);
+    expect_success("merge -o merged.exr" + inputs);
     const image::LayeredImage whole = layers("whole.exr");
     const image::LayeredImage merged = layers("merged.exr");
     EXPECT_GE(whole.layers.size(), 10u);
@@ -52,17 +52,20 @@ TEST_F(RenderParts, MergedAreTheWholeImageBitByBit) {
     EXPECT_EQ(merged.metadata.at("finished_fraction"), "1");
 
     // Two thirds of the image are an image as well.
-    const Outcome some = run("merge some.exr part1.exr part2.exr");
-    EXPECT_EQ(some.exit_code, 0);
-    EXPECT_EQ(some.err.rfind("warning: only a fraction of 0.", 0), 0u) << some.err;
-    expect_success("merge again.exr some.exr part3.exr");
+    const Outcome some = run("merge -o some.exr part1.exr part2.exr");
+    EXPECT_EQ(some.exit_code, 1);
+    expect_message(some.err, "only a fraction of 0.");
+    expect_message(some.err, "--partial");
+    EXPECT_FALSE(std::filesystem::exists(path("some.exr")));
+    expect_success("merge --partial -o some.exr part1.exr part2.exr");
+    expect_success("merge -o again.exr some.exr part3.exr");
     expect_same_layers(layers("again.exr"), whole);
 }
 
 TEST_F(RenderParts, SeedsAreMergedToTheirMean) {
     expect_success(render("-o a.exr"));
     expect_success(render("-o b.exr --seed 1"));
-    expect_success("merge mean.exr a.exr b.exr");
+    expect_success("merge -o mean.exr a.exr b.exr");
     const std::vector<float> a = image::read_image(path("a.exr")).pixels;
     const std::vector<float> b = image::read_image(path("b.exr")).pixels;
     const image::LayeredImage mean = layers("mean.exr");
@@ -85,19 +88,41 @@ TEST_F(RenderParts, MergeRefusesWhatDoesNotFit) {
           std::pair("a.exr technique.exr", "technique"), std::pair("a.exr small.exr", "8 x 8"),
           std::pair("a.exr layers.exr", "albedo"), std::pair("a.exr scene.exr", "scene"),
           std::pair("a.exr missing.exr", "missing.exr")}) {
-        const Outcome wrong = run(std::string("merge merged.exr ") + inputs);
+        const Outcome wrong = run(std::string("merge -o merged.exr ") + inputs);
         EXPECT_EQ(wrong.exit_code, 1) << inputs;
         expect_message(wrong.err, text);
         EXPECT_FALSE(std::filesystem::exists(path("merged.exr"))) << inputs;
     }
-    expect_message(run("merge no/such/folder/a.exr a.exr").err, "no/such/folder");
+    expect_message(run("merge -o no/such/folder/a.exr a.exr").err, "no/such/folder");
+}
+
+TEST_F(RenderParts, MergeNeverOverwritesAnInput) {
+    expect_success(render("-o p1.exr --part 1/2"));
+    expect_success(render("-o p2.exr --part 2/2"));
+    const std::string before = read("p1.exr");
+    for (const char* arguments : {"merge p1.exr p1.exr p2.exr", "merge -o p1.exr p1.exr p2.exr"}) {
+        const Outcome wrong = run(arguments);
+        EXPECT_EQ(wrong.exit_code, 1) << arguments;
+        expect_message(wrong.err, "'p1.exr' is an output and also an input");
+        EXPECT_EQ(read("p1.exr"), before);
+    }
+}
+
+/// The form of version 0.1 works for one more version.
+TEST_F(RenderParts, MergeTakesTheOutputFirstWithAWarning) {
+    expect_success(render("-o p1.exr --part 1/2"));
+    expect_success(render("-o p2.exr --part 2/2"));
+    const Outcome old = run("merge out.exr p1.exr p2.exr");
+    EXPECT_EQ(old.exit_code, 0);
+    EXPECT_EQ(old.err, "warning: `merge OUT IN...` is deprecated; use `merge -o 'out.exr' IN...`\n");
+    EXPECT_EQ(layers("out.exr").metadata.at("finished_fraction"), "1");
 }
 
 TEST_F(RenderParts, ConvertedImagesAreNotMerged) {
     expect_success(render("-o one.exr --seed 1"));
     expect_success(render("-o two.exr --seed 2"));
     expect_success("convert one.exr bright.exr --exposure 3");
-    const Outcome outcome = run("merge merged.exr bright.exr two.exr");
+    const Outcome outcome = run("merge -o merged.exr bright.exr two.exr");
     EXPECT_EQ(outcome.exit_code, 1);
     expect_message(outcome.err, "bright.exr");
     expect_message(outcome.err, "it was converted by `nusselt convert`");
@@ -122,7 +147,7 @@ TEST_F(RenderParts, MayComeFromScenesInOtherFolders) {
     expect_success(render("--layers lights --part 1/2 -o part1.exr"));
     expect_success(
         "render copy/room.pbrt --resolution 80x60 --spp 2 -q --layers lights --part 2/2 -o part2.exr");
-    expect_success("merge merged.exr part1.exr part2.exr");
+    expect_success("merge -o merged.exr part1.exr part2.exr");
     EXPECT_EQ(layers("merged.exr").metadata.at("samples"), "2");
 }
 
@@ -154,8 +179,8 @@ TEST_F(RenderParts, WrongValuesAreWrongUsage) {
                                   "render a.pbrt --checkpoint-interval 1e7",
                                   "merge",
                                   "merge a.exr",
-                                  "merge a.png b.exr",
-                                  "merge a.exr b.png"}) {
+                                  "merge -o a.png b.exr",
+                                  "merge -o a.exr b.png"}) {
         const Outcome wrong = run(arguments);
         EXPECT_EQ(wrong.exit_code, 2) << arguments;
         expect_message(wrong.err, "--help");

@@ -124,6 +124,22 @@ TEST_F(Files, DevicesAreNotReplaced) {
     EXPECT_TRUE(std::filesystem::is_symlink(in_folder("null.hdr")));
 }
 
+TEST_F(Files, SymbolicLinksStay) {
+    std::filesystem::create_directory(in_folder("real"));
+    const auto write = [](std::ofstream& stream) { stream << "new"; };
+    std::filesystem::create_symlink("real/b.json", in_folder("relative.json"));
+    std::filesystem::create_symlink(in_folder("relative.json"), in_folder("absolute.json"));
+    base::write_atomically(in_folder("absolute.json"), write);
+    EXPECT_TRUE(std::filesystem::is_symlink(in_folder("absolute.json")));
+    EXPECT_TRUE(std::filesystem::is_symlink(in_folder("relative.json")));
+    EXPECT_EQ(read_bytes(in_folder("real/b.json")), "new");
+
+    std::filesystem::create_symlink("loop.json", in_folder("loop.json"));
+    expect_mentions(error_of([&] { base::write_atomically(in_folder("loop.json"), write); }), "loop");
+    std::filesystem::create_symlink("missing/c.json", in_folder("dangling.json"));
+    expect_mentions(error_of([&] { base::write_atomically(in_folder("dangling.json"), write); }), "create it");
+}
+
 TEST_F(Files, DevicesAreNotRead) {
     for (const std::string extension : {".exr", ".hdr", ".png", ".pfm"}) {
         std::filesystem::create_symlink("/dev/zero", in_folder("zero" + extension));

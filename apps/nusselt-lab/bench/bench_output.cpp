@@ -1,7 +1,7 @@
 #include "bench_output.h"
 
+#include "base/atomic_file.h"
 #include "base/json_output.h"
-#include "image/io.h"
 
 namespace nusselt::app {
 
@@ -17,7 +17,7 @@ void add_json_option(CLI::App& command, std::optional<std::string>& json) {
 }
 
 void check_json_option(const std::optional<std::string>& file) {
-    if (file && *file != "-") image::check_writable(*file);
+    if (file && *file != "-") base::check_writable(*file);
 }
 
 void write_results(const std::optional<std::string>& file, const lab::Results& results,

@@ -212,7 +212,7 @@ int run_fit_ltc(const FitLtcOptions& options) {
     // Fails now rather than after minutes of fitting.
     check_json_option(options.json);
     for (const char* extension : {".bin", "-engine.bin", ".json"})
-        image::check_writable(options.output + extension);
+        base::check_writable(options.output + extension);
     TableFit fitted(brdf, size_of(options.size));
     tbb::task_arena arena(options.threads.value_or(render_cpu::default_thread_count()));
     const InterruptGuard guard;
@@ -224,7 +224,7 @@ int run_fit_ltc(const FitLtcOptions& options) {
                    fitted.columns(),
                    options.checkpoint ? "run the same command again to continue"
                                       : "they are lost; use --checkpoint to keep them");
-        return kInterruptedExitCode;
+        return interrupted_exit_code();
     }
     if (options.json != "-") fmt::print("{} columns in {:.0f} s\n", columns, seconds);
 

@@ -26,7 +26,7 @@ struct FitLtcOptions {
 void setup_fit_ltc(CLI::App& app, int& exit_code);
 
 /// Fits a table of linearly transformed cosines and prints the distribution of its errors.
-/// \returns 0, or 130 if it was interrupted
+/// \returns 0, or interrupted_exit_code()
 int run_fit_ltc(const FitLtcOptions& options);
 
 } // namespace nusselt::app

@@ -22,6 +22,7 @@ void setup_map(CLI::App& app, int& exit_code) {
 }
 
 int run_map(const MapOptions& options) {
+    base::check_writable(options.output);
     const std::string picture = lab::draw_sampling_map(options.technique);
     base::write_atomically(options.output, [&](std::ofstream& file) { file << picture; });
     return 0;

@@ -61,6 +61,16 @@ bool report(const Result& result, const std::filesystem::path& folder) {
                        [](const lab::ExpectationResult& e) { return e.holds; });
 }
 
+/// Finds out before hours of work whether the pages can be written.
+void prepare_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw std::runtime_error("cannot create the folder '" + folder.string() + "' (" + error.message() +
+                                 "); choose another one with --output");
+    base::check_writable(folder / "index.html");
+}
+
 void write_index(const ReproduceOptions& options) {
     base::write_atomically(options.output / "index.html", [&](std::ofstream& file) {
         file << "<!DOCTYPE html>\n<meta charset=\"utf-8\"><title>Nusselt: experiments</title>\n<ul>\n";
@@ -111,6 +121,7 @@ int run_reproduce(const ReproduceOptions& options) {
         throw std::runtime_error(
             "missing folder '" + options.scenes.string() +
             "'; run in the repository, or name the folder of the shipped scenes with --scenes");
+    prepare_folder(options.output);
     lab::RunSettings settings;
     settings.scenes = options.scenes;
     settings.reference_samples = options.reference_samples;

@@ -192,7 +192,7 @@ int run_bench_worst_case(const BenchWorstCaseOptions& options) {
                   [&] { print_tables(session, convergence); });
     const bool holds = std::all_of(session.searches().begin(), session.searches().end(),
                                    [](const auto& one) { return one.worst().error <= one.target().bound; });
-    if (interrupted) return kInterruptedExitCode;
+    if (interrupted) return interrupted_exit_code();
     if (!holds) fmt::print(stderr, "nusselt-lab: error: a worst case exceeds the documented bound\n");
     return holds ? 0 : 1;
 }

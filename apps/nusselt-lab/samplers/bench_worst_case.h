@@ -29,7 +29,7 @@ struct BenchWorstCaseOptions {
 void setup_bench_worst_case(CLI::App& bench, int& exit_code);
 
 /// Searches for the largest errors of the iterations and prints or writes them.
-/// \returns 0, 1 if one is above its documented bound, or 130 if the search was interrupted
+/// \returns 0, 1 if one is above its documented bound, or interrupted_exit_code()
 int run_bench_worst_case(const BenchWorstCaseOptions& options);
 
 } // namespace nusselt::app

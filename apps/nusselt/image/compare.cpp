@@ -1,6 +1,7 @@
 #include "compare.h"
 
 #include "apps/common/validators.h"
+#include "base/atomic_file.h"
 #include "base/json_output.h"
 #include "compare_metrics.h"
 #include "image/difference.h"
@@ -25,7 +26,7 @@ void check_outputs(const CompareOptions& options) {
     for (const auto& picture :
          {options.difference, options.absolute_difference, options.flip_map, options.hdr_flip_map})
         if (picture) image::check_writable_image(*picture);
-    if (options.json && options.json != "-") image::check_writable(*options.json);
+    if (options.json && options.json != "-") base::check_writable(*options.json);
 }
 
 void check_size(const std::filesystem::path& path, const image::Image& a, const image::Image& reference,

@@ -1,5 +1,7 @@
 #include "merge.h"
 
+#include "apps/common/output_files.h"
+
 #include "image/io.h"
 #include "image/layers.h"
 #include "render/merge.h"
@@ -8,6 +10,7 @@
 #include <fmt/core.h>
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 namespace nusselt::app {
@@ -23,23 +26,38 @@ void setup_merge(CLI::App& app, int& exit_code) {
         return image::is_exr(path) ? std::string()
                                    : "'" + path.string() + "' must be the name of an EXR file";
     };
-    command->add_option("OUT", options->output, "EXR file to write")->required()->check(check_exr, "");
+    command->add_option("-o,--output", options->output, "EXR file to write")->check(check_exr, "");
     command->add_option("IN", options->inputs, "EXR files to read, one or more")
         ->required()
         ->check(check_exr, "");
-    command->callback([options, &exit_code] { exit_code = run_merge(*options); });
+    command->add_flag("--partial", options->allows_partial,
+                      "Write the image although pixels lack samples because parts are missing");
+    command->callback([options, &exit_code] {
+        const bool is_old_form = !options->output;
+        if (is_old_form) {
+            if (options->inputs.size() < 2) throw CLI::RequiredError("--output");
+            options->output = options->inputs.front();
+            options->inputs.erase(options->inputs.begin());
+        }
+        exit_code = run_merge(*options);
+        if (is_old_form)
+            fmt::print(stderr, "warning: `merge OUT IN...` is deprecated; use `merge -o '{}' IN...`\n",
+                       options->output->string());
+    });
 }
 
 int run_merge(const MergeOptions& options) {
-    image::check_writable_image(options.output);
+    check_distinct({*options.output}, options.inputs);
+    image::check_writable_image(*options.output);
     render::Merger merger;
     for (const std::filesystem::path& path : options.inputs) merger.add(image::read_layers(path), path);
     const image::LayeredImage result = merger.result();
-    image::write_layers(options.output, result);
-    if (const std::string& finished = result.metadata.at("finished_fraction"); finished != "1")
-        fmt::print(stderr,
-                   "warning: only a fraction of {} of the pixels has samples; add the missing parts\n",
-                   finished);
+    if (const std::string& finished = result.metadata.at("finished_fraction");
+        finished != "1" && !options.allows_partial)
+        throw std::runtime_error("only a fraction of " + finished +
+                                 " of the pixels has samples; add the missing parts, or use --partial to "
+                                 "write what is there");
+    image::write_layers(*options.output, result);
     return 0;
 }
 

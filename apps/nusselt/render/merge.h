@@ -2,6 +2,7 @@
 /// `nusselt merge` combines images into one.
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace CLI {
@@ -11,8 +12,9 @@ class App;
 namespace nusselt::app {
 
 struct MergeOptions {
-    std::filesystem::path output;
+    std::optional<std::filesystem::path> output; ///< without it the first input is meant, as in version 0.1
     std::vector<std::filesystem::path> inputs;
+    bool allows_partial = false; ///< whether the image may lack pixels
 };
 
 /// Adds the subcommand. Its callback stores the result of run_merge() in exit_code, which must live until the

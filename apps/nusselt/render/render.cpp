@@ -29,6 +29,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -37,16 +38,31 @@ namespace nusselt::app {
 
 namespace {
 
-/// Writes the frame to all files. EXR files get all layers and metadata, others the image alone.
+/// Writes the frame to all files, also if some of them cannot be written: hours of work may be in it. EXR files get all
+/// layers and metadata, others the image alone.
+/// \throws std::runtime_error at the end, about all files that could not be written
 void write_outputs(const RenderOptions& options, const render::RenderSettings& settings,
                    const scene::Film& film, render::Frame&& frame, const image::Metadata& metadata) {
     const std::vector<std::filesystem::path> paths = output_paths(options, film);
+    std::set<std::filesystem::path> written;
+    std::string problems;
+    const auto write = [&](const std::filesystem::path& path, const auto& write_file) {
+        try {
+            write_file();
+            written.insert(path);
+        } catch (const std::runtime_error& error) {
+            problems += (problems.empty() ? "" : "; ") + std::string(error.what());
+        }
+    };
     for (const std::filesystem::path& path : paths)
-        if (!image::is_exr(path)) image::write_image(path, frame.image, metadata, options.exposure);
+        if (!image::is_exr(path))
+            write(path, [&] { image::write_image(path, frame.image, metadata, options.exposure); });
     const image::LayeredImage layered = to_layered_image(std::move(frame), film, settings, metadata);
     for (const std::filesystem::path& path : paths)
-        if (image::is_exr(path)) image::write_layers(path, layered);
-    print_outputs(options, film);
+        if (image::is_exr(path)) write(path, [&] { image::write_layers(path, layered); });
+    for (const std::filesystem::path& path : paths)
+        if (written.count(path) != 0) print_output(options, path);
+    if (!problems.empty()) throw std::runtime_error(problems);
 }
 
 std::string check_display_address(const std::string& text) {
@@ -61,7 +77,7 @@ std::string check_display_address(const std::string& text) {
 /// \returns the exit code
 int stop_without_image(const RenderOptions& options) {
     if (!options.quiet) fmt::print(stderr, "stopped before the first pixel; no image is written\n");
-    return kInterruptedExitCode;
+    return interrupted_exit_code();
 }
 
 /// Reports that the image is incomplete. \param work the work of which a fraction is finished
@@ -80,7 +96,7 @@ void setup_render(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand(
         "render",
         "Render the direct light of a scene. Ctrl-C stops early and writes the finished tiles, with\n"
-        "the rest black; the exit code is then 130.");
+        "the rest black; the exit code is then 130. A second Ctrl-C ends the program at once.");
     command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
     command
         ->add_option(
@@ -212,7 +228,7 @@ int run_render(const RenderOptions& options) {
         write_report(*options.json, report_json(options, settings, scene, *backend, statistics, times));
     if (finished == 1) return 0;
     if (!options.quiet) print_stop(options, finished, unfinished_work);
-    return kInterruptedExitCode;
+    return interrupted_exit_code();
 }
 
 } // namespace nusselt::app

@@ -52,7 +52,7 @@ struct RenderOptions {
 void setup_render(CLI::App& app, int& exit_code);
 
 /// Renders and writes the images.
-/// \returns 0, or 130 if it was interrupted
+/// \returns 0, or interrupted_exit_code()
 int run_render(const RenderOptions& options);
 
 } // namespace nusselt::app

@@ -19,7 +19,7 @@ void check_outputs(const RenderOptions& options);
 /// \throws std::runtime_error if files would overwrite each other, or what is read
 void check_names(const RenderOptions& options, const scene::Film& film);
 
-/// Names what was written on the standard output, unless that is for something else.
-void print_outputs(const RenderOptions& options, const scene::Film& film);
+/// Names a file that was written on the standard output, unless that is for something else.
+void print_output(const RenderOptions& options, const std::filesystem::path& path);
 
 } // namespace nusselt::app

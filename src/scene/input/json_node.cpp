@@ -1,10 +1,10 @@
 #include "scene/input/json_node.h"
 
+#include "base/words.h"
 #include "scene/input/file_bytes.h"
 #include "scene/input/message.h"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -64,30 +64,6 @@ private:
     std::string file_;
     std::vector<std::set<std::string>> fields_; ///< seen so far in the objects around
 };
-
-/// Number of insertions, removals and replacements of a character that turn one text into the other.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-        }
-    }
-    return row.back();
-}
-
-std::string_view nearest(std::string_view name, std::span<const std::string_view> known) {
-    // The distance to a longer text is at least the difference of the lengths.
-    const std::string_view head = name.substr(0, 64);
-    return *std::min_element(known.begin(), known.end(), [&](std::string_view a, std::string_view b) {
-        return edit_distance(head, a) < edit_distance(head, b);
-    });
-}
 
 /// A value as JSON, shortened, in one line.
 std::string excerpt(const json& value) {
@@ -150,8 +126,8 @@ void JsonNode::check_fields(std::span<const std::string_view> known) const {
     if (!value_->is_object()) fail_type("an object, in braces");
     for (const auto& [name, value] : value_->items())
         if (std::find(known.begin(), known.end(), name) == known.end())
-            fail("unknown field " + excerpt(name) + "; did you mean \"" + std::string(nearest(name, known)) +
-                 "\"?");
+            fail("unknown field " + excerpt(name) + "; did you mean \"" +
+                 std::string(base::nearest(name, known)) + "\"?");
 }
 
 std::optional<JsonNode> JsonNode::find(std::string_view field) const {
