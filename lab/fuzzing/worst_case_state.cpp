@@ -40,6 +40,11 @@ std::string hexadecimal(long double x) {
 std::optional<SearchState> load_search_state(const std::filesystem::path& path) {
     if (!std::filesystem::exists(path)) return {};
     std::ifstream stream(path);
+    const auto fail = [&](const std::string& problem) {
+        throw std::runtime_error(
+            fmt::format("{}: the file is not the state of a search for worst cases: {}; choose another file",
+                        path.string(), problem));
+    };
     try {
         if (!stream) throw std::runtime_error("cannot read the file");
         const auto json = nlohmann::json::parse(stream);
@@ -52,11 +57,12 @@ std::optional<SearchState> load_search_state(const std::filesystem::path& path) 
                 progress.parameters.push_back(number_of(text.get<std::string>()));
         }
         return state;
+    } catch (const nlohmann::json::exception&) {
+        fail("it is not JSON or lacks a field");
     } catch (const std::exception& error) {
-        throw std::runtime_error(
-            fmt::format("{}: the file is not the state of a search for worst cases: {}; choose another file",
-                        path.string(), error.what()));
+        fail(error.what());
     }
+    return {};
 }
 
 void save_search_state(const std::filesystem::path& path, const SearchState& state) {

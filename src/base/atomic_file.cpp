@@ -65,6 +65,7 @@ std::filesystem::path target_of(const std::filesystem::path& path) {
 } // namespace
 
 void write_atomically(const std::filesystem::path& name, const std::function<void(std::ofstream&)>& write) {
+    if (name.empty()) fail(name, "the name of the file is empty");
     std::error_code error;
     // Renaming would replace a link instead of the file to which it leads.
     const std::filesystem::path path = target_of(name);

@@ -233,6 +233,25 @@ TEST_F(CommandLine, TellsWhatASceneAndTheProgramContain) {
         EXPECT_NE(list.out.find(name), std::string::npos) << list.out;
 }
 
+TEST_F(CommandLine, NoOutputReplacesAnInputOrAnotherOutput) {
+    image::write_image(path("a.exr"), noise(8, 8));
+    std::ofstream(path("scene.pbrt")) << "Camera \"perspective\"\n";
+    const std::string picture = read("a.exr");
+    for (const char* arguments : {"convert a.exr a.exr", "convert ./a.exr a.exr",
+                                  "compare a.exr a.exr --diff a.exr", "compare a.exr a.exr --json a.exr"})
+        expect_message(run(arguments).err, "is an output and also an input");
+    EXPECT_EQ(read("a.exr"), picture);
+    expect_message(run("compare a.exr a.exr --diff d.png --abs-diff d.png").err, "another output");
+    for (const char* bench : {"rays", "strategies", "lines", "line-efficiency", "gpu"})
+        expect_lab_message(run_lab(std::string("bench ") + bench + " scene.pbrt --json scene.pbrt").err,
+                           "is an output and also an input");
+    EXPECT_EQ(read("scene.pbrt"), "Camera \"perspective\"\n");
+    expect_lab_message(run_lab("fit-ltc -o f --size 2x2x2 --json f.bin").err, "another output");
+    expect_lab_message(run_lab("map PolygonArea scene.pbrt").err, "must be the name of an SVG file");
+    for (const char* arguments : {"compare a.exr a.exr --json ''", "render scene.pbrt --checkpoint ''"})
+        expect_message(run(arguments).err, "the name of the file is empty");
+}
+
 TEST_F(CommandLine, ReproduceChecksItsFolderBeforeItRenders) {
     const Outcome outcome = run_lab("reproduce --scenes '" + kScenes + "' -o /dev/null/x");
     EXPECT_EQ(outcome.exit_code, 1);

@@ -137,7 +137,8 @@ TEST_F(Files, SymbolicLinksStay) {
     std::filesystem::create_symlink("loop.json", in_folder("loop.json"));
     expect_mentions(error_of([&] { base::write_atomically(in_folder("loop.json"), write); }), "loop");
     std::filesystem::create_symlink("missing/c.json", in_folder("dangling.json"));
-    expect_mentions(error_of([&] { base::write_atomically(in_folder("dangling.json"), write); }), "create it");
+    expect_mentions(error_of([&] { base::write_atomically(in_folder("dangling.json"), write); }),
+                    "create it");
 }
 
 TEST_F(Files, DevicesAreNotRead) {

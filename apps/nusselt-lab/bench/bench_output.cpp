@@ -1,5 +1,6 @@
 #include "bench_output.h"
 
+#include "apps/common/output_files.h"
 #include "base/atomic_file.h"
 #include "base/json_output.h"
 
@@ -16,8 +17,11 @@ void add_json_option(CLI::App& command, std::optional<std::string>& json) {
                        "Write the numbers as JSON to this file, or with - to the standard output");
 }
 
-void check_json_option(const std::optional<std::string>& file) {
-    if (file && *file != "-") base::check_writable(*file);
+void check_json_option(const std::optional<std::string>& file,
+                       const std::vector<std::filesystem::path>& inputs) {
+    if (!file || *file == "-") return;
+    base::check_writable(*file);
+    check_distinct({*file}, inputs);
 }
 
 void write_results(const std::optional<std::string>& file, const lab::Results& results,

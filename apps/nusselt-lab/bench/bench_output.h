@@ -5,9 +5,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace nusselt::app {
 
@@ -17,9 +19,10 @@ void add_repetitions_option(CLI::App& command, int& repetitions);
 /// Adds --json.
 void add_json_option(CLI::App& command, std::optional<std::string>& json);
 
-/// Fails now, not after hours, if the file of --json cannot be written.
+/// Fails now, not after hours, if the file of --json cannot be written or is one of the files to read.
 /// \throws std::runtime_error
-void check_json_option(const std::optional<std::string>& file);
+void check_json_option(const std::optional<std::string>& file,
+                       const std::vector<std::filesystem::path>& inputs = {});
 
 /// Prints the table, and writes the results to the file, if one is named; or prints them as JSON alone.
 /// \param file as in --json: "-" is the standard output.

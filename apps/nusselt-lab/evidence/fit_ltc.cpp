@@ -1,5 +1,6 @@
 #include "fit_ltc.h"
 #include "apps/common/interrupt.h"
+#include "apps/common/output_files.h"
 #include "apps/common/progress.h"
 #include "apps/nusselt-lab/bench/bench_output.h"
 
@@ -211,8 +212,14 @@ int run_fit_ltc(const FitLtcOptions& options) {
     const fit::Brdf& brdf = fit::find_brdf(options.brdf);
     // Fails now rather than after minutes of fitting.
     check_json_option(options.json);
-    for (const char* extension : {".bin", "-engine.bin", ".json"})
-        base::check_writable(options.output + extension);
+    std::vector<std::filesystem::path> outputs;
+    for (const char* extension : {".bin", "-engine.bin", ".json"}) {
+        outputs.emplace_back(options.output + extension);
+        base::check_writable(outputs.back());
+    }
+    if (options.json && options.json != "-") outputs.emplace_back(*options.json);
+    if (options.checkpoint) outputs.push_back(*options.checkpoint);
+    check_distinct(outputs, {});
     TableFit fitted(brdf, size_of(options.size));
     tbb::task_arena arena(options.threads.value_or(render_cpu::default_thread_count()));
     const InterruptGuard guard;

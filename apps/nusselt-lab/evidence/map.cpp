@@ -17,7 +17,15 @@ void setup_map(CLI::App& app, int& exit_code) {
     command->add_option("TECHNIQUE", options->technique, "Class name")
         ->required()
         ->check(CLI::IsMember(lab::mapped_techniques()));
-    command->add_option("FILE", options->output, "SVG file to write")->required();
+    command->add_option("FILE", options->output, "SVG file to write")
+        ->required()
+        ->check(
+            [](const std::string& name) {
+                return std::filesystem::path(name).extension() == ".svg"
+                           ? std::string()
+                           : "'" + name + "' must be the name of an SVG file, with .svg";
+            },
+            "");
     command->callback([options, &exit_code] { exit_code = run_map(*options); });
 }
 

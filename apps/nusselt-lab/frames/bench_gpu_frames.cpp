@@ -131,7 +131,7 @@ private:
 } // namespace
 
 int run_bench_gpu_frames(const BenchGpuFramesOptions& options) {
-    check_json_option(options.json);
+    check_json_option(options.json, options.scenes);
     const std::vector<std::filesystem::path> scenes =
         options.scenes.empty() ? all_scenes(options.scene_folder) : options.scenes;
     const gpu::Device device({.choice = options.device});
@@ -150,7 +150,7 @@ int run_bench_gpu_frames(const BenchGpuFramesOptions& options) {
         } catch (const std::runtime_error& error) {
             // Keep the results of the other scenes, which took long to measure.
             table.failures.push_back({name, error.what()});
-            fmt::print(stderr, "nusselt: error: {}\n", scene::message_line(error.what()));
+            fmt::print(stderr, "nusselt-lab: error: {}\n", scene::message_line(error.what()));
         }
     }
     write_results(options.json, results_of(table), [&] { print_table(table); });

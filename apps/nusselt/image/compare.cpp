@@ -1,5 +1,6 @@
 #include "compare.h"
 
+#include "apps/common/output_files.h"
 #include "apps/common/validators.h"
 #include "base/atomic_file.h"
 #include "base/json_output.h"
@@ -23,10 +24,20 @@ namespace nusselt::app {
 namespace {
 
 void check_outputs(const CompareOptions& options) {
+    std::vector<std::filesystem::path> outputs;
     for (const auto& picture :
-         {options.difference, options.absolute_difference, options.flip_map, options.hdr_flip_map})
-        if (picture) image::check_writable_image(*picture);
-    if (options.json && options.json != "-") base::check_writable(*options.json);
+         {options.difference, options.absolute_difference, options.flip_map, options.hdr_flip_map}) {
+        if (!picture) continue;
+        image::check_writable_image(*picture);
+        outputs.push_back(*picture);
+    }
+    if (options.json && options.json != "-") {
+        base::check_writable(*options.json);
+        outputs.emplace_back(*options.json);
+    }
+    std::vector<std::filesystem::path> inputs = options.images;
+    inputs.push_back(options.reference);
+    check_distinct(outputs, inputs);
 }
 
 void check_size(const std::filesystem::path& path, const image::Image& a, const image::Image& reference,
