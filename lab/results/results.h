@@ -31,7 +31,7 @@ struct ResultTable {
 
 struct Results {
     std::string bench; ///< the command or experiment
-    /// What else the numbers depend on, with names like those of columns.
+    /// Other settings on which the numbers depend, with names like those of columns.
     std::vector<std::pair<std::string, Cell>> settings;
     std::vector<ResultTable> tables;
 };

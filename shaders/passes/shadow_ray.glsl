@@ -21,7 +21,7 @@ struct ShadowRay {
     float t_far; ///< in units of the direction
 };
 
-/// Of a vector without NaN; false for others.
+/// Tells whether all coordinates are at most kLargestRayCoordinate; false for vectors with NaN.
 bool is_in_ray_range(vec3 v) { return all(lessThanEqual(abs(v), vec3(kLargestRayCoordinate))); }
 
 /// Rays that are not valid count as blocked, as on the CPU, so that no light comes from nowhere.

@@ -1,5 +1,5 @@
 #pragma once
-/// What a result of this process depends on.
+/// Describes the machine and the process, on which measurements depend.
 
 #include <string>
 

@@ -10,7 +10,7 @@
 
 namespace nusselt::render_vulkan {
 
-/// What a scene has: the constants of shaders/passes/scene_kinds.glsl and lights.
+/// Describes which features a scene uses: the constants of shaders/passes/scene_kinds.glsl and lights.
 struct SceneKinds {
     bool instances = false;
     bool partial = false;       ///< surfaces with an alpha below 1

@@ -1,5 +1,5 @@
 #pragma once
-/// What the kernels take, and techniques on it.
+/// The inputs of the kernels, and techniques that take them.
 
 #include <nusselt/nusselt.h>
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_PASSES_LIGHTS_LIGHT_ROLE_GLSL
 #define NUSSELT_PASSES_LIGHTS_LIGHT_ROLE_GLSL
-/// What all kinds of light have in common.
+/// Functions that all kinds of light share.
 
 #include "passes/surface.glsl"
 

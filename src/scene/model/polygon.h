@@ -16,8 +16,8 @@ constexpr std::size_t kMaxPolygonVertices = PolygonVertices::kCapacity;
 /// Sum of cross products of consecutive vertices: the right-hand normal, twice the area in length.
 Double3 area_vector(const std::vector<Double3>& vertices);
 
-/// What keeps these vertices from being a convex planar polygon, in words that name the vertex (counted from
-/// 0) and the distance by which it is off; nothing if they are one. Deviations up to 1e-5 of the extent plus
+/// Describes why these vertices are no convex planar polygon, in words that name the vertex (counted from
+/// 0) and the distance by which it is off; returns nothing if they are one. Deviations up to 1e-5 of the extent plus
 /// 1e-6 of the largest coordinate are tolerated.
 std::optional<std::string> find_polygon_defect(const std::vector<Double3>& vertices);
 

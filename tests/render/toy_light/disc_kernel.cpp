@@ -25,7 +25,7 @@ public:
 
     LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         const Real radius = disc_.radius * sqrt(u.x);
-        // Of half the azimuth.
+        // The sine and cosine of half the azimuth give those of the azimuth.
         const SinCos<Real> half = sincos_half_turn(Real(kPi<float>) * u.y);
         const Real x = radius * (Real(1) - Real(2) * half.sin * half.sin);
         const Real y = radius * (Real(2) * half.sin * half.cos);

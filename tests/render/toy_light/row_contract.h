@@ -1,5 +1,5 @@
 #pragma once
-/// What the row of every kind of light fulfils.
+/// The contract that the row of every kind of light fulfils.
 
 #include "scene/model/bounds.h"
 #include "scene/model/content_hash.h"

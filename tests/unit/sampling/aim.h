@@ -147,8 +147,8 @@ bool is_inner(const nusselt::Vec2<T>& u) {
     return is_inner(u.x) && is_inner(u.y);
 }
 
-/// What is wrong with a sample of a light that is visible in every precision; empty if nothing is wrong or the light
-/// is not so clearly visible.
+/// Describes what is wrong with a sample of a light that is visible in every precision; empty if nothing is wrong or the
+/// light is not so clearly visible.
 template <class Kind, class T, class Light, class Random>
 std::string aim_violation(const Light& light, const Random& u, const nusselt::LightSample<T>& sample) {
     constexpr long double kEpsilon = std::numeric_limits<T>::epsilon();

@@ -28,7 +28,7 @@ constexpr std::pair<std::string_view, Reader> kReaders[] = {{"trianglemesh", rea
 bool is_supported(std::string_view type) { return find_named(kReaders, type) != nullptr; }
 
 bool is_surface(ShapeDirective& shape) {
-    // What the builder looks at; the rest of the parameters is read later.
+    // The builder needs only this much now; the other parameters are read later.
     Geometry geometry;
     if (shape.type == "line") geometry = Tube();
     if (shape.type == "cylinder") {

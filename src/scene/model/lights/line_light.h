@@ -5,7 +5,7 @@
 
 namespace nusselt::scene {
 
-/// What light a tube gives.
+/// The model by which a tube gives light.
 enum class TubeModel : std::uint32_t {
     linear, ///< that of a linear light with brightness radiance * radius [W/(sr m)]: the limit of a small radius
     solid, ///< that of a closed cylinder, which shines outwards from its lateral surface and its caps
