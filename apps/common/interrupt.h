@@ -26,19 +26,19 @@ class InterruptGuard {
 public:
     InterruptGuard() {
         interrupted = false;
-        for (const int signal : kSignals)
-            if (std::signal(signal, handle) == SIG_IGN) std::signal(signal, SIG_IGN);
+        install(handle);
     }
-    ~InterruptGuard() {
-        for (const int signal : kSignals)
-            if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
-    }
+    ~InterruptGuard() { install(SIG_DFL); }
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
 private:
     static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 
+    static void install(void (*handler)(int)) {
+        for (const int signal : kSignals)
+            if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
+    }
     static void handle(int signal) {
         interrupting_signal = signal;
         interrupted = true;

@@ -40,11 +40,7 @@ std::string hexadecimal(long double x) {
 std::optional<SearchState> load_search_state(const std::filesystem::path& path) {
     if (!std::filesystem::exists(path)) return {};
     std::ifstream stream(path);
-    const auto fail = [&](const std::string& problem) {
-        throw std::runtime_error(
-            fmt::format("{}: the file is not the state of a search for worst cases: {}; choose another file",
-                        path.string(), problem));
-    };
+    std::string problem;
     try {
         if (!stream) throw std::runtime_error("cannot read the file");
         const auto json = nlohmann::json::parse(stream);
@@ -58,11 +54,13 @@ std::optional<SearchState> load_search_state(const std::filesystem::path& path) 
         }
         return state;
     } catch (const nlohmann::json::exception&) {
-        fail("it is not JSON or lacks a field");
+        problem = "it is not JSON or lacks a field";
     } catch (const std::exception& error) {
-        fail(error.what());
+        problem = error.what();
     }
-    return {};
+    throw std::runtime_error(
+        fmt::format("{}: the file is not the state of a search for worst cases: {}; choose another file",
+                    path.string(), problem));
 }
 
 void save_search_state(const std::filesystem::path& path, const SearchState& state) {

@@ -1,5 +1,6 @@
 // Runs the program as a user does: exit codes, messages and files.
 
+#include "noise_image.h"
 #include "program.h"
 
 #include "common/results_json.h"
@@ -20,7 +21,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -186,14 +186,6 @@ TEST_F(CommandLine, TheSameCommandGivesTheSameImageAndAnotherSeedDoesNot) {
     EXPECT_GT(nlohmann::json::parse(other.out)["images"][0]["mse"], 0.0);
 }
 
-/// Noise of the given width and height.
-image::Image noise(int width, int height) {
-    image::Image result = image::make_image(width, height);
-    std::mt19937 engine(1);
-    for (float& value : result.pixels) value = float(engine() % 1000) / 1000;
-    return result;
-}
-
 TEST_F(CommandLine, BrokenLimitsExitWithThree) {
     image::write_image(path("a.exr"), noise(20, 20));
     image::Image brighter = noise(20, 20);
@@ -203,19 +195,6 @@ TEST_F(CommandLine, BrokenLimitsExitWithThree) {
     const Outcome broken = run("compare b.exr a.exr --max mse=0.24");
     EXPECT_EQ(broken.exit_code, 3);
     EXPECT_EQ(broken.err, "nusselt compare: 'b.exr': mse is 0.25, above the limit of 0.24\n");
-}
-
-TEST_F(CommandLine, ALimitOnTheSizeOfFilesIsAnErrorAndLeavesNothing) {
-    image::write_image(path("a.exr"), noise(200, 200)); // 480 kB
-    for (const char* name : {"b.exr", "b.pfm", "b.png", "b.hdr"}) {
-        const Outcome limited = run(std::string("convert a.exr ") + name, "ulimit -f 20;"); // 10 or 20 kB
-        EXPECT_EQ(limited.exit_code, 1) << name;
-        expect_message(limited.err, "free space");
-        for (const auto& entry : std::filesystem::directory_iterator(path("")))
-            EXPECT_EQ(entry.path().filename().string().find(name), std::string::npos) << entry.path();
-    }
-    EXPECT_EQ(run("convert a.exr b.exr").exit_code, 0);
-    EXPECT_EQ(image::read_image(path("b.exr")).pixels, noise(200, 200).pixels);
 }
 
 TEST_F(CommandLine, TellsWhatASceneAndTheProgramContain) {
@@ -231,33 +210,6 @@ TEST_F(CommandLine, TellsWhatASceneAndTheProgramContain) {
     EXPECT_EQ(list.exit_code, 0);
     for (const char* name : {"line-diffuse", "planes"})
         EXPECT_NE(list.out.find(name), std::string::npos) << list.out;
-}
-
-TEST_F(CommandLine, NoOutputReplacesAnInputOrAnotherOutput) {
-    image::write_image(path("a.exr"), noise(8, 8));
-    std::ofstream(path("scene.pbrt")) << "Camera \"perspective\"\n";
-    const std::string picture = read("a.exr");
-    for (const char* arguments : {"convert a.exr a.exr", "convert ./a.exr a.exr",
-                                  "compare a.exr a.exr --diff a.exr", "compare a.exr a.exr --json a.exr"})
-        expect_message(run(arguments).err, "is an output and also an input");
-    EXPECT_EQ(read("a.exr"), picture);
-    expect_message(run("compare a.exr a.exr --diff d.png --abs-diff d.png").err, "another output");
-    for (const char* bench : {"rays", "strategies", "lines", "line-efficiency", "gpu"})
-        expect_lab_message(run_lab(std::string("bench ") + bench + " scene.pbrt --json scene.pbrt").err,
-                           "is an output and also an input");
-    EXPECT_EQ(read("scene.pbrt"), "Camera \"perspective\"\n");
-    expect_lab_message(run_lab("fit-ltc -o f --size 2x2x2 --json f.bin").err, "another output");
-    expect_lab_message(run_lab("map PolygonArea scene.pbrt").err, "must be the name of an SVG file");
-    for (const char* arguments : {"compare a.exr a.exr --json ''", "render scene.pbrt --checkpoint ''"})
-        expect_message(run(arguments).err, "the name of the file is empty");
-}
-
-TEST_F(CommandLine, ReproduceChecksItsFolderBeforeItRenders) {
-    const Outcome outcome = run_lab("reproduce --scenes '" + kScenes + "' -o /dev/null/x");
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_EQ(outcome.out, "");
-    expect_lab_message(outcome.err, "cannot create the folder '/dev/null/x'");
-    expect_lab_message(outcome.err, "--output");
 }
 
 TEST_F(CommandLine, ReproduceWritesAPage) {
@@ -431,18 +383,6 @@ int run_until_interrupted(const char* program, std::vector<const char*> argument
     EXPECT_EQ(::waitpid(child, &status, 0), child);
     std::fclose(messages);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-/// A limit on the size of files lets the large image fail once everything is rendered.
-TEST_F(CommandLine, AnImageThatCannotBeWrittenDoesNotLoseTheOthers) {
-    const Outcome outcome =
-        run("render '" + kScenes + "/room.pbrt' --resolution 160x120 --spp 1 -o a.pfm -o b.png -o c.pfm",
-            "ulimit -f 200;"); // 100 or 200 kB
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_EQ(outcome.out, "b.png\n");
-    EXPECT_EQ(image::read_image(path("b.png")).width, 160);
-    for (const char* name : {"'a.pfm'", "'c.pfm'"})
-        EXPECT_NE(outcome.err.find(std::string("cannot write ") + name), std::string::npos) << outcome.err;
 }
 
 TEST_F(CommandLine, CtrlCWritesWhatIsThere) {
