@@ -10,6 +10,10 @@ endif()
 if(NOT GLSLANG_VALIDATOR)
     list(APPEND missing_gpu_packages glslang-tools)
 endif()
+find_program(GZIP gzip)
+if(NOT GZIP)
+    list(APPEND missing_gpu_packages gzip)
+endif()
 if(missing_gpu_packages)
     set(NUSSELT_BUILD_GPU OFF)
     list(JOIN missing_gpu_packages " " missing_gpu_packages)
@@ -17,8 +21,6 @@ if(missing_gpu_packages)
 else()
     set(NUSSELT_BUILD_GPU ON)
 endif()
-
-find_program(GZIP gzip REQUIRED)
 
 # nusselt_add_shader(target name source [COMPRESSED] [ENVIRONMENT environment] [DEFINES define...]): compiles a source for
 # vulkan1.1 or another environment of glslang and makes `#include "shaders/<name>.h"` available to the sources of the

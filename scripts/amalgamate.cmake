@@ -1,10 +1,10 @@
-# Writes the library as a single header: every header of include/nusselt that is reachable from the umbrella and from
-# the packs, once, below those that it includes. CMake's own language, so that it runs wherever the library installs.
+# Writes the library as a single header: every header of include/nusselt that is reachable from the umbrella, the packs
+# and the splitting of outlines, once, below those that it includes. CMake's own language, so that it runs wherever the library installs.
 # Usage: cmake -D OUTPUT=FILE -P scripts/amalgamate.cmake
 cmake_minimum_required(VERSION 3.25)
 
 include("${CMAKE_CURRENT_LIST_DIR}/one-file.cmake")
-set(roots nusselt/nusselt.h nusselt/simd/pack.h)
+set(roots nusselt/nusselt.h nusselt/simd/pack.h nusselt/geometry/split_convex.h)
 if(NOT OUTPUT)
     message(FATAL_ERROR "amalgamate: OUTPUT is missing; use cmake -D OUTPUT=FILE -P scripts/amalgamate.cmake")
 endif()

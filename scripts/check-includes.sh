@@ -35,7 +35,7 @@ BEGIN {
     allow("src/scene/input", "src/base")
     allow("src/scene/model", "library src/scene/input")
     allow("src/scene/colour", "src/scene/input src/scene/model")
-    allow("src/scene/build", "src/image src/scene/input src/scene/model")
+    allow("src/scene/build", "library src/image src/scene/input src/scene/model")
     allow("src/scene/rig", "src/scene/input src/scene/model src/scene/colour")
     below = "src/scene/input src/scene/model src/scene/colour src/scene/build"
     allow("src/scene/import/ply", below)
@@ -57,7 +57,7 @@ BEGIN {
     below = "library src/base src/image " scene " src/visibility src/render src/render_cpu src/render_vulkan src/gpu"
     below = below " src/shaders src/tables"
     allow("apps/common", below)
-    allow("apps/viewer", below)
+    allow("apps/viewer", below " src/scene/colour")
     # The product links nothing of the laboratory.
     allow("apps/nusselt", below " apps/common apps/viewer")
     allow("lab", below " proof")

@@ -26,18 +26,21 @@ cpu_seconds() {
                    print 60 * (user[1] + kernel[1]) + user[2] + kernel[2] }' "$1"
 }
 
-# Runs a command as a stage and records its time.
+# Runs a command as a stage and records its time, and what that is on the machine of the budgets.
 stage() {
-    local name=$1 start=$SECONDS status=0 cpu
+    local name=$1 start status=0 cpu speed
     shift
     echo "== $name"
+    speed=$(tests/budget/machine_speed.sh) || return 1
+    start=$SECONDS
     times >"$results/times"
     cpu=$(cpu_seconds "$results/times")
     "$@" || status=$?
     times >"$results/times"
     cpu=$(awk -v before="$cpu" -v after="$(cpu_seconds "$results/times")" 'BEGIN { print after - before }')
-    times+=("$(printf '%5d s, %5.0f s of CPU time  %s' $((SECONDS - start)) "$cpu" "$name")")
-    echo "$name $cpu" >>"$results/cpu-times"
+    times+=("$(printf '%5d s, %5.0f s of CPU time  %s (the machine took %s times its usual CPU time)' \
+        $((SECONDS - start)) "$cpu" "$name" "$speed")")
+    awk -v name="$name" -v cpu="$cpu" -v speed="$speed" 'BEGIN { print name, cpu / speed }' >>"$results/cpu-times"
     return $status
 }
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Measures what the documentation shows and fills it in again: docs/data, the tables of all pages, and pictures.
-# Usage: scripts/update-docs.sh [tables|pictures|lines]
+# Usage: scripts/update-docs.sh [tables|pictures|viewer|lines]
 #   tables    only fills the tables of pages from docs/data, which takes a second
 #   pictures  only the pictures of docs/techniques, which are the same on every machine
+#   viewer    only the picture of docs/viewer.md, which takes a Vulkan driver and xvfb-run
 #   lines     only the numbers and plots of docs/line-samples.md, which take half an hour and an idle machine;
 #             NUSSELT_SCENES must name the folder with sponza/
 # Without an argument, pictures, accuracy and cost of the samplers. Other files of docs/data name the command that wrote
@@ -11,11 +12,31 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=${NUSSELT:-build/release/apps/nusselt-lab/nusselt-lab}
+viewer=build/release/apps/nusselt/nusselt
 
 draw_pictures() {
     for picture in docs/techniques/images/*.svg; do
         "$program" map "$(basename "$picture" .svg)" "$picture"
     done
+}
+
+picture_viewer() {
+    local script
+    script=$(mktemp)
+    cat >"$script" <<'END'
+tone-curve filmic
+exposure 1
+light-add tube
+light-move 0 -0.2 0
+light-turn 0 1 0 30
+light-kelvin 2700
+frames 6
+window-screenshot docs/images/viewer.png
+quit
+END
+    xvfb-run --auto-servernum --server-args='-screen 0 1280x1024x24' "$viewer" view scenes/room.pbrt \
+        --resolution 480x360 --script "$script"
+    rm "$script"
 }
 
 measure_lines() {
@@ -39,6 +60,7 @@ measure_lines() {
 case ${1:-} in
 tables) ;;
 pictures) draw_pictures ;;
+viewer) picture_viewer ;;
 lines) measure_lines ;;
 '')
     draw_pictures
@@ -47,7 +69,7 @@ lines) measure_lines ;;
     done
     ;;
 *)
-    sed -n '3,10s/^# //p' "$0" >&2
+    sed -n '3,11s/^# //p' "$0" >&2
     exit 2
     ;;
 esac

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <unistd.h>
 
@@ -24,29 +25,45 @@ inline int interrupted_exit_code() { return 128 + interrupting_signal; }
 /// a terminal is closed. What was ignored, as by nohup, stays ignored.
 class InterruptGuard {
 public:
-    InterruptGuard() {
-        interrupted = false;
-        install(handle);
-    }
+    InterruptGuard() { install(request_stop); }
     ~InterruptGuard() { install(SIG_DFL); }
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
+    /// Until further notice, the first signal ends the program at once, with the exit code that interrupted_exit_code()
+    /// would have: preparations that may take long have no result that could be kept.
+    /// \param message to print then; lives as long as the program
+    void end_at_once(const char* message) {
+        last_words = message;
+        install(end);
+    }
+
+    /// From now on, signals request a stop.
+    void stop_in_order() { install(request_stop); }
+
 private:
     static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
+    static inline std::atomic<const char*> last_words = "";
+    static_assert(std::atomic<const char*>::is_always_lock_free);
 
     static void install(void (*handler)(int)) {
         for (const int signal : kSignals)
             if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
     }
-    static void handle(int signal) {
+    static void request_stop(int signal) {
         interrupting_signal = signal;
         interrupted = true;
         if (signal != SIGINT) return;
         std::signal(SIGINT, SIG_DFL);
-        constexpr const char* kMessage = "\nstopping; a second Ctrl-C ends the program at once\n";
+        print("\nstopping; a second Ctrl-C ends the program at once\n");
+    }
+    static void end(int signal) {
+        print(last_words);
+        std::_Exit(128 + signal);
+    }
+    static void print(const char* message) {
         // Without a terminal nobody can be told.
-        static_cast<void>(!::write(STDERR_FILENO, kMessage, std::strlen(kMessage)));
+        static_cast<void>(!::write(STDERR_FILENO, message, std::strlen(message)));
     }
 };
 

@@ -1,8 +1,9 @@
 #include "line_options.h"
 
+#include "help.h"
 #include "render_setup.h"
+#include "validators.h"
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -10,47 +11,42 @@
 
 namespace nusselt::app {
 
-namespace {
-
-constexpr const char* kGroup = "Line samples";
-
-} // namespace
-
 void add_line_kind_options(CLI::App& command, LineKindOptions& options) {
-    command
-        .add_option(
-            "--orientation", options.orientation,
-            "Directions of lines: parallel (random, but the same for all lines of a shading point and a\n"
-            "light), fixed (along the longest edge of the light) or independent. Default: parallel")
-        ->transform(to_name_of(render::kLineOrientations))
-        ->group(kGroup);
-    command
-        .add_option(
-            "--offsets", options.offsets,
-            "Density of lines: length (proportional to their length on the light), uniform, or reflected\n"
-            "(proportional to what the surface would reflect of them without shadows). Default: reflected")
-        ->transform(to_name_of(render::kLineOffsets))
-        ->group(kGroup);
-    command
-        .add_option(
-            "--line-shading", options.shading,
-            "unbiased: the integral of a linearly transformed cosine over the visible parts of a line,\n"
-            "plus one point for the difference from the BRDF; analytic: the integral alone.\n"
-            "Default: unbiased")
-        ->transform(to_name_of(render::kLineShadings))
-        ->group(kGroup);
+    const render::LineSettings defaults;
+    const auto add = [&command](const char* name, std::optional<std::string>& value,
+                                const char* description) {
+        return command.add_option(name, value, description)->group(kLinesGroup);
+    };
+    add("--orientation", options.orientation,
+        "Directions of lines: parallel (random, but the same for all lines of a shading point and a light), "
+        "fixed "
+        "(along the longest edge of the light) or independent")
+        ->transform(to_one_of(names_of(render::kLineOrientations)))
+        ->default_str(std::string(name_of(defaults.orientation)));
+    add("--offsets", options.offsets,
+        "Density of lines: length (proportional to their length on the light), uniform, or reflected "
+        "(proportional "
+        "to what the surface would reflect of them without shadows)")
+        ->transform(to_one_of(names_of(render::kLineOffsets)))
+        ->default_str(std::string(name_of(defaults.offsets)));
+    add("--line-shading", options.shading,
+        "How lines are shaded: unbiased (the integral of a linearly transformed cosine over the visible "
+        "parts of a "
+        "line, plus one point for the difference from the BRDF) or analytic (the integral alone)")
+        ->transform(to_one_of(names_of(render::kLineShadings)))
+        ->default_str(std::string(name_of(defaults.shading)));
 }
 
 void add_line_options(CLI::App& command, LineOptions& options) {
+    const render::LineSettings defaults;
     CLI::Option* const light_samples =
         command
             .add_option(
                 "--light-samples", options.light_samples,
-                "How polygonal lights are sampled: by points, or by lines with exact visibility. Tubes and\n"
+                "How polygonal lights are sampled: by points, or by lines with exact visibility. Tubes and "
                 "linear lights always get --spp points")
-            ->transform(to_name_of(render::kLightSamples))
-            ->capture_default_str()
-            ->group(kGroup);
+            ->transform(to_one_of(names_of(render::kLightSamples)))
+            ->group(kLinesGroup);
     constexpr const char* kHidden = "";
     command
         .add_option_function<std::string>("--integrator",
@@ -58,26 +54,25 @@ void add_line_options(CLI::App& command, LineOptions& options) {
                                               options.light_samples = name;
                                               options.has_old_name = true;
                                           })
-        ->transform(to_name_of(render::kLightSamples))
+        ->transform(to_one_of(names_of(render::kLightSamples)))
         ->excludes(light_samples)
         ->group(kHidden);
     command
-        .add_option(
-            "--lines", options.count,
-            fmt::format(
-                "Lines per shading point and polygon of a light, 1 to {}; use 16 or more. Default: {}",
-                render::kMaxLines, render::LineSettings().count))
-        ->check(CLI::Range(1, render::kMaxLines))
-        ->group(kGroup);
+        .add_option("--lines", options.count,
+                    "Lines per shading point and polygon of a light; use 16 or more")
+        ->transform(to_whole_number(1, render::kMaxLines))
+        ->default_str(std::to_string(defaults.count))
+        ->group(kLinesGroup);
     add_line_kind_options(command, options);
     command
         .add_option(
             "--many-occluders", options.many_occluders,
-            "What shading points use where many triangles may hide a light: points, faster there than\n"
-            "N lines (for fewer than 16 lines everywhere), as many as the power of two next to N^1.4,\n"
-            "with the given technique and strategies; or lines nevertheless. Default: points")
-        ->transform(to_name_of(render::kManyOccludersChoices))
-        ->group(kGroup);
+            "What shading points use where many triangles may hide a light: points, faster there than N "
+            "lines (for fewer than 16 lines everywhere), as many as the power of two next to N^1.4, with "
+            "the given technique and strategies; or lines nevertheless")
+        ->transform(to_one_of(names_of(render::kManyOccludersChoices)))
+        ->default_str(std::string(name_of(defaults.many_occluders)))
+        ->group(kLinesGroup);
 }
 
 void apply_line_kind_options(const LineKindOptions& options, render::LineSettings& settings) {

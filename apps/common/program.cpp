@@ -1,5 +1,7 @@
 #include "program.h"
 
+#include "help.h"
+
 #include "base/words.h"
 #include "scene/input/message.h"
 
@@ -10,6 +12,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
@@ -50,13 +53,27 @@ std::vector<std::string> command_names(const CLI::App& command) {
     return names;
 }
 
+/// The problem in the words of the help rather than of CLI11.
+std::string problem_of(const CLI::Error& error) {
+    const std::string what = error.what();
+    const std::string name = what.substr(0, what.find(':'));
+    if (error.get_name() == "ArgumentMismatch" && what.ends_with(" missing")) return name + " needs a value";
+    if (error.get_name() == "ArgumentMismatch" && what.find(": At Most 1 ") != std::string::npos)
+        return name + " may be given only once";
+    // The other option is hidden: the name of an earlier version.
+    if (what.ends_with(" excludes "))
+        return name.substr(0, name.find(' ')) + " is given twice, once by its old name";
+    if (what == "A subcommand is required") return "a command is missing";
+    return what;
+}
+
 /// What is wrong with a command line. Words that nothing takes come first: often they are the cause of what is missing.
 std::string usage_problem(const CLI::App& app, const CLI::Error& error) {
     const std::vector<std::string> unknown = app.remaining(true);
     const CLI::App& command = called(app);
     const std::vector<std::string> commands = command_names(command);
     const bool has_too_much = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
-    if (unknown.empty() || (!has_too_much && commands.empty())) return error.what();
+    if (unknown.empty() || (!has_too_much && commands.empty())) return problem_of(error);
     const auto option = std::find_if(unknown.begin(), unknown.end(),
                                      [](const std::string& word) { return word.starts_with("-"); });
     const bool is_option = option != unknown.end();
@@ -75,16 +92,19 @@ int run_program(const Program& program, int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app(program.description);
     app.name(program.name);
-    app.footer(program.footer);
+    app.formatter(std::make_shared<HelpFormatter>());
+    app.option_defaults()->always_capture_default();
     app.require_subcommand(1);
-    app.set_version_flag("--version", program.name + " " NUSSELT_VERSION);
+    app.set_help_flag("-h,--help", "Print this text and exit");
     app.set_help_all_flag("--help-all", "Print the help of all commands and exit");
+    app.set_version_flag("--version", program.name + " " NUSSELT_VERSION, "Print the version and exit");
     app.failure_message([&program](const CLI::App* failed, const CLI::Error& error) {
         return fmt::format("{}: {}; see --help\n", program.name,
                            scene::message_line(usage_problem(*failed, error)));
     });
     int exit_code = 0;
     for (const SetupCommand setup : program.commands) setup(app, exit_code);
+    app.footer(program.footer); // after the commands, which would inherit it
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

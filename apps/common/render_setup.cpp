@@ -1,8 +1,13 @@
 #include "render_setup.h"
 
+#include "help.h"
+#include "validators.h"
+
 #include "base/isa.h"
 #include "render/film.h"
 #include "scene/model/limits.h"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>
@@ -44,29 +49,43 @@ std::string check_resolution(const std::string& text) {
 
 } // namespace
 
+void add_scene_argument(CLI::App& command, std::filesystem::path& scene) {
+    command.add_option("SCENE", scene, "Scene file in pbrt syntax, version 3 or 4")->required();
+}
+
+void add_threads_option(CLI::App& command, std::optional<int>& threads, const std::string& default_threads) {
+    constexpr int kMaxThreads = 1024;
+    command.add_option("--threads", threads, "Number of threads")
+        ->transform(to_whole_number(1, kMaxThreads))
+        ->default_str(default_threads)
+        ->group(kDeviceGroup);
+}
+
 void add_machine_options(CLI::App& command, std::optional<int>& threads, std::optional<std::string>& isa,
                          const std::string& default_threads) {
-    constexpr int kMaxThreads = 1024;
-    command.add_option("--threads", threads, "Threads, 1 to 1024. Default: " + default_threads)
-        ->check(CLI::Range(1, kMaxThreads));
+    add_threads_option(command, threads, default_threads);
     add_isa_option(command, isa);
 }
 
 void add_isa_option(CLI::App& command, std::optional<std::string>& isa) {
-    command
-        .add_option(
-            "--isa", isa,
-            "Instruction set. Default: the environment variable NUSSELT_ISA if set, else the best one\n"
-            "that the processor supports")
-        ->check(CLI::IsMember(names_of(base::kAllIsas)));
+    command.add_option("--isa", isa, "Instruction set")
+        ->transform(to_one_of(names_of(base::kAllIsas)))
+        ->default_str(
+            "the environment variable NUSSELT_ISA if set, else the best one that the processor supports")
+        ->group(kDeviceGroup);
 }
 
 void add_resolution_option(CLI::App& command, std::optional<std::string>& resolution) {
     command
         .add_option("--resolution", resolution,
-                    "Image size WIDTHxHEIGHT in pixels, each 1 to 65536. Keeps the field of view along the\n"
-                    "shorter axis. Default: the size in the scene")
-        ->check(check_resolution, "WIDTHxHEIGHT");
+                    fmt::format("Image size in pixels, each side from 1 to {}, at most 2^28 pixels in all. "
+                                "The field of view along the shorter "
+                                "axis stays the same",
+                                scene::kMaxFilmSize))
+        ->type_name("WIDTHxHEIGHT")
+        ->check(check_resolution)
+        ->default_str("the size in the scene")
+        ->group(kSceneGroup);
 }
 
 void apply_resolution(const std::optional<std::string>& resolution, scene::Scene& scene) {
@@ -82,22 +101,26 @@ void add_layers_option(CLI::App& command, std::vector<std::string>& layers) {
     command
         .add_option(
             "--layers", layers,
-            "Layers to store in EXR files beside the image, separated by commas: albedo, normal, depth,\n"
-            "emission, diffuse, specular, lights (each lamp alone), pieces (visible parts per line\n"
-            "sample), variance (of the mean of each pixel; needs two or more camera rays per pixel),\n"
-            "or all. Default: none")
+            "Layers to store in EXR files beside the image: albedo, normal, depth, emission, diffuse, "
+            "specular, lights (each lamp alone), pieces (visible parts per line sample), variance (of the "
+            "mean of each pixel; needs two or more camera rays per pixel), or all")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->check(CLI::IsMember(names));
+        ->transform(to_one_of(names))
+        ->default_str(kNone)
+        ->group(kOutputGroup);
 }
 
 void add_part_option(CLI::App& command, std::optional<std::string>& part) {
     command
         .add_option(
             "--part", part,
-            "Render only the tiles of this part, such as 1/4, into an EXR file; `nusselt merge` joins\n"
-            "all parts to the whole image. Default: 1/1")
-        ->check(check_part, "NUMBER/COUNT");
+            "Render only the tiles of this part, such as 1/4, into an EXR file; `nusselt merge` joins all "
+            "parts to the whole image")
+        ->type_name("NUMBER/COUNT")
+        ->check(check_part)
+        ->default_str("1/1")
+        ->group(kPartsGroup);
 }
 
 std::optional<render::Part> parse_part(const std::string& text) {

@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,19 +17,15 @@ namespace nusselt::app {
 using render::from_name;
 using render::names_of;
 
-inline std::string with_underscores(std::string name) {
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-}
+/// Adds the argument SCENE.
+void add_scene_argument(CLI::App& command, std::filesystem::path& scene);
 
-/// Replaces a name, with hyphens or underscores, by the name of a value; an error for all others.
-template <class Values>
-CLI::Validator to_name_of(const Values& values) {
-    return CLI::IsMember(names_of(values), with_underscores);
-}
+/// Adds --threads.
+/// \param default_threads for the help: how many threads there are without the option
+void add_threads_option(CLI::App& command, std::optional<int>& threads,
+                        const std::string& default_threads = "one per hardware thread");
 
 /// Adds --threads and --isa.
-/// \param default_threads for the help: how many threads there are without the option
 void add_machine_options(CLI::App& command, std::optional<int>& threads, std::optional<std::string>& isa,
                          const std::string& default_threads = "one per hardware thread");
 

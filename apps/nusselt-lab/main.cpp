@@ -9,8 +9,12 @@ int main(int argc, char** argv) {
     using namespace nusselt::app;
     return run_program(
         {"nusselt-lab",
-         "Nusselt's laboratory: measures, tests and reproduces the claims of the library and the renderer.\n"
-         "`nusselt-lab COMMAND --help` explains a command.",
+         "Nusselt's laboratory measures, tests and reproduces the claims of the library and the renderer.",
+         "Examples:\n"
+         "  nusselt-lab reproduce line-diffuse -o pages\n"
+         "  nusselt-lab bench rays scenes/room.pbrt --resolution 640x360\n"
+         "\n"
+         "`nusselt-lab COMMAND --help` explains a command.\n"
          "Exit codes: 0 success, 1 error or broken expectation, 2 wrong usage, 130 stopped by Ctrl-C.",
          {setup_reproduce, setup_bench, setup_map, setup_fuzz, setup_fit_ltc}},
         argc, argv);

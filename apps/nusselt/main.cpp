@@ -13,8 +13,12 @@ int main(int argc, char** argv) {
     using namespace nusselt::app;
     return run_program(
         {"nusselt",
-         "Nusselt: renders direct light of polygonal and linear lights with little noise.\n"
-         "`nusselt COMMAND --help` explains a command.",
+         "Nusselt renders direct light of polygonal and linear lights with little noise.",
+         "Examples:\n"
+         "  nusselt render scene.pbrt --spp 16 -o image.exr -o image.png\n"
+         "  nusselt compare image.exr reference.exr --metrics rmse,flip\n"
+         "\n"
+         "`nusselt COMMAND --help` explains a command.\n"
          "Exit codes: 0 success, 1 error, 2 wrong usage, 3 broken limit of compare, 130 stopped by Ctrl-C.",
          {setup_render, setup_view, setup_merge, setup_info, setup_lights, setup_camera, setup_techniques,
           setup_compare, setup_convert}},

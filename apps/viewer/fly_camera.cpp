@@ -45,9 +45,11 @@ Double3 FlyCamera::right() const { return orthogonal_to(forward(), right_ + orig
 
 Double3 FlyCamera::down() const { return orthogonal_to(forward(), down_ + origin_down_); }
 
-void FlyCamera::rotate(const Double3& axis, double angle) {
-    // About the middle of where rays start, so that parallel rays turn about the middle of the image.
-    const Double3 pivot = origin_ + (0.5 * width_) * origin_right_ + (0.5 * height_) * origin_down_;
+Double3 FlyCamera::position() const {
+    return origin_ + (0.5 * width_) * origin_right_ + (0.5 * height_) * origin_down_;
+}
+
+void FlyCamera::rotate(const Double3& pivot, const Double3& axis, double angle) {
     const double cosine = std::cos(angle);
     const double sine = std::sin(angle);
     const auto turned = [&](const Double3& v) {
@@ -58,13 +60,22 @@ void FlyCamera::rotate(const Double3& axis, double angle) {
 }
 
 void FlyCamera::turn(double to_the_right, double upwards) {
+    // Parallel rays turn about the middle of the image.
+    turn_about(position(), to_the_right, upwards);
+}
+
+void FlyCamera::orbit(const Double3& pivot, double to_the_right, double upwards) {
+    turn_about(pivot, -to_the_right, -upwards);
+}
+
+void FlyCamera::turn_about(const Double3& pivot, double to_the_right, double upwards) {
     // Mirrored images turn the other way.
     const double side = dot(cross(up_, forward()), right());
-    rotate(up_, std::copysign(to_the_right, to_the_right * side));
+    rotate(pivot, up_, std::copysign(to_the_right, to_the_right * side));
     const double now = std::acos(std::clamp(dot(forward(), up_), -1.0, 1.0));
     const double then = std::clamp(now - upwards, kSmallestAngle, std::numbers::pi - kSmallestAngle);
     const Double3 axis = normalized(cross(forward(), up_));
-    rotate(axis, now - then);
+    rotate(pivot, axis, now - then);
 }
 
 void FlyCamera::move(const Double3& by) {

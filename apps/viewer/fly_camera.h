@@ -15,6 +15,10 @@ public:
     /// Angles by which the view turns to the right and upwards [rad]. It never passes the upright axis.
     void turn(double right, double up);
 
+    /// Moves on a sphere about a point, to its right and upwards as seen in the image [rad], and turns so that the point stays
+    /// where it is in the image.
+    void orbit(const scene::Double3& pivot, double right, double up);
+
     /// Moves to the right, downwards and into the image [m].
     void move(const scene::Double3& by);
 
@@ -24,9 +28,14 @@ public:
     scene::Double3 forward() const;
     scene::Double3 right() const;
     scene::Double3 down() const;
+    /// The axis that stays upright.
+    const scene::Double3& up() const { return up_; }
+    /// The middle of where rays start.
+    scene::Double3 position() const;
 
 private:
-    void rotate(const scene::Double3& axis, double angle);
+    void turn_about(const scene::Double3& pivot, double to_the_right, double upwards);
+    void rotate(const scene::Double3& pivot, const scene::Double3& axis, double angle);
 
     double width_, height_;
     // The same members as in scene::Camera.

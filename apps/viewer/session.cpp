@@ -1,8 +1,11 @@
 #include "session.h"
 
+#include "render/film.h"
 #include "render_vulkan/frame_records.h"
 
+#include <algorithm>
 #include <chrono>
+#include <optional>
 #include <utility>
 
 namespace nusselt::viewer {
@@ -14,6 +17,11 @@ using render_vulkan::FrameTimes;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kReferenceSamples = 4; ///< of a frame
+
+constexpr Clock::time_point kNever = Clock::time_point::max();
+
+/// What a submission of rows should take [s] when frames may be interrupted.
+constexpr double kRowSeconds = 0.02;
 
 /// Far from the seeds of the images that are compared with the reference.
 constexpr std::uint32_t kReferenceSeedBit = 1u << 31;
@@ -31,84 +39,191 @@ render::RenderSettings reference_settings(const render::RenderSettings& settings
     return reference;
 }
 
-/// Left, right, reference, and what they are of.
+namespace {
+
+/// An image, its settings and how many frames were rendered with them.
+class Progress {
+public:
+    Progress(const render_vulkan::DeviceScene& scene, const render::RenderSettings& settings)
+        : scene_(scene), settings_(settings), image_(scene, settings_) {}
+
+    const Accumulator& image() const { return image_; }
+    const render::RenderSettings& settings() const { return settings_; }
+    std::uint32_t last_seed() const { return settings_.seed + frames_ - 1; }
+
+    void follow(const render::RenderSettings& wanted) {
+        if (wanted == settings_) return;
+        image_.restart(wanted);
+        settings_ = wanted;
+        frames_ = 0;
+        has_new_frame_ = false;
+    }
+
+    void restart() {
+        image_.restart(settings_);
+        frames_ = 0;
+        has_new_frame_ = false;
+    }
+
+    /// Goes on with a frame, unless one was finished since the last call of begin_frame().
+    /// \returns whether it is finished; then `times` are those of the frame
+    bool render(bool accumulates, Clock::time_point end, FrameTimes& times) {
+        if (has_new_frame_) return true;
+        if (!image_.is_adding()) {
+            if (!accumulates) image_.restart(settings_);
+            render::RenderSettings frame = settings_;
+            frame.camera_rays = 1;
+            frame.seed = settings_.seed + frames_;
+            image_.begin(render_vulkan::FrameRecords(scene_.film(), frame).make(0));
+            times_ = {};
+        }
+        while (image_.is_adding()) {
+            const auto begin = Clock::now();
+            const FrameTimes added = image_.add_rows(end == kNever ? image_.height() : rows_);
+            times_.visibility += added.visibility;
+            times_.shading += added.shading;
+            if (end == kNever) break;
+            choose_rows(std::chrono::duration<double>(Clock::now() - begin).count());
+            if (Clock::now() >= end) break;
+        }
+        if (image_.is_adding()) return false;
+        ++frames_;
+        has_new_frame_ = true;
+        times = times_;
+        return true;
+    }
+
+    void begin_frame() { has_new_frame_ = false; }
+
+private:
+    void choose_rows(double seconds_of_last) {
+        const double factor = kRowSeconds / std::max(seconds_of_last, 1e-6);
+        rows_ = static_cast<std::uint32_t>(
+            std::clamp(rows_ * std::clamp(factor, 0.5, 4.0), 1.0, static_cast<double>(image_.height())));
+    }
+
+    const render_vulkan::DeviceScene& scene_;
+    render::RenderSettings settings_;
+    Accumulator image_;
+    std::uint32_t frames_ = 0; ///< that are finished
+    bool has_new_frame_ = false;
+    std::uint32_t rows_ =
+        render_vulkan::kRowsTogether; ///< of the next submission: few, until it is known what they take
+    FrameTimes times_;                ///< of the frame that is being rendered
+};
+
+/// A camera and a film that shows the same in fewer pixels.
+/// \param reduction see ViewState::reduction
+scene::Scene reduced_view(const scene::Camera& camera, const scene::Film& film, int reduction) {
+    scene::Scene view;
+    view.camera = camera;
+    view.film = film;
+    if (reduction > 1)
+        render::resize_film(view, (film.width - 1) / reduction + 1, (film.height - 1) / reduction + 1);
+    return view;
+}
+
+/// Left, right and reference in one resolution.
+struct Level {
+    /// \param scene with the camera and the film of this level
+    Level(const render_vulkan::DeviceScene& scene, const scene::Camera& full_camera, int reduction_to_use,
+          const ViewState& state)
+        : reduction(reduction_to_use),
+          camera(full_camera),
+          left(scene, state.of(Side::left)),
+          right(scene, state.of(Side::right)),
+          reference(scene, reference_settings(state.of(Side::left))),
+          display(scene.device(), left.image().width(), left.image().height()) {}
+
+    void follow(const scene::Camera& wanted, const ViewState& state) {
+        left.follow(state.of(Side::left));
+        right.follow(state.of(Side::right));
+        reference.follow(reference_settings(state.of(Side::left)));
+        if (wanted == camera) return;
+        camera = wanted;
+        for (Progress* const progress : {&left, &right, &reference}) progress->restart();
+    }
+
+    bool render(const ViewState& state, Clock::time_point end, SessionTimes& times) {
+        if (!left.render(state.accumulates, end, times.frames[0])) return false;
+        if (!state.is_split)
+            times.frames[1] = {};
+        else if (!right.render(state.accumulates, end, times.frames[1]))
+            return false;
+        // References never begin again by themselves.
+        if (state.renders_reference && !reference.render(true, end, times.reference)) return false;
+        for (Progress* const progress : {&left, &right, &reference}) progress->begin_frame();
+        return true;
+    }
+
+    const Progress& side(Side side) const { return side == Side::left ? left : right; }
+
+    /// Whether there is something to see of what another level will show.
+    bool stands_for(const Level& other) const {
+        return left.image().frames() > 0 && camera == other.camera &&
+               left.settings() == other.left.settings() && right.settings() == other.right.settings();
+    }
+
+    int reduction;
+    scene::Camera camera; ///< of the resolution of the film
+    Progress left, right, reference;
+    render_vulkan::DisplayPass display;
+};
+
+} // namespace
+
+/// The images in both resolutions, and what they are of.
 class Session::Images {
 public:
     Images(const gpu::Device& device, const scene::Scene& scene, render_vulkan::ShadowRays shadow_rays,
            const ViewState& state)
-        : edits_(state.edits),
-          camera_(scene.camera),
-          scene_(device, scene, shadow_rays),
-          left_(scene_, state.of(Side::left)),
-          right_(scene_, state.of(Side::right)),
-          reference_(scene_, reference_settings(state.of(Side::left))),
-          display_(device, left_.image.width(), left_.image.height()) {}
+        : edits_(state.edits), film_(scene.film), scene_(device, scene, shadow_rays) {
+        follow(scene.camera, state);
+    }
 
     const LightEdits& edits() const { return edits_; }
-    const Accumulator& side(Side side) const { return (side == Side::left ? left_ : right_).image; }
-    const Accumulator& reference() const { return reference_.image; }
-    std::uint32_t seed(Side side) const { return (side == Side::left ? left_ : right_).last_seed(); }
-    const render_vulkan::DisplayPass& display() const { return display_; }
+    const Level& level() const { return *level_; } ///< that was rendered last
+    const Level& shown() const { return *shown_; } ///< valid after show()
 
     void follow(const scene::Camera& camera, const ViewState& state) {
-        left_.follow(state.of(Side::left));
-        right_.follow(state.of(Side::right));
-        reference_.follow(reference_settings(state.of(Side::left)));
-        if (camera == camera_) return;
-        scene_.set_camera(camera);
-        camera_ = camera;
-        for (Progress* progress : {&left_, &right_, &reference_}) progress->restart();
+        std::optional<Level>& level = state.reduction == 1 ? full_ : reduced_;
+        if (!level || level->reduction != state.reduction || level->camera != camera || level_ != &*level) {
+            const scene::Scene view = reduced_view(camera, film_, state.reduction);
+            scene_.set_view(view.camera, view.film);
+        }
+        if (!level || level->reduction != state.reduction)
+            level.emplace(scene_, camera, state.reduction, state);
+        level->follow(camera, state);
+        level_ = &*level;
     }
 
-    FrameTimes add_frame(Side side, bool accumulates) {
-        Progress& progress = side == Side::left ? left_ : right_;
-        if (!accumulates) progress.image.restart(progress.settings);
-        return progress.add_frame(scene_.film());
+    bool render(const ViewState& state, Clock::time_point end, SessionTimes& times) {
+        return level_->render(state, end, times);
     }
 
-    FrameTimes add_reference_frame() { return reference_.add_frame(scene_.film()); }
-
-    render_vulkan::DisplayErrors show(const render_vulkan::DisplaySettings& settings) {
-        return display_.show(left_.image, right_.image, reference_.image, settings);
+    render_vulkan::DisplayErrors show(const ViewState& state) {
+        const bool is_adding = level_->left.image().is_adding();
+        // Frames that do not accumulate are seen when they are finished.
+        if (shown_ != nullptr && is_adding && !state.accumulates) return errors_;
+        const bool has_stand_in =
+            reduced_ && level_->left.image().frames() == 0 && reduced_->stands_for(*level_);
+        shown_ = has_stand_in ? &*reduced_ : level_;
+        errors_ = shown_->display.show(shown_->left.image(), shown_->right.image(), shown_->reference.image(),
+                                       {.exposure = state.exposure,
+                                        .wipe = state.is_split ? state.wipe : 1,
+                                        .shown = state.shown,
+                                        .tone_curve = state.tone_curve});
+        return errors_;
     }
 
 private:
-    /// An image, its settings and how many frames were rendered with them.
-    struct Progress {
-        Progress(const render_vulkan::DeviceScene& scene, const render::RenderSettings& settings_to_use)
-            : settings(settings_to_use), image(scene, settings) {}
-
-        std::uint32_t last_seed() const { return settings.seed + frames - 1; }
-
-        void follow(const render::RenderSettings& wanted) {
-            if (wanted == settings) return;
-            image.restart(wanted);
-            settings = wanted;
-            frames = 0;
-        }
-
-        void restart() {
-            image.restart(settings);
-            frames = 0;
-        }
-
-        FrameTimes add_frame(const scene::Film& film) {
-            render::RenderSettings frame = settings;
-            frame.camera_rays = 1;
-            frame.seed = settings.seed + frames++;
-            return image.add(render_vulkan::FrameRecords(film, frame).make(0));
-        }
-
-        render::RenderSettings settings;
-        Accumulator image;
-        std::uint32_t frames = 0;
-    };
-
     LightEdits edits_;
-    scene::Camera camera_;
+    scene::Film film_;
     render_vulkan::DeviceScene scene_;
-    Progress left_, right_, reference_;
-    render_vulkan::DisplayPass display_;
+    std::optional<Level> full_, reduced_;
+    Level* level_ = nullptr; ///< that is rendered
+    Level* shown_ = nullptr;
+    render_vulkan::DisplayErrors errors_; ///< of what is shown
 };
 
 Session::Session(const gpu::Device& device, scene::Scene loaded, render_vulkan::ShadowRays shadow_rays)
@@ -138,32 +253,33 @@ void Session::follow(const ViewState& state) {
     times_.build = std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-void Session::render(const ViewState& state) {
+bool Session::render(const ViewState& state, double seconds) {
     follow(state);
-    times_.frames[0] = images_->add_frame(Side::left, state.accumulates);
-    times_.frames[1] = state.is_split ? images_->add_frame(Side::right, state.accumulates) : FrameTimes();
-}
-
-void Session::render_reference(const ViewState& state) {
-    follow(state);
-    times_.reference = images_->add_reference_frame();
+    const bool is_bounded = seconds < std::numeric_limits<double>::infinity();
+    const auto end = is_bounded ? Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                     std::chrono::duration<double>(seconds))
+                                : kNever;
+    return images_->render(state, end, times_);
 }
 
 void Session::show(const ViewState& state) {
     follow(state);
-    errors_ = images_->show(
-        {.exposure = state.exposure, .wipe = state.is_split ? state.wipe : 1, .shown = state.shown});
-    times_.display = images_->display().seconds();
+    errors_ = images_->show(state);
+    times_.display = images_->shown().display.seconds();
 }
 
-const render_vulkan::DisplayPass& Session::picture() const { return images_->display(); }
+const render_vulkan::DisplayPass& Session::picture() const { return images_->shown().display; }
 
-image::Image Session::image(Side side) const { return images_->side(side).mean(); }
+image::Image Session::image(Side side) const { return images_->level().side(side).image().mean(); }
 
-std::uint32_t Session::frames(Side side) const { return images_ ? images_->side(side).frames() : 0; }
+std::uint32_t Session::frames(Side side) const {
+    return images_ ? images_->level().side(side).image().frames() : 0;
+}
 
-std::uint32_t Session::reference_frames() const { return images_ ? images_->reference().frames() : 0; }
+std::uint32_t Session::reference_frames() const {
+    return images_ ? images_->level().reference.image().frames() : 0;
+}
 
-std::uint32_t Session::seed(Side side) const { return images_->seed(side); }
+std::uint32_t Session::seed(Side side) const { return images_->level().side(side).last_seed(); }
 
 } // namespace nusselt::viewer

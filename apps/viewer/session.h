@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 namespace nusselt::viewer {
@@ -25,7 +26,8 @@ struct SessionTimes {
     double build = 0;   ///< to bring the scene to the device when its lights were changed last
 };
 
-/// Images of one scene: left, right and the reference, which all begin again whenever what they show changes.
+/// Images of one scene: left, right and the reference, which all begin again whenever what they show changes. Each is there
+/// in the resolution of the film and, once something has moved, in a lower one.
 class Session {
 public:
     /// \param device must outlive this.
@@ -34,15 +36,16 @@ public:
     Session(const gpu::Device& device, scene::Scene loaded, render_vulkan::ShadowRays shadow_rays);
     ~Session();
 
-    /// Adds a frame to what the state shows.
+    /// Works on a frame of each image of the state: left, right and the reference. A frame that is not finished goes on
+    /// with the next call, unless what it shows changes.
+    /// \param seconds after about which the call returns
+    /// \returns whether all frames are finished
     /// \throws std::invalid_argument for settings that do not fit together; the next state may mend that
     /// \throws std::runtime_error if a light cannot be changed in that way, or if the device fails
-    void render(const ViewState& state);
+    bool render(const ViewState& state, double seconds = std::numeric_limits<double>::infinity());
 
-    /// Adds a frame to the reference. \throws std::runtime_error likewise
-    void render_reference(const ViewState& state);
-
-    /// Makes the picture of what was rendered.
+    /// Makes the picture of what was rendered. Until the first frame of a camera is finished, that is the picture of lower
+    /// resolution if there is one with the same camera and settings, else the rows that are finished.
     void show(const ViewState& state);
 
     /// The scene with the rigs, without the edits of a state.
@@ -55,7 +58,7 @@ public:
     const render_vulkan::DisplayPass& picture() const;
     const render_vulkan::DisplayErrors& errors() const { return errors_; }
 
-    // Since something changed. Nothing before the first frame.
+    // Since something changed, in the resolution that was rendered last. Nothing before the first frame.
     image::Image image(Side side) const; ///< mean over frames
     std::uint32_t frames(Side side) const;
     std::uint32_t reference_frames() const;

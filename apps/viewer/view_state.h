@@ -2,10 +2,10 @@
 /// Settings of the user in the viewer.
 
 #include "fly_camera.h"
-#include "light_edits.h"
 
 #include "render/settings.h"
 #include "render_vulkan/display_pass.h"
+#include "viewer/lights/light_edits.h"
 
 #include <array>
 #include <cstddef>
@@ -31,7 +31,10 @@ struct ViewState {
     bool accumulates = true;
     bool renders_reference = false; ///< with every frame one of the reference
     double exposure = 0;            ///< [stops]
+    render_vulkan::ToneCurve tone_curve = render_vulkan::ToneCurve::none;
     render_vulkan::Shown shown = render_vulkan::Shown::image;
+    /// The side of the squares of pixels that share a rendered pixel: 1 for the resolution of the film.
+    int reduction = 1;
     LightEdits edits = {};
     std::optional<std::size_t> selected_light = {}; ///< index in Scene::emitters, as the scene was loaded
 

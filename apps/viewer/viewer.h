@@ -1,10 +1,17 @@
 #pragma once
 /// The viewer without its window: what is shown, and what can be done with it.
 
+#include "frame_pace.h"
+#include "pointer.h"
 #include "session.h"
 #include "view_files.h"
 #include "view_state.h"
 
+#include "viewer/lights/edit_history.h"
+
+#include <filesystem>
+#include <limits>
+#include <optional>
 #include <string>
 
 namespace nusselt::viewer {
@@ -17,11 +24,27 @@ struct Viewer {
            const render::RenderSettings& settings, const SceneFiles& scene_files);
 
     /// Renders a frame, and one of the reference if that is wanted, and makes the picture. What the state cannot do, such
-    /// as a light that cannot be changed in that way, becomes the message, and the state is what it was before.
+    /// as a light that cannot be changed in that way, becomes the message, and the state is what it was before. While
+    /// something moves, the frame has a resolution that takes a tenth of a second, if there is one.
+    /// \param seconds after about which the call returns if nothing moves; the next calls go on with the frame
     /// \throws gpu::Error if the device fails
-    void next_frame();
+    void next_frame(double seconds = std::numeric_limits<double>::infinity());
 
-    /// Applies a rig for good; what was edited before is gone.
+    // Changes of lights beside those of state.edits.
+    /// Adds a light in the middle of the image and selects it. It is white and as bright as the first light of the scene.
+    void add_light(LightShape shape);
+    /// \throws std::invalid_argument if no light is selected
+    void remove_selected_light();
+    /// Ends an action, which undo() takes back as a whole.
+    void finish_edit() { history_.note(state.edits); }
+    // Without an action to go back to or to repeat, a message says so.
+    void undo();
+    void redo();
+
+    /// Moves the camera on a sphere about the selected light, or about the middle of the scene, see FlyCamera::orbit().
+    void orbit(double right, double up);
+
+    /// Applies a rig for good; what was edited before is gone, and cannot be undone.
     /// \throws std::runtime_error see scene::read_rig(), scene::apply_rig()
     void load_lights(const std::filesystem::path& path);
 
@@ -29,10 +52,21 @@ struct Viewer {
     ViewState state;
     SceneFiles files;
     std::string message; ///< for the person: what was done last, or why not
+    Pointer pointer;
+    bool shows_panel = true;
+    std::optional<std::filesystem::path>
+        window_screenshot; ///< the file that gets the next picture of the window
     bool is_closing = false;
+    bool is_moving = false;        ///< set before a frame in which the view or a light moves
+    bool is_frame_finished = true; ///< by the last call of next_frame()
 
 private:
+    void show_edits(const LightEdits& edits);
+
+    EditHistory history_;
     ViewState last_state_; ///< that could be rendered
+    FramePace pace_;
+    double frame_seconds_ = 0; ///< that the frame has taken so far
 };
 
 } // namespace nusselt::viewer

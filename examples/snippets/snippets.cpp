@@ -22,6 +22,8 @@ using Vec = Vec3<float>;
 /// The BRDF of a Lambertian surface and its cosine-weighted sampling; in shading space.
 constexpr float kAlbedo = 0.5f;
 float brdf(const Vec&, const Vec&) { return kAlbedo / kPi<float>; }
+constexpr Vec kColouredAlbedo{0.5f, 0.25f, 0.125f};
+Vec coloured_brdf(const Vec&, const Vec&) { return kColouredAlbedo / kPi<float>; }
 float brdf_pdf(const Vec&, const Vec& wi) { return wi.z > 0 ? wi.z / kPi<float> : 0.0f; }
 Vec sample_brdf(const Vec&, const Vec2<float>& u) {
     const float radius = std::sqrt(u.x);
@@ -40,10 +42,12 @@ bool hits(const ConvexPolygon<float, 4>& light, const Vec& wi) {
     return inside;
 }
 
-float direct_light(const Vec* corners, const Vec& point, const Vec& normal, float emitted, float u0,
-                   float u1) {
+/// \tparam Colour a number or a vector.
+template <class Colour, class Brdf>
+Colour direct_light(const Vec* corners, const Vec& point, const Vec& normal, const Colour& emitted,
+                    const Brdf& brdf, float u0, float u1) {
     const Vec wo{0, 0, 1};
-    float radiance = 0;
+    Colour radiance{};
     const auto light = make_polygon<4>(corners, 4);       // once per light
     const auto frame = Frame<float>::from_normal(normal); // at each shading point
     const PolygonProjectedSolidAngle<float, 4> technique(to_shading_space(light, point, frame));

@@ -1,6 +1,7 @@
 #include "lab/fuzzing/worst_case_state.h"
 
 #include "base/atomic_file.h"
+#include "scene/input/json_node.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -39,11 +40,9 @@ std::string hexadecimal(long double x) {
 
 std::optional<SearchState> load_search_state(const std::filesystem::path& path) {
     if (!std::filesystem::exists(path)) return {};
-    std::ifstream stream(path);
+    const nlohmann::json json = scene::read_json(path);
     std::string problem;
     try {
-        if (!stream) throw std::runtime_error("cannot read the file");
-        const auto json = nlohmann::json::parse(stream);
         SearchState state;
         state.seed = whole_number_of(json.at("seed"));
         for (const auto& [name, target] : json.at("targets").items()) {
@@ -54,7 +53,7 @@ std::optional<SearchState> load_search_state(const std::filesystem::path& path) 
         }
         return state;
     } catch (const nlohmann::json::exception&) {
-        problem = "it is not JSON or lacks a field";
+        problem = "it lacks a field";
     } catch (const std::exception& error) {
         problem = error.what();
     }

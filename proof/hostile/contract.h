@@ -213,6 +213,9 @@ void check_contract(const typename Kind::template Light<Real>& light,
     const auto sampled = pdf > Real(0);
     report(sampled & !(out.measure > Real(0)), "the density is positive without a measure");
     report(sampled & !(abs(dot(wi, wi) - Real(1)) <= Real(kTolerance)), "wi is not a unit vector");
+    // Exactly: a program may take it for granted, since clipped techniques leave out all that lies below the horizon.
+    if constexpr (Kind::kHorizon == Horizon::clipped)
+        report(sampled & !(wi.z >= Real(0)), "wi is below the horizon");
     report(sampled & !all_finite(p), "p is not finite");
     const Bounds<Real> bounds(light);
     // The rounding errors of denormal numbers are absolute.

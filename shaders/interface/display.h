@@ -12,16 +12,28 @@ using uint = std::uint32_t;
 
 const uint kDisplayGroupSide = 8u; ///< pixels of a work group, in either direction
 
-/// Scales turn sums over frames into means; 0 without a frame.
+// As render_vulkan::ToneCurve.
+const uint kToneCurveNone = 0u;
+const uint kToneCurveReinhard = 1u;
+const uint kToneCurveFilmic = 2u;
+
+/// How sums over frames become means. Scales are 0 without a frame.
+struct ShownSums {
+    float scale;
+    float scale_ahead; ///< of rows that have a frame more
+    uint rows_ahead;   ///< number of those rows, from the top
+};
+
 struct DisplayRecord {
     uint width;
     uint height;
-    float left_scale;
-    float right_scale;
-    float reference_scale;
+    ShownSums left;
+    ShownSums right;
+    ShownSums reference;
     float exposure; ///< factor on all radiance
     uint wipe;      ///< the first pixel of each row that shows the right image
     uint shows_error;
+    uint tone_curve; ///< a kToneCurve constant
 };
 
 #ifdef __cplusplus

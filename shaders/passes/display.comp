@@ -20,7 +20,21 @@ layout(push_constant) uniform Push { DisplayRecord display; };
 const uint kGroupSize = kDisplayGroupSide * kDisplayGroupSide;
 shared vec2 group_errors[kGroupSize];
 
-vec3 mean_of(PixelSum sum, float scale) { return scale * vec3(sum.sum[0], sum.sum[1], sum.sum[2]); }
+vec3 mean_of(PixelSum sum, ShownSums shown, uint row) {
+    float scale = row < shown.rows_ahead ? shown.scale_ahead : shown.scale;
+    return scale * vec3(sum.sum[0], sum.sum[1], sum.sum[2]);
+}
+
+/// Compresses radiance to what a display shows, see render_vulkan::ToneCurve.
+vec3 tone_mapped(vec3 linear) {
+    if (display.tone_curve == kToneCurveReinhard) return linear / (1.0 + dot(linear, vec3(0.2126, 0.7152, 0.0722)));
+    if (display.tone_curve == kToneCurveFilmic) {
+        // The quotient has the limit 2.51 / 2.43; beyond 1e4, its squares could overflow.
+        vec3 x = min(linear, vec3(1e4));
+        return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
+    }
+    return linear;
+}
 
 /// The transfer function of sRGB for values that are clamped to [0, 1]. NaN becomes 0.
 vec3 to_srgb(vec3 linear) {
@@ -50,12 +64,12 @@ uint to_bytes(vec3 colour) {
 /// \returns the squared errors of the left and the right image, summed over channels
 vec2 show(uvec2 pixel) {
     uint index = pixel.y * display.width + pixel.x;
-    vec3 left = mean_of(left_sums[index], display.left_scale);
-    vec3 right = mean_of(right_sums[index], display.right_scale);
-    vec3 reference = mean_of(reference_sums[index], display.reference_scale);
+    vec3 left = mean_of(left_sums[index], display.left, pixel.y);
+    vec3 right = mean_of(right_sums[index], display.right, pixel.y);
+    vec3 reference = mean_of(reference_sums[index], display.reference, pixel.y);
     vec3 seen = display.exposure * (pixel.x < display.wipe ? left : right);
     bool is_error = display.shows_error != 0u;
-    shown[index] = to_bytes(is_error ? error_colour(seen, display.exposure * reference) : to_srgb(seen));
+    shown[index] = to_bytes(is_error ? error_colour(seen, display.exposure * reference) : to_srgb(tone_mapped(seen)));
     left -= reference;
     right -= reference;
     return vec2(dot(left, left), dot(right, right));

@@ -46,20 +46,16 @@ std::string listing(const std::vector<std::string>& words, const std::string& co
     return text;
 }
 
-std::string_view nearest(std::string_view word, std::span<const std::string_view> known) {
-    const std::string_view head = word.substr(0, kMaxCompared);
-    return *std::min_element(known.begin(), known.end(), [&](std::string_view a, std::string_view b) {
-        return edit_distance(head, a) < edit_distance(head, b);
-    });
-}
-
 std::optional<std::string> likely_meant(std::string_view word, const std::vector<std::string>& known) {
     if (known.empty()) return std::nullopt;
-    const std::vector<std::string_view> views(known.begin(), known.end());
-    const std::string_view best = nearest(word, views);
+    const std::string_view head = word.substr(0, kMaxCompared);
+    const std::string& best =
+        *std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+            return edit_distance(head, a) < edit_distance(head, b);
+        });
     const std::size_t most_errors = std::max<std::size_t>(1, best.size() / 3);
-    if (edit_distance(word.substr(0, kMaxCompared), best) > most_errors) return std::nullopt;
-    return std::string(best);
+    if (edit_distance(head, best) > most_errors) return std::nullopt;
+    return best;
 }
 
 } // namespace nusselt::base

@@ -2,7 +2,6 @@
 /// Words for commands and messages.
 
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,11 +14,8 @@ std::string shell_word(const std::string& word);
 /// The words with commas between them and a conjunction before the last one, such as "a, b or c".
 std::string listing(const std::vector<std::string>& words, const std::string& conjunction);
 
-/// The one of `known`, not empty, that takes the fewest insertions, removals and replacements of characters to get from
-/// `word`.
-std::string_view nearest(std::string_view word, std::span<const std::string_view> known);
-
-/// The same if so few are needed that `word` may be a typing error; nothing otherwise.
+/// The one of `known` that takes the fewest insertions, removals and replacements of characters to get from `word`, if so
+/// few are needed that `word` may be a typing error; nothing otherwise.
 std::optional<std::string> likely_meant(std::string_view word, const std::vector<std::string>& known);
 
 } // namespace nusselt::base

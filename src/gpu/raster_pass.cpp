@@ -6,6 +6,7 @@
 #include <array>
 #include <cassert>
 #include <string>
+#include <utility>
 
 namespace nusselt::gpu {
 
@@ -89,17 +90,16 @@ vk::raii::PipelineLayout make_layout(const Device& device, const ShaderBindings&
 
 vk::raii::Pipeline make_pipeline(const Device& device, std::span<const std::uint32_t> vertex,
                                  std::span<const std::uint32_t> fragment, const RasterInterface& interface,
-                                 const vk::Extent2D& size, vk::PipelineLayout layout,
-                                 vk::RenderPass render_pass) {
+                                 vk::PipelineLayout layout, vk::RenderPass render_pass) {
     const ShaderStage stages[] = {
         {device, vk::ShaderStageFlagBits::eVertex, vertex, interface.constants},
         {device, vk::ShaderStageFlagBits::eFragment, fragment, interface.constants}};
     const std::array descriptions = {stages[0].description(), stages[1].description()};
     const vk::PipelineVertexInputStateCreateInfo no_input;
     const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
-    const vk::Viewport viewport(0, 0, static_cast<float>(size.width), static_cast<float>(size.height), 0, 1);
-    const vk::Rect2D scissor({}, size);
-    const vk::PipelineViewportStateCreateInfo viewports({}, viewport, scissor);
+    const vk::PipelineViewportStateCreateInfo viewports({}, 1, nullptr, 1, nullptr);
+    const std::array sizes = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
+    const vk::PipelineDynamicStateCreateInfo dynamic({}, sizes);
     vk::PipelineRasterizationStateCreateInfo rasterization;
     rasterization.cullMode = vk::CullModeFlagBits::eNone;
     rasterization.lineWidth = 1;
@@ -109,9 +109,26 @@ vk::raii::Pipeline make_pipeline(const Device& device, std::span<const std::uint
     replaced.colorWriteMask = vk::ColorComponentFlagBits::eR;
     const vk::PipelineColorBlendStateCreateInfo blend({}, false, vk::LogicOp::eCopy, replaced);
     const vk::GraphicsPipelineCreateInfo info({}, descriptions, &no_input, &assembly, nullptr, &viewports,
-                                              &rasterization, &one_sample, &depth, &blend, nullptr, layout,
+                                              &rasterization, &one_sample, &depth, &blend, &dynamic, layout,
                                               render_pass);
     return {device.handle(), nullptr, info};
+}
+
+/// A key of everything on which a compiled pipeline depends. All passes have compatible render passes.
+std::string key_of(std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
+                   const RasterInterface& interface) {
+    std::string key;
+    for (const std::span<const std::uint32_t> spirv : {vertex, fragment}) {
+        append_to_key(key, spirv.size());
+        key.append(reinterpret_cast<const char*>(spirv.data()), spirv.size_bytes());
+    }
+    for (const std::uint64_t number :
+         {std::uint64_t{interface.storage_buffers},
+          std::uint64_t{interface.images == nullptr ? 0 : interface.images->count() + 1},
+          std::uint64_t{interface.push_constant_size}})
+        append_to_key(key, number);
+    for (const std::uint32_t constant : interface.constants) append_to_key(key, constant);
+    return key;
 }
 
 vk::raii::Framebuffer make_framebuffer(const Device& device, vk::RenderPass render_pass,
@@ -150,8 +167,12 @@ RasterPass::RasterPass(const Device& device, std::span<const std::uint32_t> vert
       framebuffer_(make_framebuffer(device, *render_pass_, *numbers_.view, *depth_.view, size_)),
       bindings_(device, interface.storage_buffers, 0, interface.images,
                 vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment),
-      layout_(make_layout(device, bindings_, interface.push_constant_size)),
-      pipeline_(make_pipeline(device, vertex, fragment, interface, size_, *layout_, *render_pass_)) {
+      shader_(&device.shaders().get(key_of(vertex, fragment, interface), [&] {
+          vk::raii::PipelineLayout layout = make_layout(device, bindings_, interface.push_constant_size);
+          vk::raii::Pipeline pipeline =
+              make_pipeline(device, vertex, fragment, interface, *layout, *render_pass_);
+          return CompiledShader{std::move(layout), std::move(pipeline)};
+      })) {
 } catch (const vk::SystemError& error) {
     rethrow(device.description().name + ": preparing to draw " + size_name({width, height}), error);
 }
@@ -165,11 +186,15 @@ void RasterPass::draw(const Device::Commands& commands, std::span<const std::byt
     commands.beginRenderPass(
         vk::RenderPassBeginInfo(*render_pass_, *framebuffer_, vk::Rect2D({}, size_), clear),
         vk::SubpassContents::eInline);
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline_);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, bindings_.handles(), {});
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *shader_->pipeline);
+    commands.setViewport(
+        0, vk::Viewport(0, 0, static_cast<float>(size_.width), static_cast<float>(size_.height), 0, 1));
+    commands.setScissor(0, vk::Rect2D({}, size_));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *shader_->layout, 0, bindings_.handles(),
+                                {});
     if (!push.empty())
         commands.pushConstants<std::byte>(
-            *layout_, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0,
+            *shader_->layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0,
             vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(push.size()), push.data()));
     commands.draw(vertices, 1, 0, 0);
     commands.endRenderPass();

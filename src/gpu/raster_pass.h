@@ -2,6 +2,7 @@
 /// Drawing triangles whose numbers are what is drawn.
 
 #include "gpu/shader_bindings.h"
+#include "gpu/shader_cache.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +22,8 @@ struct RasterInterface {
 
 /// Draws triangles, either side, into an image with one 32-bit integer per pixel. There is no vertex input: shaders
 /// get vertices from storage buffers. Larger depths are nearer: of all triangles with a depth between 0 and 1, the
-/// pixel gets what the one with the largest writes, and 0 where there is none.
+/// pixel gets what the one with the largest writes, and 0 where there is none. The shaders are compiled once per device,
+/// whichever passes of whatever size ask for them.
 class RasterPass {
 public:
     /// \param vertex, fragment shaders with the entry point `main`; the fragment shader writes a uint to location 0.
@@ -59,8 +61,7 @@ private:
     vk::raii::RenderPass render_pass_;
     vk::raii::Framebuffer framebuffer_;
     ShaderBindings bindings_;
-    vk::raii::PipelineLayout layout_;
-    vk::raii::Pipeline pipeline_;
+    const CompiledShader* shader_; ///< lives as long as the device
 };
 
 } // namespace nusselt::gpu

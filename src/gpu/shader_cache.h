@@ -1,6 +1,7 @@
 #pragma once
 /// Compiled shaders of a device.
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -20,6 +21,9 @@ class ShaderCache {
 public:
     /// The shader that was made for this key before, else a new one.
     const CompiledShader& get(const std::string& key, const std::function<CompiledShader()>& make);
+
+    /// The number of shaders that were made.
+    std::size_t size() const { return shaders_.size(); }
 
 private:
     std::map<std::string, CompiledShader> shaders_;

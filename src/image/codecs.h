@@ -6,19 +6,38 @@
 #include "image/layers.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
+#include <new>
 #include <string>
+#include <string_view>
 
 namespace nusselt::image {
 
 /// Bytes from the position of the stream, which stays, to its end.
 std::int64_t remaining_bytes(std::istream& stream);
 
-/// \param name  of the file, for messages of OpenEXR
-Image decode_exr(std::ifstream& stream, const std::string& name);
-LayeredImage decode_exr_layers(std::ifstream& stream, const std::string& name);
-LayeredImage decode_exr_layer_list(std::ifstream& stream, const std::string& name);
-Metadata decode_exr_metadata(std::ifstream& stream, const std::string& name);
+/// Reports that there is no memory for the floats of an image.
+[[noreturn]] void fail_for_memory(int width, int height, std::int64_t channels);
+
+/// Runs the part of a decoder whose memory grows with the image.
+/// \throws std::runtime_error  with the size of the image, if there is not enough memory
+template <class Decoder>
+auto with_memory_for(int width, int height, std::int64_t channels, const Decoder& decode) {
+    try {
+        return decode();
+    } catch (const std::bad_alloc&) {
+        fail_for_memory(width, height, channels);
+    }
+}
+
+Image decode_exr(std::ifstream& stream);
+LayeredImage decode_exr_layers(std::ifstream& stream);
+LayeredImage decode_exr_layer(std::ifstream& stream, std::string_view layer);
+LayeredImage decode_exr_layer_list(std::ifstream& stream);
+Metadata decode_exr_metadata(std::ifstream& stream);
+/// write_layers() of a picture, without a copy of its pixels.
+void write_exr(const std::filesystem::path& path, const Image& picture, const Metadata& metadata);
 
 void encode_hdr(std::ostream& stream, const Image& image);
 Image decode_hdr(std::istream& stream);
@@ -30,7 +49,7 @@ Image decode_pfm(std::istream& stream);
 
 /// \param scale  factor before the transfer function
 void encode_png(std::ostream& stream, const Image& image, double scale);
-/// PNG, JPG or TGA, whichever the contents are.
+/// PNG, JPG or TGA, whichever the contents are. Of the file, it keeps a few rows in memory.
 Image decode_srgb(std::istream& stream);
 
 } // namespace nusselt::image

@@ -21,7 +21,8 @@ struct Image {
 /// Larger images are taken for damaged or hostile files: 2^28 pixels are 3 GiB of floats.
 inline constexpr std::int64_t kMaxPixelCount = std::int64_t(1) << 28;
 
-/// \throws std::runtime_error  unless the size is positive and at most kMaxPixelCount
+/// \throws std::runtime_error  with the size, the memory that it would take and the limit, unless the size is positive
+///                             and at most kMaxPixelCount
 void check_size(std::int64_t width, std::int64_t height);
 
 /// An image of the given size, all zero. Both sizes must be positive.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <new>
@@ -44,7 +45,7 @@ auto decode_file(const std::filesystem::path& path, const Decoder& decode) {
     try {
         return decode(stream);
     } catch (const std::bad_alloc&) {
-        fail_to_read(path, "not enough memory for the image");
+        fail_to_read(path, "not enough memory to decode the file");
     } catch (const std::exception& error) {
         fail_to_read(path, error.what());
     }
@@ -62,6 +63,14 @@ void check_before_writing(const Image& image, const Metadata& metadata) {
         if (key.empty() || key.size() > 200 || key.find('\0') != std::string::npos)
             throw std::invalid_argument("metadata key '" + key + "' must have 1 to 200 bytes, none zero");
     }
+}
+
+/// Of the floats of an image.
+std::string memory_text(std::int64_t width, std::int64_t height, std::int64_t channels) {
+    const double bytes = sizeof(float) * double(width) * double(height) * double(channels);
+    char text[32];
+    std::snprintf(text, sizeof text, bytes < 1e9 ? "%.3g MB" : "%.3g GB", bytes / (bytes < 1e9 ? 1e6 : 1e9));
+    return text;
 }
 
 enum class OutputFormat { exr, png, hdr, pfm };
@@ -88,9 +97,21 @@ std::string lower_case_extension(const std::filesystem::path& path) {
 bool is_exr(const std::filesystem::path& path) { return lower_case_extension(path) == ".exr"; }
 
 void check_size(std::int64_t width, std::int64_t height) {
-    if (width > 0 && height > 0 && width <= kMaxPixelCount / height) return;
-    throw std::runtime_error("a size of " + std::to_string(width) + " x " + std::to_string(height) +
-                             " pixels is not supported; both must be positive, the product at most 2^28");
+    const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";
+    if (width <= 0 || height <= 0)
+        throw std::runtime_error("a size of " + size +
+                                 " is not supported; width and height must be positive");
+    if (width > kMaxPixelCount / height)
+        throw std::runtime_error("a size of " + size + " is not supported: it would take " +
+                                 memory_text(width, height, 3) +
+                                 " of memory; the limit is 2^28 pixels, which take " +
+                                 memory_text(kMaxPixelCount, 1, 3) + "; use a smaller image");
+}
+
+void fail_for_memory(int width, int height, std::int64_t channels) {
+    throw std::runtime_error("not enough memory for its " + std::to_string(width) + " x " +
+                             std::to_string(height) + " pixels (" + memory_text(width, height, channels) +
+                             "); close other programs or use a smaller image");
 }
 
 std::int64_t remaining_bytes(std::istream& stream) {
@@ -104,11 +125,9 @@ void write_image(const std::filesystem::path& path, const Image& image, const Me
                  double exposure) {
     check_before_writing(image, metadata);
     switch (output_format(path)) {
-    case OutputFormat::exr: {
-        const Window window = {0, 0, image.width, image.height};
-        write_layers(path, {window, window, {color_layer(image)}, metadata, {}});
+    case OutputFormat::exr:
+        write_exr(path, image, metadata);
         break;
-    }
     case OutputFormat::png:
         base::write_atomically(
             path, [&](std::ofstream& stream) { encode_png(stream, image, std::exp2(exposure)); });
@@ -129,9 +148,7 @@ void check_writable_image(const std::filesystem::path& path) {
 
 Image read_image(const std::filesystem::path& path) {
     const std::string extension = lower_case_extension(path);
-    if (extension == ".exr") {
-        return decode_file(path, [&](std::ifstream& stream) { return decode_exr(stream, path.string()); });
-    }
+    if (extension == ".exr") return decode_file(path, decode_exr);
     if (extension == ".hdr") return decode_file(path, decode_hdr);
     if (extension == ".pfm") return decode_file(path, decode_pfm);
     if (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".tga")
@@ -140,18 +157,18 @@ Image read_image(const std::filesystem::path& path) {
                  "unknown extension '" + extension + "'; use .exr, .hdr, .pfm, .png, .jpg, .jpeg or .tga");
 }
 
-LayeredImage read_layers(const std::filesystem::path& path) {
-    return decode_file(path, [&](std::ifstream& stream) { return decode_exr_layers(stream, path.string()); });
+LayeredImage read_layers(const std::filesystem::path& path) { return decode_file(path, decode_exr_layers); }
+
+LayeredImage read_layer(const std::filesystem::path& path, std::string_view name) {
+    return decode_file(path, [&](std::ifstream& stream) { return decode_exr_layer(stream, name); });
 }
 
 LayeredImage read_layer_list(const std::filesystem::path& path) {
-    return decode_file(path,
-                       [&](std::ifstream& stream) { return decode_exr_layer_list(stream, path.string()); });
+    return decode_file(path, decode_exr_layer_list);
 }
 
 Metadata read_exr_metadata(const std::filesystem::path& path) {
-    return decode_file(path,
-                       [&](std::ifstream& stream) { return decode_exr_metadata(stream, path.string()); });
+    return decode_file(path, decode_exr_metadata);
 }
 
 } // namespace nusselt::image

@@ -55,7 +55,7 @@ public:
     /// The name by which users choose the backend.
     virtual std::string_view name() const = 0;
 
-    /// The reason for which settings are not supported, and the remedy; nothing if they are. \param settings valid
+    /// The reason for which settings are not supported; nothing if they are. \param settings valid
     virtual std::optional<std::string> why_unsupported(const RenderSettings& settings) const = 0;
 
     /// \param scene must outlive the result; its film gives the size of images

@@ -8,36 +8,18 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace nusselt::render {
 
 namespace {
 
 // A file consists of the magic bytes, the description of the run (number of entries; key and value of each as length
-// and bytes), a hash of all that, the number of tiles, for each tile its number and the floats of the image and of each
-// layer, row by row, and a hash of all from the beginning. Integers have 64 bits; the byte order is that of the machine.
+// and bytes), a hash of all that, the number of tiles, the tiles, and a hash of all from the beginning. A tile consists of
+// its number and, if it is finished, 0 and the floats of the image and of each layer, row by row; otherwise the number of
+// bytes that the backend needs to go on, and these bytes. Integers have 64 bits; the byte order is that of the machine.
 constexpr std::array<char, 16> kMagic = {'n', 'u', 's', 's', 'e', 'l', 't', ' ',
-                                         't', 'i', 'l', 'e', 's', ' ', '1', '\n'};
-
-/// Calls a function with the address and number of the floats of each row of a tile, in the order of files.
-template <class Floats, class Function>
-void for_each_row(Floats* pixels, std::size_t channels, const Frame& frame, const Tile& tile,
-                  const Function& function) {
-    const auto width = static_cast<std::size_t>(frame.image.width);
-    for (int y = tile.y_begin; y < tile.y_end; ++y) {
-        const std::size_t first = static_cast<std::size_t>(y - frame.bounds.y_begin) * width +
-                                  static_cast<std::size_t>(tile.x_begin - frame.bounds.x_begin);
-        function(pixels + channels * first, channels * static_cast<std::size_t>(tile.x_end - tile.x_begin));
-    }
-}
-
-/// The same for the image and all layers. \param frame const or not
-template <class AnyFrame, class Function>
-void for_each_row(AnyFrame& frame, const Tile& tile, const Function& function) {
-    for_each_row(frame.image.pixels.data(), 3, frame, tile, function);
-    for (auto& layer : frame.layers)
-        for_each_row(layer.data.data(), layer.channels.size(), frame, tile, function);
-}
+                                         't', 'i', 'l', 'e', 's', ' ', '2', '\n'};
 
 class Writer {
 public:
@@ -82,6 +64,13 @@ public:
         bytes(result.data(), size);
         return result;
     }
+    std::vector<std::byte> block() {
+        const std::uint64_t size = number();
+        if (size > left_) throw std::runtime_error("the file is damaged or truncated");
+        std::vector<std::byte> result(size);
+        if (size > 0) bytes(result.data(), size);
+        return result;
+    }
     void check_hash() {
         const std::uint64_t expected = hash_.value();
         if (number() != expected) throw std::runtime_error("the file is damaged or truncated");
@@ -117,11 +106,15 @@ void read_tiles(Reader& reader, Frame& frame) {
     const std::uint64_t count = reader.number();
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::uint64_t number = reader.number();
-        if (number >= frame.tiles.size() || frame.is_finished[number] != 0)
+        if (number >= frame.tiles.size() || frame.is_finished[number] != 0 || frame.begun.count(number) != 0)
             throw std::runtime_error("the file is damaged or truncated");
+        if (std::vector<std::byte> state = reader.block(); !state.empty()) {
+            frame.begun[number] = std::move(state);
+            continue;
+        }
         for_each_row(frame, frame.tiles[number],
                      [&](float* row, std::size_t size) { reader.bytes(row, size * sizeof(float)); });
-        frame.is_finished[number] = 1;
+        finish_tile(frame, number);
     }
 }
 
@@ -144,7 +137,7 @@ void read_file(std::ifstream& stream, std::uint64_t size, const image::Metadata&
 }
 
 void write_file(std::ostream& stream, const image::Metadata& run, const Frame& frame,
-                const std::vector<std::size_t>& tiles) {
+                const std::vector<std::size_t>& tiles, const BegunTiles& begun) {
     Writer writer(stream);
     writer.bytes(kMagic.data(), kMagic.size());
     writer.number(run.size());
@@ -153,9 +146,15 @@ void write_file(std::ostream& stream, const image::Metadata& run, const Frame& f
         writer.text(value);
     }
     writer.hash();
-    writer.number(tiles.size());
+    writer.number(tiles.size() + begun.size());
+    for (const auto& [number, state] : begun) {
+        writer.number(number);
+        writer.number(state.size());
+        writer.bytes(state.data(), state.size());
+    }
     for (const std::size_t number : tiles) {
         writer.number(number);
+        writer.number(0);
         for_each_row(frame, frame.tiles[number],
                      [&](const float* row, std::size_t size) { writer.bytes(row, size * sizeof(float)); });
     }
@@ -172,8 +171,9 @@ image::Metadata describe_run(image::Metadata settings, const Frame& frame) {
 }
 
 void save_checkpoint(const std::filesystem::path& path, const image::Metadata& run, const Frame& frame,
-                     const std::vector<std::size_t>& tiles) {
-    base::write_atomically(path, [&](std::ofstream& stream) { write_file(stream, run, frame, tiles); });
+                     const std::vector<std::size_t>& tiles, const BegunTiles& begun) {
+    base::write_atomically(path,
+                           [&](std::ofstream& stream) { write_file(stream, run, frame, tiles, begun); });
 }
 
 void load_checkpoint(const std::filesystem::path& path, const image::Metadata& run, Frame& frame) {

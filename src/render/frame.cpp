@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -84,66 +85,103 @@ std::vector<std::string> light_layer_names(const std::vector<scene::Emitter>& em
     return names;
 }
 
-std::vector<LayerFormat> layer_formats(const scene::Scene& scene, const RenderSettings& settings) {
-    const auto wanted = [&](LayerKind kind) {
-        return std::find(settings.layers.begin(), settings.layers.end(), kind) != settings.layers.end();
-    };
+bool is_wanted(const RenderSettings& settings, LayerKind kind) {
+    return std::find(settings.layers.begin(), settings.layers.end(), kind) != settings.layers.end();
+}
+
+/// The layers in front of those of lights.
+std::vector<LayerFormat> formats_before_lights(const RenderSettings& settings) {
     std::vector<LayerFormat> formats;
-    if (wanted(LayerKind::albedo)) formats.push_back({"albedo", kRgb});
-    if (wanted(LayerKind::normal)) formats.push_back({"normal", {"X", "Y", "Z"}});
-    if (wanted(LayerKind::depth)) {
+    if (is_wanted(settings, LayerKind::albedo)) formats.push_back({"albedo", kRgb});
+    if (is_wanted(settings, LayerKind::normal)) formats.push_back({"normal", {"X", "Y", "Z"}});
+    if (is_wanted(settings, LayerKind::depth)) {
         formats.push_back({"depth", {"Z"}});
         formats.push_back({"coverage", {"Y"}});
     }
-    const bool wants_diffuse = wanted(LayerKind::diffuse);
-    const bool wants_specular = wanted(LayerKind::specular);
-    if (wanted(LayerKind::emission) || wants_diffuse || wants_specular) formats.push_back({"emission", kRgb});
+    const bool wants_diffuse = is_wanted(settings, LayerKind::diffuse);
+    const bool wants_specular = is_wanted(settings, LayerKind::specular);
+    if (is_wanted(settings, LayerKind::emission) || wants_diffuse || wants_specular)
+        formats.push_back({"emission", kRgb});
     if (wants_diffuse) formats.push_back({"diffuse", kRgb});
     if (wants_specular) formats.push_back({"specular", kRgb});
-    if (wanted(LayerKind::lights))
-        for (const std::string& name : light_layer_names(scene.emitters)) formats.push_back({name, kRgb});
-    if (wanted(LayerKind::pieces) && settings.light_samples == LightSamples::lines)
-        formats.push_back({"pieces", {"Y"}});
-    if (wanted(LayerKind::variance) && has_variance(settings)) formats.push_back({"variance", kRgb});
     return formats;
 }
 
-/// The number of samples per pixel as a layer.
-image::Layer samples_layer(const Frame& frame, double samples) {
-    image::Layer layer{"samples", {"Y"}, std::vector<float>(frame.image.pixels.size() / 3)};
-    for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
-        if (frame.is_finished[i] == 0) continue;
-        const Tile& tile = frame.tiles[i];
-        for (int y = tile.y_begin; y < tile.y_end; ++y) {
-            const auto row = layer.data.begin() +
-                             static_cast<std::ptrdiff_t>(y - frame.bounds.y_begin) * frame.image.width;
-            std::fill(row + (tile.x_begin - frame.bounds.x_begin), row + (tile.x_end - frame.bounds.x_begin),
-                      static_cast<float>(samples));
-        }
+std::vector<LayerFormat> formats_behind_lights(const RenderSettings& settings) {
+    std::vector<LayerFormat> formats;
+    if (is_wanted(settings, LayerKind::pieces) && settings.light_samples == LightSamples::lines)
+        formats.push_back({"pieces", {"Y"}});
+    if (is_wanted(settings, LayerKind::variance) && has_variance(settings))
+        formats.push_back({"variance", kRgb});
+    return formats;
+}
+
+void add_layers(std::vector<LayerFormat>&& formats, std::size_t pixels, Frame& frame) {
+    for (auto& [name, channels] : formats) {
+        std::vector<float> data(channels.size() * pixels);
+        frame.layers.push_back({std::move(name), std::move(channels), std::move(data)});
     }
+}
+
+/// \throws std::runtime_error if no EXR file can hold the layers
+void check_file(const FrameSize& size, const std::vector<std::string>& light_names) {
+    // The other names are few and short.
+    std::size_t name_bytes = 0;
+    for (const std::string& name : light_names) name_bytes += kRgb.size() * (name.size() + 2);
+    if (const auto reason = image::why_not_one_exr(size.width, size.channels, name_bytes))
+        throw std::runtime_error(*reason + "; use a lower --resolution or fewer --layers");
+}
+
+/// The number of samples per pixel as a layer.
+image::Layer samples_layer(const Frame& frame, const RenderSettings& settings) {
+    image::Layer layer{"samples", {"Y"}, frame.rays};
+    const auto samples_per_ray = static_cast<float>(settings.samples / frame.camera_rays);
+    for (float& value : layer.data) value *= samples_per_ray;
     return layer;
 }
 
 } // namespace
 
+FrameSize frame_size(const scene::Scene& scene, const RenderSettings& settings) {
+    // Names, the lists of channels, the heap, and the order of the channels while a file is written.
+    constexpr std::size_t kBytesPerLayer = 500;
+    const scene::PixelBounds bounds = rendered_pixels(scene.film);
+    FrameSize size;
+    size.width = bounds.x_end - bounds.x_begin;
+    size.height = bounds.y_end - bounds.y_begin;
+    size.layers = is_wanted(settings, LayerKind::lights) ? scene.emitters.size() : 0;
+    size.channels = kRgb.size() * (1 + size.layers);
+    for (const auto& formats : {formats_before_lights(settings), formats_behind_lights(settings)}) {
+        size.layers += formats.size();
+        for (const auto& [name, channels] : formats) size.channels += channels.size();
+    }
+    const std::size_t pixels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+    size.bytes = sizeof(float) * (size.channels + 1) * pixels + kBytesPerLayer * size.layers;
+    return size;
+}
+
 Frame make_frame(const scene::Scene& scene, const RenderSettings& settings) {
+    const FrameSize size = frame_size(scene, settings);
+    image::check_size(size.width, size.height);
+    check_memory(size.bytes,
+                 "an image of " + std::to_string(size.width) + " x " + std::to_string(size.height) +
+                     " pixels with " + std::to_string(size.channels) + " channels",
+                 "use a lower --resolution or fewer --layers");
+    std::vector<std::string> light_names;
+    if (is_wanted(settings, LayerKind::lights)) light_names = light_layer_names(scene.emitters);
+    check_file(size, light_names);
+
     Frame frame;
     frame.bounds = rendered_pixels(scene.film);
-    const int width = frame.bounds.x_end - frame.bounds.x_begin;
-    const int height = frame.bounds.y_end - frame.bounds.y_begin;
-    image::check_size(width, height);
-    const std::vector<LayerFormat> formats = layer_formats(scene, settings);
-    std::size_t channel_count = 3;
-    for (const auto& [name, channels] : formats) channel_count += channels.size();
-    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    check_memory(sizeof(float) * channel_count * pixels,
-                 "an image of " + std::to_string(width) + " x " + std::to_string(height) + " pixels with " +
-                     std::to_string(channel_count) + " channels",
-                 "use a lower --resolution or fewer --layers");
-
-    frame.image = image::make_image(width, height);
-    for (const auto& [name, channels] : formats)
-        frame.layers.push_back({name, channels, std::vector<float>(channels.size() * pixels)});
+    frame.image = image::make_image(size.width, size.height);
+    const std::size_t pixels = frame.image.pixels.size() / 3;
+    frame.camera_rays = camera_ray_count(settings);
+    frame.rays.resize(pixels);
+    frame.layers.reserve(size.layers);
+    add_layers(formats_before_lights(settings), pixels, frame);
+    for (std::string& name : light_names)
+        frame.layers.push_back({std::move(name), kRgb, std::vector<float>(kRgb.size() * pixels)});
+    add_layers(formats_behind_lights(settings), pixels, frame);
     frame.tiles = make_tiles(frame.bounds);
     if (settings.part.count > 1) frame.tiles = tiles_of_part(frame.tiles, settings.part);
     frame.is_finished.resize(frame.tiles.size());
@@ -155,14 +193,23 @@ std::uint64_t pixel_count(const Tile& tile) {
            static_cast<std::uint64_t>(tile.y_end - tile.y_begin);
 }
 
+void finish_tile(Frame& frame, std::size_t tile) {
+    frame.is_finished[tile] = 1;
+    for_each_row(frame, frame.tiles[tile], frame.rays, 1, [&](float* row, std::size_t size) {
+        std::fill_n(row, size, static_cast<float>(frame.camera_rays));
+    });
+}
+
 double finished_fraction(const Frame& frame) {
-    std::uint64_t all = 0;
-    std::uint64_t finished = 0;
-    for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
-        all += pixel_count(frame.tiles[i]);
-        if (frame.is_finished[i] != 0) finished += pixel_count(frame.tiles[i]);
+    std::uint64_t pixels = 0;
+    double rays = 0;
+    for (const Tile& tile : frame.tiles) {
+        pixels += pixel_count(tile);
+        for_each_row(frame, tile, frame.rays, 1, [&](const float* row, std::size_t size) {
+            rays = std::accumulate(row, row + size, rays);
+        });
     }
-    return all == 0 ? 1 : frame.finished_share * static_cast<double>(finished) / static_cast<double>(all);
+    return pixels == 0 ? 1 : rays / (static_cast<double>(frame.camera_rays) * static_cast<double>(pixels));
 }
 
 image::LayeredImage to_layered_image(Frame&& frame, const scene::Film& film, const RenderSettings& settings,
@@ -173,7 +220,8 @@ image::LayeredImage to_layered_image(Frame&& frame, const scene::Film& film, con
     result.metadata = std::move(metadata);
     const bool is_whole = settings.part.count == 1 && finished_fraction(frame) == 1;
     image::Layer samples;
-    if (!is_whole) samples = samples_layer(frame, std::round(frame.finished_share * settings.samples));
+    if (!is_whole) samples = samples_layer(frame, settings);
+    result.layers.reserve(frame.layers.size() + 2);
     result.layers.push_back({"", kRgb, std::move(frame.image.pixels)});
     for (image::Layer& layer : frame.layers) result.layers.push_back(std::move(layer));
     if (!is_whole) result.layers.push_back(std::move(samples));

@@ -169,9 +169,14 @@ struct RenderJob {
     std::int32_t y_begin;
     std::int32_t width; ///< of the image
     float* pixels;      ///< three floats for each, as image::Image
+    float* rays;        ///< one float for each, as Frame::rays
     bool has_layers;    ///< whether any layer was asked for
     LayerTargets layers;
+    const unsigned char* stop_requested; ///< becomes other than 0 at any time once the rendering is to stop
 };
+
+/// Bytes in which a kernel sums up all but the layers of lights.
+inline constexpr std::size_t kPacketSumBytes = 4096;
 
 /// Floats per emitter in which a kernel sums up layers of lights: two vectors for up to 16 lanes.
 inline constexpr std::size_t kLightSumFloats = 2 * 3 * 16;
@@ -196,15 +201,25 @@ struct TileStatistics {
     visibility::LineCounters line_counters;
 };
 
-/// Working memory of one thread, aligned to 64 bytes.
+/// Working memory of one thread, aligned to 64 bytes. The sums of an unfinished tile stay in it, so that the same kernel
+/// can go on with them.
 struct TileMemory {
+    void* packet_sums; ///< kPacketSumBytes
     float* light_sums; ///< kLightSumFloats for each emitter; unused without layers of lights
     void* lines;       ///< kLineMemoryBytes; unused without line samples
 };
 
-/// Renders a tile and adds its work to the statistics. Any number of threads may render different tiles.
-using RenderTile = void (*)(const RenderJob& job, const Tile& tile, const TileMemory& memory,
-                            TileStatistics& statistics);
+/// How far a tile is. All zero at first.
+struct TileProgress {
+    std::uint32_t packet;     ///< number of the first packet of pixels that is not finished
+    std::uint32_t camera_ray; ///< how many camera rays it has
+};
+
+/// Renders a tile from where it is, and adds its work to the statistics. Any number of threads may render different
+/// tiles.
+/// \returns whether the tile is finished. If the job was stopped before, its image has all camera rays so far.
+using RenderTile = bool (*)(const RenderJob& job, const Tile& tile, const TileMemory& memory,
+                            TileProgress& progress, TileStatistics& statistics);
 
 /// Distinguishes kernels that are compiled from the same source for different instruction sets.
 template <int kLanes>

@@ -4,6 +4,7 @@
 #include "base/stopwatch.h"
 #include "render/film.h"
 #include "render/line_choice.h"
+#include "render_cpu/begun_tile.h"
 #include "render_cpu/frame_targets.h"
 
 #include "tables/ltc_table.h"
@@ -13,9 +14,11 @@
 #include <x86intrin.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <mutex>
-#include <string>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -46,7 +49,8 @@ public:
         }
     }
 
-    void add(std::size_t tile, const TileStatistics& work) {
+    /// Adds the work of any tile.
+    void add(const TileStatistics& work) {
         const std::lock_guard lock(mutex_);
         work_.primary_ticks += work.primary_ticks;
         work_.shading_ticks += work.shading_ticks;
@@ -62,6 +66,10 @@ public:
         work_.line_counters.box_tests += work.line_counters.box_tests;
         work_.line_counters.triangle_tests += work.line_counters.triangle_tests;
         work_.line_counters.line_tests += work.line_counters.line_tests;
+    }
+
+    void finish(std::size_t tile) {
+        const std::lock_guard lock(mutex_);
         frame_.is_finished[tile] = 1;
         finished_pixels_ += pixel_count(frame_.tiles[tile]);
         if (monitor_.tile_finished) monitor_.tile_finished(tile);
@@ -69,13 +77,27 @@ public:
             monitor_.progress(static_cast<double>(finished_pixels_) / static_cast<double>(all_pixels_));
     }
 
+    /// Keeps a tile that is not finished.
+    void keep(std::size_t tile, std::vector<std::byte> state) {
+        const std::lock_guard lock(mutex_);
+        kept_[tile] = std::move(state);
+    }
+
     const TileStatistics& work() const { return work_; }
+
+    /// The tiles that were begun, now or before, and are not finished.
+    BegunTiles take_begun() {
+        kept_.merge(frame_.begun);
+        std::erase_if(kept_, [&](const auto& tile) { return frame_.is_finished[tile.first] != 0; });
+        return std::move(kept_);
+    }
 
 private:
     Frame& frame_;
     const RenderMonitor& monitor_;
     std::mutex mutex_;
     TileStatistics work_{};
+    BegunTiles kept_;
     std::uint64_t all_pixels_ = 0;
     std::uint64_t finished_pixels_ = 0;
 };
@@ -83,11 +105,14 @@ private:
 /// Working memory of one thread, aligned as kernels need it.
 class ThreadMemory {
 public:
-    ThreadMemory(std::size_t summed_emitters, std::size_t line_bytes)
-        : sums_(summed_emitters * kLightSumFloats * sizeof(float) / sizeof(Block)),
-          lines_(line_bytes / sizeof(Block)) {}
+    /// \param sum_bytes for a packet, then for layers of lights
+    ThreadMemory(std::size_t sum_bytes, std::size_t line_bytes)
+        : sums_(sum_bytes / sizeof(Block)), lines_(line_bytes / sizeof(Block)) {}
 
-    TileMemory view() { return {sums_.empty() ? nullptr : sums_.front().floats, lines_.data()}; }
+    TileMemory view() {
+        return {sums_.data(), sums_.front().floats + kPacketSumBytes / sizeof(float), lines_.data()};
+    }
+    std::span<std::byte> sums() { return std::as_writable_bytes(std::span(sums_)); }
 
 private:
     struct alignas(64) Block {
@@ -96,6 +121,13 @@ private:
     std::vector<Block> sums_;
     std::vector<Block> lines_;
 };
+
+/// What RenderJob::stop_requested points to: without a request, nothing ever stops.
+const unsigned char* bytes_of(const std::atomic<bool>* cancel) {
+    static constexpr unsigned char kNever = 0;
+    static_assert(sizeof(*cancel) == 1 && std::atomic<bool>::is_always_lock_free);
+    return cancel == nullptr ? &kNever : reinterpret_cast<const unsigned char*>(cancel);
+}
 
 } // namespace
 
@@ -177,8 +209,10 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.y_begin = frame.bounds.y_begin;
     job.width = frame.image.width;
     job.pixels = frame.image.pixels.data();
+    job.rays = frame.rays.data();
     job.has_layers = !frame.layers.empty();
     job.layers = targets.layers();
+    job.stop_requested = bytes_of(monitor.cancel);
 
     std::vector<LightSet> light_sets = arrays_.light_sets(isa);
     for (LightSet& set : light_sets) set.code.choose(job, set.add);
@@ -187,19 +221,31 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
 
     const RenderTile render_tile = kernel_for(*integrator_, isa);
     const std::size_t summed_emitters = job.layers.lights == nullptr ? 0 : scene_.emitters.size();
+    const std::size_t sum_bytes = kPacketSumBytes + summed_emitters * kLightSumFloats * sizeof(float);
     const std::size_t line_bytes = settings.light_samples == LightSamples::lines ? kLineMemoryBytes : 0;
-    tbb::enumerable_thread_specific<ThreadMemory> memory(summed_emitters, line_bytes);
+    for (const auto& [tile, state] : frame.begun) restore_pixels(frame, tile, state, sum_bytes);
+    tbb::enumerable_thread_specific<ThreadMemory> memory(sum_bytes, line_bytes);
+    if (monitor.started) monitor.started();
     Tally tally(frame, monitor);
     const TickClock clock;
     arena_.execute([&] {
         tbb::parallel_for(std::size_t(0), frame.tiles.size(), [&](std::size_t i) {
             if (frame.is_finished[i] != 0 || (monitor.cancel != nullptr && *monitor.cancel)) return;
             const base::FlushDenormals flush_denormals;
+            ThreadMemory& own = memory.local();
             TileStatistics work{};
-            render_tile(job, frame.tiles[i], memory.local().view(), work);
-            tally.add(i, work);
+            TileProgress progress{};
+            const auto begun = frame.begun.find(i);
+            if (begun != frame.begun.end()) progress = restore_sums(begun->second, own.sums());
+            const bool is_finished = render_tile(job, frame.tiles[i], own.view(), progress, work);
+            tally.add(work);
+            if (is_finished)
+                tally.finish(i);
+            else
+                tally.keep(i, store_begun_tile(frame, i, progress, own.sums()));
         });
     });
+    frame.begun = tally.take_begun();
 
     const TileStatistics& work = tally.work();
     const double scale = clock.seconds_per_tick();

@@ -45,10 +45,10 @@ public:
     RenderResult render(const RenderSettings& settings, base::Isa isa, const visibility::RayTracer& tracer,
                         const RenderMonitor& monitor = {}) const;
 
-    /// Renders the tiles of a frame that are not finished.
+    /// Renders the tiles of a frame that are not finished. What it was stopped in is in the frame, for the next call.
     /// \param frame    from make_frame() with this scene and these settings
     /// \param settings valid
-    /// \throws std::runtime_error see LineBvh, for line samples
+    /// \throws std::runtime_error see LineBvh, for line samples; if a tile of Frame::begun has the wrong size
     RenderStatistics render_into(Frame& frame, const RenderSettings& settings, base::Isa isa,
                                  const visibility::RayTracer& tracer, const RenderMonitor& monitor) const;
 

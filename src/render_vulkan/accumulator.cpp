@@ -51,7 +51,8 @@ Accumulator::Accumulator(const DeviceScene& scene, const render::RenderSettings&
     : scene_(scene),
       constants_(shading_constants(checked(settings), scene.kinds())),
       pixels_(make_pixels(scene)),
-      visibility_(make_visibility_pass(scene, pixels_)) {}
+      visibility_(make_visibility_pass(scene, pixels_)),
+      next_row_(pixels_.height) {}
 
 void Accumulator::restart(const render::RenderSettings& settings) {
     const std::vector<std::uint32_t> constants = shading_constants(checked(settings), scene_.kinds());
@@ -61,32 +62,75 @@ void Accumulator::restart(const render::RenderSettings& settings) {
     }
     pixels_.clear();
     frames_ = 0;
+    next_row_ = height();
 }
 
 void Accumulator::compile() {
     if (!shading_) shading_.emplace(scene_, constants_, pixels_);
 }
 
-FrameTimes Accumulator::add(const interface::FrameRecord& frame) {
-    compile();
+FrameTimes Accumulator::add(const interface::FrameRecord& frame) { return *add(frame, nullptr); }
+
+std::optional<FrameTimes> Accumulator::add(const interface::FrameRecord& frame,
+                                           const std::atomic<bool>* cancel) {
+    begin(frame);
+    if (cancel != nullptr && *cancel) return give_up();
     FrameTimes times;
-    const std::vector<interface::FrameRecord> parts = parts_of(frame);
-    for (const interface::FrameRecord& part : parts) {
+    if (cancel == nullptr || parts_until(height()).size() == 1) {
+        static_cast<void>(add_until(height(), nullptr, times));
+        return times;
+    }
+    if (!sums_before_)
+        sums_before_.emplace(scene_.device(), pixels_.sums.size(), gpu::Residence::device_local);
+    copy(pixels_.sums, *sums_before_);
+    if (add_until(height(), cancel, times)) return times;
+    copy(*sums_before_, pixels_.sums);
+    return give_up();
+}
+
+void Accumulator::begin(const interface::FrameRecord& frame) {
+    frame_ = frame;
+    next_row_ = 0;
+}
+
+std::nullopt_t Accumulator::give_up() {
+    next_row_ = height();
+    return std::nullopt;
+}
+
+FrameTimes Accumulator::add_rows(std::uint32_t most_rows) {
+    const std::uint32_t groups = (std::clamp(most_rows, 1u, height()) - 1) / kRowsTogether + 1;
+    FrameTimes times;
+    static_cast<void>(add_until(std::min(next_row_ + groups * kRowsTogether, height()), nullptr, times));
+    return times;
+}
+
+bool Accumulator::add_until(std::uint32_t end, const std::atomic<bool>* cancel, FrameTimes& times) {
+    compile();
+    for (const interface::FrameRecord& part : parts_until(end)) {
+        if (cancel != nullptr && *cancel) return false;
         std::vector<gpu::Device::Record> passes;
-        if (&part == &parts.front())
+        if (part.first_row == 0 && part.first_light == 0 && part.first_sample == 0)
             passes.push_back([&](const gpu::Device::Commands& commands) {
                 visibility_.draw(commands, std::as_bytes(std::span(&part, 1)), 3 * scene_.drawn_triangles(),
                                  pixels_.numbers);
             });
         passes.push_back([&](const gpu::Device::Commands& commands) {
-            shading_->record(commands, part, std::min(rows_at_once(frame), height() - part.first_row));
+            shading_->record(commands, part, std::min(rows_at_once(frame_), end - part.first_row));
         });
         const std::vector<double> nanoseconds = scene_.device().time_passes(passes);
         if (passes.size() > 1) times.visibility = 1e-9 * nanoseconds.front();
         times.shading += 1e-9 * nanoseconds.back();
     }
-    ++frames_;
-    return times;
+    next_row_ = end;
+    if (!is_adding()) ++frames_;
+    return true;
+}
+
+void Accumulator::copy(const gpu::Buffer& from, const gpu::Buffer& to) const {
+    scene_.device().run([&](const gpu::Device::Commands& commands) {
+        commands.copyBuffer(from.handle(), to.handle(), vk::BufferCopy(0, 0, from.size()));
+    });
 }
 
 std::uint32_t Accumulator::samples_at_once(const interface::FrameRecord& frame) const {
@@ -102,18 +146,19 @@ std::uint32_t Accumulator::lights_at_once(const interface::FrameRecord& frame) c
 }
 
 std::uint32_t Accumulator::rows_at_once(const interface::FrameRecord& frame) const {
-    // About a tenth of a second of a GPU: drivers stop work that takes seconds, since displays wait for it.
-    constexpr double kMostSamples = 1e8;
+    // About a tenth of a second: drivers of GPUs stop work that takes seconds, since displays wait for it.
+    const double most_samples = scene_.device().description().is_software ? 1e5 : 1e8;
     const std::uint32_t lights = std::clamp(scene_.light_count(), 1u, lights_at_once(frame));
-    const double rows = kMostSamples / (static_cast<double>(lights) * samples_at_once(frame) * width());
+    const double rows = most_samples / (static_cast<double>(lights) * samples_at_once(frame) * width());
     const auto together = static_cast<std::uint32_t>(std::clamp<double>(rows, 1, height())) / kRowsTogether;
     return (together + 1) * kRowsTogether;
 }
 
-std::vector<interface::FrameRecord> Accumulator::parts_of(const interface::FrameRecord& frame) const {
+std::vector<interface::FrameRecord> Accumulator::parts_until(std::uint32_t end) const {
+    const interface::FrameRecord& frame = frame_;
     std::vector<interface::FrameRecord> parts;
     const std::uint32_t lights = std::max(scene_.light_count(), 1u);
-    for (std::uint32_t row = 0; row < height(); row += rows_at_once(frame))
+    for (std::uint32_t row = next_row_; row < end; row += rows_at_once(frame))
         for (std::uint32_t light = 0; light < lights; light += lights_at_once(frame))
             for (std::uint32_t sample = 0; sample < frame.light_samples; sample += samples_at_once(frame)) {
                 interface::FrameRecord& part = parts.emplace_back(frame);
@@ -130,9 +175,14 @@ image::Image Accumulator::mean() const {
     image::Image image = image::make_image(static_cast<int>(width()), static_cast<int>(height()));
     std::vector<interface::PixelSum> sums(image.pixels.size() / 3);
     pixels_.sums.read(std::span(sums));
-    const float scale = 1.0f / static_cast<float>(std::max(frames_, 1u));
-    for (std::size_t i = 0; i < sums.size(); ++i)
+    const auto scale_of = [](std::uint32_t frames) {
+        return 1.0f / static_cast<float>(std::max(frames, 1u));
+    };
+    const std::size_t ahead = std::size_t{rows_ahead()} * width();
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const float scale = scale_of(i < ahead ? frames_ + 1 : frames_);
         for (std::size_t k = 0; k < 3; ++k) image.pixels[3 * i + k] = scale * sums[i].sum[k];
+    }
     return image;
 }
 
@@ -155,12 +205,12 @@ FrameWork checked_work(const interface::WorkRecord& work, const std::string& dev
 }
 
 std::optional<std::string> why_unsupported(const render::RenderSettings& settings) {
-    const std::string remedy = " not supported on GPUs; use --backend cpu";
+    const std::string rest = " not supported on GPUs";
     if (settings.light_samples != render::LightSamples::points)
-        return "--light-samples " + std::string(name_of(settings.light_samples)) + " is" + remedy;
+        return "--light-samples " + std::string(name_of(settings.light_samples)) + " is" + rest;
     if (!settings.layers.empty())
-        return "layer " + std::string(name_of(settings.layers.front())) + " is" + remedy;
-    if (settings.part.count > 1) return "--part is" + remedy;
+        return "layer " + std::string(name_of(settings.layers.front())) + " is" + rest;
+    if (settings.part.count > 1) return "--part is" + rest;
     return std::nullopt;
 }
 

@@ -7,6 +7,7 @@
 #include "render_vulkan/device_scene.h"
 #include "render_vulkan/shading_pass.h"
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -52,30 +53,56 @@ public:
     /// \throws gpu::Error if the device is lost, or as compile() does
     FrameTimes add(const interface::FrameRecord& frame);
 
-    std::uint32_t frames() const { return frames_; }
+    /// Likewise, but stops early once a request to cancel is made.
+    /// \param cancel null for none
+    /// \returns nothing if it stopped; the image is then as before
+    std::optional<FrameTimes> add(const interface::FrameRecord& frame, const std::atomic<bool>* cancel);
+
+    /// Begins a frame that add_rows() adds piece by piece, in place of one that is not finished.
+    void begin(const interface::FrameRecord& frame);
+    /// Whether rows of the frame are missing.
+    bool is_adding() const { return next_row_ < height(); }
+    /// Adds the next rows of the frame from the top, and waits until they are finished. After the last ones, the frame
+    /// counts.
+    /// \param most_rows is rounded up to a multiple of kRowsTogether; long ones are cut into several submissions
+    /// \throws gpu::Error as add() does
+    FrameTimes add_rows(std::uint32_t most_rows);
+
+    std::uint32_t frames() const { return frames_; } ///< those that are finished
+    /// How many rows from the top have a frame more.
+    std::uint32_t rows_ahead() const { return is_adding() ? next_row_ : 0; }
     std::uint32_t width() const { return pixels_.width; }
     std::uint32_t height() const { return pixels_.height; }
     /// Black before the first frame.
     image::Image mean() const;
     /// \throws gpu::Error see checked_work()
     FrameWork work() const;
-    /// One interface::PixelSum per pixel, the image times frames().
+    /// One interface::PixelSum per pixel, the image times frames(), or one more in rows_ahead().
     const gpu::Buffer& sums() const { return pixels_.sums; }
 
 private:
+    /// Adds the rows of the frame from the next one on.
+    /// \returns false if it was cancelled; some rows may then have parts of the frame
+    bool add_until(std::uint32_t end, const std::atomic<bool>* cancel, FrameTimes& times);
+    /// Leaves the frame out.
+    std::nullopt_t give_up();
+    void copy(const gpu::Buffer& from, const gpu::Buffer& to) const;
     // How much one submission shades.
     std::uint32_t samples_at_once(const interface::FrameRecord& frame) const; ///< of each light
     std::uint32_t lights_at_once(const interface::FrameRecord& frame) const;
     std::uint32_t rows_at_once(const interface::FrameRecord& frame) const;
-    /// Splits a frame into pieces of that size.
-    std::vector<interface::FrameRecord> parts_of(const interface::FrameRecord& frame) const;
+    /// Splits the rows of the frame from the next one to this one, exclusive, into pieces of that size.
+    std::vector<interface::FrameRecord> parts_until(std::uint32_t end) const;
 
     const DeviceScene& scene_;
     std::vector<std::uint32_t> constants_; ///< of the shading pass
     PixelBuffers pixels_;
+    std::optional<gpu::Buffer> sums_before_; ///< without the frame that is being added, if that may stop
     gpu::RasterPass visibility_;
     std::optional<ShadingPass> shading_; ///< empty until it is compiled
     std::uint32_t frames_ = 0;
+    interface::FrameRecord frame_ {}; ///< that is being added
+    std::uint32_t next_row_;          ///< height() when the frame is finished
 };
 
 /// Names the first setting that is not supported on GPUs; empty if all are.

@@ -4,6 +4,7 @@
 #include "render_vulkan/renderer.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace nusselt::render_vulkan {
 
@@ -29,11 +30,14 @@ public:
     render::RenderStatistics render_into(render::Frame& frame, const render::RenderSettings& settings,
                                          const render::RenderMonitor& monitor) override {
         const render::RenderResult result = renderer_.render(settings, monitor);
-        if (result.finished_fraction == 0) return result.statistics;
-        frame.finished_share = result.finished_fraction;
+        const auto rays = static_cast<float>(std::round(result.finished_fraction * frame.camera_rays));
+        if (rays == 0) return result.statistics;
         for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
             if (frame.is_finished[i] != 0) continue;
             copy_tile(result.image, frame.tiles[i], frame);
+            for_each_row(frame, frame.tiles[i], frame.rays, 1,
+                         [&](float* row, std::size_t size) { std::fill_n(row, size, rays); });
+            if (result.finished_fraction < 1) continue;
             frame.is_finished[i] = 1;
             if (monitor.tile_finished) monitor.tile_finished(i);
         }

@@ -40,7 +40,8 @@ DeviceScene::DeviceScene(const gpu::Device& device, const scene::Scene& scene, S
       ltc_table_(upload(device, std::span(tables::frostbite_ltc_table().entries), "lobes")),
       shadows_(device, scene, shadow_rays) {}
 
-void DeviceScene::set_camera(const scene::Camera& camera) {
+void DeviceScene::set_view(const scene::Camera& camera, const scene::Film& film) {
+    film_ = film;
     render_vulkan::set_camera(camera, film_, radius_, record_);
     buffers_.scene.write(std::span<const interface::SceneRecord>(&record_, 1));
 }

@@ -21,8 +21,9 @@ public:
     DeviceScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays,
                 std::optional<TextureAccess> textures = {});
 
-    /// Sets another camera with the same film for the next frames. No commands may be running.
-    void set_camera(const scene::Camera& camera);
+    /// Sets another camera and film for the next frames. Accumulators that were made for films of another size must not
+    /// add frames then. No commands may be running.
+    void set_view(const scene::Camera& camera, const scene::Film& film);
 
     const gpu::Device& device() const { return device_; }
     const scene::Film& film() const { return film_; }

@@ -13,14 +13,28 @@ namespace {
 
 std::uint32_t groups_for(std::uint32_t pixels) { return (pixels - 1) / interface::kDisplayGroupSide + 1; }
 
-/// The factor that turns sums into means.
-float scale_of(const Accumulator& image) {
-    return image.frames() > 0 ? 1.0f / static_cast<float>(image.frames()) : 0.0f;
+interface::ShownSums shown_sums(const Accumulator& image) {
+    const auto scale = [](std::uint32_t frames) {
+        return frames > 0 ? 1.0f / static_cast<float>(frames) : 0.0f;
+    };
+    return {scale(image.frames()), scale(image.frames() + 1), image.rows_ahead()};
 }
 
 } // namespace
 
 std::string_view name_of(Shown shown) { return shown == Shown::image ? "image" : "error"; }
+
+std::string_view name_of(ToneCurve curve) {
+    switch (curve) {
+    case ToneCurve::reinhard:
+        return "reinhard";
+    case ToneCurve::filmic:
+        return "filmic";
+    case ToneCurve::none:
+        break;
+    }
+    return "none";
+}
 
 DisplayPass::DisplayPass(const gpu::Device& device, std::uint32_t width, std::uint32_t height)
     : device_(device),
@@ -40,11 +54,12 @@ DisplayErrors DisplayPass::show(const Accumulator& left, const Accumulator& righ
     interface::DisplayRecord record;
     record.width = width_;
     record.height = height_;
-    record.left_scale = scale_of(left);
-    record.right_scale = scale_of(right);
-    record.reference_scale = scale_of(reference);
+    record.left = shown_sums(left);
+    record.right = shown_sums(right);
+    record.reference = shown_sums(reference);
     record.exposure = static_cast<float>(std::exp2(settings.exposure));
     record.wipe = static_cast<std::uint32_t>(std::lround(std::clamp(settings.wipe, 0.0, 1.0) * width_));
+    record.tone_curve = static_cast<std::uint32_t>(settings.tone_curve);
     record.shows_error = settings.shown == Shown::error ? 1 : 0;
     pipeline_.bind({&left.sums(), &right.sums(), &reference.sums(), &shown_, &squared_errors_});
     seconds_ = 1e-9 * device_.time([&](const gpu::Device::Commands& commands) {

@@ -14,17 +14,28 @@ namespace nusselt::render_vulkan {
 
 /// How an image is shown.
 enum class Shown : std::uint32_t {
-    image, ///< with the transfer function of sRGB
+    image, ///< with a tone curve and the transfer function of sRGB
     error, ///< its relative error from the reference: black up to 0.1 %, white from 100 % on
 };
 
 inline constexpr std::array kShown = {Shown::image, Shown::error};
 std::string_view name_of(Shown shown);
 
+/// How radiance beyond what a display shows is compressed, before the transfer function of sRGB.
+enum class ToneCurve : std::uint32_t {
+    none,     ///< clamped to 1
+    reinhard, ///< divided by 1 + luminance (Reinhard et al. 2002, equation 3)
+    filmic,   ///< the fit of the ACES curve by Narkowicz (2016), for each channel
+};
+
+inline constexpr std::array kToneCurves = {ToneCurve::none, ToneCurve::reinhard, ToneCurve::filmic};
+std::string_view name_of(ToneCurve curve);
+
 struct DisplaySettings {
     double exposure = 0; ///< [stops]
     double wipe = 1;     ///< the right image begins at this fraction of the width
     Shown shown = Shown::image;
+    ToneCurve tone_curve = ToneCurve::none;
 };
 
 /// Root mean square differences from the reference, over pixels and channels; 0 without a reference.

@@ -44,10 +44,12 @@ render::RenderResult VulkanRenderer::render(const render::RenderSettings& settin
 
     const FrameRecords frames(state_->scene.film(), settings);
     const base::Stopwatch rendering;
-    while (image->frames() < frames.count() && !(monitor.cancel != nullptr && *monitor.cancel)) {
-        const FrameTimes times = image->add(frames.make(image->frames()));
-        statistics.primary_seconds += times.visibility;
-        statistics.shading_seconds += times.shading;
+    if (monitor.started) monitor.started();
+    while (image->frames() < frames.count()) {
+        const std::optional<FrameTimes> times = image->add(frames.make(image->frames()), monitor.cancel);
+        if (!times) break;
+        statistics.primary_seconds += times->visibility;
+        statistics.shading_seconds += times->shading;
         if (monitor.progress) monitor.progress(static_cast<double>(image->frames()) / frames.count());
     }
     statistics.render_seconds = rendering.seconds();

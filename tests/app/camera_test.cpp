@@ -40,6 +40,15 @@ TEST_F(CameraFiles, ErrorsNameTheFile) {
     expect_message(broken.err, "broken.json: must have the field \"film\"");
 }
 
+TEST_F(CameraFiles, ImagesThatCannotBeRenderedHaveNoCamera) {
+    for (const char* command : {"camera ", "render -q "}) {
+        const Outcome outcome = run(command + room_ + " --resolution 65536x65536");
+        EXPECT_EQ(outcome.exit_code, 1) << command;
+        EXPECT_EQ(outcome.out, "") << command;
+        expect_message(outcome.err, "65536 x 65536 pixels is not supported");
+    }
+}
+
 TEST_F(CameraFiles, AreNotOverwritten) {
     std::ofstream(path("view.exr")) << run("camera " + room_).out;
     const Outcome outcome = run("render " + room_ + " --camera view.exr -o view.exr");

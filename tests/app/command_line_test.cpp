@@ -28,22 +28,6 @@ namespace nusselt {
 
 namespace {
 
-void expect_help(const Outcome& help, const char* command) {
-    EXPECT_EQ(help.exit_code, 0) << command;
-    EXPECT_NE(help.out.find("Usage:"), std::string::npos) << command;
-}
-
-TEST_F(CommandLine, HelpOfEveryCommandSucceeds) {
-    for (const char* command :
-         {"", "render", "view", "merge", "info", "lights", "camera", "techniques", "compare", "convert"})
-        expect_help(run(std::string(command) + " --help"), command);
-    for (const char* command :
-         {"", "bench", "bench rays", "bench strategies", "bench samplers", "bench accuracy",
-          "bench worst-case", "bench tubes", "bench phong-lines", "bench scale", "bench shadows",
-          "bench lines", "bench line-efficiency", "fuzz", "map", "reproduce", "fit-ltc"})
-        expect_help(run_lab(std::string(command) + " --help"), command);
-}
-
 /// Users of the renderer get no commands of the laboratory, and the other way round.
 TEST_F(CommandLine, ProgramsKeepToTheirOwnCommands) {
     for (const char* command : {"bench", "fuzz", "map", "reproduce", "fit-ltc"}) {
@@ -59,7 +43,7 @@ TEST_F(CommandLine, ProgramsKeepToTheirOwnCommands) {
 }
 
 TEST_F(CommandLine, WrongUsageExitsWithTwo) {
-    expect_message(run("").err, "subcommand");
+    expect_message(run("").err, "a command is missing");
     for (const char* arguments :
          {"", "polish", "render", "render a.pbrt --spp 0", "render a.pbrt --technique magic",
           "render a.pbrt --spp", "render a.pbrt --exposure nan", "compare a.exr",
@@ -71,16 +55,77 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo) {
         EXPECT_EQ(wrong.exit_code, 2) << arguments;
         expect_message(wrong.err, "--help");
     }
-    for (const char* arguments :
-         {"bench samplers --isa mmx", "reproduce no-such-experiment", "bench worst-case --target spheres",
-          "bench worst-case --time 0", "bench worst-case --time nan", "bench worst-case --starts -1",
-          "bench accuracy --count 0", "bench tubes --repetitions 0", "bench phong-lines --repetitions 0",
-          "fuzz --count -1", "bench shadows --count 0", "bench shadows --seed -3",
-          "fuzz --count 18446744073709551616", "fuzz --seed -3", "fuzz --count 1e3"}) {
+    for (const char* arguments : {"bench samplers --isa mmx",
+                                  "reproduce no-such-experiment",
+                                  "bench worst-case --target spheres",
+                                  "bench worst-case --time 0",
+                                  "bench worst-case --time nan",
+                                  "bench worst-case --starts -1",
+                                  "bench accuracy --count 0",
+                                  "bench tubes --repetitions 0",
+                                  "bench phong-lines --repetitions 0",
+                                  "fuzz --count -1",
+                                  "bench shadows --count 0",
+                                  "bench shadows --seed -3",
+                                  "fuzz --count 18446744073709551616",
+                                  "fuzz --seed -3",
+                                  "fuzz --count 1.5",
+                                  "fuzz --count 1e20",
+                                  "bench scale --triangles 0 --emissive 0",
+                                  "fit-ltc -o a --brdf velvet",
+                                  "fit-ltc -o a --size abc",
+                                  "fit-ltc -o a --size 4x3",
+                                  "fit-ltc -o a --size 1x2x3",
+                                  "fit-ltc -o a --size 4x3x257"}) {
         const Outcome wrong = run_lab(arguments);
         EXPECT_EQ(wrong.exit_code, 2) << arguments;
         expect_lab_message(wrong.err, "--help");
     }
+}
+
+TEST_F(CommandLine, WholeNumbersMeanTheSameInAnyNotation) {
+    const std::string room = "'" + kScenes + "/room.pbrt'";
+    const std::string small = "render " + room + " --resolution 16x9 -q -o a.exr --json - ";
+    for (const auto& [text, samples] :
+         {std::pair("8", 8), std::pair("08", 8), std::pair("010", 10), std::pair("1e1", 10),
+          std::pair("0.8e1", 8), std::pair("1.6E+1", 16)}) {
+        const Outcome render = run(small + "--spp " + text);
+        ASSERT_EQ(render.exit_code, 0) << render.err;
+        EXPECT_EQ(nlohmann::json::parse(render.out)["samples"], samples) << text;
+    }
+    const Outcome fuzz = run_lab("fuzz --technique LineArea --count 6.4e1 --first 1e3 --json -");
+    ASSERT_EQ(fuzz.exit_code, 0) << fuzz.err;
+    EXPECT_EQ(nlohmann::json::parse(fuzz.out)["settings"]["count"], 64);
+    EXPECT_EQ(nlohmann::json::parse(fuzz.out)["settings"]["first"], 1000);
+    for (const char* text :
+         {"1.5", "1e-1", "0x10", "+4", "1e", "''", "nan", "inf", "four", "'8 8'", "-1", "0", "1e7"})
+        expect_message(run("render a.pbrt --spp " + std::string(text)).err,
+                       "' must be a whole number from 1 to 1048576");
+    expect_message(run("render a.pbrt --seed -1").err,
+                   "--seed: '-1' must be a whole number from 0 to 2^32 - 1");
+    expect_message(run("render a.pbrt --lines 1.5").err, "'1.5' must be a whole number from 1 to 65536");
+    expect_lab_message(run_lab("bench samplers --repetitions 2.5").err,
+                       "'2.5' must be a whole number from 1 to");
+    expect_lab_message(run_lab("fuzz --seed -1").err, "'-1' must be a whole number from 0 to 2^64 - 1");
+    // Doubles do not have all whole numbers of this size.
+    expect_lab_message(run_lab("fuzz --seed 1e17").err, "'1e17' must be a whole number");
+}
+
+TEST_F(CommandLine, MessagesHaveNoWordsOfTheParser) {
+    for (const auto& [arguments, message] :
+         {std::pair("render a.pbrt --spp", "--spp needs a value"),
+          std::pair("render a.pbrt --spp 1 --spp 2", "--spp may be given only once"),
+          std::pair("render a.pbrt --light-samples lines --integrator lines",
+                    "--light-samples is given twice, once by its old name"),
+          std::pair("render a.pbrt --brdf gold", "--brdf: 'gold' must be one of material, lambert"),
+          std::pair("render a.pbrt --brdf lamber",
+                    "--brdf: unknown name 'lamber' (did you mean 'lambert'?)")})
+        expect_message(run(arguments).err, message);
+    expect_lab_message(run_lab("fit-ltc -o a --brdf foo").err,
+                       "--brdf: 'foo' must be one of frostbite-specular");
+    expect_lab_message(run_lab("fit-ltc -o a --size abc").err,
+                       "--size: 'abc' must be three numbers from 2 to 256");
+    expect_lab_message(run_lab("bench scale --triangles 0 --emissive 0").err, "nothing to measure");
 }
 
 TEST_F(CommandLine, SuggestsWhatWasMeant) {
@@ -258,9 +303,9 @@ TEST_F(CommandLine, TimesASecondTechnique) {
 }
 
 TEST_F(CommandLine, MeasuresWhatLinesCost) {
-    const Outcome bench = run_lab(
-        "bench lines '" + kScenes +
-        "/cornell-panel.pbrt' --resolution 32x32 --repetitions 1 --lines 4,16 --offsets length --json -");
+    const Outcome bench =
+        run_lab("bench lines --lines 4,16 '" + kScenes +
+                "/cornell-panel.pbrt' --resolution 32x32 --repetitions 1 --offsets length --json -");
     ASSERT_EQ(bench.exit_code, 0) << bench.err;
     const nlohmann::json json = nlohmann::json::parse(bench.out);
     const auto ray = nusselt_test::records(json, "shadow_ray");
@@ -340,6 +385,10 @@ TEST_F(CommandLine, WorstCaseSearchGoesOnWhereItStopped) {
     const Outcome broken = run_lab(search + "--starts 40 --state broken.json");
     EXPECT_EQ(broken.exit_code, 1);
     expect_lab_message(broken.err, "broken.json");
+    std::ofstream(path("longer.json")) << first << '\0' << "more";
+    const Outcome longer = run_lab(search + "--starts 40 --state longer.json");
+    EXPECT_EQ(longer.exit_code, 1);
+    expect_lab_message(longer.err, "longer.json");
     const Outcome no_folder = run_lab(search + "--starts 40 --state missing/search.json");
     EXPECT_EQ(no_folder.exit_code, 1);
     expect_lab_message(no_folder.err, "missing");
@@ -385,6 +434,30 @@ int run_until_interrupted(const char* program, std::vector<const char*> argument
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+TEST_F(CommandLine, RenderTakesAsManySamplesAsTheSceneAsksFor) {
+    std::ofstream(path("scene.pbrt")) << R"(Sampler "halton" "integer pixelsamples" 12
+        Camera "perspective" WorldBegin AreaLightSource "diffuse"
+        Shape "trianglemesh" "point P" [0 0 1 1 0 1 0 1 1] "integer indices" [0 1 2])";
+    const auto rendered = [&](const std::string& options) {
+        const Outcome outcome = run("render scene.pbrt --resolution 8x8 -o a.exr " + options);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return std::pair(image::read_exr_metadata(path("a.exr")), outcome.err);
+    };
+    const auto [metadata, notes] = rendered("");
+    EXPECT_EQ(metadata.at("samples"), "12");
+    EXPECT_EQ(metadata.at("camera_rays"), "12");
+    EXPECT_NE(notes.find("12 samples per pixel, as the Sampler of the scene asks; --spp changes that\n"),
+              std::string::npos)
+        << notes;
+    EXPECT_EQ(rendered("--camera-rays 4").first.at("camera_rays"), "4");
+    const auto [given, nothing] = rendered("--spp 3");
+    EXPECT_EQ(given.at("samples"), "3");
+    EXPECT_EQ(nothing.find("Sampler"), std::string::npos);
+    const Outcome misfit = run("render scene.pbrt --camera-rays 5 -o a.exr");
+    EXPECT_EQ(misfit.exit_code, 2);
+    expect_message(misfit.err, "--camera-rays: 5 must divide --spp, which is 12");
+}
+
 TEST_F(CommandLine, CtrlCWritesWhatIsThere) {
     const std::string output = path("stopped.exr");
     const std::string scene = kScenes + "/room.pbrt";
@@ -424,8 +497,7 @@ TEST_F(CommandLine, FitGoesOnWhereItStoppedAndWritesTheSameTable) {
     resumed["command"] = json.at("command");
     EXPECT_EQ(resumed, json);
 
-    for (const char* arguments : {"--size 4x3x3 --checkpoint state", "--size 4x3", "--size 1x2x3",
-                                  "--size 4x3x257", "--brdf velvet", "--checkpoint no/such/folder"}) {
+    for (const char* arguments : {"--size 4x3x3 --checkpoint state", "--checkpoint no/such/folder"}) {
         const Outcome wrong = run_lab(std::string("fit-ltc -o wrong ") + arguments);
         EXPECT_EQ(wrong.exit_code, 1) << arguments;
         expect_lab_message(wrong.err, "error: ");

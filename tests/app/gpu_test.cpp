@@ -102,6 +102,22 @@ TEST_F(Gpu, WithoutADriverAutoRendersOnTheCpu) {
     EXPECT_FALSE(std::filesystem::exists(path("vulkan.exr")));
 }
 
+TEST_F(Gpu, AutoOnTheCpuDoesNotAdviseTheCpu) {
+    const std::string render = "render '" + kScenes + "/cornell-tube.pbrt' --resolution 8x8 -o a.exr ";
+    for (const auto& [options, reason] :
+         {std::pair("--layers normal", "layer normal is not supported on GPUs"),
+          std::pair("--light-samples lines", "--light-samples lines is not supported on GPUs")}) {
+        const Outcome automatic = run(render + "--backend auto " + options, kNoDriver);
+        EXPECT_EQ(automatic.exit_code, 0) << automatic.err;
+        EXPECT_NE(automatic.err.find("rendering on the CPU: "), std::string::npos) << automatic.err;
+        EXPECT_EQ(automatic.err.find("--backend"), std::string::npos) << automatic.err;
+        const Outcome vulkan = run(render + "--backend vulkan " + options);
+        if (lacks_device(vulkan)) continue;
+        EXPECT_EQ(vulkan.exit_code, 1);
+        expect_message(vulkan.err, std::string(reason) + "; use --backend cpu");
+    }
+}
+
 } // namespace
 
 } // namespace nusselt

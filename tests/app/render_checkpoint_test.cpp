@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <numeric>
 #include <random>
 #include <string>
 #include <thread>
@@ -40,8 +41,8 @@ protected:
                                    "}]}";
     }
 
-    pid_t start() const {
-        const std::vector<std::string> texts = arguments();
+    pid_t start() const { return start(arguments()); }
+    static pid_t start(const std::vector<std::string>& texts) {
         std::vector<char*> argv = {const_cast<char*>("nusselt")};
         for (const std::string& text : texts) argv.push_back(const_cast<char*>(text.c_str()));
         argv.push_back(nullptr);
@@ -57,6 +58,14 @@ protected:
         int status = 0;
         EXPECT_EQ(::waitpid(child, &status, 0), child);
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+    /// Ends the program by SIGTERM after some time. \returns how long that took
+    static std::chrono::duration<double> terminate(pid_t child, std::chrono::milliseconds delay) {
+        std::this_thread::sleep_for(delay);
+        const auto begin = std::chrono::steady_clock::now();
+        EXPECT_EQ(end(child, SIGTERM), 143);
+        return std::chrono::steady_clock::now() - begin;
     }
 
     /// Starts the rendering and sends it a signal once there is a checkpoint.
@@ -135,12 +144,44 @@ TEST_F(RenderCheckpoint, CtrlCStoresAllThatIsFinished) {
     const image::LayeredImage stopped = image::read_layers(path("a.exr"));
     const image::Layer* const samples = image::find_layer(stopped, "samples");
     ASSERT_NE(samples, nullptr);
-    const auto rendered = std::count(samples->data.begin(), samples->data.end(), 48.0f);
-    EXPECT_NEAR(static_cast<double>(rendered), finished * 160 * 120, 1);
+    const double taken = std::accumulate(samples->data.begin(), samples->data.end(), 0.0);
+    EXPECT_NEAR(taken, finished * 160 * 120 * 48, 1);
 
     EXPECT_EQ(run(command()).exit_code, 0);
     expect_same_image(expected);
     EXPECT_FALSE(std::filesystem::exists(path("state")));
+}
+
+/// A tile takes longer than any of these runs.
+TEST_F(RenderCheckpoint, RunsThatAreEndedEarlyGetOnWithinATile) {
+    double before = 0;
+    for (int i = 0; i < 3; ++i) {
+        const pid_t child = start({"render", kScenes + "/room.pbrt", "--resolution", "16x16", "--spp",
+                                   "1048576", "-q", "-o", path("a.exr"), "--checkpoint", path("state")});
+        EXPECT_LT(terminate(child, std::chrono::milliseconds(800)).count(), 1);
+        ASSERT_TRUE(std::filesystem::exists(path("a.exr")));
+        const double finished = std::stod(image::read_exr_metadata(path("a.exr")).at("finished_fraction"));
+        EXPECT_GT(finished, before);
+        EXPECT_LT(finished, 1);
+        before = finished;
+    }
+}
+
+TEST_F(RenderCheckpoint, LoadingEndsAtOnce) {
+    {
+        std::ofstream scene(path("large.pbrt"));
+        scene << "Camera \"perspective\"\nWorldBegin\nShape \"trianglemesh\" \"point3 P\" [\n";
+        for (int i = 0; i < 3'000'000; ++i) scene << "0 0.25 1.5\n";
+        scene << "] \"integer indices\" [0 1 2]\n";
+    }
+    const pid_t child =
+        start({"render", path("large.pbrt"), "-q", "-o", path("a.exr"), "--checkpoint", path("state")});
+    EXPECT_LT(terminate(child, std::chrono::milliseconds(100)).count(), 1);
+    EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
+    EXPECT_FALSE(std::filesystem::exists(path("state")));
+    const Outcome messages = run("render large.pbrt", "timeout --preserve-status -s TERM 0.1");
+    EXPECT_EQ(messages.exit_code, 143);
+    EXPECT_EQ(messages.err, "stopped before the first pixel; no image is written\n");
 }
 
 TEST_F(RenderCheckpoint, OfAnotherCommandIsRefused) {

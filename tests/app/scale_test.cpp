@@ -89,7 +89,7 @@ TEST_F(Scale, BenchmarkPrintsTables) {
     EXPECT_EQ(bench.out.find("Lights"), std::string::npos) << bench.out;
     EXPECT_NE(bench.out.find("time grows like n^"), std::string::npos) << bench.out;
     EXPECT_EQ(run_lab("bench scale --help").exit_code, 0);
-    for (const char* count : {"many", "-1", "1e4", "1000000001"})
+    for (const char* count : {"many", "-1", "0.5", "1000000001"})
         EXPECT_EQ(run_lab(std::string("bench scale --triangles ") + count).exit_code, 2) << count;
     EXPECT_EQ(run_lab("bench scale --emissive -1").exit_code, 2);
     const Outcome tiny = run_lab("bench scale --triangles 8 --emissive 0");

@@ -5,6 +5,8 @@
 #include "image/io.h"
 
 #include <algorithm>
+#include <functional>
+#include <sstream>
 
 namespace nusselt {
 
@@ -71,6 +73,82 @@ TEST_F(View, SaysWhatIsWrongWithAScript) {
     const Outcome viewed = run(kView + "--script '" + script + "'", kDisplay);
     EXPECT_EQ(viewed.exit_code, 1);
     expect_message(viewed.err, "script.txt:2: unknown command 'zoom'");
+}
+
+TEST_F(View, GoesOnWithoutAReference) {
+    const std::string script = write("script.txt", "frames 1\nprint-errors\nscreenshot after.png\nquit\n");
+    const Outcome viewed = run(kView + "--script '" + script + "'", kDisplay);
+    EXPECT_EQ(viewed.exit_code, 0);
+    expect_message(viewed.err, "script.txt:2: no reference to compare with; start one with `reference on`");
+    EXPECT_EQ(image::read_image(path("after.png")).width, 96);
+}
+
+/// The number of pixels of a window in a range of columns for which a condition holds.
+template <class Condition>
+int count_pixels(const image::Image& window, int x_begin, int x_end, const Condition& condition) {
+    int count = 0;
+    for (int y = 0; y < window.height; ++y)
+        for (int x = x_begin; x < x_end; ++x) {
+            const float* const c =
+                &window.pixels[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(window.width) +
+                                    static_cast<std::size_t>(x))];
+            count += condition(c[0], c[1], c[2]) ? 1 : 0;
+        }
+    return count;
+}
+
+TEST_F(View, ShowsThePanelBesideTheImage_AndHandlesAtTheSelectedLight) {
+    const std::string script = write("script.txt", "exposure -32\nframes 1\n"
+                                                   "window-screenshot plain.png\n"
+                                                   "light 0\nlight-move 0 -0.3 0\nframes 1\n"
+                                                   "window-screenshot selected.png\n"
+                                                   "panel off\nframes 1\n"
+                                                   "window-screenshot hidden.png\n"
+                                                   "quit\n");
+    const Outcome viewed = run(
+        "view '" + kScenes + "/cornell-tube.pbrt' --resolution 900x500 --script '" + script + "'", kDisplay);
+    ASSERT_EQ(viewed.exit_code, 0) << viewed.err;
+    const image::Image plain = image::read_image(path("plain.png"));
+    const image::Image selected = image::read_image(path("selected.png"));
+    const image::Image hidden = image::read_image(path("hidden.png"));
+    constexpr int kPanelWidth = 350;
+    // The image is black, the window around it is not, and the panel has white text.
+    const auto is_black = [](float r, float g, float b) { return r + g + b == 0; };
+    const auto is_white = [](float r, float g, float b) { return std::min({r, g, b}) > 0.9f; };
+    EXPECT_EQ(count_pixels(plain, kPanelWidth, plain.width, is_black), 900 * 500) << "nothing covers it";
+    EXPECT_EQ(count_pixels(plain, 0, kPanelWidth, is_black), 0);
+    EXPECT_GT(count_pixels(plain, 0, kPanelWidth, is_white), 1000);
+    EXPECT_LT(count_pixels(hidden, 0, kPanelWidth, is_white), 100);
+    // The arrows and rings of the axes.
+    const auto is_red = [](float r, float g, float b) { return r > 0.5f && g + b < 0.3f; };
+    const auto is_green = [](float r, float g, float b) { return g > 0.5f && r + b < 0.4f; };
+    for (const auto& is_colour : {std::function<bool(float, float, float)>(is_red),
+                                  std::function<bool(float, float, float)>(is_green)}) {
+        EXPECT_EQ(count_pixels(plain, kPanelWidth, plain.width, is_colour), 0);
+        EXPECT_GT(count_pixels(selected, kPanelWidth, selected.width, is_colour), 50);
+    }
+}
+
+TEST_F(View, RendersFasterWhileSomethingMoves) {
+    const std::string script = write("script.txt", "frames 1\nframes 2\nprint-speed\n"
+                                                   "turning 1 0\nframes 3\nframes 10\nprint-speed\n"
+                                                   "turning 0 0\nframes 1\nscreenshot still.png\nquit\n");
+    const Outcome viewed =
+        run("view '" + kScenes + "/room.pbrt' --resolution 1280x720 --script '" + script + "'", kDisplay);
+    ASSERT_EQ(viewed.exit_code, 0) << viewed.err;
+    EXPECT_EQ(image::read_image(path("still.png")).width, 1280);
+    std::istringstream lines(viewed.out);
+    std::string words;
+    double at_rest = 0, moving = 0;
+    int width = 0;
+    lines >> at_rest >> words >> words >> words >> width;
+    EXPECT_EQ(width, 1280) << viewed.out;
+    std::getline(lines, words);
+    lines >> moving;
+    // Devices that take less than a tenth of a second at rest have no need to be faster.
+    if (at_rest < 10) {
+        EXPECT_GT(moving, std::min(4 * at_rest, 5.0)) << viewed.out;
+    }
 }
 
 TEST_F(View, OffersTheHeadlessCommandWithoutADisplay) {

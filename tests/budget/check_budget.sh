@@ -13,10 +13,10 @@ awk '
             printf "%s: has no budget in tests/budget/budget.txt\n", stage
             failed = 1
         } else if ($NF > 2 * budget[stage]) {
-            printf "%s: %d s of CPU time, more than twice the budget of %d s\n", stage, $NF, budget[stage]
+            printf "%s: %d s of CPU time on the usual machine, more than twice the budget of %d s\n", stage, $NF, budget[stage]
             failed = 1
         } else if ($NF > budget[stage]) {
-            printf "warning: %s: %d s of CPU time, above the budget of %d s\n", stage, $NF, budget[stage]
+            printf "warning: %s: %d s of CPU time on the usual machine, above the budget of %d s\n", stage, $NF, budget[stage]
         }
     }
     END { exit failed }' "$1" -

@@ -28,8 +28,17 @@ float reflected(const Vec& normal) {
 TEST(Snippets, ReadmeGivesTheClosedFormForEverySample) {
     for (const Vec& normal : {Vec{0, 0, 1}, normalize(Vec{1, 0, 0.2f})})
         for (const float u : {0.0f, 0.3f, 0.99f})
-            EXPECT_NEAR(direct_light(kCorners, {0, 0, 0}, normal, kEmitted, u, 1 - u - 0.001f),
+            EXPECT_NEAR(direct_light(kCorners, {0, 0, 0}, normal, kEmitted, brdf, u, 1 - u - 0.001f),
                         reflected(normal), 1e-5f);
+}
+
+TEST(Snippets, ReadmeWorksWithVectorsAsColours) {
+    const Vec emitted{3, 6, 1.5f};
+    const Vec radiance = direct_light(kCorners, {0, 0, 0}, {0, 0, 1}, emitted, coloured_brdf, 0.3f, 0.6f);
+    const float grey = reflected({0, 0, 1}) / (kEmitted * kAlbedo);
+    EXPECT_NEAR(radiance.x, emitted.x * kColouredAlbedo.x * grey, 1e-5f);
+    EXPECT_NEAR(radiance.y, emitted.y * kColouredAlbedo.y * grey, 1e-5f);
+    EXPECT_NEAR(radiance.z, emitted.z * kColouredAlbedo.z * grey, 1e-5f);
 }
 
 TEST(Snippets, MultipleImportanceSamplingIsUnbiased) {

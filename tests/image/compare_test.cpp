@@ -266,6 +266,7 @@ TEST_F(CompareCommand, WrongUsageIsAParseError) {
                                                {a_, b_, b_, "--diff", "d.png"},
                                                {a_, b_, "--metrics", "mse,beauty"},
                                                {a_, b_, "--metrics", "mse,,mae"},
+                                               {a_, b_, "--metrics", ""},
                                                {a_, b_, "--max", "mse"},
                                                {a_, b_, "--max", "beauty=1"},
                                                {a_, b_, "--max", "mse=many"},
@@ -280,7 +281,7 @@ TEST_F(CompareCommand, WrongUsageIsAParseError) {
             << (arguments.empty() ? "" : arguments.back());
 }
 
-TEST(CompareHelp, SaysDefaultsAndRanges) {
+TEST(CompareHelp, NamesWhatItTakes) {
     CLI::App app;
     int exit_code = 0;
     app::setup_compare(app, exit_code);
@@ -288,10 +289,6 @@ TEST(CompareHelp, SaysDefaultsAndRanges) {
     for (const std::string option :
          {"REFERENCE", "--diff", "--diff-scale", "--json", "--max", "--metrics", "hdr_flip"})
         EXPECT_NE(help.find(option), std::string::npos) << option;
-    for (const CLI::Option* option : app.get_subcommand("compare")->get_options()) {
-        if (option->get_items_expected_max() == 0 || option->get_required()) continue;
-        EXPECT_NE(option->get_description().find("Default: "), std::string::npos) << option->get_name();
-    }
 }
 
 } // namespace

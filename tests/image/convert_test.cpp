@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nusselt::image::test {
 
@@ -78,6 +79,21 @@ TEST_F(ConvertCommand, ExposureMultipliesInEveryFormat) {
     }
 }
 
+TEST_F(ConvertCommand, ValuesThatBecomeInfiniteCauseAWarning) {
+    Image image = make_image(2, 1);
+    image.pixels = {1e30f, -1e30f, 1, 1e10f, 0, std::numeric_limits<float>::infinity()};
+    write_image(in_folder("large.pfm"), image);
+    testing::internal::CaptureStderr();
+    convert({"large.pfm", "b.exr", "--exposure", "60"});
+    EXPECT_EQ(testing::internal::GetCapturedStderr().find(
+                  "warning: --exposure 60 makes 2 of 6 values larger than a float can be"),
+              0u);
+    EXPECT_TRUE(std::isinf(pixels("b.exr")[1]));
+    testing::internal::CaptureStderr();
+    convert({"large.pfm", "b.exr", "--exposure", "1"});
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST_F(ConvertCommand, ExrKeepsMetadataAndPlaceOnTheFilm) {
     convert({"in.exr", "a.exr"});
     const LayeredImage file = read_layers(in_folder("a.exr"));
@@ -123,7 +139,10 @@ TEST_F(ConvertCommand, WrongUsageIsAParseError) {
                                                {"in.exr", "a.png", "--exposure", "inf"},
                                                {"in.exr", "a.png", "--exposure", "65"},
                                                {"in.exr", "a.png", "--exposure", "1x"},
-                                               {"in.exr", "a.png", "b.png"}})
+                                               {"in.exr", "a.png", "b.png"},
+                                               {"in.exr", "a.png", "--layer", ""},
+                                               {"in.exr", "a.png", "--list-layers"},
+                                               {"in.exr", "--list-layers", "--layer", "depth"}})
         EXPECT_THROW(convert(arguments), CLI::ParseError);
 }
 

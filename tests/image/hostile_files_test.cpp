@@ -16,6 +16,8 @@
 #include <stb/stb_image_write.h>
 #include <zlib.h>
 
+#include <sstream>
+
 namespace nusselt::image::test {
 
 namespace {
@@ -87,7 +89,11 @@ TEST_F(HostileFiles, PngWithHugeSize) {
     expect_cut_off("a.png", png(16384, 16384));
     // 1032 bytes of one are the most that deflate can do: 8 bits of 1000 x 1000 pixels need 970 bytes.
     expect_cut_off("a.png", png(1000, 1000));
-    EXPECT_NE(error_of_reading("a.png", png(20000, 20000)).find("20000 x 20000 pixels"), std::string::npos);
+    EXPECT_NE(
+        error_of_reading("a.png", png(30000, 30000))
+            .find("a size of 30000 x 30000 pixels is not supported: it would take 10.8 GB of memory; the "
+                  "limit is 2^28 pixels, which take 3.22 GB"),
+        std::string::npos);
     std::string damaged = png(9, 7);
     damaged[19] = 8;
     EXPECT_NE(error_of_reading("a.png", damaged).find("IHDR: CRC error"), std::string::npos);
@@ -129,6 +135,33 @@ TEST_F(HostileFiles, PngWithMoreThanItsPixels) {
     EXPECT_NE(error_of_reading("a.png", png).find("Too much image data"), std::string::npos);
 }
 
+/// A PNG of 2 x 3 pixels with a palette of three colours. \param indices of the pixels
+std::string palette_png(const std::string& indices, bool interlaced) {
+    const std::string header =
+        big_endian(2) + big_endian(3) + std::string("\x08\x03\0\0", 4) + char(interlaced);
+    std::string rows;
+    // The passes of such a small file: (0, 0); (1, 0) and (0, 2) and (1, 2) in rows of their own; then row 1.
+    if (interlaced) {
+        for (const std::size_t i : {0u, 4u, 1u, 5u}) rows += std::string(1, '\0') + indices[i];
+        rows += '\0' + indices.substr(2, 2);
+    } else {
+        for (std::size_t y = 0; y < 3; ++y) rows += '\0' + indices.substr(2 * y, 2);
+    }
+    return "\x89PNG\r\n\x1A\n" + png_chunk("IHDR", header) + png_chunk("PLTE", "abcdefghi") +
+           png_chunk("IDAT", deflated(rows)) + png_chunk("IEND", "");
+}
+
+TEST_F(HostileFiles, PngWithIndicesBeyondItsPalette) {
+    for (const bool interlaced : {false, true}) {
+        std::string indices("\0\1\2\0\1\2", 6);
+        ASSERT_EQ(error_of_reading("a.png", palette_png(indices, interlaced)), "");
+        indices[3] = 3;
+        EXPECT_NE(error_of_reading("a.png", palette_png(indices, interlaced))
+                      .find("the pixel (1, 1) has the palette index 3, but the palette has only 3 colours"),
+                  std::string::npos);
+    }
+}
+
 // Neither inflated nor mentioned on the standard error output.
 TEST_F(HostileFiles, PngWithDamagedTextIsRead) {
     std::string png = grey_png(9, 7, 8, false, std::string(70, '\0'));
@@ -146,12 +179,14 @@ TEST_F(HostileFiles, BmpMustHoldItsPixels) {
         return std::string("BM\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\3\0\0\0\2\0\0\0\1\0\x18\0", 30) +
                std::string(24, '\0') + std::string(pixel_bytes, '\x40');
     };
-    const CodedHeader header = read_coded_header(bmp(24));
+    std::istringstream complete(bmp(24));
+    const CodedHeader header = read_coded_header(complete);
     EXPECT_EQ(header.width, 3);
     EXPECT_EQ(header.height, 2);
-    EXPECT_EQ(decode_codes(bmp(24), 3, [](double code) { return code; }),
+    EXPECT_EQ(decode_codes(complete, 3, [](double code) { return code; }).values,
               std::vector<float>(18, 64 / 255.0f));
-    EXPECT_NE(error_of([&] { (void)read_coded_header(bmp(23)); }), "");
+    std::istringstream cut_off(bmp(23));
+    EXPECT_NE(error_of([&] { (void)read_coded_header(cut_off); }).find("truncated"), std::string::npos);
 }
 
 /// A progressive file of 8 x 8 grey pixels, all but the first scan of which change nothing.
@@ -219,6 +254,24 @@ TEST_F(HostileFiles, TgaCutOffOrHuge) {
     }
 }
 
+TEST_F(HostileFiles, HdrIsDividedByExposures) {
+    const auto red = [&](const std::string& lines) {
+        write_bytes(in_folder("a.hdr"),
+                    "#?RADIANCE\n" + lines + "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x40\x20\x84");
+        return read_image(in_folder("a.hdr")).pixels;
+    };
+    const std::vector<float> stored = red("");
+    EXPECT_EQ(stored, (std::vector<float>{8, 4, 2}));
+    EXPECT_EQ(red("EXPOSURE=2\n"), (std::vector<float>{4, 2, 1}));
+    EXPECT_EQ(red("EXPOSURE= 2.0e+00\nEXPOSURE=0.125\n"), (std::vector<float>{32, 16, 8}));
+    EXPECT_EQ(red("COLORCORR=1 2 0.5\nEXPOSURE=2\n"), (std::vector<float>{4, 1, 2}));
+    for (const std::string line : {"EXPOSURE=", "EXPOSURE=0", "EXPOSURE=-1", "EXPOSURE=nan", "EXPOSURE=1,5",
+                                   "COLORCORR=1 2", "COLORCORR=1 2 3 4"}) {
+        const std::string error = error_of([&] { red(line + "\n"); });
+        EXPECT_NE(error.find("'" + line + "' in the header must have"), std::string::npos) << error;
+    }
+}
+
 TEST_F(HostileFiles, HdrWithHugeSize) {
     for (const std::string size : {"-Y 16384 +X 16384", "-Y 1 +X 268435456", "-Y 268435456 +X 1"})
         expect_cut_off("a.hdr",
@@ -230,8 +283,60 @@ TEST_F(HostileFiles, OtherFormatsAreRefused) {
     const std::string bmp =
         std::string("BM\x3A\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\1\0\0\0\1\0\x18\0", 30) +
         std::string(28, '\0');
-    EXPECT_NE(error_of_reading("a.png", bmp).find("not PNG"), std::string::npos);
-    EXPECT_NE(error_of_reading("a.png", "P6 1 1 255\nabc").find("not PNG"), std::string::npos);
+    EXPECT_NE(error_of_reading("a.png", bmp).find("this is a BMP file"), std::string::npos);
+    EXPECT_NE(error_of_reading("a.png", "P6 1 1 255\nabc").find("does not begin like PNG"),
+              std::string::npos);
+}
+
+TEST_F(HostileFiles, MessagesOfTgaSayWhatIsWrong) {
+    const auto error_of_tga = [&](std::size_t place, char byte) {
+        // A grey image of 2 x 1 pixels.
+        std::string tga("\0\0\3\0\0\0\0\0\0\0\0\0\2\0\1\0\10\0gg", 20);
+        tga[place] = byte;
+        return error_of_reading("a.tga", tga);
+    };
+    EXPECT_EQ(error_of_tga(0, 0), "");
+    const std::pair<std::string, std::string> kErrors[] = {
+        {error_of_tga(1, 1), "its colour map type is 1, but must be 0 for the image type 3"},
+        {error_of_tga(2, 4), "its image type is 4, but must be 1, 2 or 3"},
+        {error_of_tga(2, 1), "its colour map type is 0, but must be 1 for the image type 1"},
+        {error_of_tga(12, 0), "its size is 0 x 1 pixels"},
+        {error_of_tga(16, 12), "it has 12 bits per pixel; 8, 15, 16, 24 and 32 are supported"},
+        {error_of_reading("a.tga", "short"), "it has only 5 bytes, but its header would have 18"},
+    };
+    for (const auto& [error, problem] : kErrors)
+        EXPECT_NE(error.find(problem), std::string::npos) << problem << " is missing in: " << error;
+}
+
+TEST_F(HostileFiles, MessagesOfBmpSayWhatIsWrong) {
+    const auto error_of_bmp = [&](std::size_t place, char byte) {
+        std::string bmp =
+            std::string("BM\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\1\0\0\0\1\0\x18\0", 30) +
+            std::string(28, '\0');
+        bmp[place] = byte;
+        std::istringstream stream(bmp);
+        return error_of([&] { (void)read_coded_header(stream); });
+    };
+    EXPECT_EQ(error_of_bmp(0, 'B'), "");
+    EXPECT_NE(error_of_bmp(14, 20).find("header of 20 bytes; headers of 12 bytes and of 40"),
+              std::string::npos);
+    EXPECT_NE(error_of_bmp(30, 1).find("24 bits per pixel and the compression 1; the compressions 0"),
+              std::string::npos);
+    EXPECT_NE(error_of_bmp(28, 2).find("has 2 bits per pixel; 1, 4, 8"), std::string::npos);
+}
+
+TEST_F(HostileFiles, MessagesOfExrNameTheFileOnce) {
+    write_image(in_folder("good.exr"), random_image(9, 7, 1));
+    const std::string good = read_bytes(in_folder("good.exr"));
+    int opened = 0;
+    for (std::size_t length = 1; length < good.size(); length += 5) {
+        const std::string error = error_of_reading("a.exr", good.substr(0, length));
+        ASSERT_NE(error, "");
+        EXPECT_EQ(error.find("a.exr"), error.rfind("a.exr")) << error;
+        EXPECT_EQ(error.find("image file"), std::string::npos) << error;
+        if (error.find("cannot decode its EXR data (") != std::string::npos) ++opened;
+    }
+    EXPECT_GT(opened, 0) << "no message of OpenEXR";
 }
 
 /// The attribute's value begins after name, type and size.

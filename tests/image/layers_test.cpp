@@ -2,6 +2,8 @@
 #include "image/layers.h"
 #include "temporary_folder.h"
 
+#include "common/process_memory.h"
+
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -11,6 +13,8 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 namespace nusselt::image::test {
@@ -134,8 +138,8 @@ TEST_F(Layers, AreFoundByNameAndBecomePictures) {
     ASSERT_NE(find_layer(image, "depth"), nullptr);
     EXPECT_EQ(find_layer(image, "Depth"), nullptr);
     EXPECT_EQ(find_layer(image, ""), &image.layers[0]);
-    EXPECT_EQ(layer_image(image, image.layers[4]).pixels, image.layers[4].data);
-    const Image depth = layer_image(image, *find_layer(image, "depth"));
+    EXPECT_EQ(layer_image(image.data, image.layers[4]).pixels, image.layers[4].data);
+    const Image depth = layer_image(image.data, *find_layer(image, "depth"));
     EXPECT_EQ(depth.width, 5);
     EXPECT_EQ(depth.height, 600);
     for (std::size_t i = 0; i < depth.pixels.size(); ++i)
@@ -147,10 +151,10 @@ TEST_F(Layers, AreFoundByNameAndBecomePictures) {
                               {"q", {"w", "x", "y", "z"}, {1, 2, 3, 4}}},
                              {},
                              {}};
-    EXPECT_EQ(layer_image(other, other.layers[0]).pixels, (std::vector<float>{1, 2, 3}));
-    EXPECT_NE(error_of([&] { (void)layer_image(other, other.layers[1]); }).find("'uv' has 2"),
+    EXPECT_EQ(layer_image(other.data, other.layers[0]).pixels, (std::vector<float>{1, 2, 3}));
+    EXPECT_NE(error_of([&] { (void)layer_image(other.data, other.layers[1]); }).find("'uv' has 2"),
               std::string::npos);
-    EXPECT_NE(error_of([&] { (void)layer_image(other, other.layers[2]); }).find("'q' has 4"),
+    EXPECT_NE(error_of([&] { (void)layer_image(other.data, other.layers[2]); }).find("'q' has 4"),
               std::string::npos);
     EXPECT_EQ(color_layer(depth).data, depth.pixels);
 }
@@ -185,6 +189,72 @@ TEST_F(Layers, FilesCutOffAtAnyLengthAreRefused) {
         const std::string error = error_of([&] { (void)read_layers(in_folder("b.exr")); });
         ASSERT_NE(error.find(in_folder("b.exr").string()), std::string::npos) << length << error;
     }
+}
+
+/// Writes layers with OpenEXR alone.
+void write_with_openexr(const std::filesystem::path& path, const LayeredImage& image) {
+    const auto box = [](const Window& window) {
+        return Imath::Box2i({window.x, window.y},
+                            {window.x + window.width - 1, window.y + window.height - 1});
+    };
+    Imf::Header header(box(image.display), box(image.data));
+    header.compression() = Imf::NO_COMPRESSION;
+    for (const auto& [key, value] : image.metadata)
+        header.insert("nusselt:" + key, Imf::StringAttribute(value));
+    Imf::FrameBuffer frame_buffer;
+    for (const Layer& layer : image.layers) {
+        const std::size_t stride = layer.channels.size() * sizeof(float);
+        for (std::size_t c = 0; c < layer.channels.size(); ++c) {
+            const std::string name = (layer.name.empty() ? "" : layer.name + ".") + layer.channels[c];
+            header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+            frame_buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, layer.data.data() + c, header.dataWindow(),
+                                                       stride, stride * std::size_t(image.data.width)));
+        }
+    }
+    Imf::OutputFile file(path.c_str(), header);
+    file.setFrameBuffer(frame_buffer);
+    file.writePixels(image.data.height);
+}
+
+TEST_F(Layers, FilesAreThoseOfOpenExr) {
+    LayeredImage image = example();
+    image.data = {-3, 7, 5, 600};
+    // Dots sort before letters and behind hyphens; the last name is a long one.
+    for (const char* name :
+         {"light", "light.window-2", "light.window.left", "light_of_a_name_beyond_31_bytes"})
+        image.layers.push_back(random_layer(name, {"R", "G", "B"}, 3000, 6));
+    for (const std::size_t layers : {image.layers.size(), image.layers.size() - 1}) {
+        image.layers.resize(layers);
+        write_layers(in_folder("ours.exr"), image);
+        write_with_openexr(in_folder("openexr.exr"), image);
+        EXPECT_TRUE(read_bytes(in_folder("ours.exr")) == read_bytes(in_folder("openexr.exr"))) << layers;
+    }
+}
+
+TEST_F(Layers, WritingManyTakesLittleMemory) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the sanitizer takes memory of its own";
+#endif
+    constexpr int kLayers = 20000;
+    const auto write = [&] {
+        LayeredImage image{{0, 0, 16, 12}, {0, 0, 16, 12}, {}, {}, {}};
+        for (int i = 0; i < kLayers; ++i)
+            image.layers.push_back(
+                {"light.lamp_" + std::to_string(i), {"R", "G", "B"}, std::vector<float>(3 * 16 * 12)});
+        const double before = nusselt_test::process_memory("VmRSS");
+        write_layers(in_folder("many.exr"), image);
+        const double bytes = nusselt_test::process_memory("VmHWM") - before;
+        std::fprintf(stderr, "%g bytes per layer\n", bytes / kLayers);
+        std::exit(bytes <= 300.0 * kLayers ? 0 : 1);
+    };
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(write(), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(Layers, MoreThanAFileHoldsAreAnError) {
+    EXPECT_EQ(why_not_one_exr(640, 771, 20000), std::nullopt);
+    EXPECT_TRUE(why_not_one_exr(65536, 8192, 20000).has_value());
+    EXPECT_TRUE(why_not_one_exr(1, 1 << 20, std::size_t(1) << 31).has_value());
 }
 
 } // namespace

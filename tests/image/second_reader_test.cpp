@@ -13,6 +13,7 @@
 #include <stb/stb_image_write.h>
 
 #include <memory>
+#include <sstream>
 
 namespace nusselt::image::test {
 
@@ -41,15 +42,21 @@ std::vector<float> fractions_by_stb(const std::string& file, int channels) {
     return fractions(stbi_load_from_memory(bytes, size, &width, &height, &channels_in_file, channels), 255);
 }
 
-std::vector<float> fractions(const std::string& file, int channels) {
-    return decode_codes(file, channels, [](double code) { return code; });
+Texels fractions(const std::string& file, int channels) {
+    std::istringstream stream(file);
+    return decode_codes(stream, channels, [](double code) { return code; });
+}
+
+CodedHeader header_of(const std::string& file) {
+    std::istringstream stream(file);
+    return read_coded_header(stream);
 }
 
 void expect_same(const std::string& file, const std::string& name) {
-    const CodedHeader header = read_coded_header(file);
-    const int own = header.channels == 2 ? 4 : header.channels;
-    EXPECT_EQ(fractions(file, own), fractions_by_stb(file, own)) << name;
-    EXPECT_EQ(fractions(file, 3), fractions_by_stb(file, 3)) << name;
+    const CodedHeader header = header_of(file);
+    const Texels own = fractions(file, header.channels == 2 ? 4 : header.channels);
+    EXPECT_EQ(own.values, fractions_by_stb(file, own.channels)) << name;
+    EXPECT_EQ(fractions(file, 3).values, fractions_by_stb(file, 3)) << name;
 }
 
 /// Noise for files.
@@ -142,6 +149,43 @@ TEST_F(SecondReader, TgaOfEveryKind) {
                 for (const int bits : {8, 16})
                     expect_same(tga(1 + runs, 100, palette_bits, bits, orientation),
                                 "palette, " + std::to_string(palette_bits) + ", " + std::to_string(bits));
+        }
+}
+
+// Alpha that is 1 everywhere is left out; where some pixel is transparent, all alphas are there, also those before it.
+TEST_F(SecondReader, AlphaIsKeptUnlessItIsOpaque) {
+    const auto grey_alpha_png = [&](png_byte last_alpha) {
+        std::string rows(5 * 4 * 2, '\xFF');
+        for (std::size_t i = 0; i < rows.size(); i += 2) rows[i] = char(7 * i);
+        rows.back() = char(last_alpha);
+        png_image image = {};
+        image.version = PNG_IMAGE_VERSION;
+        image.width = 5;
+        image.height = 4;
+        image.format = PNG_FORMAT_GA;
+        png_image_write_to_file(&image, in_folder("a.png").c_str(), 0, rows.data(), 0, nullptr);
+        return read_bytes(in_folder("a.png"));
+    };
+    EXPECT_EQ(header_of(grey_alpha_png(255)).channels, 2);
+    EXPECT_EQ(fractions(grey_alpha_png(255), 4).channels, 3);
+    EXPECT_EQ(fractions(grey_alpha_png(255), 2).channels, 1);
+    expect_same(grey_alpha_png(255), "opaque");
+    EXPECT_EQ(fractions(grey_alpha_png(254), 4).channels, 4);
+    EXPECT_EQ(fractions(grey_alpha_png(254), 2).channels, 2);
+    expect_same(grey_alpha_png(254), "the last pixel is transparent");
+}
+
+// stb ignores the bit, which no other program here knows either.
+TEST_F(SecondReader, TgaStoredFromRightToLeft) {
+    for (const int runs : {0, 8})
+        for (const int orientation : {0, 32}) {
+            const std::vector<float> left_first = fractions(tga(2 + runs, 0, 0, 24, orientation), 3).values;
+            const std::vector<float> right_first =
+                fractions(tga(2 + runs, 0, 0, 24, orientation + 16), 3).values;
+            for (std::size_t y = 0; y < 7; ++y)
+                for (std::size_t x = 0; x < 13; ++x)
+                    for (std::size_t c = 0; c < 3; ++c)
+                        ASSERT_EQ(right_first[3 * (13 * y + x) + c], left_first[3 * (13 * y + 12 - x) + c]);
         }
 }
 
@@ -245,8 +289,8 @@ TEST_F(SecondReader, JpgOfEveryKind) {
             for (const auto& [width, height] : {std::pair{61, 35}, {8, 8}, {1, 1}}) {
                 const std::string file = jpg(width, height, kind.channels, kind.space, is_progressive);
                 const int channels = kind.channels == 1 ? 1 : 3;
-                ASSERT_EQ(read_coded_header(file).channels, channels);
-                const std::vector<float> values = fractions(file, channels);
+                ASSERT_EQ(header_of(file).channels, channels);
+                const std::vector<float> values = fractions(file, channels).values;
                 const std::vector<float> others = fractions_by_stb(file, channels);
                 ASSERT_EQ(values.size(), others.size());
                 double sum = 0;

@@ -50,6 +50,15 @@ struct OffTheRay : Sound<Real> {
     }
 };
 template <class Real>
+struct BelowTheHorizon : Sound<Real> {
+    using Sound<Real>::Sound;
+    LightSample<Real> sample(const Vec2<Real>& u) const {
+        LightSample<Real> s = Sound<Real>::sample(u);
+        s.wi.z = select(s.wi.z < Real(1e-8f), Real(-1e-12f), s.wi.z);
+        return s;
+    }
+};
+template <class Real>
 struct OtherDensity : Sound<Real> {
     using Sound<Real>::Sound;
     Real pdf(const Vec3<Real>& wi) const { return Real(1.0001f) * Sound<Real>::pdf(wi); }
@@ -85,17 +94,24 @@ struct TrippedByDenormals : LineSolidAngle<Real> {
     mask_t<Real> tripped;
 };
 
-template <template <class> class Mutant,
-          hostile::Measure kOfMeasure = hostile::Measure::projected_solid_angle>
+template <template <class> class Mutant>
 struct MutantKind : hostile::PolygonKind<4> {
     template <class Real>
     using Technique = Mutant<Real>;
-    static constexpr hostile::Measure kMeasure = kOfMeasure;
+    static constexpr hostile::Measure kMeasure = hostile::Measure::projected_solid_angle;
+    static constexpr hostile::Horizon kHorizon = hostile::Horizon::clipped;
+};
+struct AreaMutantKind : hostile::PolygonKind<4> {
+    template <class Real>
+    using Technique = OtherAreaDensity<Real>;
+    static constexpr hostile::Measure kMeasure = hostile::Measure::area;
+    static constexpr hostile::Horizon kHorizon = hostile::Horizon::ignored;
 };
 struct LineMutantKind : hostile::LineKind {
     template <class Real>
     using Technique = TrippedByDenormals<Real>;
     static constexpr hostile::Measure kMeasure = hostile::Measure::solid_angle;
+    static constexpr hostile::Horizon kHorizon = hostile::Horizon::ignored;
 };
 
 struct MutantCase {
@@ -112,10 +128,10 @@ const MutantCase kMutants[] = {
     {quadrilateral_mutant<MutantKind<RarelyNaN>>("RarelyNaN"), "wi is not finite"},
     {quadrilateral_mutant<MutantKind<OffTheLight>>("OffTheLight"), "p is off the light"},
     {quadrilateral_mutant<MutantKind<OffTheRay>>("OffTheRay"), "wi does not lead to p"},
+    {quadrilateral_mutant<MutantKind<BelowTheHorizon>>("BelowTheHorizon"), "wi is below the horizon"},
     {quadrilateral_mutant<MutantKind<OtherDensity>>("OtherDensity"),
      "the density of the sample is not pdf(wi)"},
-    {quadrilateral_mutant<MutantKind<OtherAreaDensity, hostile::Measure::area>>("OtherAreaDensity"),
-     "the density of the sample is not pdf(wi)"},
+    {quadrilateral_mutant<AreaMutantKind>("OtherAreaDensity"), "the density of the sample is not pdf(wi)"},
     {quadrilateral_mutant<MutantKind<InvertsToOne>>("InvertsToOne"), "invert(wi) leaves [0, 1)"},
     {quadrilateral_mutant<MutantKind<DarkButSampled>>("DarkButSampled"),
      "the density is positive without a measure"},

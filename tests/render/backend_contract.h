@@ -26,7 +26,7 @@ inline void expect_backend_contract(const render::Backend& backend, const scene:
     const std::unique_ptr<render::PreparedScene> prepared = backend.prepare(scene);
     render::Frame frame = render::make_frame(scene, settings);
     ASSERT_GT(frame.tiles.size(), 1u);
-    frame.is_finished[0] = 1;
+    finish_tile(frame, 0);
     std::set<std::size_t> finished;
     double progress = 0;
     render::RenderMonitor monitor;
@@ -66,7 +66,8 @@ inline void expect_backend_contract(const render::Backend& backend, const scene:
     // No work starts once a rendering is cancelled.
     const std::atomic<bool> cancel = true;
     render::Frame none = render::make_frame(scene, settings);
-    prepared->render_into(none, settings, {.progress = {}, .tile_finished = {}, .cancel = &cancel});
+    prepared->render_into(none, settings,
+                          {.started = {}, .progress = {}, .tile_finished = {}, .cancel = &cancel});
     EXPECT_EQ(finished_fraction(none), 0);
     for (const float value : none.image.pixels) ASSERT_EQ(value, 0);
 }

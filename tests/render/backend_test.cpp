@@ -52,8 +52,7 @@ TEST(Frame, KnowsSamplesOfPixelsThatWereStopped) {
     render::RenderSettings settings;
     settings.samples = 12;
     render::Frame frame = render::make_frame(scene, settings);
-    std::fill(frame.is_finished.begin(), frame.is_finished.end(), std::uint8_t{1});
-    frame.finished_share = 1.0 / 3;
+    std::fill(frame.rays.begin(), frame.rays.end(), 4.0f);
     EXPECT_DOUBLE_EQ(finished_fraction(frame), 1.0 / 3);
     const image::LayeredImage stopped = to_layered_image(std::move(frame), scene.film, settings, {});
     const image::Layer* const samples = image::find_layer(stopped, "samples");

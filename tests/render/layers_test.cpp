@@ -364,6 +364,49 @@ TEST(Frames, LargerThanTheMemoryAreRefused) {
     }
 }
 
+TEST(Frames, KnowTheirSizeBeforeTheyTakeMemory) {
+    scene::Scene scene = make_floor(100);
+    scene.emitters.assign(256, {"lamp"});
+    RenderSettings settings;
+    settings.layers = {LayerKind::depth, LayerKind::lights, LayerKind::diffuse};
+    const render::FrameSize size = render::frame_size(scene, settings);
+    const render::Frame frame = render::make_frame(scene, settings);
+    EXPECT_EQ(size.width, 100);
+    EXPECT_EQ(size.height, 100);
+    EXPECT_EQ(size.layers, frame.layers.size());
+    EXPECT_EQ(size.layers, 2u + 2u + 256u);
+    std::size_t floats = frame.image.pixels.size();
+    for (const image::Layer& layer : frame.layers) floats += layer.data.size();
+    EXPECT_EQ(size.channels * 100 * 100, floats);
+    EXPECT_GE(size.bytes, sizeof(float) * floats);
+    EXPECT_LE(static_cast<double>(size.bytes), 1.2 * sizeof(float) * static_cast<double>(floats));
+}
+
+TEST(Frames, LayersThatNoMachineOrFileHoldsAreRefused) {
+    const auto error = [](std::size_t lights, int width, int height) {
+        scene::Scene scene = make_floor(8);
+        scene.film.width = width;
+        scene.film.height = height;
+        scene.emitters.assign(lights, {"lamp"});
+        RenderSettings settings;
+        settings.layers = {LayerKind::lights};
+        try {
+            render::make_frame(scene, settings);
+        } catch (const std::runtime_error& failure) {
+            return std::string(failure.what());
+        }
+        return std::string("no error");
+    };
+    EXPECT_EQ(error(10000, 60000, 4000)
+                  .rfind("an image of 60000 x 4000 pixels with 30003 channels needs 28803.8 GB of memory", 0),
+              0u)
+        << error(10000, 60000, 4000);
+    EXPECT_EQ(
+        error(3000, 65536, 1),
+        "9003 channels of 65536 pixels along x exceed the 2 GiB that EXR files can hold per row and for "
+        "the list of channels; use a lower --resolution or fewer --layers");
+}
+
 TEST(Frames, PartsDivideAllPixels) {
     const scene::Scene scene = make_floor(100);
     // There are 7 x 7 tiles.

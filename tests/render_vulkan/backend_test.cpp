@@ -51,14 +51,13 @@ TEST_F(GpuBackend, NamesSettingsThatItDoesNotSupport) {
     const VulkanBackend backend = make_backend();
     render::RenderSettings lines;
     lines.light_samples = render::LightSamples::lines;
-    EXPECT_EQ(backend.why_unsupported(lines),
-              "--light-samples lines is not supported on GPUs; use --backend cpu");
+    EXPECT_EQ(backend.why_unsupported(lines), "--light-samples lines is not supported on GPUs");
     render::RenderSettings layers;
     layers.layers = {render::LayerKind::normal};
-    EXPECT_EQ(backend.why_unsupported(layers), "layer normal is not supported on GPUs; use --backend cpu");
+    EXPECT_EQ(backend.why_unsupported(layers), "layer normal is not supported on GPUs");
     render::RenderSettings part;
     part.part = {1, 2};
-    EXPECT_EQ(backend.why_unsupported(part), "--part is not supported on GPUs; use --backend cpu");
+    EXPECT_EQ(backend.why_unsupported(part), "--part is not supported on GPUs");
     EXPECT_THROW(static_cast<void>(render::render(backend, lit_floor(), part)), std::invalid_argument);
 }
 

@@ -5,8 +5,11 @@
 #include "rich_scene.h"
 #include "scenes.h"
 
+#include <atomic>
+#include <chrono>
 #include <fstream>
 #include <stdexcept>
+#include <thread>
 
 #include <unistd.h>
 
@@ -73,6 +76,50 @@ TEST_F(Renderer, ScalesSumsByFramesThatWereFinished) {
     };
     EXPECT_NEAR(mean(part.image) / mean(whole.image), 1, 0.05);
     EXPECT_GT(mean(whole.image), 0);
+}
+
+/// Renders so many of all frames. \param share of them
+image::Image rendered_until(VulkanRenderer& renderer, const render::RenderSettings& settings, double share) {
+    std::atomic<bool> stop = share == 0;
+    render::RenderMonitor monitor;
+    monitor.cancel = &stop;
+    monitor.progress = [&](double fraction) { stop = fraction >= share; };
+    const auto result = renderer.render(settings, monitor);
+    EXPECT_EQ(result.finished_fraction, share);
+    return result.image;
+}
+
+TEST_F(Renderer, StopsWithinFramesAndKeepsTheFramesBefore) {
+    scene::Scene scene = render_test::make_floor(96);
+    render_test::set_camera(scene, {0, 0, 2}, {0, 0, 0}, {0, 1, 0}, 0.3, 96, 96);
+    render_test::add_polygon_light(scene, {scene::Float3{-9, -9, 5}, {-9, 9, 5}, {9, 9, 5}, {9, -9, 5}},
+                                   {1, 1, 1}, true, 0);
+    render_test::set_radius(scene);
+    VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    // Frames of several submissions: some are fast enough for a few of them, others take minutes on software devices.
+    for (const int samples_per_ray : {64, 1 << 14}) {
+        render::RenderSettings settings;
+        settings.camera_rays = 64;
+        settings.samples = 64 * samples_per_ray;
+        static_cast<void>(rendered_until(renderer, settings, 0)); // compiles the shaders
+        for (const double delay : {0.05, 0.4, 0.7}) {
+            std::atomic<bool> stop = false;
+            render::RenderMonitor monitor;
+            monitor.cancel = &stop;
+            std::chrono::steady_clock::time_point request;
+            std::thread thread([&] {
+                std::this_thread::sleep_for(std::chrono::duration<double>(delay));
+                request = std::chrono::steady_clock::now();
+                stop = true;
+            });
+            const render::RenderResult result = renderer.render(settings, monitor);
+            const auto end = std::chrono::steady_clock::now();
+            thread.join();
+            EXPECT_LT(std::chrono::duration<double>(end - request).count(), 1);
+            EXPECT_EQ(result.image.pixels,
+                      rendered_until(renderer, settings, result.finished_fraction).pixels);
+        }
+    }
 }
 
 TEST_F(Renderer, RendersScenesWithoutAnything) {

@@ -88,6 +88,28 @@ TEST_F(CameraDirectives, FilmDefaultsDependOnTheVersion) {
               "x.exr");
 }
 
+TEST_F(CameraDirectives, SamplersGiveTheSamplesPerPixel) {
+    const auto samples = [&](const std::string& sampler) {
+        return camera("Camera \"perspective\"\nSampler " + sampler + "\nFilm \"rgb\"").film.pixel_samples;
+    };
+    EXPECT_EQ(camera("Camera \"perspective\"").film.pixel_samples, std::nullopt);
+    EXPECT_EQ(samples("\"halton\""), std::nullopt);
+    EXPECT_EQ(samples("\"halton\" \"integer pixelsamples\" 128"), 128);
+    EXPECT_EQ(samples("\"zsobol\" \"integer pixelsamples\" [ 16 ] \"integer seed\" 3"), 16);
+    EXPECT_EQ(samples("\"stratified\""), std::nullopt);
+    EXPECT_EQ(samples("\"stratified\" \"integer xsamples\" 3 \"integer ysamples\" 5"), 15);
+    EXPECT_EQ(samples("\"stratified\" \"integer ysamples\" 5"), 20);
+    EXPECT_EQ(samples("\"stratified\" \"integer xsamples\" 2147483647 \"integer ysamples\" 2147483647"),
+              2147483647);
+    for (const std::string number : {"0", "-7"}) {
+        const Scene scene = load("Camera \"perspective\"\nSampler \"sobol\" \"integer pixelsamples\" " +
+                                 number + "\nWorldBegin\n" + std::string(kTriangle));
+        EXPECT_EQ(scene.film.pixel_samples, std::nullopt);
+        EXPECT_EQ(warning(scene), "scene.pbrt:2: Sampler: pixelsamples is " + number +
+                                      ", but must be positive; it is ignored");
+    }
+}
+
 TEST_F(CameraDirectives, OrthographicRaysAreParallel) {
     const Scene scene = camera("Film \"rgb\" \"integer xresolution\" 200 \"integer yresolution\" 100\n"
                                "LookAt 0 0 10  0 0 0  0 1 0 Camera \"orthographic\"");

@@ -1,5 +1,7 @@
-// Limits on all files of a scene together.
+// Limits on all files of a scene together, and on what loading takes.
 
+#include "base/process_time.h"
+#include "common/process_memory.h"
 #include "gzip.h"
 #include "scene/build/textures/emission_images.h"
 #include "scene/build/textures/texture_bake.h"
@@ -8,6 +10,10 @@
 #include "scene/model/scene_size.h"
 #include "scene_fixture.h"
 
+#include <array>
+#include <cstdio>
+#include <functional>
+#include <initializer_list>
 #include <random>
 
 namespace nusselt::scene {
@@ -143,6 +149,101 @@ TEST_F(Limits, CountsThatIndicesTellApart) {
     EXPECT_EQ(reason([] { check_counts(3, std::size_t{1} << 31, "ObjectInstance"); }),
               "the scene has more than 2147483647 triangles; use ObjectInstance for copies, or simplify it");
 }
+
+// ---- The memory and the time of very many lights
+
+constexpr int kLights = 100'000;
+
+// Of these lights, the scenes take 8 to 36 MB, and loading another 10 to 20 MB and a third of the time. The sanitizers
+// need more of both.
+#ifdef __SANITIZE_ADDRESS__
+constexpr double kMostBytes = 1e9;
+constexpr double kMostSeconds = 60;
+#else
+constexpr double kMostBytes = 60e6;
+constexpr double kMostSeconds = 3;
+#endif
+
+std::string numbers(std::initializer_list<double> values) {
+    std::string text;
+    for (const double value : values) text += to_text(value) + " ";
+    return text;
+}
+
+/// The corners of a small quad, one of a grid.
+std::array<std::string, 4> corners(int i) {
+    const double x = 0.01 * (i % 1000);
+    const double y = 0.01 * (i / 1000);
+    return {numbers({x, y, 1}), numbers({x + 0.004, y, 1}), numbers({x + 0.004, y + 0.004, 1}),
+            numbers({x, y + 0.004, 1})};
+}
+
+constexpr const char* kEmission = "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\n";
+
+std::string in_block(const std::string& shape) {
+    return std::string("AttributeBegin\n") + kEmission + shape + "AttributeEnd\n";
+}
+
+std::string quad(int i) {
+    const auto [a, b, c, d] = corners(i);
+    return in_block("Shape \"trianglemesh\" \"point3 P\" [" + a + b + c + d +
+                    "] \"integer indices\" [0 1 2 0 2 3]\n");
+}
+
+std::string patch(int i) {
+    const auto [a, b, c, d] = corners(i);
+    return in_block("Shape \"bilinearmesh\" \"point3 P\" [" + a + b + d + c + "]\n");
+}
+
+std::string tube(int i) {
+    const auto [a, b, c, d] = corners(i);
+    return in_block("Shape \"line\" \"point3 p0\" [" + a + "] \"point3 p1\" [" + b +
+                    "] \"float radius\" 0.001\n");
+}
+
+std::string repeated(const std::function<std::string(int)>& shape) {
+    std::string text;
+    for (int i = 0; i < kLights; ++i) text += shape(i);
+    return text;
+}
+
+std::string one_mesh() {
+    std::string points;
+    std::string indices;
+    for (int i = 0; i < kLights; ++i) {
+        for (const std::string& corner : corners(i)) points += corner;
+        for (const int k : {0, 1, 2, 0, 2, 3}) indices += std::to_string(4 * i + k) + " ";
+    }
+    return std::string(kEmission) + "Shape \"trianglemesh\" \"point3 P\" [" + points +
+           "] \"integer indices\" [" + indices + "]\n";
+}
+
+class ManyLights : public SceneTest {
+protected:
+    /// Loads a scene in a process of its own, which has not used any memory before.
+    void expect_frugal(const std::string& text, std::size_t emitters) const {
+        write("scene.pbrt", text);
+        GTEST_FLAG_SET(death_test_style, "threadsafe");
+        EXPECT_EXIT(load_frugally(emitters), testing::ExitedWithCode(0), "");
+    }
+
+private:
+    void load_frugally(std::size_t emitters) const {
+        const double bytes_before = nusselt_test::process_memory("VmRSS");
+        const double seconds_before = base::process_seconds();
+        const Scene scene = load_scene(folder_ / "scene.pbrt");
+        const double bytes = nusselt_test::process_memory("VmHWM") - bytes_before;
+        const double seconds = base::process_seconds() - seconds_before;
+        std::fprintf(stderr, "%g MB, %g s\n", 1e-6 * bytes, seconds);
+        const bool is_complete = scene.lights.size() == kLights && scene.emitters.size() == emitters;
+        std::exit(is_complete && bytes <= kMostBytes && seconds <= kMostSeconds ? 0 : 1);
+    }
+};
+
+TEST_F(ManyLights, QuadsTakeLittleMemory) { expect_frugal(repeated(quad), kLights); }
+TEST_F(ManyLights, BilinearPatchesTakeLittleMemory) { expect_frugal(repeated(patch), kLights); }
+TEST_F(ManyLights, TubesTakeLittleMemory) { expect_frugal(repeated(tube), kLights); }
+TEST_F(ManyLights, OneMeshTakesLittleMemory) { expect_frugal(one_mesh(), 1); }
 
 } // namespace
 } // namespace nusselt::scene

@@ -164,10 +164,11 @@ TEST_F(Textures, Errors) {
     };
     EXPECT_EQ(error(material("Texture \"t\" \"spectrum\" \"imagemap\"\n\"string filename\" \"none.png\"")),
               "scene.pbrt:2: texture file 'none.png': no such file");
-    EXPECT_EQ(error(material("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"broken.png\"")),
-              "scene.pbrt:1: texture file 'broken.png': the file is not PNG, JPG, TGA or BMP; check its "
-              "name or convert "
-              "it");
+    EXPECT_EQ(
+        error(material("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"broken.png\"")),
+        "scene.pbrt:1: texture file 'broken.png': the file does not begin like PNG, JPG or BMP, "
+        "and as TGA it is damaged or not supported: it has only 8 bytes, but its header would have 18; check "
+        "its name or convert it to PNG");
     EXPECT_EQ(error("\nTexture \"t\" \"spectrum\" \"imagemap\""),
               "scene.pbrt:2: texture \"t\": parameter \"string filename\" is missing");
     EXPECT_EQ(error("Texture \"t\" \"vector\" \"constant\""),

@@ -96,6 +96,18 @@ TEST(FlyCamera, MirroredImagesTurnTheSameWay) {
     expect_near(fly.forward(), {-1, 0, 0});
 }
 
+TEST(FlyCamera, OrbitsAboutAPoint) {
+    FlyCamera fly(make_perspective(), kWidth, kHeight);
+    const Double3 pivot = {1, 2, 0};
+    fly.orbit(pivot, std::numbers::pi / 2, 0);
+    expect_near(fly.position(), {4, 2, 0});
+    expect_near(fly.forward(), {-1, 0, 0});
+    fly.orbit(pivot, 0, std::numbers::pi / 6);
+    expect_near(fly.position(), {1 + 3 * std::sqrt(0.75), 3.5, 0});
+    expect_near(fly.forward(), {-std::sqrt(0.75), -0.5, 0});
+    EXPECT_EQ(fly.up(), (Double3{0, 1, 0}));
+}
+
 TEST(FlyCamera, ParallelRaysTurnAboutTheMiddle) {
     FlyCamera fly(make_parallel(), kWidth, kHeight);
     const auto middle = [&] {

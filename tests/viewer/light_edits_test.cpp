@@ -1,6 +1,7 @@
 #include "common/source_folder.h"
-#include "viewer/light_edits.h"
+#include "viewer/lights/light_edits.h"
 
+#include "scene/colour/colour_space.h"
 #include "scene/import/importers.h"
 #include "scene/rig/rig_json.h"
 
@@ -65,6 +66,20 @@ TEST_F(LightEditsTest, TheRigDoesTheSame) {
     LightEdits edits;
     edits.set(0, {{0.1, 0.2, -0.3}, 1.5, 0.25, true});
     edits.set(1, {{0, 0, 0}, 1, 1, false});
+    LightEdit turned;
+    turned.turn = {10, -20, 30};
+    turned.colour = Temperature{3000};
+    turned.brightness = 2;
+    const std::size_t panel =
+        edits.add(scene_, {"panel", LightShape::panel, {0, 1, 0}, {0, -1, 0}, 0.5, {3, 2, 1}});
+    turned.added = edits.get(panel).added;
+    edits.set(panel, turned);
+    const std::size_t tube =
+        edits.add(scene_, {"tube", LightShape::tube, {0, 1, 0}, {1, 0, 0}, 0.5, {3, 2, 1}});
+    LightEdit red = edits.get(tube);
+    red.colour = scene::Float3{7, 0, 0};
+    red.brightness = 0.5;
+    edits.set(tube, red);
     const std::string path = testing::TempDir() + "nusselt_light_edits.json";
     std::ofstream(path) << edits.rig_text();
     scene::Scene by_rig = scene_;
@@ -72,12 +87,16 @@ TEST_F(LightEditsTest, TheRigDoesTheSame) {
     const scene::Scene edited = edits.applied_to(scene_);
     ASSERT_EQ(by_rig.lights.of<scene::PolygonLight>().size(), edited.lights.of<scene::PolygonLight>().size());
     ASSERT_EQ(by_rig.lights.of<scene::LineLight>().size(), edited.lights.of<scene::LineLight>().size());
-    for (std::size_t i = 0; i < edited.lights.of<scene::LineLight>().size(); ++i)
-        EXPECT_EQ(by_rig.lights.of<scene::LineLight>()[i].radiance.y,
-                  edited.lights.of<scene::LineLight>()[i].radiance.y);
+    EXPECT_EQ(edited.lights.of<scene::LineLight>().back().radiance, (scene::Float3{3.5f, 0, 0}));
+    for (std::size_t i = 0; i < edited.lights.of<scene::LineLight>().size(); ++i) {
+        EXPECT_EQ(by_rig.lights.of<scene::LineLight>()[i].radiance,
+                  edited.lights.of<scene::LineLight>()[i].radiance);
+        EXPECT_EQ(by_rig.lights.of<scene::LineLight>()[i].start,
+                  edited.lights.of<scene::LineLight>()[i].start);
+    }
     for (std::size_t i = 0; i < edited.lights.of<scene::PolygonLight>().size(); ++i) {
-        EXPECT_EQ(by_rig.lights.of<scene::PolygonLight>()[i].radiance.y,
-                  edited.lights.of<scene::PolygonLight>()[i].radiance.y);
+        EXPECT_EQ(by_rig.lights.of<scene::PolygonLight>()[i].radiance,
+                  edited.lights.of<scene::PolygonLight>()[i].radiance);
         for (std::size_t k = 0; k < edited.lights.of<scene::PolygonLight>()[i].vertices.size(); ++k) {
             const scene::Float3& a = edited.lights.of<scene::PolygonLight>()[i].vertices[k];
             const scene::Float3& b = by_rig.lights.of<scene::PolygonLight>()[i].vertices[k];
@@ -86,6 +105,76 @@ TEST_F(LightEditsTest, TheRigDoesTheSame) {
             EXPECT_EQ(a.z, b.z);
         }
     }
+}
+
+TEST_F(LightEditsTest, TurnLights) {
+    const std::size_t light = scene_.lights.of<scene::PolygonLight>().front().emitter;
+    LightEdits edits;
+    LightEdit edit;
+    edit.turn = {0, 0, 90};
+    edits.set(light, edit);
+    const scene::Double3 center = edits.center(scene_, light);
+    const auto& before = scene_.lights.of<scene::PolygonLight>().front().vertices;
+    const scene::Lights placed = edits.placed(scene_, light);
+    const scene::Scene edited = edits.applied_to(scene_);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const scene::Double3 way = to_double(before[i]) - center;
+        const scene::Double3 expected = center + scene::Double3{-way.y, way.x, way.z};
+        for (const scene::Lights* lights : {&placed, &edited.lights})
+            EXPECT_LT(length(to_double(lights->of<scene::PolygonLight>().front().vertices[i]) - expected),
+                      1e-5);
+    }
+}
+
+TEST_F(LightEditsTest, CombineRotations) {
+    const scene::Double3 x = {90, 0, 0};
+    const scene::Double3 y = {0, 90, 0};
+    // First x: y becomes z; then y: z becomes x. The axis (1, 1, -1) stays.
+    const scene::Double3 both = combined_turn(x, y);
+    EXPECT_NEAR(length(both), 120, 1e-9);
+    EXPECT_LT(length(normalized(both) - normalized(scene::Double3{1, 1, -1})), 1e-9);
+    EXPECT_LT(length(combined_turn(x, {-90, 0, 0})), 1e-9);
+    EXPECT_LT(length(combined_turn({}, y) - y), 1e-9);
+    EXPECT_LT(length(combined_turn({0, 170, 0}, {0, 30, 0}) - scene::Double3{0, -160, 0}), 1e-9);
+}
+
+TEST_F(LightEditsTest, ColourLightsAndKeepTheirLuminance) {
+    const std::size_t light = scene_.lights.of<scene::PolygonLight>().front().emitter;
+    LightEdits edits;
+    LightEdit edit;
+    edit.colour = Temperature{2000};
+    edits.set(light, edit);
+    const scene::Float3 warm = edits.applied_to(scene_).lights.of<scene::PolygonLight>().front().radiance;
+    const scene::Float3 before = edits.radiance_before(scene_, light);
+    EXPECT_GT(warm.x, 3 * warm.z);
+    EXPECT_NEAR(luminance(to_double(warm)), luminance(to_double(before)),
+                1e-5 * luminance(to_double(before)));
+}
+
+TEST_F(LightEditsTest, AddAndRemoveLights) {
+    const std::size_t count = scene_.emitters.size();
+    LightEdits edits;
+    const NewLight panel = {"lamp", LightShape::panel, {0, 1, 0}, {0, -1, 0}, 0.5, {1, 1, 1}};
+    EXPECT_EQ(edits.add(scene_, panel), count);
+    EXPECT_EQ(edits.add(scene_, {"lamp", LightShape::tube, {0, 1, 0}, {1, 0, 0}, 2, {1, 1, 1}}), count + 1);
+    EXPECT_EQ(edits.name(scene_, count), "lamp 1");
+    EXPECT_EQ(edits.name(scene_, count + 1), "lamp 2");
+    EXPECT_EQ(edits.applied_to(scene_).emitters.size(), count + 2);
+    const scene::PolygonLight added = edits.applied_to(scene_).lights.of<scene::PolygonLight>().back();
+    EXPECT_NEAR(area(added), 0.25, 1e-6);
+    // It emits to the side from which its vertices appear counter-clockwise.
+    EXPECT_LT(cross(to_double(added.vertices[1]) - to_double(added.vertices[0]),
+                    to_double(added.vertices[2]) - to_double(added.vertices[0]))
+                  .y,
+              0);
+    edits.remove(0);
+    EXPECT_FALSE(edits.has(scene_, 0));
+    edits.remove(count);
+    EXPECT_EQ(edits.lights(scene_).size(), count);
+    const scene::Scene edited = edits.applied_to(scene_);
+    ASSERT_EQ(edited.emitters.size(), count);
+    EXPECT_EQ(edited.emitters.back().name, "lamp 2");
+    EXPECT_EQ(edits.rig_text().find("lamp 1"), std::string::npos);
 }
 
 } // namespace

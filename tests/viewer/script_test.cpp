@@ -1,74 +1,14 @@
-#include "common/source_folder.h"
-#include "viewer/script.h"
-
-#include "gpu_test.h"
+#include "script_fixture.h"
 
 #include "image/io.h"
-#include "render/film.h"
-#include "scene/import/importers.h"
-#include "scene/rig/camera_file.h"
 
-#include <filesystem>
-#include <fstream>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
-#include <unistd.h>
-
 namespace nusselt::viewer {
 namespace {
-
-class ScriptTest : public parity::GpuTest {
-protected:
-    void SetUp() override {
-        std::string name = (std::filesystem::temp_directory_path() / "nusselt_script_XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
-        parity::GpuTest::SetUp();
-    }
-    void TearDown() override {
-        parity::GpuTest::TearDown();
-        std::filesystem::remove_all(folder_);
-    }
-
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-    std::string write(const std::string& text) const {
-        std::ofstream(folder_ / "script.txt") << text;
-        return path("script.txt");
-    }
-
-    Viewer make_viewer() const {
-        scene::Scene scene = scene::load_scene(std::filesystem::path(nusselt_test::kSourceFolder) /
-                                               "scenes/cornell-panel.pbrt");
-        render::resize_film(scene, 24, 20);
-        return {device(), scene, render_vulkan::ShadowRays::bvh, {}, {"cornell-panel.pbrt", {}, {}}};
-    }
-
-    /// Runs a script like the loop of the window. \returns the number of frames
-    static int play(const std::string& script_path, Viewer& viewer) {
-        Script script{std::filesystem::path(script_path)};
-        int frames = 0;
-        for (script.advance(viewer); !viewer.is_closing && frames < 1000; script.advance(viewer)) {
-            viewer.next_frame();
-            ++frames;
-        }
-        return frames;
-    }
-
-    /// The error message of a script.
-    std::string error_of(const std::string& text, Viewer& viewer) const {
-        try {
-            play(write(text), viewer);
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "none";
-    }
-
-private:
-    std::filesystem::path folder_;
-};
 
 TEST_F(ScriptTest, SetsWhatAPersonSets) {
     Viewer viewer = make_viewer();
@@ -173,12 +113,36 @@ TEST_F(ScriptTest, NamesTheLineOfAMistake) {
     expect("screenshot " + path("missing/all.png") + "\n", "1", "missing/all.png");
     expect("load-camera missing.json\n", "1", "missing.json");
     expect("load-lights missing.json\n", "1", "missing.json");
+    expect("tone-curve sepia\n", "1", "use one of none, reinhard, filmic");
+    expect("light-add sphere\n", "1", "use one of panel, tube");
+    expect("light-remove\n", "1", "no light is selected");
+    expect("light 0\nlight-kelvin 100\n", "2", "'100' must be a number from 1000 to 40000");
+    expect("light 0\nlight-turn 0 0 0 5\n", "2", "the axis must not be zero");
     try {
         const Script script(std::filesystem::path(path("no-script.txt")));
         FAIL() << "there is no such file";
     } catch (const std::runtime_error& error) {
         EXPECT_NE(std::string(error.what()).find("no-script.txt"), std::string::npos);
     }
+}
+
+TEST_F(ScriptTest, GoesOnWhenThereIsNothingToPrint) {
+    Viewer viewer = make_viewer();
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(play(write("frames 1\nprint-errors\nframes 1\nquit\n"), viewer), 2);
+    const std::string error = testing::internal::GetCapturedStderr();
+    EXPECT_NE(error.find("script.txt:2: no reference to compare with"), std::string::npos) << error;
+    EXPECT_NE(viewer.message.find("no reference"), std::string::npos);
+}
+
+TEST_F(ScriptTest, TurnsWhileFramesPass_InFewerPixels) {
+    Viewer viewer = make_viewer();
+    const scene::Double3 begin = viewer.state.camera.forward();
+    play(write("frames 1\nturning 2 0\nframes 5\nscreenshot " + path("moving.exr") +
+               "\nturning 0 0\nframes 1\nscreenshot " + path("still.exr") + "\nquit\n"),
+         viewer);
+    EXPECT_NEAR(dot(begin, viewer.state.camera.forward()), std::cos(10 * std::numbers::pi / 180), 1e-6);
+    EXPECT_EQ(image::read_image(path("still.exr")).width, 24);
 }
 
 TEST_F(ScriptTest, SettingsThatDoNotFitGiveWay) {

@@ -99,6 +99,111 @@ TEST_F(SessionTest, ShowsLightsThatWereSwitchedOff_AndMoved) {
     EXPECT_EQ(viewer.session.image(Side::left).pixels, before.pixels);
 }
 
+TEST_F(SessionTest, EditsOfLightsCompileNothingAgain) {
+    Viewer viewer = make_viewer();
+    viewer.next_frame();
+    const std::size_t shaders = device().shaders().size();
+    EXPECT_GE(shaders, 3u) << "to draw, to shade and to show";
+    LightEdit moved;
+    moved.move = {0, -0.5, 0};
+    viewer.state.edits.set(0, moved);
+    viewer.next_frame();
+    viewer.state.reduction = 4;
+    viewer.session.render(viewer.state);
+    EXPECT_EQ(device().shaders().size(), shaders);
+}
+
+TEST_F(SessionTest, FramesThatAreInterruptedBecomeTheSame) {
+    Viewer whole = make_viewer();
+    for (int i = 0; i < 3; ++i) whole.next_frame();
+    Viewer pieces = make_viewer();
+    int calls = 0;
+    for (int frames = 0; frames < 3; ++calls) {
+        pieces.next_frame(0);
+        frames += pieces.is_frame_finished ? 1 : 0;
+        EXPECT_EQ(pieces.session.frames(Side::left), static_cast<std::uint32_t>(frames));
+    }
+    EXPECT_GT(calls, 3) << "a call renders some rows";
+    EXPECT_EQ(pieces.session.image(Side::left).pixels, whole.session.image(Side::left).pixels);
+    EXPECT_EQ(pieces.session.picture().pixels(), whole.session.picture().pixels());
+
+    // Rows that have a frame more than others are not brighter.
+    render_vulkan::DeviceScene scene(device(), pieces.session.loaded(), ShadowRays::bvh);
+    render::RenderSettings settings;
+    settings.technique = render::Technique::ltc_analytic;
+    settings.pixel_position = render::PixelPosition::center;
+    settings.camera_rays = 1;
+    render_vulkan::Accumulator image(scene, settings);
+    const auto frame = render_vulkan::FrameRecords(scene.film(), settings).make(0);
+    image.add(frame);
+    const image::Image once = image.mean();
+    image.begin(frame);
+    image.add_rows(9);
+    EXPECT_EQ(image.rows_ahead(), 16u);
+    EXPECT_EQ(image.frames(), 1u);
+    EXPECT_EQ(image.mean().pixels, once.pixels);
+    render_vulkan::DisplayPass display(device(), kWidth, kHeight);
+    display.show(image, image, image, {});
+    const std::vector<std::uint32_t> partly = display.pixels();
+    image.restart(settings);
+    image.add(frame);
+    display.show(image, image, image, {});
+    EXPECT_EQ(display.pixels(), partly);
+}
+
+TEST_F(SessionTest, ShowsTheSameInFewerPixelsWhileSomethingMoves) {
+    Viewer viewer = make_viewer();
+    viewer.next_frame();
+    viewer.state.camera.turn(0.1, 0);
+    viewer.state.accumulates = false;
+    // All pixels of a frame share their offset from the centre, hence the mean over many frames. Lights would outshine the
+    // rest; limited for each camera ray, they are the same share of images of any size.
+    const auto mean_of_frames = [&](const auto& render) {
+        constexpr int kFrames = 48;
+        double sum = 0;
+        std::size_t count = 0;
+        for (int i = 0; i < kFrames; ++i) {
+            render();
+            const image::Image image = viewer.session.image(Side::left);
+            for (const float value : image.pixels) sum += std::min(static_cast<double>(value), 1.0);
+            count += image.pixels.size();
+        }
+        return sum / static_cast<double>(count);
+    };
+    viewer.state.reduction = 4;
+    const double small = mean_of_frames([&] {
+        viewer.session.render(viewer.state);
+        viewer.session.show(viewer.state);
+    });
+    EXPECT_EQ(viewer.session.image(Side::left).width, kWidth / 4);
+    EXPECT_EQ(viewer.session.image(Side::left).height, kHeight / 4);
+    EXPECT_EQ(viewer.session.picture().width(), kWidth / 4);
+    const double full = mean_of_frames([&] { viewer.next_frame(); });
+    EXPECT_EQ(viewer.session.image(Side::left).width, kWidth) << "at rest, all pixels are rendered";
+    EXPECT_NEAR(small, full, 0.05 * full);
+}
+
+TEST_F(SessionTest, KeepsThePictureOfAMotionUntilTheFirstFrameIsFinished) {
+    for (const bool turns_again : {false, true}) {
+        SCOPED_TRACE(turns_again);
+        Viewer viewer = make_viewer();
+        viewer.state.reduction = 2;
+        viewer.session.render(viewer.state);
+        viewer.session.show(viewer.state);
+        viewer.state.reduction = 1;
+        if (turns_again) viewer.state.camera.turn(0.1, 0);
+        EXPECT_FALSE(viewer.session.render(viewer.state, 0));
+        viewer.session.show(viewer.state);
+        EXPECT_EQ(viewer.session.frames(Side::left), 0u);
+        // The picture of another camera is no stand-in.
+        EXPECT_EQ(viewer.session.picture().width(), turns_again ? kWidth : kWidth / 2);
+        while (!viewer.session.render(viewer.state, 0)) {
+        }
+        viewer.session.show(viewer.state);
+        EXPECT_EQ(viewer.session.picture().width(), kWidth);
+    }
+}
+
 TEST_F(SessionTest, RigsThatWereLoadedAreNotAppliedAgain) {
     Viewer viewer = make_viewer();
     LightEdit moved;
@@ -151,6 +256,33 @@ TEST_F(SessionTest, ShowsBothImagesBesideEachOther) {
                                               0.5 * static_cast<double>(image.pixels[3 * pixel + k]), 1.0));
             ASSERT_NEAR(code_at(viewer.session.picture(), pixel, k), expected, 0.51)
                 << "pixel " << pixel << ", channel " << k;
+        }
+    }
+}
+
+TEST_F(SessionTest, CompressesBrightness) {
+    Viewer viewer = make_viewer();
+    viewer.state.exposure = 3;
+    viewer.next_frame();
+    const image::Image image = viewer.session.image(Side::left);
+    const auto filmic = [](double x) { return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14); };
+    for (const render_vulkan::ToneCurve curve : render_vulkan::kToneCurves) {
+        viewer.state.tone_curve = curve;
+        viewer.session.show(viewer.state);
+        for (std::size_t pixel = 0; pixel < std::size_t{kWidth} * kHeight; ++pixel) {
+            const auto channel = [&](std::size_t k) {
+                return 8 * static_cast<double>(image.pixels[3 * pixel + k]);
+            };
+            const double luminance = 0.2126 * channel(0) + 0.7152 * channel(1) + 0.0722 * channel(2);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double mapped = curve == render_vulkan::ToneCurve::none ? channel(k)
+                                      : curve == render_vulkan::ToneCurve::reinhard
+                                          ? channel(k) / (1 + luminance)
+                                          : filmic(channel(k));
+                ASSERT_NEAR(code_at(viewer.session.picture(), pixel, k),
+                            255 * image::srgb_from_linear(std::min(mapped, 1.0)), 0.51)
+                    << name_of(curve) << ", pixel " << pixel << ", channel " << k;
+            }
         }
     }
 }

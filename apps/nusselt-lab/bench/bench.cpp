@@ -21,7 +21,7 @@ namespace nusselt::app {
 void setup_bench(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand(
         "bench",
-        "Measure the cost of rays and samples, the accuracy and noise of samples, and the largest scenes");
+        "Measure the cost of rays and samples, the accuracy and noise of samples, and the largest scenes.");
     command->require_subcommand(1);
     setup_bench_rays(*command, exit_code);
     setup_bench_strategies(*command, exit_code);

@@ -1,13 +1,16 @@
 #include "bench_device.h"
 
+#include "apps/common/help.h"
+
 #include <fmt/core.h>
 
 namespace nusselt::app {
 
 void add_device_option(CLI::App& command, std::optional<std::string>& device) {
-    command.add_option("--device", device,
-                       "Vulkan device, by its index or part of its name. Default: the environment variable\n"
-                       "NUSSELT_DEVICE if set, else the fastest kind of GPU");
+    command.add_option("--device", device, "Vulkan device, by its index or part of its name")
+        ->type_name("DEVICE")
+        ->default_str("the environment variable NUSSELT_DEVICE if set, else the fastest kind of GPU")
+        ->group(kDeviceGroup);
 }
 
 std::string text_of_clock(gpu::Clock clock) {

@@ -1,6 +1,8 @@
 #include "bench_output.h"
 
+#include "apps/common/help.h"
 #include "apps/common/output_files.h"
+#include "apps/common/validators.h"
 #include "base/atomic_file.h"
 #include "base/json_output.h"
 
@@ -8,13 +10,16 @@ namespace nusselt::app {
 
 void add_repetitions_option(CLI::App& command, int& repetitions) {
     command.add_option("--repetitions", repetitions, "Interleaved repetitions; the median is reported")
-        ->check(CLI::Range(1, 10001))
-        ->capture_default_str();
+        ->transform(to_whole_number(1, 10001));
 }
 
 void add_json_option(CLI::App& command, std::optional<std::string>& json) {
-    command.add_option("--json", json,
-                       "Write the numbers as JSON to this file, or with - to the standard output");
+    command
+        .add_option("--json", json,
+                    "Write the numbers as JSON to this file, or with - to the standard output")
+        ->type_name("FILE")
+        ->default_str(kNone)
+        ->group(kOutputGroup);
 }
 
 void check_json_option(const std::optional<std::string>& file,

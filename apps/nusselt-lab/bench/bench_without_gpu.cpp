@@ -22,13 +22,13 @@ int run_bench_gpu_frames(const BenchGpuFramesOptions&) { fail(); }
 
 void setup_bench_gpu_samplers(CLI::App& bench, int& exit_code) {
     CLI::App* command =
-        bench.add_subcommand("gpu-samplers", "Cost of each technique on a GPU (not in this build)");
+        bench.add_subcommand("gpu-samplers", "Cost of each technique on a GPU (not in this build).");
     command->allow_extras();
     command->callback([&exit_code] { exit_code = run_bench_gpu_samplers({}); });
 }
 
 void setup_bench_gpu_frames(CLI::App& bench, int& exit_code) {
-    CLI::App* command = bench.add_subcommand("gpu", "Cost of frames on a GPU (not in this build)");
+    CLI::App* command = bench.add_subcommand("gpu", "Cost of frames on a GPU (not in this build).");
     command->allow_extras();
     command->callback([&exit_code] { exit_code = run_bench_gpu_frames({}); });
 }

@@ -1,11 +1,15 @@
 #include "fit_ltc.h"
+#include "apps/common/help.h"
 #include "apps/common/interrupt.h"
 #include "apps/common/output_files.h"
 #include "apps/common/progress.h"
+#include "apps/common/render_setup.h"
+#include "apps/common/validators.h"
 #include "apps/nusselt-lab/bench/bench_output.h"
 
 #include "base/atomic_file.h"
 #include "base/stopwatch.h"
+#include "base/words.h"
 #include "fit/table_error.h"
 #include "fit/table_fit.h"
 #include "image/io.h"
@@ -34,21 +38,27 @@ constexpr int kColumnsPerThread = 16;
 constexpr double kSecondsBetweenSaves = 20;
 /// The reflectance whose lobe the table for engines stores. Dielectrics and metals lose about the same with it.
 constexpr float kEngineF0 = 0.2f;
+/// The samples of a table must be fewer.
+constexpr std::int64_t kMostSamples = LtcTableView::kMostFloats / LtcTableView::kStride;
 
-fit::TableSize size_of(const std::string& text) {
+/// \returns nothing if the text is no size of a table
+std::optional<fit::TableSize> parse_size(const std::string& text) {
     fit::TableSize size{};
     int end = 0;
     constexpr int kMost = LtcTableFile::kMostSamples;
-    constexpr std::int64_t kMostInAll = LtcTableView::kMostFloats / LtcTableView::kStride;
     const auto is_fine = [](int n) { return n >= 2 && n <= kMost; };
     if (std::sscanf(text.c_str(), "%dx%dx%d%n", &size.roughness, &size.inclination, &size.f0, &end) != 3 ||
         static_cast<std::size_t>(end) != text.size() || !is_fine(size.roughness) ||
         !is_fine(size.inclination) || !is_fine(size.f0) ||
-        std::int64_t{size.roughness} * size.inclination * size.f0 >= kMostInAll)
-        throw std::runtime_error(fmt::format(
-            "--size '{}' must be three numbers from 2 to {}, such as 64x64x51, with a product below {}", text,
-            kMost, kMostInAll));
+        std::int64_t{size.roughness} * size.inclination * size.f0 >= kMostSamples)
+        return std::nullopt;
     return size;
+}
+
+std::string check_size(const std::string& text) {
+    if (parse_size(text)) return "";
+    return fmt::format("'{}' must be three numbers from 2 to {}, such as 64x64x51, with a product below {}",
+                       text, LtcTableFile::kMostSamples, kMostSamples);
 }
 
 /// Fits all columns or until Ctrl-C, and leaves the checkpoint up to date. Returns the number of columns that it
@@ -220,7 +230,7 @@ int run_fit_ltc(const FitLtcOptions& options) {
     if (options.json && options.json != "-") outputs.emplace_back(*options.json);
     if (options.checkpoint) outputs.push_back(*options.checkpoint);
     check_distinct(outputs, {});
-    TableFit fitted(brdf, size_of(options.size));
+    TableFit fitted(brdf, parse_size(options.size).value());
     tbb::task_arena arena(options.threads.value_or(render_cpu::default_thread_count()));
     const InterruptGuard guard;
     const base::Stopwatch stopwatch;
@@ -253,26 +263,39 @@ void setup_fit_ltc(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<FitLtcOptions>();
     CLI::App* command = app.add_subcommand(
         "fit-ltc", "Fit linearly transformed cosines to a BRDF times cosine and write them as a table.");
-    std::string names;
-    for (const fit::Brdf& one : fit::brdfs())
-        names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", one.name, one.description);
-    command->add_option("--brdf", options->brdf, "BRDF to fit: " + names)->capture_default_str();
+    std::vector<std::string> names, explained;
+    for (const fit::Brdf& one : fit::brdfs()) {
+        names.emplace_back(one.name);
+        explained.push_back(fmt::format("{} ({})", one.name, one.description));
+    }
+    command
+        ->add_option("--brdf", options->brdf, fmt::format("BRDF to fit: {}", base::listing(explained, "or")))
+        ->transform(to_one_of(names));
     command
         ->add_option("--size", options->size,
-                     "Samples along perceptual roughness, inclination of wo and f0, 2 to 256 each")
-        ->capture_default_str();
+                     fmt::format("Samples along perceptual roughness, inclination of wo and f0, 2 to {} each",
+                                 LtcTableFile::kMostSamples))
+        ->type_name("NxNxN")
+        ->check(check_size);
     command
-        ->add_option("-o,--output", options->output,
-                     "Write OUTPUT.bin, its description OUTPUT.json, and OUTPUT-engine.bin, a small table\n"
-                     "with one lobe for all f0")
-        ->required();
-    command->add_option(
-        "--checkpoint", options->checkpoint,
-        "Store the state of the fit in this file, also upon Ctrl-C, and continue from it if it exists");
+        ->add_option(
+            "-o,--output", options->output,
+            "Write OUTPUT.bin, its description OUTPUT.json, and OUTPUT-engine.bin, a small table with one "
+            "lobe for all f0")
+        ->type_name("OUTPUT")
+        ->required()
+        ->group(kOutputGroup);
+    command
+        ->add_option(
+            "--checkpoint", options->checkpoint,
+            "Store the state of the fit in this file, also upon Ctrl-C, and continue from it if it exists")
+        ->type_name("FILE")
+        ->default_str(kNone)
+        ->group(kOutputGroup);
     command->add_option("--commit", options->commit, "Commit of the program, recorded in OUTPUT.json")
-        ->capture_default_str();
-    command->add_option("--threads", options->threads, "Threads, 1 to 1024. Default: one per hardware thread")
-        ->check(CLI::Range(1, 1024));
+        ->type_name("COMMIT")
+        ->group(kOutputGroup);
+    add_threads_option(*command, options->threads);
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_fit_ltc(*options); });
 }

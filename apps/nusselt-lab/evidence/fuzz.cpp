@@ -78,25 +78,20 @@ int run_fuzz(const FuzzOptions& options) {
 void setup_fuzz(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<FuzzOptions>();
     CLI::App* command = bench.add_subcommand(
-        "fuzz", "Run techniques on lights that break samplers, and check that results are finite, on the\n"
-                "light and consistent. Exits with 1 if any check fails. Configurations depend only on their\n"
-                "index and the seed");
+        "fuzz", "Run techniques on lights that break samplers, and check that results are finite, on the "
+                "light and consistent. "
+                "Exits with 1 if any check fails. Configurations depend only on their index and the seed.");
     command->add_option("--count", options->count, "Configurations per technique")
-        ->check(whole_number(1, 1'000'000'000'000))
-        ->capture_default_str();
+        ->transform(to_whole_number(1, 1'000'000'000'000));
     command->add_option("--first", options->first, "Index of the first configuration")
-        ->check(whole_number(0, UINT64_MAX))
-        ->capture_default_str();
+        ->transform(to_whole_number(0, UINT64_MAX));
     command->add_option("--seed", options->seed, "Seed of the configurations")
-        ->check(whole_number(0, UINT64_MAX))
-        ->capture_default_str();
-    command
-        ->add_option("--technique", options->techniques,
-                     "Class name of a technique. May be repeated. Default: all")
-        ->check(CLI::IsMember(lab::fuzz_technique_names()));
-    command->add_option("--scalar", options->scalar, "Number type: float, double or longdouble")
-        ->check(CLI::IsMember({"float", "double", "longdouble"}))
-        ->capture_default_str();
+        ->transform(to_whole_number(0, UINT64_MAX));
+    command->add_option("--technique", options->techniques, "Class name of a technique. May be repeated")
+        ->transform(to_one_of(lab::fuzz_technique_names()))
+        ->default_str("all");
+    command->add_option("--scalar", options->scalar, "Number type")
+        ->transform(to_one_of({"float", "double", "longdouble"}));
     add_machine_options(*command, options->threads, options->isa);
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_fuzz(*options); });

@@ -1,4 +1,5 @@
 #include "map.h"
+#include "apps/common/validators.h"
 
 #include "base/atomic_file.h"
 #include "lab/figures/sampling_map.h"
@@ -13,19 +14,17 @@ namespace nusselt::app {
 void setup_map(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<MapOptions>();
     CLI::App* command =
-        app.add_subcommand("map", "Draw how a technique maps random numbers to a light, as SVG");
+        app.add_subcommand("map", "Draw how a technique maps random numbers to a light, as SVG.");
     command->add_option("TECHNIQUE", options->technique, "Class name")
         ->required()
-        ->check(CLI::IsMember(lab::mapped_techniques()));
+        ->transform(to_one_of(lab::mapped_techniques()));
     command->add_option("FILE", options->output, "SVG file to write")
         ->required()
-        ->check(
-            [](const std::string& name) {
-                return std::filesystem::path(name).extension() == ".svg"
-                           ? std::string()
-                           : "'" + name + "' must be the name of an SVG file, with .svg";
-            },
-            "");
+        ->check([](const std::string& name) {
+            return std::filesystem::path(name).extension() == ".svg"
+                       ? std::string()
+                       : "'" + name + "' must be the name of an SVG file, with .svg";
+        });
     command->callback([options, &exit_code] { exit_code = run_map(*options); });
 }
 

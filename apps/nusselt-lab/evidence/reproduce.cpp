@@ -1,5 +1,7 @@
 #include "reproduce.h"
+#include "apps/common/help.h"
 #include "apps/common/render_setup.h"
+#include "apps/common/validators.h"
 
 #include "base/atomic_file.h"
 #include "lab/figures/noise_table.h"
@@ -85,14 +87,15 @@ void write_index(const ReproduceOptions& options) {
 
 void setup_reproduce(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<ReproduceOptions>();
-    CLI::App* command = app.add_subcommand(
-        "reproduce",
-        "Render the comparisons of the papers and check their claims. Prints a table and writes a page with\n"
-        "all images for each experiment. Exits with 1 if an expectation fails.");
+    CLI::App* command =
+        app.add_subcommand("reproduce", "Render the comparisons of the papers and check their claims. Prints "
+                                        "a table and writes a page with all images "
+                                        "for each experiment. Exits with 1 if an expectation fails.");
     std::vector<std::string> names;
     for (const Heading& h : all_headings()) names.push_back(h.name);
-    command->add_option("EXPERIMENT", options->experiments, "Names of experiments, see --list. Default: all")
-        ->check(CLI::IsMember(names));
+    command->add_option("EXPERIMENT", options->experiments, "Names of experiments, see --list")
+        ->transform(to_one_of(names))
+        ->default_str("all");
     command->add_flag_callback(
         "--list",
         [] {
@@ -100,19 +103,19 @@ void setup_reproduce(CLI::App& app, int& exit_code) {
             throw CLI::Success();
         },
         "List the experiments and exit");
-    command->add_option("-o,--output", options->output, "Folder for the pages, created if missing")
-        ->capture_default_str();
-    command->add_option("--scenes", options->scenes, "Folder with the shipped scenes")->capture_default_str();
+    command->add_option("--scenes", options->scenes, "Folder with the shipped scenes")->type_name("FOLDER");
     command
         ->add_option("--reference-spp", options->reference_samples,
-                     "Samples per pixel and light of references, 1 to 2^20. Default: set by each experiment")
-        ->check(CLI::Range(1, render::kMaxSamples));
-    command
-        ->add_option("--width", options->width,
-                     "Width of the images in pixels, 1 to 16384. Default: set by each scene")
-        ->check(CLI::Range(1, 16384));
-    command->add_option("--threads", options->threads, "Threads, 1 to 1024. Default: one per hardware thread")
-        ->check(CLI::Range(1, 1024));
+                     "Samples per pixel and light of references")
+        ->transform(to_whole_number(1, render::kMaxSamples))
+        ->default_str("set by each experiment");
+    command->add_option("--width", options->width, "Width of the images in pixels")
+        ->transform(to_whole_number(1, 16384))
+        ->default_str("set by each scene");
+    command->add_option("-o,--output", options->output, "Folder for the pages, created if missing")
+        ->type_name("FOLDER")
+        ->group(kOutputGroup);
+    add_threads_option(*command, options->threads);
     command->callback([options, &exit_code] { exit_code = run_reproduce(*options); });
 }
 

@@ -1,5 +1,7 @@
 #include "bench_gpu_frames.h"
+#include "apps/common/help.h"
 #include "apps/common/render_setup.h"
+#include "apps/common/validators.h"
 #include "apps/nusselt-lab/bench/bench_device.h"
 #include "apps/nusselt-lab/bench/bench_output.h"
 #include "bench_gpu_frames_report.h"
@@ -160,41 +162,40 @@ int run_bench_gpu_frames(const BenchGpuFramesOptions& options) {
 void setup_bench_gpu_frames(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchGpuFramesOptions>();
     CLI::App* command = bench.add_subcommand(
-        "gpu", "Cost of frames on a GPU: times of the visibility pass and of the shading pass with each\n"
-               "technique and strategy, two samples of each per pixel in one frame; ratios between the two\n"
-               "ways of sampling materials that Peters (2021, polygonal lights, Fig. 1) compares; and where\n"
-               "a scene has a tube, the ratio between analytic shading of a line and of a quad in its place\n"
-               "(Heitz and Hill 2017, Sec. 1.7).");
-    command->add_option(
-        "SCENES", options->scenes,
-        "Scene files. Default: all of --scenes, and bathroom/bathroom.pbrt in the folder that\n"
-        "the environment variable NUSSELT_SCENES names");
+        "gpu", "Cost of frames on a GPU. Prints the times of the visibility pass and of the shading pass "
+               "with each technique "
+               "and strategy, two samples of each per pixel in one frame; ratios between the two ways of "
+               "sampling materials "
+               "that Peters (2021, polygonal lights, Fig. 1) compares; and where a scene has a tube, the "
+               "ratio between "
+               "analytic shading of a line and of a quad in its place (Heitz and Hill 2017, Sec. 1.7).");
+    command->add_option("SCENES", options->scenes, "Scene files")
+        ->default_str("all of --scenes, and bathroom/bathroom.pbrt in the folder that the environment "
+                      "variable NUSSELT_SCENES "
+                      "names");
     command->add_option("--scenes", options->scene_folder, "Folder with the shipped scenes")
-        ->capture_default_str();
+        ->type_name("FOLDER");
     add_resolution_option(*command, options->resolution);
-    command->get_option("--resolution")
-        ->description("Image size WIDTHxHEIGHT in pixels, each 1 to 65536")
-        ->capture_default_str();
+    command->get_option("--resolution")->default_str(*options->resolution);
     command->add_option("--frames", options->frames, "Frames of each kind; the median is reported")
-        ->check(CLI::Range(1, 10001))
-        ->capture_default_str();
+        ->transform(to_whole_number(1, 10001));
     command->add_option("--warm-up", options->warm_up, "Frames of each kind to warm up")
-        ->check(CLI::Range(0, 10000))
-        ->capture_default_str();
-    command
-        ->add_option("--techniques", options->techniques,
-                     "Only these techniques, separated by commas. Default: all")
+        ->transform(to_whole_number(0, 10000));
+    command->add_option("--techniques", options->techniques, "Only these techniques")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->check(to_name_of(render::kTechniques));
+        ->transform(to_one_of(names_of(render::kTechniques)))
+        ->default_str("all")
+        ->group(kSamplingGroup);
     command
-        ->add_option("--shadow-rays", options->shadow_rays,
-                     "Ways to trace shadow rays, separated by commas: query (ray queries of the\n"
-                     "driver), bvh (our own hierarchy), none. Default: query where the device supports\n"
-                     "it, else bvh; and none")
+        ->add_option(
+            "--shadow-rays", options->shadow_rays,
+            "Ways to trace shadow rays: query (ray queries of the driver), bvh (our own hierarchy) or none")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->check(CLI::IsMember(names_of(render_vulkan::kShadowRays)));
+        ->transform(to_one_of(names_of(render_vulkan::kShadowRays)))
+        ->default_str("query where the device supports it, else bvh; and none")
+        ->group(kDeviceGroup);
     add_device_option(*command, options->device);
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_gpu_frames(*options); });

@@ -1,4 +1,5 @@
 #include "bench_line_efficiency.h"
+#include "apps/common/help.h"
 #include "apps/common/line_options.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
@@ -144,40 +145,42 @@ void setup_bench_line_efficiency(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchLineEfficiencyOptions>();
     CLI::App* command = bench.add_subcommand(
         "line-efficiency",
-        "Time that line samples need to reach the error of point samples: standard deviations over\n"
-        "seeds, and times, of stratified point samples (projected solid angle), of line samples, and\n"
-        "of the choice between both for each shading point (--many-occluders points), interleaved.\n"
-        "Times to equal errors are interpolated; * means that the largest number of lines was not\n"
-        "enough, so the time does not count. Images should have 10^4 pixels or more: five rounds of\n"
-        "two seeds give the standard deviation of a single pixel to a third.");
-    command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
+        "Time that line samples need to reach the error of point samples. Measures standard deviations over "
+        "seeds, and "
+        "times, of stratified point samples (projected solid angle), of line samples, and of the choice "
+        "between both "
+        "for each shading point (--many-occluders points), interleaved. Times to equal errors are "
+        "interpolated; * means "
+        "that the largest number of lines was not enough, so the time does not count. Images should have "
+        "10^4 pixels or "
+        "more: five rounds of two seeds give the standard deviation of a single pixel to a third.");
+    add_scene_argument(*command, options->scene);
     command
         ->add_option(
             "--most-points", options->most_points,
             "Largest number of point samples per pixel and light; smaller ones are powers of two from 4")
-        ->check(CLI::Range(2 * lab::kFewestPoints, render::kMaxSamples))
-        ->capture_default_str();
+        ->transform(to_whole_number(2 * lab::kFewestPoints, render::kMaxSamples));
     command
         ->add_option(
             "--most-lines", options->most_lines,
             "Largest number of lines per shading point and light; smaller ones are powers of two from 1")
-        ->check(CLI::Range(2, render::kMaxLines))
-        ->capture_default_str();
+        ->transform(to_whole_number(2, render::kMaxLines));
     command
         ->add_option("--repetitions", options->repetitions,
-                     fmt::format("Rounds of {} images of each kind, 1 to 1000", lab::kSeedsPerRound))
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
+                     fmt::format("Rounds of {} images of each kind", lab::kSeedsPerRound))
+        ->transform(to_whole_number(1, 1000));
     command
         ->add_option("--strategies", options->strategies,
                      "Strategies for point samples, as for `nusselt render`")
-        ->transform(to_name_of(render::kStrategies))
-        ->capture_default_str();
+        ->transform(to_one_of(names_of(render::kStrategies)))
+        ->group(kSamplingGroup);
     command
         ->add_option(
             "--roughness", options->roughness,
             "Make all surfaces glossy with this roughness and a reflectance of 0.04 at normal incidence")
-        ->check(number(0, 1));
+        ->check(number(0, 1))
+        ->default_str("the materials of the scene")
+        ->group(kSceneGroup);
     add_line_kind_options(*command, options->lines);
     add_machine_options(*command, options->threads, options->isa, "one, then one per hardware thread");
     add_resolution_option(*command, options->resolution);

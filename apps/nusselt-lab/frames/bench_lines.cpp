@@ -1,6 +1,8 @@
 #include "bench_lines.h"
+#include "apps/common/help.h"
 #include "apps/common/line_options.h"
 #include "apps/common/render_setup.h"
+#include "apps/common/validators.h"
 #include "apps/nusselt-lab/bench/bench_output.h"
 #include "bench_frames.h"
 #include "recorded_rays.h"
@@ -141,18 +143,22 @@ lab::Results results_of(const LinesTable& table, const BenchLinesOptions& option
 
 void setup_bench_lines(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchLinesOptions>();
-    CLI::App* command = bench.add_subcommand(
-        "lines",
-        "Cost of line samples: the time to find the visible parts of a line, over the time of\n"
-        "Embree's functions alone for a shadow ray to a point of the same light from the same shading\n"
-        "point, in packets; and the time of the whole render phase per line, over that per point.\n"
-        "Then, for each shading point and light: boxes and triangles tested, and shadows of triangles\n"
-        "compared with packs of lines; and visible parts per line. Medians of interleaved runs.");
+    CLI::App* command =
+        bench.add_subcommand("lines", "Cost of line samples. Prints the time to find the visible parts of a "
+                                      "line, over the time of Embree's "
+                                      "functions alone for a shadow ray to a point of the same light from "
+                                      "the same shading point, in packets; and the "
+                                      "time of the whole render phase per line, over that per point. Then, "
+                                      "for each shading point and light: boxes "
+                                      "and triangles tested, and shadows of triangles compared with packs of "
+                                      "lines; and visible parts per line. "
+                                      "Medians of interleaved runs.");
     add_frame_options(*command, *options, "pixel and light for the rendering with points");
-    command->add_option("--lines", options->counts, "Lines per shading point and light, separated by commas")
+    command->add_option("--lines", options->counts, "Lines per shading point and light")
         ->delimiter(',')
-        ->check(CLI::Range(1, render::kMaxLines))
-        ->capture_default_str();
+        ->allow_extra_args(false)
+        ->transform(to_whole_number(1, render::kMaxLines))
+        ->group(kLinesGroup);
     add_line_kind_options(*command, options->lines);
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_lines(*options); });

@@ -69,9 +69,9 @@ void print_table(const std::vector<RaysRow>& rows) {
 void setup_bench_rays(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchRaysOptions>();
     CLI::App* command = bench.add_subcommand(
-        "rays",
-        "For each technique: the time of the render phase against that of Embree's functions alone for the\n"
-        "same rays in the same packets, without any conversion. Medians of interleaved runs.");
+        "rays", "Time of the render phase with each technique, against that of Embree's functions alone for "
+                "the same rays in "
+                "the same packets, without any conversion. Medians of interleaved runs.");
     add_frame_options(*command, *options, "pixel and light");
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_rays(*options); });

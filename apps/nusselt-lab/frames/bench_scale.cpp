@@ -67,21 +67,23 @@ void print_rows(const char* title, const std::vector<ScaleRow>& rows) {
 void setup_bench_scale(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchScaleOptions>();
     CLI::App* command = bench.add_subcommand(
-        "scale",
-        "Time and memory of generated scenes that grow to the given sizes in four steps. The last\n"
-        "columns are the peak memory until the scene is loaded, and until the image is rendered, over\n"
-        "the size of the scene's arrays; both without the memory that the program needs for a scene\n"
-        "of a few triangles.");
+        "scale", "Time and memory of generated scenes that grow to the given sizes in four steps. The last "
+                 "columns are the peak "
+                 "memory until the scene is loaded, and until the image is rendered, over the size of the "
+                 "scene's arrays; both "
+                 "without the memory that the program needs for a scene of a few triangles.");
     command->add_option("--triangles", options->triangles, "Triangles of the largest terrain, 0 for none")
-        ->check(whole_number(0, kMaxTriangles))
-        ->capture_default_str();
+        ->transform(to_whole_number(0, kMaxTriangles));
     command
         ->add_option("--emissive", options->emissive,
                      "Triangles of the largest emissive mesh, each of them a light, 0 for none")
-        ->check(whole_number(0, kMaxTriangles))
-        ->capture_default_str();
+        ->transform(to_whole_number(0, kMaxTriangles));
     add_json_option(*command, options->json);
-    command->callback([options, &exit_code] { exit_code = run_bench_scale(*options); });
+    command->callback([options, &exit_code] {
+        if (options->triangles == 0 && options->emissive == 0)
+            throw CLI::ValidationError("--triangles", "0 leaves nothing to measure, as --emissive is 0 too");
+        exit_code = run_bench_scale(*options);
+    });
 }
 
 int run_bench_scale(const BenchScaleOptions& options) {

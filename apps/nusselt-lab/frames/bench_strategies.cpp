@@ -89,11 +89,12 @@ void print_table(const std::vector<StrategiesRow>& rows) {
 
 void setup_bench_strategies(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchStrategiesOptions>();
-    CLI::App* command = bench.add_subcommand(
-        "strategies",
-        "Cost of a second technique for the specular component, with clamped optimal multiple importance\n"
-        "sampling: times of frames, and their ratios to one diffuse sample. Shading is everything except\n"
-        "tracing, summed over threads. Medians of interleaved runs.");
+    CLI::App* command =
+        bench.add_subcommand("strategies", "Cost of a second technique for the specular component, with "
+                                           "clamped optimal multiple importance sampling. "
+                                           "Prints times of frames, and their ratios to one diffuse sample. "
+                                           "Shading is everything except tracing, summed "
+                                           "over threads. Medians of interleaved runs.");
     add_frame_options(*command, *options, "pixel, light and technique");
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_strategies(*options); });

@@ -1,5 +1,6 @@
 #include "bench_accuracy.h"
 #include "apps/common/render_setup.h"
+#include "apps/common/validators.h"
 #include "apps/nusselt-lab/bench/bench_output.h"
 
 #include "base/isa.h"
@@ -24,18 +25,10 @@ void setup_bench_accuracy(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchAccuracyOptions>();
     CLI::App* command = bench.add_subcommand(
         "accuracy",
-        "Errors of each technique in each number type, on classes of hard lights, against long double");
-    command
-        ->add_option("--count", options->count,
-                     "Lights per class, 1 to 10^6; 5000 take 15 seconds on one core")
-        ->check(CLI::Range(1, 1000000))
-        ->capture_default_str();
-    command
-        ->add_option(
-            "--isa", options->isa,
-            "Instruction set of the packs: sse42, avx2 or avx512. Default: the environment variable\n"
-            "NUSSELT_ISA if set, else the best one that the processor supports")
-        ->check(CLI::IsMember(names_of(base::kAllIsas)));
+        "Errors of each technique in each number type, on classes of hard lights, against long double.");
+    command->add_option("--count", options->count, "Lights per class; 5000 take 15 seconds on one core")
+        ->transform(to_whole_number(1, 1'000'000));
+    add_isa_option(*command, options->isa);
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_accuracy(*options); });
 }

@@ -65,7 +65,7 @@ int run_bench_gpu_samplers(const BenchGpuSamplersOptions& options) {
 
 void setup_bench_gpu_samplers(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchGpuSamplersOptions>();
-    CLI::App* command = bench.add_subcommand("gpu-samplers", "Cost of each technique on a GPU");
+    CLI::App* command = bench.add_subcommand("gpu-samplers", "Cost of each technique on a GPU.");
     add_repetitions_option(*command, options->repetitions);
     add_device_option(*command, options->device);
     add_json_option(*command, options->json);

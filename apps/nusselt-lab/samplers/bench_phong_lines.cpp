@@ -31,11 +31,12 @@ constexpr Method kMethods[] = {
 
 void setup_bench_phong_lines(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchPhongLinesOptions>();
-    CLI::App* command = bench.add_subcommand(
-        "phong-lines",
-        "Time and error of Phong lobes along parts of lines, by exponent: quadrature (in packs and\n"
-        "scalar), and the table and recursion of Billen and Dutre (2016). Per part, float, one\n"
-        "thread. Errors, median and largest, over the integral along the whole line.");
+    CLI::App* command =
+        bench.add_subcommand("phong-lines", "Time and error of Phong lobes along parts of lines, by "
+                                            "exponent. Compares quadrature (in packs and scalar) "
+                                            "with the table and the recursion of Billen and Dutre (2016). "
+                                            "Per part, float, one thread. Errors, median and "
+                                            "largest, over the integral along the whole line.");
     add_repetitions_option(*command, options->repetitions);
     add_isa_option(*command, options->isa);
     add_json_option(*command, options->json);

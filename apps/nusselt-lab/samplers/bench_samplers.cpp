@@ -66,7 +66,7 @@ int run_bench_samplers(const BenchSamplersOptions& options) {
 
 void setup_bench_samplers(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchSamplersOptions>();
-    CLI::App* command = bench.add_subcommand("samplers", "Cost of preparing and of sampling each technique");
+    CLI::App* command = bench.add_subcommand("samplers", "Cost of preparing and of sampling each technique.");
     add_repetitions_option(*command, options->repetitions);
     add_isa_option(*command, options->isa);
     add_json_option(*command, options->json);

@@ -74,18 +74,15 @@ void setup_bench_shadows(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchShadowsOptions>();
     CLI::App* command = bench.add_subcommand(
         "shadows",
-        "Look for lines that see through closed meshes, and for lights, points and occluders that\n"
-        "break the visible parts of lines. Exits with 1 if any is found. Cases depend only on their\n"
-        "index and the seed");
+        "Look for lines that see through closed meshes, and for lights, points and occluders that break the "
+        "visible "
+        "parts of lines. Exits with 1 if any is found. Cases depend only on their index and the seed.");
     command->add_option("--count", options->count, "Cases of each kind, with 16 segments each")
-        ->check(whole_number(1, 1'000'000'000'000))
-        ->capture_default_str();
+        ->transform(to_whole_number(1, 1'000'000'000'000));
     command->add_option("--first", options->first, "Index of the first case")
-        ->check(whole_number(0, UINT64_MAX))
-        ->capture_default_str();
+        ->transform(to_whole_number(0, UINT64_MAX));
     command->add_option("--seed", options->seed, "Seed of the cases")
-        ->check(whole_number(0, UINT64_MAX))
-        ->capture_default_str();
+        ->transform(to_whole_number(0, UINT64_MAX));
     add_machine_options(*command, options->threads, options->isa);
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_shadows(*options); });

@@ -13,12 +13,13 @@ namespace nusselt::app {
 void setup_bench_tubes(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchTubesOptions>();
     CLI::App* command = bench.add_subcommand(
-        "tubes",
-        "Noise and cost of sampling cylinders of finite radius, beside rejection sampling (Gamito\n"
-        "2016). Relative standard deviations of the weights of single samples without shadows. hits\n"
-        "and rejection are the hits and the deviation of rejection sampling on a Lambertian surface,\n"
-        "to be compared with the projected solid angle; x time: preparing and one sample of the\n"
-        "latter over the same of rejection.");
+        "tubes", "Noise and cost of sampling cylinders of finite radius, beside rejection sampling (Gamito "
+                 "2016). Prints "
+                 "relative standard deviations of the weights of single samples without shadows. hits and "
+                 "rejection are the hits "
+                 "and the deviation of rejection sampling on a Lambertian surface, to be compared with the "
+                 "projected solid "
+                 "angle; x time: preparing and one sample of the latter over the same of rejection.");
     add_repetitions_option(*command, options->repetitions);
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_tubes(*options); });

@@ -1,6 +1,8 @@
 #include "bench_worst_case.h"
+#include "apps/common/help.h"
 #include "apps/common/interrupt.h"
 #include "apps/common/progress.h"
+#include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 #include "apps/nusselt-lab/bench/bench_output.h"
 
@@ -200,35 +202,38 @@ int run_bench_worst_case(const BenchWorstCaseOptions& options) {
 void setup_bench_worst_case(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchWorstCaseOptions>();
     CLI::App* command = bench.add_subcommand(
-        "worst-case",
-        "Search for the largest backward errors of the iterations by Nelder-Mead in double and long double,\n"
-        "and measure their order of convergence. Exits with 1 if an error exceeds the documented bound.");
+        "worst-case", "Search for the largest backward errors of the iterations by Nelder-Mead in double and "
+                      "long double, and measure "
+                      "their order of convergence. Exits with 1 if an error exceeds the documented bound.");
     std::vector<std::string> names;
     for (const auto& target : lab::worst_case_targets()) names.push_back(target.name);
-    command->add_option("--target", options->targets, "Target of the search. May be repeated. Default: all")
-        ->check(CLI::IsMember(names));
+    command->add_option("--target", options->targets, "Target of the search. May be repeated")
+        ->transform(to_one_of(names))
+        ->default_str("all");
+    command->add_option("--time", options->seconds, "Seconds to search, shared by the targets")
+        ->check(seconds())
+        ->default_str("60, or no limit with --starts");
     command
-        ->add_option("--time", options->seconds,
-                     "Seconds to search, shared by the targets. Default: 60, or no limit with --starts")
-        ->check(seconds());
+        ->add_option(
+            "--starts", options->starts,
+            "Starts per target, including those in the state file; the result then depends only on the seed")
+        ->transform(to_whole_number(1, 1'000'000'000'000))
+        ->default_str("as many as the time allows");
+    command->add_option("--seed", options->seed, "Seed of the search")
+        ->transform(to_whole_number(0, UINT64_MAX))
+        ->default_str("that of the state file, else 1");
+    add_threads_option(*command, options->threads);
     command
-        ->add_option("--starts", options->starts,
-                     "Starts per target, including those in the state file; the result then depends\n"
-                     "only on the seed. Default: as many as the time allows")
-        ->check(whole_number(1, 1'000'000'000'000));
-    command
-        ->add_option("--seed", options->seed, "Seed of the search. Default: that of the state file, else 1")
-        ->check(whole_number(0, UINT64_MAX));
-    command->add_option("--threads", options->threads, "Threads, 1 to 1024. Default: one per hardware thread")
-        ->check(CLI::Range(1, 1024));
-    command->add_option(
-        "--state", options->state,
-        "Store the state of the search in this file, also upon Ctrl-C, and continue from it if it exists");
+        ->add_option(
+            "--state", options->state,
+            "Store the state of the search in this file, also upon Ctrl-C, and continue from it if it exists")
+        ->type_name("FILE")
+        ->default_str(kNone)
+        ->group(kOutputGroup);
     command
         ->add_option("--convergence", options->convergence,
-                     "Random lights for the order of convergence, 0 to 10^6; 0 skips it")
-        ->check(CLI::Range(0, 1000000))
-        ->capture_default_str();
+                     "Random lights for the order of convergence; 0 skips it")
+        ->transform(to_whole_number(0, 1'000'000));
     add_json_option(*command, options->json);
     command->callback([options, &exit_code] { exit_code = run_bench_worst_case(*options); });
 }

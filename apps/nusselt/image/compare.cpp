@@ -1,5 +1,6 @@
 #include "compare.h"
 
+#include "apps/common/help.h"
 #include "apps/common/output_files.h"
 #include "apps/common/validators.h"
 #include "base/atomic_file.h"
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -115,7 +117,7 @@ MetricLimit parsed_limit(const std::string& option, const std::string& text) {
 struct Arguments {
     CompareOptions options;
     std::vector<std::filesystem::path> paths; ///< the last one is the reference
-    std::string metrics;
+    std::optional<std::string> metrics;
     std::vector<std::string> at_most, at_least;
 };
 
@@ -127,12 +129,15 @@ CompareOptions checked_options(const Arguments& arguments) {
     for (const std::string& text : arguments.at_most) options.at_most.push_back(parsed_limit("--max", text));
     for (const std::string& text : arguments.at_least)
         options.at_least.push_back(parsed_limit("--min", text));
-    if (arguments.metrics.empty()) {
+    if (!arguments.metrics) {
         options.metrics = default_metric_names();
     } else if (arguments.metrics == "all") {
         options.metrics = metric_names();
+    } else if (arguments.metrics->empty()) {
+        throw CLI::ValidationError("--metrics", fmt::format("needs the name of a metric; use {}, or all",
+                                                            fmt::join(metric_names(), ", ")));
     } else {
-        options.metrics = CLI::detail::split(arguments.metrics, ',');
+        options.metrics = CLI::detail::split(*arguments.metrics, ',');
     }
     for (const std::string& name : options.metrics) {
         if (std::find(metric_names().begin(), metric_names().end(), name) != metric_names().end()) continue;
@@ -149,8 +154,8 @@ CompareOptions checked_options(const Arguments& arguments) {
 }
 
 constexpr const char* kDescription =
-    "Compare images with a reference of the same size, which is the last argument. One image is reported as\n"
-    "a list, several as a table. Averages exclude pixels that are NaN or infinite in either image; these\n"
+    "Compare images with a reference of the same size, which is the last argument. One image is reported as "
+    "a list, several as a table. Averages exclude pixels that are NaN or infinite in either image; these "
     "pixels are listed. Metrics (docs/images.md has the formulas):\n"
     "  mse, rmse       mean squared error and its root\n"
     "  relative_rmse   rmse / mean of the reference\n"
@@ -161,33 +166,55 @@ constexpr const char* kDescription =
     "  flip            mean of FLIP of the displayed images\n"
     "  hdr_flip        mean of HDR-FLIP, over all exposures that show something of the reference\n"
     "  invalid         number of pixels of the image that are NaN or infinite\n"
-    "Exits with 0 upon success, with 1 if a file cannot be read or written or sizes differ, and with 3 if\n"
+    "Exits with 0 upon success, with 1 if a file cannot be read or written or sizes differ, and with 3 if "
     "a limit of --max or --min is broken; each broken limit is a line on the standard error output.";
 
 constexpr const char* kJsonDescription =
-    "Write the numbers as JSON to a file, or with - to the standard output in place of the plain text:\n"
-    "reference, width, height, exposure, pixels_per_degree, rel_mse_epsilon, invalid_reference, images\n"
-    "(an array with image, each metric by its name, mean_image, mean_reference, compared_pixels and\n"
-    "invalid_image) and broken_limits (image, metric, value, limit). Invalid pixels have count, nan_count\n"
-    "and the first ten (x, y, rgb). NaN and infinities are strings. Default: none";
+    "Write the numbers as JSON to a file, or with - to the standard output in place of the plain text: "
+    "reference, width, height, exposure, pixels_per_degree, rel_mse_epsilon, invalid_reference, images "
+    "(an array with image, each metric by its name, mean_image, mean_reference, compared_pixels and "
+    "invalid_image) and broken_limits (image, metric, value, limit). Invalid pixels have count, nan_count "
+    "and the first ten (x, y, rgb). NaN and infinities are strings";
+
+constexpr const char* kPicturesGroup = "Pictures";
+
+/// Adds an option for a picture to write.
+void add_picture_option(CLI::App& command, const char* name, std::optional<std::filesystem::path>& picture,
+                        const char* description) {
+    command.add_option(name, picture, description)
+        ->type_name("FILE")
+        ->default_str(kNone)
+        ->group(kPicturesGroup);
+}
 
 void add_picture_options(CLI::App& command, CompareOptions& options) {
-    command.add_option(
-        "--diff", options.difference,
-        "Write the signed difference IMAGE - REFERENCE in false colours (blue: too dark, white: equal,\n"
-        "red: too bright, black: NaN or infinite): .png, .exr, .hdr or .pfm. Default: none");
-    command.add_option("--abs-diff", options.absolute_difference,
-                       "Write the absolute difference of each channel. Default: none");
+    add_picture_option(
+        command, "--diff", options.difference,
+        "Write the signed difference IMAGE - REFERENCE in false colours (blue: too dark, white: equal, "
+        "red: too bright, black: NaN or infinite): .png, .exr, .hdr or .pfm");
+    add_picture_option(command, "--abs-diff", options.absolute_difference,
+                       "Write the absolute difference of each channel");
+    command.add_option("--diff-scale", options.difference_scale, "Difference shown in full colour")
+        ->check(number_above_zero(std::numeric_limits<double>::max()))
+        ->default_str("99th percentile over the pixels of the largest difference among the channels")
+        ->group(kPicturesGroup);
+    add_picture_option(command, "--flip-map", options.flip_map,
+                       "Write FLIP of each pixel, from black (0) over purple, red and orange to yellow (1)");
+    add_picture_option(command, "--hdr-flip-map", options.hdr_flip_map,
+                       "Write HDR-FLIP of each pixel in the same colours");
+}
+
+/// Adds --max or --min. \param relation of values that break the limit
+void add_limit_option(CLI::App& command, const char* name, std::vector<std::string>& limits,
+                      const char* relation) {
     command
-        .add_option("--diff-scale", options.difference_scale,
-                    "Difference shown in full colour, above 0.\n"
-                    "Default: 99th percentile over the pixels of the largest difference among the channels")
-        ->check(number_above_zero(std::numeric_limits<double>::max()));
-    command.add_option("--flip-map", options.flip_map,
-                       "Write FLIP of each pixel, from black (0) over purple, red and orange to yellow (1).\n"
-                       "Default: none");
-    command.add_option("--hdr-flip-map", options.hdr_flip_map,
-                       "Write HDR-FLIP of each pixel in the same colours. Default: none");
+        .add_option(
+            name, limits,
+            fmt::format("Exit with 3 if the metric of an image is {} VALUE or undefined. May be repeated",
+                        relation))
+        ->type_name("METRIC=VALUE")
+        ->allow_extra_args(false)
+        ->default_str(kNone);
 }
 
 } // namespace
@@ -199,37 +226,29 @@ void setup_compare(CLI::App& app, int& exit_code) {
     command
         ->add_option(
             "IMAGES", arguments->paths,
-            "IMAGE... REFERENCE: .exr, .hdr, .pfm, or .png, .jpg, .tga (converted to linear); at most\n"
+            "IMAGE... REFERENCE: .exr, .hdr, .pfm, or .png, .jpg, .tga (converted to linear); at most "
             "2^28 pixels each")
         ->required()
         ->expected(2, 10000);
-    command->add_option(
-        "--metrics", arguments->metrics,
-        "Metrics, separated by commas, or all. Default: all but flip and hdr_flip, which are\n"
-        "slow for large images");
+    command->add_option("--metrics", arguments->metrics, "Metrics, separated by commas, or all")
+        ->type_name("NAME,...")
+        ->default_str("all but flip and hdr_flip, which are slow for large images");
     command
         ->add_option("--exposure", options.exposure,
-                     "Brighten images by this many stops for psnr, ssim and flip. Default: 0")
+                     "Brighten images by this many stops for psnr, ssim and flip")
         ->check(exposure());
     command
         ->add_option("--ppd", options.pixels_per_degree,
-                     "Pixels per degree of the field of vision, for flip and hdr_flip, in (0, 1000].\n"
-                     "Default: 67.02, a screen of 3840 pixels seen at a distance of its width")
-        ->check(number_above_zero(image::kFlipMaxPixelsPerDegree));
-    command
-        ->add_option(
-            "--max", arguments->at_most,
-            "METRIC=VALUE: exit with 3 if the metric of an image is above VALUE or undefined. May be\n"
-            "repeated. Default: none")
-        ->allow_extra_args(false);
-    command
-        ->add_option(
-            "--min", arguments->at_least,
-            "METRIC=VALUE: exit with 3 if the metric of an image is below VALUE or undefined. May be\n"
-            "repeated. Default: none")
-        ->allow_extra_args(false);
+                     "Pixels per degree of the field of vision, for flip and hdr_flip")
+        ->check(number_above_zero(image::kFlipMaxPixelsPerDegree))
+        ->default_str("67.02, a screen of 3840 pixels seen at a distance of its width");
+    add_limit_option(*command, "--max", arguments->at_most, "above");
+    add_limit_option(*command, "--min", arguments->at_least, "below");
     add_picture_options(*command, options);
-    command->add_option("--json", options.json, kJsonDescription);
+    command->add_option("--json", options.json, kJsonDescription)
+        ->type_name("FILE")
+        ->default_str(kNone)
+        ->group(kOutputGroup);
     command->callback([arguments, &exit_code] { exit_code = run_compare(checked_options(*arguments)); });
 }
 

@@ -10,8 +10,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace nusselt::app {
 
@@ -26,38 +28,58 @@ void print_layers(const ConvertOptions& options) {
         fmt::print("{:<24} {}\n", display_name(layer), fmt::join(layer.channels, " "));
 }
 
-image::Image named_layer(const image::LayeredImage& file, const std::string& name,
-                         const std::filesystem::path& path) {
-    const image::Layer* layer = image::find_layer(file, name);
-    if (layer != nullptr) return image::layer_image(file, *layer);
-    throw std::runtime_error(
-        fmt::format("'{}' has no layer '{}'; use --list-layers to list its layers", path.string(), name));
+/// The picture, or the layer that the options name.
+image::Image read_picture(const ConvertOptions& options) {
+    if (!options.layer) return image::read_image(options.input);
+    image::LayeredImage file = image::read_layer(options.input, *options.layer);
+    if (file.layers.empty())
+        throw std::runtime_error(fmt::format("'{}' has no layer '{}'; use --list-layers to list its layers",
+                                             options.input.string(), *options.layer));
+    return image::layer_image(file.data, std::move(file.layers[0]));
 }
 
+/// Warns of values that become infinite.
 void make_brighter(image::Image& picture, double exposure) {
     const double scale = std::exp2(exposure);
-    for (float& value : picture.pixels) value = float(scale * double(value));
+    std::size_t overflow_count = 0;
+    for (float& value : picture.pixels) {
+        const float brighter = float(scale * double(value));
+        if (std::isinf(brighter) && !std::isinf(value)) ++overflow_count;
+        value = brighter;
+    }
+    if (overflow_count > 0)
+        fmt::print(stderr,
+                   "warning: --exposure {} makes {} of {} values larger than a float can be; they become "
+                   "infinite; use a smaller exposure\n",
+                   exposure, overflow_count, picture.pixels.size());
 }
 
 /// Keeps the metadata of the picture.
 void convert_exr_to_exr(const ConvertOptions& options) {
-    const bool named = options.layer.has_value();
-    image::LayeredImage file =
-        named ? image::read_layers(options.input) : image::read_layer_list(options.input);
-    image::Image picture =
-        named ? named_layer(file, *options.layer, options.input) : image::read_image(options.input);
+    image::LayeredImage file = image::read_layer_list(options.input);
+    image::Image picture = read_picture(options);
     make_brighter(picture, options.exposure);
-    file.layers = {image::color_layer(picture)};
+    file.layers.clear();
+    file.layers.push_back(image::color_layer(std::move(picture)));
     file.metadata[image::kConvertedKey] = "yes";
     image::write_layers(*options.output, file);
 }
 
 void convert_to_other_format(const ConvertOptions& options) {
-    image::Image picture = options.layer
-                               ? named_layer(image::read_layers(options.input), *options.layer, options.input)
-                               : image::read_image(options.input);
+    image::Image picture = read_picture(options);
     make_brighter(picture, options.exposure);
     image::write_image(*options.output, picture);
+}
+
+/// \throws CLI::ValidationError
+void check_usage(const ConvertOptions& options) {
+    if (!options.list_layers && !options.output) throw CLI::RequiredError("OUT");
+    if (options.list_layers && options.output)
+        throw CLI::ValidationError("--list-layers writes no image; leave out OUT or --list-layers");
+    if (options.list_layers && options.layer)
+        throw CLI::ValidationError("--list-layers prints all layers; leave out --layer or --list-layers");
+    if (options.layer && options.layer->empty())
+        throw CLI::ValidationError("--layer needs the name of a layer; leave it out to convert the picture");
 }
 
 } // namespace
@@ -66,29 +88,31 @@ void setup_convert(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<ConvertOptions>();
     CLI::App* command = app.add_subcommand(
         "convert",
-        "Convert an image to another format, given by the extension of OUT. EXR and PFM store floats;\n"
-        "HDR stores 8-bit floats with a common exponent; PNG stores 8 bits with the transfer function\n"
-        "of sRGB, clamped to [0, 1]. PNG, JPG and TGA files are converted to linear when they are\n"
-        "read. From EXR to EXR, metadata and the position of a crop on the film are kept; other\n"
+        "Convert an image to another format, given by the extension of OUT. EXR and PFM store floats; "
+        "HDR stores 8-bit floats with a common exponent; PNG stores 8 bits with the transfer function "
+        "of sRGB, clamped to [0, 1]. PNG, JPG and TGA files are converted to linear when they are "
+        "read. From EXR to EXR, metadata and the position of a crop on the film are kept; other "
         "layers are dropped.");
     command
         ->add_option("IN", options->input,
                      "Image to read: .exr, .hdr, .pfm, .png, .jpg, .jpeg or .tga; at most 2^28 pixels")
         ->required();
-    command->add_option("OUT", options->output, "Image to write: .exr, .hdr, .pfm or .png");
+    command->add_option("OUT", options->output,
+                        "Image to write: .exr, .hdr, .pfm or .png; not with --list-layers");
     command
         ->add_option("--exposure", options->exposure,
-                     "Brighten the image by this many stops, that is, multiply it by 2^N")
-        ->check(exposure())
-        ->capture_default_str();
-    command->add_option(
-        "--layer", options->layer,
-        "Layer of an EXR file with one channel (converted to grey) or three. Default: the picture, that is,\n"
-        "the channels R, G and B, or Y, without the name of a layer");
+                     "Brighten the image by this many stops, that is, multiply it by 2^X. Values that exceed "
+                     "the largest float become infinite, with a warning")
+        ->check(exposure());
+    command
+        ->add_option("--layer", options->layer,
+                     "Layer of an EXR file with one channel (converted to grey) or three")
+        ->type_name("NAME")
+        ->default_str("the picture, that is, the channels R, G and B, or Y, without the name of a layer");
     command->add_flag("--list-layers", options->list_layers,
                       "Print the layers of the EXR file IN with their channels, and write nothing");
     command->callback([options, &exit_code] {
-        if (!options->list_layers && !options->output) throw CLI::RequiredError("OUT");
+        check_usage(*options);
         exit_code = run_convert(*options);
     });
 }

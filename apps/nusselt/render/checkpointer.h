@@ -15,11 +15,11 @@
 
 namespace nusselt::app {
 
-/// Stores finished tiles at regular intervals, in its own thread.
+/// Stores tiles at regular intervals, in its own thread: those that are finished, and those that an earlier run began.
 class Checkpointer {
 public:
     /// \param run   see render::save_checkpoint()
-    /// \param frame must outlive the object; finished tiles count as stored
+    /// \param frame must outlive the object; finished and begun tiles count as stored
     Checkpointer(std::filesystem::path path, image::Metadata run, const render::Frame& frame,
                  std::chrono::duration<double> interval);
     /// Stores nothing.
@@ -30,7 +30,7 @@ public:
     /// Any thread may call this, once for each tile that it finishes.
     void add(std::size_t tile);
 
-    /// Ends the thread and stores all that is finished.
+    /// Ends the thread and stores all finished and begun tiles. The rendering must be over.
     /// \returns what went wrong, or nothing
     [[nodiscard]] std::optional<std::string> save_all();
 
@@ -42,7 +42,8 @@ private:
     std::filesystem::path path_;
     image::Metadata run_;
     const render::Frame& frame_;
-    std::mutex mutex_; ///< of the following
+    render::BegunTiles begun_; ///< of the earlier run; the rendering may change those of the frame
+    std::mutex mutex_;         ///< of the following
     std::condition_variable stopped_;
     bool stop_ = false;
     std::vector<std::size_t> finished_;

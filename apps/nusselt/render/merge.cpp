@@ -1,5 +1,6 @@
 #include "merge.h"
 
+#include "apps/common/help.h"
 #include "apps/common/output_files.h"
 
 #include "image/io.h"
@@ -17,21 +18,28 @@ namespace nusselt::app {
 
 void setup_merge(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<MergeOptions>();
-    CLI::App* command = app.add_subcommand(
-        "merge",
-        "Combine EXR files of `nusselt render`: parts of one image (--part), or images with different seeds\n"
-        "(--seed). Pixels become means over all samples. Scene, size, layers and settings must be the same;\n"
-        "samples that would count twice are an error.");
+    CLI::App* command =
+        app.add_subcommand("merge", "Combine EXR files of `nusselt render`: parts of one image (--part), or "
+                                    "images with different seeds (--seed). "
+                                    "Pixels become means over all samples. Scene, size, layers and settings "
+                                    "must be the same; samples that would "
+                                    "count twice are an error.");
     const auto check_exr = [](const std::filesystem::path& path) {
         return image::is_exr(path) ? std::string()
                                    : "'" + path.string() + "' must be the name of an EXR file";
     };
-    command->add_option("-o,--output", options->output, "EXR file to write")->check(check_exr, "");
+    command->add_option("-o,--output", options->output, "EXR file to write")
+        ->type_name("FILE")
+        ->default_str("the first one of IN, which is deprecated")
+        ->check(check_exr)
+        ->group(kOutputGroup);
     command->add_option("IN", options->inputs, "EXR files to read, one or more")
         ->required()
-        ->check(check_exr, "");
-    command->add_flag("--partial", options->allows_partial,
-                      "Write the image although pixels lack samples because parts are missing");
+        ->check(check_exr);
+    command
+        ->add_flag("--partial", options->allows_partial,
+                   "Write the image although pixels lack samples because parts are missing")
+        ->group(kOutputGroup);
     command->callback([options, &exit_code] {
         const bool is_old_form = !options->output;
         if (is_old_form) {

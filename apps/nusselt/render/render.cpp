@@ -1,9 +1,11 @@
 #include "render.h"
+#include "apps/common/help.h"
 #include "apps/common/interrupt.h"
 #include "apps/common/line_options.h"
 #include "apps/common/progress.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
+#include "apps/nusselt/scene/camera.h"
 #include "apps/nusselt/scene/lights.h"
 #include "checkpointer.h"
 #include "frame_display.h"
@@ -74,19 +76,63 @@ std::string check_display_address(const std::string& text) {
     }
 }
 
-/// \returns the exit code
-int stop_without_image(const RenderOptions& options) {
-    if (!options.quiet) fmt::print(stderr, "stopped before the first pixel; no image is written\n");
-    return interrupted_exit_code();
-}
+const char* const kStoppedEarly = "stopped before the first pixel; no image is written\n";
 
-/// Reports that the image is incomplete. \param work the work of which a fraction is finished
-void print_stop(const RenderOptions& options, double finished, const std::string& work) {
-    fmt::print(stderr, "stopped after {:.1f} % of the {}", 100 * finished, work);
+/// Reports that the image is incomplete. \param finished fraction of the work
+void print_stop(const RenderOptions& options, double finished) {
+    fmt::print(stderr, "stopped after {:.1f} % of the camera rays", 100 * finished);
     if (options.checkpoint)
         fmt::print(stderr, "; run the same command again to continue from '{}'",
                    options.checkpoint->string());
     fmt::print(stderr, "\n");
+}
+
+void add_output_options(CLI::App& command, RenderOptions& options) {
+    command
+        .add_option(
+            "-o,--output", options.outputs,
+            "Image to write: .exr (with all settings in its metadata), .png, .hdr or .pfm. May be repeated")
+        ->type_name("FILE")
+        ->allow_extra_args(false)
+        ->default_str("the file name of the film, else that of the scene, with .exr, in the current folder")
+        ->group(kOutputGroup);
+    command.add_option("--exposure", options.exposure, "Brighten PNG images by this many stops")
+        ->check(exposure())
+        ->group(kOutputGroup);
+    add_layers_option(command, options.layers);
+    command
+        .add_option(
+            "--json", options.json,
+            "Write settings, times and numbers of rays as JSON to a file, or with - to the standard output")
+        ->type_name("FILE")
+        ->default_str(kNone)
+        ->group(kOutputGroup);
+    command
+        .add_option(
+            "--display-server", options.display_server,
+            "Show tiles as they are finished in the viewer tev, or in another one with its protocol, at "
+            "HOST, HOST:PORT or [IPV6]:PORT")
+        ->type_name("ADDRESS")
+        ->check(check_display_address)
+        ->default_str(kNone)
+        ->group(kOutputGroup);
+    command.add_flag("-q,--quiet", options.quiet, "Print only errors: no warnings, no progress")
+        ->group(kOutputGroup);
+}
+
+void add_checkpoint_options(CLI::App& command, RenderOptions& options) {
+    command
+        .add_option("--checkpoint", options.checkpoint,
+                    "Store what is finished in this file while rendering. After an interruption of any kind, "
+                    "the same "
+                    "command continues from it; the file is removed once the image is written")
+        ->type_name("FILE")
+        ->default_str(kNone)
+        ->group(kPartsGroup);
+    command
+        .add_option("--checkpoint-interval", options.checkpoint_interval, "Seconds between two checkpoints")
+        ->check(number(0.01, 1e6))
+        ->group(kPartsGroup);
 }
 
 } // namespace
@@ -94,66 +140,36 @@ void print_stop(const RenderOptions& options, double finished, const std::string
 void setup_render(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand(
-        "render",
-        "Render the direct light of a scene. Ctrl-C stops early and writes the finished tiles, with\n"
-        "the rest black; the exit code is then 130. A second Ctrl-C ends the program at once.");
-    command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
-    command
-        ->add_option(
-            "-o,--output", options->outputs,
-            "Image to write: .exr (with all settings in its metadata), .png, .hdr or .pfm. May be repeated.\n"
-            "Default: the file name of the film, else that of the scene, with .exr, in the current folder")
-        ->allow_extra_args(false);
-    command
-        ->add_option("--spp", options->samples,
-                     fmt::format("Samples per pixel, light and technique, 1 to {}", render::kMaxSamples))
-        ->check(CLI::Range(1, render::kMaxSamples))
-        ->capture_default_str();
+        "render", "Render the direct light of a scene. Ctrl-C stops early and writes what is "
+                  "there, with the rest black; the exit code is then 130. A second Ctrl-C "
+                  "ends the program at once.");
+    add_scene_argument(*command, options->scene);
+    add_output_options(*command, *options);
+    command->add_option("--spp", options->samples, "Samples per pixel, light and technique")
+        ->transform(to_whole_number(1, render::kMaxSamples))
+        ->default_str("what the Sampler of the scene asks for, or 1")
+        ->group(kSamplingGroup);
     add_sampling_options(*command, *options);
+    command->add_option("--camera-rays", options->camera_rays, "Camera rays per pixel, a divisor of --spp")
+        ->transform(to_whole_number(1, render::kMaxSamples))
+        ->default_str("the same as --spp, or 1 with --pixel-center")
+        ->group(kSamplingGroup);
     command
-        ->add_option(
-            "--camera-rays", options->camera_rays,
-            "Camera rays per pixel, a divisor of --spp. Default: same as --spp, or 1 with --pixel-center")
-        ->check(CLI::Range(1, render::kMaxSamples));
-    command->add_flag_callback(
-        "--pixel-center",
-        [options] { options->pixel_position = render::name_of(render::PixelPosition::center); },
-        "Send all camera rays through pixel centres, to measure noise. Default: random positions\n"
-        "within the pixel");
+        ->add_flag_callback(
+            "--pixel-center",
+            [options] { options->pixel_position = render::name_of(render::PixelPosition::center); },
+            "Send all camera rays through pixel centres, to measure noise, in place of random positions "
+            "within the "
+            "pixel")
+        ->group(kSamplingGroup);
     add_line_options(*command, options->lines);
     add_rigs_option(*command, options->rigs);
-    command->add_option(
-        "--camera", options->camera,
-        "Camera and image size in place of those of the scene: a JSON file in the format that\n"
-        "`nusselt camera` prints. Default: the camera of the scene");
+    add_camera_option(*command, options->camera);
+    add_resolution_option(*command, options->resolution);
     add_backend_options(*command, *options);
     add_machine_options(*command, options->threads, options->isa);
-    add_resolution_option(*command, options->resolution);
-    command->add_option("--exposure", options->exposure, "Brighten PNG images by this many stops, -64 to 64")
-        ->check(exposure())
-        ->capture_default_str();
-    add_layers_option(*command, options->layers);
     add_part_option(*command, options->part);
-    command->add_option(
-        "--checkpoint", options->checkpoint,
-        "Store finished tiles in this file while rendering. After an interruption of any kind, the same\n"
-        "command continues from it; the file is removed once the image is written. Default: none");
-    command
-        ->add_option("--checkpoint-interval", options->checkpoint_interval,
-                     "Seconds between two checkpoints, 0.01 to 1e6")
-        ->check(number(0.01, 1e6))
-        ->capture_default_str();
-    command
-        ->add_option(
-            "--display-server", options->display_server,
-            "Show tiles as they are finished in the viewer tev, or in another one with its protocol, at\n"
-            "HOST, HOST:PORT or [IPV6]:PORT. Default: none")
-        ->check(check_display_address, "HOST[:PORT]");
-    command->add_flag("-q,--quiet", options->quiet, "Print only errors: no warnings, no progress");
-    command->add_option(
-        "--json", options->json,
-        "Write settings, times and numbers of rays as JSON to a file, or with - to the standard\n"
-        "output. Default: none");
+    add_checkpoint_options(*command, *options);
     command->callback([options, &exit_code] {
         check_combination(*options);
         exit_code = run_render(*options);
@@ -162,19 +178,22 @@ void setup_render(CLI::App& app, int& exit_code) {
 
 int run_render(const RenderOptions& options) {
     const base::Stopwatch stopwatch;
-    const render::RenderSettings settings = make_settings(options);
+    render::RenderSettings settings = make_settings(options);
     check_outputs(options);
     const std::unique_ptr<render::Backend> backend = make_backend(options, settings);
 
-    const InterruptGuard guard;
+    InterruptGuard guard;
+    guard.end_at_once(options.quiet ? "" : kStoppedEarly);
     scene::Scene scene = load_scene(options.scene, options.rigs);
     if (options.camera) apply_camera(scene::read_camera_file(*options.camera), scene);
     check_names(options, scene.film);
+    choose_samples(options, scene.film, settings);
     apply_resolution(options.resolution, scene);
     Times times;
     times.load = stopwatch.seconds();
     if (!options.quiet) print_warnings(options, settings, scene);
 
+    if (!options.quiet && !settings.layers.empty()) print_layers(render::frame_size(scene, settings));
     render::Frame frame = render::make_frame(scene, settings);
     image::Metadata metadata = render::make_metadata(scene, settings, *backend);
     if (!options.rigs.empty()) metadata["light_rigs"] = rig_names(options.rigs);
@@ -187,11 +206,10 @@ int run_render(const RenderOptions& options) {
     }
 
     const std::unique_ptr<render::PreparedScene> prepared = backend->prepare(scene);
-    if (interrupted) return stop_without_image(options);
-
     Progress progress(finished_fraction(frame));
     render::RenderMonitor monitor;
     monitor.cancel = &interrupted;
+    monitor.started = [&] { guard.stop_in_order(); };
     if (!options.quiet) monitor.progress = [&](double fraction) { progress.update(fraction); };
     std::optional<FrameDisplay> display;
     if (options.display_server)
@@ -207,7 +225,10 @@ int run_render(const RenderOptions& options) {
     const render::RenderStatistics statistics = prepared->render_into(frame, settings, monitor);
     progress.finish();
     const double finished = finished_fraction(frame);
-    if (finished == 0) return stop_without_image(options);
+    if (finished == 0) {
+        if (!options.quiet) fmt::print(stderr, "{}", kStoppedEarly);
+        return interrupted_exit_code();
+    }
 
     const base::Stopwatch writing;
     // A finished image is saved too, because writing it may fail.
@@ -215,7 +236,6 @@ int run_render(const RenderOptions& options) {
     metadata["scene"] = options.scene.filename().string();
     metadata["render_seconds"] = image::metadata_text(statistics.render_seconds);
     metadata["finished_fraction"] = image::metadata_text(finished);
-    const std::string unfinished_work = frame.finished_share < 1 ? "camera rays" : "pixels";
     write_outputs(options, settings, scene.film, std::move(frame), metadata);
     if (unsaved && finished < 1) throw std::runtime_error(*unsaved);
     if (options.checkpoint && finished == 1) {
@@ -227,7 +247,7 @@ int run_render(const RenderOptions& options) {
     if (options.json)
         write_report(*options.json, report_json(options, settings, scene, *backend, statistics, times));
     if (finished == 1) return 0;
-    if (!options.quiet) print_stop(options, finished, unfinished_work);
+    if (!options.quiet) print_stop(options, finished);
     return interrupted_exit_code();
 }
 

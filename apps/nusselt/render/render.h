@@ -20,7 +20,7 @@ struct RenderOptions {
     std::vector<std::filesystem::path> rigs;     ///< in the order in which they are applied
     std::optional<std::filesystem::path> camera; ///< file with another camera
     std::vector<std::filesystem::path> outputs;  ///< empty: named after the film or the scene
-    int samples = 1;
+    std::optional<int> samples;                  ///< default: what the scene asks for, or 1
     std::string technique = "projected_solid_angle";
     std::optional<std::string> strategies;
     std::optional<std::string> mis;

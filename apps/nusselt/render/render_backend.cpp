@@ -1,6 +1,8 @@
 #include "render_backend.h"
 
+#include "apps/common/help.h"
 #include "apps/common/render_setup.h"
+#include "apps/common/validators.h"
 
 #include "base/words.h"
 #include "render_cpu/backend.h"
@@ -20,22 +22,24 @@ void add_backend_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option("--backend", options.backend,
                     "Renderer: cpu; vulkan, on a GPU; or auto, on a GPU if one is available, else on the CPU")
-        ->check(CLI::IsMember({"cpu", "vulkan", "auto"}))
-        ->capture_default_str();
+        ->transform(to_one_of({"cpu", "vulkan", "auto"}))
+        ->group(kDeviceGroup);
     add_device_options(command, options);
 }
 
 void add_device_options(CLI::App& command, RenderOptions& options) {
-    command.add_option("--device", options.device,
-                       "GPU, by its index or a part of its name. Default: the environment variable\n"
-                       "NUSSELT_DEVICE if set, else the fastest kind");
+    command.add_option("--device", options.device, "GPU, by its index or a part of its name")
+        ->type_name("DEVICE")
+        ->default_str("the environment variable NUSSELT_DEVICE if set, else the fastest kind")
+        ->group(kDeviceGroup);
     command
         .add_option(
             "--shadow-rays", options.shadow_rays,
-            "How a GPU traces shadow rays: query (ray queries of its driver), bvh (our own hierarchy),\n"
-            "or none, for an image without shadows. Default: query where the device supports it in\n"
-            "hardware, else bvh")
-        ->check(CLI::IsMember(names_of(render_vulkan::kShadowRays)));
+            "How a GPU traces shadow rays: query (ray queries of its driver), bvh (our own hierarchy), or "
+            "none, for an image without shadows")
+        ->transform(to_one_of(names_of(render_vulkan::kShadowRays)))
+        ->default_str("query where the device supports it in hardware, else bvh")
+        ->group(kDeviceGroup);
 }
 
 namespace {
@@ -95,7 +99,8 @@ std::unique_ptr<render::Backend> make_backend(const RenderOptions& options,
         return std::make_unique<render_cpu::CpuBackend>(
             base::choose_isa(options.isa), options.threads.value_or(render_cpu::default_thread_count()));
     std::unique_ptr<render::Backend> gpu = make_gpu_backend(options);
-    if (const auto reason = gpu->why_unsupported(settings)) throw std::invalid_argument(*reason);
+    if (const auto reason = gpu->why_unsupported(settings))
+        throw std::invalid_argument(*reason + "; use --backend cpu");
     if (!options.quiet) fmt::print(stderr, "rendering on {}\n", gpu->metadata().at("device"));
     return gpu;
 }

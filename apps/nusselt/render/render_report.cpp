@@ -4,6 +4,7 @@
 #include "base/json_output.h"
 
 #include "render/line_choice.h"
+#include "render/memory.h"
 #include "scene/model/scene_size.h"
 
 #include <fmt/core.h>
@@ -108,6 +109,11 @@ void print_warnings(const RenderOptions& options, const render::RenderSettings& 
                    "warning: the layer of the variance is missing because it needs two or more camera rays "
                    "per pixel; raise --spp{}\n",
                    options.camera_rays ? " and --camera-rays" : "");
+}
+
+void print_layers(const render::FrameSize& size) {
+    fmt::print(stderr, "the image and its layers ({}) take {} of memory at {} x {} pixels\n", size.layers,
+               render::memory_text(static_cast<double>(size.bytes)), size.width, size.height);
 }
 
 nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,

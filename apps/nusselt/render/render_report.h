@@ -4,6 +4,7 @@
 #include "render.h"
 
 #include "render/backend.h"
+#include "render/frame.h"
 #include "render/statistics.h"
 #include "scene/model/scene.h"
 
@@ -23,6 +24,9 @@ struct Times {
 /// Tells what may surprise a user about the image, on the standard error.
 void print_warnings(const RenderOptions& options, const render::RenderSettings& settings,
                     const scene::Scene& scene);
+
+/// Tells how much memory layers will take, on the standard error.
+void print_layers(const render::FrameSize& size);
 
 nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,
                                    const scene::Scene& scene, const render::Backend& backend,

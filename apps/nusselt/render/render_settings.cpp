@@ -1,4 +1,5 @@
 #include "render_settings.h"
+#include "apps/common/help.h"
 #include "apps/common/line_options.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -69,49 +71,64 @@ void check_line_options(const RenderOptions& options, render::Technique techniqu
         if (is_given) throw CLI::ValidationError(name, "needs --light-samples lines");
 }
 
+void check_camera_rays(const RenderOptions& options, int samples) {
+    if (options.camera_rays && samples % *options.camera_rays != 0)
+        throw CLI::ValidationError(
+            "--camera-rays", fmt::format("{} must divide --spp, which is {}", *options.camera_rays, samples));
+}
+
 } // namespace
 
 void add_sampling_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option("--technique", options.technique,
-                    "Technique to sample lights; `nusselt techniques` lists them")
-        ->transform(to_name_of(render::kTechniques))
-        ->capture_default_str();
+                    "Technique to sample lights; `nusselt techniques` explains them")
+        ->transform(to_one_of(names_of(render::kTechniques)))
+        ->group(kSamplingGroup);
     command
         .add_option(
             "--strategies", options.strategies,
-            "Which techniques take samples: diffuse, only that of --technique; diffuse+ltc, that one for\n"
-            "the diffuse component of materials and linearly transformed cosines for the specular one; or\n"
-            "the same with GGX visible normals, for polygons only. Default: diffuse+ltc with techniques for\n"
-            "projected solid angles and --brdf material, else diffuse")
-        ->transform(to_name_of(render::kStrategies));
+            "Which techniques take samples: diffuse, only that of --technique; diffuse+ltc, that one for the "
+            "diffuse component of materials and linearly transformed cosines for the specular one; "
+            "diffuse+ggx and diffuse+ggx_bounded, the same with GGX visible normals, for polygons only")
+        ->transform(to_one_of(names_of(render::kStrategies)))
+        ->default_str(
+            "diffuse+ltc with techniques for projected solid angles and --brdf material, else diffuse")
+        ->group(kSamplingGroup);
     command
         .add_option(
             "--mis", options.mis,
-            "How to combine the samples of two techniques: by a heuristic of multiple importance\n"
-            "sampling, by one sample of either technique, or by separate estimates of the components.\n"
-            "Default: clamped_optimal, or balance with GGX visible normals")
-        ->transform(to_name_of(render::kMisHeuristics));
+            "How to combine the samples of two techniques: by a heuristic of multiple importance sampling, "
+            "by one sample of either technique, or by separate estimates of the components")
+        ->transform(to_one_of(names_of(render::kMisHeuristics)))
+        ->default_str("clamped_optimal, or balance with GGX visible normals")
+        ->group(kSamplingGroup);
     command
         .add_option(
             "--visibility-estimate", options.visibility_estimate,
-            "Approximate fraction of the lights that is visible, for --mis clamped_optimal and optimal;\n"
-            "affects only noise. Default: 0.5")
-        ->check(number(0, 1));
+            "Approximate fraction of the lights that is visible, for --mis clamped_optimal and optimal; "
+            "affects only noise")
+        ->check(number(0, 1))
+        ->default_str(fmt::format("{}", render::RenderSettings().visibility_estimate))
+        ->group(kSamplingGroup);
     command
-        .add_option("--sampler", options.sampler,
-                    "Random numbers: independent, Owen-scrambled Sobol' points, uniform jittered (best for\n"
-                    "linear lights), or stratified (multi-jittered: as many strata in each dimension as\n"
-                    "samples; best for line samples)")
-        ->transform(to_name_of(render::kSampleOrders))
-        ->capture_default_str();
+        .add_option(
+            "--sampler", options.sampler,
+            "Random numbers: independent; sobol, Owen-scrambled Sobol' points; jittered, uniform jittered "
+            "(best for linear lights); or stratified, multi-jittered, with as many strata in each dimension "
+            "as samples (best for line samples)")
+        ->transform(to_one_of(names_of(render::kSampleOrders)))
+        ->group(kSamplingGroup);
     command
-        .add_option("--brdf", options.brdf,
-                    "BRDFs of the materials, or Lambertian BRDFs with the albedo of the materials")
-        ->transform(to_name_of(render::kBrdfChoices))
-        ->capture_default_str();
-    command.add_option("--seed", options.seed, "Seed of the random numbers, 0 to 2^32 - 1")
-        ->capture_default_str();
+        .add_option(
+            "--brdf", options.brdf,
+            "BRDFs: material, those of the materials; or lambert, Lambertian BRDFs with the albedo of the "
+            "materials")
+        ->transform(to_one_of(names_of(render::kBrdfChoices)))
+        ->group(kSamplingGroup);
+    command.add_option("--seed", options.seed, "Seed of the random numbers")
+        ->transform(to_whole_number(0, std::numeric_limits<std::uint32_t>::max()))
+        ->group(kSamplingGroup);
 }
 
 render::RenderSettings make_settings(const RenderOptions& options) {
@@ -126,7 +143,8 @@ render::RenderSettings make_settings(const RenderOptions& options) {
     if (options.visibility_estimate) settings.visibility_estimate = *options.visibility_estimate;
     settings.sample_order = from_name(render::kSampleOrders, options.sampler);
     settings.pixel_position = from_name(render::kPixelPositions, options.pixel_position);
-    settings.samples = options.samples;
+    // Without a number, the scene decides; until then any number will do that fits the camera rays.
+    settings.samples = options.samples.value_or(options.camera_rays.value_or(1));
     settings.camera_rays = options.camera_rays;
     settings.seed = options.seed;
     apply_line_options(options.lines, settings);
@@ -134,6 +152,15 @@ render::RenderSettings make_settings(const RenderOptions& options) {
     if (options.part) settings.part = parse_part(*options.part).value();
     render::validate(settings);
     return settings;
+}
+
+void choose_samples(const RenderOptions& options, const scene::Film& film, render::RenderSettings& settings) {
+    if (options.samples) return;
+    settings.samples = std::min(film.pixel_samples.value_or(1), render::kMaxSamples);
+    check_camera_rays(options, settings.samples);
+    if (settings.samples > 1 && !options.quiet)
+        fmt::print(stderr, "{} samples per pixel, as the Sampler of the scene asks; --spp changes that\n",
+                   settings.samples);
 }
 
 void check_combination(const RenderOptions& options) {
@@ -160,9 +187,7 @@ void check_combination(const RenderOptions& options) {
                                                "which is unknown for {}; use {}",
                                                *options.mis, name_of(strategies), fmt::join(others, " or ")));
     }
-    if (options.camera_rays && options.samples % *options.camera_rays != 0)
-        throw CLI::ValidationError("--camera-rays", fmt::format("{} must divide --spp, which is {}",
-                                                                *options.camera_rays, options.samples));
+    if (options.samples) check_camera_rays(options, *options.samples);
     check_line_options(options, technique);
     check_backend_options(options);
     check_exr_only(options);

@@ -1,5 +1,5 @@
 #pragma once
-/// `nusselt camera SCENE`: the camera of a scene.
+/// `nusselt camera SCENE`, which prints the camera of a scene, and the option --camera of other commands.
 
 #include <filesystem>
 #include <optional>
@@ -21,6 +21,10 @@ struct CameraOptions {
 void setup_camera(CLI::App& app, int& exit_code);
 
 /// Prints the camera of a scene.
+/// \throws std::runtime_error if no image could have the size
 int run_camera(const CameraOptions& options);
+
+/// Adds --camera.
+void add_camera_option(CLI::App& command, std::optional<std::filesystem::path>& camera);
 
 } // namespace nusselt::app

@@ -1,4 +1,5 @@
 #include "info.h"
+#include "apps/common/render_setup.h"
 #include "lights.h"
 
 #include "base/stopwatch.h"
@@ -128,8 +129,8 @@ void print_film(const scene::Film& film) {
 
 void setup_info(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<InfoOptions>();
-    CLI::App* const command = app.add_subcommand("info", "Print what a scene file contains");
-    command->add_option("SCENE", options->scene, "Scene file in pbrt syntax (v3 or v4)")->required();
+    CLI::App* const command = app.add_subcommand("info", "Print what a scene file contains.");
+    add_scene_argument(*command, options->scene);
     add_rigs_option(*command, options->rigs);
     command->callback([options, &exit_code] { exit_code = run_info(*options); });
 }

@@ -1,4 +1,6 @@
 #include "lights.h"
+#include "apps/common/help.h"
+#include "apps/common/render_setup.h"
 
 #include "scene/import/importers.h"
 #include "scene/rig/rig.h"
@@ -15,8 +17,8 @@ void setup_lights(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<LightsOptions>();
     CLI::App* const command = app.add_subcommand(
         "lights",
-        "Print the lights of a scene as a light rig, to edit and pass to `nusselt render --lights`");
-    command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
+        "Print the lights of a scene as a light rig, to edit and pass to `nusselt render --lights`.");
+    add_scene_argument(*command, options->scene);
     add_rigs_option(*command, options->rigs);
     command->callback([options, &exit_code] { exit_code = run_lights(*options); });
 }
@@ -30,9 +32,12 @@ void add_rigs_option(CLI::App& command, std::vector<std::filesystem::path>& rigs
     command
         .add_option(
             "--lights", rigs,
-            "Light rig: a JSON file that adds, moves, changes or removes lights; see docs/lights.md. May\n"
-            "be repeated; rigs are applied in the order given. Default: the lights of the scene")
-        ->allow_extra_args(false);
+            "Light rig: a JSON file that adds, moves, changes or removes lights; see docs/lights.md. May be "
+            "repeated; rigs are applied in the order given")
+        ->type_name("FILE")
+        ->allow_extra_args(false)
+        ->default_str("the lights of the scene")
+        ->group(kSceneGroup);
 }
 
 std::string rig_names(const std::vector<std::filesystem::path>& rigs) {

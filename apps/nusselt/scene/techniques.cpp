@@ -49,7 +49,7 @@ void print_classes() {
 
 void setup_techniques(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand(
-        "techniques", "List the sampling techniques: lights, densities, papers and headers");
+        "techniques", "List the sampling techniques: lights, densities, papers and headers.");
     command->callback([&exit_code] { exit_code = run_techniques(); });
 }
 

@@ -1,14 +1,16 @@
 #include "view.h"
+#include "apps/common/help.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 #include "apps/nusselt/render/render_backend.h"
 #include "apps/nusselt/render/render_settings.h"
+#include "apps/nusselt/scene/camera.h"
 #include "apps/nusselt/scene/lights.h"
 
 #include "gpu/device.h"
 #include "render_vulkan/shadows/shadow_scene.h"
 #include "scene/rig/camera_file.h"
-#include "viewer/run_viewer.h"
+#include "viewer/window/run_viewer.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -20,36 +22,33 @@ namespace nusselt::app {
 void setup_view(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<ViewOptions>();
     options->render.backend = "vulkan";
-    CLI::App* const command = app.add_subcommand(
-        "view",
-        "Show a scene in a window, rendered by a GPU: fly through it, change techniques and lights, and\n"
-        "compare images with each other and with a reference (docs/viewer.md)");
+    CLI::App* const command =
+        app.add_subcommand("view", "Show a scene in a window, rendered by a GPU. Fly through it, change "
+                                   "techniques and lights, and compare images "
+                                   "with each other and with a reference (docs/viewer.md).");
     RenderOptions& render = options->render;
-    command->add_option("SCENE", render.scene, "Scene file in pbrt syntax, version 3 or 4")->required();
+    add_scene_argument(*command, render.scene);
+    command->add_option("--exposure", render.exposure, "Brighten the displayed image by this many stops")
+        ->check(number(-viewer::kLargestExposure, viewer::kLargestExposure))
+        ->group(kOutputGroup);
     command
-        ->add_option("--spp", render.samples,
-                     fmt::format("Samples per pixel, light and technique in a frame, 1 to {}",
-                                 viewer::kMostFrameSamples))
-        ->check(CLI::Range(1, viewer::kMostFrameSamples))
-        ->capture_default_str();
+        ->add_option(
+            "--script", options->script,
+            "File with commands to run one after the other, such as `frames 16` and `screenshot a.png`; "
+            "`quit` closes the window")
+        ->type_name("FILE")
+        ->default_str(kNone)
+        ->group(kOutputGroup);
+    command->add_flag("-q,--quiet", render.quiet, "Print only errors: no warnings")->group(kOutputGroup);
+    command->add_option("--spp", render.samples, "Samples per pixel, light and technique in a frame")
+        ->transform(to_whole_number(1, viewer::kMostFrameSamples))
+        ->default_str("1")
+        ->group(kSamplingGroup);
     add_sampling_options(*command, render);
     add_rigs_option(*command, render.rigs);
-    command->add_option(
-        "--camera", render.camera,
-        "Camera and image size in place of those of the scene: a JSON file in the format that\n"
-        "`nusselt camera` prints. Default: the camera of the scene");
-    add_device_options(*command, render);
+    add_camera_option(*command, render.camera);
     add_resolution_option(*command, render.resolution);
-    command
-        ->add_option("--exposure", render.exposure,
-                     "Brighten the displayed image by this many stops, -32 to 32")
-        ->check(number(-viewer::kLargestExposure, viewer::kLargestExposure))
-        ->capture_default_str();
-    command->add_option(
-        "--script", options->script,
-        "File with commands to run one after the other, such as `frames 16` and `screenshot a.png`;\n"
-        "`quit` closes the window. Default: none");
-    command->add_flag("-q,--quiet", render.quiet, "Print only errors: no warnings");
+    add_device_options(*command, render);
     command->callback([options, &exit_code] {
         check_combination(options->render);
         exit_code = run_view(*options);

@@ -12,7 +12,7 @@ int run_view(const ViewOptions&) {
 }
 
 void setup_view(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("view", "Show a scene in a window (not in this build)");
+    CLI::App* command = app.add_subcommand("view", "Show a scene in a window (not in this build).");
     command->allow_extras();
     command->callback([&exit_code] { exit_code = run_view({}); });
 }

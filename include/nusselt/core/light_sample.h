@@ -1,6 +1,7 @@
 #pragma once
 /// Samples, as all techniques return them, and hit points on planar lights.
 
+#include <limits>
 #include <type_traits>
 
 #include <nusselt/core/vec.h>
@@ -14,6 +15,25 @@ struct LightSample {
     Real pdf; ///< density of wi; positive and finite, or exactly 0: no sample, wi and p are then meaningless
     Vec3<Real> p; ///< the point on the light [m], relative to the shading point; the shadow ray ends there
 };
+
+namespace detail {
+
+/// The density of wi for a point that is uniform on the area of a light: distance^2 / projected [1/sr].
+///
+/// \param distance  of the point from the origin [m].
+/// \param projected area of the light times the cosine at the point [m^2].
+/// \returns no more than the largest number. Where the density of a tiny light overflows, sample() and pdf() could
+///           otherwise round to different sides of that limit, so that one returns a sample and the other none. 0 if
+///           distance is infinite or projected is not positive.
+template <class Real>
+NUSSELT_HD inline Real area_density(const Real& distance, const Real& projected) noexcept {
+    const Real largest = Real(std::numeric_limits<scalar_t<Real>>::max());
+    const auto lit = (projected > Real(0)) & (distance > Real(0)) & (distance <= largest);
+    // Divided in two steps, so that small lights far away do not overflow halfway.
+    return select(lit, min(distance / select(lit, projected, Real(1)) * distance, largest), Real(0));
+}
+
+} // namespace detail
 
 /// A sample of a technique. Those for linear lights use u.x only.
 template <class Technique, class Real>

@@ -28,6 +28,30 @@ NUSSELT_HD constexpr Vec2<Real> operator*(const Real& s, const Vec2<Real>& a) no
     return {s * a.x, s * a.y};
 }
 template <class Real>
+NUSSELT_HD constexpr Vec2<Real> operator*(const Vec2<Real>& a, const Real& s) noexcept {
+    return s * a;
+}
+template <class Real>
+NUSSELT_HD constexpr Vec2<Real> operator/(const Vec2<Real>& a, const Real& s) noexcept {
+    return {a.x / s, a.y / s};
+}
+template <class Real>
+NUSSELT_HD constexpr Vec2<Real>& operator+=(Vec2<Real>& a, const Vec2<Real>& b) noexcept {
+    return a = a + b;
+}
+template <class Real>
+NUSSELT_HD constexpr Vec2<Real>& operator-=(Vec2<Real>& a, const Vec2<Real>& b) noexcept {
+    return a = a - b;
+}
+template <class Real>
+NUSSELT_HD constexpr Vec2<Real>& operator*=(Vec2<Real>& a, const Real& s) noexcept {
+    return a = a * s;
+}
+template <class Real>
+NUSSELT_HD constexpr Vec2<Real>& operator/=(Vec2<Real>& a, const Real& s) noexcept {
+    return a = a / s;
+}
+template <class Real>
 NUSSELT_HD constexpr Real dot(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
     return a.x * b.x + a.y * b.y;
 }
@@ -48,10 +72,38 @@ template <class Real>
 NUSSELT_HD constexpr Vec3<Real> operator*(const Real& s, const Vec3<Real>& a) noexcept {
     return {s * a.x, s * a.y, s * a.z};
 }
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real> operator*(const Vec3<Real>& a, const Real& s) noexcept {
+    return s * a;
+}
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real> operator/(const Vec3<Real>& a, const Real& s) noexcept {
+    return {a.x / s, a.y / s, a.z / s};
+}
 /// Component by component, for colours.
 template <class Real>
 NUSSELT_HD constexpr Vec3<Real> operator*(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
     return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real>& operator+=(Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return a = a + b;
+}
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real>& operator-=(Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return a = a - b;
+}
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real>& operator*=(Vec3<Real>& a, const Real& s) noexcept {
+    return a = a * s;
+}
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real>& operator/=(Vec3<Real>& a, const Real& s) noexcept {
+    return a = a / s;
+}
+template <class Real>
+NUSSELT_HD constexpr Vec3<Real>& operator*=(Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return a = a * b;
 }
 /// s * a + b, each component rounded once.
 template <class Real>

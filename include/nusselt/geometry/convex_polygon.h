@@ -73,7 +73,8 @@ NUSSELT_HD inline Real plane_distance(const ConvexPolygon<Real, N>& polygon) noe
 }
 
 /// The polygon with the given vertices [m].
-/// \param vertices convex and coplanar, in either winding; repeated and collinear vertices are fine.
+/// \param vertices convex and coplanar, in either winding; repeated and collinear vertices are fine. Nothing checks
+///                 this: techniques sample a concave outline in a way that means nothing. split_convex() splits it.
 /// \param count    how many of them there are, 3 to N. Scalars only: a light has one vertex count.
 template <int N, class Real>
 NUSSELT_HD inline ConvexPolygon<Real, N> make_polygon(const Vec3<Real>* vertices, int count) noexcept {

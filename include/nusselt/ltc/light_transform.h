@@ -56,6 +56,11 @@ struct CosineHorizon {
     NUSSELT_HD static LineSegment<Real> part_of(const LineSegment<Real>& light) noexcept {
         return light;
     }
+    /// A point of the part, or a vector towards it: it may lie below the surface.
+    template <class Real>
+    NUSSELT_HD static Vec3<Real> lifted(const Vec3<Real>& p) noexcept {
+        return p;
+    }
 };
 
 /// Counts the part of a light that the lobe reaches and that is above the surface too.
@@ -78,6 +83,11 @@ struct BothHorizons {
         Vec3<Real> start = select(e.starts_near, e.near, far);
         start.z = max(start.z, Real(0));
         return {start, light.s, select(e.visible, e.length, Real(0))};
+    }
+    /// A point of the part, or a vector towards it, lifted to the surface if rounding moved it below.
+    template <class Real>
+    NUSSELT_HD static Vec3<Real> lifted(const Vec3<Real>& p) noexcept {
+        return {p.x, p.y, max(p.z, Real(0))};
     }
 };
 

@@ -31,6 +31,8 @@ struct LtcTableView {
     /// \param roughness perceptual.
     /// \param cos_o     cosine of the inclination of wo.
     /// \param f0        one number; coloured ones share a lobe, see albedo().
+    /// \returns coefficients between the samples. Between the last two inclinations, BRDFs change within less than a
+    ///          cell: the albedo of the shipped tables is off by up to 0.07 there (docs/ltc-tables.md).
     template <class Real>
     NUSSELT_HD LtcCoefficients<Real> lookup(const Real& roughness, const Real& cos_o,
                                             const Real& f0) const noexcept {

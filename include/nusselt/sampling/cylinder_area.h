@@ -88,17 +88,16 @@ public:
             below_one(position / select(profile > Real(0), profile, Real(1)))};
     }
 
-    /// Area of the lateral surface and the caps [m^2].
+    /// Area of the lateral surface and the caps [m^2], no more than the largest number.
     NUSSELT_HD Real measure() const noexcept {
-        return Real(2 * kPi<scalar_t<Real>>) * light_.radius * (light_.axis.length + light_.radius);
+        const Real area =
+            Real(2 * kPi<scalar_t<Real>>) * light_.radius * (light_.axis.length + light_.radius);
+        return min(area, Real(std::numeric_limits<scalar_t<Real>>::max()));
     }
 
 private:
     NUSSELT_HD Real density(const Real& distance, const Real& cosine) const noexcept {
-        const Real denominator = measure() * cosine;
-        const auto lit = denominator > Real(0);
-        const Real density = distance / select(lit, denominator, Real(1)) * distance;
-        return select(lit & (density > Real(0)) & is_finite(density), density, Real(0));
+        return detail::area_density(distance, measure() * cosine);
     }
 
     Cylinder<Real> light_;

@@ -5,6 +5,12 @@
 /// A half-plane cuts a rectangle out of the cylinder, caps included, which spans one interval of directions. Their
 /// integral is known in closed form and is sampled as that of a line; the azimuth of the half-plane follows an
 /// interpolant of these integrals.
+///
+/// Accuracy: samples are unbiased, but the interpolant has few nodes. Seen from the side, the weight of a sample has a
+/// relative standard deviation below 0.1. In front of a cap, an integral can fall from its largest value to nothing
+/// between two nodes: up to 0.3, and up to 0.5 with a lobe. The integral of the interpolant, which measure() returns,
+/// is off by up to 8 % without a lobe and 22 % with one, and by up to a third for a cylinder that lies on the horizon or
+/// whose axis is as far away as its surface.
 
 #include <nusselt/core/broadcast.h>
 #include <nusselt/geometry/cylinder.h>

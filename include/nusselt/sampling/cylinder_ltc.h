@@ -49,7 +49,7 @@ public:
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept { return fan_.invert(wi); }
 
     /// Estimate of the integral of the lobe over the light: good enough for weights of multiple importance sampling,
-    /// not for shading.
+    /// not for shading. cylinder_fan.h has its errors.
     NUSSELT_HD Real measure() const noexcept { return Real(1 / kPi<scalar_t<Real>>) * fan_.integral(); }
 
 private:

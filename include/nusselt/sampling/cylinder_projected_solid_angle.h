@@ -47,7 +47,7 @@ public:
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept { return fan_.invert(wi); }
 
     /// Estimate of the projected solid angle of the part of the light above the horizon [sr]: good enough for weights
-    /// of multiple importance sampling, not for shading.
+    /// of multiple importance sampling, not for shading. cylinder_fan.h has its errors.
     NUSSELT_HD Real measure() const noexcept { return fan_.integral(); }
 
 private:

@@ -42,7 +42,7 @@ public:
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept { return fan_.invert(wi); }
 
     /// Estimate of the solid angle of the light [sr]: good enough for weights of multiple importance sampling, not for
-    /// shading.
+    /// shading. cylinder_fan.h has its errors.
     NUSSELT_HD Real measure() const noexcept { return fan_.integral(); }
 
 private:

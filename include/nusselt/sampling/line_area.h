@@ -57,10 +57,7 @@ public:
 
 private:
     NUSSELT_HD Real density(const Real& r, const Real& sine) const noexcept {
-        const Real denominator = Real(2) * light_.length * sine;
-        const auto lit = denominator > Real(0);
-        const Real density = r / select(lit, denominator, Real(1)) * r;
-        return select(lit & (density > Real(0)) & is_finite(density), density, Real(0));
+        return detail::area_density(r, Real(2) * light_.length * sine);
     }
 
     LineSegment<Real> light_;

@@ -38,7 +38,7 @@ public:
     NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
         // Only the coordinate along the light comes from cosine space: rounding there must not leave the light.
         const Real along = dot(ltc_.to_shading(image_.sample(u).p), s_) / ltc_.minor();
-        const Vec3<Real> p = fma(min(max(along, l0_), l1_), s_, closest_);
+        const Vec3<Real> p = Horizons::lifted(fma(min(max(along, l0_), l1_), s_, closest_));
         const Vec3<Real> wi = inverse_length(p) * p;
         return {wi, pdf(wi), inverse_scale_ * p};
     }
@@ -106,7 +106,7 @@ private:
     }
 };
 
-/// Samples are never below the surface.
+/// Samples are never below the surface: wi.z is not negative.
 template <class Real>
 using LineClippedLtc = LineLtc<Real, BothHorizons>;
 

@@ -83,7 +83,8 @@ private:
     }
 };
 
-/// Uniform sampling of the solid angle of the part of a linear light above the horizon, in shading space.
+/// Uniform sampling of the solid angle of the part of a linear light above the horizon, in shading space: wi.z is never
+/// negative.
 /// \copydetails LineSolidAngle
 template <class Real>
 class LineClippedSolidAngle : public LineSolidAngle<Real> {
@@ -97,6 +98,14 @@ public:
     template <class Single>
     NUSSELT_HD explicit LineClippedSolidAngle(const LineClippedSolidAngle<Single>& single) noexcept
         : LineSolidAngle<Real>(static_cast<const LineSolidAngle<Single>&>(single)) {}
+
+    /// \copydoc LineSolidAngle::sample
+    NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
+        LightSample<Real> s = LineSolidAngle<Real>::sample(u);
+        // Next to the horizon, rounding turns directions below it.
+        s.wi.z = max(s.wi.z, Real(0));
+        return s;
+    }
 };
 
 NUSSELT_NAMESPACE_END

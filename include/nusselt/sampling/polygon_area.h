@@ -116,10 +116,7 @@ public:
 private:
     NUSSELT_HD Real density(const Vec3<Real>& wi, const Real& distance) const noexcept {
         const Real projected = measure() * abs(dot(plane_.normal, wi));
-        const auto lit = (projected > Real(0)) & (plane_.distance != Real(0));
-        // Divided in two steps, so that small lights far away do not overflow halfway.
-        const Real density = distance / select(lit, projected, Real(1)) * distance;
-        return select(lit & (density > Real(0)) & is_finite(density), density, Real(0));
+        return select(plane_.distance != Real(0), detail::area_density(distance, projected), Real(0));
     }
 
     LightPlane<Real> plane_;

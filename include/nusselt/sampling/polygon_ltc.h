@@ -40,7 +40,7 @@ public:
 
     /// \param u in [0, 1)^2; as continuous as that of PolygonProjectedSolidAngle.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
-        const Vec3<Real> direction = normalize(ltc_.to_shading(image_.sample(u).wi));
+        const Vec3<Real> direction = normalize(Horizons::lifted(ltc_.to_shading(image_.sample(u).wi)));
         const Vec3<Real> up{Real(0), Real(0), Real(1)};
         const Vec3<Real> wi = select(inverse_measure_ > Real(0), direction, up);
         return {wi, pdf(wi), inverse_scale_ * hull_.point_along(wi)};
@@ -89,7 +89,7 @@ private:
     }
 };
 
-/// Samples are never below the surface (Sec. 4.1 leaves that out for its cost).
+/// Samples are never below the surface: wi.z is not negative (Sec. 4.1 leaves that out for its cost).
 template <class Real, int N>
 using PolygonClippedLtc = PolygonLtc<Real, N, BothHorizons>;
 

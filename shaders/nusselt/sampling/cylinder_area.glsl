@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_CYLINDER_AREA_GLSL
 #define NUSSELT_SAMPLING_CYLINDER_AREA_GLSL
-// Follows include/nusselt/sampling/cylinder_area.h @ 12a2f96820ad
+// Follows include/nusselt/sampling/cylinder_area.h @ 2620b563e918
 /// Uniform sampling of the surface of a closed cylinder, caps included. Cheap to prepare, but half of the samples or
 /// more lie on the far side, and it is noisy close to the light. Twin of include/nusselt/sampling/cylinder_area.h.
 ///
@@ -19,17 +19,15 @@ struct CylinderArea {
 /// \param light relative to the shading point [m].
 CylinderArea cylinder_area_prepare(Cylinder light) { return CylinderArea(light, frame_from_normal(light.axis.s)); }
 
-/// Area of the lateral surface and the caps [m^2].
+/// Area of the lateral surface and the caps [m^2], no more than the largest number.
 float cylinder_area_measure(CylinderArea self) {
-    return 2.0 * kNusseltPi * self.light.radius * (self.light.axis.len + self.light.radius);
+    float area = 2.0 * kNusseltPi * self.light.radius * (self.light.axis.len + self.light.radius);
+    return nusselt_min(area, kNusseltLargest);
 }
 
 /// \param cosine between the ray, backwards, and the normal of the light.
 float cylinder_area_density(CylinderArea self, float distance, float cosine) {
-    float denominator = cylinder_area_measure(self) * cosine;
-    if (!(denominator > 0.0)) return 0.0;
-    float density = distance / denominator * distance;
-    return density > 0.0 && is_finite(density) ? density : 0.0;
+    return area_density(distance, cylinder_area_measure(self) * cosine);
 }
 
 /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves from the middle of the cap at the start over

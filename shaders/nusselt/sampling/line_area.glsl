@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_AREA_GLSL
 #define NUSSELT_SAMPLING_LINE_AREA_GLSL
-// Follows include/nusselt/sampling/line_area.h @ 776cf4ab6c81
+// Follows include/nusselt/sampling/line_area.h @ 84c338ac7441
 /// Uniform sampling of the length of a linear light. It needs no trigonometry, but is noisy close to the light. Twin of
 /// include/nusselt/sampling/line_area.h.
 ///
@@ -27,12 +27,7 @@ float line_area_measure(LineArea self) { return self.light.len; }
 
 /// \param r    distance of the point.
 /// \param sine of the angle between wi and the line.
-float line_area_density(LineArea self, float r, float sine) {
-    float denominator = 2.0 * self.light.len * sine;
-    if (!(denominator > 0.0)) return 0.0;
-    float density = r / denominator * r;
-    return density > 0.0 && is_finite(density) ? density : 0.0;
-}
+float line_area_density(LineArea self, float r, float sine) { return area_density(r, 2.0 * self.light.len * sine); }
 
 /// \param u in [0, 1), proportional to the distance from the start.
 LightSample line_area_sample(LineArea self, float u) {

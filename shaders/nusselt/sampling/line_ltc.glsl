@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_LTC_GLSL
 #define NUSSELT_SAMPLING_LINE_LTC_GLSL
-// Follows include/nusselt/sampling/line_ltc.h @ dd5a719ca912
+// Follows include/nusselt/sampling/line_ltc.h @ 668e1c1ab419
 /// Sampling of a linear light proportional to a linearly transformed cosine. With a lobe that fits the specular BRDF
 /// times cosine, the noise that remains comes from shadows and from the misfit.
 ///
@@ -22,6 +22,7 @@ struct LineLtc {
     // The part of the light that counts, in shading space and scaled to an extent of order one.
     vec3 s;
     vec3 closest;        ///< point of the infinite line
+    float lowest;        ///< bound on z of points: 0 above the surface, else the lowest number
     float l0, l1;        ///< coordinates of the end points along s, 0 at the closest point
     float inverse_scale; ///< a power of two
     float measure;
@@ -32,6 +33,7 @@ struct LineLtc {
 /// \param scale by which it is larger than the light.
 LineLtc line_ltc_prepare_part(LineSegment part, float scale, Ltc ltc) {
     LineLtc self;
+    self.lowest = -kNusseltLargest;
     self.ltc = ltc;
     self.image = line_projected_solid_angle_prepare(to_cosine_space(part, ltc));
     self.s = part.s;
@@ -61,7 +63,9 @@ LineLtc line_ltc_prepare(LineSegment light, Ltc ltc) {
 /// Prepares the part of a light above the surface: samples are never below it.
 LineLtc line_clipped_ltc_prepare(LineSegment light, Ltc ltc) {
     float scale = scale_of(light);
-    return line_ltc_prepare_part(part_above_horizon(scaled(light, scale)), scale, ltc);
+    LineLtc self = line_ltc_prepare_part(part_above_horizon(scaled(light, scale)), scale, ltc);
+    self.lowest = 0.0;
+    return self;
 }
 
 /// Integral of the lobe over the light per radius [1/m].
@@ -79,6 +83,7 @@ LightSample line_ltc_sample(LineLtc self, float u) {
     vec3 image = line_projected_solid_angle_sample(self.image, u).p;
     float along = dot(ltc_to_shading(self.ltc, image), self.s) / self.ltc.minor;
     vec3 p = exact_fma(nusselt_min(nusselt_max(along, self.l0), self.l1), self.s, self.closest);
+    p.z = nusselt_max(p.z, self.lowest);
     vec3 wi = inverse_length(p) * p;
     return LightSample(wi, line_ltc_pdf(self, wi), self.inverse_scale * p);
 }

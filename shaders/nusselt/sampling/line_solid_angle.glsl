@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_LINE_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/line_solid_angle.h @ 2929166c513a
+// Follows include/nusselt/sampling/line_solid_angle.h @ 583db3f7c1fd
 /// Uniform sampling of the solid angle of a linear light, for surfaces and for volumes.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Sec. 3.1, Eq. 1. Twin
@@ -16,6 +16,7 @@
 
 struct LineSolidAngle {
     LineExtent extent; ///< scaled to an extent of order one
+    float lowest;      ///< bound on z of directions: 0 above the horizon, else the lowest number
     float inverse_scale;
     float measure;
     float pdf;
@@ -25,6 +26,7 @@ struct LineSolidAngle {
 LineSolidAngle line_solid_angle_prepare_extent(float scale, LineExtent extent) {
     LineSolidAngle self;
     self.extent = extent;
+    self.lowest = -kNusseltLargest;
     self.inverse_scale = reciprocal_power_of_two(scale);
     // Eq. 1 in the limit of a radius of 0.
     float angle = 2.0 * extent.sine_extent;
@@ -42,11 +44,13 @@ LineSolidAngle line_solid_angle_prepare(LineSegment light) {
     return line_solid_angle_prepare_extent(scale, make_line_extent(scaled(light, scale)));
 }
 
-/// Prepares the part of a light above the horizon.
+/// Prepares the part of a light above the horizon: wi.z is never negative.
 /// \param light in shading space [m].
 LineSolidAngle line_clipped_solid_angle_prepare(LineSegment light) {
     float scale = scale_of(light);
-    return line_solid_angle_prepare_extent(scale, clipped_extent(scaled(light, scale)));
+    LineSolidAngle self = line_solid_angle_prepare_extent(scale, clipped_extent(scaled(light, scale)));
+    self.lowest = 0.0;
+    return self;
 }
 
 /// Solid angle per radius, in the limit of a thin cylinder [sr/m].
@@ -59,7 +63,10 @@ float line_solid_angle_pdf(LineSolidAngle self, vec3 wi) { return self.pdf; }
 LightSample line_solid_angle_sample(LineSolidAngle self, float u) {
     LinePoint point = line_extent_point_at(self.extent, u * self.extent.sine_extent);
     vec3 p = line_extent_position(self.extent, point);
-    return LightSample(line_extent_direction(self.extent, point, p), self.pdf, self.inverse_scale * p);
+    vec3 wi = line_extent_direction(self.extent, point, p);
+    // Next to the horizon, rounding turns directions below it.
+    wi.z = nusselt_max(wi.z, self.lowest);
+    return LightSample(wi, self.pdf, self.inverse_scale * p);
 }
 
 /// The random number for which the sample is wi, a unit direction on the light.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_AREA_GLSL
 #define NUSSELT_SAMPLING_POLYGON_AREA_GLSL
-// Follows include/nusselt/sampling/polygon_area.h @ 6d0c191a1a3a
+// Follows include/nusselt/sampling/polygon_area.h @ c0d5b5bcf2d0
 /// Uniform sampling of the area of a convex polygon. It needs no trigonometry and works for lights of any size and
 /// distance, but is noisy wherever the solid angle per area varies, above all close to the light.
 ///
@@ -46,10 +46,7 @@ float polygon_area_measure(PolygonArea self) { return 0.5 * self.doubled_total; 
 /// \param distance of the point that is sampled.
 float polygon_area_density(PolygonArea self, vec3 wi, float distance) {
     float projected = polygon_area_measure(self) * abs(dot(self.plane.normal, wi));
-    if (!(projected > 0.0 && self.plane.distance != 0.0)) return 0.0;
-    // Divided in two steps, so that small lights far away do not overflow halfway.
-    float density = distance / projected * distance;
-    return density > 0.0 && is_finite(density) ? density : 0.0;
+    return self.plane.distance != 0.0 ? area_density(distance, projected) : 0.0;
 }
 
 /// \param u in [0, 1)^2; x selects the triangle of the fan around vertex 0 and the line through its first corner, y

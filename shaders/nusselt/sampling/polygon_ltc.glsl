@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_LTC_GLSL
 #define NUSSELT_SAMPLING_POLYGON_LTC_GLSL
-// Follows include/nusselt/sampling/polygon_ltc.h @ 8b3e6e9d24f5
+// Follows include/nusselt/sampling/polygon_ltc.h @ 2d4c5c38d0b7
 /// Sampling of a convex polygon proportional to a linearly transformed cosine. With a Lambertian emitter and a lobe
 /// that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 ///
@@ -21,6 +21,7 @@ struct PolygonLtc {
     // The part of the light that counts, in shading space and scaled to an extent of order one.
     LightPlane plane;
     vec3 low, high;      ///< axis-aligned box
+    float lowest;        ///< bound on z of directions: 0 above the surface, else the lowest number
     float inverse_scale; ///< a power of two
     float measure;
     float inverse_measure; ///< 0 without light
@@ -33,6 +34,7 @@ PolygonLtc polygon_ltc_prepare_image(ScaledPolygon part, Ltc ltc, PolygonProject
     self.ltc = ltc;
     self.image = image;
     self.inverse_scale = part.inverse_scale;
+    self.lowest = -kNusseltLargest;
     float farthest = 0.0; // squared
     self.low = part.polygon.vertex[0];
     self.high = part.polygon.vertex[0];
@@ -64,7 +66,9 @@ PolygonLtc polygon_ltc_prepare(ConvexPolygon light, Ltc ltc) {
 /// Prepares the part of a light above the surface: samples are never below it.
 /// \param light of at most NUSSELT_MAX_VERTICES - 1 vertices, since it is clipped twice.
 PolygonLtc polygon_clipped_ltc_prepare(ConvexPolygon light, Ltc ltc) {
-    return polygon_ltc_prepare_part(part_above_horizon(light), ltc);
+    PolygonLtc self = polygon_ltc_prepare_part(part_above_horizon(light), ltc);
+    self.lowest = 0.0;
+    return self;
 }
 
 /// Integral of the lobe over the light, in [0, 1].
@@ -79,7 +83,11 @@ float polygon_ltc_pdf(PolygonLtc self, vec3 wi) {
 /// \param direction that was sampled of the image, in cosine space.
 LightSample polygon_ltc_sample_image(PolygonLtc self, vec3 direction) {
     vec3 wi = vec3(0.0, 0.0, 1.0);
-    if (self.inverse_measure > 0.0) wi = nusselt_normalize(ltc_to_shading(self.ltc, direction));
+    if (self.inverse_measure > 0.0) {
+        vec3 towards = ltc_to_shading(self.ltc, direction);
+        towards.z = nusselt_max(towards.z, self.lowest);
+        wi = nusselt_normalize(towards);
+    }
     // Where the light is seen edge-on, rounding moves the point along wi; clamping keeps it on the light.
     vec3 p = nusselt_min(nusselt_max(light_plane_distance_along(self.plane, wi) * wi, self.low), self.high);
     return LightSample(wi, polygon_ltc_pdf(self, wi), self.inverse_scale * p);

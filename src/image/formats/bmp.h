@@ -5,9 +5,9 @@
 namespace nusselt::image {
 
 /// See read_coded_header(). \param file begins as a BMP file does
-CodedHeader read_bmp_header(std::string_view file);
+CodedHeader read_bmp_header(std::istream& file);
 
 /// See decode_codes(). \param file its header was read
-void decode_bmp(std::string_view file, CodeRows& rows);
+void decode_bmp(std::istream& file, CodeRows& rows);
 
 } // namespace nusselt::image

@@ -24,8 +24,8 @@ bool is_rgb(const ExrPart& part) {
 
 } // namespace
 
-Image decode_exr(std::ifstream& stream, const std::string& name) {
-    ExrPart part(stream, name);
+Image decode_exr(std::ifstream& stream) {
+    ExrPart part(stream);
     const bool rgb = is_rgb(part);
     if (!rgb && !is_grey(part)) {
         throw std::runtime_error(
@@ -44,8 +44,6 @@ Image decode_exr(std::ifstream& stream, const std::string& name) {
     return image;
 }
 
-Metadata decode_exr_metadata(std::ifstream& stream, const std::string& name) {
-    return text_attributes(ExrPart(stream, name).header()).ours;
-}
+Metadata decode_exr_metadata(std::ifstream& stream) { return text_attributes(ExrPart(stream).header()).ours; }
 
 } // namespace nusselt::image

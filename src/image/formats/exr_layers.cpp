@@ -1,74 +1,20 @@
-#include "base/atomic_file.h"
 #include "image/codecs.h"
 #include "image/formats/exr_part.h"
 #include "image/layers.h"
 
 #include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
 #include <limits>
-#include <set>
+#include <map>
 #include <stdexcept>
 
 namespace nusselt::image {
 
 namespace {
 
-/// 255 bytes is the limit of names in EXR; two names, a dot and a prefix must fit.
-constexpr std::size_t kMaxNameLength = 200;
-
 /// 4 GiB of floats.
 constexpr std::int64_t kMaxValueCount = std::int64_t(1) << 30;
-
-std::string full_name(const Layer& layer, const std::string& channel) {
-    return layer.name.empty() ? channel : layer.name + "." + channel;
-}
-
-void check_name(const std::string& name) {
-    if (name.empty() || name.size() > kMaxNameLength || name.find('\0') != std::string::npos)
-        throw std::invalid_argument("the name '" + name + "' must have 1 to 200 bytes, none zero");
-}
-
-void check_window(const Window& window) {
-    constexpr int kFarthest = std::numeric_limits<int>::max() / 4;
-    if (window.width < 1 || window.height < 1) throw std::invalid_argument("a window of an image is empty");
-    if (std::abs(std::int64_t(window.x)) > kFarthest || std::abs(std::int64_t(window.y)) > kFarthest)
-        throw std::invalid_argument("a window of an image is too far from the origin");
-}
-
-void check_before_writing(const LayeredImage& image) {
-    check_window(image.data);
-    check_window(image.display);
-    check_size(image.data.width, image.data.height);
-    const std::size_t pixel_count = std::size_t(image.data.width) * std::size_t(image.data.height);
-    std::set<std::string> names;
-    for (const Layer& layer : image.layers) {
-        if (layer.channels.empty() || layer.data.size() != layer.channels.size() * pixel_count) {
-            throw std::invalid_argument("layer '" + layer.name + "' has " +
-                                        std::to_string(layer.data.size()) + " floats for " +
-                                        std::to_string(pixel_count) + " pixels of " +
-                                        std::to_string(layer.channels.size()) + " channels");
-        }
-        for (const std::string& channel : layer.channels) {
-            check_name(channel);
-            check_name(full_name(layer, channel));
-            if (channel.find('.') != std::string::npos || !names.insert(full_name(layer, channel)).second)
-                throw std::invalid_argument(
-                    "channel '" + full_name(layer, channel) +
-                    "' must be unique and must not have a dot after the name of its layer");
-        }
-    }
-    if (names.empty()) throw std::invalid_argument("cannot write an image without layers");
-    for (const auto& [key, value] : image.metadata) check_name(key);
-    for (const auto& [key, value] : image.foreign_metadata) check_name(key);
-}
-
-Imath::Box2i exr_window(const Window& window) {
-    return {{window.x, window.y}, {window.x + window.width - 1, window.y + window.height - 1}};
-}
 
 /// R, G, B and A come first, in this order.
 bool channel_before(const std::string& a, const std::string& b) {
@@ -101,31 +47,6 @@ std::vector<Layer> empty_layers(const ExrPart& part) {
     return layers;
 }
 
-void encode(std::ofstream& stream, const std::string& name, const LayeredImage& image) {
-    Imf::Header header(exr_window(image.display), exr_window(image.data));
-    // Noise in the mantissa hardly compresses. 1024 x 1024 noisy pixels on two cores, median of seven:
-    // none 26 ms, 12.6 MB; RLE 48 ms, 12.6 MB; ZIPS 126 ms, 12.6 MB; ZIP 140 ms, 12.0 MB; PIZ 200 ms, 11.1 MB.
-    header.compression() = Imf::NO_COMPRESSION;
-    insert_metadata(header, image.metadata);
-    for (const auto& [key, value] : image.foreign_metadata) header.insert(key, Imf::StringAttribute(value));
-
-    Imf::FrameBuffer frame_buffer;
-    for (const Layer& layer : image.layers) {
-        const std::size_t stride = layer.channels.size() * sizeof(float);
-        for (std::size_t c = 0; c < layer.channels.size(); ++c) {
-            const std::string channel = full_name(layer, layer.channels[c]);
-            header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
-            frame_buffer.insert(channel,
-                                Imf::Slice::Make(Imf::FLOAT, layer.data.data() + c, header.dataWindow(),
-                                                 stride, stride * std::size_t(image.data.width)));
-        }
-    }
-    Imf::StdOFStream sink(stream, name.c_str());
-    Imf::OutputFile file(sink, header, 0);
-    file.setFrameBuffer(frame_buffer);
-    file.writePixels(image.data.height);
-}
-
 /// Clamps the size, which the file may choose freely for the display window.
 Window window_of(const Imath::Box2i& box) {
     const auto size = [](int low, int high) {
@@ -142,15 +63,8 @@ LayeredImage layer_list(const ExrPart& part) {
             empty_layers(part), std::move(metadata.ours), std::move(metadata.foreign)};
 }
 
-} // namespace
-
-LayeredImage decode_exr_layer_list(std::ifstream& stream, const std::string& name) {
-    return layer_list(ExrPart(stream, name));
-}
-
-LayeredImage decode_exr_layers(std::ifstream& stream, const std::string& name) {
-    ExrPart part(stream, name);
-    LayeredImage image = layer_list(part);
+/// Fills all layers of the list.
+void read_data(ExrPart& part, LayeredImage& image) {
     std::vector<ChannelGroup> groups;
     std::int64_t channel_count = 0;
     for (Layer& layer : image.layers) {
@@ -163,12 +77,25 @@ LayeredImage decode_exr_layers(std::ifstream& stream, const std::string& name) {
         throw std::runtime_error("the image has " + std::to_string(channel_count) +
                                  " channels, which exceed 2^30 values in total; remove some of them");
     part.read(groups);
+}
+
+} // namespace
+
+LayeredImage decode_exr_layer_list(std::ifstream& stream) { return layer_list(ExrPart(stream)); }
+
+LayeredImage decode_exr_layers(std::ifstream& stream) {
+    ExrPart part(stream);
+    LayeredImage image = layer_list(part);
+    read_data(part, image);
     return image;
 }
 
-void write_layers(const std::filesystem::path& path, const LayeredImage& image) {
-    check_before_writing(image);
-    base::write_atomically(path, [&](std::ofstream& stream) { encode(stream, path.string(), image); });
+LayeredImage decode_exr_layer(std::ifstream& stream, std::string_view layer) {
+    ExrPart part(stream);
+    LayeredImage image = layer_list(part);
+    std::erase_if(image.layers, [&](const Layer& other) { return other.name != layer; });
+    if (!image.layers.empty()) read_data(part, image);
+    return image;
 }
 
 const Layer* find_layer(const LayeredImage& image, std::string_view name) {
@@ -177,19 +104,27 @@ const Layer* find_layer(const LayeredImage& image, std::string_view name) {
     return found == image.layers.end() ? nullptr : &*found;
 }
 
-Image layer_image(const LayeredImage& image, const Layer& layer) {
+Image layer_image(const Window& data, Layer layer) {
     const std::size_t count = layer.channels.size();
     const bool has_alpha = count == 4 && layer.channels[3] == "A";
     if (count != 1 && count != 3 && !has_alpha) {
         throw std::runtime_error("layer '" + layer.name + "' has " + std::to_string(count) +
                                  " channels; a picture must have 1, 3, or R, G, B and A");
     }
-    Image result = make_image(image.data.width, image.data.height);
-    for (std::size_t i = 0; i < result.pixels.size(); ++i)
-        result.pixels[i] = layer.data[i / 3 * count + (count == 1 ? 0 : i % 3)];
+    if (count > 1) {
+        // In place: a copy could be too large.
+        if (has_alpha)
+            for (std::size_t i = 0; i < layer.data.size() / 4 * 3; ++i)
+                layer.data[i] = layer.data[i / 3 * 4 + i % 3];
+        layer.data.resize(layer.data.size() / count * 3);
+        return {data.width, data.height, std::move(layer.data)};
+    }
+    Image result =
+        with_memory_for(data.width, data.height, 3, [&] { return make_image(data.width, data.height); });
+    for (std::size_t i = 0; i < result.pixels.size(); ++i) result.pixels[i] = layer.data[i / 3];
     return result;
 }
 
-Layer color_layer(const Image& image) { return {"", {"R", "G", "B"}, image.pixels}; }
+Layer color_layer(Image image) { return {"", {"R", "G", "B"}, std::move(image.pixels)}; }
 
 } // namespace nusselt::image

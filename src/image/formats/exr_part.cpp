@@ -3,6 +3,7 @@
 #include "image/codecs.h"
 #include "image/formats/exr_header.h"
 
+#include <OpenEXR/Iex.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfInputPart.h>
@@ -22,7 +23,8 @@ namespace {
 
 constexpr std::string_view kMetadataPrefix = "nusselt:";
 
-/// Memory grows with the rows that could be decoded, so that a file that only claims to be large fails early.
+/// The memory in use grows with the rows that could be decoded, so that a file that only claims to be large fails
+/// early.
 constexpr int kRowsPerBand = 256;
 
 /// Tiles are decoded as a whole and may be larger than their image.
@@ -38,6 +40,25 @@ int decoding_thread_count() {
         return Imf::globalThreadCount();
     }();
     return count;
+}
+
+/// What OpenEXR calls the file in its messages.
+constexpr const char* kStreamName = "file";
+
+/// Runs `step`, which calls OpenEXR. The names of the file are taken out of its messages, as the caller adds the path.
+template <class Step>
+auto call(const Step& step) {
+    try {
+        return step();
+    } catch (const Iex::BaseExc& error) {
+        static const std::string kEndOfName = '"' + std::string(kStreamName) + "\". ";
+        const std::string message = error.what();
+        const std::size_t name = message.rfind(kEndOfName);
+        throw std::runtime_error(
+            "cannot decode its EXR data (" +
+            (name == std::string::npos ? message : message.substr(name + kEndOfName.size())) +
+            "); the file may be damaged or truncated");
+    }
 }
 
 /// The stream, which `source` reads, is on its first byte before and after.
@@ -127,8 +148,10 @@ void check_file_size(const Imf::Header& header, std::int64_t width, std::int64_t
 
 } // namespace
 
-ExrPart::ExrPart(std::ifstream& stream, const std::string& name)
-    : source_(stream, name.c_str()), file_(checked(source_, stream), decoding_thread_count(), false) {
+ExrPart::ExrPart(std::ifstream& stream)
+    : source_(stream, kStreamName), file_(call([&] {
+          return Imf::MultiPartInputFile(checked(source_, stream), decoding_thread_count(), false);
+      })) {
     if (header().hasType() && Imf::isDeepData(header().type()))
         throw std::runtime_error("deep images are not supported; flatten the image first");
     const auto& window = header().dataWindow();
@@ -155,6 +178,15 @@ bool ExrPart::has_full_resolution(const std::string& channel) const {
 }
 
 void ExrPart::read(const std::vector<ChannelGroup>& groups) {
+    std::int64_t channel_count = 0;
+    for (const ChannelGroup& group : groups) channel_count += std::int64_t(group.channels.size());
+    with_memory_for(width(), height(), channel_count, [&] { call([&] { read_bands(groups); }); });
+}
+
+void ExrPart::read_bands(const std::vector<ChannelGroup>& groups) {
+    // Memory is touched only as bands arrive.
+    for (const ChannelGroup& group : groups)
+        group.data->reserve(group.channels.size() * std::size_t(width()) * std::size_t(height()));
     Imf::InputPart part(file_, 0);
     auto band = header().dataWindow();
     const int last_row = band.max.y;
@@ -178,6 +210,10 @@ void ExrPart::read(const std::vector<ChannelGroup>& groups) {
         part.readPixels(band.min.y, band.max.y);
         if (band.max.y < last_row) band.min.y = band.max.y + 1;
     }
+}
+
+std::string full_name(const Layer& layer, const std::string& channel) {
+    return layer.name.empty() ? channel : layer.name + "." + channel;
 }
 
 std::string channel_names(const Imf::Header& header) {

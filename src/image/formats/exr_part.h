@@ -1,7 +1,7 @@
 #pragma once
 /// Code that the readers of EXR files share: checks before large allocations, and reading of channels.
 
-#include "image/image.h"
+#include "image/layers.h"
 
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
@@ -24,7 +24,7 @@ struct ChannelGroup {
 class ExrPart {
 public:
     /// \throws std::exception  describing what is wrong with the contents
-    ExrPart(std::ifstream& stream, const std::string& name);
+    explicit ExrPart(std::ifstream& stream);
 
     [[nodiscard]] const Imf::Header& header() const { return file_.header(0); }
     [[nodiscard]] int width() const;
@@ -37,9 +37,14 @@ public:
     void read(const std::vector<ChannelGroup>& groups);
 
 private:
+    void read_bands(const std::vector<ChannelGroup>& groups);
+
     Imf::StdIFStream source_;
     Imf::MultiPartInputFile file_;
 };
+
+/// The name of a channel of a layer in files.
+[[nodiscard]] std::string full_name(const Layer& layer, const std::string& channel);
 
 /// Names of all channels, for messages; "none" if there are none.
 [[nodiscard]] std::string channel_names(const Imf::Header& header);

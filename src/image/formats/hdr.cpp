@@ -5,8 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <istream>
+#include <locale>
 #include <ostream>
+#include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 namespace nusselt::image {
 
@@ -82,20 +85,71 @@ void read_row(std::istream& stream, std::vector<Rgbe>& row) {
     }
 }
 
-/// \returns width and height; leaves the stream at the first pixel
-std::array<int, 2> read_header(std::istream& stream) {
+struct Header {
+    int width = 0;
+    int height = 0;
+    std::array<double, 3> factors = {1, 1, 1}; ///< of the pixels: the stored values are multiplied by them
+};
+
+/// The numbers behind a keyword of the header, all above 0.
+template <std::size_t Count>
+std::array<double, Count> positive_numbers(const std::string& line, std::size_t begin) {
+    std::array<double, Count> numbers = {};
+    std::istringstream words(line.substr(begin));
+    words.imbue(std::locale::classic());
+    bool is_valid = true;
+    for (double& number : numbers) is_valid = is_valid && words >> number && number > 0;
+    if (!is_valid || !(words >> std::ws).eof())
+        throw std::runtime_error("'" + line + "' in the header must have " + std::to_string(Count) +
+                                 (Count == 1 ? " number" : " numbers") + " above 0; the file is damaged");
+    return numbers;
+}
+
+/// Programs that multiply an image add a line. The values in units of radiance are those before all of them.
+void divide_by_line(const std::string& line, std::array<double, 3>& factors) {
+    constexpr std::string_view kExposure = "EXPOSURE=", kColourCorrection = "COLORCORR=";
+    if (line.starts_with(kExposure)) {
+        const double exposure = positive_numbers<1>(line, kExposure.size())[0];
+        for (double& factor : factors) factor /= exposure;
+    } else if (line.starts_with(kColourCorrection)) {
+        const auto correction = positive_numbers<3>(line, kColourCorrection.size());
+        for (std::size_t c = 0; c < 3; ++c) factors[c] /= correction[c];
+    }
+}
+
+/// Leaves the stream at the first pixel.
+Header read_header(std::istream& stream) {
+    Header header;
     std::string line;
     if (!std::getline(stream, line) || !line.starts_with("#?"))
         throw std::runtime_error("this is not a Radiance HDR file, or it is empty; check its name");
     while (std::getline(stream, line) && !line.empty()) {
         if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
             throw std::runtime_error("only FORMAT=32-bit_rle_rgbe is supported, not " + line);
+        divide_by_line(line, header.factors);
     }
-    std::array<int, 2> size = {0, 0};
-    if (!std::getline(stream, line) || std::sscanf(line.c_str(), "-Y %9d +X %9d", &size[1], &size[0]) != 2)
+    if (!std::getline(stream, line) ||
+        std::sscanf(line.c_str(), "-Y %9d +X %9d", &header.height, &header.width) != 2)
         throw std::runtime_error("the size must be given as '-Y height +X width', not '" + line + "'");
-    check_size(size[0], size[1]);
-    return size;
+    check_size(header.width, header.height);
+    return header;
+}
+
+Image read_pixels(std::istream& stream, const Header& header) {
+    Image image{header.width, header.height, {}};
+    // Memory is touched only as rows arrive.
+    image.pixels.reserve(3 * std::size_t(header.width) * std::size_t(header.height));
+    std::vector<Rgbe> row(static_cast<std::size_t>(header.width));
+    for (int y = 0; y < header.height; ++y) {
+        read_row(stream, row);
+        for (const Rgbe& rgbe : row) {
+            float rgb[3];
+            rgb_from_rgbe(rgbe, rgb);
+            for (std::size_t c = 0; c < 3; ++c)
+                image.pixels.push_back(float(header.factors[c] * double(rgb[c])));
+        }
+    }
+    return image;
 }
 
 } // namespace
@@ -111,21 +165,11 @@ void encode_hdr(std::ostream& stream, const Image& image) {
 }
 
 Image decode_hdr(std::istream& stream) {
-    const auto [width, height] = read_header(stream);
+    const Header header = read_header(stream);
     // A run of 127 pixels takes two bytes for each of four channels.
-    if (std::int64_t(width) * height / 16 > remaining_bytes(stream))
+    if (std::int64_t(header.width) * header.height / 16 > remaining_bytes(stream))
         throw std::runtime_error("the file is too small for its pixels; it may be truncated");
-    Image image{width, height, {}};
-    std::vector<Rgbe> row(static_cast<std::size_t>(width));
-    for (int y = 0; y < height; ++y) {
-        read_row(stream, row);
-        for (const Rgbe& rgbe : row) {
-            float rgb[3];
-            rgb_from_rgbe(rgbe, rgb);
-            image.pixels.insert(image.pixels.end(), rgb, rgb + 3);
-        }
-    }
-    return image;
+    return with_memory_for(header.width, header.height, 3, [&] { return read_pixels(stream, header); });
 }
 
 } // namespace nusselt::image

@@ -1,9 +1,13 @@
 #include "image/formats/jpg.h"
 
+#include "image/formats/bytes.h"
+
 #include <algorithm>
 #include <array>
 #include <csetjmp>
 #include <cstdio> // jpeglib.h needs it
+#include <istream>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -43,10 +47,37 @@ void fail_for_damage(j_common_ptr info, int level) {
         jump_with_message(info);
 }
 
-boolean fail_at_end(j_decompress_ptr info) {
-    info->err->msg_code = JERR_INPUT_EOF;
-    jump_with_message(reinterpret_cast<j_common_ptr>(info));
+/// The source of bytes that libjpeg passes to the functions below.
+struct StreamSource {
+    jpeg_source_mgr base; ///< first, as libjpeg knows this part only
+    std::istream* file;
+    std::array<JOCTET, 1 << 16> buffer;
+};
+
+boolean fill_buffer(j_decompress_ptr info) {
+    StreamSource& source = *reinterpret_cast<StreamSource*>(info->src);
+    source.file->read(reinterpret_cast<char*>(source.buffer.data()),
+                      static_cast<std::streamsize>(source.buffer.size()));
+    source.base.next_input_byte = source.buffer.data();
+    source.base.bytes_in_buffer = static_cast<std::size_t>(source.file->gcount());
+    if (source.base.bytes_in_buffer == 0) {
+        info->err->msg_code = JERR_INPUT_EOF;
+        jump_with_message(reinterpret_cast<j_common_ptr>(info));
+    }
+    return TRUE;
 }
+
+void skip_bytes(j_decompress_ptr info, long count) {
+    for (auto left = static_cast<std::size_t>(std::max(count, 0l)); left > 0;) {
+        if (info->src->bytes_in_buffer == 0) fill_buffer(info);
+        const std::size_t step = std::min(left, info->src->bytes_in_buffer);
+        info->src->next_input_byte += step;
+        info->src->bytes_in_buffer -= step;
+        left -= step;
+    }
+}
+
+void do_nothing(j_decompress_ptr) {}
 
 void limit_scans(j_common_ptr info) {
     if (reinterpret_cast<j_decompress_ptr>(info)->input_scan_number <= kLargestScanCount) return;
@@ -77,7 +108,7 @@ struct Decompressor : jpeg_decompress_struct {
 class JpgReader {
 public:
     /// Reads everything before the pixels.
-    explicit JpgReader(std::string_view file);
+    explicit JpgReader(std::istream& file);
 
     CodedHeader header() const { return header_; }
     void read_rows(CodeRows& rows);
@@ -88,6 +119,7 @@ private:
     void call(const Step& step);
 
     ErrorManager errors_ = {};
+    StreamSource source_ = {};
     jpeg_progress_mgr progress_ = {};
     Decompressor jpeg_;
     CodedHeader header_;
@@ -96,11 +128,19 @@ private:
 template <class Step>
 void JpgReader::call(const Step& step) {
     if (setjmp(errors_.before_step) == 0) return step();
+    if (errors_.base.msg_code == JERR_OUT_OF_MEMORY) throw std::bad_alloc();
     throw std::runtime_error("cannot decode its JPEG data (" + std::string(errors_.message.data()) +
                              "); the file may be damaged or truncated");
 }
 
-JpgReader::JpgReader(std::string_view file) {
+JpgReader::JpgReader(std::istream& file) {
+    const std::int64_t file_size = byte_count(file);
+    source_.file = &file;
+    source_.base.init_source = do_nothing;
+    source_.base.fill_input_buffer = fill_buffer;
+    source_.base.skip_input_data = skip_bytes;
+    source_.base.resync_to_restart = jpeg_resync_to_restart;
+    source_.base.term_source = do_nothing;
     jpeg_.err = jpeg_std_error(&errors_.base);
     errors_.base.error_exit = jump_with_message;
     errors_.base.emit_message = fail_for_damage;
@@ -108,8 +148,7 @@ JpgReader::JpgReader(std::string_view file) {
     call([&] {
         jpeg_create_decompress(&jpeg_);
         jpeg_.progress = &progress_;
-        jpeg_mem_src(&jpeg_, reinterpret_cast<const unsigned char*>(file.data()), file.size());
-        jpeg_.src->fill_input_buffer = fail_at_end;
+        jpeg_.src = &source_.base;
         jpeg_read_header(&jpeg_, TRUE);
     });
     header_.width = static_cast<int>(jpeg_.image_width);
@@ -117,7 +156,7 @@ JpgReader::JpgReader(std::string_view file) {
     header_.channels = jpeg_.num_components == 1 ? 1 : 3;
     // A block of 8 x 8 pixels takes one bit at least, so a byte makes up to 512 pixels, twice that with subsampled
     // channels.
-    check_claims(file, header_, 1024);
+    check_claims(file_size, header_, 1024);
 }
 
 void JpgReader::read_rows(CodeRows& rows) {
@@ -139,8 +178,8 @@ void JpgReader::read_rows(CodeRows& rows) {
 
 } // namespace
 
-CodedHeader read_jpg_header(std::string_view file) { return JpgReader(file).header(); }
+CodedHeader read_jpg_header(std::istream& file) { return JpgReader(file).header(); }
 
-void decode_jpg(std::string_view file, CodeRows& rows) { JpgReader(file).read_rows(rows); }
+void decode_jpg(std::istream& file, CodeRows& rows) { JpgReader(file).read_rows(rows); }
 
 } // namespace nusselt::image

@@ -53,7 +53,7 @@ Header read_header(std::istream& stream) {
     header.scale = read_number<float>(stream, "scale");
     check_size(header.width, header.height);
     if (!std::isfinite(header.scale) || header.scale == 0)
-        throw std::runtime_error("the scale must be finite and not 0, its sign tells the order of bytes");
+        throw std::runtime_error("the scale in the header must be finite and not 0; the file is damaged");
     return header;
 }
 
@@ -84,7 +84,8 @@ Image decode_pfm(std::istream& stream) {
     if (remaining_bytes(stream) / row_bytes < header.height)
         throw std::runtime_error("the file is too small for its pixels; it may be truncated");
 
-    Image image = make_image(int(header.width), int(header.height));
+    Image image = with_memory_for(int(header.width), int(header.height), 3,
+                                  [&] { return make_image(int(header.width), int(header.height)); });
     std::vector<char> row(static_cast<std::size_t>(row_bytes));
     const std::size_t width = std::size_t(header.width);
     for (int y = image.height - 1; y >= 0; --y) {

@@ -4,13 +4,11 @@
 
 namespace nusselt::image {
 
-/// Whether the header makes sense. There is no mark to recognise these files by.
-bool is_tga(std::string_view file);
-
-/// See read_coded_header(). \param file is_tga()
-CodedHeader read_tga_header(std::string_view file);
+/// See read_coded_header(). There is no mark to recognise these files by.
+/// \throws std::runtime_error  also if the header of the file, which is neither PNG nor JPG nor BMP, is not that of TGA
+CodedHeader read_tga_header(std::istream& file);
 
 /// See decode_codes(). \param file its header was read
-void decode_tga(std::string_view file, CodeRows& rows);
+void decode_tga(std::istream& file, CodeRows& rows);
 
 } // namespace nusselt::image

@@ -5,6 +5,7 @@
 #include "render_cpu/kernel/lanes.h"
 #include "render_cpu/kernel/layers.h"
 #include "render_cpu/kernel/random.h"
+#include "render_cpu/kernel/stop_request.h"
 #include "render_cpu/kernel/tick_timer.h"
 
 #include <limits>
@@ -18,6 +19,7 @@ struct CameraPacket {
     std::uint32_t camera_ray; ///< its number, below job.camera_rays
     LayerSums* layers;        ///< null if the job has none
     void* line_memory;        ///< see TileMemory
+    const StopRequest& stop;  ///< once it is urgent, the radiance has no meaning
     render_cpu::TileStatistics& statistics;
 };
 

@@ -20,6 +20,7 @@ struct AllLights {
 
 /// \param number among all lights of the scene
 inline void add_light(ReflectedLight& reflected, std::int32_t number) noexcept {
+    if (reflected.stop().is_urgent()) return;
     const render_cpu::LightSet& lights = set_of(reflected.job().scene, number);
     const std::int32_t index = number - lights.first;
     lights.add[lights.code.shape_of(lights, index)](reflected, lights, index);
@@ -30,7 +31,7 @@ template <class Selector>
 Vector direct_light(const CameraPacket& packet, const Surface& surface,
                     const Selector& select_lights) noexcept {
     ReflectedLight reflected(packet.job, packet.block, surface, packet.camera_ray, packet.layers,
-                             packet.line_memory, packet.statistics);
+                             packet.line_memory, packet.stop, packet.statistics);
     select_lights(packet.job.scene, [&](std::int32_t number) { add_light(reflected, number); });
     return reflected.radiance();
 }

@@ -36,10 +36,7 @@ DiffuseShares diffuse_shares(const GlossySurface<Real, SurfaceBrdf>& surface, co
 }
 
 void LayerSums::clear() noexcept {
-    albedo_ = normal_ = emission_ = diffuse_ = specular_ = depth_and_coverage_ = pieces_ =
-        square_deviations_ = {};
-    rays_ = 0;
-    mean_ = {};
+    state_ = {};
     if (job_.layers.lights == nullptr) return;
     const std::size_t count = render_cpu::kLightSumFloats * job_.scene.emitter_count;
     for (std::size_t i = 0; i < count; ++i) light_sums_[i] = 0;
@@ -48,18 +45,19 @@ void LayerSums::clear() noexcept {
 void LayerSums::add_hits(const visibility::HitPacket<kLanes>& hits, LaneMask any_hit,
                          const Vector& direction) noexcept {
     const Real distance = Real::load(hits.t) * sqrt(dot(direction, direction));
-    depth_and_coverage_.add({select(any_hit, distance, Real(0)), select(any_hit, Real(1), Real(0)), Real(0)});
+    state_.depth_and_coverage.add(
+        {select(any_hit, distance, Real(0)), select(any_hit, Real(1), Real(0)), Real(0)});
 }
 
 void LayerSums::add_surface(const Surface& surface) noexcept {
     const Vector zero{Real(0), Real(0), Real(0)};
-    albedo_.add(weight_ * select(surface.valid, surface.glossy.brdf.lambert.albedo, zero));
-    normal_.add(weight_ * select(surface.valid, surface.frame.n, zero));
+    state_.albedo.add(weight_ * select(surface.valid, surface.glossy.brdf.lambert.albedo, zero));
+    state_.normal.add(weight_ * select(surface.valid, surface.frame.n, zero));
 }
 
 void LayerSums::add_emission(const visibility::HitPacket<kLanes>& hits, const Vector& emitted) noexcept {
     const Vector weighted = weight_ * emitted;
-    emission_.add(weighted);
+    state_.emission.add(weighted);
     if (job_.layers.lights == nullptr) return;
     const Lanes lanes = store(weighted);
     for (int i = 0; i < kLanes; ++i) {
@@ -78,8 +76,8 @@ void LayerSums::add_emission(const visibility::HitPacket<kLanes>& hits, const Ve
 }
 
 void LayerSums::add_light(std::uint32_t number, const Reflected& reflected) noexcept {
-    diffuse_.add(weight_ * reflected.diffuse);
-    specular_.add(weight_ * (reflected.all - reflected.diffuse));
+    state_.diffuse.add(weight_ * reflected.diffuse);
+    state_.specular.add(weight_ * (reflected.all - reflected.diffuse));
     if (job_.layers.lights == nullptr) return;
     float* values = sums_of(job_.scene.light_emitter[number]);
     CompensatedSum sum{load_vector(values), load_vector(values + 3 * kLanes)};
@@ -89,32 +87,33 @@ void LayerSums::add_light(std::uint32_t number, const Reflected& reflected) noex
 }
 
 void LayerSums::add_radiance(const Vector& radiance) noexcept {
-    rays_ += 1;
-    const Vector deviation = radiance - mean_;
-    mean_ = mean_ + Real(1 / rays_) * deviation;
-    square_deviations_.add(deviation * (radiance - mean_));
+    state_.rays += 1;
+    const Vector deviation = radiance - state_.mean;
+    state_.mean = state_.mean + Real(1 / state_.rays) * deviation;
+    state_.square_deviations.add(deviation * (radiance - state_.mean));
 }
 
 void LayerSums::write(const PixelBlock& block) const noexcept {
     const render_cpu::LayerTargets& layers = job_.layers;
-    const Real scale = Real(1 / rays_);
+    const Real scale = Real(1 / state_.rays);
     const auto write_mean = [&](const Vector& sum, float* image) {
         if (image != nullptr) store_rgb(job_, block, scale * sum, image);
     };
-    write_mean(albedo_.sum, layers.albedo);
-    write_mean(normal_.sum, layers.normal);
-    write_mean(emission_.sum, layers.emission);
-    write_mean(diffuse_.sum, layers.diffuse);
-    write_mean(specular_.sum, layers.specular);
+    write_mean(state_.albedo.sum, layers.albedo);
+    write_mean(state_.normal.sum, layers.normal);
+    write_mean(state_.emission.sum, layers.emission);
+    write_mean(state_.diffuse.sum, layers.diffuse);
+    write_mean(state_.specular.sum, layers.specular);
     if (layers.depth != nullptr) {
-        const Real hits = depth_and_coverage_.sum.y;
-        store_grey(job_, block, depth_and_coverage_.sum.x / max(hits, Real(1)), layers.depth);
+        const Real hits = state_.depth_and_coverage.sum.y;
+        store_grey(job_, block, state_.depth_and_coverage.sum.x / max(hits, Real(1)), layers.depth);
         store_grey(job_, block, scale * hits, layers.coverage);
     }
     if (layers.pieces != nullptr)
-        store_grey(job_, block, pieces_.sum.y / max(pieces_.sum.x, Real(1)), layers.pieces);
+        store_grey(job_, block, state_.pieces.sum.y / max(state_.pieces.sum.x, Real(1)), layers.pieces);
     if (layers.variance != nullptr)
-        store_rgb(job_, block, Real(1 / (rays_ * (rays_ - 1))) * square_deviations_.sum, layers.variance);
+        store_rgb(job_, block, Real(1 / (state_.rays * (state_.rays - 1))) * state_.square_deviations.sum,
+                  layers.variance);
     if (layers.lights == nullptr) return;
     for (std::uint32_t i = 0; i < job_.scene.emitter_count; ++i)
         write_mean(load_vector(sums_of(i)), layers.lights[i]);

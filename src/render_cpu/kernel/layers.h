@@ -38,6 +38,21 @@ public:
     /// Starts the next packet.
     void clear() noexcept;
 
+    /// All sums but those of lights.
+    struct State {
+        CompensatedSum albedo, normal, emission, diffuse, specular;
+        CompensatedSum depth_and_coverage; ///< in x and y
+        CompensatedSum pieces;             ///< lines and their parts, in x and y
+        // Statistics of the radiance of camera rays (Welford).
+        float rays = 0;
+        Vector mean{Real(0), Real(0), Real(0)};
+        CompensatedSum square_deviations;
+    };
+
+    const State& state() const noexcept { return state_; }
+    /// Goes on with a packet. \param state its state; the sums of lights are where it left them
+    void resume(const State& state) noexcept { state_ = state; }
+
     /// Starts the next camera ray. \param weight see CameraSamples
     void begin_ray(const Real& weight) noexcept { weight_ = weight; }
 
@@ -59,7 +74,9 @@ public:
     void add_light(std::uint32_t number, const Reflected& reflected) noexcept;
 
     /// Adds lines of a light, and how many visible parts they have.
-    void add_pieces(const Real& lines, const Real& parts) noexcept { pieces_.add({lines, parts, Real(0)}); }
+    void add_pieces(const Real& lines, const Real& parts) noexcept {
+        state_.pieces.add({lines, parts, Real(0)});
+    }
 
     /// Ends a camera ray. \param radiance all radiance that arrives along it, times its weight
     void add_radiance(const Vector& radiance) noexcept;
@@ -75,13 +92,7 @@ private:
     const render_cpu::RenderJob& job_;
     float* light_sums_; ///< a CompensatedSum for each emitter
     Real weight_ = Real(1);
-    CompensatedSum albedo_, normal_, emission_, diffuse_, specular_;
-    CompensatedSum depth_and_coverage_; ///< in x and y
-    CompensatedSum pieces_;             ///< lines and their parts, in x and y
-    // Statistics of the radiance of camera rays (Welford).
-    float rays_ = 0;
-    Vector mean_{};
-    CompensatedSum square_deviations_;
+    State state_;
 };
 
 } // namespace kernel

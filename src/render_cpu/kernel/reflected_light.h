@@ -5,6 +5,7 @@
 #include "render_cpu/kernel/lanes.h"
 #include "render_cpu/kernel/layers.h"
 #include "render_cpu/kernel/random.h"
+#include "render_cpu/kernel/stop_request.h"
 #include "render_cpu/kernel/surface.h"
 #include "render_cpu/kernel/tick_timer.h"
 
@@ -40,8 +41,9 @@ public:
     /// \param camera_ray  number of the camera rays of this packet, below job.camera_rays
     /// \param layers      to add the light to, or null
     /// \param line_memory see TileMemory
+    /// \param stop        see CameraPacket
     ReflectedLight(const render_cpu::RenderJob& job, const PixelBlock& block, const Surface& surface,
-                   std::uint32_t camera_ray, LayerSums* layers, void* line_memory,
+                   std::uint32_t camera_ray, LayerSums* layers, void* line_memory, const StopRequest& stop,
                    render_cpu::TileStatistics& statistics) noexcept
         : job_(job),
           block_(block),
@@ -51,6 +53,7 @@ public:
           samples_per_light_(job.samples_per_light),
           layers_(layers),
           line_memory_(line_memory),
+          stop_(stop),
           statistics_(statistics) {}
 
     const render_cpu::RenderJob& job() const noexcept { return job_; }
@@ -60,6 +63,7 @@ public:
 
     render_cpu::TileStatistics& statistics() noexcept { return statistics_; }
     void* line_memory() const noexcept { return line_memory_; }
+    const StopRequest& stop() const noexcept { return stop_; }
 
     /// The same object for some of the shading points and another number of samples per light. It shares the layers
     /// and the statistics; its radiance starts at 0 and is for add().
@@ -88,7 +92,10 @@ public:
     void add(const LocalLight<Shape>& light, const Sample& sample) noexcept {
         SampleSum sum;
         const std::uint32_t first = camera_ray_ * samples_per_light_;
-        for (std::uint32_t i = 0; i < samples_per_light_; ++i) sample(first + i, sum);
+        for (std::uint32_t i = 0; i < samples_per_light_; ++i) {
+            if (i % kSamplesBetweenChecks == kSamplesBetweenChecks - 1 && stop_.is_urgent()) return;
+            sample(first + i, sum);
+        }
         const float scale = 1.0f / static_cast<float>(samples_per_light_);
         add_for(light, light.lit, scale * light.emission, {sum.all.sum, sum.diffuse.sum});
     }
@@ -152,6 +159,9 @@ public:
     const Vector& radiance() const noexcept { return radiance_; }
 
 private:
+    /// About a millisecond.
+    static constexpr std::uint32_t kSamplesBetweenChecks = 1024;
+
     template <class Shape>
     void add_for(const LocalLight<Shape>& light, LaneMask lit, const Vec3<float>& emission,
                  const Reflected& reflected) noexcept {
@@ -199,6 +209,7 @@ private:
     std::uint32_t samples_per_light_;
     LayerSums* layers_;
     void* line_memory_;
+    const StopRequest& stop_;
     render_cpu::TileStatistics& statistics_;
     Vector radiance_{Real(0), Real(0), Real(0)};
 };

@@ -6,6 +6,9 @@
 #include "render_cpu/kernel/lanes.h"
 #include "render_cpu/kernel/layers.h"
 #include "render_cpu/kernel/pixel_output.h"
+#include "render_cpu/kernel/stop_request.h"
+
+#include <type_traits>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
@@ -13,6 +16,14 @@ namespace kernel {
 // The pixels of a packet form a block, so that its rays stay close together.
 inline constexpr int kBlockWidth = kLanes >= 8 ? 4 : 2;
 inline constexpr int kBlockHeight = kLanes / kBlockWidth;
+
+/// The sums of a packet of pixels over its camera rays, without those of lights.
+struct PacketSums {
+    CompensatedSum radiance;
+    LayerSums::State layers;
+};
+static_assert(std::is_trivially_copyable_v<PacketSums> && sizeof(PacketSums) <= render_cpu::kPacketSumBytes,
+              "renderers store bytes");
 
 /// \tparam Integrator constructed from a job once per tile. Its radiance(packet, rays) returns the radiance that arrives
 ///                    along the rays, one per lane of the packet. See kernel/integrators.
@@ -26,33 +37,76 @@ public:
           statistics_(statistics),
           integrator_(job),
           line_memory_(memory.lines),
+          stop_(job.stop_requested),
+          kept_(*static_cast<PacketSums*>(memory.packet_sums)),
           layer_sums_(job, memory.light_sums),
           layers_(job.has_layers ? &layer_sums_ : nullptr) {}
     TileRenderer(const TileRenderer&) = delete;
     TileRenderer& operator=(const TileRenderer&) = delete;
 
-    void render() noexcept {
+    /// \copydoc render_cpu::RenderTile
+    bool render(render_cpu::TileProgress& progress) noexcept {
         const std::int32_t x_begin = tile_.x_begin - tile_.x_begin % kBlockWidth;
         const std::int32_t y_begin = tile_.y_begin - tile_.y_begin % kBlockHeight;
+        std::uint32_t packet = 0;
         for (std::int32_t y = y_begin; y < tile_.y_end; y += kBlockHeight)
-            for (std::int32_t x = x_begin; x < tile_.x_end; x += kBlockWidth) render_block(x, y);
+            for (std::int32_t x = x_begin; x < tile_.x_end; x += kBlockWidth, ++packet) {
+                if (packet < progress.packet) continue;
+                render_block(x, y, progress.camera_ray);
+                if (progress.camera_ray < job_.camera_rays) return false;
+                progress = {packet + 1, 0};
+            }
+        return true;
     }
 
 private:
-    void render_block(std::int32_t x_begin, std::int32_t y_begin) noexcept {
+    /// \param camera_ray number of the first camera ray to trace; afterwards of the first that is missing
+    void render_block(std::int32_t x_begin, std::int32_t y_begin, std::uint32_t& camera_ray) noexcept {
         const std::uint64_t begin = __builtin_ia32_rdtsc();
         const std::uint64_t traced_before = traced_ticks();
         const PixelBlock block = make_block(x_begin, y_begin);
         CompensatedSum sum;
-        if (layers_ != nullptr) layers_->clear();
-        for (std::uint32_t i = 0; i < job_.camera_rays; ++i) {
-            const Vector arriving = weighted_radiance(block, i);
-            sum.add(arriving);
-            if (layers_ != nullptr) layers_->add_radiance(arriving);
+        // Whether the kept sums have the layers of all camera rays so far.
+        bool are_layers_kept = camera_ray > 0 && job_.layers.lights == nullptr;
+        if (camera_ray > 0) {
+            sum = kept_.radiance;
+            if (layers_ != nullptr) layers_->resume(kept_.layers);
+        } else if (layers_ != nullptr) {
+            layers_->clear();
         }
-        store_rgb(job_, block, Real(1.0f / static_cast<float>(job_.camera_rays)) * sum.sum, job_.pixels);
-        if (layers_ != nullptr) layers_->write(block);
+        for (; camera_ray < job_.camera_rays && !stop_.is_made(); ++camera_ray) {
+            stop_.begin_ray();
+            const Vector arriving = weighted_radiance(block, camera_ray);
+            if (stop_.is_urgent()) {
+                // The lights may be incomplete. The layers have some of them already.
+                if (layers_ == nullptr) break;
+                if (!are_layers_kept) camera_ray = 0;
+                layers_->resume(kept_.layers);
+                break;
+            }
+            sum.add(arriving);
+            if (layers_ == nullptr) continue;
+            layers_->add_radiance(arriving);
+            // Copies of the sums of all lights would take too much memory and time.
+            are_layers_kept = job_.layers.lights == nullptr && stop_.is_ray_slow();
+            if (are_layers_kept) kept_.layers = layers_->state();
+        }
+        if (camera_ray > 0) write(block, camera_ray, sum);
         statistics_.shading_ticks += __builtin_ia32_rdtsc() - begin - (traced_ticks() - traced_before);
+    }
+
+    /// Stores the means of the camera rays so far, and the sums if there are to be more.
+    void write(const PixelBlock& block, std::uint32_t camera_rays, const CompensatedSum& sum) noexcept {
+        const auto count = static_cast<float>(camera_rays);
+        if (camera_rays < job_.camera_rays) {
+            kept_.radiance = sum;
+            if (layers_ != nullptr) kept_.layers = layers_->state();
+            // A single camera ray tells no variance.
+            if (camera_rays == 1 && job_.layers.variance != nullptr) return;
+        }
+        store_rgb(job_, block, Real(1.0f / count) * sum.sum, job_.pixels);
+        store_grey(job_, block, Real(count), job_.rays);
+        if (layers_ != nullptr) layers_->write(block);
     }
 
     /// The time for everything but shading.
@@ -95,7 +149,7 @@ private:
         const Vector origin = linear(samples.raster, camera.origin, camera.origin_right, camera.origin_down);
         const Vector direction = linear(samples.raster, camera.corner, camera.right, camera.down);
         if (layers_ != nullptr) layers_->begin_ray(samples.weight);
-        const CameraPacket packet{job_, block, camera_ray, layers_, line_memory_, statistics_};
+        const CameraPacket packet{job_, block, camera_ray, layers_, line_memory_, stop_, statistics_};
         return samples.weight * integrator_.radiance(packet, {block.traced.bits(), origin, direction});
     }
 
@@ -104,15 +158,18 @@ private:
     render_cpu::TileStatistics& statistics_;
     Integrator integrator_;
     void* line_memory_;
+    StopRequest stop_;
+    PacketSums& kept_; ///< of an unfinished packet
     LayerSums layer_sums_;
     LayerSums* layers_; ///< null if the job has none
 };
 
 /// The function of a kernel, see render_cpu::RenderTile.
 template <class Integrator>
-void render_tile(const render_cpu::RenderJob& job, const render_cpu::Tile& tile,
-                 const render_cpu::TileMemory& memory, render_cpu::TileStatistics& statistics) {
-    TileRenderer<Integrator>(job, tile, memory, statistics).render();
+bool render_tile(const render_cpu::RenderJob& job, const render_cpu::Tile& tile,
+                 const render_cpu::TileMemory& memory, render_cpu::TileProgress& progress,
+                 render_cpu::TileStatistics& statistics) {
+    return TileRenderer<Integrator>(job, tile, memory, statistics).render(progress);
 }
 
 } // namespace kernel

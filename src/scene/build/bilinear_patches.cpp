@@ -51,6 +51,20 @@ struct Patch {
     }
 };
 
+/// The patch whose four indices begin at this one.
+Patch patch_at(const BilinearPatches& patches, std::size_t first_index) {
+    Patch patch;
+    for (std::size_t j = 0; j < 4; ++j) {
+        const std::uint32_t vertex = patches.indices[first_index + j];
+        patch.positions[j] = to_double(patches.positions[vertex]);
+        patch.normals[j] = patches.normals.empty() ? Double3{} : to_double(patches.normals[vertex]);
+        patch.uvs[j] = patches.uvs.empty()
+                           ? Double3{static_cast<double>(j % 2), static_cast<double>(j / 2), 0}
+                           : Double3{patches.uvs[vertex].x, patches.uvs[vertex].y, 0};
+    }
+    return patch;
+}
+
 void add_vertex(const Patch& patch, double u, double v, const Double3& normal, Mesh& mesh) {
     const Double3 uv = interpolate(patch.uvs, u, v);
     mesh.positions.push_back(to_float(interpolate(patch.positions, u, v)));
@@ -107,15 +121,7 @@ Mesh tessellate(const BilinearPatches& patches, const PlacedShape& placed, Warni
     std::size_t curved_patches = 0;
     int most_pieces = 0;
     for (std::size_t i = 0; i < indices.size(); i += 4) {
-        Patch patch;
-        for (std::size_t j = 0; j < 4; ++j) {
-            const std::uint32_t vertex = indices[i + j];
-            patch.positions[j] = to_double(patches.positions[vertex]);
-            patch.normals[j] = patches.normals.empty() ? Double3{} : to_double(patches.normals[vertex]);
-            patch.uvs[j] = patches.uvs.empty()
-                               ? Double3{static_cast<double>(j % 2), static_cast<double>(j / 2), 0}
-                               : Double3{patches.uvs[vertex].x, patches.uvs[vertex].y, 0};
-        }
+        const Patch patch = patch_at(patches, i);
         if (patch.is_planar()) {
             add_planar_patch(patch, mesh);
         } else {
@@ -129,6 +135,12 @@ Mesh tessellate(const BilinearPatches& patches, const PlacedShape& placed, Warni
                          " curved patches are split into at most " + std::to_string(most_pieces) + " x " +
                          std::to_string(most_pieces) + " quads each");
     return mesh;
+}
+
+bool are_planar(const BilinearPatches& patches) {
+    for (std::size_t i = 0; i < patches.indices.size(); i += 4)
+        if (!patch_at(patches, i).is_planar()) return false;
+    return true;
 }
 
 } // namespace nusselt::scene

@@ -6,14 +6,13 @@
 #include "scene/build/textures/texture_bake.h"
 #include "scene/input/file_bytes.h"
 #include "scene/model/bounds.h"
-#include "scene/model/scene_size.h"
 #include "scene/model/vector_math.h"
 
 #include <algorithm>
 #include <numeric>
 #include <optional>
 #include <string>
-#include <tbb/parallel_for.h>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -26,6 +25,7 @@ void check_repeated_meshes(const std::vector<PlacedShape>& shapes, const FormatW
     std::unordered_map<std::string, std::uint64_t> sizes;
     std::uint64_t repeated = 0;
     for (const PlacedShape& placed : shapes) {
+        if (placed.shape == nullptr) continue;
         const MeshFile* const file = std::get_if<MeshFile>(&placed.shape->geometry);
         if (file == nullptr) continue;
         const auto [entry, is_new] = sizes.try_emplace(file->path.lexically_normal().string());
@@ -42,11 +42,26 @@ void check_repeated_meshes(const std::vector<PlacedShape>& shapes, const FormatW
     }
 }
 
+/// Reports all missing files before any of the others is read.
+void check_files_exist(const std::vector<PlacedShape>& shapes, SceneDescription& description) {
+    MissingFiles& missing = description.missing_files;
+    for (const PlacedShape& placed : shapes) {
+        if (placed.shape == nullptr) continue;
+        if (const MeshFile* const file = std::get_if<MeshFile>(&placed.shape->geometry))
+            missing.note(file->origin, "mesh file", file->path);
+    }
+    for (const ImageRequest& image : needed_images(description.textures))
+        missing.note(image.location, "texture file", image.path);
+    missing.report();
+}
+
 std::vector<BuiltShape> build_shapes(const std::vector<PlacedShape>& shapes,
                                      const SceneDescription& description) {
     std::vector<BuiltShape> built(shapes.size());
     parallel_for_each_index(shapes.size(), [&](std::size_t i) {
-        built[i] = build_shape(shapes[i], *description.budget, description.words);
+        built[i] = shapes[i].built != nullptr
+                       ? std::move(*shapes[i].built)
+                       : build_shape(shapes[i], *description.budget, description.words);
     });
     return built;
 }
@@ -68,112 +83,80 @@ void set_mappings(const std::vector<BakedTexture>& textures, std::vector<Materia
 /// it has none. Numbers distinguish equal names.
 class EmitterNames {
 public:
-    explicit EmitterNames(const std::filesystem::path& scene) : folder_(scene.parent_path()) {}
+    EmitterNames(const std::vector<EmitterOrigin>& origins, const std::filesystem::path& scene)
+        : origins_(origins), folder_(scene.parent_path()), counts_(origins.size()) {
+        // Sorting takes less memory than a table of names.
+        std::vector<std::uint32_t> order(origins.size());
+        std::iota(order.begin(), order.end(), 0u);
+        const auto key = [&](std::uint32_t i) {
+            const EmitterOrigin& origin = origins[i];
+            return std::tuple(origin.location.file, origin.location.line, origin.kind);
+        };
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+        for (std::size_t i = 1; i < order.size(); ++i)
+            if (key(order[i]) == key(order[i - 1])) counts_[order[i]] = counts_[order[i - 1]] + 1;
+    }
 
-    std::string name(const ShapeDescription& shape) {
-        const std::filesystem::path& path = shape.origin.file->path;
-        const std::filesystem::path relative = path.lexically_relative(folder_);
-        std::string name = shape.kind + " at " + (relative.empty() ? path : relative).string();
-        if (shape.origin.line > 0) name += ":" + std::to_string(shape.origin.line);
-        const std::size_t count = ++counts_[name];
-        return count == 1 ? name : name + " #" + std::to_string(count);
+    std::string name(std::size_t i) {
+        const auto& [kind, location] = origins_[i];
+        std::string name = std::string(kind) + " at " + path(*location.file);
+        if (location.line > 0) name += ":" + std::to_string(location.line);
+        if (counts_[i] > 0) name += " #" + std::to_string(counts_[i] + 1);
+        name.shrink_to_fit();
+        return name;
     }
 
 private:
+    const std::string& path(const SourceFile& file) {
+        std::string& text = paths_[&file];
+        if (text.empty()) {
+            const std::filesystem::path relative = file.path.lexically_relative(folder_);
+            text = (relative.empty() ? file.path : relative).string();
+        }
+        return text;
+    }
+
+    const std::vector<EmitterOrigin>& origins_;
     std::filesystem::path folder_;
-    std::unordered_map<std::string, std::size_t> counts_;
+    std::vector<std::uint32_t> counts_; ///< of equal names before
+    std::unordered_map<const SourceFile*, std::string> paths_;
 };
 
-void name_emitters(const std::vector<PlacedShape>& shapes, std::vector<BuiltShape>& built, EmitterNames names,
-                   std::vector<Emitter>& emitters) {
-    for (std::size_t i = 0; i < built.size(); ++i) {
-        if (built[i].lights.empty()) continue;
-        const auto emitter = static_cast<std::uint32_t>(emitters.size());
-        for (LightList& list : built[i].lights)
-            for (std::size_t k = 0; k < list.size(); ++k) list.emitter(k) = emitter;
-        emitters.push_back({names.name(*shapes[i].shape)});
-    }
+std::vector<Emitter> name_emitters(const std::vector<EmitterOrigin>& origins,
+                                   const std::filesystem::path& scene) {
+    EmitterNames names(origins, scene);
+    std::vector<Emitter> emitters;
+    emitters.reserve(origins.size());
+    for (std::size_t i = 0; i < origins.size(); ++i) emitters.push_back({names.name(i)});
+    return emitters;
 }
 
-/// Shifts the indices of each shape by the vertices and lights of the shapes before it.
-void renumber(std::vector<BuiltShape>& shapes, const FormatWords& words) {
-    std::size_t vertices = 0;
-    std::size_t triangles = 0;
-    std::size_t lights = 0;
-    for (BuiltShape& mesh : shapes) {
-        const auto first_vertex = static_cast<std::uint32_t>(vertices);
-        const auto first_light = static_cast<std::int32_t>(lights);
-        vertices += mesh.positions.size();
-        lights += std::as_const(mesh.lights).of<SurfaceLight>().size();
-        triangles += mesh.triangles.size();
-        check_counts(vertices, triangles, words.instance);
-        if (first_vertex > 0)
-            for (Triangle& triangle : mesh.triangles)
-                for (std::uint32_t& vertex : triangle.vertex) vertex += first_vertex;
-        if (first_light > 0)
-            for (std::int32_t& light : mesh.triangle_light) light += first_light;
-    }
+/// Adds a black material that surfaces without one share.
+void replace_missing_materials(std::vector<std::uint32_t>& triangle_material,
+                               std::vector<Material>& materials) {
+    constexpr auto kMissing = static_cast<std::uint32_t>(kNoMaterial);
+    if (std::find(triangle_material.begin(), triangle_material.end(), kMissing) == triangle_material.end())
+        return;
+    std::replace(triangle_material.begin(), triangle_material.end(), kMissing,
+                 static_cast<std::uint32_t>(materials.size()));
+    materials.push_back(black_material());
 }
 
-/// Joins the arrays of the shapes to one of the scene, and releases them: large scenes fill the memory, so that little may
-/// exist twice.
-/// \param sizes    the number of elements of each shape in the scene
-/// \param missing  the value of elements of shapes without this array
-template <class T, class Owner>
-std::vector<T> take_arrays(std::vector<BuiltShape>& shapes, std::vector<T> Owner::*array,
-                           const std::vector<std::size_t>& sizes, const T& missing) {
-    std::vector<std::size_t> offsets(shapes.size());
-    std::exclusive_scan(sizes.begin(), sizes.end(), offsets.begin(), std::size_t{0});
-    const std::size_t total = shapes.empty() ? 0 : offsets.back() + sizes.back();
-    for (BuiltShape& shape : shapes)
-        if ((shape.*array).size() == total) return std::exchange(shape.*array, {});
-    std::vector<T> result(total, missing);
-    tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) {
-        const std::vector<T> part = std::exchange(shapes[i].*array, {});
-        std::copy(part.begin(), part.end(), result.begin() + static_cast<std::ptrdiff_t>(offsets[i]));
-    });
-    return result;
-}
-
-template <class T, class Owner>
-std::vector<std::size_t> sizes_of(const std::vector<BuiltShape>& shapes, std::vector<T> Owner::*array) {
-    std::vector<std::size_t> sizes;
-    for (const BuiltShape& shape : shapes) sizes.push_back((shape.*array).size());
-    return sizes;
-}
-
-/// The material of the triangles of each shape. Adds a black material that surfaces without one share.
-std::vector<std::uint32_t> material_indices(const std::vector<PlacedShape>& shapes,
-                                            const std::vector<std::size_t>& triangle_counts,
-                                            std::vector<Material>& materials) {
-    std::optional<std::uint32_t> black;
-    std::vector<std::uint32_t> indices;
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-        const int material = shapes[i].shape->material;
-        if (material == kNoMaterial && triangle_counts[i] > 0 && !black) {
-            black = static_cast<std::uint32_t>(materials.size());
-            materials.push_back(black_material());
-        }
-        indices.push_back(material == kNoMaterial ? black.value_or(0) : static_cast<std::uint32_t>(material));
-    }
-    return indices;
-}
-
-void join_shapes(const std::vector<PlacedShape>& shapes, const FormatWords& words,
-                 std::vector<BuiltShape>& built, Scene& scene) {
-    renumber(built, words);
-    const std::vector<std::size_t> vertices = sizes_of(built, &BuiltShape::positions);
-    const std::vector<std::size_t> triangles = sizes_of(built, &BuiltShape::triangles);
-    scene.positions = take_arrays(built, &BuiltShape::positions, vertices, {});
-    scene.normals = take_arrays(built, &BuiltShape::normals, vertices, {0, 0, 0});
-    scene.uvs = take_arrays(built, &BuiltShape::uvs, vertices, {0, 0});
-    scene.triangles = take_arrays(built, &BuiltShape::triangles, triangles, {});
-    scene.triangle_light = take_arrays(built, &BuiltShape::triangle_light, triangles, -1);
-    scene.triangle_material.reserve(scene.triangles.size());
-    const std::vector<std::uint32_t> materials = material_indices(shapes, triangles, scene.materials);
-    for (std::size_t i = 0; i < built.size(); ++i)
-        scene.triangle_material.insert(scene.triangle_material.end(), triangles[i], materials[i]);
-    for (BuiltShape& shape : built) scene.lights.append(std::move(shape.lights));
+/// Moves what the shapes consist of to the scene.
+void take_shapes(BuiltShape&& shapes, const std::filesystem::path& path, Scene& scene) {
+    scene.positions = std::move(shapes.positions);
+    scene.normals = std::move(shapes.normals);
+    scene.uvs = std::move(shapes.uvs);
+    scene.normals.resize(scene.positions.size(), {0, 0, 0});
+    scene.uvs.resize(scene.positions.size(), {0, 0});
+    scene.triangles = std::move(shapes.triangles);
+    scene.triangle_light = std::move(shapes.triangle_light);
+    scene.triangle_light.resize(scene.triangles.size(), -1);
+    scene.triangle_material = std::move(shapes.triangle_material);
+    replace_missing_materials(scene.triangle_material, scene.materials);
+    scene.lights.append(std::move(shapes.lights));
+    scene.emitters = name_emitters(shapes.emitters, path);
 }
 
 /// Adds the objects that have triangles, and their instances.
@@ -206,18 +189,11 @@ void add_instances(const SceneDescription& description, const std::vector<Placed
     }
 }
 
-void collect_warnings(const std::vector<PlacedShape>& shapes, const std::vector<BuiltShape>& built,
-                      Warnings& warnings) {
-    std::size_t degenerate = 0;
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < built.size(); ++i) {
-        warnings.append(built[i].warnings);
-        if (degenerate == 0) first = i;
-        degenerate += built[i].degenerate_triangles;
-    }
-    if (degenerate > 0)
-        warnings.add(shapes[first].shape->origin,
-                     std::to_string(degenerate) + " degenerate triangles are skipped, starting here");
+void collect_warnings(const BuiltShape& shapes, Warnings& warnings) {
+    warnings.append(shapes.warnings);
+    if (shapes.first_degenerate)
+        warnings.add(*shapes.first_degenerate, std::to_string(shapes.degenerate_triangles) +
+                                                   " degenerate triangles are skipped, starting here");
 }
 
 } // namespace
@@ -229,6 +205,7 @@ Scene build_scene(SceneDescription description) {
     PlacedShapes placed = place_shapes(description);
     scene.camera = make_camera(description.camera, description.film);
     limit_tessellation(placed.shapes);
+    check_files_exist(placed.shapes, description);
     check_repeated_meshes(placed.shapes, description.words);
     std::vector<BuiltShape> built;
     std::vector<BakedTexture> textures;
@@ -242,11 +219,11 @@ Scene build_scene(SceneDescription description) {
     description.warnings.append(texture_warnings);
     set_mappings(textures, scene.materials);
     for (BakedTexture& texture : textures) scene.textures.push_back(std::move(texture.texture));
-    name_emitters(placed.shapes, built, EmitterNames(description.sources.front().path), scene.emitters);
     const std::vector<std::size_t> triangle_counts = sizes_of(built, &BuiltShape::triangles);
-    join_shapes(placed.shapes, description.words, built, scene);
+    BuiltShape shapes = join(std::move(built), description.words.instance);
+    collect_warnings(shapes, description.warnings);
+    take_shapes(std::move(shapes), description.sources.front().path, scene);
     add_instances(description, placed.objects, triangle_counts, scene);
-    collect_warnings(placed.shapes, built, description.warnings);
     if (scene.triangles.empty() && scene.lights.empty())
         description.warnings.add({&description.sources.front(), 1}, "the scene is empty");
     scene.radius = scene_radius(scene);

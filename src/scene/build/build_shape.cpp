@@ -118,7 +118,7 @@ bool becomes_surface(const Geometry& geometry, const Emission& emission, const T
     return find_light_builder(geometry, emission, world_from_object) == nullptr;
 }
 
-std::string subject_of(const ShapeDescription& shape) { return "shape \"" + shape.kind + '"'; }
+std::string subject_of(const ShapeDescription& shape) { return "shape \"" + std::string(shape.kind) + '"'; }
 
 BuiltShape build_shape(const PlacedShape& placed, SceneBudget& budget, const FormatWords& words) {
     const ShapeDescription& shape = *placed.shape;
@@ -126,6 +126,10 @@ BuiltShape build_shape(const PlacedShape& placed, SceneBudget& budget, const For
         find_light_builder(shape.geometry, shape.emission, placed.world_from_object);
     BuiltShape built = light != nullptr ? light->build(placed, words) : build_surface(placed, budget, words);
     built.warnings.append(shape.warnings);
+    built.triangle_material.assign(built.triangles.size(), static_cast<std::uint32_t>(shape.material));
+    if (!built.lights.empty()) built.emitters = {{shape.kind, shape.origin}};
+    if (built.degenerate_triangles > 0) built.first_degenerate = shape.origin;
+    built.round_shapes = is_round(shape.geometry) ? 1 : 0;
     return built;
 }
 

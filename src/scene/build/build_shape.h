@@ -1,21 +1,12 @@
 #pragma once
 /// Builds one shape at one place: its triangles and lights.
 
+#include "scene/build/built_shape.h"
 #include "scene/build/placed_shape.h"
 
-#include <cstdint>
 #include <string>
-#include <vector>
 
 namespace nusselt::scene {
-
-/// The contribution of one shape to the scene.
-struct BuiltShape : Mesh {
-    /// Empty, or for each triangle the index of a SurfaceLight among those of the shape.
-    std::vector<std::int32_t> triangle_light;
-    Lights lights;
-    Warnings warnings;
-};
 
 /// Whether the builder turns such a shape into a surface, which needs a material, and not into a light that is none.
 bool becomes_surface(const Geometry& geometry, const Emission& emission, const Transform& world_from_object);

@@ -1,6 +1,7 @@
 #include "scene/build/placed_shape.h"
 
 #include "scene/build/build_shape.h"
+#include "scene/build/tessellate.h"
 #include "scene/input/file_bytes.h"
 #include "scene/model/vector_math.h"
 
@@ -11,18 +12,10 @@ namespace nusselt::scene {
 
 namespace {
 
-constexpr int kMostSides = 64;
-
 /// Whether a shape is a light. Lights belong to the world: instances copy them.
 bool is_light(const ShapeDescription& shape) {
     return !is_black(shape.emission.radiance) ||
            !becomes_surface(shape.geometry, shape.emission, shape.world_from_object);
-}
-
-bool is_round(const ShapeDescription& shape) {
-    const Geometry& geometry = shape.geometry;
-    return std::holds_alternative<Sphere>(geometry) || std::holds_alternative<Disk>(geometry) ||
-           std::holds_alternative<Cylinder>(geometry) || std::holds_alternative<BilinearPatches>(geometry);
 }
 
 std::size_t array_values(const std::vector<Float3>& positions, const std::vector<Float3>& normals,
@@ -104,26 +97,41 @@ std::array<float, 12> instance_rows(const InstanceDescription& instance, std::st
     return *rows;
 }
 
+bool is_round(const Geometry& geometry) {
+    return std::holds_alternative<Sphere>(geometry) || std::holds_alternative<Disk>(geometry) ||
+           std::holds_alternative<Cylinder>(geometry) || std::holds_alternative<BilinearPatches>(geometry);
+}
+
+bool can_be_built_alone(const ShapeDescription& shape) {
+    const auto* const patches = std::get_if<BilinearPatches>(&shape.geometry);
+    return std::holds_alternative<Mesh>(shape.geometry) || (patches != nullptr && are_planar(*patches)) ||
+           !becomes_surface(shape.geometry, shape.emission, shape.world_from_object);
+}
+
 PlacedShapes place_shapes(SceneDescription& description) {
     check_copies(description);
     PlacedShapes placed;
-    for (ShapeDescription& shape : description.shapes)
-        placed.shapes.push_back({&shape, shape.world_from_object, false, kMostSides});
+    for (WorldPart& part : description.world) {
+        if (auto* const built = std::get_if<BuiltShape>(&part)) {
+            placed.shapes.push_back({nullptr, {}, false, built});
+        } else {
+            ShapeDescription& shape = std::get<ShapeDescription>(part);
+            placed.shapes.push_back({&shape, shape.world_from_object});
+        }
+    }
     std::vector<bool> has_instance(description.objects.size());
     for (const InstanceDescription& instance : description.instances) {
         has_instance[instance.object] = true;
         for (ShapeDescription& shape : description.objects[instance.object].shapes)
             if (is_light(shape))
-                placed.shapes.push_back(
-                    {&shape, instance.world_from_object * shape.world_from_object, true, kMostSides});
+                placed.shapes.push_back({&shape, instance.world_from_object * shape.world_from_object, true});
     }
     for (std::size_t i = 0; i < description.objects.size(); ++i) {
         PlacedObject& object = placed.objects.emplace_back();
         object.first_shape = placed.shapes.size();
         if (!has_instance[i]) continue;
         for (ShapeDescription& shape : description.objects[i].shapes)
-            if (!is_light(shape))
-                placed.shapes.push_back({&shape, shape.world_from_object, false, kMostSides});
+            if (!is_light(shape)) placed.shapes.push_back({&shape, shape.world_from_object});
         object.shape_count = placed.shapes.size() - object.first_shape;
     }
     return placed;
@@ -132,8 +140,14 @@ PlacedShapes place_shapes(SceneDescription& description) {
 void limit_tessellation(std::vector<PlacedShape>& shapes) {
     constexpr double kFineShapes = 1000; // so many may have all sides
     constexpr int kFewest = 8;
-    const auto count = static_cast<double>(std::count_if(
-        shapes.begin(), shapes.end(), [](const PlacedShape& placed) { return is_round(*placed.shape); }));
+    std::size_t round_shapes = 0;
+    for (const PlacedShape& placed : shapes) {
+        if (placed.built != nullptr)
+            round_shapes += placed.built->round_shapes;
+        else if (is_round(placed.shape->geometry))
+            ++round_shapes;
+    }
+    const auto count = static_cast<double>(round_shapes);
     if (count <= kFineShapes) return;
     for (PlacedShape& placed : shapes)
         placed.max_sides =

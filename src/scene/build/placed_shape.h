@@ -10,12 +10,16 @@
 
 namespace nusselt::scene {
 
+/// The most pieces around the full circle of a round shape in a scene with few of them.
+inline constexpr int kMostSides = 64;
+
 /// A shape at one of its places.
 struct PlacedShape {
-    ShapeDescription* shape = nullptr;
-    Transform world_from_object; ///< for a surface of an object: to the coordinates of that object
-    bool is_shared = false;      ///< whether other places need its geometry, too
-    int max_sides = 0;           ///< the most pieces around the full circle of round shapes
+    ShapeDescription* shape = nullptr; ///< null for shapes that are built already
+    Transform world_from_object;       ///< for a surface of an object: to the coordinates of that object
+    bool is_shared = false;            ///< whether other places need its geometry, too
+    BuiltShape* built = nullptr;       ///< null for shapes that are not
+    int max_sides = kMostSides;        ///< the most pieces around the full circle of round shapes
 };
 
 /// The surfaces of an object: a range of placed shapes.
@@ -34,6 +38,12 @@ struct PlacedShapes {
 
 /// The result refers to the shapes of `description`. Throws SceneError if instances copy too many lights.
 PlacedShapes place_shapes(SceneDescription& description);
+
+/// Whether the number of pieces of such a shape may depend on that of other shapes, see limit_tessellation().
+bool is_round(const Geometry& geometry);
+
+/// Whether the result of build_shape() is the same in every scene, and needs no other file.
+bool can_be_built_alone(const ShapeDescription& shape);
 
 /// Makes round shapes coarser in scenes with many of them, so that they fit into the memory: a line of text must not take
 /// much more than it would as a mesh.

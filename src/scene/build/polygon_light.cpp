@@ -35,8 +35,8 @@ void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words,
     built.triangle_light = std::move(partition.polygon_of_triangle);
     std::vector<PolygonLight>& lights = built.lights.of<PolygonLight>();
     lights.reserve(partition.polygons.size());
-    for (const PolygonVertices& polygon : partition.polygons)
-        lights.push_back({0, polygon, radiance, shape.emission.two_sided});
+    for (PolygonVertices& polygon : partition.polygons)
+        lights.push_back({0, std::move(polygon), radiance, shape.emission.two_sided});
     if (!shape.is_invisible) return;
     built.positions = {};
     built.normals = {};

@@ -38,9 +38,14 @@ void add_triangle(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c)
     if (!are_equal(a, b) && !are_equal(b, c) && !are_equal(c, a)) mesh.triangles.push_back({{a, b, c}});
 }
 
+struct Pieces {
+    int columns, rows;
+};
+
 /// \param evaluate  maps u and v to a SurfacePoint
 template <class Surface>
-Mesh grid(const ShapeDescription& shape, int columns, int rows, const Surface& evaluate, Warnings& warnings) {
+Mesh grid(const Pieces& pieces, const Surface& evaluate) {
+    const auto [columns, rows] = pieces;
     Mesh mesh;
     for (int row = 0; row <= rows; ++row) {
         for (int column = 0; column <= columns; ++column) {
@@ -60,11 +65,26 @@ Mesh grid(const ShapeDescription& shape, int columns, int rows, const Surface& e
             add_triangle(mesh, corner, corner + stride + 1, corner + stride);
         }
     }
-    const bool emits = !is_black(shape.emission.radiance);
-    warnings.add(shape.origin, shape.kind + (emits ? " that emits" : ""),
-                 subject_of(shape) + ": approximated by " + std::to_string(columns) + " x " +
-                     std::to_string(rows) + " flat pieces of the same area");
     return mesh;
+}
+
+bool emits(const ShapeDescription& shape) { return !is_black(shape.emission.radiance); }
+
+/// \param consequence  continues the sentence
+void warn(const ShapeDescription& shape, const Pieces& pieces, const std::string& consequence,
+          Warnings& warnings) {
+    warnings.add(shape.origin, std::string(shape.kind) + (emits(shape) ? " that emits" : ""),
+                 subject_of(shape) + ": approximated by " + std::to_string(pieces.columns) + " x " +
+                     std::to_string(pieces.rows) + " flat pieces of the same area" + consequence);
+}
+
+/// Each piece of a curved surface is a light of its own, because no two lie in one plane.
+void warn_of_curved(const ShapeDescription& shape, const Pieces& pieces, Warnings& warnings) {
+    const std::string count = std::to_string(pieces.columns * pieces.rows);
+    warn(shape, pieces,
+         emits(shape) ? ": " + count + " lights, which cost up to " + count + " times as much as one quad"
+                      : "",
+         warnings);
 }
 
 /// The ratio of the exact area to that of a tessellation. Throws SceneError if one of them is zero.
@@ -82,8 +102,7 @@ std::pair<double, double> direction(double u, double sweep) {
 }
 
 int sides(const PlacedShape& placed, int light_sides = kLightSides) {
-    const bool emits = !is_black(placed.shape->emission.radiance);
-    return emits ? std::min(light_sides, placed.max_sides) : placed.max_sides;
+    return emits(*placed.shape) ? std::min(light_sides, placed.max_sides) : placed.max_sides;
 }
 
 } // namespace
@@ -106,8 +125,9 @@ Mesh tessellate(const Sphere& sphere, const PlacedShape& placed, Warnings& warni
         return SurfacePoint{radius * normal, normal};
     };
     const int per_circle = sides(placed);
-    Mesh mesh =
-        grid(*placed.shape, pieces(sweep, per_circle), pieces(bottom - top, per_circle), evaluate, warnings);
+    const Pieces division = {pieces(sweep, per_circle), pieces(bottom - top, per_circle)};
+    Mesh mesh = grid(division, evaluate);
+    warn_of_curved(*placed.shape, division, warnings);
     const double scale = std::sqrt(area_ratio(*placed.shape, mesh, sweep * radius * (high - low)));
     for (Float3& p : mesh.positions) p = to_float(scale * to_double(p));
     return mesh;
@@ -122,7 +142,9 @@ Mesh tessellate(const Disk& disk, const PlacedShape& placed, Warnings& warnings)
         const double rho = radius + v * (inner_radius - radius);
         return SurfacePoint{{rho * cosine, rho * sine, disk.height}, {0, 0, 1}};
     };
-    Mesh mesh = grid(*placed.shape, pieces(sweep, sides(placed, kDiskLightSides)), 1, evaluate, warnings);
+    const Pieces division = {pieces(sweep, sides(placed, kDiskLightSides)), 1};
+    Mesh mesh = grid(division, evaluate);
+    warn(*placed.shape, division, "", warnings);
     const double exact_area = 0.5 * sweep * (radius * radius - inner_radius * inner_radius);
     const double scale = std::sqrt(area_ratio(*placed.shape, mesh, exact_area));
     for (Float3& p : mesh.positions) p = to_float({scale * p.x, scale * p.y, disk.height});
@@ -138,7 +160,9 @@ Mesh tessellate(const Cylinder& cylinder, const PlacedShape& placed, Warnings& w
         const auto [cosine, sine] = direction(u, sweep);
         return SurfacePoint{{radius * cosine, radius * sine, low + v * (high - low)}, {cosine, sine, 0}};
     };
-    Mesh mesh = grid(*placed.shape, pieces(sweep, sides(placed)), 1, evaluate, warnings);
+    const Pieces division = {pieces(sweep, sides(placed)), 1};
+    Mesh mesh = grid(division, evaluate);
+    warn_of_curved(*placed.shape, division, warnings);
     const double scale = area_ratio(*placed.shape, mesh, sweep * radius * std::fabs(high - low));
     for (Float3& p : mesh.positions) p = to_float({scale * p.x, scale * p.y, p.z});
     return mesh;

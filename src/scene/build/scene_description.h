@@ -1,16 +1,20 @@
 #pragma once
 /// A scene in neutral terms, which importers pass to the builder, with the location of each part in its file.
 
+#include "scene/build/built_shape.h"
 #include "scene/build/camera.h"
 #include "scene/build/emission.h"
 #include "scene/build/geometry.h"
 #include "scene/build/limits.h"
 #include "scene/build/textures/texture_plan.h"
+#include "scene/input/missing_files.h"
 #include "scene/model/transform.h"
 
 #include <deque>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 namespace nusselt::scene {
@@ -20,7 +24,8 @@ constexpr int kNoMaterial = -1;
 
 /// A shape with its transform, material and emission.
 struct ShapeDescription {
-    std::string kind; ///< its name in messages and in the names of lights, such as "sphere"
+    /// Its name in messages and in the names of lights, such as "sphere"; a constant of the importer.
+    std::string_view kind;
     Location origin;
     Geometry geometry;
     Transform world_from_object;
@@ -32,6 +37,9 @@ struct ShapeDescription {
         kNoMaterial;   ///< index into SceneDescription::materials; lights that are no surfaces need none
     Warnings warnings; ///< of the importer; those of the builder come first
 };
+
+/// Shapes of the world: one as it was read, or several in a row that are built already.
+using WorldPart = std::variant<ShapeDescription, BuiltShape>;
 
 /// Shapes that instances share.
 struct ObjectDescription {
@@ -54,10 +62,15 @@ struct FormatWords {
 
 /// A scene as an importer read it. The builder reads images, and meshes in files of their own.
 struct SceneDescription {
+    /// Adds a shape to the world. Builds long rows of shapes that do not depend on others, because files may have a
+    /// million small ones, whose descriptions take several times the memory. Throws SceneError if one cannot be built.
+    void add_shape(ShapeDescription shape);
+
     std::unique_ptr<SceneBudget> budget = std::make_unique<SceneBudget>();
     std::deque<SourceFile> sources; ///< the files that locations refer to, the main file first
     FormatWords words;
-    std::vector<ShapeDescription> shapes; ///< the shapes of the world
+    std::deque<WorldPart> world;   ///< see add_shape()
+    std::size_t shapes_in_row = 0; ///< at the end of `world`: those that could be built now
     std::vector<ObjectDescription> objects;
     std::vector<InstanceDescription> instances;
     std::vector<Material> materials; ///< their textures are indices into the requests of `textures`
@@ -65,6 +78,7 @@ struct SceneDescription {
     CameraDescription camera;
     Film film;
     Warnings warnings;
+    MissingFiles missing_files; ///< that the importer noted; the builder adds its own, and reports all
 };
 
 } // namespace nusselt::scene

@@ -12,4 +12,7 @@ Mesh tessellate(const Disk& disk, const PlacedShape& placed, Warnings& warnings)
 Mesh tessellate(const Cylinder& cylinder, const PlacedShape& placed, Warnings& warnings);
 Mesh tessellate(const BilinearPatches& patches, const PlacedShape& placed, Warnings& warnings);
 
+/// Whether no patch is curved.
+bool are_planar(const BilinearPatches& patches);
+
 } // namespace nusselt::scene

@@ -1,5 +1,6 @@
 #include "scene/input/diagnostics.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace nusselt::scene {
@@ -36,7 +37,9 @@ void Warnings::append(const Warnings& other) {
 }
 
 void Warnings::add_entry(Entry entry) {
-    if (entries_.size() > kMaxWarnings || !kinds_.insert(entry.kind).second) return;
+    if (entries_.size() > kMaxWarnings) return;
+    const auto has_kind = [&](const Entry& other) { return other.kind == entry.kind; };
+    if (std::any_of(entries_.begin(), entries_.end(), has_kind)) return;
     entries_.push_back(std::move(entry));
     if (entries_.size() == kMaxWarnings) entries_.push_back({"", "further kinds of warnings are not shown"});
 }

@@ -9,12 +9,11 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <unordered_set>
 #include <vector>
 
 namespace nusselt::scene {
 
-/// A file of a scene. Locations refer to it, and parts of its text where the format is text.
+/// A file of a scene. Locations refer to it, also when importers have released its bytes.
 struct SourceFile {
     std::filesystem::path path;
     FileBytes bytes;
@@ -53,8 +52,7 @@ private:
     };
     void add_entry(Entry entry);
 
-    std::vector<Entry> entries_;
-    std::unordered_set<std::string> kinds_;
+    std::vector<Entry> entries_; ///< so few that a search takes no longer than a hash
 };
 
 } // namespace nusselt::scene

@@ -2,15 +2,31 @@
 
 #include "base/gzip.h"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <fstream>
 #include <new>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <system_error>
+#include <utility>
 
 namespace nusselt::scene {
 
-FileBytes::FileBytes(const std::filesystem::path& path, Budget& inflated_bytes) {
+namespace {
+
+/// A readable regular file of at most kMaxFileBytes.
+struct OpenFile {
+    std::ifstream stream;
+    std::uintmax_t size;
+};
+
+OpenFile open_file(const std::filesystem::path& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) throw std::runtime_error("no such file");
@@ -20,6 +36,13 @@ FileBytes::FileBytes(const std::filesystem::path& path, Budget& inflated_bytes) 
     if (error || !stream) throw std::runtime_error("cannot be opened");
     if (size > kMaxFileBytes)
         throw std::runtime_error("larger than " + std::to_string(kMaxFileBytes) + " bytes");
+    return {std::move(stream), size};
+}
+
+} // namespace
+
+FileBytes::FileBytes(const std::filesystem::path& path, Budget& inflated_bytes) {
+    auto [stream, size] = open_file(path);
     resize(size);
     stream.read(data_.get(), static_cast<std::streamsize>(size));
     if (!stream) throw std::runtime_error("cannot be read");
@@ -32,6 +55,32 @@ void FileBytes::resize(std::size_t size) {
     static_cast<void>(data_.release());
     data_.reset(static_cast<char*>(memory));
     size_ = size;
+}
+
+void FileBytes::release_before(const char* position) {
+    constexpr std::size_t kStep = std::size_t{1} << 20;
+    const auto end = static_cast<std::size_t>(position - data_.get());
+    if (end < released_ + kStep) return;
+    const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGE_SIZE));
+    const auto rounded_up = [&](std::size_t offset) {
+        return (reinterpret_cast<std::uintptr_t>(data_.get()) + offset + page - 1) / page * page;
+    };
+    // The page with the position itself is still needed.
+    const std::uintptr_t first = rounded_up(released_);
+    const std::uintptr_t last = rounded_up(end) - page;
+    released_ = end - page;
+    if (first < last) ::madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);
+}
+
+std::unique_ptr<std::istream> open_contents(const std::filesystem::path& path, Budget& inflated_bytes) {
+    auto file = std::make_unique<std::ifstream>(open_file(path).stream);
+    std::array<char, 2> begin = {};
+    file->read(begin.data(), begin.size());
+    if (is_gzip({begin.data(), begin.size()}))
+        return std::make_unique<std::istringstream>(std::string(FileBytes(path, inflated_bytes).view()));
+    file->clear();
+    file->seekg(0);
+    return file;
 }
 
 std::filesystem::path find_file(const std::string& name, const std::filesystem::path& first_folder,

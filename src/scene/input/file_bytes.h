@@ -1,5 +1,5 @@
 #pragma once
-/// Whole files in memory, decompressed where they are gzip files.
+/// Contents of files, decompressed where they are gzip files.
 
 #include "scene/input/limits.h"
 
@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <istream>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -23,6 +24,10 @@ public:
     FileBytes(const std::filesystem::path& path, Budget& inflated_bytes);
     std::string_view view() const { return {data_.get(), size_}; }
 
+    /// Gives the memory in front of a position back to the system, in steps of some size. What the view has there must
+    /// not be read any more.
+    void release_before(const char* position);
+
 private:
     friend FileBytes inflated(std::string_view, Budget&);
 
@@ -34,7 +39,12 @@ private:
 
     std::unique_ptr<char, Free> data_;
     std::size_t size_ = 0;
+    std::size_t released_ = 0; ///< bytes in front
 };
+
+/// The contents of a file to read piece by piece. Those of gzip files are decompressed and stay in memory as a whole.
+/// Throws like the constructor of FileBytes.
+std::unique_ptr<std::istream> open_contents(const std::filesystem::path& path, Budget& inflated_bytes);
 
 /// The path of a file that a scene names: in the first of two folders, or in the second one if only that one has it.
 std::filesystem::path find_file(const std::string& name, const std::filesystem::path& first_folder,

@@ -75,6 +75,17 @@ std::string excerpt(const json& value) {
     return text;
 }
 
+/// \param name of a field that is not known
+std::string advice_on_field(const std::string& name, std::span<const std::string_view> known,
+                            std::span<const FieldSynonym> synonyms) {
+    const std::vector<std::string> fields(known.begin(), known.end());
+    std::optional<std::string> meant = base::likely_meant(name, fields);
+    for (const FieldSynonym& synonym : synonyms)
+        if (synonym.word == name) meant = synonym.field;
+    if (meant) return "did you mean \"" + *meant + "\"?";
+    return "supported are " + base::listing(fields, "and");
+}
+
 std::string range_text(std::string_view kind, double low, double high) {
     const std::string start(kind);
     return start + " from " + to_text(low) + " to " + to_text(high);
@@ -104,6 +115,9 @@ json read_json(const std::filesystem::path& path) {
         return std::runtime_error(
             message_line(path.string() + ":" + position_text(text, offset) + ": " + reason));
     };
+    // The parser takes it for the end of the text.
+    if (const std::size_t nul = text.find('\0'); nul != text.npos)
+        throw syntax_error(nul, "invalid JSON: a NUL byte; save the file as UTF-8 text");
     try {
         return json::parse(text.begin(), text.end(), StructureCheck(path.string()));
     } catch (const json::parse_error& reason) {
@@ -122,12 +136,12 @@ void JsonNode::fail_type(std::string_view expected) const {
     fail("must be " + std::string(expected) + ", found " + excerpt(*value_));
 }
 
-void JsonNode::check_fields(std::span<const std::string_view> known) const {
+void JsonNode::check_fields(std::span<const std::string_view> known,
+                            std::span<const FieldSynonym> synonyms) const {
     if (!value_->is_object()) fail_type("an object, in braces");
     for (const auto& [name, value] : value_->items())
         if (std::find(known.begin(), known.end(), name) == known.end())
-            fail("unknown field " + excerpt(name) + "; did you mean \"" +
-                 std::string(base::nearest(name, known)) + "\"?");
+            fail("unknown field " + excerpt(name) + "; " + advice_on_field(name, known, synonyms));
 }
 
 std::optional<JsonNode> JsonNode::find(std::string_view field) const {

@@ -16,8 +16,14 @@
 namespace nusselt::scene {
 
 /// Parses a file. Throws std::runtime_error if it cannot be read, has more than 256 MiB before or after decompression,
-/// is no JSON (with line and column), repeats a field of an object or nests more than 32 deep.
+/// is no JSON as a whole (with line and column), repeats a field of an object or nests more than 32 deep.
 nlohmann::json read_json(const std::filesystem::path& path);
+
+/// What people may call a field that has another name.
+struct FieldSynonym {
+    std::string_view word;
+    std::string_view field;
+};
 
 /// A value in a file, with a description of its position. It refers to the document, which must outlive it.
 class JsonNode {
@@ -35,10 +41,12 @@ public:
     bool is_number() const { return value_->is_number(); }
     bool is_text() const { return value_->is_string(); }
 
-    /// Throws unless this is an object all of whose fields are among these.
-    void check_fields(std::span<const std::string_view> known) const;
-    void check_fields(std::initializer_list<std::string_view> known) const {
-        check_fields(std::span(known.begin(), known.size()));
+    /// Throws unless this is an object all of whose fields are among these. \param synonyms for suggestions
+    void check_fields(std::span<const std::string_view> known,
+                      std::span<const FieldSynonym> synonyms = {}) const;
+    void check_fields(std::initializer_list<std::string_view> known,
+                      std::span<const FieldSynonym> synonyms = {}) const {
+        check_fields(std::span(known.begin(), known.size()), synonyms);
     }
     /// The field of an object, nothing if it has none.
     std::optional<JsonNode> find(std::string_view field) const;

@@ -101,7 +101,7 @@ public:
     }
 
     void add(const Film& film) {
-        const auto& [width, height, crop, filter, filename] = film;
+        const auto& [width, height, crop, filter, filename, pixel_samples] = film;
         add_all(width, height, crop, filter);
     }
 

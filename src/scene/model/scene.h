@@ -123,6 +123,8 @@ struct Film {
     std::optional<PixelBounds> crop = {}; ///< the pixels to render, at least one; default: all
     PixelFilter filter = {};
     std::string filename = {}; ///< as written in the scene file; may be empty
+    /// The samples per pixel that the scene file asks for, at least 1; nothing if it leaves them open.
+    std::optional<int> pixel_samples = {};
 };
 
 struct Triangle {

@@ -4,6 +4,7 @@
 #include "scene/model/polygon.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -15,6 +16,27 @@ namespace {
 constexpr double kMaxScale = 1e9;
 constexpr double kMaxDegrees = 3600;
 constexpr std::size_t kMaxIndex = 0xffffffff;
+
+constexpr std::array kLightSynonyms = std::to_array<FieldSynonym>({
+    {"color", "radiance"},
+    {"colour", "radiance"},
+    {"emission", "radiance"},
+    {"intensity", "radiance"},
+    {"L", "radiance"},
+    {"brightness", "scale_radiance"},
+    {"temperature", "kelvin"},
+    {"position", "center"},
+    {"translate", "move"},
+    {"delete", "remove"},
+    {"visible", "enabled"},
+});
+constexpr std::array kMaterialSynonyms = std::to_array<FieldSynonym>({
+    {"color", "diffuse"},
+    {"colour", "diffuse"},
+    {"albedo", "diffuse"},
+    {"reflectance", "diffuse"},
+    {"specular", "f0"},
+});
 
 Float3 read_point(const JsonNode& node) { return float3_of(node.triple(-kMaxCoordinate, kMaxCoordinate)); }
 Float3 read_radiance(const JsonNode& node) { return float3_of(node.triple_or_number(0, kMaxRadiance)); }
@@ -204,7 +226,7 @@ RigLight read_light(const JsonNode& entry) {
     fields.insert(fields.end(), shapes.begin(), shapes.end());
     fields.insert(fields.end(), {"material", "scale", "rotate", "center", "move", "copies", "radiance",
                                  "kelvin", "power", "enabled", "two_sided", "remove", "scale_radiance"});
-    entry.check_fields(fields);
+    entry.check_fields(fields, kLightSynonyms);
     if (!find_one(entry, {"light", "add"}))
         entry.fail(
             "must have the field \"light\", which selects lights, or \"add\" with the name of a new one");
@@ -229,7 +251,7 @@ BrdfModel read_model(const JsonNode& node) {
 }
 
 RigMaterial read_material(const JsonNode& entry) {
-    entry.check_fields({"material", "comment", "model", "diffuse", "f0", "roughness"});
+    entry.check_fields({"material", "comment", "model", "diffuse", "f0", "roughness"}, kMaterialSynonyms);
     RigMaterial result;
     result.where = entry.where();
     result.materials = read_selector(entry.at("material"));

@@ -118,7 +118,8 @@ private:
 
     static ShapeDescription shape(const Line& line) {
         ShapeDescription result;
-        result.kind = line.command();
+        static constexpr std::string_view kKinds[] = {"mesh", "light", "tube"};
+        result.kind = *std::find(std::begin(kKinds), std::end(kKinds), line.command());
         result.origin = line.location();
         return result;
     }
@@ -167,7 +168,10 @@ private:
     }
 
     void add(ShapeDescription shape) {
-        (object_ ? scene_.objects[*object_].shapes : scene_.shapes).push_back(std::move(shape));
+        if (object_)
+            scene_.objects[*object_].shapes.push_back(std::move(shape));
+        else
+            scene_.add_shape(std::move(shape));
     }
 
     SceneDescription scene_;

@@ -52,6 +52,42 @@ TYPED_TEST(VecTest, CrossProductsHaveRelativePrecision) {
     }
 }
 
+/// What accumulating colours needs. All numbers are exact in every precision.
+TYPED_TEST(VecTest, ScalarsStandOnEitherSideAndAssignmentsCombine) {
+    using T = TypeParam;
+    const auto expect = [](const nusselt::Vec3<T>& v, T x, T y, T z) {
+        EXPECT_EQ(v.x, x);
+        EXPECT_EQ(v.y, y);
+        EXPECT_EQ(v.z, z);
+    };
+    const nusselt::Vec3<T> v{1, -2, 4}, w{3, 5, T(0.5)};
+    expect(T(2) * v, 2, -4, 8);
+    expect(v * T(2), 2, -4, 8);
+    expect(v / T(2), T(0.5), -1, 2);
+    nusselt::Vec3<T> sum = v;
+    expect(sum += w, 4, 3, T(4.5));
+    expect(sum -= v, 3, 5, T(0.5));
+    expect(sum *= T(4), 12, 20, 2);
+    expect(sum /= T(2), 6, 10, 1);
+    expect(sum *= v, 6, -20, 4);
+    expect(sum, 6, -20, 4);
+
+    nusselt::Vec2<T> flat{1, -2};
+    flat += nusselt::Vec2<T>{3, 7} * T(2);
+    flat -= T(2) * nusselt::Vec2<T>{1, 1};
+    (flat *= T(3)) /= T(5);
+    EXPECT_EQ(flat.x, 3);
+    EXPECT_EQ(flat.y, 6);
+    const nusselt::Vec2<T> quotient = flat / T(2);
+    EXPECT_EQ(quotient.x, T(1.5));
+    EXPECT_EQ(quotient.y, 3);
+
+    // One division per component, as in GLSL: a product with the reciprocal would round twice.
+    const nusselt::Vec3<T> thirds = v / T(3);
+    EXPECT_EQ(thirds.x, T(1) / T(3));
+    EXPECT_EQ(thirds.z, T(4) / T(3));
+}
+
 TYPED_TEST(VecTest, LengthNeitherOverflowsNorUnderflows) {
     using T = TypeParam;
     constexpr T kLargest = std::numeric_limits<T>::max() / 8;

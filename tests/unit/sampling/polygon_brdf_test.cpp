@@ -154,6 +154,7 @@ TEST(PolygonBrdf, Inverts) {
 /// The facts that the contract needs about the technique.
 struct Kind : PolygonKind<4> {
     static constexpr Measure kMeasure = Measure::solid_angle;
+    static constexpr Horizon kHorizon = Horizon::ignored;
 };
 
 template <class T>

@@ -40,6 +40,17 @@ TEST(RegressionTest, LineEndsOnTheHorizonNextToThePoint) {
     expect_contract<LineProjectedSolidAngleKind>(ending, 0x8.7734p-4f);
 }
 
+/// Rounding turned the directions to ends next to the horizon below it.
+TEST(RegressionTest, LineThatDipsBelowTheHorizonIsSampledAboveIt) {
+    const auto expect_above = [](const nusselt::Vec3<float>& start, const nusselt::Vec3<float>& end,
+                                 float u) {
+        expect_contract<LineClippedSolidAngleKind>(nusselt::make_line(start, end), u);
+        EXPECT_GE(nusselt::LineClippedSolidAngle<float>(nusselt::make_line(start, end)).sample(u).wi.z, 0);
+    };
+    expect_above({9.30984879f, 10.7484589f, -0.27369687f}, {2.2934885f, 11.2559195f, 6.13668823f}, 0);
+    expect_above({-165.985092f, 759.862427f, 7.84876941e-10f}, {0, 0, -341.590363f}, 0.99999994f);
+}
+
 /// The sector spans half a turn, so the directions of its ends add up to zero.
 TEST(RegressionTest, SectorOfHalfATurn) {
     expect_contract<PolygonProjectedSolidAngleKind>(quad({0xe.21d2ap+15f, 0xa.3abf9p+15f, -0x9.80d34p+16f},

@@ -85,5 +85,16 @@ TEST(TinyCoordinatesTest, SolidAngleOfALineThatEndsAtTheHorizon) {
         0x1.ed65a4p-3f);
 }
 
+/// Where the density overflowed, sample() returned the largest number and pdf() 0.
+TEST(TinyCoordinatesTest, AreaOfLightsWhoseDensityOverflows) {
+    for (float length = 0x1p-120f; length > 0; length /= 2) {
+        for (float x = 0; x < 4; x += 0.25f) {
+            expect_contract<LineAreaKind>({{x, 1, 1}, {1, 0, 0}, length}, 0.5f);
+            expect_contract<LineAreaKind>({{x, 1, 1}, {0.6f, 0.8f, 0}, length}, 0.5f);
+        }
+        EXPECT_GT(nusselt::LineArea<float>({{0, 1, 1}, {1, 0, 0}, length}).sample(0.5f).pdf, 0);
+    }
+}
+
 } // namespace
 } // namespace nusselt_test

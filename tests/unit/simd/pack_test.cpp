@@ -435,16 +435,29 @@ TYPED_TEST(PackTest, WorksInsideVectors) {
     const auto unit_normal = [&](auto x, auto y, auto z) {
         return normalize(cross(build(x, y, z), build(y, z, x)));
     };
+    const auto accumulated = [&](auto x, auto y, auto z) {
+        auto sum = build(x, y, z) * y / z;
+        sum += build(y, z, x);
+        sum -= build(z, x, y);
+        sum *= x;
+        sum /= y;
+        sum *= build(z, y, x);
+        return sum;
+    };
     const auto a = strided_pack<TypeParam>(values, 0, 1);
     const auto b = strided_pack<TypeParam>(values, 2, 3);
     const auto c = strided_pack<TypeParam>(values, 5, 4);
-    const auto packed = unit_normal(a, b, c);
-    for (int i = 0; i < kLanesOf<TypeParam>; ++i) {
-        const auto expected = unit_normal(a.lane(i), b.lane(i), c.lane(i));
-        EXPECT_EQ(bits_of(packed.x.lane(i)), bits_of(expected.x));
-        EXPECT_EQ(bits_of(packed.y.lane(i)), bits_of(expected.y));
-        EXPECT_EQ(bits_of(packed.z.lane(i)), bits_of(expected.z));
-    }
+    const auto expect_the_same = [&](const auto& function) {
+        const auto packed = function(a, b, c);
+        for (int i = 0; i < kLanesOf<TypeParam>; ++i) {
+            const auto expected = function(a.lane(i), b.lane(i), c.lane(i));
+            EXPECT_EQ(bits_of(packed.x.lane(i)), bits_of(expected.x));
+            EXPECT_EQ(bits_of(packed.y.lane(i)), bits_of(expected.y));
+            EXPECT_EQ(bits_of(packed.z.lane(i)), bits_of(expected.z));
+        }
+    };
+    expect_the_same(unit_normal);
+    expect_the_same(accumulated);
 }
 
 /// The comparison itself must find errors: in the last lane only, of one unit in the last place, in the sign of a

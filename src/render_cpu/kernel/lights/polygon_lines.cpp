@@ -159,6 +159,7 @@ private:
     /// Adds lines each of which has its own angle, and thus its own family.
     void add_independent(const ShadingPoint& point, LineSum& sum) noexcept {
         for (std::uint32_t first = 0; first < count_; first += kLanes) {
+            if (reflected_.stop().is_urgent()) return;
             // Uses y, not x. Jittered numbers have x in the same order in each pair, which would correlate offsets
             // with angles.
             const Real angles =
@@ -198,6 +199,7 @@ private:
                    const Range& range, LineSum& sum) noexcept {
         constexpr std::uint32_t kBatch = LineNumbers::kMost;
         for (std::uint32_t done = 0; done < range.count; done += kBatch) {
+            if (reflected_.stop().is_urgent()) return;
             const std::uint32_t rest = range.count - done;
             ChosenLines chosen[kLargestLinePackCount];
             TracedLines<Real> traced[kLargestLinePackCount];

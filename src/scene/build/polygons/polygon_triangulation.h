@@ -10,9 +10,8 @@ namespace nusselt::scene {
 /// Faces of more corners must be convex: others take time that grows with the square of the number of corners.
 constexpr std::size_t kMaxConcaveCorners = 2048;
 
-/// Splits a face into corners.size() - 2 triangles with its orientation, whose vertices are indices of corners. Convex
-/// ones become a fan around the first corner, others are cut ear by ear, which is right for outlines that are planar up
-/// to rounding and do not intersect themselves. Faces of fewer than three corners have none.
+/// Splits a face into triangles, whose vertices are indices of corners, like triangulate() of
+/// nusselt/geometry/split_convex.h.
 ///
 /// Throws std::runtime_error if the face is not convex and has more than kMaxConcaveCorners corners.
 std::vector<Triangle> triangulate_polygon(const std::vector<Double3>& corners);

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -33,19 +32,6 @@ void take_image(image::Image&& pixels, Texture& texture) {
     texture.texels = std::move(pixels.pixels);
 }
 
-void drop_opaque_alpha(Texture& texture) {
-    std::vector<float>& texels = texture.texels;
-    if (texture.channels != 4) return;
-    for (std::size_t i = 3; i < texels.size(); i += 4)
-        if (texels[i] != 1) return;
-    std::size_t end = 0;
-    for (std::size_t i = 0; i < texels.size(); ++i)
-        if (i % 4 != 3) texels[end++] = texels[i];
-    texels.resize(end);
-    texels.shrink_to_fit();
-    texture.channels = 3;
-}
-
 void remove_invalid(const ImageRequest& request, Texture& texture, Warnings& warnings) {
     std::size_t count = 0;
     for (float& value : texture.texels) {
@@ -63,10 +49,16 @@ void charge(const Texture& texture, Budget& texels) {
     texels.take(static_cast<std::uint64_t>(texture.width) * static_cast<std::uint64_t>(texture.height));
 }
 
-void decode_bytes(std::string_view file, ImageRequest::Encoding encoding, Budget& texels, Texture& texture) {
-    if (file.starts_with("#?")) {
-        std::istringstream stream{std::string(file)};
-        take_image(image::decode_hdr(stream), texture);
+bool begins_like_hdr(std::istream& file) {
+    const bool begins = file.get() == '#' && file.get() == '?';
+    file.clear();
+    file.seekg(0);
+    return begins;
+}
+
+void decode_contents(std::istream& file, ImageRequest::Encoding encoding, Budget& texels, Texture& texture) {
+    if (begins_like_hdr(file)) {
+        take_image(image::decode_hdr(file), texture);
         charge(texture, texels);
         return;
     }
@@ -75,11 +67,12 @@ void decode_bytes(std::string_view file, ImageRequest::Encoding encoding, Budget
     texture.height = header.height;
     charge(texture, texels);
     // No texture has two channels, so grey with alpha becomes colour with alpha.
-    texture.channels = header.channels == 2 ? 4 : header.channels;
-    texture.texels = image::decode_codes(file, texture.channels, [&](double code) {
+    const int channels = header.channels == 2 ? 4 : header.channels;
+    image::Texels decoded = image::decode_codes(file, channels, [&](double code) {
         return encoding == ImageRequest::kSrgb ? image::linear_from_srgb(code) : std::pow(code, encoding);
     });
-    drop_opaque_alpha(texture);
+    texture.channels = decoded.channels;
+    texture.texels = std::move(decoded.values);
 }
 
 bool is_read_by_extension(const std::filesystem::path& path) {
@@ -97,8 +90,8 @@ Texture decode_image(const ImageRequest& request, SceneBudget& budget, Warnings&
             take_image(image::read_image(request.path), texture);
             charge(texture, budget.texels);
         } else {
-            decode_bytes(FileBytes(request.path, budget.inflated_bytes).view(), request.encoding,
-                         budget.texels, texture);
+            decode_contents(*open_contents(request.path, budget.inflated_bytes), request.encoding,
+                            budget.texels, texture);
         }
         turn_over(texture);
     } catch (const std::runtime_error& error) {

@@ -2,6 +2,24 @@
 
 namespace nusselt::scene {
 
+std::vector<ImageRequest> needed_images(const TexturePlan& plan) {
+    std::vector<bool> is_needed(plan.nodes.size());
+    for (const TextureRequest& request : plan.requests)
+        is_needed[static_cast<std::size_t>(request.node)] = true;
+    std::vector<bool> needs_image(plan.images.size());
+    // Operands come before the nodes that have them.
+    for (std::size_t i = plan.nodes.size(); i-- > 0;) {
+        if (!is_needed[i]) continue;
+        for (const int operand : plan.nodes[i].operands)
+            if (operand >= 0) is_needed[static_cast<std::size_t>(operand)] = true;
+        if (plan.nodes[i].image >= 0) needs_image[static_cast<std::size_t>(plan.nodes[i].image)] = true;
+    }
+    std::vector<ImageRequest> images;
+    for (std::size_t i = 0; i < plan.images.size(); ++i)
+        if (needs_image[i]) images.push_back(plan.images[i]);
+    return images;
+}
+
 int TexturePlanner::image(ImageRequest request) {
     request.path = request.path.lexically_normal();
     const auto [entry, is_new] =

@@ -25,6 +25,9 @@ struct TexturePlan {
     std::vector<TextureRequest> requests;
 };
 
+/// The images that the requests need, in their order.
+std::vector<ImageRequest> needed_images(const TexturePlan& plan);
+
 /// Collects the images, formulas and requests of an importer. Equal ones are planned once.
 class TexturePlanner {
 public:

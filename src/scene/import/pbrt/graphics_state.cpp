@@ -1,5 +1,7 @@
 #include "scene/import/pbrt/graphics_state.h"
 
+#include <utility>
+
 namespace nusselt::scene {
 
 namespace {
@@ -33,7 +35,7 @@ void StateStack::push(StateBlock block, const Location& location) {
 void StateStack::pop(StateBlock block, const Location& location) {
     if (saved_.empty())
         throw SceneError(location, name_of(block) + "End without " + name_of(block) + "Begin");
-    const Saved& top = saved_.back();
+    Saved& top = saved_.back();
     if (top.block != block && block == StateBlock::import)
         throw SceneError(top.location, name_of(top.block) + "Begin has no matching End in the imported file");
     if (top.block != block)
@@ -43,7 +45,7 @@ void StateStack::pop(StateBlock block, const Location& location) {
         current_.ctm = top.state.ctm;
         current_.moves_begin = top.state.moves_begin;
     } else {
-        current_ = top.state;
+        current_ = std::move(top.state);
     }
     saved_.pop_back();
 }

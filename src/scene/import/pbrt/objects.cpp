@@ -39,18 +39,13 @@ std::vector<ObjectDescription> ObjectTable::take_objects() {
     for (Definition& definition : definitions_) {
         ObjectDescription& object = objects.emplace_back();
         object.name = std::move(definition.name);
-        if (definition.is_used) object.shapes = read_shapes(std::move(definition.shapes));
+        if (!definition.is_used) continue;
+        for (ShapeDirective& shape : definition.shapes) {
+            object.shapes.push_back(read_shape(shape));
+            shape.parameters = {};
+        }
     }
     return objects;
-}
-
-std::vector<ShapeDescription> read_shapes(std::vector<ShapeDirective> directives) {
-    std::vector<ShapeDescription> shapes;
-    for (ShapeDirective& directive : directives) {
-        shapes.push_back(read_shape(directive));
-        directive.parameters = {};
-    }
-    return shapes;
 }
 
 } // namespace nusselt::scene

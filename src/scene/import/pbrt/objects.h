@@ -42,7 +42,4 @@ private:
     bool is_open_ = false;
 };
 
-/// Reads shapes in their order, and releases what they were read from.
-std::vector<ShapeDescription> read_shapes(std::vector<ShapeDirective> directives);
-
 } // namespace nusselt::scene

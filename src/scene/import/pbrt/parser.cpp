@@ -7,6 +7,7 @@
 #include "scene/import/pbrt/graphics_state.h"
 #include "scene/import/pbrt/materials.h"
 #include "scene/import/pbrt/objects.h"
+#include "scene/import/pbrt/sampler_directive.h"
 #include "scene/import/pbrt/surface_variants.h"
 #include "scene/import/pbrt/syntax/source_reader.h"
 #include "scene/import/pbrt/syntax/type_counter.h"
@@ -32,7 +33,7 @@ struct FilterDirective {
 class Parser {
 public:
     explicit Parser(const std::filesystem::path& main_path)
-        : reader_(main_path, scene_.sources, *scene_.budget) {
+        : reader_(main_path, scene_.sources, *scene_.budget, scene_.missing_files) {
         scene_.words = {"ObjectInstance", "AreaLightSource", "ReverseOrientation"};
         materials_.push_back({{"default", "matte", ParameterList(), {}}, {}});
         state_.current().material = &materials_.back();
@@ -79,6 +80,7 @@ private:
     void camera();
     void film();
     void pixel_filter();
+    void sampler();
     void ignore_with_parameters();
     void ignore_option();
     void ignore_medium();
@@ -93,8 +95,13 @@ private:
     void shape();
 
     std::string read_string() { return reader_.read_string(); }
-    ParameterContext context() const {
-        return {version_, state_.current().colour_space, &reader_.main_file(), scene_.budget.get(), nullptr};
+    ParameterContext context() {
+        return {version_,
+                state_.current().colour_space,
+                &reader_.main_file(),
+                scene_.budget.get(),
+                &scene_.missing_files,
+                nullptr};
     }
     ParameterList read_parameters() { return {reader_.tokens(), location_, context()}; }
     /// Reads parameters, with the defaults that Attribute directives set.
@@ -117,11 +124,11 @@ private:
     SurfaceVariants surface_variants_;
     EmissionImages emission_images_;
     TypeCounter left_out_shapes_;
-    std::vector<ShapeDirective> shapes_; ///< of the world
     ObjectTable objects_;
     TypeCounter ignored_lights_;
     std::optional<CameraDescription> camera_;
     std::optional<FilterDirective> pixel_filter_;
+    std::optional<int> pixel_samples_;
     std::optional<Location> world_begin_;
     PbrtVersion version_ = PbrtVersion::v4; ///< until the film determines it
 
@@ -158,7 +165,7 @@ const std::unordered_map<std::string_view, Parser::Handler>& Parser::handlers() 
         {"Camera", &Parser::camera},
         {"Film", &Parser::film},
         {"PixelFilter", &Parser::pixel_filter},
-        {"Sampler", &Parser::ignore_with_parameters},
+        {"Sampler", &Parser::sampler},
         {"Integrator", &Parser::ignore_with_parameters},
         {"SurfaceIntegrator", &Parser::ignore_with_parameters},
         {"Renderer", &Parser::ignore_with_parameters},
@@ -180,7 +187,13 @@ const std::unordered_map<std::string_view, Parser::Handler>& Parser::handlers() 
 
 SceneDescription Parser::run() {
     coordinate_systems_["world"] = {};
-    parse_file();
+    try {
+        parse_file();
+    } catch (const SceneError&) {
+        // What is wrong may be a consequence of a missing file, such as a material that it defines.
+        scene_.missing_files.report();
+        throw;
+    }
     if (!knows_directives_)
         throw SceneError({&scene_.sources.front(), 1},
                          "none of the directives of pbrt's format is in this file; is it a scene?");
@@ -196,14 +209,19 @@ SceneDescription Parser::run() {
     if (pixel_filter_)
         scene_.film.filter =
             read_pixel_filter(pixel_filter_->type, pixel_filter_->parameters, version_, scene_.warnings);
-    scene_.shapes = read_shapes(std::move(shapes_));
+    scene_.film.pixel_samples = pixel_samples_;
     scene_.objects = objects_.take_objects();
     scene_.instances = objects_.take_instances();
+    // All is read: only the paths of the files are still needed, for messages.
+    for (SourceFile& source : scene_.sources) source.bytes = {};
     return std::move(scene_);
 }
 
 void Parser::parse_file() {
-    while (reader_.tokens().peek().kind != TokenKind::end) parse_directive(reader_.tokens().next());
+    while (reader_.tokens().peek().kind != TokenKind::end) {
+        parse_directive(reader_.tokens().next());
+        reader_.release_text();
+    }
 }
 
 void Parser::parse_directive(const Token& directive) {
@@ -348,7 +366,7 @@ void Parser::world_begin() {
 }
 
 void Parser::include() {
-    reader_.open(read_string(), location_);
+    if (!reader_.open(read_string(), location_)) return;
     parse_file();
     reader_.close();
 }
@@ -381,6 +399,12 @@ void Parser::film() {
 void Parser::pixel_filter() {
     std::string type = read_string();
     pixel_filter_ = {std::move(type), read_parameters()};
+}
+
+void Parser::sampler() {
+    const std::string type = read_string();
+    ParameterList parameters = read_parameters();
+    pixel_samples_ = read_pixel_samples(type, parameters, scene_.warnings);
 }
 
 void Parser::ignore_with_parameters() {
@@ -421,7 +445,8 @@ void Parser::light_source() {
 void Parser::area_light_source() {
     const std::string type = read_string();
     ParameterList parameters = read_parameters(AttributeTarget::light);
-    const std::filesystem::path image = resolve(parameters.string("filename", ""));
+    const std::string image_name = parameters.string("filename", "");
+    const std::filesystem::path image = image_name.empty() ? std::filesystem::path() : resolve(image_name);
     state_.current().emission = read_emission(type, parameters, image, emission_images_, scene_.warnings);
 }
 
@@ -516,7 +541,7 @@ void Parser::shape() {
     if (objects_.is_open())
         objects_.add_shape(std::move(shape));
     else
-        shapes_.push_back(std::move(shape));
+        scene_.add_shape(read_shape(shape));
 }
 
 } // namespace

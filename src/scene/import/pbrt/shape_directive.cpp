@@ -41,9 +41,10 @@ bool is_surface(ShapeDirective& shape) {
 
 ShapeDescription read_shape(ShapeDirective& shape) {
     ShapeDescription result;
-    result.kind = shape.type;
+    const auto& [kind, read] = *find_row(kReaders, shape.type);
+    result.kind = kind;
     result.origin = shape.parameters.location();
-    result.geometry = find_named(kReaders, shape.type)(shape, result.warnings);
+    result.geometry = read(shape, result.warnings);
     result.world_from_object = shape.world_from_object;
     result.reverse_orientation = shape.reverse_orientation;
     result.emission = shape.emission;

@@ -28,12 +28,21 @@ std::vector<Double3> corners(const PolygonLight& light) {
 
 void PolygonVertices::push_back(const Float3& vertex) {
     if (size_ == kCapacity) throw std::length_error("polygonal lights have at most 8 vertices");
-    vertices_[size_++] = vertex;
+    if (size_ == few_.size() && many_ == nullptr) {
+        many_ = std::make_unique<std::array<Float3, kCapacity>>();
+        std::copy(few_.begin(), few_.end(), many_->begin());
+    }
+    begin()[size_++] = vertex;
+}
+
+PolygonVertices& PolygonVertices::operator=(const PolygonVertices& other) {
+    if (this != &other) assign(other.begin(), other.end());
+    return *this;
 }
 
 const Float3& PolygonVertices::at(std::size_t i) const {
     if (i >= size_) throw std::out_of_range("vertex of a polygonal light");
-    return vertices_[i];
+    return begin()[i];
 }
 
 double area(const PolygonLight& light) { return 0.5 * length(area_vector(corners(light))); }

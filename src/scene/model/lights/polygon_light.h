@@ -4,11 +4,15 @@
 #include "scene/model/lights/light_list.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <initializer_list>
+#include <memory>
+#include <vector>
 
 namespace nusselt::scene {
 
-/// The corners of a polygonal light, in place: scenes have hundreds of thousands of such lights.
+/// The corners of a polygonal light. Up to four are in place: scenes have millions of triangles and quads that emit.
 class PolygonVertices {
 public:
     static constexpr std::size_t kCapacity = 8;
@@ -16,6 +20,11 @@ public:
     PolygonVertices() = default;
     PolygonVertices(std::initializer_list<Float3> vertices) { assign(vertices.begin(), vertices.end()); }
     PolygonVertices(const std::vector<Float3>& vertices) { assign(vertices.begin(), vertices.end()); }
+    PolygonVertices(const PolygonVertices& other) { *this = other; }
+    PolygonVertices(PolygonVertices&&) noexcept = default;
+    PolygonVertices& operator=(PolygonVertices&&) noexcept = default;
+    PolygonVertices& operator=(const PolygonVertices& other);
+    ~PolygonVertices() = default;
     /// \throws std::length_error if these are too many
     template <class Iterator>
     void assign(Iterator begin, Iterator end) {
@@ -26,19 +35,21 @@ public:
     void push_back(const Float3& vertex);
 
     std::size_t size() const { return size_; }
-    const Float3* begin() const { return vertices_.data(); }
-    const Float3* end() const { return vertices_.data() + size_; }
-    Float3* begin() { return vertices_.data(); }
-    Float3* end() { return vertices_.data() + size_; }
-    const Float3& operator[](std::size_t i) const { return vertices_[i]; }
-    Float3& operator[](std::size_t i) { return vertices_[i]; }
+    const Float3* begin() const { return many_ != nullptr ? many_->data() : few_.data(); }
+    const Float3* end() const { return begin() + size_; }
+    Float3* begin() { return many_ != nullptr ? many_->data() : few_.data(); }
+    Float3* end() { return begin() + size_; }
+    const Float3& operator[](std::size_t i) const { return begin()[i]; }
+    Float3& operator[](std::size_t i) { return begin()[i]; }
     /// \throws std::out_of_range
     const Float3& at(std::size_t i) const;
-    const Float3& back() const { return vertices_[size_ - 1]; }
+    const Float3& back() const { return begin()[size_ - 1]; }
 
 private:
-    std::array<Float3, kCapacity> vertices_ = {};
+    std::array<Float3, 4> few_ = {};
     std::uint32_t size_ = 0;
+    std::unique_ptr<std::array<Float3, kCapacity>>
+        many_; ///< all vertices once there have been more than four
 };
 
 /// A convex planar light of 3 to 8 vertices. It emits `radiance` to the side from which the vertices appear

@@ -11,8 +11,12 @@ namespace nusselt::scene {
 
 namespace {
 
+std::string message_about(const Parameter& parameter, const std::string& message) {
+    return "parameter " + declaration(parameter) + ": " + message;
+}
+
 [[noreturn]] void fail(const Parameter& parameter, const std::string& message) {
-    throw SceneError(parameter.location, "parameter " + declaration(parameter) + ": " + message);
+    throw SceneError(parameter.location, message_about(parameter, message));
 }
 
 std::string rounded_text(double value) { return to_text(std::round(value * 1e3) / 1e3); }
@@ -90,12 +94,15 @@ private:
         const std::filesystem::path folder = location.file->path.parent_path();
         const SourceFile& main = context_.main_file != nullptr ? *context_.main_file : *location.file;
         SourceFile file{find_file(name, folder, main.path.parent_path()), {}};
+        const std::string problem =
+            "'" + shortened(name) + "' is neither the name of a known spectrum nor a file of samples: ";
+        if (context_.missing_files->note_with_message(
+                location, message_about(parameter_, problem + "no such file"), file.path))
+            return {{550, 1}};
         try {
             file.bytes = FileBytes(file.path, context_.budget->inflated_bytes);
         } catch (const std::runtime_error& error) {
-            fail(parameter_,
-                 "'" + shortened(name) +
-                     "' is neither the name of a known spectrum nor a file of samples: " + error.what());
+            fail(parameter_, problem + error.what());
         }
         Tokenizer tokens(file);
         std::vector<double> numbers;

@@ -15,15 +15,14 @@ constexpr std::size_t kMaxRepeatedBytes = std::size_t{1} << 25;
 } // namespace
 
 SourceReader::SourceReader(const std::filesystem::path& main_path, std::deque<SourceFile>& sources,
-                           SceneBudget& budget)
-    : sources_(sources), budget_(budget) {
+                           SceneBudget& budget, MissingFiles& missing)
+    : sources_(sources), budget_(budget), missing_(missing) {
     SourceFile& main = sources_.emplace_back(SourceFile{main_path, {}});
     try {
         main.bytes = FileBytes(main_path, budget_.inflated_bytes);
     } catch (const std::runtime_error& error) {
         throw std::runtime_error("scene file '" + main_path.string() + "': " + error.what());
     }
-    by_path_[main_path.lexically_normal().string()] = &main;
     open_files_.emplace_back(main);
 }
 
@@ -32,11 +31,12 @@ std::filesystem::path SourceReader::resolve(const std::string& name, const Locat
     return find_file(name, location.file->path.parent_path(), main_file().path.parent_path());
 }
 
-void SourceReader::open(const std::string& name, const Location& includer) {
+bool SourceReader::open(const std::string& name, const Location& includer) {
     const std::filesystem::path path = resolve(name, includer);
     if (open_files_.size() >= kMaxIncludeDepth)
         throw SceneError(includer, "more than " + std::to_string(kMaxIncludeDepth) +
                                        " nested includes; does '" + path.string() + "' include itself?");
+    if (missing_.note(includer, "scene file", path)) return false;
     const SourceFile*& source = by_path_[path.lexically_normal().string()];
     if (source == nullptr) {
         try {
@@ -52,6 +52,14 @@ void SourceReader::open(const std::string& name, const Location& includer) {
                                            " bytes of text; use ObjectInstance for copies");
     }
     open_files_.emplace_back(*source);
+    return true;
+}
+
+void SourceReader::release_text() {
+    // Included files may be included again, and are then read from memory.
+    const Token& next = tokens().peek();
+    if (open_files_.size() == 1 && next.kind != TokenKind::end)
+        sources_.front().bytes.release_before(next.text.data());
 }
 
 std::string SourceReader::read_string() {

@@ -3,6 +3,7 @@
 
 #include "scene/build/limits.h"
 #include "scene/import/pbrt/syntax/tokenizer.h"
+#include "scene/input/missing_files.h"
 #include "scene/model/transform.h"
 
 #include <deque>
@@ -17,13 +18,18 @@ class SourceReader {
 public:
     /// \param sources  receives the files, and outlives all tokens and locations
     /// \param budget   that files are read on
-    SourceReader(const std::filesystem::path& main_path, std::deque<SourceFile>& sources,
-                 SceneBudget& budget);
+    /// \param missing  receives included files that do not exist
+    SourceReader(const std::filesystem::path& main_path, std::deque<SourceFile>& sources, SceneBudget& budget,
+                 MissingFiles& missing);
 
     /// Goes on in a file that the current one includes; close() returns. Throws SceneError if it cannot be read, or if
     /// includes are nested or repeated too often.
-    void open(const std::string& name, const Location& includer);
+    /// \returns false if the file is missing, which is noted; then there is nothing to close
+    [[nodiscard]] bool open(const std::string& name, const Location& includer);
     void close() { open_files_.pop_back(); }
+
+    /// Gives back memory of text that has been read, up to the next token.
+    void release_text();
 
     /// The tokens of the file that is being read.
     Tokenizer& tokens() { return open_files_.back(); }
@@ -41,6 +47,7 @@ public:
 private:
     std::deque<SourceFile>& sources_;
     SceneBudget& budget_;
+    MissingFiles& missing_;
     std::unordered_map<std::string, const SourceFile*> by_path_;
     std::vector<Tokenizer> open_files_;
     int repeated_includes_ = 0;

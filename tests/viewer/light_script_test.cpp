@@ -1,0 +1,142 @@
+/// Scripts that change lights as the mouse does.
+
+#include "script_fixture.h"
+
+#include "viewer/lights/picking.h"
+
+#include <fmt/core.h>
+
+namespace nusselt::viewer {
+namespace {
+
+using scene::Double3;
+
+class LightScriptTest : public ScriptTest {
+protected:
+    /// Runs commands, also after others that closed the viewer, and renders a frame.
+    void run(const std::string& text, Viewer& viewer) const {
+        viewer.is_closing = false;
+        play(write(text + "frames 1\nquit\n"), viewer);
+    }
+
+    /// With a technique whose shaders drivers compile quickly.
+    Viewer make_viewer() const {
+        render::RenderSettings settings;
+        settings.technique = render::Technique::ltc_analytic;
+        return ScriptTest::make_viewer(settings);
+    }
+
+    static FilmPosition position_of(const Viewer& viewer, const Double3& point) {
+        return seen_at(viewer.state.camera.camera(), point).value();
+    }
+    static Double3 center(const Viewer& viewer) {
+        return viewer.state.edits.center(viewer.session.loaded(), *viewer.state.selected_light);
+    }
+    /// The commands of a drag.
+    static std::string drag(FilmPosition from, FilmPosition to) {
+        return fmt::format("press {} {}\ndrag {} {}\nrelease\n", from.x, from.y, to.x, to.y);
+    }
+};
+
+TEST_F(LightScriptTest, ChangesLightsInAllWays) {
+    Viewer viewer = make_viewer();
+    run("light 0\nlight-turn 0 0 2 30\nlight-kelvin 3000\nlight-add tube\nlight-radiance 1 2 3\n", viewer);
+    EXPECT_EQ(viewer.message, "");
+    EXPECT_EQ(viewer.state.edits.get(0).turn, (Double3{0, 0, 30}));
+    EXPECT_EQ(viewer.state.edits.get(0).colour, LightColour(Temperature{3000}));
+    ASSERT_EQ(viewer.state.selected_light, std::size_t{1});
+    EXPECT_EQ(viewer.state.edits.get(1).colour, LightColour(scene::Float3{1, 2, 3}));
+    EXPECT_EQ(viewer.state.edits.get(1).added->shape, LightShape::tube);
+    // It is in the middle of the image.
+    EXPECT_NEAR(position_of(viewer, center(viewer)).x, 12, 1e-3);
+    EXPECT_NEAR(position_of(viewer, center(viewer)).y, 10, 1e-3);
+    run("light-remove\nlight 0\nlight-remove\n", viewer);
+    EXPECT_TRUE(viewer.state.edits.lights(viewer.session.loaded()).empty());
+    for (const float value : viewer.session.image(Side::left).pixels) EXPECT_EQ(value, 0);
+}
+
+TEST_F(LightScriptTest, UndoesAndRepeats) {
+    Viewer viewer = make_viewer();
+    run("light 0\nlight-size 2\nlight-brightness 3\nlight-add panel\nundo\nundo\n", viewer);
+    EXPECT_EQ(viewer.state.edits.get(0).size, 2);
+    EXPECT_EQ(viewer.state.edits.get(0).brightness, 1);
+    EXPECT_EQ(viewer.state.selected_light, std::nullopt) << "the new light, which was selected, is gone";
+    run("redo\nredo\n", viewer);
+    EXPECT_EQ(viewer.state.edits.get(0).brightness, 3);
+    EXPECT_EQ(viewer.state.edits.lights(viewer.session.loaded()).size(), 2u);
+    run("redo\n", viewer);
+    EXPECT_NE(viewer.message.find("left to repeat"), std::string::npos);
+    run("undo\nundo\nundo\n", viewer);
+    EXPECT_TRUE(viewer.state.edits.empty());
+    run("undo\n", viewer);
+    EXPECT_NE(viewer.message.find("left to undo"), std::string::npos);
+}
+
+TEST_F(LightScriptTest, EditsThatFailAreNotUndone) {
+    Viewer viewer = make_viewer();
+    run("light 0\nlight-size 2\n", viewer);
+    viewer.state.edits.set(0, {{1e300, 0, 0}, 1, 1, true});
+    viewer.finish_edit();
+    viewer.next_frame();
+    EXPECT_NE(viewer.message, "");
+    EXPECT_EQ(viewer.state.edits.get(0).size, 2);
+    run("undo\n", viewer);
+    EXPECT_TRUE(viewer.state.edits.empty());
+}
+
+TEST_F(LightScriptTest, SelectsAndDragsLights_AsOneAction) {
+    Viewer viewer = make_viewer();
+    const FilmPosition from = position_of(viewer, viewer.state.edits.center(viewer.session.loaded(), 0));
+    const FilmPosition to = {from.x - 6, from.y + 5};
+    run(fmt::format("press {} {}\ndrag {} {}\ndrag {} {}\nrelease\n", from.x, from.y, from.x + 8, from.y,
+                    to.x, to.y),
+        viewer);
+    ASSERT_EQ(viewer.state.selected_light, std::size_t{0});
+    EXPECT_NEAR(position_of(viewer, center(viewer)).x, to.x, 1e-3);
+    EXPECT_NEAR(position_of(viewer, center(viewer)).y, to.y, 1e-3);
+    run("undo\n", viewer);
+    EXPECT_TRUE(viewer.state.edits.empty());
+    run(drag({1, 1}, {9, 9}), viewer);
+    EXPECT_EQ(viewer.state.selected_light, std::nullopt);
+}
+
+TEST_F(LightScriptTest, HandlesMoveAndTurnTheLight) {
+    Viewer viewer = make_viewer();
+    run("light 0\nlight-move 0 -1 0\n", viewer);
+    const scene::Camera camera = viewer.state.camera.camera();
+    // The film is small: the handles of a larger one are found more easily.
+    const LightHandles handles = selected_handles(viewer).value();
+    const Double3 tip = handles.center + handles.length * Double3{0, 1, 0};
+    const Double3 goal = handles.center + 6 * handles.length * Double3{0, 1, 0};
+    Pointer pointer;
+    pointer.press(position_of(viewer, tip), 0.01, viewer);
+    ASSERT_EQ(pointer.handle(), (Handle{HandleAction::move, 1}));
+    pointer.move_to(position_of(viewer, goal), viewer);
+    pointer.release(viewer);
+    EXPECT_LT(length(viewer.state.edits.get(0).move - (Double3{0, -1, 0} + (goal - tip))), 1e-3);
+
+    const LightHandles moved = selected_handles(viewer).value();
+    const auto ring = moved.lines({HandleAction::turn, 2}, camera);
+    pointer.press(ring[6].first, 0.01, viewer);
+    ASSERT_EQ(pointer.handle(), (Handle{HandleAction::turn, 2}));
+    pointer.move_to(ring[9].first, viewer);
+    pointer.release(viewer);
+    const Double3 turn = viewer.state.edits.get(0).turn;
+    EXPECT_NEAR(std::abs(turn.z), 360.0 * 3 / 48, 0.1);
+    EXPECT_NEAR(std::abs(turn.x) + std::abs(turn.y), 0, 1e-9);
+}
+
+TEST_F(LightScriptTest, OrbitsAboutTheSelectedLight) {
+    Viewer viewer = make_viewer();
+    const FilmPosition before = position_of(viewer, viewer.state.edits.center(viewer.session.loaded(), 0));
+    const Double3 position = viewer.state.camera.position();
+    run("light 0\norbit 20 10\n", viewer);
+    EXPECT_NEAR(position_of(viewer, center(viewer)).x, before.x, 0.2);
+    EXPECT_NEAR(position_of(viewer, center(viewer)).y, before.y, 0.2);
+    EXPECT_NEAR(length(viewer.state.camera.position() - center(viewer)), length(position - center(viewer)),
+                1e-4);
+    EXPECT_GT(length(viewer.state.camera.position() - position), 0.1);
+}
+
+} // namespace
+} // namespace nusselt::viewer

@@ -1,0 +1,73 @@
+#pragma once
+/// Runs scripts of the viewer without a window.
+
+#include "common/source_folder.h"
+#include "viewer/script/script.h"
+
+#include "gpu_test.h"
+
+#include "render/film.h"
+#include "scene/import/importers.h"
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include <unistd.h>
+
+namespace nusselt::viewer {
+
+class ScriptTest : public parity::GpuTest {
+protected:
+    void SetUp() override {
+        std::string name = (std::filesystem::temp_directory_path() / "nusselt_script_XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder_ = name;
+        parity::GpuTest::SetUp();
+    }
+    void TearDown() override {
+        parity::GpuTest::TearDown();
+        std::filesystem::remove_all(folder_);
+    }
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+    std::string write(const std::string& text) const {
+        std::ofstream(folder_ / "script.txt") << text;
+        return path("script.txt");
+    }
+
+    Viewer make_viewer(const render::RenderSettings& settings = {}) const {
+        scene::Scene scene = scene::load_scene(std::filesystem::path(nusselt_test::kSourceFolder) /
+                                               "scenes/cornell-panel.pbrt");
+        render::resize_film(scene, 24, 20);
+        return {device(), scene, render_vulkan::ShadowRays::bvh, settings, {"cornell-panel.pbrt", {}, {}}};
+    }
+
+    /// Runs a script like the loop of the window. \returns the number of frames
+    static int play(const std::string& script_path, Viewer& viewer) {
+        Script script{std::filesystem::path(script_path)};
+        int frames = 0;
+        for (script.advance(viewer); !viewer.is_closing && frames < 1000; script.advance(viewer)) {
+            viewer.next_frame();
+            ++frames;
+        }
+        return frames;
+    }
+
+    /// The error message of a script.
+    std::string error_of(const std::string& text, Viewer& viewer) const {
+        try {
+            play(write(text), viewer);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "none";
+    }
+
+private:
+    std::filesystem::path folder_;
+};
+
+} // namespace nusselt::viewer
