@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -25,7 +26,13 @@ inline int interrupted_exit_code() { return 128 + interrupting_signal; }
 /// a terminal is closed. What was ignored, as by nohup, stays ignored.
 class InterruptGuard {
 public:
-    InterruptGuard() { install(request_stop); }
+    static constexpr const char* kNotice = "\nstopping; a second Ctrl-C ends the program at once\n";
+
+    /// \param notice to print at Ctrl-C; lives as long as the program
+    explicit InterruptGuard(const char* notice = kNotice) {
+        stop_notice = notice;
+        install(request_stop);
+    }
     ~InterruptGuard() { install(SIG_DFL); }
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
@@ -43,19 +50,25 @@ public:
 
 private:
     static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
+    static inline std::atomic<const char*> stop_notice = kNotice;
     static inline std::atomic<const char*> last_words = "";
     static_assert(std::atomic<const char*>::is_always_lock_free);
 
     static void install(void (*handler)(int)) {
-        for (const int signal : kSignals)
-            if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
+        for (const int signal : kSignals) {
+            struct sigaction present {};
+            ::sigaction(signal, nullptr, &present);
+            if (present.sa_handler != SIG_IGN) std::signal(signal, handler);
+        }
     }
     static void request_stop(int signal) {
         interrupting_signal = signal;
         interrupted = true;
         if (signal != SIGINT) return;
+        const int error_of_interrupted_call = errno;
         std::signal(SIGINT, SIG_DFL);
-        print("\nstopping; a second Ctrl-C ends the program at once\n");
+        print(stop_notice);
+        errno = error_of_interrupted_call;
     }
     static void end(int signal) {
         print(last_words);

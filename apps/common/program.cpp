@@ -1,11 +1,13 @@
 #include "program.h"
 
-#include "help.h"
-
 #include "base/words.h"
+#include "help.h"
+#include "print_message.h"
 #include "scene/input/message.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -21,9 +23,15 @@ namespace nusselt::app {
 
 namespace {
 
+/// Takes the numbers of standard streams that are closed: otherwise a file that is opened later gets such a number, and
+/// messages are written into it. What is written to the stream still fails.
+void open_closed_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(stream, F_GETFD) < 0) static_cast<void>(::open("/dev/null", O_RDONLY));
+}
+
 int report_lost_output(const Program& program) {
-    fmt::print(stderr, "{}: error: the standard output cannot be written (is its disk full?)\n",
-               program.name);
+    print_message("{}: error: the standard output cannot be written (is its disk full?)\n", program.name);
     return 1;
 }
 
@@ -53,6 +61,13 @@ std::vector<std::string> command_names(const CLI::App& command) {
     return names;
 }
 
+/// Without this, flags take the values of CLI11: --quiet=3 is true, and --quiet=maybe an error in its words.
+void refuse_values_of_flags(CLI::App& command) {
+    for (CLI::Option* option : command.get_options())
+        if (option->get_type_size() == 0) option->disable_flag_override();
+    for (CLI::App* subcommand : command.get_subcommands({})) refuse_values_of_flags(*subcommand);
+}
+
 /// The problem in the words of the help rather than of CLI11.
 std::string problem_of(const CLI::Error& error) {
     const std::string what = error.what();
@@ -60,6 +75,7 @@ std::string problem_of(const CLI::Error& error) {
     if (error.get_name() == "ArgumentMismatch" && what.ends_with(" missing")) return name + " needs a value";
     if (error.get_name() == "ArgumentMismatch" && what.find(": At Most 1 ") != std::string::npos)
         return name + " may be given only once";
+    if (what.ends_with("disallowed flag override")) return name.substr(0, name.find(' ')) + " takes no value";
     // The other option is hidden: the name of an earlier version.
     if (what.ends_with(" excludes "))
         return name.substr(0, name.find(' ')) + " is given twice, once by its old name";
@@ -81,7 +97,8 @@ std::string usage_problem(const CLI::App& app, const CLI::Error& error) {
     const std::string kind = is_option          ? "unknown option"
                              : commands.empty() ? "unexpected"
                                                 : "unknown command";
-    const auto meant = base::likely_meant(word, is_option ? option_names(command) : commands);
+    auto meant = base::likely_meant(word, is_option ? option_names(command) : commands);
+    if (meant == word) meant.reset(); // behind "--", where options are none
     return fmt::format("{} '{}'{}", kind, word, meant ? " (did you mean '" + *meant + "'?)" : "");
 }
 
@@ -90,6 +107,7 @@ std::string usage_problem(const CLI::App& app, const CLI::Error& error) {
 int run_program(const Program& program, int argc, char** argv) {
     // Beyond a limit on the size of files, writing fails like on a full disk instead of ending the program.
     std::signal(SIGXFSZ, SIG_IGN);
+    open_closed_streams();
     CLI::App app(program.description);
     app.name(program.name);
     app.formatter(std::make_shared<HelpFormatter>());
@@ -104,6 +122,7 @@ int run_program(const Program& program, int argc, char** argv) {
     });
     int exit_code = 0;
     for (const SetupCommand setup : program.commands) setup(app, exit_code);
+    refuse_values_of_flags(app);
     app.footer(program.footer); // after the commands, which would inherit it
     try {
         app.parse(argc, argv);
@@ -112,14 +131,13 @@ int run_program(const Program& program, int argc, char** argv) {
         app.exit(error);
         return is_help ? finished(program, 0) : 2;
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr,
-                   "{}: error: not enough memory; use a smaller scene, a smaller image or fewer layers\n",
-                   program.name);
+        print_message("{}: error: not enough memory; use a smaller scene, a smaller image or fewer layers\n",
+                      program.name);
         return 1;
     } catch (const std::exception& error) {
         // Texts longer than the buffer of the stream are written, and lost, before the end of the command.
         if (std::ferror(stdout) != 0) return report_lost_output(program);
-        fmt::print(stderr, "{}: error: {}\n", program.name, scene::message_line(error.what()));
+        print_message("{}: error: {}\n", program.name, scene::message_line(error.what()));
         return 1;
     }
     return finished(program, exit_code);

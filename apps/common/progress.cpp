@@ -1,5 +1,7 @@
 #include "progress.h"
 
+#include "print_message.h"
+
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -46,20 +48,19 @@ void Progress::update(double fraction) {
     const int tenths = whole_tenths(fraction);
     if (tenths <= printed_tenths_) return;
     printed_tenths_ = tenths;
-    fmt::print(stderr, "{} % done, {} left\n", 10 * tenths, duration_text(seconds_left));
+    print_message("{} % done, {} left\n", 10 * tenths, duration_text(seconds_left));
 }
 
 void Progress::draw_bar(double fraction, double seconds_left) {
     const int filled = static_cast<int>(fraction * kBarWidth);
-    fmt::print(stderr, "\r[{:<{}}] {:3.0f} %  {} left  \033[K",
-               std::string(static_cast<std::size_t>(filled), '='), kBarWidth, 100 * fraction,
-               duration_text(seconds_left));
+    print_message("\r[{:<{}}] {:3.0f} %  {} left  \033[K", std::string(static_cast<std::size_t>(filled), '='),
+                  kBarWidth, 100 * fraction, duration_text(seconds_left));
     std::fflush(stderr);
     has_bar_ = true;
 }
 
 void Progress::finish() {
-    if (has_bar_) fmt::print(stderr, "\r\033[K");
+    if (has_bar_) print_message("\r\033[K");
     has_bar_ = false;
 }
 

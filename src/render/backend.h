@@ -58,6 +58,9 @@ public:
     /// The reason for which settings are not supported; nothing if they are. \param settings valid
     virtual std::optional<std::string> why_unsupported(const RenderSettings& settings) const = 0;
 
+    /// The memory that layers take while the backend renders, beside that of the frame [bytes]. \param settings valid
+    virtual std::size_t layer_sum_bytes(const scene::Scene& scene, const RenderSettings& settings) const = 0;
+
     /// \param scene must outlive the result; its film gives the size of images
     /// \throws std::runtime_error if the backend cannot hold the scene
     virtual std::unique_ptr<PreparedScene> prepare(const scene::Scene& scene) const = 0;

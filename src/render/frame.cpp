@@ -85,10 +85,6 @@ std::vector<std::string> light_layer_names(const std::vector<scene::Emitter>& em
     return names;
 }
 
-bool is_wanted(const RenderSettings& settings, LayerKind kind) {
-    return std::find(settings.layers.begin(), settings.layers.end(), kind) != settings.layers.end();
-}
-
 /// The layers in front of those of lights.
 std::vector<LayerFormat> formats_before_lights(const RenderSettings& settings) {
     std::vector<LayerFormat> formats;
@@ -141,6 +137,10 @@ image::Layer samples_layer(const Frame& frame, const RenderSettings& settings) {
 }
 
 } // namespace
+
+bool is_wanted(const RenderSettings& settings, LayerKind kind) {
+    return std::find(settings.layers.begin(), settings.layers.end(), kind) != settings.layers.end();
+}
 
 FrameSize frame_size(const scene::Scene& scene, const RenderSettings& settings) {
     // Names, the lists of channels, the heap, and the order of the channels while a file is written.

@@ -38,6 +38,8 @@ struct FrameSize {
     std::size_t bytes = 0;    ///< of memory, also for names and while an EXR file is written
 };
 
+bool is_wanted(const RenderSettings& settings, LayerKind kind);
+
 FrameSize frame_size(const scene::Scene& scene, const RenderSettings& settings);
 
 /// Takes the memory for an image and the layers of the settings.

@@ -28,6 +28,11 @@ std::optional<std::string> CpuBackend::why_unsupported(const render::RenderSetti
     return std::nullopt;
 }
 
+std::size_t CpuBackend::layer_sum_bytes(const scene::Scene& scene,
+                                        const render::RenderSettings& settings) const {
+    return render_cpu::layer_sum_bytes(scene, settings, threads_);
+}
+
 std::unique_ptr<render::PreparedScene> CpuBackend::prepare(const scene::Scene& scene) const {
     return std::make_unique<CpuScene>(scene, isa_, threads_);
 }

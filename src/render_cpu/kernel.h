@@ -206,7 +206,9 @@ struct TileStatistics {
 struct TileMemory {
     void* packet_sums; ///< kPacketSumBytes
     float* light_sums; ///< kLightSumFloats for each emitter; unused without layers of lights
-    void* lines;       ///< kLineMemoryBytes; unused without line samples
+    /// As many, for the sums before a camera ray that may be given up; unused if there is one camera ray per pixel.
+    float* kept_light_sums;
+    void* lines; ///< kLineMemoryBytes; unused without line samples
 };
 
 /// How far a tile is. All zero at first.

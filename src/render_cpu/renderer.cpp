@@ -4,6 +4,7 @@
 #include "base/stopwatch.h"
 #include "render/film.h"
 #include "render/line_choice.h"
+#include "render/memory.h"
 #include "render_cpu/begun_tile.h"
 #include "render_cpu/frame_targets.h"
 
@@ -17,8 +18,10 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <memory>
 #include <mutex>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -105,12 +108,17 @@ private:
 /// Working memory of one thread, aligned as kernels need it.
 class ThreadMemory {
 public:
-    /// \param sum_bytes for a packet, then for layers of lights
-    ThreadMemory(std::size_t sum_bytes, std::size_t line_bytes)
-        : sums_(sum_bytes / sizeof(Block)), lines_(line_bytes / sizeof(Block)) {}
+    /// \param sum_bytes  for a packet, then for layers of lights
+    /// \param kept_bytes for layers of lights
+    ThreadMemory(std::size_t sum_bytes, std::size_t kept_bytes, std::size_t line_bytes)
+        : sums_(sum_bytes / sizeof(Block)),
+          // The pages that nothing is written to take no memory.
+          kept_(std::make_unique_for_overwrite<Block[]>(kept_bytes / sizeof(Block))),
+          lines_(line_bytes / sizeof(Block)) {}
 
     TileMemory view() {
-        return {sums_.data(), sums_.front().floats + kPacketSumBytes / sizeof(float), lines_.data()};
+        return {sums_.data(), sums_.front().floats + kPacketSumBytes / sizeof(float),
+                reinterpret_cast<float*>(kept_.get()), lines_.data()};
     }
     std::span<std::byte> sums() { return std::as_writable_bytes(std::span(sums_)); }
 
@@ -119,6 +127,7 @@ private:
         float floats[16];
     };
     std::vector<Block> sums_;
+    std::unique_ptr<Block[]> kept_;
     std::vector<Block> lines_;
 };
 
@@ -129,7 +138,23 @@ const unsigned char* bytes_of(const std::atomic<bool>* cancel) {
     return cancel == nullptr ? &kNever : reinterpret_cast<const unsigned char*>(cancel);
 }
 
+/// The memory for the sums of layers of lights of one packet of pixels.
+std::size_t light_sum_bytes(const scene::Scene& scene, const RenderSettings& settings) {
+    return is_wanted(settings, LayerKind::lights) ? scene.emitters.size() * kLightSumFloats * sizeof(float)
+                                                  : 0;
+}
+
+/// The memory to keep them, in addition.
+std::size_t kept_sum_bytes(const scene::Scene& scene, const RenderSettings& settings) {
+    return camera_ray_count(settings) > 1 ? light_sum_bytes(scene, settings) : 0;
+}
+
 } // namespace
+
+std::size_t layer_sum_bytes(const scene::Scene& scene, const RenderSettings& settings, int threads) {
+    return static_cast<std::size_t>(threads) *
+           (light_sum_bytes(scene, settings) + kept_sum_bytes(scene, settings));
+}
 
 int default_thread_count() { return std::max(1, tbb::this_task_arena::max_concurrency()); }
 
@@ -178,6 +203,9 @@ RenderResult Renderer::render(const RenderSettings& settings, base::Isa isa,
 RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& settings, base::Isa isa,
                                        const visibility::RayTracer& tracer,
                                        const RenderMonitor& monitor) const {
+    check_memory(frame_size(scene_, settings).bytes + layer_sum_bytes(scene_, settings, thread_count_),
+                 "rendering these layers in " + std::to_string(thread_count_) + " threads",
+                 "use a lower --resolution, fewer --layers or fewer --threads");
     const FrameTargets targets(frame);
     RenderJob job{};
     visibility::LineBvhView line_bvh{};
@@ -220,11 +248,11 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.scene.light_set_count = static_cast<std::int32_t>(light_sets.size());
 
     const RenderTile render_tile = kernel_for(*integrator_, isa);
-    const std::size_t summed_emitters = job.layers.lights == nullptr ? 0 : scene_.emitters.size();
-    const std::size_t sum_bytes = kPacketSumBytes + summed_emitters * kLightSumFloats * sizeof(float);
+    const std::size_t sum_bytes = kPacketSumBytes + light_sum_bytes(scene_, settings);
+    const std::size_t kept_bytes = kept_sum_bytes(scene_, settings);
     const std::size_t line_bytes = settings.light_samples == LightSamples::lines ? kLineMemoryBytes : 0;
     for (const auto& [tile, state] : frame.begun) restore_pixels(frame, tile, state, sum_bytes);
-    tbb::enumerable_thread_specific<ThreadMemory> memory(sum_bytes, line_bytes);
+    tbb::enumerable_thread_specific<ThreadMemory> memory(sum_bytes, kept_bytes, line_bytes);
     if (monitor.started) monitor.started();
     Tally tally(frame, monitor);
     const TickClock clock;

@@ -23,6 +23,9 @@
 
 namespace nusselt::render_cpu {
 
+/// The memory for the sums of layers of lights in all threads, beside that of the frame [bytes].
+std::size_t layer_sum_bytes(const scene::Scene& scene, const RenderSettings& settings, int threads);
+
 /// A scene that is ready for rendering. Several renderings may run at once.
 class Renderer {
 public:
@@ -48,7 +51,8 @@ public:
     /// Renders the tiles of a frame that are not finished. What it was stopped in is in the frame, for the next call.
     /// \param frame    from make_frame() with this scene and these settings
     /// \param settings valid
-    /// \throws std::runtime_error see LineBvh, for line samples; if a tile of Frame::begun has the wrong size
+    /// \throws std::runtime_error see LineBvh, for line samples; if a tile of Frame::begun has the wrong size; if the
+    ///         machine has too little memory for the layers
     RenderStatistics render_into(Frame& frame, const RenderSettings& settings, base::Isa isa,
                                  const visibility::RayTracer& tracer, const RenderMonitor& monitor) const;
 

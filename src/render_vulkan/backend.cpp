@@ -57,6 +57,10 @@ std::optional<std::string> VulkanBackend::why_unsupported(const render::RenderSe
     return render_vulkan::why_unsupported(settings);
 }
 
+std::size_t VulkanBackend::layer_sum_bytes(const scene::Scene&, const render::RenderSettings&) const {
+    return 0;
+}
+
 std::unique_ptr<render::PreparedScene> VulkanBackend::prepare(const scene::Scene& scene) const {
     return std::make_unique<VulkanScene>(device_, scene, shadow_rays_);
 }

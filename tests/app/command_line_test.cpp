@@ -188,6 +188,19 @@ TEST_F(CommandLine, LostOutputIsAnError) {
     }
 }
 
+TEST_F(CommandLine, LostMessagesCostNothing) {
+    std::ofstream(path("a.pbrt")) << "WorldBegin\nShape \"nosuch\"\n";
+    for (const char* streams : {">&- 2>&-", "<&- >&- 2>&-", "2>/dev/full"}) {
+        EXPECT_EQ(run("render nosuch.pbrt " + std::string(streams) + " #").exit_code, 1) << streams;
+        std::filesystem::remove(path("a.pfm"));
+        EXPECT_EQ(run("render a.pbrt --resolution 4x4 -q -o a.pfm " + std::string(streams) + " #").exit_code,
+                  0)
+            << streams;
+        // No message is in it.
+        EXPECT_EQ(read("a.pfm").size(), std::string("PF\n4 4\n-1.0\n").size() + 4 * 4 * 12) << streams;
+    }
+}
+
 TEST_F(CommandLine, RendersToAllFormatsAndTellsHowLongItTook) {
     const Outcome render =
         run("render '" + kScenes +
@@ -456,6 +469,20 @@ TEST_F(CommandLine, RenderTakesAsManySamplesAsTheSceneAsksFor) {
     const Outcome misfit = run("render scene.pbrt --camera-rays 5 -o a.exr");
     EXPECT_EQ(misfit.exit_code, 2);
     expect_message(misfit.err, "--camera-rays: 5 must divide --spp, which is 12");
+
+    // What the scene asks for has the limits that options have.
+    std::ofstream(path("many.pbrt")) << "Sampler \"halton\" \"integer pixelsamples\" 65536\n";
+    const Outcome lines = run("render many.pbrt --light-samples lines --lines 65536 -o a.exr");
+    EXPECT_EQ(lines.exit_code,
+              run("render many.pbrt --light-samples lines --lines 65536 --spp 65536").exit_code);
+    expect_message(lines.err, "lines");
+    std::ofstream(path("most.pbrt")) << "Sampler \"halton\" \"integer pixelsamples\" 2147483647\n";
+    const Outcome most = run("render most.pbrt --resolution 1x1 -o a.exr");
+    EXPECT_NE(
+        most.err.find("1048576 samples per pixel, the largest number; the Sampler of the scene asks for "
+                      "2147483647; --spp changes that\n"),
+        std::string::npos)
+        << most.err;
 }
 
 TEST_F(CommandLine, CtrlCWritesWhatIsThere) {

@@ -48,6 +48,35 @@ TEST_F(OutputFiles, NoOutputReplacesAnInputOrAnotherOutput) {
         expect_message(run(arguments).err, "the name of the file is empty");
 }
 
+/// Files that only the scene names are known once it is loaded.
+TEST_F(OutputFiles, NoOutputReplacesAFileOfTheScene) {
+    image::write_image(path("room.exr"), noise(8, 8));
+    std::ofstream(path("part.inc")) << "Material \"diffuse\" \"texture reflectance\" \"wood\"\n";
+    std::ofstream(path("mesh.ply"))
+        << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+           "property float z\nelement face 1\n"
+           "property list uchar int vertex_indices\nend_header\n"
+           "0 0 2\n1 0 2\n0 1 2\n3 0 1 2\n";
+    std::ofstream(path("room.pbrt"))
+        << "Film \"rgb\" \"string filename\" \"room.exr\"\nCamera \"perspective\"\nWorldBegin\n"
+           "Texture \"wood\" \"spectrum\" \"imagemap\" \"string filename\" \"room.exr\"\n"
+           "Include \"part.inc\"\nShape \"plymesh\" \"string filename\" \"mesh.ply\"\n";
+    std::filesystem::create_symlink("room.exr", path("link.exr"));
+    const std::vector<std::string> files = {"room.exr", "part.inc", "mesh.ply", "room.pbrt"};
+    std::vector<std::string> before;
+    for (const std::string& file : files) before.push_back(read(file));
+    for (const char* arguments : {"", "-o link.exr", "-o a.exr --json mesh.ply", "-o a.exr --json part.inc",
+                                  "-o a.exr --checkpoint mesh.ply"}) {
+        const Outcome outcome = run("render room.pbrt --resolution 4x4 -q " + std::string(arguments));
+        EXPECT_EQ(outcome.exit_code, 1) << arguments;
+        expect_message(outcome.err, "is an output and also an input");
+    }
+    for (const char* bench : {"rays", "strategies", "lines", "line-efficiency", "gpu"})
+        expect_lab_message(run_lab(std::string("bench ") + bench + " room.pbrt --json mesh.ply").err,
+                           "is an output and also an input");
+    for (std::size_t i = 0; i < files.size(); ++i) EXPECT_EQ(read(files[i]), before[i]) << files[i];
+}
+
 TEST_F(OutputFiles, ReproduceChecksItsFolderBeforeItRenders) {
     const Outcome outcome = run_lab("reproduce --scenes '" + kScenes + "' -o /dev/null/x");
     EXPECT_EQ(outcome.exit_code, 1);

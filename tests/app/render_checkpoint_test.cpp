@@ -5,6 +5,10 @@
 #include "image/io.h"
 #include "image/layers.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -174,14 +178,22 @@ TEST_F(RenderCheckpoint, LoadingEndsAtOnce) {
         for (int i = 0; i < 3'000'000; ++i) scene << "0 0.25 1.5\n";
         scene << "] \"integer indices\" [0 1 2]\n";
     }
-    const pid_t child =
-        start({"render", path("large.pbrt"), "-q", "-o", path("a.exr"), "--checkpoint", path("state")});
-    EXPECT_LT(terminate(child, std::chrono::milliseconds(100)).count(), 1);
+    const std::vector<std::string> render = {"render",      path("large.pbrt"), "-q",         "-o",
+                                             path("a.exr"), "--checkpoint",     path("state")};
+    EXPECT_LT(terminate(start_loading(render)).count(), 1);
     EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
     EXPECT_FALSE(std::filesystem::exists(path("state")));
-    const Outcome messages = run("render large.pbrt", "timeout --preserve-status -s TERM 0.1");
-    EXPECT_EQ(messages.exit_code, 143);
-    EXPECT_EQ(messages.err, "stopped before the first pixel; no image is written\n");
+}
+
+TEST_F(RenderCheckpoint, SaysWhatBecomesOfItWhenLoadingEnds) {
+    // Mesh files take most of the time.
+    EXPECT_EQ(end_when_stored(SIGTERM), 143);
+    const std::string before = read("state");
+    const Outcome kept =
+        run("render '" + kScenes + "/room.pbrt' --checkpoint state -o a.exr", kEndWhileLoading);
+    EXPECT_EQ(kept.exit_code, 143);
+    EXPECT_EQ(kept.err, "stopped before rendering went on; the checkpoint stays as it was\n");
+    EXPECT_EQ(read("state"), before);
 }
 
 TEST_F(RenderCheckpoint, OfAnotherCommandIsRefused) {

@@ -114,8 +114,14 @@ TEST_F(RenderParts, MergeTakesTheOutputFirstWithAWarning) {
     expect_success(render("-o p2.exr --part 2/2"));
     const Outcome old = run("merge out.exr p1.exr p2.exr");
     EXPECT_EQ(old.exit_code, 0);
-    EXPECT_EQ(old.err, "warning: `merge OUT IN...` is deprecated; use `merge -o 'out.exr' IN...`\n");
+    EXPECT_EQ(old.err, "warning: `merge OUT IN...` is deprecated; use `merge -o out.exr IN...`\n");
     EXPECT_EQ(layers("out.exr").metadata.at("finished_fraction"), "1");
+    // Somebody who forgets -o keeps the first part.
+    const std::string before = read("p1.exr");
+    const Outcome forgotten = run("merge p1.exr p2.exr");
+    EXPECT_EQ(forgotten.exit_code, 2);
+    expect_message(forgotten.err, "'p1.exr' exists; use `merge -o OUT IN...` to replace it");
+    EXPECT_EQ(read("p1.exr"), before);
 }
 
 TEST_F(RenderParts, ConvertedImagesAreNotMerged) {
@@ -165,7 +171,6 @@ TEST_F(RenderParts, WrongValuesAreWrongUsage) {
                                   "render a.pbrt --part 1/2x",
                                   "render a.pbrt --part 1/99999999999",
                                   "render a.pbrt --layers velvet",
-
                                   "render a.pbrt --layers",
                                   "render a.pbrt --layers all -o a.png",
                                   "render a.pbrt --part 1/2 -o a.hdr",
@@ -177,6 +182,7 @@ TEST_F(RenderParts, WrongValuesAreWrongUsage) {
                                   "render a.pbrt --checkpoint-interval 0",
                                   "render a.pbrt --checkpoint-interval nan",
                                   "render a.pbrt --checkpoint-interval 1e7",
+                                  "render a.pbrt --checkpoint-interval 5",
                                   "merge",
                                   "merge a.exr",
                                   "merge -o a.png b.exr",

@@ -7,13 +7,15 @@ cd "$(dirname "$0")"
 unit=3.2 # CPU time on the machine of the budgets [s]
 
 compile_on_all_cores() {
-    local i
+    local i processes=()
     for ((i = 0; i < $(nproc); ++i)); do
-        "${CXX:-c++}" -std=c++20 -O2 -c -o /dev/null speed_probe.cpp &
+        "${CXX:-c++}" -std=c++20 -O2 -c -o /dev/null speed_probe.cpp 2>&3 &
+        processes+=($!)
     done
-    wait
+    for i in "${processes[@]}"; do wait "$i"; done
 }
 
+exec 3>&2
 TIMEFORMAT='%U %S' # user and system time of all processes
 seconds=$({ time compile_on_all_cores; } 2>&1)
 awk -v unit="$unit" -v processes="$(nproc)" '{ printf "%.2f\n", ($1 + $2) / processes / unit }' <<<"$seconds"

@@ -99,7 +99,7 @@ TEST_F(Emitters, OnInvisibleSurfacesAreBlackSurfaces) {
 
 TEST_F(Emitters, ErrorsAndWarnings) {
     EXPECT_EQ(error("\nAreaLightSource \"diffuse\" \"rgb L\" [-1 0 0]"),
-              "scene.pbrt:2: AreaLightSource: radiance must be finite and not negative, found -1");
+              "scene.pbrt:2: AreaLightSource: radiance must be from 0 to 1e+30, found -1");
     const std::string rest = "\nCamera \"perspective\"\n" + std::string(kTriangle);
     EXPECT_EQ(warning(load("AreaLightSource \"diffuse\" AreaLightSource \"laser\"" + rest)),
               "scene.pbrt:1: AreaLightSource \"laser\" is not supported; its shapes do not emit light");
@@ -108,7 +108,7 @@ TEST_F(Emitters, ErrorsAndWarnings) {
                     .empty());
     // The area of the triangle overflows nothing, but the radiance does.
     EXPECT_EQ(error("AreaLightSource \"diffuse\" \"float power\" 1e38 Scale 1e-2 1e-2 1" + rest),
-              "scene.pbrt:3: AreaLightSource: radiance must be finite and not negative, found inf");
+              "scene.pbrt:3: AreaLightSource: radiance must be from 0 to 1e+30, found inf");
 }
 
 } // namespace

@@ -196,7 +196,7 @@ TEST_F(Importers, ErrorsNameFileAndLine) {
     EXPECT_EQ(error_of_line("mesh 1 1 1  0 0 0  1 0 0"), "scene.toy:3: mesh: needs three vertices");
     EXPECT_EQ(error_of_line("instance lamp 0 0 0"), "scene.toy:3: instance: there is no object 'lamp'");
     EXPECT_EQ(error_of_line("light -1 1 1  0 0 0  1 0 0  0 1 0"),
-              "scene.toy:3: light: radiance must be finite and not negative, found -1");
+              "scene.toy:3: light: radiance must be from 0 to 1e+30, found -1");
 }
 
 TEST_F(Importers, ErrorsOfTheBuilderNameFileAndLine) {

@@ -5,6 +5,7 @@
 #include "apps/common/validators.h"
 #include "base/atomic_file.h"
 #include "base/json_output.h"
+#include "scene/import/importers.h"
 
 namespace nusselt::app {
 
@@ -27,6 +28,12 @@ void check_json_option(const std::optional<std::string>& file,
     if (!file || *file == "-") return;
     base::check_writable(*file);
     check_distinct({*file}, inputs);
+}
+
+scene::Scene load_scene(const std::filesystem::path& path, const std::optional<std::string>& json) {
+    scene::Scene scene = scene::load_scene(path);
+    check_json_option(json, scene.files);
+    return scene;
 }
 
 void write_results(const std::optional<std::string>& file, const lab::Results& results,

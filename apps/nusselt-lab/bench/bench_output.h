@@ -2,6 +2,7 @@
 /// Options and output that the commands that measure share.
 
 #include "lab/results/results.h"
+#include "scene/model/scene.h"
 
 #include <CLI/CLI.hpp>
 
@@ -23,6 +24,11 @@ void add_json_option(CLI::App& command, std::optional<std::string>& json);
 /// \throws std::runtime_error
 void check_json_option(const std::optional<std::string>& file,
                        const std::vector<std::filesystem::path>& inputs = {});
+
+/// Loads the scene to measure.
+/// \param json as in --json
+/// \throws std::runtime_error if the scene cannot be read, or the results would replace one of its files
+scene::Scene load_scene(const std::filesystem::path& path, const std::optional<std::string>& json);
 
 /// Prints the table, and writes the results to the file, if one is named; or prints them as JSON alone.
 /// \param file as in --json: "-" is the standard output.

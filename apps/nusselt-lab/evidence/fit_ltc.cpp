@@ -2,6 +2,7 @@
 #include "apps/common/help.h"
 #include "apps/common/interrupt.h"
 #include "apps/common/output_files.h"
+#include "apps/common/print_message.h"
 #include "apps/common/progress.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
@@ -237,10 +238,9 @@ int run_fit_ltc(const FitLtcOptions& options) {
     const int columns = fit_columns(options, fitted, arena);
     const double seconds = stopwatch.seconds();
     if (interrupted) {
-        fmt::print(stderr, "stopped after {} of {} columns; {}\n", fitted.finished_columns(),
-                   fitted.columns(),
-                   options.checkpoint ? "run the same command again to continue"
-                                      : "they are lost; use --checkpoint to keep them");
+        print_message("stopped after {} of {} columns; {}\n", fitted.finished_columns(), fitted.columns(),
+                      options.checkpoint ? "run the same command again to continue"
+                                         : "they are lost; use --checkpoint to keep them");
         return interrupted_exit_code();
     }
     if (options.json != "-") fmt::print("{} columns in {:.0f} s\n", columns, seconds);

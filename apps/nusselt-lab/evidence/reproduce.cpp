@@ -1,5 +1,6 @@
 #include "reproduce.h"
 #include "apps/common/help.h"
+#include "apps/common/print_message.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 
@@ -135,7 +136,7 @@ int run_reproduce(const ReproduceOptions& options) {
         for (const auto& experiment : all) {
             if (!is_chosen(options, experiment.name)) continue;
             const auto result = run(experiment, settings, [&](std::string_view step) {
-                fmt::print(stderr, "{}: {}\n", experiment.name, step);
+                print_message("{}: {}\n", experiment.name, step);
             });
             all_hold = report(result, options.output / experiment.name) && all_hold;
         }

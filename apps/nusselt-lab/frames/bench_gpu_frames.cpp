@@ -1,5 +1,6 @@
 #include "bench_gpu_frames.h"
 #include "apps/common/help.h"
+#include "apps/common/print_message.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 #include "apps/nusselt-lab/bench/bench_device.h"
@@ -11,8 +12,6 @@
 #include "scene/input/message.h"
 
 #include <CLI/CLI.hpp>
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <deque>
@@ -61,7 +60,7 @@ public:
     }
 
     void add(const std::string& name, const scene::Scene& scene) {
-        fmt::print(stderr, "{}\n", name);
+        print_message("{}\n", name);
         add_techniques(name, scene);
         add_line_and_quad(name, scene);
     }
@@ -146,13 +145,13 @@ int run_bench_gpu_frames(const BenchGpuFramesOptions& options) {
     for (const std::filesystem::path& path : scenes) {
         const std::string name = path.stem().string();
         try {
-            scene::Scene scene = scene::load_scene(path);
+            scene::Scene scene = load_scene(path, options.json);
             apply_resolution(options.resolution, scene);
             measurement.add(name, scene);
         } catch (const std::runtime_error& error) {
             // Keep the results of the other scenes, which took long to measure.
             table.failures.push_back({name, error.what()});
-            fmt::print(stderr, "nusselt-lab: error: {}\n", scene::message_line(error.what()));
+            print_message("nusselt-lab: error: {}\n", scene::message_line(error.what()));
         }
     }
     write_results(options.json, results_of(table), [&] { print_table(table); });

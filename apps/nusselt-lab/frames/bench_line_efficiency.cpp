@@ -1,6 +1,7 @@
 #include "bench_line_efficiency.h"
 #include "apps/common/help.h"
 #include "apps/common/line_options.h"
+#include "apps/common/print_message.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 #include "apps/nusselt-lab/bench/bench_output.h"
@@ -191,7 +192,7 @@ void setup_bench_line_efficiency(CLI::App& bench, int& exit_code) {
 int run_bench_line_efficiency(const BenchLineEfficiencyOptions& options) {
     check_json_option(options.json, {options.scene});
     const base::Isa isa = base::choose_isa(options.isa);
-    scene::Scene scene = scene::load_scene(options.scene);
+    scene::Scene scene = load_scene(options.scene, options.json);
     apply_resolution(options.resolution, scene);
     if (options.roughness) lab::make_glossy(scene, *options.roughness);
     lab::LineEfficiencySettings settings = settings_of(options);
@@ -206,8 +207,8 @@ int run_bench_line_efficiency(const BenchLineEfficiencyOptions& options) {
         const render_cpu::Renderer renderer(scene, count);
         settings.threads = count;
         results.push_back({count, measure_line_efficiency(renderer, isa, settings, [&](int round) {
-                               fmt::print(stderr, "threads {}, round {} of {}\n", count, round + 1,
-                                          settings.rounds);
+                               print_message("threads {}, round {} of {}\n", count, round + 1,
+                                             settings.rounds);
                            })});
         if (!(results.back().efficiency.mean > 0))
             throw std::runtime_error("the image is black: no surface faces a light");

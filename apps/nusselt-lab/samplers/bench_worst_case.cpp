@@ -1,6 +1,7 @@
 #include "bench_worst_case.h"
 #include "apps/common/help.h"
 #include "apps/common/interrupt.h"
+#include "apps/common/print_message.h"
 #include "apps/common/progress.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
@@ -195,7 +196,7 @@ int run_bench_worst_case(const BenchWorstCaseOptions& options) {
     const bool holds = std::all_of(session.searches().begin(), session.searches().end(),
                                    [](const auto& one) { return one.worst().error <= one.target().bound; });
     if (interrupted) return interrupted_exit_code();
-    if (!holds) fmt::print(stderr, "nusselt-lab: error: a worst case exceeds the documented bound\n");
+    if (!holds) print_message("nusselt-lab: error: a worst case exceeds the documented bound\n");
     return holds ? 0 : 1;
 }
 

@@ -2,6 +2,7 @@
 
 #include "apps/common/help.h"
 #include "apps/common/output_files.h"
+#include "apps/common/print_message.h"
 #include "apps/common/validators.h"
 #include "base/atomic_file.h"
 #include "base/json_output.h"
@@ -90,8 +91,8 @@ bool compare_images(const CompareOptions& options) {
     }
     if (options.json) base::write_json(*options.json, json);
     for (const BrokenLimit& limit : broken) {
-        fmt::print(stderr, "nusselt compare: '{}': {} is {:.9g}, {} the limit of {:.9g}\n", limit.image,
-                   limit.metric, limit.value, limit.relation, limit.limit);
+        print_message("nusselt compare: '{}': {} is {:.9g}, {} the limit of {:.9g}\n", limit.image,
+                      limit.metric, limit.value, limit.relation, limit.limit);
     }
     return broken.empty();
 }

@@ -1,5 +1,6 @@
 #include "convert.h"
 #include "apps/common/output_files.h"
+#include "apps/common/print_message.h"
 #include "apps/common/validators.h"
 
 #include "image/io.h"
@@ -48,10 +49,9 @@ void make_brighter(image::Image& picture, double exposure) {
         value = brighter;
     }
     if (overflow_count > 0)
-        fmt::print(stderr,
-                   "warning: --exposure {} makes {} of {} values larger than a float can be; they become "
-                   "infinite; use a smaller exposure\n",
-                   exposure, overflow_count, picture.pixels.size());
+        print_message("warning: --exposure {} makes {} of {} values larger than a float can be; they become "
+                      "infinite; use a smaller exposure\n",
+                      exposure, overflow_count, picture.pixels.size());
 }
 
 /// Keeps the metadata of the picture.

@@ -1,8 +1,7 @@
 #include "checkpointer.h"
 
+#include "apps/common/print_message.h"
 #include "render/checkpoint.h"
-
-#include <fmt/core.h>
 
 #include <exception>
 #include <utility>
@@ -48,7 +47,7 @@ void Checkpointer::save_at_intervals(std::chrono::duration<double> interval, std
             saved = tiles.size();
         } catch (const std::exception& error) {
             // The rendering goes on: the disk may have space for the next checkpoint.
-            if (!std::exchange(failed, true)) fmt::print(stderr, "\nwarning: {}\n", error.what());
+            if (!std::exchange(failed, true)) print_message("\nwarning: {}\n", error.what());
         }
         lock.lock();
     }

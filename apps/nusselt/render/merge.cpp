@@ -2,14 +2,16 @@
 
 #include "apps/common/help.h"
 #include "apps/common/output_files.h"
+#include "apps/common/print_message.h"
+#include "base/words.h"
 
 #include "image/io.h"
 #include "image/layers.h"
 #include "render/merge.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <fmt/core.h>
-
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -46,11 +48,16 @@ void setup_merge(CLI::App& app, int& exit_code) {
             if (options->inputs.size() < 2) throw CLI::RequiredError("--output");
             options->output = options->inputs.front();
             options->inputs.erase(options->inputs.begin());
+            // Who forgets -o would lose the first part.
+            if (std::filesystem::exists(*options->output))
+                throw CLI::ValidationError("merge OUT IN...",
+                                           fmt::format("'{}' exists; use `merge -o OUT IN...` to replace it",
+                                                       options->output->string()));
         }
         exit_code = run_merge(*options);
         if (is_old_form)
-            fmt::print(stderr, "warning: `merge OUT IN...` is deprecated; use `merge -o '{}' IN...`\n",
-                       options->output->string());
+            print_message("warning: `merge OUT IN...` is deprecated; use `merge -o {} IN...`\n",
+                          base::shell_word(options->output->string()));
     });
 }
 

@@ -2,6 +2,7 @@
 #include "apps/common/help.h"
 #include "apps/common/interrupt.h"
 #include "apps/common/line_options.h"
+#include "apps/common/print_message.h"
 #include "apps/common/progress.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
@@ -29,6 +30,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
@@ -52,7 +54,7 @@ void write_outputs(const RenderOptions& options, const render::RenderSettings& s
         try {
             write_file();
             written.insert(path);
-        } catch (const std::runtime_error& error) {
+        } catch (const std::exception& error) {
             problems += (problems.empty() ? "" : "; ") + std::string(error.what());
         }
     };
@@ -76,15 +78,16 @@ std::string check_display_address(const std::string& text) {
     }
 }
 
-const char* const kStoppedEarly = "stopped before the first pixel; no image is written\n";
+constexpr double kCheckpointInterval = 60; // [s]
+const char* const kStoppedEarly = "stopped before rendering began; no image is written\n";
+const char* const kCheckpointKept = "stopped before rendering went on; the checkpoint stays as it was\n";
 
 /// Reports that the image is incomplete. \param finished fraction of the work
 void print_stop(const RenderOptions& options, double finished) {
-    fmt::print(stderr, "stopped after {:.1f} % of the camera rays", 100 * finished);
+    print_message("stopped after {:.1f} % of the camera rays", 100 * finished);
     if (options.checkpoint)
-        fmt::print(stderr, "; run the same command again to continue from '{}'",
-                   options.checkpoint->string());
-    fmt::print(stderr, "\n");
+        print_message("; run the same command again to continue from '{}'", options.checkpoint->string());
+    print_message("\n");
 }
 
 void add_output_options(CLI::App& command, RenderOptions& options) {
@@ -132,6 +135,7 @@ void add_checkpoint_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option("--checkpoint-interval", options.checkpoint_interval, "Seconds between two checkpoints")
         ->check(number(0.01, 1e6))
+        ->default_str(fmt::format("{}", kCheckpointInterval))
         ->group(kPartsGroup);
 }
 
@@ -182,18 +186,20 @@ int run_render(const RenderOptions& options) {
     check_outputs(options);
     const std::unique_ptr<render::Backend> backend = make_backend(options, settings);
 
-    InterruptGuard guard;
-    guard.end_at_once(options.quiet ? "" : kStoppedEarly);
+    InterruptGuard guard(options.quiet ? "" : InterruptGuard::kNotice);
+    const bool goes_on = options.checkpoint && std::filesystem::exists(*options.checkpoint);
+    guard.end_at_once(options.quiet ? "" : goes_on ? kCheckpointKept : kStoppedEarly);
     scene::Scene scene = load_scene(options.scene, options.rigs);
     if (options.camera) apply_camera(scene::read_camera_file(*options.camera), scene);
-    check_names(options, scene.film);
+    check_names(options, scene);
     choose_samples(options, scene.film, settings);
     apply_resolution(options.resolution, scene);
     Times times;
     times.load = stopwatch.seconds();
     if (!options.quiet) print_warnings(options, settings, scene);
 
-    if (!options.quiet && !settings.layers.empty()) print_layers(render::frame_size(scene, settings));
+    if (!options.quiet && !settings.layers.empty())
+        print_layers(render::frame_size(scene, settings), backend->layer_sum_bytes(scene, settings));
     render::Frame frame = render::make_frame(scene, settings);
     image::Metadata metadata = render::make_metadata(scene, settings, *backend);
     if (!options.rigs.empty()) metadata["light_rigs"] = rig_names(options.rigs);
@@ -201,8 +207,9 @@ int run_render(const RenderOptions& options) {
     if (options.checkpoint) {
         const image::Metadata run = describe_run(metadata, frame);
         load_checkpoint(*options.checkpoint, run, frame);
-        checkpointer.emplace(*options.checkpoint, run, frame,
-                             std::chrono::duration<double>(options.checkpoint_interval));
+        checkpointer.emplace(
+            *options.checkpoint, run, frame,
+            std::chrono::duration<double>(options.checkpoint_interval.value_or(kCheckpointInterval)));
     }
 
     const std::unique_ptr<render::PreparedScene> prepared = backend->prepare(scene);
@@ -216,7 +223,7 @@ int run_render(const RenderOptions& options) {
         display.emplace(*options.display_server,
                         output_paths(options, scene.film).front().filename().string(), frame,
                         [&](const std::string& warning) {
-                            if (!options.quiet) fmt::print(stderr, "warning: {}\n", warning);
+                            if (!options.quiet) print_message("warning: {}\n", warning);
                         });
     monitor.tile_finished = [&](std::size_t tile) {
         if (checkpointer) checkpointer->add(tile);
@@ -225,22 +232,24 @@ int run_render(const RenderOptions& options) {
     const render::RenderStatistics statistics = prepared->render_into(frame, settings, monitor);
     progress.finish();
     const double finished = finished_fraction(frame);
-    if (finished == 0) {
-        if (!options.quiet) fmt::print(stderr, "{}", kStoppedEarly);
-        return interrupted_exit_code();
-    }
-
     const base::Stopwatch writing;
     // A finished image is saved too, because writing it may fail.
     const std::optional<std::string> unsaved = checkpointer ? checkpointer->save_all() : std::nullopt;
+    if (finished == 0) {
+        if (unsaved) throw std::runtime_error(*unsaved);
+        if (!options.quiet) print_message("stopped before the first pixel; no image is written\n");
+        return interrupted_exit_code();
+    }
+
     metadata["scene"] = options.scene.filename().string();
     metadata["render_seconds"] = image::metadata_text(statistics.render_seconds);
     metadata["finished_fraction"] = image::metadata_text(finished);
     write_outputs(options, settings, scene.film, std::move(frame), metadata);
     if (unsaved && finished < 1) throw std::runtime_error(*unsaved);
     if (options.checkpoint && finished == 1) {
+        // A symbolic link stays, as it does for images.
         std::error_code ignored;
-        std::filesystem::remove(*options.checkpoint, ignored);
+        std::filesystem::remove(std::filesystem::weakly_canonical(*options.checkpoint, ignored), ignored);
     }
     times.write = writing.seconds();
     times.total = stopwatch.seconds();

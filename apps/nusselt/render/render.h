@@ -40,7 +40,7 @@ struct RenderOptions {
     std::vector<std::string> layers; ///< names, or "all"
     std::optional<std::string> part; ///< "NUMBER/COUNT"
     std::optional<std::filesystem::path> checkpoint;
-    double checkpoint_interval = 60; ///< [s]
+    std::optional<double> checkpoint_interval; ///< [s]
     std::optional<std::string> display_server;
     std::string backend = "cpu";
     std::optional<std::string> device;      ///< of the GPU: index, or part of a name

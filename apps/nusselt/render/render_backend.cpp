@@ -1,6 +1,7 @@
 #include "render_backend.h"
 
 #include "apps/common/help.h"
+#include "apps/common/print_message.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 
@@ -8,8 +9,6 @@
 #include "render_cpu/backend.h"
 #include "render_cpu/renderer.h"
 #include "render_vulkan/shadows/shadow_rays.h"
-
-#include <fmt/core.h>
 
 #include <stdexcept>
 #include <string>
@@ -87,7 +86,7 @@ std::optional<std::string> why_on_cpu(const RenderOptions& options, const render
 bool renders_on_cpu(const RenderOptions& options, const render::RenderSettings& settings) {
     if (options.backend != "auto") return options.backend == "cpu";
     const auto reason = why_on_cpu(options, settings);
-    if (reason && !options.quiet) fmt::print(stderr, "rendering on the CPU: {}\n", *reason);
+    if (reason && !options.quiet) print_message("rendering on the CPU: {}\n", *reason);
     return reason.has_value();
 }
 
@@ -101,7 +100,7 @@ std::unique_ptr<render::Backend> make_backend(const RenderOptions& options,
     std::unique_ptr<render::Backend> gpu = make_gpu_backend(options);
     if (const auto reason = gpu->why_unsupported(settings))
         throw std::invalid_argument(*reason + "; use --backend cpu");
-    if (!options.quiet) fmt::print(stderr, "rendering on {}\n", gpu->metadata().at("device"));
+    if (!options.quiet) print_message("rendering on {}\n", gpu->metadata().at("device"));
     return gpu;
 }
 

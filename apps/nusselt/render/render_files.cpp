@@ -31,11 +31,11 @@ void check_outputs(const RenderOptions& options) {
     if (options.checkpoint) base::check_writable(*options.checkpoint);
 }
 
-void check_names(const RenderOptions& options, const scene::Film& film) {
-    std::vector<std::filesystem::path> outputs = output_paths(options, film);
+void check_names(const RenderOptions& options, const scene::Scene& scene) {
+    std::vector<std::filesystem::path> outputs = output_paths(options, scene.film);
     if (options.json && options.json != "-") outputs.emplace_back(*options.json);
     if (options.checkpoint) outputs.push_back(*options.checkpoint);
-    std::vector<std::filesystem::path> inputs = {options.scene};
+    std::vector<std::filesystem::path> inputs = scene.files;
     if (options.camera) inputs.push_back(*options.camera);
     inputs.insert(inputs.end(), options.rigs.begin(), options.rigs.end());
     check_distinct(outputs, inputs);

@@ -16,8 +16,8 @@ std::vector<std::filesystem::path> output_paths(const RenderOptions& options, co
 /// \throws std::runtime_error if something could not be written after the work is done
 void check_outputs(const RenderOptions& options);
 
-/// \throws std::runtime_error if files would overwrite each other, or what is read
-void check_names(const RenderOptions& options, const scene::Film& film);
+/// \throws std::runtime_error if files would overwrite each other or what is read: files of the scene, rigs, the camera
+void check_names(const RenderOptions& options, const scene::Scene& scene);
 
 /// Names a file that was written on the standard output, unless that is for something else.
 void print_output(const RenderOptions& options, const std::filesystem::path& path);

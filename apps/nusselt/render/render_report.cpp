@@ -1,6 +1,7 @@
 #include "render_report.h"
 
 #include "apps/common/line_options.h"
+#include "apps/common/print_message.h"
 #include "base/json_output.h"
 
 #include "render/line_choice.h"
@@ -80,40 +81,38 @@ double rate(std::uint64_t rays, double seconds) {
 
 void print_warnings(const RenderOptions& options, const render::RenderSettings& settings,
                     const scene::Scene& scene) {
-    for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    for (const std::string& warning : scene.warnings) print_message("warning: {}\n", warning);
     if (options.lines.has_old_name)
-        fmt::print(
-            stderr,
+        print_message(
             "warning: --integrator is now called --light-samples; the next version removes the old name\n");
     if (scene.emitters.empty())
-        fmt::print(
-            stderr,
+        print_message(
             "warning: the scene has no area lights, so the image is black; add lights with --lights\n");
     for (const scene::LightList& list : scene.lights)
         if (samples_visible_normals(settings.strategies) && !list.has_brdf_samples() && list.size() > 0)
-            fmt::print(stderr,
-                       "warning: {} {} are sampled by {} alone: visible normals support only polygons, as no "
-                       "sample ever hits a {}\n",
-                       list.size(), list.plural(), name_of(settings.technique), list.name());
+            print_message(
+                "warning: {} {} are sampled by {} alone: visible normals support only polygons, as no "
+                "sample ever hits a {}\n",
+                list.size(), list.plural(), name_of(settings.technique), list.name());
     if (settings.light_samples == render::LightSamples::lines &&
         settings.lines.many_occluders == render::ManyOccluders::points &&
         render::most_occluders_for_lines(settings.lines.count) < 0)
-        fmt::print(stderr,
-                   "warning: --lines {}: points replace the lines because they are faster than fewer than 16 "
-                   "lines; use --many-occluders lines to keep lines\n",
-                   settings.lines.count);
+        print_message(
+            "warning: --lines {}: points replace the lines because they are faster than fewer than 16 "
+            "lines; use --many-occluders lines to keep lines\n",
+            settings.lines.count);
     const auto wants_variance =
         std::count(settings.layers.begin(), settings.layers.end(), render::LayerKind::variance) > 0;
     if (wants_variance && !has_variance(settings))
-        fmt::print(stderr,
-                   "warning: the layer of the variance is missing because it needs two or more camera rays "
-                   "per pixel; raise --spp{}\n",
-                   options.camera_rays ? " and --camera-rays" : "");
+        print_message(
+            "warning: the layer of the variance is missing because it needs two or more camera rays "
+            "per pixel; raise --spp{}\n",
+            options.camera_rays ? " and --camera-rays" : "");
 }
 
-void print_layers(const render::FrameSize& size) {
-    fmt::print(stderr, "the image and its layers ({}) take {} of memory at {} x {} pixels\n", size.layers,
-               render::memory_text(static_cast<double>(size.bytes)), size.width, size.height);
+void print_layers(const render::FrameSize& size, std::size_t sum_bytes) {
+    print_message("the image and its layers ({}) need {} of memory for {} x {} pixels\n", size.layers,
+                  render::memory_text(static_cast<double>(size.bytes + sum_bytes)), size.width, size.height);
 }
 
 nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,

@@ -25,8 +25,9 @@ struct Times {
 void print_warnings(const RenderOptions& options, const render::RenderSettings& settings,
                     const scene::Scene& scene);
 
-/// Tells how much memory layers will take, on the standard error.
-void print_layers(const render::FrameSize& size);
+/// Prints how much memory the image and its layers will take, on the standard error.
+/// \param sum_bytes see Backend::layer_sum_bytes()
+void print_layers(const render::FrameSize& size, std::size_t sum_bytes);
 
 nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,
                                    const scene::Scene& scene, const render::Backend& backend,

@@ -1,6 +1,7 @@
 #include "render_settings.h"
 #include "apps/common/help.h"
 #include "apps/common/line_options.h"
+#include "apps/common/print_message.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 #include "render_backend.h"
@@ -156,11 +157,16 @@ render::RenderSettings make_settings(const RenderOptions& options) {
 
 void choose_samples(const RenderOptions& options, const scene::Film& film, render::RenderSettings& settings) {
     if (options.samples) return;
-    settings.samples = std::min(film.pixel_samples.value_or(1), render::kMaxSamples);
+    const int asked = film.pixel_samples.value_or(1);
+    settings.samples = std::min(asked, render::kMaxSamples);
     check_camera_rays(options, settings.samples);
-    if (settings.samples > 1 && !options.quiet)
-        fmt::print(stderr, "{} samples per pixel, as the Sampler of the scene asks; --spp changes that\n",
-                   settings.samples);
+    render::validate(settings);
+    if (asked == 1 || options.quiet) return;
+    const std::string reason =
+        asked == settings.samples
+            ? "as the Sampler of the scene asks"
+            : fmt::format("the largest number; the Sampler of the scene asks for {}", asked);
+    print_message("{} samples per pixel, {}; --spp changes that\n", settings.samples, reason);
 }
 
 void check_combination(const RenderOptions& options) {
@@ -188,6 +194,8 @@ void check_combination(const RenderOptions& options) {
                                                *options.mis, name_of(strategies), fmt::join(others, " or ")));
     }
     if (options.samples) check_camera_rays(options, *options.samples);
+    if (options.checkpoint_interval && !options.checkpoint)
+        throw CLI::ValidationError("--checkpoint-interval", "needs --checkpoint");
     check_line_options(options, technique);
     check_backend_options(options);
     check_exr_only(options);

@@ -1,5 +1,6 @@
 #include "view.h"
 #include "apps/common/help.h"
+#include "apps/common/print_message.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 #include "apps/nusselt/render/render_backend.h"
@@ -13,8 +14,6 @@
 #include "viewer/window/run_viewer.h"
 
 #include <CLI/CLI.hpp>
-#include <fmt/core.h>
-
 #include <memory>
 
 namespace nusselt::app {
@@ -62,7 +61,7 @@ int run_view(const ViewOptions& options) {
     if (render.camera) apply_camera(scene::read_camera_file(*render.camera), scene);
     apply_resolution(render.resolution, scene);
     if (!render.quiet)
-        for (const std::string& warning : scene.warnings) fmt::print(stderr, "warning: {}\n", warning);
+        for (const std::string& warning : scene.warnings) print_message("warning: {}\n", warning);
 
     const gpu::Device device({.choice = render.device});
     const auto shadow_rays = render.shadow_rays ? from_name(render_vulkan::kShadowRays, *render.shadow_rays)

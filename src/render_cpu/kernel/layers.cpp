@@ -2,6 +2,7 @@
 
 #include "render_cpu/kernel/emission.h"
 
+#include <cstring>
 #include <limits>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -37,9 +38,26 @@ DiffuseShares diffuse_shares(const GlossySurface<Real, SurfaceBrdf>& surface, co
 
 void LayerSums::clear() noexcept {
     state_ = {};
-    if (job_.layers.lights == nullptr) return;
-    const std::size_t count = render_cpu::kLightSumFloats * job_.scene.emitter_count;
-    for (std::size_t i = 0; i < count; ++i) light_sums_[i] = 0;
+    if (job_.layers.lights != nullptr) std::memset(light_sums_, 0, light_sum_bytes());
+}
+
+void LayerSums::resume(const State& state) noexcept {
+    state_ = state;
+    keep();
+}
+
+const LayerSums::State& LayerSums::keep() noexcept {
+    if (job_.layers.lights != nullptr) std::memcpy(kept_light_sums_, light_sums_, light_sum_bytes());
+    return state_;
+}
+
+void LayerSums::restore(const State& state) noexcept {
+    state_ = state;
+    if (job_.layers.lights != nullptr) std::memcpy(light_sums_, kept_light_sums_, light_sum_bytes());
+}
+
+std::size_t LayerSums::light_sum_bytes() const noexcept {
+    return render_cpu::kLightSumFloats * job_.scene.emitter_count * sizeof(float);
 }
 
 void LayerSums::add_hits(const visibility::HitPacket<kLanes>& hits, LaneMask any_hit,

@@ -31,9 +31,8 @@ DiffuseShares diffuse_shares(const GlossySurface<Real, SurfaceBrdf>& surface, co
 /// Sums over the camera rays of one packet of pixels.
 class LayerSums {
 public:
-    /// \param light_sums see TileMemory
-    LayerSums(const render_cpu::RenderJob& job, float* light_sums) noexcept
-        : job_(job), light_sums_(light_sums) {}
+    LayerSums(const render_cpu::RenderJob& job, const render_cpu::TileMemory& memory) noexcept
+        : job_(job), light_sums_(memory.light_sums), kept_light_sums_(memory.kept_light_sums) {}
 
     /// Starts the next packet.
     void clear() noexcept;
@@ -50,8 +49,12 @@ public:
     };
 
     const State& state() const noexcept { return state_; }
-    /// Goes on with a packet. \param state its state; the sums of lights are where it left them
-    void resume(const State& state) noexcept { state_ = state; }
+    /// Goes on with a packet, and keeps its sums. \param state its state; the sums of lights are where it left them
+    void resume(const State& state) noexcept;
+    /// Keeps the sums of lights, so that restore() returns to them. \returns the others
+    const State& keep() noexcept;
+    /// Returns to the sums that were kept last. \param state what keep() returned or resume() got
+    void restore(const State& state) noexcept;
 
     /// Starts the next camera ray. \param weight see CameraSamples
     void begin_ray(const Real& weight) noexcept { weight_ = weight; }
@@ -85,12 +88,14 @@ public:
     void write(const PixelBlock& block) const noexcept;
 
 private:
+    std::size_t light_sum_bytes() const noexcept;
     float* sums_of(std::uint32_t emitter) const noexcept {
         return light_sums_ + render_cpu::kLightSumFloats * emitter;
     }
 
     const render_cpu::RenderJob& job_;
     float* light_sums_; ///< a CompensatedSum for each emitter
+    float* kept_light_sums_;
     Real weight_ = Real(1);
     State state_;
 };

@@ -21,17 +21,13 @@ public:
     bool is_made() const noexcept { return __atomic_load_n(requested_, __ATOMIC_RELAXED) != 0; }
 
     /// The camera ray takes so long that it is to be given up. Then this stays true.
-    bool is_urgent() const noexcept { return is_made() && __builtin_ia32_rdtsc() - ray_begin_ > kPatience; }
-
-    /// The camera ray takes so long that it is worthwhile to keep what others of the packet have before it.
-    bool is_ray_slow() const noexcept { return __builtin_ia32_rdtsc() - ray_begin_ > kSlow; }
+    bool is_urgent() const noexcept {
+        return is_made() && __builtin_ia32_rdtsc() - ray_begin_ > kPatienceTicks;
+    }
 
 private:
-    // Ticks of the time stamp counter.
-    /// About a quarter of a millisecond.
-    static constexpr std::uint64_t kSlow = 1'000'000;
-    /// A tenth to half a second.
-    static constexpr std::uint64_t kPatience = 500'000'000;
+    /// A tenth to half a second, in ticks of the time stamp counter.
+    static constexpr std::uint64_t kPatienceTicks = 500'000'000;
 
     const unsigned char* requested_;
     std::uint64_t ray_begin_ = 0;

@@ -39,7 +39,7 @@ public:
           line_memory_(memory.lines),
           stop_(job.stop_requested),
           kept_(*static_cast<PacketSums*>(memory.packet_sums)),
-          layer_sums_(job, memory.light_sums),
+          layer_sums_(job, memory),
           layers_(job.has_layers ? &layer_sums_ : nullptr) {}
     TileRenderer(const TileRenderer&) = delete;
     TileRenderer& operator=(const TileRenderer&) = delete;
@@ -60,36 +60,43 @@ public:
     }
 
 private:
+    /// About a quarter of a millisecond, in ticks of the time stamp counter: no more than that is lost when a camera ray is
+    /// given up, and copies of the sums of many lights take little time beside the rays.
+    static constexpr std::uint64_t kKeepTicks = 1'000'000;
+
     /// \param camera_ray number of the first camera ray to trace; afterwards of the first that is missing
     void render_block(std::int32_t x_begin, std::int32_t y_begin, std::uint32_t& camera_ray) noexcept {
         const std::uint64_t begin = __builtin_ia32_rdtsc();
         const std::uint64_t traced_before = traced_ticks();
         const PixelBlock block = make_block(x_begin, y_begin);
         CompensatedSum sum;
-        // Whether the kept sums have the layers of all camera rays so far.
-        bool are_layers_kept = camera_ray > 0 && job_.layers.lights == nullptr;
         if (camera_ray > 0) {
             sum = kept_.radiance;
             if (layers_ != nullptr) layers_->resume(kept_.layers);
         } else if (layers_ != nullptr) {
             layers_->clear();
         }
+        std::uint32_t kept_rays = camera_ray; // whose sums can be restored
+        std::uint64_t kept_ticks = begin;
         for (; camera_ray < job_.camera_rays && !stop_.is_made(); ++camera_ray) {
             stop_.begin_ray();
             const Vector arriving = weighted_radiance(block, camera_ray);
             if (stop_.is_urgent()) {
-                // The lights may be incomplete. The layers have some of them already.
+                // The ray may lack lights, and the layers have some of them already.
                 if (layers_ == nullptr) break;
-                if (!are_layers_kept) camera_ray = 0;
-                layers_->resume(kept_.layers);
+                camera_ray = kept_rays;
+                sum = kept_.radiance;
+                if (kept_rays > 0) layers_->restore(kept_.layers);
                 break;
             }
             sum.add(arriving);
             if (layers_ == nullptr) continue;
             layers_->add_radiance(arriving);
-            // Copies of the sums of all lights would take too much memory and time.
-            are_layers_kept = job_.layers.lights == nullptr && stop_.is_ray_slow();
-            if (are_layers_kept) kept_.layers = layers_->state();
+            const std::uint64_t now = __builtin_ia32_rdtsc();
+            if (now - kept_ticks < kKeepTicks || camera_ray + 1 == job_.camera_rays) continue;
+            kept_ = {sum, layers_->keep()};
+            kept_rays = camera_ray + 1;
+            kept_ticks = now;
         }
         if (camera_ray > 0) write(block, camera_ray, sum);
         statistics_.shading_ticks += __builtin_ia32_rdtsc() - begin - (traced_ticks() - traced_before);

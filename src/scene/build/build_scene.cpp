@@ -44,15 +44,15 @@ void check_repeated_meshes(const std::vector<PlacedShape>& shapes, const FormatW
 
 /// Reports all missing files before any of the others is read.
 void check_files_exist(const std::vector<PlacedShape>& shapes, SceneDescription& description) {
-    MissingFiles& missing = description.missing_files;
+    NamedFiles& files = description.named_files;
     for (const PlacedShape& placed : shapes) {
         if (placed.shape == nullptr) continue;
         if (const MeshFile* const file = std::get_if<MeshFile>(&placed.shape->geometry))
-            missing.note(file->origin, "mesh file", file->path);
+            files.note(file->origin, "mesh file", file->path);
     }
     for (const ImageRequest& image : needed_images(description.textures))
-        missing.note(image.location, "texture file", image.path);
-    missing.report();
+        files.note(image.location, "texture file", image.path);
+    files.report_missing();
 }
 
 std::vector<BuiltShape> build_shapes(const std::vector<PlacedShape>& shapes,
@@ -226,6 +226,9 @@ Scene build_scene(SceneDescription description) {
     add_instances(description, placed.objects, triangle_counts, scene);
     if (scene.triangles.empty() && scene.lights.empty())
         description.warnings.add({&description.sources.front(), 1}, "the scene is empty");
+    const auto& files = description.named_files.existing();
+    scene.files = {description.sources.front().path};
+    scene.files.insert(scene.files.end(), files.begin(), files.end());
     scene.radius = scene_radius(scene);
     scene.warnings = description.warnings.lines();
     return scene;

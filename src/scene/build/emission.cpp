@@ -1,18 +1,17 @@
 #include "scene/build/emission.h"
 
+#include "scene/model/limits.h"
 #include "scene/model/vector_math.h"
 
-#include <limits>
 #include <numbers>
 
 namespace nusselt::scene {
 
 void check_radiance(const Float3& radiance, std::string_view subject, const Location& location) {
     for (const float value : {radiance.x, radiance.y, radiance.z})
-        if (!(value >= 0 && value <= std::numeric_limits<float>::max()))
-            throw SceneError(location, std::string(subject) +
-                                           ": radiance must be finite and not negative, found " +
-                                           to_text(value));
+        if (!(value >= 0 && value <= kMaxRadiance))
+            throw SceneError(location, std::string(subject) + ": radiance must be from 0 to " +
+                                           to_text(kMaxRadiance) + ", found " + to_text(value));
 }
 
 Float3 radiance_of(const Emission& emission, double area, std::string_view subject,

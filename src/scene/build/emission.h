@@ -16,12 +16,12 @@ struct Emission {
     std::optional<double> power;
 };
 
-/// Throws SceneError at `location` unless all channels are finite and not negative.
+/// Throws SceneError at `location` unless all channels are from 0 to kMaxRadiance.
 /// \param subject  what the format calls the emission
 void check_radiance(const Float3& radiance, std::string_view subject, const Location& location);
 
 /// The radiance of a shape of this area [m^2], which counts one side even if both emit. Throws SceneError at
-/// `location` if the radiance is not finite in single precision.
+/// `location` if the radiance is above kMaxRadiance.
 /// \param subject  what the format calls the emission
 Float3 radiance_of(const Emission& emission, double area, std::string_view subject, const Location& location);
 

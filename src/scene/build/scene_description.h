@@ -7,7 +7,7 @@
 #include "scene/build/geometry.h"
 #include "scene/build/limits.h"
 #include "scene/build/textures/texture_plan.h"
-#include "scene/input/missing_files.h"
+#include "scene/input/named_files.h"
 #include "scene/model/transform.h"
 
 #include <deque>
@@ -78,7 +78,8 @@ struct SceneDescription {
     CameraDescription camera;
     Film film;
     Warnings warnings;
-    MissingFiles missing_files; ///< that the importer noted; the builder adds its own, and reports all
+    NamedFiles
+        named_files; ///< the importer notes its own; the builder adds others, and reports all missing ones
 };
 
 } // namespace nusselt::scene

@@ -107,8 +107,8 @@ public:
 
     void add(const Scene& scene) {
         const auto& [positions, normals, uvs, triangles, triangle_material, triangle_light, objects,
-                     instances, materials, textures, emitters, lights, camera, film, warnings, radius] =
-            scene;
+                     instances, materials, textures, emitters, lights, camera, film, files, warnings,
+                     radius] = scene;
         add_all(positions, normals, uvs, triangles, triangle_material, triangle_light, objects, instances,
                 materials, textures, emitters, lights, camera, film, radius);
     }

@@ -1,11 +1,14 @@
 #pragma once
-/// How large scenes may be.
+/// How large scenes and their values may be.
 
 #include <cstddef>
 
 namespace nusselt::scene {
 
 inline constexpr int kMaxFilmSize = 65536; ///< pixels along an axis
+
+/// Of a light [W/(sr m^2)]. Sums over many samples of far brighter lights would overflow.
+inline constexpr double kMaxRadiance = 1e30;
 
 // Indices have 32 bits with a few special values; those of triangles have a sign.
 inline constexpr std::size_t kMaxVertices = 0xfffffffe;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -166,8 +167,9 @@ struct Scene {
     Camera camera;
     Film film;
 
-    std::vector<std::string> warnings; ///< "file:line: message", in order, each kind once
-    double radius = 0;                 ///< half the diagonal of the bounding box of surfaces and lights [m]
+    std::vector<std::filesystem::path> files; ///< it was read from, the scene file first
+    std::vector<std::string> warnings;        ///< "file:line: message", in order, each kind once
+    double radius = 0; ///< half the diagonal of the bounding box of surfaces and lights [m]
 };
 
 /// The emitter of each light, in the order of their numbers.

@@ -37,6 +37,10 @@ bool spans_an_image(const Float3& right, const Float3& down) {
     return length(cross(to_double(right), to_double(down))) > 0;
 }
 
+bool lie_in_a_plane(const Float3& a, const Float3& b, const Float3& c) {
+    return dot(to_double(a), cross(to_double(b), to_double(c))) == 0;
+}
+
 } // namespace
 
 std::string to_camera_text(const FilmedCamera& view) {
@@ -84,6 +88,9 @@ FilmedCamera read_camera_file(const std::filesystem::path& path) {
         node.fail("right and down (or origin_right and origin_down) must not be parallel");
     if (is_zero(view.camera.corner) && !spans_an_image(view.camera.right, view.camera.down))
         node.at("corner").fail("must not be zero where rays are parallel");
+    const bool starts_at_one_point = is_zero(view.camera.origin_right) && is_zero(view.camera.origin_down);
+    if (starts_at_one_point && lie_in_a_plane(view.camera.corner, view.camera.right, view.camera.down))
+        node.fail("corner, right and down must not lie in one plane");
     const float longest =
         std::max({largest_component(view.camera.corner), largest_component(view.camera.right),
                   largest_component(view.camera.down)});

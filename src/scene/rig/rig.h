@@ -2,6 +2,7 @@
 /// Light rigs change the lights and materials of a scene after it was loaded. docs/lights.md describes them and their
 /// files.
 
+#include "scene/model/limits.h"
 #include "scene/model/scene.h"
 #include "scene/model/vector_math.h"
 
@@ -16,7 +17,6 @@
 namespace nusselt::scene {
 
 constexpr std::size_t kMaxRigLights = 1'000'000; ///< in a scene to which a rig adds lights
-constexpr double kMaxRadiance = 1e30;            ///< [W/(sr m^2)]
 
 /// An index or a name. A name selects exact matches; without any, it is a pattern in which * stands for any text and ? for
 /// any character.

@@ -132,7 +132,9 @@ TEST(Stop, RenderingsThatAreStoppedOftenKeepTheirBitsAndLoseNoWork) {
             }
             EXPECT_EQ(finished_fraction(stopped.frame()), 1);
             EXPECT_GT(begun_tiles, 3u);
-            EXPECT_EQ(stopped.rays(), whole.rays());
+            // On a busy machine, a thread may wait so long within a ray that the ray is given up and traced again.
+            EXPECT_GE(stopped.rays(), whole.rays());
+            EXPECT_LE(static_cast<double>(stopped.rays()), 1.02 * static_cast<double>(whole.rays()));
             expect_same(stopped.frame(), whole.frame());
         }
     }
@@ -160,6 +162,19 @@ TEST(Stop, SamplesOfPixelsAreThoseOfTheirCameraRays) {
         EXPECT_EQ(samples->data[i], 4 * runs.frame().rays[i]);
 }
 
+/// As many lights as it takes to keep any machine busy.
+scene::Scene make_scene_of_many_lights(int size) {
+    scene::Scene scene = make_box_scene(size);
+    for (int i = 0; i < 400; ++i) {
+        const float height = 0.9f + 0.0001f * static_cast<float>(i);
+        add_polygon_light(
+            scene,
+            {Float3{0.4f, 0.4f, height}, {0.4f, 0.6f, height}, {0.6f, 0.6f, height}, {0.6f, 0.4f, height}},
+            {1, 1, 1}, true, 0);
+    }
+    return scene;
+}
+
 /// Settings for which one camera ray of a packet of pixels takes many seconds.
 std::vector<RenderSettings> long_camera_rays() {
     RenderSettings points;
@@ -178,15 +193,7 @@ std::vector<RenderSettings> long_camera_rays() {
 }
 
 TEST(Stop, TakesLessThanASecondWithinCameraRays) {
-    scene::Scene scene = make_box_scene(kSize);
-    // As many lights as it takes to keep any machine busy.
-    for (int i = 0; i < 400; ++i) {
-        const float height = 0.9f + 0.0001f * static_cast<float>(i);
-        add_polygon_light(
-            scene,
-            {Float3{0.4f, 0.4f, height}, {0.4f, 0.6f, height}, {0.6f, 0.6f, height}, {0.6f, 0.4f, height}},
-            {1, 1, 1}, true, 0);
-    }
+    const scene::Scene scene = make_scene_of_many_lights(kSize);
     for (const RenderSettings& settings : long_camera_rays()) {
         for (const bool has_layers : {false, true}) {
             RenderSettings all = settings;
@@ -207,6 +214,32 @@ TEST(Stop, TakesLessThanASecondWithVeryManyCameraRays) {
     for (int i = 0; i < 3; ++i) {
         const double before = finished_fraction(runs.frame());
         EXPECT_LT(runs.go_on_for(Seconds(0.1)).count(), 1);
+        EXPECT_GT(finished_fraction(runs.frame()), before);
+    }
+}
+
+/// The sums of lights, too, return to what they were before a camera ray that is given up.
+TEST(Stop, LayersOfLightsGetOnWhereCameraRaysAreSlow) {
+    constexpr int kPixels = 4; // of a row: one packet of pixels, or four
+    const scene::Scene scene = make_scene_of_many_lights(kPixels);
+    RenderSettings settings;
+    settings.layers = {LayerKind::lights};
+    settings.camera_rays = 16;
+    settings.samples = 16;
+    const auto seconds_per_ray = [&] {
+        RenderSettings one = settings;
+        one.camera_rays = 1;
+        one.samples /= 16;
+        Runs runs(scene, one, base::choose_isa());
+        const Clock::time_point begin = Clock::now();
+        runs.go_on(nullptr);
+        return Seconds(Clock::now() - begin).count();
+    };
+    while (seconds_per_ray() < 0.5 && settings.samples < render::kMaxSamples) settings.samples *= 2;
+    Runs runs(scene, settings, base::choose_isa());
+    for (int i = 0; i < 3; ++i) {
+        const double before = finished_fraction(runs.frame());
+        runs.go_on_for(Seconds(1.5));
         EXPECT_GT(finished_fraction(runs.frame()), before);
     }
 }

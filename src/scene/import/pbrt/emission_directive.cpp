@@ -35,7 +35,7 @@ Emission read_emission(const std::string& type, ParameterList& parameters,
         ImageRequest request;
         request.path = image_path;
         request.location = parameters.location_of("filename");
-        if (!parameters.missing_files().note(request.location, "texture file", request.path))
+        if (parameters.named_files().note(request.location, "texture file", request.path))
             colour = images.mean_colour(request, parameters.budget(), warnings);
         warnings.add(request.location,
                      "AreaLightSource: the image of the emission is replaced by its mean colour");

@@ -33,7 +33,7 @@ struct FilterDirective {
 class Parser {
 public:
     explicit Parser(const std::filesystem::path& main_path)
-        : reader_(main_path, scene_.sources, *scene_.budget, scene_.missing_files) {
+        : reader_(main_path, scene_.sources, *scene_.budget, scene_.named_files) {
         scene_.words = {"ObjectInstance", "AreaLightSource", "ReverseOrientation"};
         materials_.push_back({{"default", "matte", ParameterList(), {}}, {}});
         state_.current().material = &materials_.back();
@@ -42,12 +42,18 @@ public:
     SceneDescription run();
 
 private:
-    using Handler = void (Parser::*)();
+    enum class Place { anywhere, before_world, in_world };
+    struct Directive {
+        void (Parser::*read)();
+        Place place = Place::anywhere;
+    };
 
-    static const std::unordered_map<std::string_view, Handler>& handlers();
+    static const std::unordered_map<std::string_view, Directive>& directives();
 
     void parse_file();
     void parse_directive(const Token& directive);
+    /// Warns of what pbrt does not accept here.
+    void check_place(std::string_view directive, Place place);
     void skip_unknown_directive(const Token& directive);
 
     // Directives.
@@ -74,7 +80,7 @@ private:
     void object_instance();
     void attribute();
     void world_begin();
-    void world_end() {}
+    void world_end() { world_end_ = true; }
     void include();
     void import();
     void camera();
@@ -100,7 +106,7 @@ private:
                 state_.current().colour_space,
                 &reader_.main_file(),
                 scene_.budget.get(),
-                &scene_.missing_files,
+                &scene_.named_files,
                 nullptr};
     }
     ParameterList read_parameters() { return {reader_.tokens(), location_, context()}; }
@@ -127,62 +133,64 @@ private:
     ObjectTable objects_;
     TypeCounter ignored_lights_;
     std::optional<CameraDescription> camera_;
+    bool has_moved_camera_ = false; ///< whether its transform is not the identity
     std::optional<FilterDirective> pixel_filter_;
     std::optional<int> pixel_samples_;
     std::optional<Location> world_begin_;
+    bool world_end_ = false;
     PbrtVersion version_ = PbrtVersion::v4; ///< until the film determines it
 
     Location location_;             ///< of the directive that is being read
     bool knows_directives_ = false; ///< whether the files have a directive that is known
 };
 
-const std::unordered_map<std::string_view, Parser::Handler>& Parser::handlers() {
-    static const std::unordered_map<std::string_view, Handler> kHandlers = {
-        {"Identity", &Parser::identity},
-        {"Translate", &Parser::translate},
-        {"Scale", &Parser::scale},
-        {"Rotate", &Parser::rotate},
-        {"LookAt", &Parser::look_at_directive},
-        {"Transform", &Parser::transform},
-        {"ConcatTransform", &Parser::concat_transform},
-        {"CoordinateSystem", &Parser::coordinate_system},
-        {"CoordSysTransform", &Parser::coord_sys_transform},
-        {"TransformTimes", &Parser::transform_times},
-        {"ReverseOrientation", &Parser::reverse_orientation},
-        {"ActiveTransform", &Parser::active_transform},
-        {"AttributeBegin", &Parser::attribute_begin},
-        {"AttributeEnd", &Parser::attribute_end},
-        {"TransformBegin", &Parser::transform_begin},
-        {"TransformEnd", &Parser::transform_end},
-        {"ObjectBegin", &Parser::object_begin},
-        {"ObjectEnd", &Parser::object_end},
-        {"ObjectInstance", &Parser::object_instance},
-        {"Attribute", &Parser::attribute},
-        {"WorldBegin", &Parser::world_begin},
-        {"WorldEnd", &Parser::world_end},
-        {"Include", &Parser::include},
-        {"Import", &Parser::import},
-        {"Camera", &Parser::camera},
-        {"Film", &Parser::film},
-        {"PixelFilter", &Parser::pixel_filter},
-        {"Sampler", &Parser::sampler},
-        {"Integrator", &Parser::ignore_with_parameters},
-        {"SurfaceIntegrator", &Parser::ignore_with_parameters},
-        {"Renderer", &Parser::ignore_with_parameters},
-        {"Accelerator", &Parser::ignore_with_parameters},
-        {"ColorSpace", &Parser::color_space},
-        {"Option", &Parser::ignore_option},
-        {"MakeNamedMedium", &Parser::ignore_medium},
-        {"MediumInterface", &Parser::medium_interface},
-        {"LightSource", &Parser::light_source},
-        {"AreaLightSource", &Parser::area_light_source},
-        {"Material", &Parser::material},
-        {"MakeNamedMaterial", &Parser::make_named_material},
-        {"NamedMaterial", &Parser::named_material},
-        {"Texture", &Parser::texture},
-        {"Shape", &Parser::shape},
+const std::unordered_map<std::string_view, Parser::Directive>& Parser::directives() {
+    static const std::unordered_map<std::string_view, Directive> kDirectives = {
+        {"Identity", {&Parser::identity}},
+        {"Translate", {&Parser::translate}},
+        {"Scale", {&Parser::scale}},
+        {"Rotate", {&Parser::rotate}},
+        {"LookAt", {&Parser::look_at_directive}},
+        {"Transform", {&Parser::transform}},
+        {"ConcatTransform", {&Parser::concat_transform}},
+        {"CoordinateSystem", {&Parser::coordinate_system}},
+        {"CoordSysTransform", {&Parser::coord_sys_transform}},
+        {"TransformTimes", {&Parser::transform_times}},
+        {"ReverseOrientation", {&Parser::reverse_orientation}},
+        {"ActiveTransform", {&Parser::active_transform}},
+        {"AttributeBegin", {&Parser::attribute_begin}},
+        {"AttributeEnd", {&Parser::attribute_end}},
+        {"TransformBegin", {&Parser::transform_begin}},
+        {"TransformEnd", {&Parser::transform_end}},
+        {"ObjectBegin", {&Parser::object_begin, Place::in_world}},
+        {"ObjectEnd", {&Parser::object_end}},
+        {"ObjectInstance", {&Parser::object_instance, Place::in_world}},
+        {"Attribute", {&Parser::attribute}},
+        {"WorldBegin", {&Parser::world_begin}},
+        {"WorldEnd", {&Parser::world_end}},
+        {"Include", {&Parser::include}},
+        {"Import", {&Parser::import}},
+        {"Camera", {&Parser::camera, Place::before_world}},
+        {"Film", {&Parser::film, Place::before_world}},
+        {"PixelFilter", {&Parser::pixel_filter, Place::before_world}},
+        {"Sampler", {&Parser::sampler, Place::before_world}},
+        {"Integrator", {&Parser::ignore_with_parameters, Place::before_world}},
+        {"SurfaceIntegrator", {&Parser::ignore_with_parameters, Place::before_world}},
+        {"Renderer", {&Parser::ignore_with_parameters, Place::before_world}},
+        {"Accelerator", {&Parser::ignore_with_parameters, Place::before_world}},
+        {"ColorSpace", {&Parser::color_space}},
+        {"Option", {&Parser::ignore_option}},
+        {"MakeNamedMedium", {&Parser::ignore_medium}},
+        {"MediumInterface", {&Parser::medium_interface}},
+        {"LightSource", {&Parser::light_source, Place::in_world}},
+        {"AreaLightSource", {&Parser::area_light_source, Place::in_world}},
+        {"Material", {&Parser::material}},
+        {"MakeNamedMaterial", {&Parser::make_named_material}},
+        {"NamedMaterial", {&Parser::named_material}},
+        {"Texture", {&Parser::texture}},
+        {"Shape", {&Parser::shape, Place::in_world}},
     };
-    return kHandlers;
+    return kDirectives;
 }
 
 SceneDescription Parser::run() {
@@ -191,7 +199,7 @@ SceneDescription Parser::run() {
         parse_file();
     } catch (const SceneError&) {
         // What is wrong may be a consequence of a missing file, such as a material that it defines.
-        scene_.missing_files.report();
+        scene_.named_files.report_missing();
         throw;
     }
     if (!knows_directives_)
@@ -228,13 +236,27 @@ void Parser::parse_directive(const Token& directive) {
     location_ = reader_.tokens().location(directive);
     if (directive.kind != TokenKind::word)
         throw SceneError(location_, "expected a directive, found " + Tokenizer::describe(directive));
-    const auto handler = handlers().find(directive.text);
-    if (handler != handlers().end()) {
-        knows_directives_ = true;
-        (this->*handler->second)();
-    } else {
-        skip_unknown_directive(directive);
-    }
+    const auto found = directives().find(directive.text);
+    if (found == directives().end()) return skip_unknown_directive(directive);
+    knows_directives_ = true;
+    check_place(directive.text, found->second.place);
+    (this->*found->second.read)();
+}
+
+void Parser::check_place(std::string_view directive, Place place) {
+    if (place == Place::before_world && world_begin_)
+        scene_.warnings.add(location_, "directives that belong before WorldBegin",
+                            std::string(directive) +
+                                " belongs before WorldBegin; it replaces an earlier one");
+    if (place == Place::in_world && has_moved_camera_ && !world_begin_)
+        scene_.warnings.add(location_, "directives that belong behind WorldBegin",
+                            std::string(directive) +
+                                " belongs behind WorldBegin; transforms such as that of the "
+                                "camera apply to it");
+    if (place == Place::in_world && world_end_)
+        scene_.warnings.add(location_, "directives behind WorldEnd",
+                            std::string(directive) +
+                                " is behind WorldEnd; it is part of the scene nevertheless");
 }
 
 void Parser::skip_unknown_directive(const Token& directive) {
@@ -384,6 +406,7 @@ void Parser::camera() {
     const std::string type = read_string();
     ParameterList parameters = read_parameters();
     camera_ = read_camera(type, parameters, state_.current().ctm, scene_.warnings);
+    has_moved_camera_ = !is_identity(state_.current().ctm);
     const auto world_from_camera = inverse(state_.current().ctm);
     if (world_from_camera) coordinate_systems_["camera"] = *world_from_camera;
 }

@@ -96,7 +96,7 @@ private:
         SourceFile file{find_file(name, folder, main.path.parent_path()), {}};
         const std::string problem =
             "'" + shortened(name) + "' is neither the name of a known spectrum nor a file of samples: ";
-        if (context_.missing_files->note_with_message(
+        if (!context_.named_files->note_with_message(
                 location, message_about(parameter_, problem + "no such file"), file.path))
             return {{550, 1}};
         try {

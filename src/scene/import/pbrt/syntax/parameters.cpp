@@ -300,9 +300,12 @@ std::vector<Parameter> ParameterList::appended_to(const std::vector<Parameter>& 
 void ParameterList::warn_unused(std::string_view owner, Warnings& warnings) const {
     for (const Parameter& parameter : parameters_) {
         if (parameter.used) continue;
-        const std::string message =
-            std::string(owner) + ": parameter " + declaration(parameter) + " is unknown and ignored";
-        warnings.add(parameter.location, message);
+        const auto is_repeated = std::any_of(parameters_.data(), &parameter, [&](const Parameter& earlier) {
+            return earlier.name == parameter.name;
+        });
+        warnings.add(parameter.location,
+                     std::string(owner) + ": parameter " + declaration(parameter) +
+                         (is_repeated ? " is given twice; the first one counts" : " is unknown and ignored"));
     }
 }
 

@@ -5,7 +5,7 @@
 #include "scene/colour/colour_space.h"
 #include "scene/import/pbrt/syntax/tokenizer.h"
 #include "scene/input/diagnostics.h"
-#include "scene/input/missing_files.h"
+#include "scene/input/named_files.h"
 #include "scene/model/scene.h"
 
 #include <cstdint>
@@ -45,7 +45,7 @@ struct ParameterContext {
     const ColourSpace* colour_space = &kSrgb;
     const SourceFile* main_file = nullptr; ///< files are looked for beside it too; may be null
     SceneBudget* budget = nullptr;         ///< that files are read on; null where no parameter names any
-    MissingFiles* missing_files = nullptr; ///< likewise
+    NamedFiles* named_files = nullptr;     ///< likewise
     /// Parameters that apply where a directive does not name them, the most important one last; may be null.
     std::shared_ptr<const std::vector<Parameter>> defaults;
 };
@@ -61,7 +61,7 @@ public:
 
     /// The budget that reading of files is charged to.
     SceneBudget& budget() const { return *context_.budget; }
-    MissingFiles& missing_files() const { return *context_.missing_files; }
+    NamedFiles& named_files() const { return *context_.named_files; }
     /// Position of the directive.
     const Location& location() const { return location_; }
     /// Position of the parameter, or of the directive if there is no such parameter.

@@ -15,8 +15,8 @@ constexpr std::size_t kMaxRepeatedBytes = std::size_t{1} << 25;
 } // namespace
 
 SourceReader::SourceReader(const std::filesystem::path& main_path, std::deque<SourceFile>& sources,
-                           SceneBudget& budget, MissingFiles& missing)
-    : sources_(sources), budget_(budget), missing_(missing) {
+                           SceneBudget& budget, NamedFiles& named_files)
+    : sources_(sources), budget_(budget), named_files_(named_files) {
     SourceFile& main = sources_.emplace_back(SourceFile{main_path, {}});
     try {
         main.bytes = FileBytes(main_path, budget_.inflated_bytes);
@@ -36,7 +36,7 @@ bool SourceReader::open(const std::string& name, const Location& includer) {
     if (open_files_.size() >= kMaxIncludeDepth)
         throw SceneError(includer, "more than " + std::to_string(kMaxIncludeDepth) +
                                        " nested includes; does '" + path.string() + "' include itself?");
-    if (missing_.note(includer, "scene file", path)) return false;
+    if (!named_files_.note(includer, "scene file", path)) return false;
     const SourceFile*& source = by_path_[path.lexically_normal().string()];
     if (source == nullptr) {
         try {

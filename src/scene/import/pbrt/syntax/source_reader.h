@@ -3,7 +3,7 @@
 
 #include "scene/build/limits.h"
 #include "scene/import/pbrt/syntax/tokenizer.h"
-#include "scene/input/missing_files.h"
+#include "scene/input/named_files.h"
 #include "scene/model/transform.h"
 
 #include <deque>
@@ -18,9 +18,9 @@ class SourceReader {
 public:
     /// \param sources  receives the files, and outlives all tokens and locations
     /// \param budget   that files are read on
-    /// \param missing  receives included files that do not exist
+    /// \param named_files receives included files
     SourceReader(const std::filesystem::path& main_path, std::deque<SourceFile>& sources, SceneBudget& budget,
-                 MissingFiles& missing);
+                 NamedFiles& named_files);
 
     /// Goes on in a file that the current one includes; close() returns. Throws SceneError if it cannot be read, or if
     /// includes are nested or repeated too often.
@@ -47,7 +47,7 @@ public:
 private:
     std::deque<SourceFile>& sources_;
     SceneBudget& budget_;
-    MissingFiles& missing_;
+    NamedFiles& named_files_;
     std::unordered_map<std::string, const SourceFile*> by_path_;
     std::vector<Tokenizer> open_files_;
     int repeated_includes_ = 0;

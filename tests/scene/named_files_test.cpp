@@ -1,4 +1,4 @@
-/// All files that a scene names and that are missing are reported together.
+/// The files that a scene names: missing ones are reported together, the others are known afterwards.
 
 #include "scene_fixture.h"
 
@@ -9,11 +9,11 @@
 namespace nusselt::scene {
 namespace {
 
-class MissingFilesTest : public SceneTest {};
+class NamedFilesTest : public SceneTest {};
 
 const std::string kUsed = "\nShape \"plymesh\" \"string filename\" \"floor.ply\"\n";
 
-TEST_F(MissingFilesTest, OfAllKindsAreReportedTogether) {
+TEST_F(NamedFilesTest, OfAllKindsAreReportedTogether) {
     EXPECT_EQ(
         error("Include \"geometry.pbrt\"\n"
               "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"wood.png\"\n"
@@ -26,7 +26,7 @@ TEST_F(MissingFilesTest, OfAllKindsAreReportedTogether) {
         "'screen.exr' (scene.pbrt:6), 'lamp.ply' (scene.pbrt:5), 'wood.png' (scene.pbrt:2)");
 }
 
-TEST_F(MissingFilesTest, ComeBeforeMistakesThatMayFollowFromThem) {
+TEST_F(NamedFilesTest, ComeBeforeMistakesThatMayFollowFromThem) {
     EXPECT_EQ(error("Include \"materials.pbrt\"\nNamedMaterial \"wood\""),
               "scene.pbrt:1: scene file 'materials.pbrt': no such file");
     // A mistake before the missing file is the first one.
@@ -34,22 +34,33 @@ TEST_F(MissingFilesTest, ComeBeforeMistakesThatMayFollowFromThem) {
               "scene.pbrt:1: material \"wood\" is not defined");
 }
 
-TEST_F(MissingFilesTest, ComeBeforeFilesThatCannotBeRead) {
+TEST_F(NamedFilesTest, ComeBeforeFilesThatCannotBeRead) {
     write("broken.ply", "nothing");
     EXPECT_EQ(error("Shape \"plymesh\" \"string filename\" \"broken.ply\"" + kUsed),
               "scene.pbrt:2: mesh file 'floor.ply': no such file");
 }
 
-TEST_F(MissingFilesTest, ThatNothingUsesDoNotMatter) {
+TEST_F(NamedFilesTest, ThatExistAreKnown) {
+    write("geometry.pbrt", "");
+    write("lamp.spd", "400 1 700 1");
+    const Scene scene = load("Include \"geometry.pbrt\"\nInclude \"./geometry.pbrt\"\n"
+                             "AreaLightSource \"diffuse\" \"spectrum L\" \"lamp.spd\"\n" +
+                             std::string(kTriangle));
+    const std::vector<std::filesystem::path> expected = {folder_ / "scene.pbrt", folder_ / "geometry.pbrt",
+                                                         folder_ / "lamp.spd"};
+    EXPECT_EQ(scene.files, expected);
+}
+
+TEST_F(NamedFilesTest, ThatNothingUsesDoNotMatter) {
     load("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"wood.png\"\n" +
          std::string(kTriangle));
 }
 
-TEST_F(MissingFilesTest, AreNamedOnce) {
+TEST_F(NamedFilesTest, AreNamedOnce) {
     EXPECT_EQ(error(kUsed + kUsed), "scene.pbrt:2: mesh file 'floor.ply': no such file");
 }
 
-TEST_F(MissingFilesTest, ThatAreVeryManyAreCounted) {
+TEST_F(NamedFilesTest, ThatAreVeryManyAreCounted) {
     std::string text;
     for (int i = 0; i < 1000; ++i)
         text += "Shape \"plymesh\" \"string filename\" \"" + std::to_string(i) + ".ply\"\n";
