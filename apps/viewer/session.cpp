@@ -265,7 +265,9 @@ bool Session::render(const ViewState& state, double seconds) {
 void Session::show(const ViewState& state) {
     follow(state);
     errors_ = images_->show(state);
-    times_.display = images_->shown().display.seconds();
+    const render_vulkan::DisplayPass& display = images_->shown().display;
+    picture_size_ = {display.width(), display.height()};
+    times_.display = display.seconds();
 }
 
 const render_vulkan::DisplayPass& Session::picture() const { return images_->shown().display; }
