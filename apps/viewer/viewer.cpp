@@ -54,7 +54,7 @@ void Viewer::next_frame(double seconds) {
         throw;
     } catch (const std::exception& error) {
         message = error.what();
-        history_.forget(state.edits);
+        if (state.edits != last_state_.edits) history_.forget(state.edits);
         state = last_state_;
         session.render(state);
         session.show(state);

@@ -84,6 +84,18 @@ TEST_F(LightScriptTest, EditsThatFailAreNotUndone) {
     EXPECT_TRUE(viewer.state.edits.empty());
 }
 
+TEST_F(LightScriptTest, SettingsThatFailLeaveTheHistory) {
+    Viewer viewer = make_viewer();
+    run("light 0\nlight-size 2\nlight-size 3\nundo\n", viewer);
+    viewer.state.of(Side::left).strategies = render::Strategies::diffuse_ggx; // does not fit the technique
+    viewer.next_frame();
+    EXPECT_NE(viewer.message, "");
+    run("redo\n", viewer);
+    EXPECT_EQ(viewer.state.edits.get(0).size, 3);
+    run("undo\n", viewer);
+    EXPECT_EQ(viewer.state.edits.get(0).size, 2);
+}
+
 TEST_F(LightScriptTest, SelectsAndDragsLights_AsOneAction) {
     Viewer viewer = make_viewer();
     const FilmPosition from = position_of(viewer, viewer.state.edits.center(viewer.session.loaded(), 0));
