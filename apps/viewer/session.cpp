@@ -95,6 +95,9 @@ public:
 
     void begin_frame() { has_new_frame_ = false; }
 
+    /// Whether there is a frame, and none of which rows are missing.
+    bool is_finished() const { return image_.frames() > 0 && !image_.is_adding(); }
+
 private:
     void choose_rows(double seconds_of_last) {
         const double factor = kRowSeconds / std::max(seconds_of_last, 1e-6);
@@ -157,6 +160,12 @@ struct Level {
     }
 
     const Progress& side(Side side) const { return side == Side::left ? left : right; }
+
+    /// Whether all images of the state are, see Progress::is_finished().
+    bool is_finished(const ViewState& state) const {
+        return left.is_finished() && (!state.is_split || right.is_finished()) &&
+               (!state.renders_reference || reference.is_finished());
+    }
 
     /// Whether there is something to see of what another level will show.
     bool stands_for(const Level& other) const {
@@ -260,6 +269,12 @@ bool Session::render(const ViewState& state, double seconds) {
                                                      std::chrono::duration<double>(seconds))
                                 : kNever;
     return images_->render(state, end, times_);
+}
+
+void Session::finish(const ViewState& state) {
+    follow(state);
+    if (images_->level().is_finished(state)) return;
+    images_->render(state, kNever, times_);
 }
 
 void Session::show(const ViewState& state) {

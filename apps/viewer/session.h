@@ -48,6 +48,10 @@ public:
     /// \throws std::runtime_error if a light cannot be changed in that way, or if the device fails
     bool render(const ViewState& state, double seconds = std::numeric_limits<double>::infinity());
 
+    /// Finishes the frames that were begun, and renders one if an image of the state has none.
+    /// \throws std::exception as render() does
+    void finish(const ViewState& state);
+
     /// Makes the picture of what was rendered. Until the first frame of a camera is finished, that is the picture of lower
     /// resolution if there is one with the same camera and settings, else the rows that are finished.
     void show(const ViewState& state);

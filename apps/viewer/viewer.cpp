@@ -1,5 +1,6 @@
 #include "viewer.h"
 
+#include "image/io.h"
 #include "scene/colour/colour_space.h"
 #include "scene/model/bounds.h"
 #include "scene/rig/rig_json.h"
@@ -120,6 +121,17 @@ void Viewer::orbit(double right, double up) {
     state.camera.orbit(state.selected_light ? state.edits.center(scene, *state.selected_light)
                                             : middle_of(scene),
                        right, up);
+}
+
+std::string Viewer::save_screenshot(const std::filesystem::path& path) {
+    image::check_writable_image(path);
+    state.reduction = 1;
+    session.finish(state);
+    session.show(state);
+    is_frame_finished = true;
+    frame_seconds_ = 0;
+    last_state_ = state;
+    return write_screenshot(path, session, state, files);
 }
 
 void Viewer::load_lights(const std::filesystem::path& path) {

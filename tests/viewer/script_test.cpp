@@ -72,6 +72,32 @@ TEST_F(ScriptTest, WritesBothImages) {
     EXPECT_EQ(image::read_image(path("b-right.exr")).pixels, viewer.session.image(Side::right).pixels);
 }
 
+TEST_F(ScriptTest, ScreenshotsHaveFinishedFramesOfAllPixels) {
+    Viewer whole = make_viewer();
+    for (int i = 0; i < 2; ++i) whole.next_frame();
+    Viewer viewer = make_viewer();
+    viewer.save_screenshot(path("first.exr"));
+    EXPECT_EQ(viewer.session.frames(Side::left), 1u);
+    viewer.next_frame(0);
+    ASSERT_FALSE(viewer.is_frame_finished);
+    const std::string command = viewer.save_screenshot(path("second.exr"));
+    EXPECT_NE(command.find("--spp 2 "), std::string::npos) << command;
+    viewer.save_screenshot(path("again.exr"));
+    for (const char* const name : {"second.exr", "again.exr"})
+        EXPECT_EQ(image::read_image(path(name)).pixels, whole.session.image(Side::left).pixels) << name;
+
+    viewer.state.camera.turn(0.1, 0);
+    viewer.state.reduction = 4;
+    viewer.session.render(viewer.state);
+    viewer.session.show(viewer.state);
+    ASSERT_EQ(viewer.session.picture().width(), 6u);
+    for (const char* const name : {"moving.exr", "moving.png"}) {
+        viewer.save_screenshot(path(name));
+        EXPECT_EQ(image::read_image(path(name)).width, 24) << name;
+    }
+    EXPECT_EQ(viewer.session.frames(Side::left), 1u);
+}
+
 TEST_F(ScriptTest, CommandsNameTheirSettings) {
     Viewer viewer = make_viewer();
     viewer.state.of(Side::left).sample_order = render::SampleOrder::jittered;

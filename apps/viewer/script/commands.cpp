@@ -224,10 +224,8 @@ std::map<std::string, Command> make_commands() {
          {3, [](Viewer& viewer, Playback&,
                 const Arguments& words) { viewer.state.camera.move(to_vector(words)); }}},
         {"screenshot",
-         {1,
-          [](Viewer& viewer, Playback&, const Arguments& words) {
-              print_line(write_screenshot(words[0], viewer.session, viewer.state, viewer.files));
-          }}},
+         {1, [](Viewer& viewer, Playback&,
+                const Arguments& words) { print_line(viewer.save_screenshot(words[0])); }}},
         {"save-camera",
          {1, [](Viewer& viewer, Playback&,
                 const Arguments& words) { save_camera(words[0], viewer.session, viewer.state); }}},

@@ -304,7 +304,7 @@ void Panels::draw_files(Viewer& viewer) {
     act_on("screenshot",
            "Save the picture, the camera and the lights, and print the command that renders it.", "wrote",
            file_, [&] {
-               command_ = write_screenshot(file_, viewer.session, viewer.state, viewer.files);
+               command_ = viewer.save_screenshot(file_);
                print_line(command_);
            });
     if (!command_.empty()) {
