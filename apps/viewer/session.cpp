@@ -65,12 +65,16 @@ public:
         has_new_frame_ = false;
     }
 
+    /// Makes the next frame the only one, unless it has begun.
+    void drop_frames_before() {
+        if (!has_new_frame_ && !image_.is_adding()) image_.restart(settings_);
+    }
+
     /// Goes on with a frame, unless one was finished since the last call of begin_frame().
     /// \returns whether it is finished; then `times` are those of the frame
-    bool render(bool accumulates, Clock::time_point end, FrameTimes& times) {
+    bool render(Clock::time_point end, FrameTimes& times) {
         if (has_new_frame_) return true;
         if (!image_.is_adding()) {
-            if (!accumulates) image_.restart(settings_);
             render::RenderSettings frame = settings_;
             frame.camera_rays = 1;
             frame.seed = settings_.seed + frames_;
@@ -148,13 +152,16 @@ struct Level {
     }
 
     bool render(const ViewState& state, Clock::time_point end, SessionTimes& times) {
-        if (!left.render(state.accumulates, end, times.frames[0])) return false;
-        if (!state.is_split)
+        if (!state.accumulates) left.drop_frames_before();
+        if (!left.render(end, times.frames[0])) return false;
+        if (!state.is_split) {
             times.frames[1] = {};
-        else if (!right.render(state.accumulates, end, times.frames[1]))
-            return false;
-        // References never begin again by themselves.
-        if (state.renders_reference && !reference.render(true, end, times.reference)) return false;
+        } else {
+            if (!state.accumulates) right.drop_frames_before();
+            if (!right.render(end, times.frames[1])) return false;
+        }
+        // References always accumulate.
+        if (state.renders_reference && !reference.render(end, times.reference)) return false;
         for (Progress* const progress : {&left, &right, &reference}) progress->begin_frame();
         return true;
     }

@@ -279,7 +279,7 @@ void Panels::draw_selected_light(Viewer& viewer) {
     if (is_changed) edited_light_ = light;
     if (is_final || (is_changed && viewer.session.times().build <= kQuickBuild)) {
         // A frame of few pixels shows the change at once.
-        viewer.is_moving = edit_ != now;
+        viewer.is_moving |= edit_ != now;
         state.edits.set(light, edit_);
     }
     if (is_final) viewer.finish_edit();
