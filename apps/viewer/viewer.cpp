@@ -105,7 +105,7 @@ void Viewer::undo() {
     if (history_.can_undo())
         show_edits(history_.undo());
     else
-        message = "no change of a light is left to undo";
+        message = "there is nothing to undo";
 }
 
 void Viewer::redo() {
@@ -113,7 +113,7 @@ void Viewer::redo() {
     if (history_.can_redo())
         show_edits(history_.redo());
     else
-        message = "no change of a light is left to repeat";
+        message = "there is nothing to redo";
 }
 
 void Viewer::orbit(double right, double up) {

@@ -65,11 +65,11 @@ TEST_F(LightScriptTest, UndoesAndRepeats) {
     EXPECT_EQ(viewer.state.edits.get(0).brightness, 3);
     EXPECT_EQ(viewer.state.edits.lights(viewer.session.loaded()).size(), 2u);
     run("redo\n", viewer);
-    EXPECT_NE(viewer.message.find("left to repeat"), std::string::npos);
+    EXPECT_NE(viewer.message.find("nothing to redo"), std::string::npos);
     run("undo\nundo\nundo\n", viewer);
     EXPECT_TRUE(viewer.state.edits.empty());
     run("undo\n", viewer);
-    EXPECT_NE(viewer.message.find("left to undo"), std::string::npos);
+    EXPECT_NE(viewer.message.find("nothing to undo"), std::string::npos);
 }
 
 TEST_F(LightScriptTest, EditsThatFailAreNotUndone) {
