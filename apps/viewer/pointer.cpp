@@ -48,20 +48,19 @@ void Pointer::move_to(FilmPosition at, Viewer& viewer) {
         viewer.state.wipe = std::clamp(at.x / viewer.session.loaded().film.width, 0.0, 1.0);
     if (drag_ == Drag::pressed_light && std::hypot(at.x - begin_.x, at.y - begin_.y) >= tolerance_)
         drag_ = Drag::light;
-    if (drag_ == Drag::light && has_moved) change_light(false, viewer);
+    if (drag_ == Drag::light && has_moved && viewer.session.times().build <= kQuickBuild)
+        viewer.is_moving |= change_light(viewer.state, viewer.session.loaded());
 }
 
 void Pointer::release(Viewer& viewer) {
-    if (drag_ == Drag::light) change_light(true, viewer);
+    if (drag_ == Drag::light) change_light(viewer.state, viewer.session.loaded());
     drag_ = Drag::none;
     handle_.reset();
     viewer.finish_edit();
 }
 
-void Pointer::change_light(bool is_final, Viewer& viewer) {
-    ViewState& state = viewer.state;
-    const scene::Scene& scene = viewer.session.loaded();
-    if (!state.selected_light || (!is_final && viewer.session.times().build > kQuickBuild)) return;
+bool Pointer::change_light(ViewState& state, const scene::Scene& scene) {
+    if (!state.selected_light) return false;
     const std::size_t light = *state.selected_light;
     const scene::Double3 center = state.edits.center(scene, light);
     const scene::Camera camera = state.camera.camera();
@@ -73,9 +72,9 @@ void Pointer::change_light(bool is_final, Viewer& viewer) {
     else
         edit.turn = combined_turn(edit.turn, turn_about(handle_->axis, center, camera, begin_, now_));
     begin_ = now_;
-    if (edit == state.edits.get(light)) return;
+    if (edit == state.edits.get(light)) return false;
     state.edits.set(light, edit);
-    viewer.is_moving = !is_final;
+    return true;
 }
 
 } // namespace nusselt::viewer

@@ -9,6 +9,7 @@
 namespace nusselt::viewer {
 
 struct Viewer;
+struct ViewState;
 
 /// Lights follow the mouse at once if that takes no longer [s], else when the button is released.
 inline constexpr double kQuickBuild = 0.1;
@@ -24,7 +25,8 @@ public:
     const std::optional<Handle>& handle() const { return handle_; }
 
 private:
-    void change_light(bool is_final, Viewer& viewer);
+    /// Moves or turns the selected light as far as the mouse moved. \returns whether that changes it
+    bool change_light(ViewState& state, const scene::Scene& scene);
 
     enum class Drag { none, wipe, pressed_light, light };
 

@@ -65,12 +65,16 @@ public:
         has_new_frame_ = false;
     }
 
+    /// Makes the next frame the only one, unless it has begun.
+    void drop_frames_before() {
+        if (!has_new_frame_ && !image_.is_adding()) image_.restart(settings_);
+    }
+
     /// Goes on with a frame, unless one was finished since the last call of begin_frame().
     /// \returns whether it is finished; then `times` are those of the frame
-    bool render(bool accumulates, Clock::time_point end, FrameTimes& times) {
+    bool render(Clock::time_point end, FrameTimes& times) {
         if (has_new_frame_) return true;
         if (!image_.is_adding()) {
-            if (!accumulates) image_.restart(settings_);
             render::RenderSettings frame = settings_;
             frame.camera_rays = 1;
             frame.seed = settings_.seed + frames_;
@@ -94,6 +98,9 @@ public:
     }
 
     void begin_frame() { has_new_frame_ = false; }
+
+    /// Whether there is a frame, and none of which rows are missing.
+    bool is_finished() const { return image_.frames() > 0 && !image_.is_adding(); }
 
 private:
     void choose_rows(double seconds_of_last) {
@@ -145,18 +152,27 @@ struct Level {
     }
 
     bool render(const ViewState& state, Clock::time_point end, SessionTimes& times) {
-        if (!left.render(state.accumulates, end, times.frames[0])) return false;
-        if (!state.is_split)
+        if (!state.accumulates) left.drop_frames_before();
+        if (!left.render(end, times.frames[0])) return false;
+        if (!state.is_split) {
             times.frames[1] = {};
-        else if (!right.render(state.accumulates, end, times.frames[1]))
-            return false;
-        // References never begin again by themselves.
-        if (state.renders_reference && !reference.render(true, end, times.reference)) return false;
+        } else {
+            if (!state.accumulates) right.drop_frames_before();
+            if (!right.render(end, times.frames[1])) return false;
+        }
+        // References always accumulate.
+        if (state.renders_reference && !reference.render(end, times.reference)) return false;
         for (Progress* const progress : {&left, &right, &reference}) progress->begin_frame();
         return true;
     }
 
     const Progress& side(Side side) const { return side == Side::left ? left : right; }
+
+    /// Whether all images of the state are, see Progress::is_finished().
+    bool is_finished(const ViewState& state) const {
+        return left.is_finished() && (!state.is_split || right.is_finished()) &&
+               (!state.renders_reference || reference.is_finished());
+    }
 
     /// Whether there is something to see of what another level will show.
     bool stands_for(const Level& other) const {
@@ -262,10 +278,18 @@ bool Session::render(const ViewState& state, double seconds) {
     return images_->render(state, end, times_);
 }
 
+void Session::finish(const ViewState& state) {
+    follow(state);
+    if (images_->level().is_finished(state)) return;
+    images_->render(state, kNever, times_);
+}
+
 void Session::show(const ViewState& state) {
     follow(state);
     errors_ = images_->show(state);
-    times_.display = images_->shown().display.seconds();
+    const render_vulkan::DisplayPass& display = images_->shown().display;
+    picture_size_ = {display.width(), display.height()};
+    times_.display = display.seconds();
 }
 
 const render_vulkan::DisplayPass& Session::picture() const { return images_->shown().display; }

@@ -26,6 +26,10 @@ struct SessionTimes {
     double build = 0;   ///< to bring the scene to the device when its lights were changed last
 };
 
+struct PictureSize {
+    std::uint32_t width = 0, height = 0; ///< [pixels]
+};
+
 /// Images of one scene: left, right and the reference, which all begin again whenever what they show changes. Each is there
 /// in the resolution of the film and, once something has moved, in a lower one.
 class Session {
@@ -44,6 +48,10 @@ public:
     /// \throws std::runtime_error if a light cannot be changed in that way, or if the device fails
     bool render(const ViewState& state, double seconds = std::numeric_limits<double>::infinity());
 
+    /// Finishes the frames that were begun, and renders one if an image of the state has none.
+    /// \throws std::exception as render() does
+    void finish(const ViewState& state);
+
     /// Makes the picture of what was rendered. Until the first frame of a camera is finished, that is the picture of lower
     /// resolution if there is one with the same camera and settings, else the rows that are finished.
     void show(const ViewState& state);
@@ -54,8 +62,9 @@ public:
     /// \throws std::runtime_error as scene::apply_rig() does; the scene is as before then
     void apply(const scene::Rig& rig);
 
-    // The results of the last show(), valid after the first frame.
+    // The results of the last show(), valid after the first frame, and not between apply() and the next frame.
     const render_vulkan::DisplayPass& picture() const;
+    PictureSize picture_size() const { return picture_size_; } ///< also valid after apply()
     const render_vulkan::DisplayErrors& errors() const { return errors_; }
 
     // Since something changed, in the resolution that was rendered last. Nothing before the first frame.
@@ -78,6 +87,7 @@ private:
     render_vulkan::ShadowRays shadow_rays_;
     scene::Scene loaded_;
     std::unique_ptr<Images> images_; ///< none until the first frame
+    PictureSize picture_size_;
     render_vulkan::DisplayErrors errors_;
     SessionTimes times_;
 };

@@ -70,8 +70,6 @@ std::string command_of(const Session& session, const ViewState& state, const Sce
 
 std::string write_screenshot(const std::filesystem::path& path, const Session& session,
                              const ViewState& state, const SceneFiles& files) {
-    if (session.frames(Side::left) == 0)
-        throw std::runtime_error(path.string() + ": no frame is rendered yet; run `frames 1` first");
     if (image::lower_case_extension(path) == ".png") {
         image::write_image(path, to_linear(session.picture()));
     } else {

@@ -21,6 +21,7 @@ struct SceneFiles {
 /// Writes what is seen. A PNG file gets the picture of the window, without panels; other formats, see
 /// image::write_image(), get the radiance of the left image, and NAME-right that of the right one if the screen is split.
 /// Beside it go NAME.camera.json and, if lights were edited, NAME.lights.json, which the command needs.
+/// \param session shows the state, see Session::finish()
 /// \returns the command that renders the left image
 /// \throws std::runtime_error if a file cannot be written or its format is unknown
 std::string write_screenshot(const std::filesystem::path& path, const Session& session,

@@ -36,7 +36,7 @@ struct ViewState {
     /// The side of the squares of pixels that share a rendered pixel: 1 for the resolution of the film.
     int reduction = 1;
     LightEdits edits = {};
-    std::optional<std::size_t> selected_light = {}; ///< index in Scene::emitters, as the scene was loaded
+    std::optional<std::size_t> selected_light = {}; ///< index in LightEdits
 
     const render::RenderSettings& of(Side side) const { return settings[static_cast<std::size_t>(side)]; }
     render::RenderSettings& of(Side side) { return settings[static_cast<std::size_t>(side)]; }

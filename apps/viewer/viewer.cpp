@@ -1,5 +1,6 @@
 #include "viewer.h"
 
+#include "image/io.h"
 #include "scene/colour/colour_space.h"
 #include "scene/model/bounds.h"
 #include "scene/rig/rig_json.h"
@@ -54,7 +55,7 @@ void Viewer::next_frame(double seconds) {
         throw;
     } catch (const std::exception& error) {
         message = error.what();
-        history_.forget(state.edits);
+        if (state.edits != last_state_.edits) history_.forget(state.edits);
         state = last_state_;
         session.render(state);
         session.show(state);
@@ -104,7 +105,7 @@ void Viewer::undo() {
     if (history_.can_undo())
         show_edits(history_.undo());
     else
-        message = "no change of a light is left to undo";
+        message = "there is nothing to undo";
 }
 
 void Viewer::redo() {
@@ -112,7 +113,7 @@ void Viewer::redo() {
     if (history_.can_redo())
         show_edits(history_.redo());
     else
-        message = "no change of a light is left to repeat";
+        message = "there is nothing to redo";
 }
 
 void Viewer::orbit(double right, double up) {
@@ -120,6 +121,17 @@ void Viewer::orbit(double right, double up) {
     state.camera.orbit(state.selected_light ? state.edits.center(scene, *state.selected_light)
                                             : middle_of(scene),
                        right, up);
+}
+
+std::string Viewer::save_screenshot(const std::filesystem::path& path) {
+    image::check_writable_image(path);
+    state.reduction = 1;
+    session.finish(state);
+    session.show(state);
+    is_frame_finished = true;
+    frame_seconds_ = 0;
+    last_state_ = state;
+    return write_screenshot(path, session, state, files);
 }
 
 void Viewer::load_lights(const std::filesystem::path& path) {

@@ -44,6 +44,11 @@ struct Viewer {
     /// Moves the camera on a sphere about the selected light, or about the middle of the scene, see FlyCamera::orbit().
     void orbit(double right, double up);
 
+    /// Finishes the frame in the resolution of the film and writes what is seen.
+    /// \returns the command that renders the left image
+    /// \throws std::exception as write_screenshot() and Session::render() do
+    std::string save_screenshot(const std::filesystem::path& path);
+
     /// Applies a rig for good; what was edited before is gone, and cannot be undone.
     /// \throws std::runtime_error see scene::read_rig(), scene::apply_rig()
     void load_lights(const std::filesystem::path& path);

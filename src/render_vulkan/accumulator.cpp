@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -45,6 +46,9 @@ gpu::RasterPass make_visibility_pass(const DeviceScene& scene, const PixelBuffer
     return pass;
 }
 
+/// How many groups of that size there are, the last of which may be smaller.
+std::uint64_t group_count(std::uint64_t count, std::uint64_t size) { return (count + size - 1) / size; }
+
 } // namespace
 
 Accumulator::Accumulator(const DeviceScene& scene, const render::RenderSettings& settings)
@@ -76,7 +80,7 @@ std::optional<FrameTimes> Accumulator::add(const interface::FrameRecord& frame,
     begin(frame);
     if (cancel != nullptr && *cancel) return give_up();
     FrameTimes times;
-    if (cancel == nullptr || parts_until(height()).size() == 1) {
+    if (cancel == nullptr || count_parts(height()) == 1) {
         static_cast<void>(add_until(height(), nullptr, times));
         return times;
     }
@@ -89,6 +93,7 @@ std::optional<FrameTimes> Accumulator::add(const interface::FrameRecord& frame,
 }
 
 void Accumulator::begin(const interface::FrameRecord& frame) {
+    assert(!is_adding());
     frame_ = frame;
     next_row_ = 0;
 }
@@ -107,8 +112,10 @@ FrameTimes Accumulator::add_rows(std::uint32_t most_rows) {
 
 bool Accumulator::add_until(std::uint32_t end, const std::atomic<bool>* cancel, FrameTimes& times) {
     compile();
-    for (const interface::FrameRecord& part : parts_until(end)) {
+    const std::uint64_t count = count_parts(end);
+    for (std::uint64_t i = 0; i < count; ++i) {
         if (cancel != nullptr && *cancel) return false;
+        const interface::FrameRecord part = make_part(i);
         std::vector<gpu::Device::Record> passes;
         if (part.first_row == 0 && part.first_light == 0 && part.first_sample == 0)
             passes.push_back([&](const gpu::Device::Commands& commands) {
@@ -154,21 +161,26 @@ std::uint32_t Accumulator::rows_at_once(const interface::FrameRecord& frame) con
     return (together + 1) * kRowsTogether;
 }
 
-std::vector<interface::FrameRecord> Accumulator::parts_until(std::uint32_t end) const {
-    const interface::FrameRecord& frame = frame_;
-    std::vector<interface::FrameRecord> parts;
-    const std::uint32_t lights = std::max(scene_.light_count(), 1u);
-    for (std::uint32_t row = next_row_; row < end; row += rows_at_once(frame))
-        for (std::uint32_t light = 0; light < lights; light += lights_at_once(frame))
-            for (std::uint32_t sample = 0; sample < frame.light_samples; sample += samples_at_once(frame)) {
-                interface::FrameRecord& part = parts.emplace_back(frame);
-                part.first_row = row;
-                part.first_light = light;
-                part.light_end = std::min(light + lights_at_once(frame), scene_.light_count());
-                part.first_sample = sample;
-                part.sample_end = std::min(sample + samples_at_once(frame), frame.light_samples);
-            }
-    return parts;
+std::uint64_t Accumulator::count_parts(std::uint32_t end) const {
+    return group_count(end - next_row_, rows_at_once(frame_)) *
+           group_count(std::max(scene_.light_count(), 1u), lights_at_once(frame_)) *
+           group_count(frame_.light_samples, samples_at_once(frame_));
+}
+
+interface::FrameRecord Accumulator::make_part(std::uint64_t index) const {
+    const std::uint32_t lights = lights_at_once(frame_);
+    const std::uint32_t samples = samples_at_once(frame_);
+    const std::uint64_t light_groups = group_count(std::max(scene_.light_count(), 1u), lights);
+    const std::uint64_t sample_groups = group_count(frame_.light_samples, samples);
+    const std::uint64_t light_group = index / sample_groups % light_groups;
+    const std::uint64_t row_group = index / sample_groups / light_groups;
+    interface::FrameRecord part = frame_;
+    part.first_row = next_row_ + static_cast<std::uint32_t>(row_group) * rows_at_once(frame_);
+    part.first_light = static_cast<std::uint32_t>(light_group) * lights;
+    part.light_end = std::min(part.first_light + lights, scene_.light_count());
+    part.first_sample = static_cast<std::uint32_t>(index % sample_groups) * samples;
+    part.sample_end = std::min(part.first_sample + samples, frame_.light_samples);
+    return part;
 }
 
 image::Image Accumulator::mean() const {

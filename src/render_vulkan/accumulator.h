@@ -50,6 +50,7 @@ public:
 
     /// Adds a frame and waits until it is finished.
     /// \param frame made for the settings, see FrameRecords
+    /// \pre !is_adding()
     /// \throws gpu::Error if the device is lost, or as compile() does
     FrameTimes add(const interface::FrameRecord& frame);
 
@@ -58,7 +59,8 @@ public:
     /// \returns nothing if it stopped; the image is then as before
     std::optional<FrameTimes> add(const interface::FrameRecord& frame, const std::atomic<bool>* cancel);
 
-    /// Begins a frame that add_rows() adds piece by piece, in place of one that is not finished.
+    /// Begins a frame that add_rows() adds piece by piece.
+    /// \pre !is_adding(): the sums would keep the rows of a frame that is not finished. Only restart() drops these.
     void begin(const interface::FrameRecord& frame);
     /// Whether rows of the frame are missing.
     bool is_adding() const { return next_row_ < height(); }
@@ -91,8 +93,9 @@ private:
     std::uint32_t samples_at_once(const interface::FrameRecord& frame) const; ///< of each light
     std::uint32_t lights_at_once(const interface::FrameRecord& frame) const;
     std::uint32_t rows_at_once(const interface::FrameRecord& frame) const;
-    /// Splits the rows of the frame from the next one to this one, exclusive, into pieces of that size.
-    std::vector<interface::FrameRecord> parts_until(std::uint32_t end) const;
+    // The submissions for the rows of the frame from the next one to `end`, exclusive. There may be millions.
+    std::uint64_t count_parts(std::uint32_t end) const;
+    interface::FrameRecord make_part(std::uint64_t index) const;
 
     const DeviceScene& scene_;
     std::vector<std::uint32_t> constants_; ///< of the shading pass

@@ -1,5 +1,6 @@
 /// The behaviour of the renderer apart from the image.
 
+#include "common/process_memory.h"
 #include "comparison.h"
 #include "gpu_test.h"
 #include "rich_scene.h"
@@ -115,11 +116,42 @@ TEST_F(Renderer, StopsWithinFramesAndKeepsTheFramesBefore) {
             const render::RenderResult result = renderer.render(settings, monitor);
             const auto end = std::chrono::steady_clock::now();
             thread.join();
+            if (samples_per_ray > 64) {
+                EXPECT_LT(result.finished_fraction, 1) << "nothing was stopped";
+            }
             EXPECT_LT(std::chrono::duration<double>(end - request).count(), 1);
             EXPECT_EQ(result.image.pixels,
                       rendered_until(renderer, settings, result.finished_fraction).pixels);
         }
     }
+}
+
+TEST_F(Renderer, StopsWithinFramesOfMillionsOfSubmissions) {
+    scene::Scene scene = render_test::make_floor(8);
+    for (int i = 0; i < 500; ++i)
+        render_test::add_polygon_light(scene, {scene::Float3{-9, -9, 5}, {-9, 9, 5}, {9, 9, 5}, {9, -9, 5}},
+                                       {1, 1, 1}, true, 0);
+    render_test::set_radius(scene);
+    VulkanRenderer renderer(device(), scene, ShadowRays::bvh);
+    render::RenderSettings settings;
+    settings.camera_rays = 1;
+    settings.samples = 1 << 20;
+    static_cast<void>(rendered_until(renderer, settings, 0)); // compiles the shaders
+    const double memory_before = nusselt_test::process_memory("VmHWM");
+    std::atomic<bool> stop = false;
+    render::RenderMonitor monitor;
+    monitor.cancel = &stop;
+    std::chrono::steady_clock::time_point request;
+    std::thread thread([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        request = std::chrono::steady_clock::now();
+        stop = true;
+    });
+    EXPECT_EQ(renderer.render(settings, monitor).finished_fraction, 0);
+    const auto end = std::chrono::steady_clock::now();
+    thread.join();
+    EXPECT_LT(std::chrono::duration<double>(end - request).count(), 1);
+    EXPECT_LT(nusselt_test::process_memory("VmHWM"), memory_before + 64e6) << "no list of all submissions";
 }
 
 TEST_F(Renderer, RendersScenesWithoutAnything) {

@@ -65,11 +65,11 @@ TEST_F(LightScriptTest, UndoesAndRepeats) {
     EXPECT_EQ(viewer.state.edits.get(0).brightness, 3);
     EXPECT_EQ(viewer.state.edits.lights(viewer.session.loaded()).size(), 2u);
     run("redo\n", viewer);
-    EXPECT_NE(viewer.message.find("left to repeat"), std::string::npos);
+    EXPECT_NE(viewer.message.find("nothing to redo"), std::string::npos);
     run("undo\nundo\nundo\n", viewer);
     EXPECT_TRUE(viewer.state.edits.empty());
     run("undo\n", viewer);
-    EXPECT_NE(viewer.message.find("left to undo"), std::string::npos);
+    EXPECT_NE(viewer.message.find("nothing to undo"), std::string::npos);
 }
 
 TEST_F(LightScriptTest, EditsThatFailAreNotUndone) {
@@ -82,6 +82,18 @@ TEST_F(LightScriptTest, EditsThatFailAreNotUndone) {
     EXPECT_EQ(viewer.state.edits.get(0).size, 2);
     run("undo\n", viewer);
     EXPECT_TRUE(viewer.state.edits.empty());
+}
+
+TEST_F(LightScriptTest, SettingsThatFailLeaveTheHistory) {
+    Viewer viewer = make_viewer();
+    run("light 0\nlight-size 2\nlight-size 3\nundo\n", viewer);
+    viewer.state.of(Side::left).strategies = render::Strategies::diffuse_ggx; // does not fit the technique
+    viewer.next_frame();
+    EXPECT_NE(viewer.message, "");
+    run("redo\n", viewer);
+    EXPECT_EQ(viewer.state.edits.get(0).size, 3);
+    run("undo\n", viewer);
+    EXPECT_EQ(viewer.state.edits.get(0).size, 2);
 }
 
 TEST_F(LightScriptTest, SelectsAndDragsLights_AsOneAction) {

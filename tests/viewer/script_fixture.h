@@ -33,10 +33,12 @@ protected:
 
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-    std::string write(const std::string& text) const {
-        std::ofstream(folder_ / "script.txt") << text;
-        return path("script.txt");
+    std::string write_file(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name) << text;
+        return path(name);
     }
+
+    std::string write(const std::string& text) const { return write_file("script.txt", text); }
 
     Viewer make_viewer(const render::RenderSettings& settings = {}) const {
         scene::Scene scene = scene::load_scene(std::filesystem::path(nusselt_test::kSourceFolder) /

@@ -72,6 +72,32 @@ TEST_F(ScriptTest, WritesBothImages) {
     EXPECT_EQ(image::read_image(path("b-right.exr")).pixels, viewer.session.image(Side::right).pixels);
 }
 
+TEST_F(ScriptTest, ScreenshotsHaveFinishedFramesOfAllPixels) {
+    Viewer whole = make_viewer();
+    for (int i = 0; i < 2; ++i) whole.next_frame();
+    Viewer viewer = make_viewer();
+    viewer.save_screenshot(path("first.exr"));
+    EXPECT_EQ(viewer.session.frames(Side::left), 1u);
+    viewer.next_frame(0);
+    ASSERT_FALSE(viewer.is_frame_finished);
+    const std::string command = viewer.save_screenshot(path("second.exr"));
+    EXPECT_NE(command.find("--spp 2 "), std::string::npos) << command;
+    viewer.save_screenshot(path("again.exr"));
+    for (const char* const name : {"second.exr", "again.exr"})
+        EXPECT_EQ(image::read_image(path(name)).pixels, whole.session.image(Side::left).pixels) << name;
+
+    viewer.state.camera.turn(0.1, 0);
+    viewer.state.reduction = 4;
+    viewer.session.render(viewer.state);
+    viewer.session.show(viewer.state);
+    ASSERT_EQ(viewer.session.picture().width(), 6u);
+    for (const char* const name : {"moving.exr", "moving.png"}) {
+        viewer.save_screenshot(path(name));
+        EXPECT_EQ(image::read_image(path(name)).width, 24) << name;
+    }
+    EXPECT_EQ(viewer.session.frames(Side::left), 1u);
+}
+
 TEST_F(ScriptTest, CommandsNameTheirSettings) {
     Viewer viewer = make_viewer();
     viewer.state.of(Side::left).sample_order = render::SampleOrder::jittered;
@@ -111,6 +137,8 @@ TEST_F(ScriptTest, NamesTheLineOfAMistake) {
     expect("reference maybe\n", "1", "must be on or off");
     expect("screenshot nowhere.txt\n", "1", "nowhere.txt");
     expect("screenshot " + path("missing/all.png") + "\n", "1", "missing/all.png");
+    expect("window-screenshot nowhere.txt\n", "1", "nowhere.txt");
+    expect("frames 1\nwindow-screenshot " + path("missing/all.png") + "\n", "2", "missing/all.png");
     expect("load-camera missing.json\n", "1", "missing.json");
     expect("load-lights missing.json\n", "1", "missing.json");
     expect("tone-curve sepia\n", "1", "use one of none, reinhard, filmic");
@@ -133,6 +161,44 @@ TEST_F(ScriptTest, GoesOnWhenThereIsNothingToPrint) {
     const std::string error = testing::internal::GetCapturedStderr();
     EXPECT_NE(error.find("script.txt:2: no reference to compare with"), std::string::npos) << error;
     EXPECT_NE(viewer.message.find("no reference"), std::string::npos);
+}
+
+TEST_F(ScriptTest, PrintsTheSpeedOfFramesBeforeARig) {
+    const std::string rig = write_file("rig.json", R"({"lights": []})");
+    Viewer viewer = make_viewer();
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(play(write("frames 1\nload-lights " + rig + "\nprint-speed\nquit\n"), viewer), 1);
+    const std::string line = testing::internal::GetCapturedStdout();
+    EXPECT_NE(line.find("frames per second, 24 x 20 pixels"), std::string::npos) << line;
+
+    // A person may load a rig right after the last frame.
+    Playback playback;
+    playback.begin(1);
+    viewer.next_frame();
+    viewer.load_lights(rig);
+    playback.note_frame(viewer.session);
+    EXPECT_EQ(playback.timed.value().size.width, 24u);
+}
+
+TEST_F(ScriptTest, DoesNotTimeTheFrameOfAScreenshotOfTheWindow) {
+    Viewer viewer = make_viewer();
+    Playback playback;
+    const auto run = [&](const char* name, const std::string& argument) {
+        commands().at(name).run(viewer, playback, {argument});
+        int frames = 0;
+        for (; playback.frames_left > 0; ++frames) {
+            viewer.next_frame();
+            playback.note_frame(viewer.session);
+        }
+        return frames;
+    };
+    EXPECT_EQ(run("window-screenshot", path("first.png")), 1);
+    EXPECT_FALSE(playback.timed);
+    EXPECT_EQ(run("frames", "3"), 3);
+    const double seconds = playback.timed.value().seconds;
+    EXPECT_EQ(run("window-screenshot", path("second.png")), 1);
+    EXPECT_EQ(playback.timed->count, 3);
+    EXPECT_EQ(playback.timed->seconds, seconds);
 }
 
 TEST_F(ScriptTest, TurnsWhileFramesPass_InFewerPixels) {

@@ -1,5 +1,6 @@
 #include "commands.h"
 
+#include "image/io.h"
 #include "render/names.h"
 #include "viewer/print_line.h"
 #include "viewer/view_files.h"
@@ -12,6 +13,7 @@
 #include <map>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace nusselt::viewer {
 
@@ -209,8 +211,9 @@ std::map<std::string, Command> make_commands() {
         {"window-screenshot",
          {1,
           [](Viewer& viewer, Playback& playback, const Arguments& words) {
+              image::check_writable_image(words[0]);
               viewer.window_screenshot = words[0];
-              playback.begin(1);
+              playback.frames_left = 1;
           }}},
         {"turn",
          {2,
@@ -221,10 +224,8 @@ std::map<std::string, Command> make_commands() {
          {3, [](Viewer& viewer, Playback&,
                 const Arguments& words) { viewer.state.camera.move(to_vector(words)); }}},
         {"screenshot",
-         {1,
-          [](Viewer& viewer, Playback&, const Arguments& words) {
-              print_line(write_screenshot(words[0], viewer.session, viewer.state, viewer.files));
-          }}},
+         {1, [](Viewer& viewer, Playback&,
+                const Arguments& words) { print_line(viewer.save_screenshot(words[0])); }}},
         {"save-camera",
          {1, [](Viewer& viewer, Playback&,
                 const Arguments& words) { save_camera(words[0], viewer.session, viewer.state); }}},
@@ -257,13 +258,12 @@ std::map<std::string, Command> make_commands() {
           }}},
         {"print-speed",
          {0,
-          [](Viewer& viewer, Playback& playback, const Arguments&) {
-              if (playback.seconds == 0)
-                  throw NothingToPrint("no frames to time; render some with `frames N`");
-              const render_vulkan::DisplayPass& picture = viewer.session.picture();
+          [](Viewer&, Playback& playback, const Arguments&) {
+              if (!playback.timed) throw NothingToPrint("no frames to time; render some with `frames N`");
+              const TimedFrames& timed = *playback.timed;
               print_line(fmt::format("{:.2f} frames per second, {} x {} pixels",
-                                     static_cast<double>(playback.count) / playback.seconds, picture.width(),
-                                     picture.height()));
+                                     static_cast<double>(timed.count) / timed.seconds, timed.size.width,
+                                     timed.size.height));
           }}},
         {"quit", {0, [](Viewer& viewer, Playback&, const Arguments&) { viewer.is_closing = true; }}},
     };
@@ -287,9 +287,10 @@ void Playback::begin(long frames) {
     begin_time = Clock::now();
 }
 
-void Playback::note_frame() {
-    if (frames_left == 0 || --frames_left > 0) return;
-    seconds = std::chrono::duration<double>(Clock::now() - begin_time).count();
+void Playback::note_frame(const Session& session) {
+    if (frames_left == 0 || --frames_left > 0 || count == 0) return;
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin_time).count();
+    timed = {std::exchange(count, 0), seconds, session.picture_size()};
 }
 
 const std::map<std::string, Command>& commands() {

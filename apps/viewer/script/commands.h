@@ -7,24 +7,33 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace nusselt::viewer {
 
+/// Frames that were timed.
+struct TimedFrames {
+    long count;
+    double seconds;   ///< that all of them took
+    PictureSize size; ///< of the last one
+};
+
 /// What a script waits for, and what goes on meanwhile.
 struct Playback {
     using Clock = std::chrono::steady_clock;
 
+    /// Waits for frames and times them.
     void begin(long frames);
     /// To be called after each finished frame.
-    void note_frame();
+    void note_frame(const Session& session);
 
     long frames_left = 0;
-    long count = 0; ///< of the last command `frames`
+    long count = 0; ///< of the frames that are being timed; 0 for none
     Clock::time_point begin_time = {};
-    double seconds = 0; ///< that these frames took; 0 before the last one
+    std::optional<TimedFrames> timed; ///< by the last command `frames`
     // By how much the camera turns before each frame [rad].
     double turning_right = 0, turning_up = 0;
 };

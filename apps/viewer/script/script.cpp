@@ -65,7 +65,7 @@ void Script::run(const Line& line, Viewer& viewer) {
 }
 
 void Script::advance(Viewer& viewer) {
-    if (viewer.is_frame_finished) playback_.note_frame();
+    if (viewer.is_frame_finished) playback_.note_frame(viewer.session);
     while (playback_.frames_left == 0 && next_ < lines_.size() && !viewer.is_closing)
         run(lines_[next_++], viewer);
     if (playback_.turning_right == 0 && playback_.turning_up == 0) return;

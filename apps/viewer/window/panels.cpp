@@ -279,7 +279,7 @@ void Panels::draw_selected_light(Viewer& viewer) {
     if (is_changed) edited_light_ = light;
     if (is_final || (is_changed && viewer.session.times().build <= kQuickBuild)) {
         // A frame of few pixels shows the change at once.
-        viewer.is_moving = edit_ != now;
+        viewer.is_moving |= edit_ != now;
         state.edits.set(light, edit_);
     }
     if (is_final) viewer.finish_edit();
@@ -304,7 +304,7 @@ void Panels::draw_files(Viewer& viewer) {
     act_on("screenshot",
            "Save the picture, the camera and the lights, and print the command that renders it.", "wrote",
            file_, [&] {
-               command_ = write_screenshot(file_, viewer.session, viewer.state, viewer.files);
+               command_ = viewer.save_screenshot(file_);
                print_line(command_);
            });
     if (!command_.empty()) {
