@@ -1,6 +1,7 @@
 #include "view_files.h"
 
 #include "base/atomic_file.h"
+#include "base/distinct_files.h"
 #include "base/words.h"
 #include "image/io.h"
 #include "image/srgb.h"
@@ -70,6 +71,7 @@ std::string command_of(const Session& session, const ViewState& state, const Sce
 
 std::string write_screenshot(const std::filesystem::path& path, const Session& session,
                              const ViewState& state, const SceneFiles& files) {
+    base::check_distinct({path}, files.inputs);
     if (image::lower_case_extension(path) == ".png") {
         image::write_image(path, to_linear(session.picture()));
     } else {
@@ -79,11 +81,11 @@ std::string write_screenshot(const std::filesystem::path& path, const Session& s
                                session.image(Side::right));
     }
     const std::filesystem::path camera = camera_file_of(path);
-    save_camera(camera, session, state);
+    save_camera(camera, session, state, files);
     std::optional<std::filesystem::path> lights;
     if (!state.edits.empty()) {
         lights = lights_file_of(path);
-        save_lights(*lights, state);
+        save_lights(*lights, state, files);
     }
     return command_of(session, state, files, camera, lights,
                       with_suffix(path, "-again" + path.extension().string()));
@@ -97,7 +99,9 @@ std::filesystem::path lights_file_of(const std::filesystem::path& screenshot) {
     return with_suffix(screenshot, ".lights.json");
 }
 
-void save_camera(const std::filesystem::path& path, const Session& session, const ViewState& state) {
+void save_camera(const std::filesystem::path& path, const Session& session, const ViewState& state,
+                 const SceneFiles& files) {
+    base::check_distinct({path}, files.inputs);
     const scene::Film& film = session.loaded().film;
     write_text(path, scene::to_camera_text({state.camera.camera(), film.width, film.height}));
 }
@@ -110,7 +114,8 @@ void load_camera(const std::filesystem::path& path, const Session& session, View
     state.camera = FlyCamera(view.camera, film.width, film.height);
 }
 
-void save_lights(const std::filesystem::path& path, const ViewState& state) {
+void save_lights(const std::filesystem::path& path, const ViewState& state, const SceneFiles& files) {
+    base::check_distinct({path}, files.inputs);
     write_text(path, state.edits.rig_text());
 }
 

@@ -137,6 +137,7 @@ std::string Viewer::save_screenshot(const std::filesystem::path& path) {
 void Viewer::load_lights(const std::filesystem::path& path) {
     session.apply(scene::read_rig(path));
     files.rigs.push_back(path);
+    files.inputs.push_back(path);
     state.edits = {};
     history_ = {};
     state.selected_light.reset();

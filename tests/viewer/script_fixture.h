@@ -44,7 +44,8 @@ protected:
         scene::Scene scene = scene::load_scene(std::filesystem::path(nusselt_test::kSourceFolder) /
                                                "scenes/cornell-panel.pbrt");
         render::resize_film(scene, 24, 20);
-        return {device(), scene, render_vulkan::ShadowRays::bvh, settings, {"cornell-panel.pbrt", {}, {}}};
+        return {
+            device(), scene, render_vulkan::ShadowRays::bvh, settings, {"cornell-panel.pbrt", {}, {}, {}}};
     }
 
     /// Runs a script like the loop of the window. \returns the number of frames

@@ -64,6 +64,19 @@ TEST_F(ScriptTest, EditsLights_AndWritesWhatRendersTheSame) {
                   1e-6);
 }
 
+/// A rig that is saved over the one that was loaded would lose what that one changed.
+TEST_F(ScriptTest, ReplacesNoFileThatWasRead) {
+    const std::string rig = write_file("rig.json", R"({"version": 1, "lights": []})");
+    for (const char* save : {"save-lights ", "save-camera ", "screenshot ", "window-screenshot "}) {
+        Viewer viewer = make_viewer();
+        EXPECT_NE(error_of("load-lights " + rig + "\nframes 1\n" + save + rig + "\nquit\n", viewer)
+                      .find("is an output and also an input"),
+                  std::string::npos)
+            << save;
+    }
+    EXPECT_EQ(std::filesystem::file_size(rig), 28u);
+}
+
 TEST_F(ScriptTest, WritesBothImages) {
     Viewer viewer = make_viewer();
     play(write("split 0.5\nright-technique area\nframes 1\nscreenshot " + path("b.exr") + "\nquit\n"),

@@ -1,9 +1,9 @@
 #include "bench_output.h"
 
 #include "apps/common/help.h"
-#include "apps/common/output_files.h"
 #include "apps/common/validators.h"
 #include "base/atomic_file.h"
+#include "base/distinct_files.h"
 #include "base/json_output.h"
 #include "scene/import/importers.h"
 
@@ -27,7 +27,7 @@ void check_json_option(const std::optional<std::string>& file,
                        const std::vector<std::filesystem::path>& inputs) {
     if (!file || *file == "-") return;
     base::check_writable(*file);
-    check_distinct({*file}, inputs);
+    base::check_distinct({*file}, inputs);
 }
 
 scene::Scene load_scene(const std::filesystem::path& path, const std::optional<std::string>& json) {

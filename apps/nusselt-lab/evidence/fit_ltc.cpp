@@ -1,12 +1,12 @@
 #include "fit_ltc.h"
 #include "apps/common/help.h"
 #include "apps/common/interrupt.h"
-#include "apps/common/output_files.h"
 #include "apps/common/print_message.h"
 #include "apps/common/progress.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 #include "apps/nusselt-lab/bench/bench_output.h"
+#include "base/distinct_files.h"
 
 #include "base/atomic_file.h"
 #include "base/stopwatch.h"
@@ -230,7 +230,7 @@ int run_fit_ltc(const FitLtcOptions& options) {
     }
     if (options.json && options.json != "-") outputs.emplace_back(*options.json);
     if (options.checkpoint) outputs.push_back(*options.checkpoint);
-    check_distinct(outputs, {});
+    base::check_distinct(outputs, {});
     TableFit fitted(brdf, parse_size(options.size).value());
     tbb::task_arena arena(options.threads.value_or(render_cpu::default_thread_count()));
     const InterruptGuard guard;

@@ -1,10 +1,10 @@
 #include "compare.h"
 
 #include "apps/common/help.h"
-#include "apps/common/output_files.h"
 #include "apps/common/print_message.h"
 #include "apps/common/validators.h"
 #include "base/atomic_file.h"
+#include "base/distinct_files.h"
 #include "base/json_output.h"
 #include "compare_metrics.h"
 #include "image/difference.h"
@@ -40,7 +40,7 @@ void check_outputs(const CompareOptions& options) {
     }
     std::vector<std::filesystem::path> inputs = options.images;
     inputs.push_back(options.reference);
-    check_distinct(outputs, inputs);
+    base::check_distinct(outputs, inputs);
 }
 
 void check_size(const std::filesystem::path& path, const image::Image& a, const image::Image& reference,

@@ -1,7 +1,7 @@
 #include "convert.h"
-#include "apps/common/output_files.h"
 #include "apps/common/print_message.h"
 #include "apps/common/validators.h"
+#include "base/distinct_files.h"
 
 #include "image/io.h"
 #include "image/layers.h"
@@ -125,7 +125,7 @@ int run_convert(const ConvertOptions& options) {
         return 0;
     }
     image::check_writable_image(*options.output);
-    check_distinct({*options.output}, {options.input});
+    base::check_distinct({*options.output}, {options.input});
     if (image::is_exr(options.input) && image::is_exr(*options.output)) {
         convert_exr_to_exr(options);
     } else {

@@ -1,8 +1,8 @@
 #include "merge.h"
 
 #include "apps/common/help.h"
-#include "apps/common/output_files.h"
 #include "apps/common/print_message.h"
+#include "base/distinct_files.h"
 #include "base/words.h"
 
 #include "image/io.h"
@@ -62,7 +62,7 @@ void setup_merge(CLI::App& app, int& exit_code) {
 }
 
 int run_merge(const MergeOptions& options) {
-    check_distinct({*options.output}, options.inputs);
+    base::check_distinct({*options.output}, options.inputs);
     image::check_writable_image(*options.output);
     render::Merger merger;
     for (const std::filesystem::path& path : options.inputs) merger.add(image::read_layers(path), path);

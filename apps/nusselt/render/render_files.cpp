@@ -1,7 +1,7 @@
 #include "render_files.h"
 
-#include "apps/common/output_files.h"
 #include "apps/common/render_setup.h"
+#include "base/distinct_files.h"
 
 #include "base/atomic_file.h"
 #include "image/io.h"
@@ -38,7 +38,7 @@ void check_names(const RenderOptions& options, const scene::Scene& scene) {
     std::vector<std::filesystem::path> inputs = scene.files;
     if (options.camera) inputs.push_back(*options.camera);
     inputs.insert(inputs.end(), options.rigs.begin(), options.rigs.end());
-    check_distinct(outputs, inputs);
+    base::check_distinct(outputs, inputs);
 }
 
 void print_output(const RenderOptions& options, const std::filesystem::path& path) {

@@ -14,7 +14,10 @@
 #include "viewer/window/run_viewer.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace nusselt::app {
 
@@ -66,7 +69,12 @@ int run_view(const ViewOptions& options) {
     const gpu::Device device({.choice = render.device});
     const auto shadow_rays = render.shadow_rays ? from_name(render_vulkan::kShadowRays, *render.shadow_rays)
                                                 : render_vulkan::default_shadow_rays(device);
-    viewer::Viewer viewer(device, scene, shadow_rays, settings, {render.scene, render.rigs, render.device});
+    std::vector<std::filesystem::path> inputs = scene.files;
+    inputs.insert(inputs.end(), render.rigs.begin(), render.rigs.end());
+    if (render.camera) inputs.push_back(*render.camera);
+    if (options.script) inputs.push_back(*options.script);
+    viewer::Viewer viewer(device, scene, shadow_rays, settings,
+                          {render.scene, render.rigs, render.device, std::move(inputs)});
     viewer.state.exposure = render.exposure;
     run_viewer(viewer, options.script);
     return 0;

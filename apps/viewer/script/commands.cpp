@@ -1,5 +1,6 @@
 #include "commands.h"
 
+#include "base/distinct_files.h"
 #include "image/io.h"
 #include "render/names.h"
 #include "viewer/print_line.h"
@@ -211,6 +212,7 @@ std::map<std::string, Command> make_commands() {
         {"window-screenshot",
          {1,
           [](Viewer& viewer, Playback& playback, const Arguments& words) {
+              base::check_distinct({words[0]}, viewer.files.inputs);
               image::check_writable_image(words[0]);
               viewer.window_screenshot = words[0];
               playback.frames_left = 1;
@@ -227,13 +229,16 @@ std::map<std::string, Command> make_commands() {
          {1, [](Viewer& viewer, Playback&,
                 const Arguments& words) { print_line(viewer.save_screenshot(words[0])); }}},
         {"save-camera",
-         {1, [](Viewer& viewer, Playback&,
-                const Arguments& words) { save_camera(words[0], viewer.session, viewer.state); }}},
+         {1,
+          [](Viewer& viewer, Playback&, const Arguments& words) {
+              save_camera(words[0], viewer.session, viewer.state, viewer.files);
+          }}},
         {"load-camera",
          {1, [](Viewer& viewer, Playback&,
                 const Arguments& words) { load_camera(words[0], viewer.session, viewer.state); }}},
         {"save-lights",
-         {1, [](Viewer& viewer, Playback&, const Arguments& words) { save_lights(words[0], viewer.state); }}},
+         {1, [](Viewer& viewer, Playback&,
+                const Arguments& words) { save_lights(words[0], viewer.state, viewer.files); }}},
         {"load-lights",
          {1, [](Viewer& viewer, Playback&, const Arguments& words) { viewer.load_lights(words[0]); }}},
         {"print-errors",

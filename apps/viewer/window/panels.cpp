@@ -317,12 +317,12 @@ void Panels::draw_files(Viewer& viewer) {
     const std::filesystem::path camera = is_json ? std::filesystem::path(file_) : camera_file_of(file_);
     const std::filesystem::path lights = is_json ? std::filesystem::path(file_) : lights_file_of(file_);
     act_on("save camera", "Save the camera for --camera.", "wrote", camera,
-           [&] { save_camera(camera, viewer.session, viewer.state); });
+           [&] { save_camera(camera, viewer.session, viewer.state, viewer.files); });
     ImGui::SameLine();
     act_on("load camera", "Look at the scene as a saved camera does.", "read", camera,
            [&] { load_camera(camera, viewer.session, viewer.state); });
     act_on("save lights", "Save the changes of lights as a rig for --lights.", "wrote", lights,
-           [&] { save_lights(lights, viewer.state); });
+           [&] { save_lights(lights, viewer.state, viewer.files); });
     ImGui::SameLine();
     act_on("load lights", "Apply a rig for good. Earlier changes are lost.", "read", lights,
            [&] { viewer.load_lights(lights); });

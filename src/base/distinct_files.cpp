@@ -1,8 +1,8 @@
-#include "output_files.h"
+#include "base/distinct_files.h"
 
 #include <stdexcept>
 
-namespace nusselt::app {
+namespace nusselt::base {
 
 void check_distinct(const std::vector<std::filesystem::path>& outputs,
                     const std::vector<std::filesystem::path>& inputs) {
@@ -19,4 +19,4 @@ void check_distinct(const std::vector<std::filesystem::path>& outputs,
                                          "; change one of the names");
 }
 
-} // namespace nusselt::app
+} // namespace nusselt::base

@@ -1,13 +1,13 @@
 #pragma once
-/// Checks of the files that commands write.
+/// Checks which files a program writes.
 
 #include <filesystem>
 #include <vector>
 
-namespace nusselt::app {
+namespace nusselt::base {
 
 /// \throws std::runtime_error if outputs would overwrite each other or an input, also by way of links
 void check_distinct(const std::vector<std::filesystem::path>& outputs,
                     const std::vector<std::filesystem::path>& inputs);
 
-} // namespace nusselt::app
+} // namespace nusselt::base
