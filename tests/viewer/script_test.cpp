@@ -177,7 +177,7 @@ TEST_F(ScriptTest, GoesOnWhenThereIsNothingToPrint) {
 }
 
 TEST_F(ScriptTest, PrintsTheSpeedOfFramesBeforeARig) {
-    const std::string rig = write_file("rig.json", R"({"lights": []})");
+    const std::string rig = write_file("rig.json", R"({"version": 1, "lights": []})");
     Viewer viewer = make_viewer();
     testing::internal::CaptureStdout();
     EXPECT_EQ(play(write("frames 1\nload-lights " + rig + "\nprint-speed\nquit\n"), viewer), 1);
