@@ -139,6 +139,14 @@ TEST_F(Help, OfAllCommandsHasTheHelpOfEach) {
     EXPECT_EQ(lab.find("Usage: nusselt-lab scale"), std::string::npos) << lab;
 }
 
+TEST_F(Help, FlagsTakeNoValue) {
+    for (const char* value : {"3", "maybe", "true"}) {
+        const Outcome outcome = run("render a.pbrt --quiet=" + std::string(value));
+        EXPECT_EQ(outcome.exit_code, 2) << value;
+        expect_message(outcome.err, "--quiet takes no value");
+    }
+}
+
 TEST_F(Help, OfTheProgramShowsExamples) {
     for (const Outcome& help : {run("--help"), run_lab("--help")})
         EXPECT_NE(help.out.find("\nExamples:\n  nusselt"), std::string::npos) << help.out;

@@ -43,6 +43,7 @@ TEST_F(OutputFiles, NoOutputReplacesAnInputOrAnotherOutput) {
                            "is an output and also an input");
     EXPECT_EQ(read("scene.pbrt"), "Camera \"perspective\"\n");
     expect_lab_message(run_lab("fit-ltc -o f --size 2x2x2 --json f.bin").err, "another output");
+    expect_lab_message(run_lab("fit-ltc --size 2x2x2 -o ''").err, "the name is empty");
     expect_lab_message(run_lab("map PolygonArea scene.pbrt").err, "must be the name of an SVG file");
     for (const char* arguments : {"compare a.exr a.exr --json ''", "render scene.pbrt --checkpoint ''"})
         expect_message(run(arguments).err, "the name of the file is empty");
@@ -75,6 +76,11 @@ TEST_F(OutputFiles, NoOutputReplacesAFileOfTheScene) {
         expect_lab_message(run_lab(std::string("bench ") + bench + " room.pbrt --json mesh.ply").err,
                            "is an output and also an input");
     for (std::size_t i = 0; i < files.size(); ++i) EXPECT_EQ(read(files[i]), before[i]) << files[i];
+}
+
+TEST_F(OutputFiles, FilmsWithoutANameGetThatOfTheScene) {
+    std::ofstream(path("scene.pbrt")) << "Film \"rgb\" \"string filename\" \"/\"\n";
+    EXPECT_EQ(run("render scene.pbrt --resolution 2x2").out, "scene.exr\n");
 }
 
 TEST_F(OutputFiles, ReproduceChecksItsFolderBeforeItRenders) {

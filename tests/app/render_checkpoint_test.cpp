@@ -173,6 +173,13 @@ TEST_F(RenderCheckpoint, CtrlCStoresAllThatIsFinished) {
     EXPECT_FALSE(std::filesystem::exists(path("state")));
 }
 
+TEST_F(RenderCheckpoint, LinksStayAndTheFilesBehindThemGo) {
+    std::filesystem::create_symlink("target", path("state"));
+    EXPECT_EQ(run(command()).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(path("state")));
+    EXPECT_FALSE(std::filesystem::exists(path("target")));
+}
+
 /// A tile takes longer than any of these runs.
 TEST_F(RenderCheckpoint, RunsThatAreEndedEarlyGetOnWithinATile) {
     double before = 0;

@@ -102,6 +102,15 @@ TEST(CameraFile, RefusesRaysWithoutADirection) {
     EXPECT_EQ(message, ": camera.corner: must not be zero where rays are parallel");
 }
 
+TEST(CameraFile, RefusesRaysInOnePlane) {
+    for (const char* corner : {"[0, 0, 0]", "[-1, -1, 0]"}) {
+        const std::string message =
+            message_of(R"({"version": 1, "film": [64, 48], "camera": {"origin": [0, 0, 0], "corner": )" +
+                       std::string(corner) + R"(, "right": [2, 0, 0], "down": [0, 2, 0]}})");
+        EXPECT_EQ(message, ": camera: corner, right and down must not lie in one plane");
+    }
+}
+
 } // namespace
 
 } // namespace nusselt::scene

@@ -39,7 +39,7 @@ protected:
     Viewer make_viewer(const char* scene_name = "cornell-panel.pbrt", int samples = 2) const {
         render::RenderSettings settings;
         settings.samples = samples;
-        return {device(), load(scene_name), ShadowRays::bvh, settings, {scene_name, {}, {}}};
+        return {device(), load(scene_name), ShadowRays::bvh, settings, {scene_name, {}, {}, {}}};
     }
 };
 
@@ -212,7 +212,7 @@ TEST_F(SessionTest, RigsThatWereLoadedAreNotAppliedAgain) {
     viewer.next_frame();
     const std::filesystem::path rig =
         std::filesystem::temp_directory_path() / ("nusselt_rig_" + std::to_string(::getpid()) + ".json");
-    save_lights(rig, viewer.state);
+    save_lights(rig, viewer.state, viewer.files);
     viewer.load_lights(rig);
     std::filesystem::remove(rig);
     LightEdit far;

@@ -223,6 +223,7 @@ int run_fit_ltc(const FitLtcOptions& options) {
     const fit::Brdf& brdf = fit::find_brdf(options.brdf);
     // Fails now rather than after minutes of fitting.
     check_json_option(options.json);
+    if (options.output.empty()) throw CLI::ValidationError("--output", "the name is empty");
     std::vector<std::filesystem::path> outputs;
     for (const char* extension : {".bin", "-engine.bin", ".json"}) {
         outputs.emplace_back(options.output + extension);

@@ -15,9 +15,8 @@ namespace nusselt::app {
 
 std::vector<std::filesystem::path> output_paths(const RenderOptions& options, const scene::Film& film) {
     if (!options.outputs.empty()) return options.outputs;
-    const bool is_named = !film.filename.empty();
-    const std::filesystem::path name = is_named ? std::filesystem::path(film.filename) : options.scene;
-    std::string stem = name.filename().stem().string();
+    std::string stem = std::filesystem::path(film.filename).stem().string();
+    if (stem.empty()) stem = options.scene.stem().string();
     if (const auto part = options.part ? parse_part(*options.part) : std::nullopt)
         stem += fmt::format("-{}of{}", part->number, part->count);
     return {stem + ".exr"};
