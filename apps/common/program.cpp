@@ -64,7 +64,7 @@ std::vector<std::string> command_names(const CLI::App& command) {
 /// Without this, flags take the values of CLI11: --quiet=3 is true, and --quiet=maybe an error in its words.
 void refuse_values_of_flags(CLI::App& command) {
     for (CLI::Option* option : command.get_options())
-        if (option->get_type_size() == 0) option->disable_flag_override();
+        if (option->get_expected_max() == 0) option->disable_flag_override();
     for (CLI::App* subcommand : command.get_subcommands({})) refuse_values_of_flags(*subcommand);
 }
 
@@ -75,7 +75,10 @@ std::string problem_of(const CLI::Error& error) {
     if (error.get_name() == "ArgumentMismatch" && what.ends_with(" missing")) return name + " needs a value";
     if (error.get_name() == "ArgumentMismatch" && what.find(": At Most 1 ") != std::string::npos)
         return name + " may be given only once";
-    if (what.ends_with("disallowed flag override")) return name.substr(0, name.find(' ')) + " takes no value";
+    if (what.ends_with("disallowed flag override")) {
+        const std::string flag = name.substr(0, name.find(' '));
+        return (flag.size() == 1 ? "-" : "--") + flag + " takes no value";
+    }
     // The other option is hidden: the name of an earlier version.
     if (what.ends_with(" excludes "))
         return name.substr(0, name.find(' ')) + " is given twice, once by its old name";

@@ -6,6 +6,7 @@
 #include "image/layers.h"
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace nusselt {
@@ -100,10 +101,12 @@ TEST_F(RenderParts, MergeNeverOverwritesAnInput) {
     expect_success(render("-o p1.exr --part 1/2"));
     expect_success(render("-o p2.exr --part 2/2"));
     const std::string before = read("p1.exr");
-    for (const char* arguments : {"merge p1.exr p1.exr p2.exr", "merge -o p1.exr p1.exr p2.exr"}) {
+    for (const auto& [arguments, code, text] :
+         {std::tuple("merge p1.exr p1.exr p2.exr", 2, "'p1.exr' exists"),
+          std::tuple("merge -o p1.exr p1.exr p2.exr", 1, "'p1.exr' is an output and also an input")}) {
         const Outcome wrong = run(arguments);
-        EXPECT_EQ(wrong.exit_code, 1) << arguments;
-        expect_message(wrong.err, "'p1.exr' is an output and also an input");
+        EXPECT_EQ(wrong.exit_code, code) << arguments;
+        expect_message(wrong.err, text);
         EXPECT_EQ(read("p1.exr"), before);
     }
 }

@@ -66,10 +66,11 @@ TEST_F(ScriptTest, EditsLights_AndWritesWhatRendersTheSame) {
 
 /// A rig that is saved over the one that was loaded would lose what that one changed.
 TEST_F(ScriptTest, ReplacesNoFileThatWasRead) {
-    const std::string rig = write_file("rig.json", R"({"version": 1, "lights": []})");
-    for (const char* save : {"save-lights ", "save-camera ", "screenshot ", "window-screenshot "}) {
+    const std::string rig = write_file("rig.camera.json", R"({"version": 1, "lights": []})");
+    for (const std::string& save : {"save-lights " + rig, "save-camera " + rig, "window-screenshot " + rig,
+                                    "screenshot " + path("rig.png")}) {
         Viewer viewer = make_viewer();
-        EXPECT_NE(error_of("load-lights " + rig + "\nframes 1\n" + save + rig + "\nquit\n", viewer)
+        EXPECT_NE(error_of("load-lights " + rig + "\nframes 1\n" + save + "\nquit\n", viewer)
                       .find("is an output and also an input"),
                   std::string::npos)
             << save;

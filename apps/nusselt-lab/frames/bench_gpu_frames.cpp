@@ -129,12 +129,23 @@ private:
     std::vector<render::RenderSettings> settings_;
 };
 
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& scene) {
+    try {
+        return scene::load_scene(scene).files;
+    } catch (const std::runtime_error&) {
+        return {scene}; // what is wrong is reported in place of measurements
+    }
+}
+
 } // namespace
 
 int run_bench_gpu_frames(const BenchGpuFramesOptions& options) {
     check_json_option(options.json, options.scenes);
     const std::vector<std::filesystem::path> scenes =
         options.scenes.empty() ? all_scenes(options.scene_folder) : options.scenes;
+    // Before hours of measuring, for the results must not replace a file of a scene.
+    if (options.json)
+        for (const std::filesystem::path& path : scenes) check_json_option(options.json, files_of(path));
     const gpu::Device device({.choice = options.device});
     GpuFrameTable table;
     table.device = device.description();
@@ -145,7 +156,7 @@ int run_bench_gpu_frames(const BenchGpuFramesOptions& options) {
     for (const std::filesystem::path& path : scenes) {
         const std::string name = path.stem().string();
         try {
-            scene::Scene scene = load_scene(path, options.json);
+            scene::Scene scene = scene::load_scene(path);
             apply_resolution(options.resolution, scene);
             measurement.add(name, scene);
         } catch (const std::runtime_error& error) {
