@@ -1,12 +1,12 @@
 #include "image/io.h"
 
 #include "base/atomic_file.h"
+#include "base/memory_text.h"
 #include "image/codecs.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <new>
@@ -67,10 +67,7 @@ void check_before_writing(const Image& image, const Metadata& metadata) {
 
 /// Of the floats of an image.
 std::string memory_text(std::int64_t width, std::int64_t height, std::int64_t channels) {
-    const double bytes = sizeof(float) * double(width) * double(height) * double(channels);
-    char text[32];
-    std::snprintf(text, sizeof text, bytes < 1e9 ? "%.3g MB" : "%.3g GB", bytes / (bytes < 1e9 ? 1e6 : 1e9));
-    return text;
+    return base::memory_text(sizeof(float) * double(width) * double(height) * double(channels));
 }
 
 enum class OutputFormat { exr, png, hdr, pfm };

@@ -78,7 +78,7 @@ Comparison compare(const Image& a, const Image& reference) {
     result.mrse = mean(sum_relative_pixels, double(result.compared_pixels));
     result.mean_a = mean(sum_a, value_count);
     result.mean_b = mean(sum_b, value_count);
-    result.relative_rmse = result.rmse == 0 ? 0 : result.rmse / result.mean_b;
+    result.relative_rmse = result.rmse == 0 ? 0 : result.rmse / std::fabs(result.mean_b);
     return result;
 }
 

@@ -35,7 +35,7 @@ inline constexpr double kRelativeMseEpsilon = 0.01;
 struct Comparison {
     double mse = 0;           ///< mean of (a - b)^2
     double rmse = 0;          ///< square root of mse
-    double relative_rmse = 0; ///< rmse / mean_b; 0 if rmse is 0, else infinite for a black reference
+    double relative_rmse = 0; ///< rmse / |mean_b|; 0 if rmse is 0, else infinite for a black reference
     double mae = 0;           ///< mean of |a - b|
     /// Mean of (a - b)^2 / (b^2 + kRelativeMseEpsilon), each channel on its own: errors in a channel where a
     /// saturated colour is dark count much (F. Rousselle et al. 2011, Adaptive Sampling and Reconstruction

@@ -5,9 +5,6 @@
 
 namespace nusselt::render {
 
-/// A size for messages, such as "5.3 GB" or "12 MB".
-std::string memory_text(double bytes);
-
 /// Refuses to take more memory than the machine has. Without this, Linux would grant it and end the program once it is
 /// used.
 /// \param what   for the message: what needs the memory

@@ -92,7 +92,7 @@ TEST_F(HostileFiles, PngWithHugeSize) {
     EXPECT_NE(
         error_of_reading("a.png", png(30000, 30000))
             .find("a size of 30000 x 30000 pixels is not supported: it would take 10.8 GB of memory; the "
-                  "limit is 2^28 pixels, which take 3.22 GB"),
+                  "limit is 2^28 pixels, which take 3.2 GB"),
         std::string::npos);
     std::string damaged = png(9, 7);
     damaged[19] = 8;

@@ -1,6 +1,7 @@
 /// The memory that images take while they are read and converted, and what happens where there is too little.
 
 #include "apps/nusselt/image/convert.h"
+#include "common/process_memory.h"
 #include "image/coded_file.h"
 #include "image/io.h"
 #include "image/layers.h"
@@ -37,29 +38,17 @@ public:
     PeakMemory() {
         malloc_trim(0);
         std::ofstream("/proc/self/clear_refs") << "5\n";
-        begin_ = status("VmRSS:");
+        begin_ = nusselt_test::process_memory("VmRSS");
     }
 
     /// Since the object was made.
-    double bytes() const { return status("VmHWM:") - begin_; }
-
-    static double status(const std::string& name) {
-        std::ifstream stream("/proc/self/status");
-        for (std::string word; stream >> word;) {
-            double kilobytes = 0;
-            if (word == name && stream >> kilobytes) return 1024 * kilobytes;
-        }
-        return 0;
-    }
+    double bytes() const { return nusselt_test::process_memory("VmHWM") - begin_; }
 
     /// Sanitizers keep memory that was freed, and some systems do not know the reset.
     static bool is_measurable() {
-#ifdef __SANITIZE_ADDRESS__
-        return false;
-#else
+        if (nusselt_test::kHasSanitizer) return false;
         { const std::vector<char> touched(std::size_t(1) << 26, 'x'); }
         return PeakMemory().bytes() < double(1 << 25);
-#endif
     }
 
 private:
@@ -307,11 +296,10 @@ TEST_F(Memory, TooLittleIsReportedWithTheSize) {
         return error_of([&] { (void)read_image(in_folder(name)); });
     };
     for (const std::string name : {"a.pfm", "a.hdr", "a.exr", "a.png", "a.tga", "a.jpg"})
-        EXPECT_EQ(
-            error_of_reading(name, 0.9 * kFloatBytes),
-            "cannot read '" + in_folder(name).string() +
-                "': not enough memory for its 2100 x 1400 pixels (35.3 MB); close other programs or use "
-                "a smaller image");
+        EXPECT_EQ(error_of_reading(name, 0.9 * kFloatBytes),
+                  "cannot read '" + in_folder(name).string() +
+                      "': not enough memory for its 2100 x 1400 pixels (36 MB); close other programs or use "
+                      "a smaller image");
     EXPECT_NE(
         error_of_reading("a.jpg", 1.2 * kFloatBytes).find("not enough memory for its 2100 x 1400 pixels"),
         std::string::npos);

@@ -156,13 +156,8 @@ constexpr int kLights = 100'000;
 
 // Of these lights, the scenes take 8 to 36 MB, and loading another 10 to 20 MB and a third of the time. The sanitizers
 // need more of both.
-#ifdef __SANITIZE_ADDRESS__
-constexpr double kMostBytes = 1e9;
-constexpr double kMostSeconds = 60;
-#else
-constexpr double kMostBytes = 60e6;
-constexpr double kMostSeconds = 3;
-#endif
+constexpr double kMostBytes = nusselt_test::kHasSanitizer ? 1e9 : 60e6;
+constexpr double kMostSeconds = nusselt_test::kHasSanitizer ? 60 : 3;
 
 std::string numbers(std::initializer_list<double> values) {
     std::string text;

@@ -33,6 +33,8 @@ void check_json_option(const std::optional<std::string>& file,
 scene::Scene load_scene(const std::filesystem::path& path, const std::optional<std::string>& json) {
     scene::Scene scene = scene::load_scene(path);
     check_json_option(json, scene.files);
+    if (scene.lights.empty())
+        throw std::runtime_error("the scene has no lights; there is nothing to measure");
     return scene;
 }
 

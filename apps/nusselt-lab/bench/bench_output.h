@@ -27,7 +27,7 @@ void check_json_option(const std::optional<std::string>& file,
 
 /// Loads the scene to measure.
 /// \param json as in --json
-/// \throws std::runtime_error if the scene cannot be read, or the results would replace one of its files
+/// \throws std::runtime_error if the scene cannot be read or has no lights, or the results would replace one of its files
 scene::Scene load_scene(const std::filesystem::path& path, const std::optional<std::string>& json);
 
 /// Prints the table, and writes the results to the file, if one is named; or prints them as JSON alone.

@@ -75,6 +75,9 @@ int run_fuzz(const FuzzOptions& options) {
     return violations > 0 ? 1 : 0;
 }
 
+/// In one run; indices stay within 64 bits.
+constexpr std::uint64_t kMostCases = 1'000'000'000'000;
+
 void setup_fuzz(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<FuzzOptions>();
     CLI::App* command = bench.add_subcommand(
@@ -82,9 +85,9 @@ void setup_fuzz(CLI::App& bench, int& exit_code) {
                 "light and consistent. "
                 "Exits with 1 if any check fails. Configurations depend only on their index and the seed.");
     command->add_option("--count", options->count, "Configurations per technique")
-        ->transform(to_whole_number(1, 1'000'000'000'000));
+        ->transform(to_whole_number(1, kMostCases));
     command->add_option("--first", options->first, "Index of the first configuration")
-        ->transform(to_whole_number(0, UINT64_MAX));
+        ->transform(to_whole_number(0, UINT64_MAX - kMostCases));
     command->add_option("--seed", options->seed, "Seed of the configurations")
         ->transform(to_whole_number(0, UINT64_MAX));
     command->add_option("--technique", options->techniques, "Class name of a technique. May be repeated")

@@ -70,6 +70,9 @@ int run_bench_shadows(const BenchShadowsOptions& options) {
     return violations > 0 ? 1 : 0;
 }
 
+/// In one run; indices stay within 64 bits.
+constexpr std::uint64_t kMostCases = 1'000'000'000'000;
+
 void setup_bench_shadows(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchShadowsOptions>();
     CLI::App* command = bench.add_subcommand(
@@ -78,9 +81,9 @@ void setup_bench_shadows(CLI::App& bench, int& exit_code) {
         "visible "
         "parts of lines. Exits with 1 if any is found. Cases depend only on their index and the seed.");
     command->add_option("--count", options->count, "Cases of each kind, with 16 segments each")
-        ->transform(to_whole_number(1, 1'000'000'000'000));
+        ->transform(to_whole_number(1, kMostCases));
     command->add_option("--first", options->first, "Index of the first case")
-        ->transform(to_whole_number(0, UINT64_MAX));
+        ->transform(to_whole_number(0, UINT64_MAX - kMostCases));
     command->add_option("--seed", options->seed, "Seed of the cases")
         ->transform(to_whole_number(0, UINT64_MAX));
     add_machine_options(*command, options->threads, options->isa);

@@ -112,7 +112,7 @@ void print_warnings(const RenderOptions& options, const render::RenderSettings& 
 
 void print_layers(const render::FrameSize& size, std::size_t sum_bytes) {
     print_message("the image and its layers ({}) need {} of memory for {} x {} pixels\n", size.layers,
-                  render::memory_text(static_cast<double>(size.bytes + sum_bytes)), size.width, size.height);
+                  base::memory_text(static_cast<double>(size.bytes + sum_bytes)), size.width, size.height);
 }
 
 nlohmann::ordered_json report_json(const RenderOptions& options, const render::RenderSettings& settings,

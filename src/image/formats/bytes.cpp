@@ -1,9 +1,9 @@
 #include "image/formats/bytes.h"
 
 #include "image/codecs.h"
-#include "image/formats/code_rows.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace nusselt::image {
 
@@ -14,6 +14,10 @@ std::string bytes_at(std::istream& file, std::int64_t begin, std::size_t count) 
     file.read(bytes.data(), static_cast<std::streamsize>(count));
     bytes.resize(static_cast<std::size_t>(file.gcount()));
     return bytes;
+}
+
+void fail_as_cut_off() {
+    throw std::runtime_error("the file is too small for its pixels; it may be truncated");
 }
 
 std::int64_t byte_count(std::istream& file) {

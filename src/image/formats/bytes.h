@@ -20,6 +20,9 @@ inline std::uint32_t little_endian(std::string_view file, std::size_t begin, std
 /// `count` bytes of the file from `begin`, fewer at its end.
 std::string bytes_at(std::istream& file, std::int64_t begin, std::size_t count);
 
+/// Fails because a file has fewer bytes than its pixels need.
+[[noreturn]] void fail_as_cut_off();
+
 /// The number of bytes in the file, whose position becomes its beginning.
 std::int64_t byte_count(std::istream& file);
 

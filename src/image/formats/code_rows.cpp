@@ -1,14 +1,9 @@
 #include "image/formats/code_rows.h"
 
+#include "image/formats/bytes.h"
 #include "image/image.h"
 
-#include <stdexcept>
-
 namespace nusselt::image {
-
-void fail_as_cut_off() {
-    throw std::runtime_error("the file is too small for its pixels; it may be truncated");
-}
 
 void check_claims(std::int64_t file_size, const CodedHeader& header, double pixels_per_byte) {
     check_size(header.width, header.height);

@@ -11,8 +11,6 @@
 
 namespace nusselt::image {
 
-[[noreturn]] void fail_as_cut_off();
-
 /// Fails unless the size is supported and the file large enough.
 /// \param file_size        in bytes
 /// \param pixels_per_byte  the largest number that the format can store in a byte

@@ -1,6 +1,7 @@
 #include "image/formats/exr_part.h"
 
 #include "image/codecs.h"
+#include "image/formats/bytes.h"
 #include "image/formats/exr_header.h"
 
 #include <OpenEXR/Iex.h>
@@ -129,8 +130,7 @@ void check_file_size(const Imf::Header& header, std::int64_t width, std::int64_t
                      std::int64_t file_size) {
     const std::int64_t ratio = largest_compression_ratio(header.compression());
     const std::int64_t pixel_bytes = std::max<std::int64_t>(1, bytes_per_pixel(header.channels()));
-    if (width * height / ratio > file_size / pixel_bytes)
-        throw std::runtime_error("the file is too small for its pixels; it may be truncated");
+    if (width * height / ratio > file_size / pixel_bytes) fail_as_cut_off();
     if (!header.hasTileDescription()) {
         if (width > kMaxChunkBytes / rows_per_chunk(header.compression()) / pixel_bytes)
             throw std::runtime_error(

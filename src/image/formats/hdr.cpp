@@ -1,4 +1,5 @@
 #include "image/codecs.h"
+#include "image/formats/bytes.h"
 
 #include <algorithm>
 #include <array>
@@ -167,8 +168,7 @@ void encode_hdr(std::ostream& stream, const Image& image) {
 Image decode_hdr(std::istream& stream) {
     const Header header = read_header(stream);
     // A run of 127 pixels takes two bytes for each of four channels.
-    if (std::int64_t(header.width) * header.height / 16 > remaining_bytes(stream))
-        throw std::runtime_error("the file is too small for its pixels; it may be truncated");
+    if (std::int64_t(header.width) * header.height / 16 > remaining_bytes(stream)) fail_as_cut_off();
     return with_memory_for(header.width, header.height, 3, [&] { return read_pixels(stream, header); });
 }
 

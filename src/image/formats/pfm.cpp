@@ -1,4 +1,5 @@
 #include "image/codecs.h"
+#include "image/formats/bytes.h"
 
 #include <bit>
 #include <charconv>
@@ -81,8 +82,7 @@ void encode_pfm(std::ostream& stream, const Image& image) {
 Image decode_pfm(std::istream& stream) {
     const Header header = read_header(stream);
     const std::int64_t row_bytes = 4 * header.channel_count * header.width;
-    if (remaining_bytes(stream) / row_bytes < header.height)
-        throw std::runtime_error("the file is too small for its pixels; it may be truncated");
+    if (remaining_bytes(stream) / row_bytes < header.height) fail_as_cut_off();
 
     Image image = with_memory_for(int(header.width), int(header.height), 3,
                                   [&] { return make_image(int(header.width), int(header.height)); });

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace nusselt::scene {
@@ -95,7 +96,12 @@ Texture decode_image(const ImageRequest& request, SceneBudget& budget, Warnings&
         }
         turn_over(texture);
     } catch (const std::runtime_error& error) {
-        throw SceneError(request.location, "texture file '" + request.path.string() + "': " + error.what());
+        const std::string path = "'" + request.path.string() + "': ";
+        std::string_view problem = error.what();
+        // Readers of images name the file, too.
+        if (const std::string named = "cannot read " + path; problem.starts_with(named))
+            problem.remove_prefix(named.size());
+        throw SceneError(request.location, "texture file " + path + std::string(problem));
     }
     remove_invalid(request, texture, warnings);
     return texture;
