@@ -2,6 +2,7 @@
 /// Runs the program as a user does.
 
 #include "common/source_folder.h"
+#include "common/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -32,14 +33,6 @@ struct Outcome {
 
 class CommandLine : public testing::Test {
 protected:
-    CommandLine() {
-        std::string name = (std::filesystem::temp_directory_path() / "nusselt_app_XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr)
-            throw std::runtime_error("cannot create a folder like " + name);
-        folder_ = name;
-    }
-    ~CommandLine() override { std::filesystem::remove_all(folder_); }
-
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
     std::string read(const std::string& name) const {
@@ -61,13 +54,13 @@ protected:
 private:
     Outcome run_program(const std::string& program, const std::string& arguments,
                         const std::string& prefix) const {
-        const std::string command = "cd '" + folder_.string() + "' && " + prefix + " '" + program + "' " +
-                                    arguments + " >out.txt 2>err.txt </dev/null";
+        const std::string command = "cd '" + folder_.path().string() + "' && " + prefix + " '" + program +
+                                    "' " + arguments + " >out.txt 2>err.txt </dev/null";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
     }
 
-    std::filesystem::path folder_;
+    nusselt_test::TemporaryFolder folder_;
 };
 
 /// One line, from the program of that name, that has this text.

@@ -2,6 +2,7 @@
 
 #include "quadrature.h"
 
+#include "common/temporary_folder.h"
 #include "fit/table_error.h"
 #include "fit/table_fit.h"
 
@@ -145,14 +146,6 @@ class TableFitTest : public testing::Test {
 protected:
     static constexpr TableSize kSize{4, 3, 3};
 
-    TableFitTest() {
-        std::string name = (std::filesystem::temp_directory_path() / "nusselt_fit_XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr)
-            throw std::runtime_error("cannot create a folder like " + name);
-        folder_ = name;
-    }
-    ~TableFitTest() override { std::filesystem::remove_all(folder_); }
-
     std::filesystem::path checkpoint() const { return folder_ / "checkpoint"; }
 
     static void expect_equal(const TableFit& a, const TableFit& b) {
@@ -172,7 +165,7 @@ protected:
     }
 
 private:
-    std::filesystem::path folder_;
+    nusselt_test::TemporaryFolder folder_;
 };
 
 TEST_F(TableFitTest, DoesNotDependOnTheNumberOfThreads) {

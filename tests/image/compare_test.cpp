@@ -7,7 +7,7 @@
 #include "image/io.h"
 #include "image/metrics.h"
 #include "image/ssim.h"
-#include "temporary_folder.h"
+#include "image_fixture.h"
 
 #include <nlohmann/json.hpp>
 
@@ -49,7 +49,7 @@ Outcome run_command_line(std::vector<std::string> arguments) {
     return outcome;
 }
 
-class CompareCommand : public TemporaryFolder {
+class CompareCommand : public ImageTest {
 protected:
     CompareCommand() {
         image_.pixels[3 * 18] = std::numeric_limits<float>::quiet_NaN(); // x 5 y 1

@@ -5,7 +5,7 @@
 #include "image/io.h"
 #include "image/layers.h"
 #include "image/srgb.h"
-#include "temporary_folder.h"
+#include "image_fixture.h"
 
 #include <CLI/CLI.hpp>
 
@@ -17,7 +17,7 @@ namespace nusselt::image::test {
 
 namespace {
 
-class ConvertCommand : public TemporaryFolder {
+class ConvertCommand : public ImageTest {
 protected:
     ConvertCommand() {
         LayeredImage file{{3, 4, 12, 9}, {0, 0, 64, 48}, {}, {{"spp", "16"}}, {{"owner", "somebody"}}};

@@ -2,7 +2,7 @@
 
 #include "base/atomic_file.h"
 #include "image/io.h"
-#include "temporary_folder.h"
+#include "image_fixture.h"
 
 #include <csignal>
 #include <cstring>
@@ -14,7 +14,7 @@ namespace nusselt::image::test {
 
 namespace {
 
-using Files = TemporaryFolder;
+using Files = ImageTest;
 
 const std::vector<std::string> kWritable = {".exr", ".png", ".hdr", ".pfm"};
 

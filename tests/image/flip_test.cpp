@@ -1,6 +1,6 @@
 #include "image/flip.h"
 #include "image/metrics.h"
-#include "temporary_folder.h"
+#include "image_fixture.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include "image/coded_file.h"
 #include "image/io.h"
 #include "image/layers.h"
-#include "temporary_folder.h"
+#include "image_fixture.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -22,7 +22,7 @@ namespace nusselt::image::test {
 
 namespace {
 
-class HostileFiles : public TemporaryFolder {
+class HostileFiles : public ImageTest {
 protected:
     std::string error_of_reading(const std::string& name, const std::string& contents) const {
         write_bytes(in_folder(name), contents);

@@ -1,6 +1,6 @@
 #include "image/io.h"
 #include "image/layers.h"
-#include "temporary_folder.h"
+#include "image_fixture.h"
 
 #include "common/process_memory.h"
 
@@ -21,7 +21,7 @@ namespace nusselt::image::test {
 
 namespace {
 
-using Layers = TemporaryFolder;
+using Layers = ImageTest;
 
 Layer random_layer(const std::string& name, std::vector<std::string> channels, std::size_t pixels,
                    unsigned seed) {

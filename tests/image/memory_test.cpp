@@ -5,7 +5,7 @@
 #include "image/coded_file.h"
 #include "image/io.h"
 #include "image/layers.h"
-#include "temporary_folder.h"
+#include "image_fixture.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -55,7 +55,7 @@ private:
     double begin_ = 0;
 };
 
-class Memory : public TemporaryFolder {
+class Memory : public ImageTest {
 protected:
     void SetUp() override {
         if (!PeakMemory::is_measurable()) GTEST_SKIP() << "the peak of memory cannot be measured here";

@@ -2,7 +2,7 @@
 #include "image/flip.h"
 #include "image/metrics.h"
 #include "image/ssim.h"
-#include "temporary_folder.h"
+#include "image_fixture.h"
 
 #include <algorithm>
 #include <cmath>

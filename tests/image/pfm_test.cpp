@@ -1,5 +1,5 @@
 #include "image/io.h"
-#include "temporary_folder.h"
+#include "image_fixture.h"
 
 #include <algorithm>
 #include <bit>
@@ -9,7 +9,7 @@ namespace nusselt::image::test {
 
 namespace {
 
-class Pfm : public TemporaryFolder {
+class Pfm : public ImageTest {
 protected:
     Image read(const std::string& contents) const {
         write_bytes(in_folder("a.pfm"), contents);

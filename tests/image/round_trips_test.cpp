@@ -1,6 +1,6 @@
 #include "image/io.h"
 #include "image/srgb.h"
-#include "temporary_folder.h"
+#include "image_fixture.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -19,7 +19,7 @@ namespace nusselt::image::test {
 
 namespace {
 
-using RoundTrip = TemporaryFolder;
+using RoundTrip = ImageTest;
 
 std::vector<std::uint32_t> bits(const Image& image) {
     std::vector<std::uint32_t> result;

@@ -2,7 +2,7 @@
 
 #include "common/source_folder.h"
 #include "image/coded_file.h"
-#include "temporary_folder.h"
+#include "image_fixture.h"
 
 #include <csetjmp>
 #include <cstdio> // jpeglib.h needs it
@@ -19,7 +19,7 @@ namespace nusselt::image::test {
 
 namespace {
 
-using SecondReader = TemporaryFolder;
+using SecondReader = ImageTest;
 
 /// Codes as fractions, like those of decode_codes() without a transfer function.
 std::vector<float> fractions_by_stb(const std::string& file, int channels) {

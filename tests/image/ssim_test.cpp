@@ -1,7 +1,7 @@
 #include "image/metrics.h"
 #include "image/srgb.h"
 #include "image/ssim.h"
-#include "temporary_folder.h"
+#include "image_fixture.h"
 
 #include <cmath>
 #include <limits>

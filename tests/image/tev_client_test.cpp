@@ -1,7 +1,7 @@
 /// The client of the viewer, against a server of this test that takes the packets apart again.
 
 #include "image/tev_client.h"
-#include "temporary_folder.h"
+#include "image_fixture.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>

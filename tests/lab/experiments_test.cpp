@@ -1,4 +1,5 @@
 #include "common/source_folder.h"
+#include "common/temporary_folder.h"
 #include "lab/figures/run.h"
 
 #include <gtest/gtest.h>
@@ -150,9 +151,8 @@ TEST(Run, NamesTheMissingScene) {
 TEST(Report, HasATableRowAndAnImagePerVariant) {
     const ExperimentResult result = run(experiment("line-diffuse"));
     EXPECT_TRUE(all_hold(result));
-    std::string name = (std::filesystem::temp_directory_path() / "nusselt_report_XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    const std::filesystem::path folder = std::filesystem::path(name) / "page";
+    const nusselt_test::TemporaryFolder parent;
+    const std::filesystem::path folder = parent / "page";
     write_report(result, folder);
     std::ifstream stream(folder / "index.html");
     const std::string html{std::istreambuf_iterator<char>(stream), {}};
@@ -163,7 +163,6 @@ TEST(Report, HasATableRowAndAnImagePerVariant) {
             EXPECT_GT(std::filesystem::file_size(folder / (v.label + suffix)), 100u) << v.label << suffix;
     }
     EXPECT_EQ(html.find("does not hold"), std::string::npos);
-    std::filesystem::remove_all(name);
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 #include "common/source_folder.h"
+#include "common/temporary_folder.h"
 #include "lab/lines/line_convergence.h"
 
 #include "common/results_json.h"
@@ -139,19 +140,7 @@ TEST(LineConvergence, FewSamplesGetMoreSeeds) {
     EXPECT_EQ(seeds_for(experiment, 16), 64);
 }
 
-class Folder : public testing::Test {
-protected:
-    Folder() : name_((std::filesystem::temp_directory_path() / "nusselt_lines_XXXXXX").string()) {
-        EXPECT_NE(::mkdtemp(name_.data()), nullptr);
-    }
-    ~Folder() override { std::filesystem::remove_all(name_); }
-
-    std::string name_;
-};
-
-class LineReport : public Folder {};
-
-TEST_F(LineReport, HasPlotsTablesAndAllNumbers) {
+TEST(LineReport, HasPlotsTablesAndAllNumbers) {
     LineConvergence experiment = small(all_line_convergences()[0]);
     experiment.reference = experiment.series[1].label;
     experiment.scenes.push_back({"elsewhere", "nowhere.pbrt", "", SceneOrigin::published});
@@ -166,14 +155,15 @@ TEST_F(LineReport, HasPlotsTablesAndAllNumbers) {
     EXPECT_TRUE(result.scenes[1].is_skipped);
     EXPECT_NE(to_text(result).find("skipped"), std::string::npos);
 
-    write_report(result, name_);
-    std::ifstream page(std::filesystem::path(name_) / "index.html");
+    const nusselt_test::TemporaryFolder folder;
+    write_report(result, folder.path());
+    std::ifstream page(folder / "index.html");
     const std::string html{std::istreambuf_iterator<char>(page), {}};
     for (const char* plot : {"grid-planes-samples.svg", "grid-planes-time.svg"}) {
         EXPECT_NE(html.find(plot), std::string::npos);
-        EXPECT_GT(std::filesystem::file_size(std::filesystem::path(name_) / plot), 1000u);
+        EXPECT_GT(std::filesystem::file_size(folder / plot), 1000u);
     }
-    std::ifstream file(std::filesystem::path(name_) / "numbers.json");
+    std::ifstream file(folder / "numbers.json");
     const auto numbers = nlohmann::json::parse(file);
     const auto scenes = nusselt_test::records(numbers, "scenes");
     EXPECT_EQ(scenes[1]["skipped"], true);

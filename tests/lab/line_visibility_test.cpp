@@ -1,4 +1,5 @@
 #include "common/source_folder.h"
+#include "common/temporary_folder.h"
 #include "lab/lines/line_visibility.h"
 
 #include "common/results_json.h"
@@ -89,10 +90,8 @@ TEST(LineVisibility, ReportHasAnImageOfPartsPerScene) {
     LineVisibility experiment = shipped_only(all_line_visibilities()[0]);
     experiment.scenes.push_back({"soup, small", "soup.pbrt", "small-light.json"});
     const LineVisibilityResult result = run(experiment);
-    std::string name = (std::filesystem::temp_directory_path() / "nusselt_parts_XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    const std::filesystem::path folder(name);
-    write_report(result, folder);
+    const nusselt_test::TemporaryFolder folder;
+    write_report(result, folder.path());
     for (const char* file : {"index.html", "soup.png", "soup-parts.png", "soup-small-parts.png"})
         EXPECT_GT(std::filesystem::file_size(folder / file), 100u) << file;
     std::ifstream file(folder / "numbers.json");
@@ -101,7 +100,6 @@ TEST(LineVisibility, ReportHasAnImageOfPartsPerScene) {
     ASSERT_EQ(scenes.size(), experiment.scenes.size());
     EXPECT_GT(scenes[0]["lines"], 0);
     EXPECT_GT(scenes[0]["parts_per_line"], scenes[1]["parts_per_line"]);
-    std::filesystem::remove_all(folder);
 }
 
 } // namespace

@@ -419,7 +419,7 @@ TEST_F(RigTest, HostileFilesAreRefused) {
         EXPECT_EQ(without_folder(error.what()),
                   "rig.json: has 268435457 bytes; at most 268435456 are supported");
     }
-    for (const auto& [path, message] : {std::pair(folder_, "not a regular file"),
+    for (const auto& [path, message] : {std::pair(folder_.path(), "not a regular file"),
                                         {folder_ / "missing.json", "no such file"},
                                         {std::filesystem::path("/dev/zero"), "not a regular file"}}) {
         try {

@@ -1,6 +1,7 @@
 #pragma once
 /// Fixture that writes scene files into a folder of its own and loads them.
 
+#include "common/temporary_folder.h"
 #include "scene/import/importers.h"
 #include "scene/model/vector_math.h"
 
@@ -19,16 +20,6 @@ constexpr std::string_view kTriangle = "Shape \"trianglemesh\" \"point3 P\" [0 0
 
 class SceneTest : public testing::Test {
 protected:
-    SceneTest() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "nusselt_scene_XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-        folder_ = pattern;
-    }
-    ~SceneTest() override {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
-
     void write(const std::string& name, std::string_view bytes) const {
         std::filesystem::create_directories((folder_ / name).parent_path());
         std::ofstream(folder_ / name, std::ios::binary) << bytes;
@@ -52,13 +43,13 @@ protected:
                                           : std::to_string(scene.warnings.size()) + " warnings";
     }
     std::string without_folder(std::string text) const {
-        const std::string prefix = folder_.string() + "/";
+        const std::string prefix = folder_.path().string() + "/";
         for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix))
             text.erase(at, prefix.size());
         return text;
     }
 
-    std::filesystem::path folder_;
+    nusselt_test::TemporaryFolder folder_;
 };
 
 inline void expect_near(const Float3& found, const Float3& expected, float tolerance) {

@@ -2,6 +2,7 @@
 /// Runs scripts of the viewer without a window.
 
 #include "common/source_folder.h"
+#include "common/temporary_folder.h"
 #include "viewer/script/script.h"
 
 #include "gpu_test.h"
@@ -14,23 +15,10 @@
 #include <stdexcept>
 #include <string>
 
-#include <unistd.h>
-
 namespace nusselt::viewer {
 
 class ScriptTest : public parity::GpuTest {
 protected:
-    void SetUp() override {
-        std::string name = (std::filesystem::temp_directory_path() / "nusselt_script_XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
-        parity::GpuTest::SetUp();
-    }
-    void TearDown() override {
-        parity::GpuTest::TearDown();
-        std::filesystem::remove_all(folder_);
-    }
-
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
     std::string write_file(const std::string& name, const std::string& text) const {
@@ -70,7 +58,7 @@ protected:
     }
 
 private:
-    std::filesystem::path folder_;
+    nusselt_test::TemporaryFolder folder_;
 };
 
 } // namespace nusselt::viewer

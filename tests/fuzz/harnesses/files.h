@@ -1,6 +1,8 @@
 #pragma once
 /// Files made of the bytes of libFuzzer, and what every reader of files promises.
 
+#include "common/temporary_folder.h"
+
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -12,28 +14,12 @@
 
 namespace nusselt::fuzz {
 
-/// A folder of its own in the system's folder for temporary files (TMPDIR), removed at the end.
-class Folder {
+/// A folder of its own with files.
+class Folder : public nusselt_test::TemporaryFolder {
 public:
-    Folder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "nusselt_fuzz_XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-        path_ = pattern;
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    ~Folder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-
-    std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
     void write(std::string_view name, std::string_view bytes) const {
-        std::ofstream(path_ / name, std::ios::binary) << bytes;
+        std::ofstream(*this / name, std::ios::binary) << bytes;
     }
-
-private:
-    std::filesystem::path path_;
 };
 
 inline std::string_view text(const std::uint8_t* data, std::size_t size) {

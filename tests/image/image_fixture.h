@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/temporary_folder.h"
 #include "image/image.h"
 
 #include <gtest/gtest.h>
@@ -16,27 +17,19 @@
 namespace nusselt::image::test {
 
 /// A fixture with an empty folder of its own, removed after the test.
-class TemporaryFolder : public testing::Test {
+class ImageTest : public testing::Test {
 protected:
-    TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "nusselt_image_XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr)
-            throw std::runtime_error("cannot create a folder like " + name);
-        folder_ = name;
-    }
-    ~TemporaryFolder() override { std::filesystem::remove_all(folder_); }
-
     std::filesystem::path in_folder(const std::string& name) const { return folder_ / name; }
 
     std::set<std::string> file_names() const {
         std::set<std::string> names;
-        for (const auto& entry : std::filesystem::directory_iterator(folder_))
+        for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
             names.insert(entry.path().filename().string());
         return names;
     }
 
 private:
-    std::filesystem::path folder_;
+    nusselt_test::TemporaryFolder folder_;
 };
 
 inline std::string read_bytes(const std::filesystem::path& path) {
