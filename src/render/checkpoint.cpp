@@ -87,15 +87,20 @@ private:
 
 /// The first difference, in words.
 void check_same_run(const image::Metadata& stored, const image::Metadata& run) {
-    for (const auto& [key, value] : run) {
+    const std::string kFingerprint = "scene_fingerprint";
+    const auto check = [&](const std::string& key, const std::string& value, const std::string& hint = "") {
         const auto found = stored.find(key);
         const std::string there = found == stored.end() ? "missing" : "'" + found->second + "'";
-        const std::string hint =
-            key == "scene_fingerprint" ? "; the scene, a file that it uses or a light rig has changed" : "";
         if (there != "'" + value + "'")
             throw std::runtime_error("it belongs to another run: " + key + " is " + there +
                                      " in the file, but '" + value + "' now" + hint);
-    }
+    };
+    // The fingerprint comes last, for it also changes with the camera and the size, which say more.
+    for (const auto& [key, value] : run)
+        if (key != kFingerprint) check(key, value);
+    if (const auto fingerprint = run.find(kFingerprint); fingerprint != run.end())
+        check(kFingerprint, fingerprint->second,
+              "; the scene, a file that it uses, its camera or a light rig has changed");
     for (const auto& [key, value] : stored)
         if (run.count(key) == 0)
             throw std::runtime_error("it belongs to another run: " + key + " is '" + value +

@@ -11,7 +11,7 @@ namespace nusselt::render {
 struct RenderMonitor {
     /// Called once, when all preparations are made: until then there is nothing that a stop could lose.
     std::function<void()> started;
-    /// Called with the share of the work that is finished, in (0, 1], from any thread, never by two at once.
+    /// Called with the share of pixels in finished tiles, in (0, 1], from any thread, never by two at once.
     std::function<void(double fraction)> progress;
     /// Called with the number in Frame::tiles of each tile once its pixels are final. As above; its caller waits.
     std::function<void(std::size_t tile)> tile_finished;

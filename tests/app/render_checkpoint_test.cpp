@@ -237,7 +237,8 @@ TEST_F(RenderCheckpoint, OfOtherLightsIsRefused) {
     set_rig("other.json", "0.5");
     expect_message(run(command()).err, "light_rigs is 'dim.json' in the file, but 'other.json' now");
     set_rig("dim.json", "0.25");
-    expect_message(run(command()).err, "' now; the scene, a file that it uses or a light rig has changed");
+    expect_message(run(command()).err,
+                   "' now; the scene, a file that it uses, its camera or a light rig has changed");
     set_rig("dim.json", "0.5");
     EXPECT_EQ(run(command()).exit_code, 0);
 }

@@ -1,5 +1,7 @@
 #include "script.h"
 
+#include "scene/input/message.h"
+
 #include <fmt/core.h>
 
 #include <exception>
@@ -34,7 +36,7 @@ Script::Script(const std::filesystem::path& path) : path_(path) {
         if (line.words.empty()) continue;
         const std::string& name = line.words.front();
         const auto command = commands().find(name);
-        if (command == commands().end()) fail(number, "unknown command '" + name + "'");
+        if (command == commands().end()) fail(number, "unknown command '" + scene::shortened(name) + "'");
         const std::size_t arguments = command->second.arguments;
         // File names may have spaces.
         if (arguments == 1 && line.words.size() > 1) line.words = {name, rest_of(text)};
