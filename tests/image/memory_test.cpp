@@ -272,7 +272,7 @@ class MemoryLimit {
 public:
     explicit MemoryLimit(double more_bytes) {
         ::getrlimit(RLIMIT_AS, &old_);
-        const rlimit limit = {rlim_t(PeakMemory::status("VmSize:") + more_bytes), old_.rlim_max};
+        const rlimit limit = {rlim_t(nusselt_test::process_memory("VmSize") + more_bytes), old_.rlim_max};
         ::setrlimit(RLIMIT_AS, &limit);
     }
     MemoryLimit(const MemoryLimit&) = delete;

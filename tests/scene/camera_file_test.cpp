@@ -1,4 +1,5 @@
 #include "common/source_folder.h"
+#include "common/temporary_folder.h"
 #include "scene/rig/camera_file.h"
 
 #include "scene/import/importers.h"
@@ -14,8 +15,10 @@ namespace nusselt::scene {
 
 namespace {
 
+/// A file of its own, for tests run at the same time.
 std::filesystem::path write(const std::string& text) {
-    const std::filesystem::path path = testing::TempDir() + "nusselt_camera.json";
+    static const nusselt_test::TemporaryFolder kFolder;
+    const std::filesystem::path path = kFolder / "camera.json";
     std::ofstream(path) << text;
     return path;
 }

@@ -3,9 +3,9 @@
 #include "apps/common/line_options.h"
 #include "apps/common/print_message.h"
 #include "base/json_output.h"
+#include "base/memory_text.h"
 
 #include "render/line_choice.h"
-#include "render/memory.h"
 #include "scene/model/scene_size.h"
 
 #include <fmt/core.h>

@@ -52,7 +52,7 @@ std::string nothing_selected(const std::string& kind, const Selector& selector, 
     std::string text;
     if (const auto* const index = std::get_if<std::size_t>(&selector))
         text = kind + " " + std::to_string(*index) + " does not exist" +
-               (count > 0 ? " (the first one is 0)" : "");
+               (named > 0 ? " (the first one is 0)" : "");
     else
         text = "no " + kind + " matches " + in_quotes(std::get<std::string>(selector));
     if (named == 0) return text + "; the scene has no " + kind + "s";
