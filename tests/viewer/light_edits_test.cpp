@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include <unistd.h>
+
 namespace nusselt::viewer {
 
 namespace {
@@ -80,7 +82,8 @@ TEST_F(LightEditsTest, TheRigDoesTheSame) {
     red.colour = scene::Float3{7, 0, 0};
     red.brightness = 0.5;
     edits.set(tube, red);
-    const std::string path = testing::TempDir() + "nusselt_light_edits.json";
+    const std::string path =
+        testing::TempDir() + "nusselt_light_edits_" + std::to_string(::getpid()) + ".json";
     std::ofstream(path) << edits.rig_text();
     scene::Scene by_rig = scene_;
     scene::apply_rig(scene::read_rig(path), by_rig);
