@@ -38,6 +38,7 @@ struct FrameSize {
     std::size_t bytes = 0;    ///< of memory, also for names and while an EXR file is written
 };
 
+/// Whether the settings ask for this layer.
 bool is_wanted(const RenderSettings& settings, LayerKind kind);
 
 FrameSize frame_size(const scene::Scene& scene, const RenderSettings& settings);

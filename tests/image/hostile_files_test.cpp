@@ -4,6 +4,7 @@
 #include "image/io.h"
 #include "image/layers.h"
 #include "image_fixture.h"
+#include "png_chunks.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -49,17 +50,6 @@ protected:
         return read_bytes(path);
     }
 };
-
-std::string big_endian(std::uint32_t value) {
-    return {char(value >> 24), char(value >> 16), char(value >> 8), char(value)};
-}
-
-std::string png_chunk(const std::string& type, const std::string& data) {
-    const std::string summed = type + data;
-    const auto* bytes = reinterpret_cast<const unsigned char*>(summed.data());
-    return big_endian(std::uint32_t(data.size())) + summed +
-           big_endian(std::uint32_t(crc32(0, bytes, uInt(summed.size()))));
-}
 
 std::string deflated(const std::string& data) {
     uLongf size = compressBound(uLong(data.size()));

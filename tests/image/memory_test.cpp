@@ -6,6 +6,7 @@
 #include "image/io.h"
 #include "image/layers.h"
 #include "image_fixture.h"
+#include "png_chunks.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -212,17 +213,6 @@ TEST_F(Memory, Converting) {
         EXPECT_LT(peak_of_converting("in.png", to, {}), 1.5 * kFloatBytes + kConstantBytes) << to;
     EXPECT_LT(peak_of_converting("layers.exr", "out.exr", {}), 1.5 * kFloatBytes + kConstantBytes);
     EXPECT_LT(peak_of_converting("layers.exr", "out.exr", "b"), 1.5 * kFloatBytes + kConstantBytes);
-}
-
-std::string big_endian(std::uint32_t value) {
-    return {char(value >> 24), char(value >> 16), char(value >> 8), char(value)};
-}
-
-std::string png_chunk(const std::string& type, const std::string& data) {
-    const std::string summed = type + data;
-    const auto* bytes = reinterpret_cast<const unsigned char*>(summed.data());
-    return big_endian(std::uint32_t(data.size())) + summed +
-           big_endian(std::uint32_t(crc32(0, bytes, uInt(summed.size()))));
 }
 
 /// 4 MiB of zeros as a piece of deflate, which may be repeated.
