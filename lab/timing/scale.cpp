@@ -1,41 +1,20 @@
 #include "lab/timing/scale.h"
 
+#include "base/temporary_folder.h"
 #include "lab/timing/child_process.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <stdexcept>
 
 namespace nusselt::lab {
 
 namespace {
 
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "nusselt_scale_XXXXXX").string();
-        if (::mkdtemp(pattern.data()) == nullptr)
-            throw std::runtime_error("cannot create a folder like " + pattern);
-        path_ = pattern;
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
 /// Writes, loads and renders a scene. The memory includes what the program needs for any scene.
 ScaleRow measure_row(ScaleScene scene, std::uint64_t triangles, const std::filesystem::path& program) {
-    const TemporaryFolder folder;
+    const base::TemporaryFolder folder;
     ScaleRow row{};
     row.scene = scene;
     row.triangles = write_scale_scene(scene, triangles, folder.path());

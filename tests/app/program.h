@@ -1,8 +1,8 @@
 #pragma once
 /// Runs the program as a user does.
 
+#include "base/temporary_folder.h"
 #include "common/source_folder.h"
-#include "common/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ private:
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
     }
 
-    nusselt_test::TemporaryFolder folder_;
+    nusselt::base::TemporaryFolder folder_;
 };
 
 /// One line, from the program of that name, that has this text.

@@ -2,7 +2,7 @@
 
 #include "quadrature.h"
 
-#include "common/temporary_folder.h"
+#include "base/temporary_folder.h"
 #include "fit/table_error.h"
 #include "fit/table_fit.h"
 
@@ -165,7 +165,7 @@ protected:
     }
 
 private:
-    nusselt_test::TemporaryFolder folder_;
+    nusselt::base::TemporaryFolder folder_;
 };
 
 TEST_F(TableFitTest, DoesNotDependOnTheNumberOfThreads) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/temporary_folder.h"
+#include "base/temporary_folder.h"
 #include "image/image.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ protected:
     }
 
 private:
-    nusselt_test::TemporaryFolder folder_;
+    nusselt::base::TemporaryFolder folder_;
 };
 
 inline std::string read_bytes(const std::filesystem::path& path) {

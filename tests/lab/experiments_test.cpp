@@ -1,5 +1,5 @@
+#include "base/temporary_folder.h"
 #include "common/source_folder.h"
-#include "common/temporary_folder.h"
 #include "lab/figures/run.h"
 
 #include <gtest/gtest.h>
@@ -151,7 +151,7 @@ TEST(Run, NamesTheMissingScene) {
 TEST(Report, HasATableRowAndAnImagePerVariant) {
     const ExperimentResult result = run(experiment("line-diffuse"));
     EXPECT_TRUE(all_hold(result));
-    const nusselt_test::TemporaryFolder parent;
+    const nusselt::base::TemporaryFolder parent;
     const std::filesystem::path folder = parent / "page";
     write_report(result, folder);
     std::ifstream stream(folder / "index.html");

@@ -1,5 +1,5 @@
+#include "base/temporary_folder.h"
 #include "common/source_folder.h"
-#include "common/temporary_folder.h"
 #include "lab/lines/line_convergence.h"
 
 #include "common/results_json.h"
@@ -155,7 +155,7 @@ TEST(LineReport, HasPlotsTablesAndAllNumbers) {
     EXPECT_TRUE(result.scenes[1].is_skipped);
     EXPECT_NE(to_text(result).find("skipped"), std::string::npos);
 
-    const nusselt_test::TemporaryFolder folder;
+    const nusselt::base::TemporaryFolder folder;
     write_report(result, folder.path());
     std::ifstream page(folder / "index.html");
     const std::string html{std::istreambuf_iterator<char>(page), {}};

@@ -1,5 +1,5 @@
+#include "base/temporary_folder.h"
 #include "common/source_folder.h"
-#include "common/temporary_folder.h"
 #include "lab/lines/line_visibility.h"
 
 #include "common/results_json.h"
@@ -90,7 +90,7 @@ TEST(LineVisibility, ReportHasAnImageOfPartsPerScene) {
     LineVisibility experiment = shipped_only(all_line_visibilities()[0]);
     experiment.scenes.push_back({"soup, small", "soup.pbrt", "small-light.json"});
     const LineVisibilityResult result = run(experiment);
-    const nusselt_test::TemporaryFolder folder;
+    const nusselt::base::TemporaryFolder folder;
     write_report(result, folder.path());
     for (const char* file : {"index.html", "soup.png", "soup-parts.png", "soup-small-parts.png"})
         EXPECT_GT(std::filesystem::file_size(folder / file), 100u) << file;

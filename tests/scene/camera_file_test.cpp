@@ -1,5 +1,5 @@
+#include "base/temporary_folder.h"
 #include "common/source_folder.h"
-#include "common/temporary_folder.h"
 #include "scene/rig/camera_file.h"
 
 #include "scene/import/importers.h"
@@ -17,7 +17,7 @@ namespace {
 
 /// A file of its own, for tests run at the same time.
 std::filesystem::path write(const std::string& text) {
-    static const nusselt_test::TemporaryFolder kFolder;
+    static const nusselt::base::TemporaryFolder kFolder;
     const std::filesystem::path path = kFolder / "camera.json";
     std::ofstream(path) << text;
     return path;

@@ -1,7 +1,7 @@
 #pragma once
 /// Fixture that writes scene files into a folder of its own and loads them.
 
-#include "common/temporary_folder.h"
+#include "base/temporary_folder.h"
 #include "scene/import/importers.h"
 #include "scene/model/vector_math.h"
 
@@ -49,7 +49,7 @@ protected:
         return text;
     }
 
-    nusselt_test::TemporaryFolder folder_;
+    nusselt::base::TemporaryFolder folder_;
 };
 
 inline void expect_near(const Float3& found, const Float3& expected, float tolerance) {

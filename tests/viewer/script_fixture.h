@@ -1,8 +1,8 @@
 #pragma once
 /// Runs scripts of the viewer without a window.
 
+#include "base/temporary_folder.h"
 #include "common/source_folder.h"
-#include "common/temporary_folder.h"
 #include "viewer/script/script.h"
 
 #include "gpu_test.h"
@@ -58,7 +58,7 @@ protected:
     }
 
 private:
-    nusselt_test::TemporaryFolder folder_;
+    nusselt::base::TemporaryFolder folder_;
 };
 
 } // namespace nusselt::viewer

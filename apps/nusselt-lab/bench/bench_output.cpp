@@ -31,6 +31,7 @@ void check_json_option(const std::optional<std::string>& file,
 }
 
 scene::Scene load_scene(const std::filesystem::path& path, const std::optional<std::string>& json) {
+    check_json_option(json, {path}); // before the time that loading takes
     scene::Scene scene = scene::load_scene(path);
     check_json_option(json, scene.files);
     if (scene.lights.empty())

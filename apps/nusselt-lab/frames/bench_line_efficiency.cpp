@@ -190,7 +190,6 @@ void setup_bench_line_efficiency(CLI::App& bench, int& exit_code) {
 }
 
 int run_bench_line_efficiency(const BenchLineEfficiencyOptions& options) {
-    check_json_option(options.json, {options.scene});
     const base::Isa isa = base::choose_isa(options.isa);
     scene::Scene scene = load_scene(options.scene, options.json);
     apply_resolution(options.resolution, scene);

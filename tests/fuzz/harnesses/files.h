@@ -1,7 +1,7 @@
 #pragma once
 /// Files made of the bytes of libFuzzer, and what every reader of files promises.
 
-#include "common/temporary_folder.h"
+#include "base/temporary_folder.h"
 
 #include <cstdint>
 #include <cstdio>
@@ -15,7 +15,7 @@
 namespace nusselt::fuzz {
 
 /// A folder of its own with files.
-class Folder : public nusselt_test::TemporaryFolder {
+class Folder : public nusselt::base::TemporaryFolder {
 public:
     void write(std::string_view name, std::string_view bytes) const {
         std::ofstream(*this / name, std::ios::binary) << bytes;

@@ -6,9 +6,11 @@
 #include <string>
 #include <system_error>
 
-namespace nusselt_test {
+namespace nusselt::base {
 
 /// An empty folder in the system's folder for temporary files (TMPDIR), removed at the end with all that is in it.
+///
+/// The constructor throws std::runtime_error if the folder cannot be created.
 class TemporaryFolder {
 public:
     TemporaryFolder() {
@@ -31,4 +33,4 @@ private:
     std::filesystem::path path_;
 };
 
-} // namespace nusselt_test
+} // namespace nusselt::base
