@@ -200,6 +200,8 @@ TEST(Ply, BadData) {
               "PLY data: face 0: vertex index -1 is out of range for 3 vertices");
     EXPECT_EQ(failure(header + "0 0 0 1 0 0 0 1 0 3 0 1 nan"),
               "PLY data: face 0: vertex index nan is out of range for 3 vertices");
+    EXPECT_EQ(failure(header + "0 0 0 1 0 0 0 1 0 3 0 1 1.5"),
+              "PLY data: face 0: vertex index 1.5 is not a whole number");
     for (std::size_t size = header.size(); size + 2 < kAscii.size(); ++size)
         EXPECT_EQ(failure(kAscii.substr(0, size)).substr(0, 29), "PLY file ends before the last");
 }

@@ -2,7 +2,10 @@
 
 #include "image/io.h"
 
+#include <sys/stat.h>
+
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -34,6 +37,12 @@ TEST_F(ScriptTest, SetsWhatAPersonSets) {
     EXPECT_EQ(viewer.state.shown, render_vulkan::Shown::error);
     EXPECT_EQ(viewer.session.frames(Side::left), 5u);
     EXPECT_EQ(viewer.session.reference_frames(), 5u);
+}
+
+TEST_F(ScriptTest, RefusesPipes_WithoutWaitingForTheirWriters) {
+    const std::string pipe = path("pipe");
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THROW(Script{std::filesystem::path(pipe)}, std::runtime_error);
 }
 
 TEST_F(ScriptTest, EditsLights_AndWritesWhatRendersTheSame) {

@@ -25,8 +25,10 @@ std::string rest_of(const std::string& text) {
 } // namespace
 
 Script::Script(const std::filesystem::path& path) : path_(path) {
-    std::ifstream stream(path);
-    if (!stream || !std::filesystem::is_regular_file(path))
+    // Opening a pipe would wait for its writer.
+    std::ifstream stream;
+    if (std::filesystem::is_regular_file(path)) stream.open(path);
+    if (!stream.is_open())
         throw std::runtime_error(path.string() + ": the file cannot be read; check its name");
     std::string text;
     for (int number = 1; std::getline(stream, text); ++number) {

@@ -194,6 +194,8 @@ void read_vertices(Reader& reader, const PlyElement& element, Mesh& mesh) {
 }
 
 [[noreturn]] void fail_index(double index, std::size_t vertices) {
+    if (index >= 0 && index < static_cast<double>(vertices))
+        throw std::runtime_error("vertex index " + to_text(index) + " is not a whole number");
     throw std::runtime_error("vertex index " + to_text(index) + " is out of range for " +
                              std::to_string(vertices) + " vertices");
 }
@@ -208,8 +210,8 @@ public:
         corners_.resize(read_list_length(reader, property));
         for (std::uint32_t& corner : corners_) {
             const double index = reader.read(property.type);
-            if (!(index >= 0 && index < static_cast<double>(mesh_.positions.size())))
-                fail_index(index, mesh_.positions.size());
+            const bool is_vertex = index >= 0 && index < static_cast<double>(mesh_.positions.size());
+            if (!is_vertex || std::floor(index) != index) fail_index(index, mesh_.positions.size());
             corner = static_cast<std::uint32_t>(index);
         }
         if (corners_.size() < 3) {
