@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Checks of the documentation. Usage: scripts/check-docs.py code|links|checks ROOT, or pictures ROOT PROGRAM
-  code      each paragraph of C++ in README.md and docs/ is part of a file in examples/, which the tests compile;
+  code      each paragraph of C++ in the pages is part of a file in examples/, which the tests compile;
             comments and white space do not count
-  links     files that README.md and docs/ link to exist
+  links     files and headings that the pages link to exist
   checks    the table of checks in docs/testing.md names those of tests/checks/CMakeLists.txt, but no self-tests
   pictures  docs/techniques/images/NAME.svg is what `PROGRAM map NAME` draws
+The pages are README.md, CONTRIBUTING.md, CHANGELOG.md and those of docs/ and shaders/nusselt.
 scripts/fill-docs.py checks tables.
 """
 import fnmatch
@@ -16,7 +17,8 @@ import tempfile
 
 
 def pages(root):
-    return [root / "README.md", *sorted((root / "docs").rglob("*.md"))]
+    others = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "shaders/nusselt/README.md"]
+    return [*(root / name for name in others if (root / name).exists()), *sorted((root / "docs").rglob("*.md"))]
 
 
 def bare(code):
@@ -32,11 +34,26 @@ def code(root):
                     yield f"{page}: missing in the files of examples/:\n{paragraph}"
 
 
+def prose(page):
+    return re.sub(r"^```.*?^```", "", page.read_text(), flags=re.MULTILINE | re.DOTALL)
+
+
+def anchors(page):
+    """The anchors that readers of Markdown make from headings."""
+    for heading in re.findall(r"^#+ +(.*)$", prose(page), re.MULTILINE):
+        yield re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
+
+
 def links(root):
     for page in pages(root):
-        for target in re.findall(r"\]\(([^)#]+)[^)]*\)", page.read_text()):
-            if "://" not in target and not (page.parent / target).exists():
+        for target, anchor in re.findall(r"\]\(([^)#]*)#?([^)]*)\)", prose(page)):
+            if "://" in target:
+                continue
+            file = page.parent / target if target else page
+            if not file.exists():
                 yield f"{page}: the file {target} is missing"
+            elif anchor and file.suffix == ".md" and anchor not in anchors(file):
+                yield f"{page}: {target} has no heading #{anchor}"
 
 
 def checks(root):

@@ -75,7 +75,7 @@ private:
         std::_Exit(128 + signal);
     }
     static void print(const char* message) {
-        // Without a terminal nobody can be told.
+        // If the message cannot be written, nothing else can report that.
         static_cast<void>(!::write(STDERR_FILENO, message, std::strlen(message)));
     }
 };

@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
          "  nusselt-lab bench rays scenes/room.pbrt --resolution 640x360\n"
          "\n"
          "`nusselt-lab COMMAND --help` explains a command.\n"
-         "Exit codes: 0 success, 1 error or broken expectation, 2 wrong usage, 130 stopped by Ctrl-C.",
+         "Exit codes: 0 success, 1 error or broken expectation, 2 wrong usage; 130 stopped by Ctrl-C,\n"
+         "143 by SIGTERM, 129 by SIGHUP.",
          {setup_reproduce, setup_bench, setup_map, setup_fuzz, setup_fit_ltc}},
         argc, argv);
 }

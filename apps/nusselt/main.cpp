@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
          "  nusselt compare image.exr reference.exr --metrics rmse,flip\n"
          "\n"
          "`nusselt COMMAND --help` explains a command.\n"
-         "Exit codes: 0 success, 1 error, 2 wrong usage, 3 broken limit of compare, 130 stopped by Ctrl-C.",
+         "Exit codes: 0 success, 1 error, 2 wrong usage, 3 broken limit of compare; 130 stopped by Ctrl-C,\n"
+         "143 by SIGTERM, 129 by SIGHUP.",
          {setup_render, setup_view, setup_merge, setup_info, setup_lights, setup_camera, setup_techniques,
           setup_compare, setup_convert}},
         argc, argv);

@@ -71,22 +71,21 @@ std::string command_of(const Session& session, const ViewState& state, const Sce
 
 std::string write_screenshot(const std::filesystem::path& path, const Session& session,
                              const ViewState& state, const SceneFiles& files) {
-    base::check_distinct({path}, files.inputs);
-    if (image::lower_case_extension(path) == ".png") {
-        image::write_image(path, to_linear(session.picture()));
-    } else {
-        image::write_image(path, session.image(Side::left));
-        if (state.is_split)
-            image::write_image(with_suffix(path, "-right" + path.extension().string()),
-                               session.image(Side::right));
-    }
+    const bool is_picture = image::lower_case_extension(path) == ".png";
+    std::optional<std::filesystem::path> right;
+    if (!is_picture && state.is_split) right = with_suffix(path, "-right" + path.extension().string());
     const std::filesystem::path camera = camera_file_of(path);
-    save_camera(camera, session, state, files);
     std::optional<std::filesystem::path> lights;
-    if (!state.edits.empty()) {
-        lights = lights_file_of(path);
-        save_lights(*lights, state, files);
-    }
+    if (!state.edits.empty()) lights = lights_file_of(path);
+    std::vector<std::filesystem::path> outputs = {path, camera};
+    if (right) outputs.push_back(*right);
+    if (lights) outputs.push_back(*lights);
+    base::check_distinct(outputs, files.inputs);
+
+    image::write_image(path, is_picture ? to_linear(session.picture()) : session.image(Side::left));
+    if (right) image::write_image(*right, session.image(Side::right));
+    save_camera(camera, session, state, files);
+    if (lights) save_lights(*lights, state, files);
     return command_of(session, state, files, camera, lights,
                       with_suffix(path, "-again" + path.extension().string()));
 }

@@ -25,7 +25,7 @@ scene::Double3 middle_of(const scene::Scene& scene) {
     return 0.5 * (box.low + box.high);
 }
 
-// Of the radius of the scene.
+// As fractions of the radius of the scene.
 constexpr double kNearestNewLight = 0.2; ///< distance from the camera
 constexpr double kSizeOfNewLight = 0.2;
 

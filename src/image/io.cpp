@@ -65,7 +65,7 @@ void check_before_writing(const Image& image, const Metadata& metadata) {
     }
 }
 
-/// Of the floats of an image.
+/// The memory that the floats of an image take.
 std::string memory_text(std::int64_t width, std::int64_t height, std::int64_t channels) {
     return base::memory_text(sizeof(float) * double(width) * double(height) * double(channels));
 }

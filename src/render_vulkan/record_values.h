@@ -3,8 +3,6 @@
 
 #include "scene/model/float3.h"
 
-#include <nusselt/core/vec.h>
-
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -26,8 +24,5 @@ inline void copy(const scene::Float3& from, float (&to)[3]) {
     to[1] = from.y;
     to[2] = from.z;
 }
-
-inline Vec3<float> to_vec(const scene::Float3& v) { return {v.x, v.y, v.z}; }
-inline scene::Float3 to_float3(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
 
 } // namespace nusselt::render_vulkan

@@ -11,7 +11,7 @@ namespace nusselt::render_vulkan {
 
 namespace {
 
-// As in shaders/passes.
+// The shaders in shaders/passes have work groups of this size.
 constexpr std::uint32_t kWorkGroupSide = 8;
 static_assert(kRowsTogether == kWorkGroupSide);
 /// Storage buffers of all shading passes; those for shadow rays follow.

@@ -463,12 +463,16 @@ TEST_F(CommandLine, RenderTakesAsManySamplesAsTheSceneAsksFor) {
               std::string::npos)
         << notes;
     EXPECT_EQ(rendered("--camera-rays 4").first.at("camera_rays"), "4");
+    expect_message(run("render scene.pbrt --spp 6 --camera-rays 5 -o a.exr").err,
+                   "--camera-rays: 5 must divide the 6 samples per pixel that --spp asks for");
     const auto [given, nothing] = rendered("--spp 3");
     EXPECT_EQ(given.at("samples"), "3");
     EXPECT_EQ(nothing.find("Sampler"), std::string::npos);
     const Outcome misfit = run("render scene.pbrt --camera-rays 5 -o a.exr");
     EXPECT_EQ(misfit.exit_code, 2);
-    expect_message(misfit.err, "--camera-rays: 5 must divide --spp, which is 12");
+    expect_message(misfit.err,
+                   "--camera-rays: 5 must divide the 12 samples per pixel that the Sampler of the "
+                   "scene asks for; --spp changes them");
 
     // What the scene asks for has the limits that options have.
     std::ofstream(path("many.pbrt")) << "Sampler \"halton\" \"integer pixelsamples\" 65536\n";

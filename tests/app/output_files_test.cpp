@@ -94,11 +94,13 @@ TEST_F(OutputFiles, ReproduceChecksItsFolderBeforeItRenders) {
 /// A limit on the size of files lets the large image fail once everything is rendered.
 TEST_F(OutputFiles, AnImageThatCannotBeWrittenDoesNotLoseTheOthers) {
     const Outcome outcome =
-        run("render '" + kScenes + "/room.pbrt' --resolution 160x120 --spp 1 -o a.pfm -o b.png -o c.pfm",
+        run("render '" + kScenes +
+                "/room.pbrt' --resolution 160x120 --spp 1 -o a.pfm -o b.png -o c.pfm --json report.json",
             "ulimit -f 200;"); // 100 or 200 kB
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_EQ(outcome.out, "b.png\n");
     EXPECT_EQ(image::read_image(path("b.png")).width, 160);
+    EXPECT_NE(read("report.json").find("\"seconds\""), std::string::npos);
     for (const char* name : {"'a.pfm'", "'c.pfm'"})
         EXPECT_NE(outcome.err.find(std::string("cannot write ") + name), std::string::npos) << outcome.err;
 }

@@ -4,6 +4,7 @@
 
 #include "common/results_json.h"
 
+#include "lab/timing/child_process.h"
 #include "lab/timing/scale.h"
 
 #include <cmath>
@@ -95,6 +96,33 @@ TEST_F(Scale, BenchmarkPrintsTables) {
     const Outcome tiny = run_lab("bench scale --triangles 8 --emissive 0");
     EXPECT_EQ(tiny.exit_code, 0) << tiny.err;
     EXPECT_NE(tiny.out.find("too few triangles"), std::string::npos) << tiny.out;
+}
+
+/// Memory in use, not what the renderer believes to need: of the layers, working memory and the writing of the file.
+TEST_F(Scale, LayersTakeTheMemoryThatIsAnnounced) {
+    constexpr int kLights = 20'000;
+    std::ofstream scene(path("scene.pbrt"));
+    scene << "Camera \"perspective\"\nWorldBegin\n";
+    for (int i = 0; i < kLights; ++i)
+        scene << "AttributeBegin\nAreaLightSource \"diffuse\"\nTranslate " << i % 100 << " " << i / 100
+              << " 5\nShape \"trianglemesh\" \"point3 P\" [0 0 0 .4 0 0 0 .4 0]\nAttributeEnd\n";
+    scene.close();
+    const auto render = [&](const std::string& layers) {
+        return lab::run_child({"/bin/sh", "-c",
+                               "exec '" + std::string(kProgram) + "' render '" + path("scene.pbrt") +
+                                   "' --resolution 32x24 --threads 1 -o '" + path("a.exr") + "' " + layers +
+                                   " 2>&1"});
+    };
+    const lab::ChildResult with = render("--layers lights");
+    const double bytes = static_cast<double>(with.peak_bytes) - static_cast<double>(render("").peak_bytes);
+    const double raw_bytes = 32.0 * 24 * 3 * sizeof(float) * kLights;
+    EXPECT_LT(bytes, 1.2 * raw_bytes);
+    EXPECT_GT(bytes, raw_bytes);
+    const std::string need = "need ";
+    ASSERT_NE(with.output.find(need), std::string::npos) << with.output;
+    const double announced = 1e6 * std::stod(with.output.substr(with.output.find(need) + need.size()));
+    EXPECT_NE(with.output.find(" MB of memory for 32 x 24 pixels"), std::string::npos) << with.output;
+    EXPECT_NEAR(announced, bytes, 0.15 * bytes);
 }
 
 TEST_F(Scale, InfoSumsUpEmittersAndCountsWeakPolygons) {

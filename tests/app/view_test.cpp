@@ -151,6 +151,9 @@ TEST_F(View, RendersFewerPixelsWhileSomethingMoves) {
     if (at_rest < 5) {
         EXPECT_LT(moving_width, 1280) << viewed.out;
     }
+    if (at_rest < 1) {
+        EXPECT_GT(moving, 2 * at_rest) << viewed.out;
+    }
 }
 
 TEST_F(View, OffersTheHeadlessCommandWithoutADisplay) {

@@ -27,7 +27,11 @@ expect code fails
 echo '[a](page.md#part), [b](https://example.org), ![c](images/a.svg)' >"$page"
 expect links fails
 echo drawn >"$tree/docs/techniques/images/a.svg"
+expect links fails
+printf '\n# The first, and only: part\n\n## Part\n[d](#the-first-and-only-part)\n```\n# no\n```\n' >>"$page"
 expect links passes
+echo '[e](#no)' >>"$page"
+expect links fails
 
 # Checks in the table.
 checks=$tree/tests/checks/CMakeLists.txt

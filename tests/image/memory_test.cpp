@@ -30,7 +30,7 @@ namespace {
 // Arrays that double would take up to twice as much for a size like this.
 constexpr int kWidth = 2100, kHeight = 1400;
 constexpr double kFloatBytes = 3.0 * sizeof(float) * kWidth * kHeight;
-/// Of libraries and buffers, whatever the size of the image.
+/// What libraries and buffers take, whatever the size of the image.
 constexpr double kConstantBytes = 6e6;
 
 /// Peaks of this process. Linux keeps the largest memory in use since the last reset.

@@ -1,3 +1,4 @@
+#include "base/temporary_folder.h"
 #include "common/source_folder.h"
 #include "lab/accuracy/accuracy.h"
 #include "lab/accuracy/accuracy_json.h"
@@ -51,10 +52,10 @@ TEST(Accuracy, IsNotWorseThanTheCommittedTables) {
 }
 
 TEST(Accuracy, ResultsAreReadAsTheyWereWritten) {
-    const std::filesystem::path file = std::filesystem::temp_directory_path() / "nusselt_accuracy_test.json";
+    const base::TemporaryFolder folder;
+    const std::filesystem::path file = folder / "accuracy.json";
     std::ofstream(file) << to_json(results_of(baseline()));
     const AccuracyTable read = read_accuracy_json(file);
-    std::filesystem::remove(file);
     EXPECT_EQ(read.isa, baseline().isa);
     EXPECT_EQ(read.rows.size(), baseline().rows.size());
     EXPECT_EQ(joined(compare_with_baseline(baseline(), read, {1, 1, 1})), "");

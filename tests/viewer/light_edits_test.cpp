@@ -1,3 +1,4 @@
+#include "base/temporary_folder.h"
 #include "common/source_folder.h"
 #include "viewer/lights/light_edits.h"
 
@@ -9,8 +10,6 @@
 
 #include <filesystem>
 #include <fstream>
-
-#include <unistd.h>
 
 namespace nusselt::viewer {
 
@@ -82,8 +81,8 @@ TEST_F(LightEditsTest, TheRigDoesTheSame) {
     red.colour = scene::Float3{7, 0, 0};
     red.brightness = 0.5;
     edits.set(tube, red);
-    const std::string path =
-        testing::TempDir() + "nusselt_light_edits_" + std::to_string(::getpid()) + ".json";
+    const base::TemporaryFolder folder;
+    const std::filesystem::path path = folder / "rig.json";
     std::ofstream(path) << edits.rig_text();
     scene::Scene by_rig = scene_;
     scene::apply_rig(scene::read_rig(path), by_rig);

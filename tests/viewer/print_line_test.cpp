@@ -1,8 +1,8 @@
+#include "base/temporary_folder.h"
 #include "viewer/print_line.h"
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -13,7 +13,8 @@ namespace nusselt::viewer {
 namespace {
 
 TEST(PrintLine, ReachesFilesAtOnce) {
-    const std::string path = testing::TempDir() + "nusselt_print_line_" + std::to_string(::getpid()) + ".txt";
+    const base::TemporaryFolder folder;
+    const std::string path = (folder / "line.txt").string();
     std::fflush(stdout);
     const int terminal = ::dup(STDOUT_FILENO);
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -27,7 +28,6 @@ TEST(PrintLine, ReachesFilesAtOnce) {
     ::dup2(terminal, STDOUT_FILENO);
     ::close(terminal);
     ::close(file);
-    std::filesystem::remove(path);
     EXPECT_EQ(line, "RMSE 0.5");
 }
 

@@ -85,6 +85,7 @@ TEST_F(ScriptTest, ReplacesNoFileThatWasRead) {
             << save;
     }
     EXPECT_EQ(std::filesystem::file_size(rig), 28u);
+    EXPECT_FALSE(std::filesystem::exists(path("rig.png")));
 }
 
 TEST_F(ScriptTest, WritesBothImages) {

@@ -1,5 +1,6 @@
 /// The images of the viewer, without its window.
 
+#include "base/temporary_folder.h"
 #include "common/source_folder.h"
 #include "viewer/session.h"
 
@@ -16,8 +17,6 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
-
-#include <unistd.h>
 
 namespace nusselt::viewer {
 namespace {
@@ -210,11 +209,10 @@ TEST_F(SessionTest, RigsThatWereLoadedAreNotAppliedAgain) {
     moved.move = {0, -0.2, 0};
     viewer.state.edits.set(0, moved);
     viewer.next_frame();
-    const std::filesystem::path rig =
-        std::filesystem::temp_directory_path() / ("nusselt_rig_" + std::to_string(::getpid()) + ".json");
+    const base::TemporaryFolder folder;
+    const std::filesystem::path rig = folder / "rig.json";
     save_lights(rig, viewer.state, viewer.files);
     viewer.load_lights(rig);
-    std::filesystem::remove(rig);
     LightEdit far;
     far.move = {1e300, 0, 0};
     viewer.state.edits.set(0, far);

@@ -188,7 +188,7 @@ TEST(LineBvh, LightsHideOthersButNotThemselves) {
     add_ceiling_light(scene);
     const LineQuery query{{0.1f, 0.2f, 0}, 0, 0.3f, 16};
     EXPECT_NEAR(visible_share(trace<16>(scene, LineBvh(scene), query)), 1, 1e-6);
-    // In the way, and larger.
+    // A larger light occludes it.
     add_light(scene, {-3, -3, 1}, {6, 0, 0}, {0, 6, 0});
     EXPECT_EQ(visible_share(trace<16>(scene, LineBvh(scene), query)), 0);
     LineQuery of_other = query;

@@ -29,6 +29,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -42,21 +43,41 @@ namespace nusselt::app {
 
 namespace {
 
-/// Writes the frame to all files, also if some of them cannot be written: hours of work may be in it. EXR files get all
-/// layers and metadata, others the image alone.
-/// \throws std::runtime_error at the end, about all files that could not be written
+/// Steps of which each is tried whether the others fail or not: hours of work may be in what they write.
+class Attempts {
+public:
+    /// \returns whether the step succeeded
+    template <class Step>
+    bool attempt(const Step& step) {
+        try {
+            step();
+            return true;
+        } catch (const std::exception& error) {
+            add_failure(error.what());
+            return false;
+        }
+    }
+
+    void add_failure(const std::string& message) { failures_ += (failures_.empty() ? "" : "; ") + message; }
+    bool has_failures() const { return !failures_.empty(); }
+
+    /// \throws std::runtime_error about all failures, if there are any
+    void report() const {
+        if (has_failures()) throw std::runtime_error(failures_);
+    }
+
+private:
+    std::string failures_;
+};
+
+/// Writes the frame to all files. EXR files get all layers and metadata, others the image alone.
 void write_outputs(const RenderOptions& options, const render::RenderSettings& settings,
-                   const scene::Film& film, render::Frame&& frame, const image::Metadata& metadata) {
+                   const scene::Film& film, render::Frame&& frame, const image::Metadata& metadata,
+                   Attempts& attempts) {
     const std::vector<std::filesystem::path> paths = output_paths(options, film);
     std::set<std::filesystem::path> written;
-    std::string problems;
     const auto write = [&](const std::filesystem::path& path, const auto& write_file) {
-        try {
-            write_file();
-            written.insert(path);
-        } catch (const std::exception& error) {
-            problems += (problems.empty() ? "" : "; ") + std::string(error.what());
-        }
+        if (attempts.attempt(write_file)) written.insert(path);
     };
     for (const std::filesystem::path& path : paths)
         if (!image::is_exr(path))
@@ -66,7 +87,6 @@ void write_outputs(const RenderOptions& options, const render::RenderSettings& s
         if (image::is_exr(path)) write(path, [&] { image::write_layers(path, layered); });
     for (const std::filesystem::path& path : paths)
         if (written.count(path) != 0) print_output(options, path);
-    if (!problems.empty()) throw std::runtime_error(problems);
 }
 
 std::string check_display_address(const std::string& text) {
@@ -84,7 +104,8 @@ const char* const kCheckpointKept = "stopped before rendering went on; the check
 
 /// Reports that the image is incomplete. \param finished fraction of the work
 void print_stop(const RenderOptions& options, double finished) {
-    print_message("stopped after {:.1f} % of the camera rays", 100 * finished);
+    // Rounded down, for only complete images have 100 %.
+    print_message("stopped after {:.1f} % of the camera rays", std::floor(1000 * finished) / 10);
     if (options.checkpoint)
         print_message("; run the same command again to continue from '{}'", options.checkpoint->string());
     print_message("\n");
@@ -244,9 +265,10 @@ int run_render(const RenderOptions& options) {
     metadata["scene"] = options.scene.filename().string();
     metadata["render_seconds"] = image::metadata_text(statistics.render_seconds);
     metadata["finished_fraction"] = image::metadata_text(finished);
-    write_outputs(options, settings, scene.film, std::move(frame), metadata);
-    if (unsaved && finished < 1) throw std::runtime_error(*unsaved);
-    if (options.checkpoint && finished == 1) {
+    Attempts attempts;
+    write_outputs(options, settings, scene.film, std::move(frame), metadata, attempts);
+    if (unsaved && finished < 1) attempts.add_failure(*unsaved);
+    if (options.checkpoint && finished == 1 && !attempts.has_failures()) {
         // A symbolic link stays, as it does for images.
         std::error_code ignored;
         std::filesystem::remove(std::filesystem::weakly_canonical(*options.checkpoint, ignored), ignored);
@@ -254,7 +276,10 @@ int run_render(const RenderOptions& options) {
     times.write = writing.seconds();
     times.total = stopwatch.seconds();
     if (options.json)
-        write_report(*options.json, report_json(options, settings, scene, *backend, statistics, times));
+        attempts.attempt([&] {
+            write_report(*options.json, report_json(options, settings, scene, *backend, statistics, times));
+        });
+    attempts.report();
     if (finished == 1) return 0;
     if (!options.quiet) print_stop(options, finished);
     return interrupted_exit_code();

@@ -72,10 +72,12 @@ void check_line_options(const RenderOptions& options, render::Technique techniqu
         if (is_given) throw CLI::ValidationError(name, "needs --light-samples lines");
 }
 
-void check_camera_rays(const RenderOptions& options, int samples) {
+/// \param source what determines the number of samples per pixel
+void check_camera_rays(const RenderOptions& options, int samples, const std::string& source) {
     if (options.camera_rays && samples % *options.camera_rays != 0)
-        throw CLI::ValidationError(
-            "--camera-rays", fmt::format("{} must divide --spp, which is {}", *options.camera_rays, samples));
+        throw CLI::ValidationError("--camera-rays",
+                                   fmt::format("{} must divide the {} samples per pixel that {}",
+                                               *options.camera_rays, samples, source));
 }
 
 } // namespace
@@ -159,7 +161,9 @@ void choose_samples(const RenderOptions& options, const scene::Film& film, rende
     if (options.samples) return;
     const int asked = film.pixel_samples.value_or(1);
     settings.samples = std::min(asked, render::kMaxSamples);
-    check_camera_rays(options, settings.samples);
+    check_camera_rays(options, settings.samples,
+                      film.pixel_samples ? "the Sampler of the scene asks for; --spp changes them"
+                                         : "are the default; --spp changes them");
     render::validate(settings);
     if (asked == 1 || options.quiet) return;
     const std::string reason =
@@ -193,7 +197,7 @@ void check_combination(const RenderOptions& options) {
                                                "which is unknown for {}; use {}",
                                                *options.mis, name_of(strategies), fmt::join(others, " or ")));
     }
-    if (options.samples) check_camera_rays(options, *options.samples);
+    if (options.samples) check_camera_rays(options, *options.samples, "--spp asks for");
     if (options.checkpoint_interval && !options.checkpoint)
         throw CLI::ValidationError("--checkpoint-interval", "needs --checkpoint");
     check_line_options(options, technique);

@@ -60,13 +60,13 @@ void setup_view(CLI::App& app, int& exit_code) {
 int run_view(const ViewOptions& options) {
     const RenderOptions& render = options.render;
     const render::RenderSettings settings = make_settings(render);
+    const gpu::Device device({.choice = render.device}); // before the time that loading takes
     scene::Scene scene = load_scene(render.scene, render.rigs);
     if (render.camera) apply_camera(scene::read_camera_file(*render.camera), scene);
     apply_resolution(render.resolution, scene);
     if (!render.quiet)
         for (const std::string& warning : scene.warnings) print_message("warning: {}\n", warning);
 
-    const gpu::Device device({.choice = render.device});
     const auto shadow_rays = render.shadow_rays ? from_name(render_vulkan::kShadowRays, *render.shadow_rays)
                                                 : render_vulkan::default_shadow_rays(device);
     std::vector<std::filesystem::path> inputs = scene.files;

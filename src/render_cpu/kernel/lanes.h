@@ -47,6 +47,7 @@ inline std::uint64_t count_lanes(LaneMask mask) noexcept {
     return static_cast<std::uint64_t>(__builtin_popcount(mask.bits()));
 }
 
+/// That of scene/model/library_vector.h is compiled without the instruction set of the kernel.
 inline Vec3<float> to_vec(const scene::Float3& v) noexcept { return {v.x, v.y, v.z}; }
 
 /// Loads the entry `column` from rows of `stride` floats. Each active lane has its row number; the other lanes are 0.

@@ -1,6 +1,7 @@
 #include "render_cpu/lights/polygon_records.h"
 
 #include "render_cpu/lights/float_count.h"
+#include "scene/model/library_vector.h"
 #include "scene/model/scene.h"
 
 #include <nusselt/geometry/convex_polygon.h>
@@ -12,9 +13,6 @@
 namespace nusselt::render_cpu {
 
 namespace {
-
-Vec3<float> to_vec(const scene::Float3& v) { return {v.x, v.y, v.z}; }
-scene::Float3 to_float3(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
 
 /// How many vertices the record of a polygon has room for.
 std::int32_t slots_of(const scene::PolygonLight& light) { return light.vertices.size() <= 4 ? 4 : 8; }
@@ -32,9 +30,9 @@ void add_corners(const scene::PolygonVertices& vertices, PolygonRecord& record,
     for (std::size_t j = 0; j < vertices.size(); ++j) corners[j] = to_vec(vertices[j]);
     const auto polygon = make_polygon<N>(corners, static_cast<int>(vertices.size()));
     record.first_corner = static_cast<std::uint32_t>(all_corners.size());
-    for (int j = 0; j < N; ++j) all_corners.push_back(to_float3(polygon.vertex[j]));
-    for (int j = 0; j < N; ++j) all_corners.push_back(to_float3(polygon.edge[j]));
-    record.normal = to_float3(polygon.normal);
+    for (int j = 0; j < N; ++j) all_corners.push_back(scene::to_float3(polygon.vertex[j]));
+    for (int j = 0; j < N; ++j) all_corners.push_back(scene::to_float3(polygon.edge[j]));
+    record.normal = scene::to_float3(polygon.normal);
 }
 
 PolygonRecord make_record(const scene::Scene& scene, const scene::PolygonLight& light,

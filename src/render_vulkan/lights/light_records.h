@@ -31,9 +31,9 @@ LightArray make_light_array(const char* what, const std::vector<T>& values) {
 /// The lights of a scene.
 struct LightRecords {
     std::array<interface::LightRange, interface::kLightKinds> ranges = {}; ///< by kind
-    /// By binding, from interface::kFirstLightBinding on.
+    /// The element `i` belongs to the binding interface::kFirstLightBinding + i.
     std::array<LightArray, interface::kFirstBindingAfterLights - interface::kFirstLightBinding> arrays;
-    /// By specialisation constant, from interface::kFirstLightConstant on.
+    /// The element `i` belongs to the specialisation constant interface::kFirstLightConstant + i.
     std::array<bool, interface::kConstantCount - interface::kFirstLightConstant> has_shape = {};
     int polygon_slots = 4; ///< vertices that each polygonal light has room for, 4 or 8
 

@@ -2,6 +2,7 @@
 
 #include "render_vulkan/lights/light_records.h"
 #include "render_vulkan/record_values.h"
+#include "scene/model/library_vector.h"
 
 #include <nusselt/geometry/line_segment.h>
 
@@ -14,8 +15,8 @@ bool write_lines(const scene::LightList& list, LightRecords& records) {
     for (const scene::LineLight& light : lines->lights) {
         const auto line = make_line(to_vec(light.start), to_vec(light.end));
         interface::LineLightRecord& record = lights.emplace_back();
-        copy(to_float3(line.p0), record.begin);
-        copy(to_float3(line.s), record.direction);
+        copy(scene::to_float3(line.p0), record.begin);
+        copy(scene::to_float3(line.s), record.direction);
         record.len = line.length;
         record.radius = light.radius;
         const bool is_solid = light.model == scene::TubeModel::solid;

@@ -2,6 +2,7 @@
 
 #include "render_vulkan/lights/light_records.h"
 #include "render_vulkan/record_values.h"
+#include "scene/model/library_vector.h"
 
 #include <nusselt/geometry/convex_polygon.h>
 
@@ -21,10 +22,10 @@ void add_polygon(const scene::PolygonLight& light, PolygonArrays& arrays) {
     Vec3<float> corners[N] = {};
     for (std::size_t j = 0; j < light.vertices.size(); ++j) corners[j] = to_vec(light.vertices[j]);
     const auto polygon = make_polygon<N>(corners, static_cast<int>(light.vertices.size()));
-    for (const Vec3<float>& vertex : polygon.vertex) arrays.corners.push_back(to_float3(vertex));
-    for (const Vec3<float>& edge : polygon.edge) arrays.corners.push_back(to_float3(edge));
+    for (const Vec3<float>& vertex : polygon.vertex) arrays.corners.push_back(scene::to_float3(vertex));
+    for (const Vec3<float>& edge : polygon.edge) arrays.corners.push_back(scene::to_float3(edge));
     interface::PolygonLightRecord& record = arrays.lights.emplace_back();
-    copy(to_float3(polygon.normal), record.normal);
+    copy(scene::to_float3(polygon.normal), record.normal);
     copy(light.radiance, record.radiance);
     record.is_two_sided = light.two_sided ? 1 : 0;
 }

@@ -2,14 +2,13 @@
 
 #include "scenes.h"
 
+#include "base/temporary_folder.h"
 #include "render/checkpoint.h"
 #include "render/metadata.h"
 #include "render_cpu/backend.h"
 #include "scene/model/content_hash.h"
 
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
@@ -31,10 +30,7 @@ protected:
     Checkpoint() : scene_(make_box_scene(24)) {
         settings_.samples = 2;
         settings_.layers = {render::LayerKind::depth, render::LayerKind::lights};
-        path_ = std::filesystem::temp_directory_path() / ("nusselt_checkpoint_" + std::to_string(::getpid()));
-        std::filesystem::remove(path_);
     }
-    ~Checkpoint() override { std::filesystem::remove(path_); }
 
     image::Metadata run_of(const Frame& frame) const {
         return describe_run(
@@ -72,7 +68,8 @@ protected:
 
     scene::Scene scene_;
     RenderSettings settings_;
-    std::filesystem::path path_;
+    base::TemporaryFolder folder_;
+    std::filesystem::path path_ = folder_ / "state";
 };
 
 TEST_F(Checkpoint, GoesOnWithTheTilesItHas) {
@@ -148,17 +145,15 @@ TEST_F(Checkpoint, NumbersThatDifferInTheLastBitAreOtherRuns) {
 }
 
 TEST_F(Checkpoint, LeavesNoOtherFiles) {
-    const std::filesystem::path folder = path_.string() + "_folder";
-    std::filesystem::create_directory(folder);
+    const base::TemporaryFolder folder;
     std::ofstream(folder / "state.new") << "of the user";
     const Frame frame = render::make_frame(scene_, settings_);
     save_checkpoint(folder / "state", run_of(frame), frame, {}, {});
     std::set<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
         names.insert(entry.path().filename().string());
     EXPECT_EQ(names, (std::set<std::string>{"state", "state.new"}));
     EXPECT_EQ(std::filesystem::file_size(folder / "state.new"), 11u);
-    std::filesystem::remove_all(folder);
 }
 
 TEST_F(Checkpoint, AnyDamageIsNoticed) {

@@ -2,13 +2,12 @@
 
 #include "scenes.h"
 
+#include "base/temporary_folder.h"
 #include "render/checkpoint.h"
 #include "render/frame.h"
 #include "render_cpu/renderer.h"
 
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -72,15 +71,14 @@ private:
 
 /// Stores the frame in a file, as a program that ends does, and reads it as the next program does.
 Frame stored_and_read(const Frame& frame, const scene::Scene& scene, const RenderSettings& settings) {
-    const auto path =
-        std::filesystem::temp_directory_path() / ("nusselt_stop_" + std::to_string(::getpid()) + ".state");
+    const base::TemporaryFolder folder;
+    const std::filesystem::path path = folder / "state";
     std::vector<std::size_t> finished;
     for (std::size_t i = 0; i < frame.tiles.size(); ++i)
         if (frame.is_finished[i] != 0) finished.push_back(i);
     save_checkpoint(path, {}, frame, finished, frame.begun);
     Frame result = render::make_frame(scene, settings);
     load_checkpoint(path, {}, result);
-    std::filesystem::remove(path);
     return result;
 }
 
