@@ -143,8 +143,10 @@ void replace_missing_materials(std::vector<std::uint32_t>& triangle_material,
     materials.push_back(black_material());
 }
 
-/// Moves what the shapes consist of to the scene.
+/// Moves what the shapes consist of to the scene. Releases each array before the next is allocated, where that is possible.
 void take_shapes(BuiltShape&& shapes, const std::filesystem::path& path, Scene& scene) {
+    scene.emitters = name_emitters(shapes.emitters, path);
+    shapes.emitters = {};
     scene.positions = std::move(shapes.positions);
     scene.normals = std::move(shapes.normals);
     scene.uvs = std::move(shapes.uvs);
@@ -156,7 +158,6 @@ void take_shapes(BuiltShape&& shapes, const std::filesystem::path& path, Scene& 
     scene.triangle_material = std::move(shapes.triangle_material);
     replace_missing_materials(scene.triangle_material, scene.materials);
     scene.lights.append(std::move(shapes.lights));
-    scene.emitters = name_emitters(shapes.emitters, path);
 }
 
 /// Adds the objects that have triangles, and their instances.

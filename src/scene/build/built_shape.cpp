@@ -85,8 +85,11 @@ BuiltShape join(std::vector<BuiltShape> shapes, std::string_view copies) {
     result.triangle_light = take_arrays(shapes, &BuiltShape::triangle_light, triangles, -1);
     result.triangle_material = take_arrays(shapes, &BuiltShape::triangle_material, triangles, {});
     result.emitters = take_arrays(shapes, &BuiltShape::emitters, sizes_of(shapes, &BuiltShape::emitters), {});
-    for (BuiltShape& shape : shapes) {
-        result.lights.append(std::move(shape.lights));
+    std::vector<Lights> lights;
+    lights.reserve(shapes.size());
+    for (BuiltShape& shape : shapes) lights.push_back(std::move(shape.lights));
+    result.lights.append(std::move(lights));
+    for (const BuiltShape& shape : shapes) {
         result.degenerate_triangles += shape.degenerate_triangles;
         if (!result.first_degenerate) result.first_degenerate = shape.first_degenerate;
         result.round_shapes += shape.round_shapes;

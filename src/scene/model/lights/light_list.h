@@ -53,6 +53,8 @@ public:
     virtual std::unique_ptr<LightList> empty_list() const = 0;
     /// Takes the lights of another list of this kind.
     virtual void append(LightList&& others) = 0;
+    /// Takes the memory for this many lights in all.
+    virtual void reserve(std::size_t count) = 0;
     virtual void clear() = 0;
 
     virtual std::string_view name() const = 0;

@@ -3,6 +3,8 @@
 
 #include "scene/model/lights/light_list.h"
 
+#include <iterator>
+
 namespace nusselt::scene {
 
 template <class Light>
@@ -14,12 +16,14 @@ public:
     std::unique_ptr<LightList> empty_list() const override { return std::make_unique<LightsOf>(); }
     void append(LightList&& others) override {
         std::vector<Light>& added = static_cast<LightsOf&>(others).lights;
-        if (lights.empty())
+        if (lights.capacity() == 0)
             lights = std::move(added);
         else
-            lights.insert(lights.end(), added.begin(), added.end());
+            lights.insert(lights.end(), std::make_move_iterator(added.begin()),
+                          std::make_move_iterator(added.end()));
         added = {};
     }
+    void reserve(std::size_t count) override { lights.reserve(count); }
     void clear() override { lights.clear(); }
 
     std::string_view name() const override { return Kind::kName; }
@@ -121,6 +125,8 @@ public:
 
     /// Moves the lights of others to the ends of the lists of their kinds.
     void append(Lights&& others);
+    /// The same for all parts. Each list takes its memory at once, because lists that grow exist twice for a while.
+    void append(std::vector<Lights> parts);
     /// Copies likewise.
     void append(const Lights& others) { append(Lights(others)); }
     void append(const LightList& others, std::size_t i) { others.copy_to(list_like(others), i); }
