@@ -38,17 +38,20 @@ function(nusselt_add_shader target name source)
     set(spirv ${folder}/${name}.spv)
     set(header ${folder}/${name}.h)
     set(embedded ${spirv})
+    set(outputs ${spirv} ${header})
     set(type std::uint32_t)
     set(compress)
     if(arg_COMPRESSED)
         set(embedded ${spirv}.gz)
+        list(APPEND outputs ${embedded})
         set(type "unsigned char")
         set(compress COMMAND ${GZIP} --no-name --force --keep ${spirv})
     endif()
     set(symbol ${target}_shader_${name})
     list(TRANSFORM arg_DEFINES PREPEND -D)
     file(MAKE_DIRECTORY ${folder})
-    add_custom_command(OUTPUT ${header} ${embedded}
+    # ninja expects that the depfile names the first output; otherwise it compiles the shader in each build.
+    add_custom_command(OUTPUT ${outputs}
         COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env ${arg_ENVIRONMENT} -g0 -I${PROJECT_SOURCE_DIR}/shaders ${arg_DEFINES}
             --depfile ${spirv}.d -o ${spirv} ${source}
         ${compress}

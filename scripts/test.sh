@@ -48,7 +48,14 @@ build() {
     cmake --preset "$1" -DNUSSELT_BUILD_TESTS=ON -DNUSSELT_TEST_PORTABILITY="$portability" \
         -DNUSSELT_WARNINGS_AS_ERRORS="$2" >"$results/$1-configure.log" 2>&1 ||
         { cat "$results/$1-configure.log"; return 1; }
-    cmake --build --preset "$1"
+    cmake --build --preset "$1" && is_up_to_date "$1"
+}
+
+# Whether nothing would be built again after a build.
+is_up_to_date() {
+    local work
+    work=$(cmake --build --preset "$1" -- -n)
+    [[ $work == *"no work to do"* ]] || { echo "parts of the build are never up to date:"; head -5 <<<"$work"; return 1; }
 }
 
 # Lines of passed tests are left out: there are thousands.

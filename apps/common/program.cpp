@@ -75,6 +75,10 @@ std::string problem_of(const CLI::Error& error) {
     if (error.get_name() == "ArgumentMismatch" && what.ends_with(" missing")) return name + " needs a value";
     if (error.get_name() == "ArgumentMismatch" && what.find(": At Most 1 ") != std::string::npos)
         return name + " may be given only once";
+    const std::string least = ": At least ";
+    if (const std::size_t found = what.find(least); found != std::string::npos)
+        return name + " needs at least " + std::to_string(std::stoi(what.substr(found + least.size()))) +
+               " values";
     if (what.ends_with("disallowed flag override")) {
         const std::string flag = name.substr(0, name.find(' '));
         return (flag.size() == 1 ? "-" : "--") + flag + " takes no value";

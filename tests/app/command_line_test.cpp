@@ -115,6 +115,7 @@ TEST_F(CommandLine, MessagesHaveNoWordsOfTheParser) {
     for (const auto& [arguments, message] :
          {std::pair("render a.pbrt --spp", "--spp needs a value"),
           std::pair("render a.pbrt --spp 1 --spp 2", "--spp may be given only once"),
+          std::pair("compare a.exr", "IMAGES needs at least 2 values"),
           std::pair("render a.pbrt --light-samples lines --integrator lines",
                     "--light-samples is given twice, once by its old name"),
           std::pair("render a.pbrt --brdf gold", "--brdf: 'gold' must be one of material, lambert"),
