@@ -51,10 +51,10 @@ build() {
     cmake --build --preset "$1" && is_up_to_date "$1"
 }
 
-# Whether nothing would be built again after a build.
+# Whether a second build does nothing.
 is_up_to_date() {
     local work
-    work=$(cmake --build --preset "$1" -- -n)
+    work=$(cmake --build --preset "$1")
     [[ $work == *"no work to do"* ]] || { echo "parts of the build are never up to date:"; head -5 <<<"$work"; return 1; }
 }
 
