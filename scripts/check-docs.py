@@ -5,7 +5,7 @@
   links     files and headings that the pages link to exist
   checks    the table of checks in docs/testing.md names those of tests/checks/CMakeLists.txt, but no self-tests
   pictures  docs/techniques/images/NAME.svg is what `PROGRAM map NAME` draws
-The pages are README.md, CONTRIBUTING.md, CHANGELOG.md and those of docs/ and shaders/nusselt.
+The pages are the Markdown files of the root, docs/ and shaders/.
 scripts/fill-docs.py checks tables.
 """
 import fnmatch
@@ -17,8 +17,7 @@ import tempfile
 
 
 def pages(root):
-    others = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "shaders/nusselt/README.md"]
-    return [*(root / name for name in others if (root / name).exists()), *sorted((root / "docs").rglob("*.md"))]
+    return [page for pattern in ("*.md", "docs/**/*.md", "shaders/**/*.md") for page in sorted(root.glob(pattern))]
 
 
 def bare(code):

@@ -154,9 +154,8 @@ TEST_F(Limits, CountsThatIndicesTellApart) {
 
 constexpr int kLights = 100'000;
 
-// Of these lights, the scenes take 8 to 36 MB, and loading another 10 to 20 MB and a third of the time. The sanitizers
-// need more of both.
-constexpr double kMostBytes = nusselt_test::kHasSanitizer ? 1e9 : 60e6;
+// The sanitizers need more of both.
+constexpr double kMostBytes = nusselt_test::kHasSanitizer ? 1e9 : 45e6;
 constexpr double kMostSeconds = nusselt_test::kHasSanitizer ? 60 : 2;
 
 std::string numbers(std::initializer_list<double> values) {

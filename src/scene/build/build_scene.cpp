@@ -143,8 +143,9 @@ void replace_missing_materials(std::vector<std::uint32_t>& triangle_material,
     materials.push_back(black_material());
 }
 
-/// Moves what the shapes consist of to the scene. Releases each array before the next is allocated, where that is possible.
+/// Moves what the shapes consist of to the scene.
 void take_shapes(BuiltShape&& shapes, const std::filesystem::path& path, Scene& scene) {
+    // First, because the origins can be released before the arrays below grow.
     scene.emitters = name_emitters(shapes.emitters, path);
     shapes.emitters = {};
     scene.positions = std::move(shapes.positions);
