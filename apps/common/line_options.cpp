@@ -67,9 +67,9 @@ void add_line_options(CLI::App& command, LineOptions& options) {
     command
         .add_option(
             "--many-occluders", options.many_occluders,
-            "What shading points use where many triangles may hide a light: points, faster there than N "
-            "lines (for fewer than 16 lines everywhere), as many as the power of two next to N^1.4, with "
-            "the given technique and strategies; or lines nevertheless")
+            "What replaces lines where many triangles may hide a light, since lines are slow there. points: "
+            "points of --technique and --strategies, as many as the power of two next to N^1.4 for N lines; "
+            "with fewer than 16 lines, they replace lines everywhere. lines: nothing, lines stay")
         ->transform(to_one_of(names_of(render::kManyOccludersChoices)))
         ->default_str(std::string(name_of(defaults.many_occluders)))
         ->group(kLinesGroup);

@@ -17,6 +17,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nusselt::app {
@@ -66,6 +67,52 @@ void refuse_values_of_flags(CLI::App& command) {
     for (CLI::Option* option : command.get_options())
         if (option->get_expected_max() == 0) option->disable_flag_override();
     for (CLI::App* subcommand : command.get_subcommands({})) refuse_values_of_flags(*subcommand);
+}
+
+/// The option of the command or its subcommands that a word of the command line names; null if none has its name.
+const CLI::Option* option_named(const CLI::App& command, const std::string& name) {
+    if (const CLI::Option* option = command.get_option_no_throw(name)) return option;
+    for (const CLI::App* subcommand : command.get_subcommands({}))
+        if (const CLI::Option* option = option_named(*subcommand, name)) return option;
+    return nullptr;
+}
+
+/// CLI11 skips what is missing in a list such as "4,,8". \throws CLI::ValidationError
+void refuse_gaps_in_lists(const CLI::App& app, const std::vector<std::string>& words) {
+    for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
+        if (!words[i].starts_with("--")) continue;
+        const std::size_t equals = words[i].find('=');
+        const std::string name = words[i].substr(0, equals);
+        const CLI::Option* const option = option_named(app, name);
+        if (option == nullptr || option->get_delimiter() != ',') continue;
+        if (equals == std::string::npos && i + 1 == words.size()) continue;
+        const std::string list = equals == std::string::npos ? words[i + 1] : words[i].substr(equals + 1);
+        if (("," + list + ",").find(",,") != std::string::npos)
+            throw CLI::ValidationError(name, "the list '" + list + "' has an empty entry");
+    }
+}
+
+/// No argument may be empty: most often, a variable of the shell has no value. \throws CLI::ValidationError
+void refuse_empty_words(const std::vector<std::string>& words) {
+    const auto empty = std::find(words.begin(), words.end(), "");
+    if (empty == words.end()) return;
+    const std::string before = empty == words.begin() ? "first" : "one behind '" + *(empty - 1) + "'";
+    throw CLI::ValidationError("an argument is empty", "the " + before);
+}
+
+/// The words of a command line; "help render" means "render --help", as in other programs.
+std::vector<std::string> words_of(const CLI::App& app, int argc, char** argv) {
+    std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    if (words.empty() || words.front() != "help") return words;
+    words.erase(words.begin());
+    const CLI::App* command = &app;
+    for (const std::string& word : words) {
+        const std::vector<std::string> names = command_names(*command);
+        if (std::find(names.begin(), names.end(), word) == names.end()) return words; // to be reported
+        command = command->get_subcommand(word);
+    }
+    words.emplace_back("--help");
+    return words;
 }
 
 /// The problem in the words of the help rather than of CLI11.
@@ -132,7 +179,11 @@ int run_program(const Program& program, int argc, char** argv) {
     refuse_values_of_flags(app);
     app.footer(program.footer); // after the commands, which would inherit it
     try {
-        app.parse(argc, argv);
+        std::vector<std::string> words = words_of(app, argc, argv);
+        refuse_empty_words(words);
+        refuse_gaps_in_lists(app, words);
+        std::reverse(words.begin(), words.end()); // as CLI11 wants them
+        app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         const bool is_help = error.get_exit_code() == 0;
         app.exit(error);

@@ -55,9 +55,11 @@ std::string command_of(const Session& session, const ViewState& state, const Sce
     if (files.device) command += " --device " + base::shell_word(*files.device);
     command += fmt::format(" --shadow-rays {} --technique {} --strategies {}", name_of(session.shadow_rays()),
                            name_of(settings.technique), name_of(settings.strategies));
-    if (settings.strategies != render::Strategies::diffuse)
-        command += fmt::format(" --mis {} --visibility-estimate {}", name_of(settings.mis),
-                               settings.visibility_estimate);
+    if (settings.strategies != render::Strategies::diffuse) {
+        command += fmt::format(" --mis {}", name_of(settings.mis));
+        if (uses_visibility_estimate(settings.mis))
+            command += fmt::format(" --visibility-estimate {}", settings.visibility_estimate);
+    }
     command += fmt::format(" --sampler {} --brdf {}", name_of(settings.sample_order), name_of(settings.brdf));
     // The image of a single frame is reproduced up to rounding, that of several frames up to noise.
     const std::int64_t frames = std::max<std::int64_t>(session.frames(Side::left), 1);

@@ -83,17 +83,23 @@ void write_atomically(const std::filesystem::path& name, const std::function<voi
     const std::filesystem::path temporary = temporary_path(path);
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
     if (!stream) {
-        fail(name, "cannot create a file in '" + folder.string() + "' (" + std::strerror(errno) +
-                       "); check its permissions or choose another folder");
+        const int problem = errno;
+        fail(name, "cannot create a file in '" + folder.string() + "' (" + std::strerror(problem) + "); " +
+                       (problem == ENAMETOOLONG ? "use a name of at most 200 bytes"
+                                                : "check its permissions or choose another folder"));
     }
     const RemoveAtExit remove_temporary(temporary);
+    errno = 0;
     try {
         write(stream);
     } catch (...) {
         if (stream) throw; // what a failed stream made `write` throw is reported below
     }
     stream.close();
-    if (!stream) fail(name, "cannot store the data; check the free space of the disk");
+    if (!stream)
+        fail(name, errno == EFBIG
+                       ? "cannot store the data; it exceeds the limit on the size of files (see ulimit -f)"
+                       : "cannot store the data; check the free space of the disk");
     // Without this, a crash of the machine could leave the new name with the bytes of neither file.
     if (const int problem = store(temporary); problem != 0)
         fail(name, std::string("cannot store the data (") + std::strerror(problem) + "); check the disk");

@@ -15,6 +15,9 @@ inline constexpr std::array kAllIsas = {Isa::sse42, Isa::avx2, Isa::avx512};
 /// "sse42", "avx2" or "avx512".
 std::string_view name_of(Isa isa);
 
+/// The number of floats in a register.
+constexpr int lane_count(Isa isa) { return isa == Isa::sse42 ? 4 : isa == Isa::avx2 ? 8 : 16; }
+
 /// Whether processor and operating system support it.
 bool is_supported(Isa isa);
 

@@ -92,6 +92,7 @@ std::string lower_case_extension(const std::filesystem::path& path) {
 }
 
 bool is_exr(const std::filesystem::path& path) { return lower_case_extension(path) == ".exr"; }
+bool is_png(const std::filesystem::path& path) { return lower_case_extension(path) == ".png"; }
 
 void check_size(std::int64_t width, std::int64_t height) {
     const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";

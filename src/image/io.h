@@ -15,6 +15,9 @@ namespace nusselt::image {
 /// Whether the extension is that of EXR files.
 [[nodiscard]] bool is_exr(const std::filesystem::path& path);
 
+/// Whether the extension is that of PNG files.
+[[nodiscard]] bool is_png(const std::filesystem::path& path);
+
 /// Writes an image in the format that the extension names (upper or lower case):
 /// - `.exr`: three 32-bit float channels, bit exact; the metadata become string attributes `nusselt:<key>`.
 /// - `.png`: 8 bits with the sRGB transfer function; values are multiplied by 2^exposure and clamped to [0, 1]. NaN

@@ -1,6 +1,7 @@
 #pragma once
 /// Images of many layers (colour, albedo, normals, depth, the light of one lamp alone, ...) and their EXR files.
 
+#include "image/channel_names.h"
 #include "image/image.h"
 
 #include <cstddef>
@@ -17,7 +18,7 @@ struct Layer {
     /// Empty for the picture itself. Dots are allowed: "light.window" is the light of one lamp.
     std::string name;
     /// The last part of the names of channels, without dots: {"R", "G", "B"}, {"X", "Y", "Z"} or {"Z"}.
-    std::vector<std::string> channels;
+    ChannelNames channels;
     /// Row 0 on top, the channels of a pixel side by side. Infinities and NaN are legal.
     std::vector<float> data;
 };

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace nusselt::render {
@@ -18,12 +18,10 @@ namespace {
 
 constexpr int kTileSize = 16;
 
-using Channels = std::vector<std::string>;
-
-const Channels kRgb = {"R", "G", "B"};
+const image::ChannelNames kRgb = {"R", "G", "B"};
 
 /// Name and channels of a layer.
-using LayerFormat = std::pair<std::string, Channels>;
+using LayerFormat = std::pair<std::string, image::ChannelNames>;
 
 /// The tiles of the film that have some of these pixels, cut to them.
 std::vector<Tile> make_tiles(const scene::PixelBounds& bounds) {
@@ -75,13 +73,18 @@ std::string layer_name(const std::string& emitter) {
 /// One name for each emitter, no two the same.
 std::vector<std::string> light_layer_names(const std::vector<scene::Emitter>& emitters) {
     std::vector<std::string> names;
-    std::set<std::string> used;
-    for (std::size_t i = 0; i < emitters.size(); ++i) {
-        std::string name = layer_name(emitters[i].name);
-        if (used.count(name) != 0) name += "." + std::to_string(i);
-        used.insert(name);
-        names.push_back(name);
-    }
+    names.reserve(emitters.size());
+    for (const scene::Emitter& emitter : emitters) names.push_back(layer_name(emitter.name));
+    // No node of a set for each name: they would leave gaps in memory, too small for layers.
+    std::vector<std::size_t> order(names.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::pair<std::string_view, std::size_t>(names[a], a) <
+               std::pair<std::string_view, std::size_t>(names[b], b);
+    });
+    // The first of each name keeps it. Backwards, so that names are compared as they were.
+    for (std::size_t k = order.size(); k-- > 1;)
+        if (names[order[k]] == names[order[k - 1]]) names[order[k]] += "." + std::to_string(order[k]);
     return names;
 }
 
@@ -143,8 +146,8 @@ bool is_wanted(const RenderSettings& settings, LayerKind kind) {
 }
 
 FrameSize frame_size(const scene::Scene& scene, const RenderSettings& settings) {
-    // Names, the lists of channels, the heap, and the order of the channels while a file is written.
-    constexpr std::size_t kBytesPerLayer = 500;
+    // Names, the heap, and lists of all layers and channels.
+    constexpr std::size_t kBytesPerLayer = 200;
     const scene::PixelBounds bounds = rendered_pixels(scene.film);
     FrameSize size;
     size.width = bounds.x_end - bounds.x_begin;
@@ -155,6 +158,7 @@ FrameSize frame_size(const scene::Scene& scene, const RenderSettings& settings) 
         size.layers += formats.size();
         for (const auto& [name, channels] : formats) size.channels += channels.size();
     }
+    size.tiles = make_tiles(bounds).size();
     const std::size_t pixels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
     size.bytes = sizeof(float) * (size.channels + 1) * pixels + kBytesPerLayer * size.layers;
     return size;
@@ -177,7 +181,7 @@ Frame make_frame(const scene::Scene& scene, const RenderSettings& settings) {
     const std::size_t pixels = frame.image.pixels.size() / 3;
     frame.camera_rays = camera_ray_count(settings);
     frame.rays.resize(pixels);
-    frame.layers.reserve(size.layers);
+    frame.layers.reserve(size.layers + 2); // to_layered_image() adds two
     add_layers(formats_before_lights(settings), pixels, frame);
     for (std::string& name : light_names)
         frame.layers.push_back({std::move(name), kRgb, std::vector<float>(kRgb.size() * pixels)});
@@ -221,9 +225,8 @@ image::LayeredImage to_layered_image(Frame&& frame, const scene::Film& film, con
     const bool is_whole = settings.part.count == 1 && finished_fraction(frame) == 1;
     image::Layer samples;
     if (!is_whole) samples = samples_layer(frame, settings);
-    result.layers.reserve(frame.layers.size() + 2);
-    result.layers.push_back({"", kRgb, std::move(frame.image.pixels)});
-    for (image::Layer& layer : frame.layers) result.layers.push_back(std::move(layer));
+    result.layers = std::move(frame.layers);
+    result.layers.insert(result.layers.begin(), {"", kRgb, std::move(frame.image.pixels)});
     if (!is_whole) result.layers.push_back(std::move(samples));
     return result;
 }

@@ -28,6 +28,8 @@ bool allows(Strategies strategies, Mis mis) {
     return mis == Mis::balance || mis == Mis::power || mis == Mis::separate;
 }
 
+bool uses_visibility_estimate(Mis mis) { return mis == Mis::clamped_optimal || mis == Mis::optimal; }
+
 bool uses_lobes(const RenderSettings& settings) {
     return settings.technique == Technique::ltc_analytic || settings.strategies != Strategies::diffuse ||
            settings.light_samples == LightSamples::lines;

@@ -269,6 +269,9 @@ bool samples_visible_normals(Strategies strategies);
 /// which sampling of visible normals does not tell.
 bool allows(Strategies strategies, Mis mis);
 
+/// Whether the heuristic weighs samples by RenderSettings::visibility_estimate.
+bool uses_visibility_estimate(Mis mis);
+
 /// Whether linearly transformed cosines are needed.
 bool uses_lobes(const RenderSettings& settings);
 

@@ -30,7 +30,7 @@ std::optional<std::string> CpuBackend::why_unsupported(const render::RenderSetti
 
 std::size_t CpuBackend::layer_sum_bytes(const scene::Scene& scene,
                                         const render::RenderSettings& settings) const {
-    return render_cpu::layer_sum_bytes(scene, settings, threads_);
+    return render_cpu::layer_sum_bytes(scene, settings, isa_, threads_);
 }
 
 std::unique_ptr<render::PreparedScene> CpuBackend::prepare(const scene::Scene& scene) const {

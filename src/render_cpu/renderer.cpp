@@ -105,7 +105,10 @@ private:
     std::uint64_t finished_pixels_ = 0;
 };
 
-/// Working memory of one thread, aligned as kernels need it.
+/// What kernels need [bytes].
+constexpr std::size_t kMemoryAlignment = 64;
+
+/// Working memory of one thread, aligned as kernels need it. All sizes are multiples of the alignment.
 class ThreadMemory {
 public:
     /// \param sum_bytes  for a packet, then for layers of lights
@@ -123,8 +126,8 @@ public:
     std::span<std::byte> sums() { return std::as_writable_bytes(std::span(sums_)); }
 
 private:
-    struct alignas(64) Block {
-        float floats[16];
+    struct alignas(kMemoryAlignment) Block {
+        float floats[kMemoryAlignment / sizeof(float)];
     };
     std::vector<Block> sums_;
     std::unique_ptr<Block[]> kept_;
@@ -139,21 +142,23 @@ const unsigned char* bytes_of(const std::atomic<bool>* cancel) {
 }
 
 /// The memory for the sums of layers of lights of one packet of pixels.
-std::size_t light_sum_bytes(const scene::Scene& scene, const RenderSettings& settings) {
-    return is_wanted(settings, LayerKind::lights) ? scene.emitters.size() * kLightSumFloats * sizeof(float)
-                                                  : 0;
+std::size_t light_sum_bytes(const scene::Scene& scene, const RenderSettings& settings, base::Isa isa) {
+    if (!is_wanted(settings, LayerKind::lights)) return 0;
+    const std::size_t bytes = scene.emitters.size() * light_sum_floats(lane_count(isa)) * sizeof(float);
+    return (bytes + kMemoryAlignment - 1) / kMemoryAlignment * kMemoryAlignment;
 }
 
 /// The memory to keep them, in addition.
-std::size_t kept_sum_bytes(const scene::Scene& scene, const RenderSettings& settings) {
-    return camera_ray_count(settings) > 1 ? light_sum_bytes(scene, settings) : 0;
+std::size_t kept_sum_bytes(const scene::Scene& scene, const RenderSettings& settings, base::Isa isa) {
+    return camera_ray_count(settings) > 1 ? light_sum_bytes(scene, settings, isa) : 0;
 }
 
 } // namespace
 
-std::size_t layer_sum_bytes(const scene::Scene& scene, const RenderSettings& settings, int threads) {
-    return static_cast<std::size_t>(threads) *
-           (light_sum_bytes(scene, settings) + kept_sum_bytes(scene, settings));
+std::size_t layer_sum_bytes(const scene::Scene& scene, const RenderSettings& settings, base::Isa isa,
+                            int threads) {
+    const std::size_t busy = std::min(static_cast<std::size_t>(threads), frame_size(scene, settings).tiles);
+    return busy * (light_sum_bytes(scene, settings, isa) + kept_sum_bytes(scene, settings, isa));
 }
 
 int default_thread_count() { return std::max(1, tbb::this_task_arena::max_concurrency()); }
@@ -203,7 +208,7 @@ RenderResult Renderer::render(const RenderSettings& settings, base::Isa isa,
 RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& settings, base::Isa isa,
                                        const visibility::RayTracer& tracer,
                                        const RenderMonitor& monitor) const {
-    check_memory(frame_size(scene_, settings).bytes + layer_sum_bytes(scene_, settings, thread_count_),
+    check_memory(frame_size(scene_, settings).bytes + layer_sum_bytes(scene_, settings, isa, thread_count_),
                  "rendering these layers in " + std::to_string(thread_count_) + " threads",
                  "use a lower --resolution, fewer --layers or fewer --threads");
     const FrameTargets targets(frame);
@@ -248,8 +253,8 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.scene.light_set_count = static_cast<std::int32_t>(light_sets.size());
 
     const RenderTile render_tile = kernel_for(*integrator_, isa);
-    const std::size_t sum_bytes = kPacketSumBytes + light_sum_bytes(scene_, settings);
-    const std::size_t kept_bytes = kept_sum_bytes(scene_, settings);
+    const std::size_t sum_bytes = kPacketSumBytes + light_sum_bytes(scene_, settings, isa);
+    const std::size_t kept_bytes = kept_sum_bytes(scene_, settings, isa);
     const std::size_t line_bytes = settings.light_samples == LightSamples::lines ? kLineMemoryBytes : 0;
     for (const auto& [tile, state] : frame.begun) restore_pixels(frame, tile, state, sum_bytes);
     tbb::enumerable_thread_specific<ThreadMemory> memory(sum_bytes, kept_bytes, line_bytes);

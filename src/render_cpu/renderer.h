@@ -24,7 +24,8 @@
 namespace nusselt::render_cpu {
 
 /// The memory for the sums of layers of lights in all threads, beside that of the frame [bytes].
-std::size_t layer_sum_bytes(const scene::Scene& scene, const RenderSettings& settings, int threads);
+std::size_t layer_sum_bytes(const scene::Scene& scene, const RenderSettings& settings, base::Isa isa,
+                            int threads);
 
 /// A scene that is ready for rendering. Several renderings may run at once.
 class Renderer {

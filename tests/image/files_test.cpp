@@ -81,7 +81,7 @@ TEST_F(Files, AFullDiskLeavesTheOldFileAndNoOther) {
                 error = error_of([&] { write_image(path, image); });
             }
             expect_mentions(error, path.string());
-            expect_mentions(error, "free space");
+            expect_mentions(error, "exceeds the limit on the size of files");
             EXPECT_EQ(read_bytes(path), "the old contents");
         }
         {

@@ -23,11 +23,10 @@ namespace {
 
 using Layers = ImageTest;
 
-Layer random_layer(const std::string& name, std::vector<std::string> channels, std::size_t pixels,
-                   unsigned seed) {
+Layer random_layer(const std::string& name, const ChannelNames& channels, std::size_t pixels, unsigned seed) {
     std::vector<float> data = random_image(int(pixels), int(channels.size()), seed).pixels;
     data.resize(pixels * channels.size());
-    return {name, std::move(channels), std::move(data)};
+    return {name, channels, std::move(data)};
 }
 
 /// 600 rows: more than are read at a time.
@@ -168,9 +167,9 @@ TEST_F(Layers, WhatDoesNotFitIsNotWritten) {
     };
     refused([](LayeredImage& image) { image.layers.clear(); });
     refused([](LayeredImage& image) { image.layers[1].data.pop_back(); });
-    refused([](LayeredImage& image) { image.layers[2].channels.clear(); });
-    refused([](LayeredImage& image) { image.layers[2].channels[0] = "a.b"; });
-    refused([](LayeredImage& image) { image.layers[2].channels[0] = ""; });
+    refused([](LayeredImage& image) { image.layers[2].channels = {}; });
+    refused([](LayeredImage& image) { image.layers[2].channels = {"a.b"}; });
+    refused([](LayeredImage& image) { image.layers[2].channels = {""}; });
     refused([](LayeredImage& image) { image.layers[3].name = "albedo"; });
     refused([](LayeredImage& image) { image.layers[3].name = std::string(300, 'x'); });
     refused([](LayeredImage& image) { image.data.width = 0; });

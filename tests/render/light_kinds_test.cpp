@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -205,8 +206,10 @@ TEST_F(LightKinds, ArePartOfTheScene) {
     const std::string before = fingerprint(scene);
     scene.lights.of<DiscLight>()[0].radius *= 2;
     EXPECT_NE(fingerprint(scene), before);
-    EXPECT_EQ(light_report(make_disc_scene()), "0 polygon lights, 0 line lights, 1 disc lights\n"
-                                               "  disc: radius 0.5 m, power 7.4022 7.4022 7.4022 W\n");
+    std::ostringstream report;
+    write_light_report(make_disc_scene(), report);
+    EXPECT_EQ(report.str(), "0 polygon lights, 0 line lights, 1 disc light\n"
+                            "  disc: radius 0.5 m, power 7.4022 7.4022 7.4022 W\n");
 }
 
 TEST_F(LightKinds, AreWrittenAsRigs) {

@@ -75,6 +75,9 @@ TEST_F(CompressedScene, BrokenOnesAreNamed) {
     write("part.pbrt.gz", gzipped(kTriangle).substr(0, 30));
     EXPECT_EQ(error("Include \"part.pbrt.gz\""),
               "scene.pbrt:1: scene file 'part.pbrt.gz': its gzip data ends early");
+    write("part.pbrt.gz", gzipped(gzipped(kTriangle)));
+    EXPECT_EQ(error("Include \"part.pbrt.gz\""),
+              "scene.pbrt:1: scene file 'part.pbrt.gz': compressed twice; decompress it once (gunzip)");
 }
 
 } // namespace

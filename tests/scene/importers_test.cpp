@@ -99,6 +99,9 @@ TEST_F(Importers, OtherFormatsAreNamedWithWhatToDo) {
         {"a.blend", "BLENDER-v300RENDH", "is a file of Blender"},
         {"without-extension", "BLENDER-v300RENDH", "is a file of Blender"},
         {"compressed.blend", "\x28\xb5\x2f\xfd", "is a file of Blender"},
+        {"a.PNG", "\x89PNG\r\n", "is a PNG image, which cannot be read; name it in a scene file by Texture"},
+        {"picture", "\x76\x2f\x31\x01", "is an EXR image"},
+        {"rig.json", "{}", "is a JSON file, which cannot be read; name a light rig behind `--lights`"},
         {"a.ply", "ply\nformat ascii 1.0\n", "name it in a scene file by Shape \"plymesh\""},
     };
     for (const Case& c : cases) {
@@ -169,6 +172,10 @@ TEST_F(Importers, UnknownFormatsAreNamedWithTheKnownOnes) {
     EXPECT_EQ(error_of("scene.xyz", ""), expected);
     EXPECT_EQ(error_of("scene.xyz", "# only a comment"), expected);
     EXPECT_EQ(error_of("scene.xyz", std::string("\0\xff", 2)), expected);
+    for (const char* mark : {"\xff\xfe", "\xfe\xff"})
+        EXPECT_EQ(
+            error_of("scene.pbrt", std::string(mark) + "W\x01o"),
+            "scene file 'scene.pbrt': its text is in UTF-16; convert it with `iconv -f UTF-16 -t UTF-8`");
     // The program itself does not support the format of the tests.
     write("scene.toy", kToyScene);
     EXPECT_THROW(load_scene(folder_ / "scene.toy"), std::runtime_error);
@@ -182,7 +189,7 @@ TEST_F(Importers, FilesThatCannotBeRead) {
         load_scene(folder_ / "folder", formats());
         FAIL();
     } catch (const std::runtime_error& failure) {
-        EXPECT_EQ(without_folder(failure.what()), "scene file 'folder': not a regular file");
+        EXPECT_EQ(without_folder(failure.what()), "scene file 'folder': a folder, not a file");
     }
 }
 

@@ -409,7 +409,7 @@ TEST_F(RigTest, HostileFilesAreRefused) {
               "rig.json: unknown field \"" + std::string(39, 'x') +
                   "...; supported are version, comment, lights and materials");
     EXPECT_EQ(rig_error("{\"version\": \"" + std::string(1 << 20, 'x') + "\"}"),
-              "rig.json: version: must be an integer from 1 to 1, found \"" + std::string(39, 'x') + "...");
+              "rig.json: version: must be the number 1, found \"" + std::string(39, 'x') + "...");
     write("rig.json", "");
     std::filesystem::resize_file(folder_ / "rig.json", (256 << 20) + 1); // a hole, nothing is written
     try {
@@ -419,9 +419,10 @@ TEST_F(RigTest, HostileFilesAreRefused) {
         EXPECT_EQ(without_folder(error.what()),
                   "rig.json: has 268435457 bytes; at most 268435456 are supported");
     }
-    for (const auto& [path, message] : {std::pair(folder_.path(), "not a regular file"),
+    for (const auto& [path, message] : {std::pair(folder_.path(), "a folder, not a file"),
                                         {folder_ / "missing.json", "no such file"},
-                                        {std::filesystem::path("/dev/zero"), "not a regular file"}}) {
+                                        {std::filesystem::path("/dev/zero"),
+                                         "a pipe or a device, not a file; copy its contents into a file"}}) {
         try {
             read_rig(path);
             ADD_FAILURE() << path << " is read";

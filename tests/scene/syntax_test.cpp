@@ -109,7 +109,7 @@ TEST_F(Syntax, UnknownThingsAreWarnedOfOnceWithTheirLine) {
 
 /// pbrt v4 has a name and one value; some files have a type and brackets as in parameters.
 TEST_F(Syntax, OptionsAreANameAndAValue) {
-    const Scene scene = load("Option \"disablepixeljitter\" true\n"
+    const Scene scene = load("Option \"disablepixeljitter\" false\n"
                              "Option \"displacementedgescale\" 2.5\n"
                              "Option \"bool forcediffuse\" [ false ]\n"
                              "Option \"string msereferenceimage\" \"x.exr\"\n"
@@ -119,6 +119,55 @@ TEST_F(Syntax, OptionsAreANameAndAValue) {
     EXPECT_EQ(scene.triangles.size(), 1u);
     EXPECT_NE(error("Option \"seed\"").find("scene.pbrt:1: Option: expected a value"), std::string::npos);
     EXPECT_NE(error("Option \"seed\" [ 1").find("not closed"), std::string::npos);
+}
+
+TEST_F(Syntax, OptionsThatMatterAreWarnedOf) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"\"disablepixeljitter\" true", "Option \"disablepixeljitter\" is ignored; `--pixel-center` sends "
+                                        "camera rays through pixel centres"},
+        {"\"integer seed\" [ 7 ]", "Option \"integer seed\" is ignored; `--seed` chooses the random numbers"},
+        {"\"force_diffuse\" true",
+         "Option \"force_diffuse\" is ignored; `--brdf lambert` renders all materials as diffuse"},
+        {"\"nosuch\" 3", "Option \"nosuch\" is unknown and ignored"},
+        {"\"disablepixeljitter\" \"yes\"",
+         "Option \"disablepixeljitter\": expected true or false, found \"yes\"; it is ignored"},
+        {"\"displacementedgescale\" 1x",
+         "Option \"displacementedgescale\": expected a number, found '1x'; it is ignored"},
+        {"\"seed\" [ 1 2 ]", "Option \"seed\": expected a number, found 2 values; it is ignored"}};
+    for (const auto& [option, warning] : cases) {
+        const Scene scene = load("Option " + std::string(option) + "\nCamera \"perspective\"\nWorldBegin\n" +
+                                 std::string(kTriangle));
+        ASSERT_EQ(scene.warnings.size(), 1u) << option;
+        EXPECT_EQ(without_folder(scene.warnings[0]), "scene.pbrt:1: " + std::string(warning));
+    }
+}
+
+TEST_F(Syntax, SamplersAreTakenAtTheirWord) {
+    const auto warning = [&](const std::string& sampler) {
+        const Scene scene =
+            load("Sampler " + sampler + "\nCamera \"perspective\"\nWorldBegin\n" + std::string(kTriangle));
+        return scene.warnings.empty() ? "" : without_folder(scene.warnings[0]);
+    };
+    EXPECT_EQ(warning("\"halton\" \"integer pixelsamples\" 4 \"integer seed\" 1"), "");
+    EXPECT_EQ(warning("\"stratified\" \"integer xsamples\" 2 \"bool jitter\" true"), "");
+    EXPECT_EQ(warning("\"halton\" \"float pixelsamples\" 4.5"),
+              "scene.pbrt:1: Sampler: parameter \"float pixelsamples\" is unknown and ignored");
+    EXPECT_EQ(warning("\"stratified\" \"integer pixelsamples\" 4"),
+              "scene.pbrt:1: Sampler: parameter \"integer pixelsamples\" is unknown and ignored");
+}
+
+TEST_F(Syntax, WavelengthsOutOfOrderAreWarnedOf) {
+    const auto load_light = [&](const std::string& samples) {
+        return load("AreaLightSource \"diffuse\" \"spectrum L\" [" + samples + "]\n" +
+                    std::string(kTriangle) + "Camera \"perspective\"");
+    };
+    const Scene sorted = load_light("400 1 500 2 600 3");
+    const Scene mixed = load_light("500 2 600 3 400 1");
+    EXPECT_TRUE(sorted.warnings.empty());
+    ASSERT_EQ(mixed.warnings.size(), 1u);
+    EXPECT_EQ(without_folder(mixed.warnings[0]),
+              "scene.pbrt:1: parameter \"spectrum L\": the wavelengths are not in order; they are sorted");
+    EXPECT_EQ(mixed.lights.of<PolygonLight>()[0].radiance.x, sorted.lights.of<PolygonLight>()[0].radiance.x);
 }
 
 TEST_F(Syntax, BlocksRestoreWhatTheyPromise) {
@@ -159,7 +208,7 @@ TEST_F(Syntax, ErrorsInIncludesNameTheIncludedFile) {
     write("part.pbrt", "\n\nTranslate 1 a 2");
     EXPECT_EQ(error("Include \"part.pbrt\""), "part.pbrt:3: expected a number, found 'a'");
     EXPECT_EQ(error("\nInclude \"missing.pbrt\""), "scene.pbrt:2: scene file 'missing.pbrt': no such file");
-    EXPECT_EQ(error("Include \".\""), "scene.pbrt:1: scene file '.': not a regular file");
+    EXPECT_EQ(error("Include \".\""), "scene.pbrt:1: scene file '.': a folder, not a file");
 }
 
 TEST_F(Syntax, EndlessIncludesEnd) {

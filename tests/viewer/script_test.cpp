@@ -140,6 +140,10 @@ TEST_F(ScriptTest, CommandsNameTheirSettings) {
     EXPECT_NE(command_of(viewer.session, viewer.state, viewer.files, "c.json", {}, "o.exr")
                   .find("--spp 3 --seed 0 -o"),
               std::string::npos);
+    viewer.state.of(Side::left).mis = render::Mis::balance;
+    EXPECT_NE(command_of(viewer.session, viewer.state, viewer.files, "c.json", {}, "o.exr")
+                  .find("--mis balance --sampler"),
+              std::string::npos);
 }
 
 TEST_F(ScriptTest, NamesTheLineOfAMistake) {

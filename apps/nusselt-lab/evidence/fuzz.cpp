@@ -86,7 +86,8 @@ void setup_fuzz(CLI::App& bench, int& exit_code) {
                 "Exits with 1 if any check fails. Configurations depend only on their index and the seed.");
     command->add_option("--count", options->count, "Configurations per technique")
         ->transform(to_whole_number(1, kMostCases));
-    command->add_option("--first", options->first, "Index of the first configuration")
+    command
+        ->add_option("--first", options->first, "Index of the first configuration, to run some of them again")
         ->transform(to_whole_number(0, UINT64_MAX - kMostCases));
     command->add_option("--seed", options->seed, "Seed of the configurations")
         ->transform(to_whole_number(0, UINT64_MAX));

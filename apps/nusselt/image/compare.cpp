@@ -163,7 +163,7 @@ constexpr const char* kDescription =
     "  mae             mean absolute error\n"
     "  rel_mse         mean of (A - B)^2 / (B^2 + 0.01) over channels\n"
     "  mrse            mean of |A - B|^2 / (|B|^2 + 0.01) over pixels\n"
-    "  psnr, ssim      of the images as displayed: times 2^exposure, in [0, 1], sRGB\n"
+    "  psnr, ssim      of the images as displayed: times 2^exposure, in [0, 1], sRGB; psnr in dB\n"
     "  flip            mean of FLIP of the displayed images\n"
     "  hdr_flip        mean of HDR-FLIP, over all exposures that show something of the reference\n"
     "  invalid         number of pixels of the image that are NaN or infinite\n"

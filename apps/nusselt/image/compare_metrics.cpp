@@ -23,8 +23,7 @@ struct Inputs {
 };
 
 struct Metric {
-    std::string name;
-    std::string label;
+    std::string name; ///< in options, tables and JSON
     std::function<double(const Inputs&)> value;
 };
 
@@ -49,19 +48,17 @@ double hdr_flip_value(const Inputs& in) {
 
 const std::vector<Metric>& all_metrics() {
     static const std::vector<Metric> metrics = {
-        {"mse", "MSE", [](const Inputs& in) { return in.comparison.mse; }},
-        {"rmse", "RMSE", [](const Inputs& in) { return in.comparison.rmse; }},
-        {"relative_rmse", "RMSE / mean", [](const Inputs& in) { return in.comparison.relative_rmse; }},
-        {"mae", "MAE", [](const Inputs& in) { return in.comparison.mae; }},
-        {"rel_mse", "relMSE", [](const Inputs& in) { return in.comparison.rel_mse; }},
-        {"mrse", "MRSE", [](const Inputs& in) { return in.comparison.mrse; }},
-        {"psnr", "PSNR [dB]",
-         [](const Inputs& in) { return image::psnr(in.a, in.reference, in.options.exposure); }},
-        {"ssim", "SSIM",
-         [](const Inputs& in) { return image::ssim(in.a, in.reference, in.options.exposure); }},
-        {"flip", "FLIP", flip_value},
-        {"hdr_flip", "HDR-FLIP", hdr_flip_value},
-        {"invalid", "invalid pixels", [](const Inputs& in) { return double(in.comparison.invalid_a.count); }},
+        {"mse", [](const Inputs& in) { return in.comparison.mse; }},
+        {"rmse", [](const Inputs& in) { return in.comparison.rmse; }},
+        {"relative_rmse", [](const Inputs& in) { return in.comparison.relative_rmse; }},
+        {"mae", [](const Inputs& in) { return in.comparison.mae; }},
+        {"rel_mse", [](const Inputs& in) { return in.comparison.rel_mse; }},
+        {"mrse", [](const Inputs& in) { return in.comparison.mrse; }},
+        {"psnr", [](const Inputs& in) { return image::psnr(in.a, in.reference, in.options.exposure); }},
+        {"ssim", [](const Inputs& in) { return image::ssim(in.a, in.reference, in.options.exposure); }},
+        {"flip", flip_value},
+        {"hdr_flip", hdr_flip_value},
+        {"invalid", [](const Inputs& in) { return double(in.comparison.invalid_a.count); }},
     };
     return metrics;
 }
@@ -90,7 +87,7 @@ void print_invalid_pixels(const std::string& where, const image::InvalidPixels& 
 
 void print_list(const ComparedImage& compared) {
     for (const MetricValue& metric : compared.metrics)
-        fmt::print("{:<19}{}\n", metric.label, text_of(metric.value));
+        fmt::print("{:<19}{}\n", metric.name, text_of(metric.value));
     fmt::print("{:<19}{}\n", "mean", text_of(compared.comparison.mean_a));
     fmt::print("{:<19}{}\n", "mean of reference", text_of(compared.comparison.mean_b));
 }
@@ -99,7 +96,7 @@ void print_table(const std::vector<ComparedImage>& images) {
     std::size_t width = 5;
     for (const ComparedImage& compared : images) width = std::max(width, compared.path.string().size());
     fmt::print("{:<{}}", "image", width);
-    for (const MetricValue& metric : images.front().metrics) fmt::print("  {:>14}", metric.label);
+    for (const MetricValue& metric : images.front().metrics) fmt::print("  {:>14}", metric.name);
     fmt::print("  {:>14}\n", "mean");
     for (const ComparedImage& compared : images) {
         fmt::print("{:<{}}", compared.path.string(), width);
@@ -153,7 +150,7 @@ ComparedImage measure(const std::filesystem::path& path, const image::Image& a, 
     for (const Metric& metric : all_metrics()) {
         if (!is_wanted(metric.name, options)) continue;
         const double value = metric.value({a, reference, result.comparison, options});
-        result.metrics.push_back({metric.name, metric.label, value});
+        result.metrics.push_back({metric.name, value});
     }
     return result;
 }

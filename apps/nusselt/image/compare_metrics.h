@@ -11,8 +11,7 @@ namespace nusselt::app {
 
 /// One metric of one image.
 struct MetricValue {
-    std::string name; ///< on the command line and in JSON
-    std::string label;
+    std::string name; ///< in options, tables and JSON
     double value;
 };
 

@@ -32,7 +32,7 @@ void setup_merge(CLI::App& app, int& exit_code) {
     };
     command->add_option("-o,--output", options->output, "EXR file to write")
         ->type_name("FILE")
-        ->default_str("the first one of IN, which is deprecated")
+        ->default_str("the first file of IN, an old form that the next version refuses")
         ->check(check_exr)
         ->group(kOutputGroup);
     command->add_option("IN", options->inputs, "EXR files to read, one or more")

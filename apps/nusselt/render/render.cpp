@@ -204,6 +204,7 @@ void setup_render(CLI::App& app, int& exit_code) {
 int run_render(const RenderOptions& options) {
     const base::Stopwatch stopwatch;
     render::RenderSettings settings = make_settings(options);
+    check_inputs(options);
     check_outputs(options);
     const std::unique_ptr<render::Backend> backend = make_backend(options, settings);
 
@@ -219,8 +220,8 @@ int run_render(const RenderOptions& options) {
     times.load = stopwatch.seconds();
     if (!options.quiet) print_warnings(options, settings, scene);
 
-    if (!options.quiet && !settings.layers.empty())
-        print_layers(render::frame_size(scene, settings), backend->layer_sum_bytes(scene, settings));
+    const render::FrameSize size = render::frame_size(scene, settings);
+    if (!options.quiet && size.layers > 0) print_layers(size, backend->layer_sum_bytes(scene, settings));
     render::Frame frame = render::make_frame(scene, settings);
     image::Metadata metadata = render::make_metadata(scene, settings, *backend);
     if (!options.rigs.empty()) metadata["light_rigs"] = rig_names(options.rigs);

@@ -4,12 +4,15 @@
 #include "base/distinct_files.h"
 
 #include "base/atomic_file.h"
+#include "base/words.h"
 #include "image/io.h"
 
 #include <fmt/core.h>
 
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace nusselt::app {
 
@@ -22,10 +25,27 @@ std::vector<std::filesystem::path> output_paths(const RenderOptions& options, co
     return {stem + ".exr"};
 }
 
+void check_inputs(const RenderOptions& options) {
+    std::vector<std::filesystem::path> inputs = {options.scene};
+    inputs.insert(inputs.end(), options.rigs.begin(), options.rigs.end());
+    if (options.camera) inputs.push_back(*options.camera);
+    std::vector<std::string> missing;
+    std::error_code ignored;
+    for (const std::filesystem::path& input : inputs)
+        if (std::filesystem::status(input, ignored).type() == std::filesystem::file_type::not_found)
+            missing.push_back("'" + input.string() + "'");
+    if (missing.size() > 1) throw std::runtime_error("no such files: " + base::listing(missing, "and"));
+}
+
 void check_outputs(const RenderOptions& options) {
-    // The name that the scene may give to the default image is unknown yet, its folder is not.
-    for (const std::filesystem::path& path : output_paths(options, scene::Film()))
-        image::check_writable_image(path);
+    // The name that the scene may give to the default image is unknown yet, its folder is not. If there is no scene, that
+    // is the problem.
+    std::error_code ignored;
+    const bool has_names =
+        !options.outputs.empty() || std::filesystem::is_regular_file(options.scene, ignored);
+    if (has_names)
+        for (const std::filesystem::path& path : output_paths(options, scene::Film()))
+            image::check_writable_image(path);
     if (options.json && options.json != "-") base::check_writable(*options.json);
     if (options.checkpoint) base::check_writable(*options.checkpoint);
 }

@@ -1,10 +1,11 @@
 #include "render_report.h"
-
 #include "apps/common/line_options.h"
 #include "apps/common/print_message.h"
+#include "render_files.h"
+
 #include "base/json_output.h"
 #include "base/memory_text.h"
-
+#include "image/io.h"
 #include "render/line_choice.h"
 #include "scene/model/scene_size.h"
 
@@ -101,6 +102,9 @@ void print_warnings(const RenderOptions& options, const render::RenderSettings& 
             "warning: --lines {}: points replace the lines because they are faster than fewer than 16 "
             "lines; use --many-occluders lines to keep lines\n",
             settings.lines.count);
+    const std::vector<std::filesystem::path> outputs = output_paths(options, scene.film);
+    if (options.exposure != 0 && std::none_of(outputs.begin(), outputs.end(), image::is_png))
+        print_message("warning: --exposure has no effect, as none of the images is a PNG file\n");
     const auto wants_variance =
         std::count(settings.layers.begin(), settings.layers.end(), render::LayerKind::variance) > 0;
     if (wants_variance && !has_variance(settings))

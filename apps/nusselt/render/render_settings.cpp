@@ -72,6 +72,12 @@ void check_line_options(const RenderOptions& options, render::Technique techniqu
         if (is_given) throw CLI::ValidationError(name, "needs --light-samples lines");
 }
 
+render::Mis mis_of(const RenderOptions& options, render::Strategies strategies) {
+    if (options.mis) return from_name(render::kMisHeuristics, *options.mis);
+    const render::Mis usual = render::RenderSettings().mis;
+    return allows(strategies, usual) ? usual : render::Mis::balance;
+}
+
 /// \param source what determines the number of samples per pixel
 void check_camera_rays(const RenderOptions& options, int samples, const std::string& source) {
     if (options.camera_rays && samples % *options.camera_rays != 0)
@@ -91,9 +97,10 @@ void add_sampling_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option(
             "--strategies", options.strategies,
-            "Which techniques take samples: diffuse, only that of --technique; diffuse+ltc, that one for the "
-            "diffuse component of materials and linearly transformed cosines for the specular one; "
-            "diffuse+ggx and diffuse+ggx_bounded, the same with GGX visible normals, for polygons only")
+            "Which techniques take samples. diffuse: the one of --technique alone. diffuse+ltc: the one of "
+            "--technique for the diffuse component of materials, and linearly transformed cosines for the "
+            "specular component. diffuse+ggx and diffuse+ggx_bounded: GGX visible normals for the specular "
+            "component, for polygons only")
         ->transform(to_one_of(names_of(render::kStrategies)))
         ->default_str(
             "diffuse+ltc with techniques for projected solid angles and --brdf material, else diffuse")
@@ -117,9 +124,11 @@ void add_sampling_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option(
             "--sampler", options.sampler,
-            "Random numbers: independent; sobol, Owen-scrambled Sobol' points; jittered, uniform jittered "
-            "(best for linear lights); or stratified, multi-jittered, with as many strata in each dimension "
-            "as samples (best for line samples)")
+            "Pattern of the samples. independent: random points. sobol: Owen-scrambled Sobol' points. "
+            "jittered: "
+            "equidistant points that are shifted by one random offset (uniform jittered sampling; best for "
+            "linear lights). stratified: multi-jittered points, with as many strata in each dimension as "
+            "samples (best for line samples)")
         ->transform(to_one_of(names_of(render::kSampleOrders)))
         ->group(kSamplingGroup);
     command
@@ -139,10 +148,7 @@ render::RenderSettings make_settings(const RenderOptions& options) {
     settings.technique = from_name(render::kTechniques, options.technique);
     settings.brdf = from_name(render::kBrdfChoices, options.brdf);
     settings.strategies = strategies_of(options, settings.technique, settings.brdf);
-    if (options.mis)
-        settings.mis = from_name(render::kMisHeuristics, *options.mis);
-    else if (!allows(settings.strategies, settings.mis))
-        settings.mis = render::Mis::balance;
+    settings.mis = mis_of(options, settings.strategies);
     if (options.visibility_estimate) settings.visibility_estimate = *options.visibility_estimate;
     settings.sample_order = from_name(render::kSampleOrders, options.sampler);
     settings.pixel_position = from_name(render::kPixelPositions, options.pixel_position);
@@ -196,6 +202,13 @@ void check_combination(const RenderOptions& options) {
                                    fmt::format("{} needs the contribution of each technique without shadows, "
                                                "which is unknown for {}; use {}",
                                                *options.mis, name_of(strategies), fmt::join(others, " or ")));
+    }
+    if (options.visibility_estimate) {
+        const render::Mis mis = mis_of(options, strategies);
+        if (!uses_visibility_estimate(mis))
+            throw CLI::ValidationError(
+                "--visibility-estimate",
+                fmt::format("needs --mis clamped_optimal or optimal, not {}", name_of(mis)));
     }
     if (options.samples) check_camera_rays(options, *options.samples, "--spp asks for");
     if (options.checkpoint_interval && !options.checkpoint)

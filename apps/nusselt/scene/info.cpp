@@ -9,6 +9,7 @@
 #include "scene/model/vector_math.h"
 
 #include <fmt/format.h>
+#include <iostream>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -142,7 +143,8 @@ int run_info(const InfoOptions& options) {
 
     print_geometry(scene);
     print_materials(scene);
-    fmt::print("\n{}", light_report(scene));
+    fmt::print("\n");
+    write_light_report(scene, std::cout);
     print_camera(scene);
     print_film(scene.film);
     fmt::print("\n{} warnings\n", scene.warnings.size());

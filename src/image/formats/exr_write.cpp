@@ -228,6 +228,7 @@ std::optional<std::string> why_not_one_exr(int width, std::size_t channels, std:
 
 void write_layers(const std::filesystem::path& path, const LayeredImage& image) {
     LayerData data;
+    data.reserve(image.layers.size());
     for (const Layer& layer : image.layers) data.push_back(&layer.data);
     write(path, image, data);
 }

@@ -1,5 +1,6 @@
 #include "render_cpu/kernel/layers.h"
 
+#include "base/isa.h"
 #include "render_cpu/kernel/emission.h"
 
 #include <cstring>
@@ -7,6 +8,10 @@
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
+
+static_assert(kLanes == base::lane_count(base::Isa::NUSSELT_UNIT_ISA),
+              "renderers take memory for lane_count()");
+
 namespace {
 
 /// part / whole, or 0 where that is not finite.
@@ -57,7 +62,7 @@ void LayerSums::restore(const State& state) noexcept {
 }
 
 std::size_t LayerSums::light_sum_bytes() const noexcept {
-    return render_cpu::kLightSumFloats * job_.scene.emitter_count * sizeof(float);
+    return render_cpu::light_sum_floats(kLanes) * job_.scene.emitter_count * sizeof(float);
 }
 
 void LayerSums::add_hits(const visibility::HitPacket<kLanes>& hits, LaneMask any_hit,

@@ -9,7 +9,14 @@ namespace nusselt::scene {
 
 namespace {
 
-enum class Remedy { convert, export_from_blender, get_pbrt_version, name_in_scene };
+enum class Remedy {
+    convert,
+    export_from_blender,
+    get_pbrt_version,
+    name_as_mesh,
+    name_as_texture,
+    name_as_rig
+};
 
 struct OtherFormat {
     std::string_view name;       ///< with its article
@@ -27,7 +34,12 @@ constexpr OtherFormat kOtherFormats[] = {
     {"a USD file", "", "PXR-USDC", Remedy::export_from_blender},
     {"a file of Blender", ".blend ", "BLENDER", Remedy::export_from_blender},
     {"a Mitsuba scene", ".xml ", "", Remedy::get_pbrt_version},
-    {"a mesh without a scene", ".ply ", "ply", Remedy::name_in_scene},
+    {"a mesh without a scene", ".ply ", "ply", Remedy::name_as_mesh},
+    {"a PNG image", ".png ", "\x89PNG", Remedy::name_as_texture},
+    {"a JPG image", ".jpg .jpeg ", "\xFF\xD8\xFF", Remedy::name_as_texture},
+    {"an EXR image", ".exr ", "\x76\x2F\x31\x01", Remedy::name_as_texture},
+    {"an image", ".bmp .hdr .pfm .tga ", "", Remedy::name_as_texture},
+    {"a JSON file", ".json ", "", Remedy::name_as_rig},
 };
 
 std::string lower_case(std::string text) {
@@ -50,7 +62,13 @@ std::string to_text(Remedy remedy, const std::filesystem::path& path) {
                command(stem.string() + ".glb", stem.string() + ".pbrt");
     case Remedy::get_pbrt_version:
         return "look for its version in the format of pbrt";
-    case Remedy::name_in_scene:
+    case Remedy::name_as_texture:
+        return "name it in a scene file by Texture \"picture\" \"spectrum\" \"imagemap\" \"string filename\" "
+               "\"" +
+               path.filename().string() + '"';
+    case Remedy::name_as_rig:
+        return "name a light rig behind `--lights` and a camera behind `--camera`";
+    case Remedy::name_as_mesh:
         break;
     }
     return "name it in a scene file by Shape \"plymesh\" \"string filename\" \"" + path.filename().string() +

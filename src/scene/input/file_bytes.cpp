@@ -29,8 +29,12 @@ struct OpenFile {
 OpenFile open_file(const std::filesystem::path& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::status_known(status))
+        throw std::runtime_error("not accessible (" + error.message() + ")");
     if (!std::filesystem::exists(status)) throw std::runtime_error("no such file");
-    if (!std::filesystem::is_regular_file(status)) throw std::runtime_error("not a regular file");
+    if (std::filesystem::is_directory(status)) throw std::runtime_error("a folder, not a file");
+    if (!std::filesystem::is_regular_file(status))
+        throw std::runtime_error("a pipe or a device, not a file; copy its contents into a file");
     const auto size = std::filesystem::file_size(path, error);
     std::ifstream stream(path, std::ios::binary);
     if (error || !stream) throw std::runtime_error("cannot be opened");
@@ -46,7 +50,9 @@ FileBytes::FileBytes(const std::filesystem::path& path, Budget& inflated_bytes) 
     resize(size);
     stream.read(data_.get(), static_cast<std::streamsize>(size));
     if (!stream) throw std::runtime_error("cannot be read");
-    if (is_gzip(view())) *this = inflated(view(), inflated_bytes);
+    if (!is_gzip(view())) return;
+    *this = inflated(view(), inflated_bytes);
+    if (is_gzip(view())) throw std::runtime_error("compressed twice; decompress it once (gunzip)");
 }
 
 void FileBytes::resize(std::size_t size) {

@@ -190,7 +190,9 @@ double JsonNode::positive_number(double high) const {
 std::size_t JsonNode::integer(std::size_t low, std::size_t high) const {
     const bool is_valid = value_->is_number_unsigned() && value_->get<std::size_t>() >= low &&
                           value_->get<std::size_t>() <= high;
-    if (!is_valid) fail_type("an integer from " + std::to_string(low) + " to " + std::to_string(high));
+    if (!is_valid)
+        fail_type(low == high ? "the number " + std::to_string(low)
+                              : "an integer from " + std::to_string(low) + " to " + std::to_string(high));
     return value_->get<std::size_t>();
 }
 

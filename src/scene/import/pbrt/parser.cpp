@@ -1,13 +1,14 @@
 #include "scene/import/pbrt/parser.h"
 
 #include "scene/build/textures/surface_formula.h"
-#include "scene/import/pbrt/camera_directive.h"
-#include "scene/import/pbrt/emission_directive.h"
-#include "scene/import/pbrt/film_directive.h"
+#include "scene/import/pbrt/directives/camera_directive.h"
+#include "scene/import/pbrt/directives/emission_directive.h"
+#include "scene/import/pbrt/directives/film_directive.h"
+#include "scene/import/pbrt/directives/option_directive.h"
+#include "scene/import/pbrt/directives/sampler_directive.h"
 #include "scene/import/pbrt/graphics_state.h"
 #include "scene/import/pbrt/materials.h"
 #include "scene/import/pbrt/objects.h"
-#include "scene/import/pbrt/sampler_directive.h"
 #include "scene/import/pbrt/surface_variants.h"
 #include "scene/import/pbrt/syntax/source_reader.h"
 #include "scene/import/pbrt/syntax/type_counter.h"
@@ -88,7 +89,7 @@ private:
     void pixel_filter();
     void sampler();
     void ignore_with_parameters();
-    void ignore_option();
+    void option();
     void ignore_medium();
     void medium_interface();
     void color_space();
@@ -179,7 +180,7 @@ const std::unordered_map<std::string_view, Parser::Directive>& Parser::directive
         {"Renderer", {&Parser::ignore_with_parameters, Place::before_world}},
         {"Accelerator", {&Parser::ignore_with_parameters, Place::before_world}},
         {"ColorSpace", {&Parser::color_space}},
-        {"Option", {&Parser::ignore_option}},
+        {"Option", {&Parser::option}},
         {"MakeNamedMedium", {&Parser::ignore_medium}},
         {"MediumInterface", {&Parser::medium_interface}},
         {"LightSource", {&Parser::light_source, Place::in_world}},
@@ -348,17 +349,7 @@ void Parser::object_instance() {
     objects_.add_instance(read_string(), state_.current().ctm, location_, scene_.words);
 }
 
-void Parser::ignore_option() {
-    // Other than the parameters of directives, an option is a name and one value, as in `Option "disablepixeljitter" true`.
-    read_string();
-    const Token value = reader_.tokens().next();
-    if (value.kind == TokenKind::end || value.kind == TokenKind::close_bracket)
-        throw SceneError(location_, "Option: expected a value, found " + Tokenizer::describe(value));
-    if (value.kind != TokenKind::open_bracket) return;
-    while (reader_.tokens().peek().kind != TokenKind::end)
-        if (reader_.tokens().next().kind == TokenKind::close_bracket) return;
-    throw SceneError(location_, "Option: the bracket is not closed");
-}
+void Parser::option() { read_option(read_string(), location_, reader_.tokens(), scene_.warnings); }
 
 void Parser::attribute() {
     const std::string name = read_string();

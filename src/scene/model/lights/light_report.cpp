@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <ostream>
 
 namespace nusselt::scene {
 
@@ -17,33 +18,34 @@ double power(const LightList& list, std::size_t i) {
 }
 
 /// Reports lights that cost as much time as others but contribute next to nothing.
-std::string weak_lights(const LightList& list) {
+void write_weak_lights(const LightList& list, std::ostream& stream) {
     constexpr double kWeak = 1e-6;
     double total = 0;
     for (std::size_t i = 0; i < list.size(); ++i) total += power(list, i);
     std::size_t weak = 0;
     for (std::size_t i = 0; i < list.size(); ++i) weak += power(list, i) < kWeak * total ? 1 : 0;
-    if (weak == 0) return "";
-    const std::string plural(list.plural());
-    return "  " + std::to_string(weak) + " " + plural + " have less than " + report_text(kWeak) +
-           " of the power of all " + plural + "\n";
+    if (weak == 0) return;
+    stream << "  " << weak << " of the " << list.plural() << (weak == 1 ? " has" : " have") << " less than "
+           << report_text(kWeak) << " of the power of all\n";
 }
 
 } // namespace
 
-std::string light_report(const Scene& scene) {
-    std::string counts;
-    std::string text;
+void write_light_report(const Scene& scene, std::ostream& stream) {
+    const char* separator = "";
     for (const LightList& list : scene.lights) {
-        counts += (counts.empty() ? "" : ", ") + std::to_string(list.size()) + " " +
-                  std::string(list.name()) + " lights";
+        stream << separator << list.size() << " " << list.name() << (list.size() == 1 ? " light" : " lights");
+        separator = ", ";
+    }
+    stream << "\n";
+    for (const LightList& list : scene.lights) {
         for (std::size_t begin = 0, end = 0; begin < list.size(); begin = end) {
             while (end < list.size() && list.emitter(end) == list.emitter(begin)) ++end;
-            text += "  " + scene.emitters[list.emitter(begin)].name + ": " + list.describe(begin, end) + "\n";
+            stream << "  " << scene.emitters[list.emitter(begin)].name << ": " << list.describe(begin, end)
+                   << "\n";
         }
-        text += weak_lights(list);
+        write_weak_lights(list, stream);
     }
-    return counts + "\n" + text;
 }
 
 } // namespace nusselt::scene

@@ -3,11 +3,12 @@
 
 #include "scene/model/scene.h"
 
-#include <string>
+#include <iosfwd>
 
 namespace nusselt::scene {
 
-/// Lines of text: the number of lights of each kind, then the emitters with their shape and power.
-std::string light_report(const Scene& scene);
+/// Writes lines of text: the number of lights of each kind, then the emitters with their shape and power. Takes no memory
+/// for them, which for a million lights would be as much as the scene itself.
+void write_light_report(const Scene& scene, std::ostream& stream);
 
 } // namespace nusselt::scene

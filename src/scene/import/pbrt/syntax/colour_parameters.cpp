@@ -24,8 +24,9 @@ std::string rounded_text(double value) { return to_text(std::round(value * 1e3) 
 /// The value of a parameter in linear sRGB, before clamping.
 class ColourReader {
 public:
-    ColourReader(const Parameter& parameter, const ParameterContext& context, SpectrumUse use)
-        : parameter_(parameter), context_(context), use_(use) {}
+    ColourReader(const Parameter& parameter, const ParameterContext& context, SpectrumUse use,
+                 Warnings& warnings)
+        : parameter_(parameter), context_(context), use_(use), warnings_(warnings) {}
 
     Double3 read() const {
         if (parameter_.type == "blackbody") return read_blackbody();
@@ -83,9 +84,14 @@ private:
                 fail(parameter_, "wavelengths must be positive, found " + to_text(numbers[i]));
             samples.push_back({numbers[i], numbers[i + 1]});
         }
-        std::stable_sort(
-            samples.begin(), samples.end(),
-            [](const SpectrumSample& a, const SpectrumSample& b) { return a.wavelength < b.wavelength; });
+        const auto is_before = [](const SpectrumSample& a, const SpectrumSample& b) {
+            return a.wavelength < b.wavelength;
+        };
+        if (!std::is_sorted(samples.begin(), samples.end(), is_before)) {
+            warnings_.add(parameter_.location,
+                          message_about(parameter_, "the wavelengths are not in order; they are sorted"));
+            std::stable_sort(samples.begin(), samples.end(), is_before);
+        }
         return samples;
     }
 
@@ -116,6 +122,7 @@ private:
     const Parameter& parameter_;
     const ParameterContext& context_;
     SpectrumUse use_;
+    Warnings& warnings_;
 };
 
 } // namespace
@@ -124,7 +131,7 @@ std::optional<Float3> ParameterList::optional_colour(std::string_view name, Warn
                                                      SpectrumUse use) {
     const Parameter* parameter = find(name, ParameterKind::colour);
     if (parameter == nullptr) return std::nullopt;
-    Double3 colour = ColourReader(*parameter, context_, use).read();
+    Double3 colour = ColourReader(*parameter, context_, use, warnings).read();
     // Negative numbers in the text do not concern gamuts; the caller judges them.
     const bool is_given_negative =
         parameter->type != "spectrum" && std::any_of(parameter->numbers.begin(), parameter->numbers.end(),

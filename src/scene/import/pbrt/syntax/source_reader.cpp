@@ -12,6 +12,14 @@ constexpr std::size_t kMaxIncludeDepth = 32;
 constexpr int kMaxRepeatedIncludes = 1000;
 constexpr std::size_t kMaxRepeatedBytes = std::size_t{1} << 25;
 
+/// \throws std::runtime_error saying why there is no text
+FileBytes read_text(const std::filesystem::path& path, SceneBudget& budget) {
+    FileBytes bytes(path, budget.inflated_bytes);
+    if (bytes.view().starts_with("\xff\xfe") || bytes.view().starts_with("\xfe\xff"))
+        throw std::runtime_error("its text is in UTF-16; convert it with `iconv -f UTF-16 -t UTF-8`");
+    return bytes;
+}
+
 } // namespace
 
 SourceReader::SourceReader(const std::filesystem::path& main_path, std::deque<SourceFile>& sources,
@@ -19,7 +27,7 @@ SourceReader::SourceReader(const std::filesystem::path& main_path, std::deque<So
     : sources_(sources), budget_(budget), named_files_(named_files) {
     SourceFile& main = sources_.emplace_back(SourceFile{main_path, {}});
     try {
-        main.bytes = FileBytes(main_path, budget_.inflated_bytes);
+        main.bytes = read_text(main_path, budget_);
     } catch (const std::runtime_error& error) {
         throw std::runtime_error("scene file '" + main_path.string() + "': " + error.what());
     }
@@ -40,7 +48,7 @@ bool SourceReader::open(const std::string& name, const Location& includer) {
     const SourceFile*& source = by_path_[path.lexically_normal().string()];
     if (source == nullptr) {
         try {
-            source = &sources_.emplace_back(SourceFile{path, FileBytes(path, budget_.inflated_bytes)});
+            source = &sources_.emplace_back(SourceFile{path, read_text(path, budget_)});
         } catch (const std::runtime_error& error) {
             throw SceneError(includer, "scene file '" + path.string() + "': " + error.what());
         }

@@ -1,4 +1,4 @@
-#include "scene/import/pbrt/sampler_directive.h"
+#include "scene/import/pbrt/directives/sampler_directive.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -29,6 +29,9 @@ std::optional<int> read_pixel_samples(std::string_view type, ParameterList& para
         multiply({"xsamples", "ysamples"});
     else
         multiply({"pixelsamples"});
+    // What else the samplers of pbrt know does not concern us.
+    parameters.ignore({"dimensions", "jitter", "randomization", "samplepixelcenter", "seed"});
+    parameters.warn_unused("Sampler", warnings);
     if (!is_given || product == 0) return std::nullopt;
     return static_cast<int>(std::min<std::int64_t>(product, std::numeric_limits<int>::max()));
 }

@@ -1,4 +1,4 @@
-#include "scene/import/pbrt/camera_directive.h"
+#include "scene/import/pbrt/directives/camera_directive.h"
 
 namespace nusselt::scene {
 

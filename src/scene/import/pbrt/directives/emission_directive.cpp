@@ -1,4 +1,4 @@
-#include "scene/import/pbrt/emission_directive.h"
+#include "scene/import/pbrt/directives/emission_directive.h"
 
 #include "scene/model/vector_math.h"
 

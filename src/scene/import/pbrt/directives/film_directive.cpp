@@ -1,4 +1,4 @@
-#include "scene/import/pbrt/film_directive.h"
+#include "scene/import/pbrt/directives/film_directive.h"
 
 #include "scene/model/limits.h"
 
