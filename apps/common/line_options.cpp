@@ -67,9 +67,10 @@ void add_line_options(CLI::App& command, LineOptions& options) {
     command
         .add_option(
             "--many-occluders", options.many_occluders,
-            "What replaces lines where many triangles may hide a light, since lines are slow there. points: "
-            "points of --technique and --strategies, as many as the power of two next to N^1.4 for N lines; "
-            "with fewer than 16 lines, they replace lines everywhere. lines: nothing, lines stay")
+            "What to do where many triangles may hide a light, because lines are slow there: points, replace "
+            "N "
+            "lines by points with the given technique, strategies and --mis, as many as the power of two "
+            "nearest to N^1.4 (and everywhere with fewer than 16 lines); or lines, keep lines")
         ->transform(to_one_of(names_of(render::kManyOccludersChoices)))
         ->default_str(std::string(name_of(defaults.many_occluders)))
         ->group(kLinesGroup);

@@ -69,21 +69,29 @@ void refuse_values_of_flags(CLI::App& command) {
     for (CLI::App* subcommand : command.get_subcommands({})) refuse_values_of_flags(*subcommand);
 }
 
-/// The option of the command or its subcommands that a word of the command line names; null if none has its name.
-const CLI::Option* option_named(const CLI::App& command, const std::string& name) {
-    if (const CLI::Option* option = command.get_option_no_throw(name)) return option;
-    for (const CLI::App* subcommand : command.get_subcommands({}))
-        if (const CLI::Option* option = option_named(*subcommand, name)) return option;
-    return nullptr;
+/// What nobody knows, and what may be meant.
+std::string unknown(const std::string& kind, const std::string& word, const std::vector<std::string>& known) {
+    auto meant = base::likely_meant(word, known);
+    if (meant == word) meant.reset(); // behind "--", where options are none
+    return fmt::format("unknown {} '{}'{}", kind, word, meant ? " (did you mean '" + *meant + "'?)" : "");
+}
+
+/// The command that this word names below another one; null if none has that name.
+const CLI::App* command_below(const CLI::App& command, const std::string& word) {
+    const std::vector<std::string> names = command_names(command);
+    return std::find(names.begin(), names.end(), word) == names.end() ? nullptr
+                                                                      : command.get_subcommand(word);
 }
 
 /// CLI11 skips what is missing in a list such as "4,,8". \throws CLI::ValidationError
 void refuse_gaps_in_lists(const CLI::App& app, const std::vector<std::string>& words) {
+    const CLI::App* command = &app;
     for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
+        if (const CLI::App* const below = command_below(*command, words[i])) command = below;
         if (!words[i].starts_with("--")) continue;
         const std::size_t equals = words[i].find('=');
         const std::string name = words[i].substr(0, equals);
-        const CLI::Option* const option = option_named(app, name);
+        const CLI::Option* const option = command->get_option_no_throw(name);
         if (option == nullptr || option->get_delimiter() != ',') continue;
         if (equals == std::string::npos && i + 1 == words.size()) continue;
         const std::string list = equals == std::string::npos ? words[i + 1] : words[i].substr(equals + 1);
@@ -92,24 +100,32 @@ void refuse_gaps_in_lists(const CLI::App& app, const std::vector<std::string>& w
     }
 }
 
-/// No argument may be empty: most often, a variable of the shell has no value. \throws CLI::ValidationError
+/// No argument may be empty: most often, a variable of the shell has no value. Without this, CLI11 takes the word behind
+/// "--json=" as its value. \throws CLI::ValidationError
 void refuse_empty_words(const std::vector<std::string>& words) {
+    const auto end = std::find(words.begin(), words.end(), "--");
+    const auto option = std::find_if(words.begin(), end, [](const std::string& word) {
+        return word.starts_with("--") && word.find('=') == word.size() - 1;
+    });
+    if (option != end) throw CLI::ValidationError(*option, "the value is empty");
     const auto empty = std::find(words.begin(), words.end(), "");
     if (empty == words.end()) return;
-    const std::string before = empty == words.begin() ? "first" : "one behind '" + *(empty - 1) + "'";
-    throw CLI::ValidationError("an argument is empty", "the " + before);
+    if (empty == words.begin()) throw CLI::ValidationError("the first argument", "it is empty");
+    throw CLI::ValidationError("the argument after '" + *(empty - 1) + "'", "it is empty");
 }
 
 /// The words of a command line; "help render" means "render --help", as in other programs.
+/// \throws CLI::ValidationError for help on what is no command
 std::vector<std::string> words_of(const CLI::App& app, int argc, char** argv) {
     std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     if (words.empty() || words.front() != "help") return words;
     words.erase(words.begin());
     const CLI::App* command = &app;
     for (const std::string& word : words) {
-        const std::vector<std::string> names = command_names(*command);
-        if (std::find(names.begin(), names.end(), word) == names.end()) return words; // to be reported
-        command = command->get_subcommand(word);
+        const CLI::App* const below = command_below(*command, word);
+        if (below == nullptr)
+            throw CLI::ValidationError("help", unknown("command", word, command_names(*command)));
+        command = below;
     }
     words.emplace_back("--help");
     return words;
@@ -139,21 +155,16 @@ std::string problem_of(const CLI::Error& error) {
 
 /// What is wrong with a command line. Words that nothing takes come first: often they are the cause of what is missing.
 std::string usage_problem(const CLI::App& app, const CLI::Error& error) {
-    const std::vector<std::string> unknown = app.remaining(true);
+    const std::vector<std::string> extras = app.remaining(true);
     const CLI::App& command = called(app);
     const std::vector<std::string> commands = command_names(command);
     const bool has_too_much = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
-    if (unknown.empty() || (!has_too_much && commands.empty())) return problem_of(error);
-    const auto option = std::find_if(unknown.begin(), unknown.end(),
+    if (extras.empty() || (!has_too_much && commands.empty())) return problem_of(error);
+    const auto option = std::find_if(extras.begin(), extras.end(),
                                      [](const std::string& word) { return word.starts_with("-"); });
-    const bool is_option = option != unknown.end();
-    const std::string& word = is_option ? *option : unknown.front();
-    const std::string kind = is_option          ? "unknown option"
-                             : commands.empty() ? "unexpected"
-                                                : "unknown command";
-    auto meant = base::likely_meant(word, is_option ? option_names(command) : commands);
-    if (meant == word) meant.reset(); // behind "--", where options are none
-    return fmt::format("{} '{}'{}", kind, word, meant ? " (did you mean '" + *meant + "'?)" : "");
+    if (option != extras.end()) return unknown("option", *option, option_names(command));
+    const std::string& word = extras.front();
+    return commands.empty() ? "unexpected '" + word + "'" : unknown("command", word, commands);
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 #include "view_files.h"
 
 #include "base/atomic_file.h"
-#include "base/distinct_files.h"
+#include "base/file_checks.h"
 #include "base/words.h"
 #include "image/io.h"
 #include "image/srgb.h"

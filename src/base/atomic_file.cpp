@@ -20,7 +20,8 @@ namespace {
 std::filesystem::path temporary_path(const std::filesystem::path& path) {
     static std::atomic<unsigned> counter = 0;
     const std::string unique = std::to_string(::getpid()) + "-" + std::to_string(counter++);
-    return path.parent_path() / ("." + path.filename().string() + "." + unique + ".tmp");
+    // Without the name of the file, which may be as long as names can be.
+    return path.parent_path() / (".nusselt-" + unique + ".tmp");
 }
 
 /// Waits until the disk has all bytes of a file, or all names of a folder.
@@ -77,16 +78,16 @@ void write_atomically(const std::filesystem::path& name, const std::function<voi
     }
     if (!std::filesystem::is_directory(folder_status))
         fail(name, "the folder '" + folder.string() + "' does not exist; create it or choose another path");
-    if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (!std::filesystem::status_known(status)) fail(name, error.message() + "; choose another name");
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         fail(name, "this is a folder or a device; use the name of a file");
 
     const std::filesystem::path temporary = temporary_path(path);
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
     if (!stream) {
-        const int problem = errno;
-        fail(name, "cannot create a file in '" + folder.string() + "' (" + std::strerror(problem) + "); " +
-                       (problem == ENAMETOOLONG ? "use a name of at most 200 bytes"
-                                                : "check its permissions or choose another folder"));
+        fail(name, "cannot create a file in '" + folder.string() + "' (" + std::strerror(errno) +
+                       "); check its permissions or choose another folder");
     }
     const RemoveAtExit remove_temporary(temporary);
     errno = 0;

@@ -16,7 +16,17 @@ inline constexpr std::array kAllIsas = {Isa::sse42, Isa::avx2, Isa::avx512};
 std::string_view name_of(Isa isa);
 
 /// The number of floats in a register.
-constexpr int lane_count(Isa isa) { return isa == Isa::sse42 ? 4 : isa == Isa::avx2 ? 8 : 16; }
+constexpr int lane_count(Isa isa) {
+    switch (isa) {
+    case Isa::sse42:
+        return 4;
+    case Isa::avx2:
+        return 8;
+    case Isa::avx512:
+        break;
+    }
+    return 16;
+}
 
 /// Whether processor and operating system support it.
 bool is_supported(Isa isa);

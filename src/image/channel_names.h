@@ -9,8 +9,7 @@
 
 namespace nusselt::image {
 
-/// The names of the channels of a layer, which do not change. Copies share them: the lists of a million layers take no
-/// more memory than one.
+/// The names of the channels of a layer, which do not change. Copies share them: for a million layers, there is one list.
 class ChannelNames {
 public:
     using const_iterator = std::vector<std::string>::const_iterator;
@@ -19,6 +18,11 @@ public:
     ChannelNames(std::vector<std::string> names = {})
         : names_(std::make_shared<const std::vector<std::string>>(std::move(names))) {}
     ChannelNames(std::initializer_list<std::string> names) : ChannelNames(std::vector<std::string>(names)) {}
+
+    // There are no moves, which would leave a list without names.
+    ChannelNames(const ChannelNames&) = default;
+    ChannelNames& operator=(const ChannelNames&) = default;
+    ~ChannelNames() = default;
 
     std::size_t size() const { return names_->size(); }
     bool empty() const { return names_->empty(); }

@@ -18,10 +18,18 @@ namespace {
 
 constexpr int kTileSize = 16;
 
+/// Of an emitter, in the name of its layer.
+constexpr std::size_t kMaxNameLength = 150;
+
 const image::ChannelNames kRgb = {"R", "G", "B"};
 
 /// Name and channels of a layer.
 using LayerFormat = std::pair<std::string, image::ChannelNames>;
+
+/// The number of tiles along an axis that have some of these pixels.
+std::size_t tile_count(int begin, int end) {
+    return static_cast<std::size_t>((end - 1) / kTileSize - begin / kTileSize + 1);
+}
 
 /// The tiles of the film that have some of these pixels, cut to them.
 std::vector<Tile> make_tiles(const scene::PixelBounds& bounds) {
@@ -61,8 +69,7 @@ std::string without_folders(const std::string& text) {
 
 /// Names of channels take letters, digits, hyphens and underscores everywhere.
 std::string layer_name(const std::string& emitter) {
-    constexpr std::size_t kMaxLength = 150;
-    std::string name = without_folders(emitter).substr(0, kMaxLength);
+    std::string name = without_folders(emitter).substr(0, kMaxNameLength);
     for (char& c : name) {
         const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
         if (!is_letter && !(c >= '0' && c <= '9') && c != '-') c = '_';
@@ -75,7 +82,7 @@ std::vector<std::string> light_layer_names(const std::vector<scene::Emitter>& em
     std::vector<std::string> names;
     names.reserve(emitters.size());
     for (const scene::Emitter& emitter : emitters) names.push_back(layer_name(emitter.name));
-    // No node of a set for each name: they would leave gaps in memory, too small for layers.
+    // A set would allocate a node for each name. Once freed, these fragments are too small for layers.
     std::vector<std::size_t> order(names.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -146,21 +153,26 @@ bool is_wanted(const RenderSettings& settings, LayerKind kind) {
 }
 
 FrameSize frame_size(const scene::Scene& scene, const RenderSettings& settings) {
-    // Names, the heap, and lists of all layers and channels.
-    constexpr std::size_t kBytesPerLayer = 200;
+    // The layer itself, the heap, and lists of all layers and channels.
+    constexpr std::size_t kBytesPerLayer = 180;
     const scene::PixelBounds bounds = rendered_pixels(scene.film);
     FrameSize size;
     size.width = bounds.x_end - bounds.x_begin;
     size.height = bounds.y_end - bounds.y_begin;
-    size.layers = is_wanted(settings, LayerKind::lights) ? scene.emitters.size() : 0;
+    std::size_t name_bytes = 0;
+    if (is_wanted(settings, LayerKind::lights)) {
+        size.layers = scene.emitters.size();
+        for (const scene::Emitter& emitter : scene.emitters)
+            name_bytes += std::min(emitter.name.size(), kMaxNameLength);
+    }
     size.channels = kRgb.size() * (1 + size.layers);
     for (const auto& formats : {formats_before_lights(settings), formats_behind_lights(settings)}) {
         size.layers += formats.size();
         for (const auto& [name, channels] : formats) size.channels += channels.size();
     }
-    size.tiles = make_tiles(bounds).size();
+    size.tiles = tile_count(bounds.x_begin, bounds.x_end) * tile_count(bounds.y_begin, bounds.y_end);
     const std::size_t pixels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-    size.bytes = sizeof(float) * (size.channels + 1) * pixels + kBytesPerLayer * size.layers;
+    size.bytes = sizeof(float) * (size.channels + 1) * pixels + kBytesPerLayer * size.layers + name_bytes;
     return size;
 }
 

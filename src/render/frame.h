@@ -35,7 +35,7 @@ struct FrameSize {
     int height = 0;
     std::size_t layers = 0;   ///< beside the image
     std::size_t channels = 0; ///< with those of the image
-    std::size_t tiles = 0;    ///< of all parts
+    std::size_t tiles = 0;    ///< of 16 x 16 pixels at most, in all parts
     std::size_t bytes = 0;    ///< of memory, also for names and while an EXR file is written
 };
 

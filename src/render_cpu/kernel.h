@@ -178,8 +178,8 @@ struct RenderJob {
 /// Bytes in which a kernel sums up all but the layers of lights.
 inline constexpr std::size_t kPacketSumBytes = 4096;
 
-/// Floats per emitter in which a kernel sums up layers of lights: two vectors for each lane.
-constexpr std::size_t light_sum_floats(int lanes) { return 2 * 3 * static_cast<std::size_t>(lanes); }
+/// Floats per emitter and lane in which a kernel sums up layers of lights: a compensated sum of colours.
+inline constexpr std::size_t kLightSumFloatsPerLane = 2 * 3;
 
 /// Working memory for line samples.
 inline constexpr std::size_t kLineMemoryBytes = std::size_t(1) << 16;
@@ -205,7 +205,8 @@ struct TileStatistics {
 /// can go on with them.
 struct TileMemory {
     void* packet_sums; ///< kPacketSumBytes
-    float* light_sums; ///< light_sum_floats() for each emitter; unused without layers of lights
+    /// kLightSumFloatsPerLane times the number of lanes, for each emitter; unused without layers of lights.
+    float* light_sums;
     /// As many, for the sums before a camera ray that may be given up; unused if there is one camera ray per pixel.
     float* kept_light_sums;
     void* lines; ///< kLineMemoryBytes; unused without line samples

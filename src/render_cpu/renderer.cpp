@@ -144,7 +144,8 @@ const unsigned char* bytes_of(const std::atomic<bool>* cancel) {
 /// The memory for the sums of layers of lights of one packet of pixels.
 std::size_t light_sum_bytes(const scene::Scene& scene, const RenderSettings& settings, base::Isa isa) {
     if (!is_wanted(settings, LayerKind::lights)) return 0;
-    const std::size_t bytes = scene.emitters.size() * light_sum_floats(lane_count(isa)) * sizeof(float);
+    const std::size_t floats = kLightSumFloatsPerLane * static_cast<std::size_t>(lane_count(isa));
+    const std::size_t bytes = scene.emitters.size() * floats * sizeof(float);
     return (bytes + kMemoryAlignment - 1) / kMemoryAlignment * kMemoryAlignment;
 }
 

@@ -109,12 +109,12 @@ void write_many_lights(const std::string& path, int count) {
                  "\"integer indices\" [0 1 2 0 2 3]\nAttributeEnd\n";
 }
 
-/// Memory in use, not what the renderer believes to need: of the layers, working memory and the writing of the file. An
-/// image of 16 x 12 pixels is the hardest case: names and sums take as much for larger ones.
+/// Memory in use, not what the renderer believes to need: of the layers, working memory and the writing of the file. The
+/// smaller the image, the larger the share of names and sums; this one has a single tile, hence sums of one thread.
 TEST_F(Scale, LayersTakeTheMemoryThatIsAnnounced) {
     constexpr int kLights = 20'000;
     write_many_lights(path("scene.pbrt"), kLights);
-    // With AVX-512, the sums of twice as many lanes take 8 % of the layers more.
+    // With AVX-512, sums of twice as many lanes take another 8 % of the layers; so do those of several camera rays.
     const std::string isa = is_supported(base::Isa::avx2) ? "avx2" : "sse42";
     const auto render = [&](const std::string& layers) {
         return lab::run_child({"/bin/sh", "-c",

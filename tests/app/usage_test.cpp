@@ -138,13 +138,19 @@ TEST_F(CommandLine, ListsHaveNoGaps) {
 }
 
 TEST_F(CommandLine, NoArgumentMayBeEmpty) {
-    for (const char* arguments : {"render ''", "render a.pbrt -o ''", "compare a.exr ''",
-                                  "render a.pbrt --spp ''", "render a.pbrt --layers ''"}) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"''", "the first argument: it is empty"},
+        {"render ''", "the argument after 'render': it is empty"},
+        {"render a.pbrt -o ''", "the argument after '-o': it is empty"},
+        {"compare a.exr ''", "the argument after 'a.exr': it is empty"},
+        {"render a.pbrt --spp ''", "the argument after '--spp': it is empty"},
+        {"render a.pbrt --json= --quiet", "--json=: the value is empty"},
+        {"render a.pbrt --checkpoint= --pixel-center", "--checkpoint=: the value is empty"}};
+    for (const auto& [arguments, message] : cases) {
         const Outcome empty = run(arguments);
         EXPECT_EQ(empty.exit_code, 2) << arguments;
-        expect_message(empty.err, "an argument is empty: the one behind '");
+        expect_message(empty.err, message);
     }
-    expect_message(run("''").err, "an argument is empty: the first");
 }
 
 TEST_F(CommandLine, HelpIsACommandToo) {
@@ -152,17 +158,34 @@ TEST_F(CommandLine, HelpIsACommandToo) {
     EXPECT_EQ(run("help render").out, run("render --help").out);
     EXPECT_EQ(run_lab("help bench lines").out, run_lab("bench lines --help").out);
     EXPECT_EQ(run("help render").exit_code, 0);
-    expect_message(run("help rendr").err, "unknown command 'rendr' (did you mean 'render'?)");
+    expect_message(run("help rendr").err, "help: unknown command 'rendr' (did you mean 'render'?)");
+    // Help never runs a command.
+    const Outcome more = run("help render '" + kScenes + "/room.pbrt' --resolution 8x8 -o a.exr");
+    EXPECT_EQ(more.exit_code, 2);
+    EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
 }
 
 TEST_F(CommandLine, AllMissingFilesAreNamedAtOnce) {
-    const Outcome missing = run("render a.pbrt --lights b.json --lights c.json --camera d.json");
-    EXPECT_EQ(missing.exit_code, 1);
-    expect_message(missing.err, "no such files: 'a.pbrt', 'b.json', 'c.json' and 'd.json'");
-    const std::string long_name(300, 'x');
-    expect_message(run("render " + long_name + ".pbrt").err, "x.pbrt': not accessible (File name too long)");
-    expect_message(run("render '" + kScenes + "/room.pbrt' -o " + long_name + ".exr").err,
-                   "use a name of at most 200 bytes");
+    const std::pair<const char*, const char*> cases[] = {
+        {"render a.pbrt --lights b.json --lights c.json --camera d.json",
+         "no such files: 'a.pbrt', 'b.json', 'c.json' and 'd.json'"},
+        {"info a.pbrt --lights b.json", "no such files: 'a.pbrt' and 'b.json'"},
+        {"lights a.pbrt --lights b.json", "no such files: 'a.pbrt' and 'b.json'"},
+        {"compare a.exr b.exr", "no such files: 'a.exr' and 'b.exr'"},
+        {"merge -o c.exr a.exr b.exr", "no such files: 'a.exr' and 'b.exr'"},
+        {"info a.pbrt", "no such file: 'a.pbrt'"}};
+    for (const auto& [arguments, message] : cases) {
+        const Outcome missing = run(arguments);
+        EXPECT_EQ(missing.exit_code, 1) << arguments;
+        expect_message(missing.err, message);
+    }
+}
+
+TEST_F(CommandLine, NamesThatAreTooLongAreToBlame) {
+    const std::string name(300, 'x');
+    expect_message(run("render " + name + ".pbrt").err, "x.pbrt': not accessible (File name too long)");
+    expect_message(run("render '" + kScenes + "/room.pbrt' -o " + name + ".exr").err,
+                   "x.exr': File name too long; choose another name");
 }
 
 TEST_F(CommandLine, OptionsWithoutEffectAreNotSilent) {

@@ -4,6 +4,7 @@
 #include "image/io.h"
 #include "image_fixture.h"
 
+#include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <limits>
@@ -64,7 +65,7 @@ TEST_F(Files, WritingReplacesAnExistingFile) {
     }
 }
 
-TEST_F(Files, AFullDiskLeavesTheOldFileAndNoOther) {
+TEST_F(Files, ALimitOnTheSizeOfFilesLeavesTheOldFileAndNoOther) {
     const Image image = random_image(250, 250, 1); // above 100 kB in every format
     for (const std::string& extension : kWritable) {
         const std::filesystem::path path = in_folder("a" + extension);
@@ -77,7 +78,7 @@ TEST_F(Files, AFullDiskLeavesTheOldFileAndNoOther) {
         for (const rlim_t limit : {rlim_t(100), rlim_t(100000), rlim_t(complete_size - 1)}) {
             std::string error;
             {
-                const FileSizeLimit full_disk(limit);
+                const FileSizeLimit too_small(limit);
                 error = error_of([&] { write_image(path, image); });
             }
             expect_mentions(error, path.string());
@@ -103,6 +104,25 @@ TEST_F(Files, AnExceptionOfTheWriterLeavesTheOldFileAndNoOther) {
     EXPECT_THROW(base::write_atomically(in_folder("a.json"), throwing_writer), std::logic_error);
     EXPECT_EQ(read_bytes(in_folder("a.json")), "old");
     EXPECT_EQ(file_names(), std::set<std::string>{"a.json"});
+}
+
+TEST_F(Files, AFullDiskIsNamed) {
+    const auto error = error_of([&] {
+        base::write_atomically(in_folder("a.json"), [](std::ofstream& stream) {
+            errno = ENOSPC;
+            stream.setstate(std::ios::badbit);
+        });
+    });
+    expect_mentions(error, "cannot store the data; check the free space of the disk");
+    EXPECT_TRUE(file_names().empty());
+}
+
+TEST_F(Files, NamesMayBeAsLongAsTheSystemAllows) {
+    const auto write = [](std::ofstream& stream) { stream << "new"; };
+    base::write_atomically(in_folder(std::string(255, 'a')), write);
+    EXPECT_EQ(read_bytes(in_folder(std::string(255, 'a'))), "new");
+    expect_mentions(error_of([&] { base::write_atomically(in_folder(std::string(256, 'a')), write); }),
+                    "choose another name");
 }
 
 TEST_F(Files, MissingFolderAndFolderInsteadOfFile) {

@@ -331,15 +331,16 @@ TEST(LayersOfHits, VarianceNeedsTwoCameraRays) {
 
 TEST(LayersOfLights, HaveUniqueNames) {
     scene::Scene scene = make_box_scene(8);
-    scene.emitters = {{"a lamp"}, {"a.lamp"}, {""}, {"polygon at some/folder/room.pbrt:7"}};
+    scene.emitters = {{"a lamp"}, {"a.lamp"}, {""}, {"polygon at some/folder/room.pbrt:7"}, {"a:lamp"}};
     RenderSettings settings;
     settings.layers = {LayerKind::lights};
     const RenderResult result = render(scene, settings);
-    ASSERT_EQ(result.layers.size(), 4u);
+    ASSERT_EQ(result.layers.size(), 5u);
     EXPECT_EQ(result.layers[0].name, "light.a_lamp");
     EXPECT_EQ(result.layers[1].name, "light.a_lamp.1");
     EXPECT_EQ(result.layers[2].name, "light.unnamed");
     EXPECT_EQ(result.layers[3].name, "light.polygon_at_room_pbrt_7");
+    EXPECT_EQ(result.layers[4].name, "light.a_lamp.4");
 }
 
 TEST(Frames, LargerThanAnyFileAreRefused) {

@@ -90,19 +90,21 @@ TEST_F(Importers, OtherFormatsAreNamedWithWhatToDo) {
         const char* expected;
     };
     const Case cases[] = {
-        {"a.gltf", "{\"asset\": {\"version\": \"2.0\"}}", "is a glTF file, which cannot be read; convert it"},
+        {"a.gltf", "{\"asset\": {\"version\": \"2.0\"}}",
+         "is a glTF file, which cannot be read as a scene; convert it"},
         {"a.glb", "glTF\2", "assimp export"},
         {"A.GLTF", "{}", "is a glTF file"},
-        {"a.obj", "v 0 0 0\n", "is a Wavefront OBJ file, which cannot be read; convert it"},
-        {"a.usda", "#usda 1.0\n", "is a USD file, which cannot be read; export it from Blender"},
+        {"a.obj", "v 0 0 0\n", "is a Wavefront OBJ file, which cannot be read as a scene; convert it"},
+        {"a.usda", "#usda 1.0\n", "is a USD file, which cannot be read as a scene; export it from Blender"},
         {"a.xml", "<scene version=\"3.0.0\"/>", "is a Mitsuba scene"},
         {"a.blend", "BLENDER-v300RENDH", "is a file of Blender"},
         {"without-extension", "BLENDER-v300RENDH", "is a file of Blender"},
         {"compressed.blend", "\x28\xb5\x2f\xfd", "is a file of Blender"},
-        {"a.PNG", "\x89PNG\r\n", "is a PNG image, which cannot be read; name it in a scene file by Texture"},
+        {"a.PNG", "\x89PNG\r\n",
+         "is a PNG image, which cannot be read as a scene; refer to it in a scene file with Texture"},
         {"picture", "\x76\x2f\x31\x01", "is an EXR image"},
-        {"rig.json", "{}", "is a JSON file, which cannot be read; name a light rig behind `--lights`"},
-        {"a.ply", "ply\nformat ascii 1.0\n", "name it in a scene file by Shape \"plymesh\""},
+        {"rig.json", "{}", "is a JSON file, which cannot be read as a scene; give a light rig to `--lights`"},
+        {"a.ply", "ply\nformat ascii 1.0\n", "refer to it in a scene file with Shape \"plymesh\""},
     };
     for (const Case& c : cases) {
         write(c.file, c.contents);

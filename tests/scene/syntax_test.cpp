@@ -128,18 +128,26 @@ TEST_F(Syntax, OptionsThatMatterAreWarnedOf) {
         {"\"integer seed\" [ 7 ]", "Option \"integer seed\" is ignored; `--seed` chooses the random numbers"},
         {"\"force_diffuse\" true",
          "Option \"force_diffuse\" is ignored; `--brdf lambert` renders all materials as diffuse"},
-        {"\"nosuch\" 3", "Option \"nosuch\" is unknown and ignored"},
-        {"\"disablepixeljitter\" \"yes\"",
-         "Option \"disablepixeljitter\": expected true or false, found \"yes\"; it is ignored"},
-        {"\"displacementedgescale\" 1x",
-         "Option \"displacementedgescale\": expected a number, found '1x'; it is ignored"},
-        {"\"seed\" [ 1 2 ]", "Option \"seed\": expected a number, found 2 values; it is ignored"}};
+        {"\"disabletexturefiltering\" true", "Option \"disabletexturefiltering\" is ignored; `\"string "
+                                             "filter\" \"point\"` does the same for a texture"},
+        {"\"nosuch\" 3", "Option \"nosuch\" is unknown and ignored"}};
     for (const auto& [option, warning] : cases) {
         const Scene scene = load("Option " + std::string(option) + "\nCamera \"perspective\"\nWorldBegin\n" +
                                  std::string(kTriangle));
         ASSERT_EQ(scene.warnings.size(), 1u) << option;
         EXPECT_EQ(without_folder(scene.warnings[0]), "scene.pbrt:1: " + std::string(warning));
     }
+}
+
+TEST_F(Syntax, WrongValuesOfOptionsAreErrors) {
+    EXPECT_EQ(error("Option \"disablepixeljitter\" \"yes\""),
+              "scene.pbrt:1: Option \"disablepixeljitter\": expected true or false, found \"yes\"");
+    EXPECT_EQ(error("Option \"displacementedgescale\" 1x"),
+              "scene.pbrt:1: Option \"displacementedgescale\": expected a number, found '1x'");
+    EXPECT_EQ(error("Option \"seed\" [ 1 2 ]"),
+              "scene.pbrt:1: Option \"seed\": expected a number, found 2 values");
+    EXPECT_EQ(error("Option \"forcediffuse\"\nCamera \"perspective\""),
+              "scene.pbrt:1: Option \"forcediffuse\": expected true or false, found 'Camera'");
 }
 
 TEST_F(Syntax, SamplersAreTakenAtTheirWord) {

@@ -3,7 +3,7 @@
 #include "apps/common/help.h"
 #include "apps/common/validators.h"
 #include "base/atomic_file.h"
-#include "base/distinct_files.h"
+#include "base/file_checks.h"
 #include "base/json_output.h"
 #include "scene/import/importers.h"
 

@@ -6,7 +6,7 @@
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 #include "apps/nusselt-lab/bench/bench_output.h"
-#include "base/distinct_files.h"
+#include "base/file_checks.h"
 
 #include "base/atomic_file.h"
 #include "base/stopwatch.h"
@@ -223,7 +223,6 @@ int run_fit_ltc(const FitLtcOptions& options) {
     const fit::Brdf& brdf = fit::find_brdf(options.brdf);
     // Fails now rather than after minutes of fitting.
     check_json_option(options.json);
-    if (options.output.empty()) throw CLI::ValidationError("--output", "the name is empty");
     std::vector<std::filesystem::path> outputs;
     for (const char* extension : {".bin", "-engine.bin", ".json"}) {
         outputs.emplace_back(options.output + extension);

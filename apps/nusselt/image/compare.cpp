@@ -4,7 +4,7 @@
 #include "apps/common/print_message.h"
 #include "apps/common/validators.h"
 #include "base/atomic_file.h"
-#include "base/distinct_files.h"
+#include "base/file_checks.h"
 #include "base/json_output.h"
 #include "compare_metrics.h"
 #include "image/difference.h"
@@ -26,7 +26,7 @@ namespace nusselt::app {
 
 namespace {
 
-void check_outputs(const CompareOptions& options) {
+void check_files(const CompareOptions& options) {
     std::vector<std::filesystem::path> outputs;
     for (const auto& picture :
          {options.difference, options.absolute_difference, options.flip_map, options.hdr_flip_map}) {
@@ -41,6 +41,7 @@ void check_outputs(const CompareOptions& options) {
     std::vector<std::filesystem::path> inputs = options.images;
     inputs.push_back(options.reference);
     base::check_distinct(outputs, inputs);
+    base::check_exist(inputs);
 }
 
 void check_size(const std::filesystem::path& path, const image::Image& a, const image::Image& reference,
@@ -67,7 +68,7 @@ double write_differences(const image::Image& a, const image::Image& reference,
 
 /// \returns whether all limits are kept
 bool compare_images(const CompareOptions& options) {
-    check_outputs(options);
+    check_files(options);
     const image::Image reference = image::read_image(options.reference);
     std::vector<ComparedImage> compared;
     std::string scale_text;

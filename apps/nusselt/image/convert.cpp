@@ -1,7 +1,7 @@
 #include "convert.h"
 #include "apps/common/print_message.h"
 #include "apps/common/validators.h"
-#include "base/distinct_files.h"
+#include "base/file_checks.h"
 
 #include "image/io.h"
 #include "image/layers.h"

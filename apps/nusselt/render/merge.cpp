@@ -2,7 +2,7 @@
 
 #include "apps/common/help.h"
 #include "apps/common/print_message.h"
-#include "base/distinct_files.h"
+#include "base/file_checks.h"
 #include "base/words.h"
 
 #include "image/io.h"
@@ -64,6 +64,7 @@ void setup_merge(CLI::App& app, int& exit_code) {
 int run_merge(const MergeOptions& options) {
     base::check_distinct({*options.output}, options.inputs);
     image::check_writable_image(*options.output);
+    base::check_exist(options.inputs);
     render::Merger merger;
     for (const std::filesystem::path& path : options.inputs) merger.add(image::read_layers(path), path);
     const image::LayeredImage result = merger.result();

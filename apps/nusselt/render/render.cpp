@@ -204,8 +204,8 @@ void setup_render(CLI::App& app, int& exit_code) {
 int run_render(const RenderOptions& options) {
     const base::Stopwatch stopwatch;
     render::RenderSettings settings = make_settings(options);
-    check_inputs(options);
     check_outputs(options);
+    base::check_exist(input_paths(options));
     const std::unique_ptr<render::Backend> backend = make_backend(options, settings);
 
     InterruptGuard guard(options.quiet ? "" : InterruptGuard::kNotice);

@@ -1,16 +1,14 @@
 #include "render_files.h"
 
 #include "apps/common/render_setup.h"
-#include "base/distinct_files.h"
+#include "base/file_checks.h"
 
 #include "base/atomic_file.h"
-#include "base/words.h"
 #include "image/io.h"
 
 #include <fmt/core.h>
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 
@@ -25,16 +23,11 @@ std::vector<std::filesystem::path> output_paths(const RenderOptions& options, co
     return {stem + ".exr"};
 }
 
-void check_inputs(const RenderOptions& options) {
+std::vector<std::filesystem::path> input_paths(const RenderOptions& options) {
     std::vector<std::filesystem::path> inputs = {options.scene};
     inputs.insert(inputs.end(), options.rigs.begin(), options.rigs.end());
     if (options.camera) inputs.push_back(*options.camera);
-    std::vector<std::string> missing;
-    std::error_code ignored;
-    for (const std::filesystem::path& input : inputs)
-        if (std::filesystem::status(input, ignored).type() == std::filesystem::file_type::not_found)
-            missing.push_back("'" + input.string() + "'");
-    if (missing.size() > 1) throw std::runtime_error("no such files: " + base::listing(missing, "and"));
+    return inputs;
 }
 
 void check_outputs(const RenderOptions& options) {
@@ -55,8 +48,8 @@ void check_names(const RenderOptions& options, const scene::Scene& scene) {
     if (options.json && options.json != "-") outputs.emplace_back(*options.json);
     if (options.checkpoint) outputs.push_back(*options.checkpoint);
     std::vector<std::filesystem::path> inputs = scene.files;
-    if (options.camera) inputs.push_back(*options.camera);
-    inputs.insert(inputs.end(), options.rigs.begin(), options.rigs.end());
+    const std::vector<std::filesystem::path> named = input_paths(options);
+    inputs.insert(inputs.end(), named.begin(), named.end());
     base::check_distinct(outputs, inputs);
 }
 

@@ -13,8 +13,8 @@ namespace nusselt::app {
 /// Images, as given or named after the film or the scene.
 std::vector<std::filesystem::path> output_paths(const RenderOptions& options, const scene::Film& film);
 
-/// \throws std::runtime_error naming all of several inputs that do not exist; the readers name a single one
-void check_inputs(const RenderOptions& options);
+/// The scene, the rigs and the camera.
+std::vector<std::filesystem::path> input_paths(const RenderOptions& options);
 
 /// \throws std::runtime_error if something could not be written after the work is done
 void check_outputs(const RenderOptions& options);

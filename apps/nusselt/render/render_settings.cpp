@@ -97,10 +97,10 @@ void add_sampling_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option(
             "--strategies", options.strategies,
-            "Which techniques take samples. diffuse: the one of --technique alone. diffuse+ltc: the one of "
-            "--technique for the diffuse component of materials, and linearly transformed cosines for the "
-            "specular component. diffuse+ggx and diffuse+ggx_bounded: GGX visible normals for the specular "
-            "component, for polygons only")
+            "Which techniques take samples: diffuse, that of --technique alone; diffuse+ltc, that one for "
+            "the "
+            "diffuse component of materials and linearly transformed cosines for the specular component; "
+            "diffuse+ggx and diffuse+ggx_bounded, the same with GGX visible normals, for polygons only")
         ->transform(to_one_of(names_of(render::kStrategies)))
         ->default_str(
             "diffuse+ltc with techniques for projected solid angles and --brdf material, else diffuse")
@@ -124,11 +124,12 @@ void add_sampling_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option(
             "--sampler", options.sampler,
-            "Pattern of the samples. independent: random points. sobol: Owen-scrambled Sobol' points. "
-            "jittered: "
-            "equidistant points that are shifted by one random offset (uniform jittered sampling; best for "
-            "linear lights). stratified: multi-jittered points, with as many strata in each dimension as "
-            "samples (best for line samples)")
+            "How samples are distributed: independent; sobol, Owen-scrambled Sobol' points; jittered, "
+            "equidistant "
+            "points with one random shift, also known as uniform jittered sampling (best for linear lights); "
+            "stratified, multi-jittered points with as many strata in each dimension as samples (best for "
+            "line "
+            "samples)")
         ->transform(to_one_of(names_of(render::kSampleOrders)))
         ->group(kSamplingGroup);
     command

@@ -2,6 +2,7 @@
 #include "apps/common/help.h"
 #include "apps/common/render_setup.h"
 
+#include "base/file_checks.h"
 #include "scene/import/importers.h"
 #include "scene/rig/rig.h"
 #include "scene/rig/rig_json.h"
@@ -48,6 +49,9 @@ std::string rig_names(const std::vector<std::filesystem::path>& rigs) {
 }
 
 scene::Scene load_scene(const std::filesystem::path& path, const std::vector<std::filesystem::path>& rigs) {
+    std::vector<std::filesystem::path> files = {path};
+    files.insert(files.end(), rigs.begin(), rigs.end());
+    base::check_exist(files);
     std::vector<scene::Rig> loaded;
     for (const std::filesystem::path& rig : rigs) loaded.push_back(scene::read_rig(rig));
     scene::Scene scene = scene::load_scene(path);

@@ -60,6 +60,7 @@ void setup_view(CLI::App& app, int& exit_code) {
 int run_view(const ViewOptions& options) {
     const RenderOptions& render = options.render;
     const render::RenderSettings settings = make_settings(render);
+    base::check_exist(input_paths(render));
     const gpu::Device device({.choice = render.device}); // before the time that loading takes
     scene::Scene scene = load_scene(render.scene, render.rigs);
     if (render.camera) apply_camera(scene::read_camera_file(*render.camera), scene);
@@ -70,8 +71,8 @@ int run_view(const ViewOptions& options) {
     const auto shadow_rays = render.shadow_rays ? from_name(render_vulkan::kShadowRays, *render.shadow_rays)
                                                 : render_vulkan::default_shadow_rays(device);
     std::vector<std::filesystem::path> inputs = scene.files;
-    inputs.insert(inputs.end(), render.rigs.begin(), render.rigs.end());
-    if (render.camera) inputs.push_back(*render.camera);
+    const std::vector<std::filesystem::path> named = input_paths(render);
+    inputs.insert(inputs.end(), named.begin(), named.end());
     if (options.script) inputs.push_back(*options.script);
     viewer::Viewer viewer(device, scene, shadow_rays, settings,
                           {render.scene, render.rigs, render.device, std::move(inputs)});

@@ -1,6 +1,6 @@
 #include "commands.h"
 
-#include "base/distinct_files.h"
+#include "base/file_checks.h"
 #include "image/io.h"
 #include "render/names.h"
 #include "viewer/print_line.h"

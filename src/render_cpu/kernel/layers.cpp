@@ -62,7 +62,7 @@ void LayerSums::restore(const State& state) noexcept {
 }
 
 std::size_t LayerSums::light_sum_bytes() const noexcept {
-    return render_cpu::light_sum_floats(kLanes) * job_.scene.emitter_count * sizeof(float);
+    return render_cpu::kLightSumFloatsPerLane * kLanes * job_.scene.emitter_count * sizeof(float);
 }
 
 void LayerSums::add_hits(const visibility::HitPacket<kLanes>& hits, LaneMask any_hit,

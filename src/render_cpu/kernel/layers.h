@@ -90,7 +90,7 @@ public:
 private:
     std::size_t light_sum_bytes() const noexcept;
     float* sums_of(std::uint32_t emitter) const noexcept {
-        return light_sums_ + render_cpu::light_sum_floats(kLanes) * emitter;
+        return light_sums_ + render_cpu::kLightSumFloatsPerLane * kLanes * emitter;
     }
 
     const render_cpu::RenderJob& job_;

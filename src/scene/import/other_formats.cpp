@@ -13,9 +13,9 @@ enum class Remedy {
     convert,
     export_from_blender,
     get_pbrt_version,
-    name_as_mesh,
-    name_as_texture,
-    name_as_rig
+    refer_as_mesh,
+    refer_as_texture,
+    refer_as_rig
 };
 
 struct OtherFormat {
@@ -34,12 +34,12 @@ constexpr OtherFormat kOtherFormats[] = {
     {"a USD file", "", "PXR-USDC", Remedy::export_from_blender},
     {"a file of Blender", ".blend ", "BLENDER", Remedy::export_from_blender},
     {"a Mitsuba scene", ".xml ", "", Remedy::get_pbrt_version},
-    {"a mesh without a scene", ".ply ", "ply", Remedy::name_as_mesh},
-    {"a PNG image", ".png ", "\x89PNG", Remedy::name_as_texture},
-    {"a JPG image", ".jpg .jpeg ", "\xFF\xD8\xFF", Remedy::name_as_texture},
-    {"an EXR image", ".exr ", "\x76\x2F\x31\x01", Remedy::name_as_texture},
-    {"an image", ".bmp .hdr .pfm .tga ", "", Remedy::name_as_texture},
-    {"a JSON file", ".json ", "", Remedy::name_as_rig},
+    {"a mesh without a scene", ".ply ", "ply", Remedy::refer_as_mesh},
+    {"a PNG image", ".png ", "\x89PNG", Remedy::refer_as_texture},
+    {"a JPG image", ".jpg .jpeg ", "\xFF\xD8\xFF", Remedy::refer_as_texture},
+    {"an EXR image", ".exr ", "\x76\x2F\x31\x01", Remedy::refer_as_texture},
+    {"an image", ".bmp .hdr .pfm .tga ", "", Remedy::refer_as_texture},
+    {"a JSON file", ".json ", "", Remedy::refer_as_rig},
 };
 
 std::string lower_case(std::string text) {
@@ -53,6 +53,10 @@ std::string to_text(Remedy remedy, const std::filesystem::path& path) {
         return "`assimp export " + base::shell_word(input.string()) + ' ' +
                base::shell_word(output.string()) + "` (Debian package assimp-utils)";
     };
+    const auto reference = [&](const std::string& directive) {
+        return "refer to it in a scene file with " + directive + " \"string filename\" \"" +
+               path.filename().string() + '"';
+    };
     const std::filesystem::path stem = path.stem();
     switch (remedy) {
     case Remedy::convert:
@@ -62,17 +66,14 @@ std::string to_text(Remedy remedy, const std::filesystem::path& path) {
                command(stem.string() + ".glb", stem.string() + ".pbrt");
     case Remedy::get_pbrt_version:
         return "look for its version in the format of pbrt";
-    case Remedy::name_as_texture:
-        return "name it in a scene file by Texture \"picture\" \"spectrum\" \"imagemap\" \"string filename\" "
-               "\"" +
-               path.filename().string() + '"';
-    case Remedy::name_as_rig:
-        return "name a light rig behind `--lights` and a camera behind `--camera`";
-    case Remedy::name_as_mesh:
+    case Remedy::refer_as_mesh:
+        return reference("Shape \"plymesh\"");
+    case Remedy::refer_as_texture:
+        return reference("Texture \"picture\" \"spectrum\" \"imagemap\"");
+    case Remedy::refer_as_rig:
         break;
     }
-    return "name it in a scene file by Shape \"plymesh\" \"string filename\" \"" + path.filename().string() +
-           '"';
+    return "give a light rig to `--lights` and a camera to `--camera`";
 }
 
 bool is_of(const OtherFormat& format, const std::string& extension, std::string_view contents) {
@@ -87,7 +88,7 @@ std::optional<std::string> describe_other_format(const std::filesystem::path& pa
     const std::string extension = lower_case(path.extension().string());
     for (const OtherFormat& format : kOtherFormats)
         if (is_of(format, extension, contents))
-            return "is " + std::string(format.name) + ", which cannot be read; " +
+            return "is " + std::string(format.name) + ", which cannot be read as a scene; " +
                    to_text(format.remedy, path);
     return std::nullopt;
 }

@@ -2,8 +2,8 @@
 /// The graphics state of a scene file and its stack.
 
 #include "scene/build/emission.h"
-#include "scene/import/pbrt/directives/shape_directive.h"
 #include "scene/import/pbrt/materials.h"
+#include "scene/import/pbrt/shape_directive.h"
 #include "scene/model/transform.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 /// Definitions and instances of objects while a scene file is parsed.
 
-#include "scene/import/pbrt/directives/shape_directive.h"
+#include "scene/import/pbrt/shape_directive.h"
 
 #include <string>
 #include <unordered_map>

@@ -1,7 +1,7 @@
 #pragma once
 /// One function for each type of shape. All throw SceneError.
 
-#include "scene/import/pbrt/directives/shape_directive.h"
+#include "scene/import/pbrt/shape_directive.h"
 
 namespace nusselt::scene {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Differences between surfaces of one material.
 
-#include "scene/import/pbrt/directives/shape_directive.h"
+#include "scene/import/pbrt/shape_directive.h"
 #include "scene/import/pbrt/textures.h"
 
 #include <compare>

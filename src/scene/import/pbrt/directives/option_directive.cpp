@@ -1,9 +1,9 @@
 #include "scene/import/pbrt/directives/option_directive.h"
 
 #include "scene/import/pbrt/syntax/name_table.h"
+#include "scene/import/pbrt/syntax/parameters.h"
 
 #include <cctype>
-#include <charconv>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -22,12 +22,7 @@ bool is_boolean(const Token& value) {
     return value.kind == TokenKind::word && (value.text == "true" || value.text == "false");
 }
 
-bool is_number(const Token& value) {
-    double number = 0;
-    const char* const end = value.text.data() + value.text.size();
-    const auto [last, error] = std::from_chars(value.text.data(), end, number);
-    return value.kind == TokenKind::word && error == std::errc() && last == end;
-}
+bool is_number(const Token& value) { return value.kind == TokenKind::word && number_of(value.text); }
 
 bool is_string(const Token& value) { return value.kind == TokenKind::string; }
 
@@ -51,6 +46,7 @@ constexpr std::pair<std::string_view, const OptionType*> kOptions[] = {{"disable
 /// Options that change images, and what to do about it.
 constexpr std::pair<std::string_view, const char*> kRemedies[] = {
     {"disablepixeljitter", "`--pixel-center` sends camera rays through pixel centres"},
+    {"disabletexturefiltering", "`\"string filter\" \"point\"` does the same for a texture"},
     {"forcediffuse", "`--brdf lambert` renders all materials as diffuse"},
     {"seed", "`--seed` chooses the random numbers"}};
 
@@ -86,15 +82,16 @@ void read_option(const std::string& name, const Location& location, Tokenizer& t
     const OptionType* const type = find_named(kOptions, plain);
     if (type == nullptr) {
         warnings.add(location, option + " is unknown and ignored");
-    } else if (values.size() != 1 || !type->fits(values.front())) {
-        const std::string found = values.size() == 1 ? Tokenizer::describe(values.front())
-                                                     : std::to_string(values.size()) + " values";
-        warnings.add(location,
-                     option + ": expected " + type->expected + ", found " + found + "; it is ignored");
-    } else if (const char* const remedy = find_named(kRemedies, plain);
-               remedy != nullptr && values.front().text != "false") {
-        warnings.add(location, option + " is ignored; " + remedy);
+        return;
     }
+    // A value that does not fit may be the next directive.
+    if (values.size() != 1 || !type->fits(values.front()))
+        throw SceneError(location, option + ": expected " + type->expected + ", found " +
+                                       (values.size() == 1 ? Tokenizer::describe(values.front())
+                                                           : std::to_string(values.size()) + " values"));
+    const char* const remedy = find_named(kRemedies, plain);
+    if (remedy != nullptr && values.front().text != "false")
+        warnings.add(location, option + " is ignored; " + remedy);
 }
 
 } // namespace nusselt::scene

@@ -29,7 +29,7 @@ std::optional<int> read_pixel_samples(std::string_view type, ParameterList& para
         multiply({"xsamples", "ysamples"});
     else
         multiply({"pixelsamples"});
-    // What else the samplers of pbrt know does not concern us.
+    // These change the random numbers of pbrt, not what its images converge to.
     parameters.ignore({"dimensions", "jitter", "randomization", "samplepixelcenter", "seed"});
     parameters.warn_unused("Sampler", warnings);
     if (!is_given || product == 0) return std::nullopt;

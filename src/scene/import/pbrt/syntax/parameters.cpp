@@ -117,17 +117,22 @@ std::string declaration(const Parameter& parameter) {
     return '"' + shortened(parameter.type) + ' ' + shortened(parameter.name) + '"';
 }
 
-double parse_number(std::string_view text, const Location& location) {
+std::optional<double> number_of(std::string_view text) {
     const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
     double value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (end != digits.data() + digits.size() || error == std::errc::invalid_argument)
-        throw SceneError(location, "expected a number, found '" + shortened(text) + "'");
+    if (end != digits.data() + digits.size() || error == std::errc::invalid_argument) return std::nullopt;
     // from_chars reports underflow like overflow and leaves the value unset; strtod distinguishes them.
     if (error == std::errc::result_out_of_range) value = std::strtod(std::string(digits).c_str(), nullptr);
-    if (!(std::fabs(value) <= std::numeric_limits<float>::max()))
-        throw SceneError(location, "number out of range: '" + shortened(text) + "'");
     return value;
+}
+
+double parse_number(std::string_view text, const Location& location) {
+    const std::optional<double> value = number_of(text);
+    if (!value) throw SceneError(location, "expected a number, found '" + shortened(text) + "'");
+    if (!(std::fabs(*value) <= std::numeric_limits<float>::max()))
+        throw SceneError(location, "number out of range: '" + shortened(text) + "'");
+    return *value;
 }
 
 ParameterList::ParameterList(Tokenizer& tokens, const Location& directive, ParameterContext context)

@@ -18,6 +18,9 @@
 
 namespace nusselt::scene {
 
+/// The number that `text` spells, perhaps infinite or NaN; nothing if it is none.
+std::optional<double> number_of(std::string_view text);
+
 /// The number that `text` spells. Throws SceneError if it is none or not finite.
 double parse_number(std::string_view text, const Location& location);
 

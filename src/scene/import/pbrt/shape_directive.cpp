@@ -1,4 +1,4 @@
-#include "scene/import/pbrt/directives/shape_directive.h"
+#include "scene/import/pbrt/shape_directive.h"
 
 #include "scene/build/build_shape.h"
 #include "scene/import/pbrt/shape_readers.h"
