@@ -145,16 +145,6 @@ NUSSELT_HD constexpr Vec3<Real> max(const Vec3<Real>& a, const Vec3<Real>& b) no
 template <class Scalar>
 inline constexpr Scalar kTiny = power_of_two<Scalar>(-std::numeric_limits<Scalar>::max_exponent / 4 * 3);
 
-/// a * b - c * d with an error of at most 1.5 ulp barring under- and overflow, and never the wrong sign
-/// (Kahan's algorithm; Jeannerod, Louvet, Muller 2013, doi:10.1090/S0025-5718-2013-02679-8).
-template <class Real>
-NUSSELT_INLINE Real difference_of_products(const Real& a, const Real& b, const Real& c,
-                                           const Real& d) noexcept {
-    const Real cd = c * d;
-    const Real error = fma(c, d, -cd);
-    return fma(a, b, -cd) - error;
-}
-
 /// Determinant of the matrix with columns a, b; accurate to 1.5 ulp, exact sign.
 template <class Real>
 NUSSELT_INLINE Real det(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
