@@ -1,6 +1,6 @@
 #pragma once
-/// Operations across the lanes of Pack<float, 4> and Pack<float, 8>, for scalar code that takes the vertices of one
-/// light as lanes.
+/// Scalar code that takes the vertices of one light as lanes: operations across the lanes of Pack<float, L>, and records
+/// of such packs in memory.
 
 #include <nusselt/core/vec.h>
 #include <nusselt/simd/pack.h>
@@ -101,6 +101,9 @@ struct AcrossLanes<8> {
 
 } // namespace detail
 
+/// The number of lanes in which scalar code keeps so many vertices.
+constexpr int lanes_for(int count) noexcept { return count <= 4 ? 4 : count <= 8 ? 8 : 16; }
+
 /// The pack whose lane i is f(i).
 template <int L, class Function>
 NUSSELT_INLINE Pack<float, L> make_lanes(Function f) noexcept {
@@ -138,5 +141,11 @@ template <int L>
 NUSSELT_INLINE float sum_of_lanes(const Pack<float, L>& p) noexcept {
     return detail::AcrossLanes<L>::reduce(p, [](auto a, auto b) { return a + b; });
 }
+
+/// L floats in memory, of which scalar code reads single ones.
+template <int L>
+struct StoredLanes {
+    float lane[L];
+};
 
 NUSSELT_NAMESPACE_END
