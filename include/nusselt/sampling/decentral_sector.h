@@ -52,7 +52,7 @@ struct DecentralSector {
         Real rise;  ///< form of the inner ellipse minus that, >= 0
     };
 
-    NUSSELT_HD Forms at(const Real& x) const noexcept {
+    NUSSELT_INLINE Forms at(const Real& x) const noexcept {
         Forms f;
         f.outer_point = begin + x * chord;
         f.gap = multiply_add(x, end_gap - begin_gap, begin_gap);
@@ -61,7 +61,7 @@ struct DecentralSector {
         return f;
     }
 
-    NUSSELT_HD SectorPlanes<Real> planes() const noexcept {
+    NUSSELT_INLINE SectorPlanes<Real> planes() const noexcept {
         const Real turn = end_gap - begin_gap;
         const Vec3<Real> outer_normal = cross(begin, chord);
         const Vec3<Real> lift{multiply_add(turn, begin.y, -begin_gap * chord.y),
@@ -75,7 +75,7 @@ struct DecentralSector {
     /// Twice the area from the start to x (Prop. 1 for both ellipses). Each ellipse contributes the
     /// determinant of its end points times angle / sine; the determinants are equal.
     template <class Angles>
-    NUSSELT_HD Real doubled_area_to(const Real& x, const SectorPlanes<Real>& planes) const noexcept {
+    NUSSELT_INLINE Real doubled_area_to(const Real& x, const SectorPlanes<Real>& planes) const noexcept {
         // Describe the end points on both circles by their angles about the origin: cosines, not normalised; the sines
         // are x times the lengths of the normals.
         const Real outer_cosine = multiply_add(x, planes.along, planes.begin_squared);
@@ -122,7 +122,7 @@ struct DecentralSector {
         return max(x * doubled_triangle * difference, Real(0));
     }
 
-    NUSSELT_HD SectorQuads<Real> quads() const noexcept {
+    NUSSELT_INLINE SectorQuads<Real> quads() const noexcept {
         // Split the range in its middle, which lies in the direction of the sum of the unit directions to both ends
         // (Eq. 8).
         const Vec3<Real> end = begin + chord;

@@ -169,7 +169,7 @@ private:
                 [&](int j) {
                     return j < N ? light.edge[j] : Vec3<float>{0, 0, 0};
                 },
-                light.normal, plane_distance(light));
+                light.normal, [&](int) { return plane_distance(light); });
             if (lanes.is_ordinary()) return prepare_lanes(lanes);
         }
         const auto outline = outline_above_horizon<lanes_for(N + 1)>(light);
@@ -177,7 +177,8 @@ private:
         const auto prepare_outline = [&](auto lane_count) {
             const VertexLanes<lane_count> lanes(
                 outline.count, [&](int j) { return outline.vertex[j]; },
-                [&](int j) { return outline.edge[j]; }, light.normal, plane_distance(light));
+                [&](int j) { return outline.edge[j]; }, light.normal,
+                [&](int) { return plane_distance(light); });
             return lanes.is_ordinary() && prepare_lanes(lanes);
         };
         return outline.count <= 4 ? prepare_outline(std::integral_constant<int, 4>())
@@ -185,7 +186,7 @@ private:
     }
 
     template <int L>
-    bool prepare_lanes(const VertexLanes<L>& lanes) noexcept {
+    NUSSELT_INLINE bool prepare_lanes(const VertexLanes<L>& lanes) noexcept {
         hull_ = lanes.hull();
         mirror_ = lanes.mirror();
         inverse_scale_ = lanes.inverse_scale();

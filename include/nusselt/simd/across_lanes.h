@@ -25,6 +25,13 @@ struct AcrossLanes {
         p.store(lanes);
         return from([&](int i) { return lanes[indices[i]]; });
     }
+    NUSSELT_INLINE static P sums_before(const P& p) noexcept {
+        float lanes[L];
+        p.store(lanes);
+        float sum[L] = {};
+        for (int i = 1; i < L; ++i) sum[i] = sum[i - 1] + lanes[i - 1];
+        return P::load(sum);
+    }
     template <class Function>
     NUSSELT_INLINE static float reduce(const P& p, Function f) noexcept {
         float lanes[L];
@@ -53,6 +60,13 @@ struct AcrossLanes<4> {
         p.store(lanes);
         return from([&](int i) { return lanes[indices[i]]; });
 #endif
+    }
+    NUSSELT_INLINE static P sums_before(const P& p) noexcept {
+        const auto by = [&](auto bytes) {
+            return P::from_native(_mm_castsi128_ps(_mm_slli_si128(_mm_castps_si128(p.native()), bytes)));
+        };
+        return by(std::integral_constant<int, 4>()) + by(std::integral_constant<int, 8>()) +
+               by(std::integral_constant<int, 12>());
     }
     template <class Function>
     NUSSELT_INLINE static float reduce(const P& p, Function f) noexcept {
@@ -84,6 +98,13 @@ struct AcrossLanes<8> {
         p.store(lanes);
         return from([&](int i) { return lanes[indices[i]]; });
 #endif
+    }
+    NUSSELT_INLINE static P sums_before(const P& p) noexcept {
+        float lanes[8];
+        p.store(lanes);
+        float sum[8] = {};
+        for (int i = 1; i < 8; ++i) sum[i] = sum[i - 1] + lanes[i - 1];
+        return from([&](int i) { return sum[i]; });
     }
     template <class Function>
     NUSSELT_INLINE static float reduce(const P& p, Function f) noexcept {
@@ -127,6 +148,17 @@ template <int L>
 NUSSELT_INLINE Vec3<Pack<float, L>> permute(const Vec3<Pack<float, L>>& v,
                                             const std::int32_t* indices) noexcept {
     return {permute(v.x, indices), permute(v.y, indices), permute(v.z, indices)};
+}
+
+/// Lane i of the result is the sum of lanes 0 to i - 1.
+template <int L>
+NUSSELT_INLINE Pack<float, L> sums_before(const Pack<float, L>& p) noexcept {
+    return detail::AcrossLanes<L>::sums_before(p);
+}
+/// \copydoc sums_before
+template <int L>
+NUSSELT_INLINE Vec3<Pack<float, L>> sums_before(const Vec3<Pack<float, L>>& v) noexcept {
+    return {sums_before(v.x), sums_before(v.y), sums_before(v.z)};
 }
 
 template <int L>
