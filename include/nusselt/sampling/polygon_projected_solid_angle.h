@@ -210,7 +210,7 @@ private:
     template <class T>
     struct CentralEdges {
         T area;           ///< twice the area of each sector
-        T angle_per_area; ///< see CentralArc
+        T angle_per_area; ///< see EdgeCircle
         NUSSELT_HD CentralEdges(const Vec3<T>& vertex, const Vec3<T>& edge, const Vec3<T>& next,
                                 const mask_t<T>& is_outer) noexcept {
             const Vec3<T> n = cross(vertex, edge);
@@ -314,7 +314,7 @@ private:
     /// circle.
     NUSSELT_HD LightSample<Real> sample_central(const Selection& s, const Real& u) const noexcept {
         // Turn along the great circle of the edge by the angle that belongs to the area.
-        const CentralArc<Real> arc = sectors_.central(s);
+        const EdgeCircle<Real> arc = sectors_.central(s);
         const SinCos<Real> angle =
             sincos_half_turn(min(s.rest * arc.angle_per_area, Real(kPi<scalar_t<Real>>)));
         const Vec3<Real> q = multiply_add(angle.cos, arc.begin, angle.sin * arc.tangent);

@@ -12,14 +12,14 @@ NUSSELT_NAMESPACE_BEGIN
 
 /// The great circle of an edge in the central case: the point at angle a is cos(a) begin + sin(a) tangent.
 template <class Real>
-struct CentralArc {
+struct EdgeCircle {
     Vec3<Real> begin, tangent; ///< unit vectors
     Real angle_per_area;       ///< per doubled area
 };
 
 /// Calls visit(member of to, member of from) for all members of two records.
 template <class To, class From, class Visit>
-NUSSELT_INLINE void visit_members(CentralArc<To>& to, const CentralArc<From>& from,
+NUSSELT_INLINE void visit_members(EdgeCircle<To>& to, const EdgeCircle<From>& from,
                                   const Visit& visit) noexcept {
     visit_members(to.begin, from.begin, visit);
     visit_members(to.tangent, from.tangent, visit);
@@ -28,7 +28,7 @@ NUSSELT_INLINE void visit_members(CentralArc<To>& to, const CentralArc<From>& fr
 
 /// The arc that a segment is projected to; of any direction if it lies on a line through the origin.
 template <class Real>
-NUSSELT_INLINE CentralArc<Real> arc_of(const Vec3<Real>& begin, const Vec3<Real>& chord,
+NUSSELT_INLINE EdgeCircle<Real> arc_of(const Vec3<Real>& begin, const Vec3<Real>& chord,
                                        const Real& angle_per_area) noexcept {
     const Vec3<Real> n = cross(begin, chord);
     const Vec3<Real> unit = inverse_length(begin) * begin;
@@ -137,7 +137,7 @@ public:
         return s;
     }
 
-    NUSSELT_HD CentralArc<Real> central(const Selection& s) const noexcept {
+    NUSSELT_HD EdgeCircle<Real> central(const Selection& s) const noexcept {
         return arc_of(s.begin, s.chord, s.angle_per_area);
     }
     NUSSELT_HD PreparedSector<Real> decentral(const Selection& s) const noexcept {
@@ -151,7 +151,7 @@ private:
     Vec3<Real> chord_[K]; ///< the part of the edge in the sector
     Real begin_gap_[K];   ///< see DecentralSector; decentral case only
     Real end_gap_[K];
-    Real angle_per_area_[K]; ///< see CentralArc; central case only
+    Real angle_per_area_[K]; ///< see EdgeCircle; central case only
     Real doubled_area_[K];   ///< twice the area of each sector, 0 for those without light
 };
 
@@ -247,8 +247,8 @@ public:
         return {index, area, min(max(fma(u, doubled_total, -before_.lane[index]), 0.0f), area)};
     }
 
-    CentralArc<float> central(const Selection& s) const noexcept {
-        return read<CentralArc<float>>(arc_, s.index);
+    EdgeCircle<float> central(const Selection& s) const noexcept {
+        return read<EdgeCircle<float>>(arc_, s.index);
     }
     PreparedSector<float> decentral(const Selection& s) const noexcept {
         return {read<DecentralSector<float>>(sector_, s.index), read<SectorPlanes<float>>(planes_, s.index),
@@ -288,7 +288,7 @@ private:
     DecentralSector<Stored> sector_;
     SectorPlanes<Stored> planes_; ///< decentral case only, like the quads
     SectorQuads<Stored> quads_;
-    CentralArc<Stored> arc_; ///< central case only
+    EdgeCircle<Stored> arc_; ///< central case only
     Stored doubled_area_;    ///< 0 for those without light
     Stored before_;          ///< twice the area of the sectors before; infinite for those without light
 };

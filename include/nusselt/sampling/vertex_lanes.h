@@ -253,15 +253,20 @@ private:
         sector.begin = select(is_outer, vertex, start + x * along);
         sector.begin.z = max(sector.begin.z, P(0));
 
-        // The gap between both circles at the outer point. The plane through the origin and an edge passes below the
-        // vertex at a height that is twice the volume of a tetrahedron over the turn of the edge; twice its volume is the
-        // distance of the plane of the light times an area in that plane. An inner vertex is above the outer point by
-        // the ratio of their radii.
-        const Vec3<P> area = cross(along, step);
+        // The height of the plane of the inner circle above the outer point is the distance of the plane of the light
+        // times the step between both edges, over the extent of that plane along this azimuth (as in AzimuthalSweep), by
+        // the larger component of its normal within the vertical plane. All is expressed by determinants, so that it
+        // need not wait for the intersection.
         const Vec3<float>& normal = hull_.plane.normal;
-        const P volume = abs(P(hull_.plane.distance) *
-                             (P(normal.x) * area.x + P(normal.y) * area.y + P(normal.z) * area.z));
-        const P gap = volume / select(is_outer, permute(turn_, order.edge), safe_slope);
+        const P upright = P(normal.z * normal.z) * dot(xy(vertex), xy(vertex));
+        const P level = dot(Vec2<P>{P(normal.x), P(normal.y)}, xy(vertex));
+        const M flat = upright >= level * level;
+        const P outward =
+            select(flat, det(xy(along), xy(step)), difference_of_products(step.z, slope, way, along.z));
+        const P extent =
+            select(flat, P(normal.z), level) * select(is_outer, permute(turn_, order.edge), safe_slope);
+        const P signed_gap = sign * P(hull_.plane.distance) * outward / select(extent == P(0), P(1), extent);
+        const P gap = max(signed_gap, P(0));
 
         const std::int32_t* const next_azimuth = detail::kNextVertex<L>.lane[L];
         sector.chord = permute(outer, next_azimuth) - outer;
