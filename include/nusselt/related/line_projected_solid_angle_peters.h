@@ -45,7 +45,30 @@ public:
     }
 
     /// \param u in [0, 1).
+    /// \returns the direction alone, as the paper does; sample() adds density and point.
+    Vec3<Real> direction(const Real& u) const noexcept { return along(invert(u)); }
+
+    /// \param u in [0, 1).
     LightSample<Real> sample(const Real& u) const noexcept {
+        const Vec2<Real> w = invert(u);
+        const Vec3<Real> wi = along(w);
+        const Real cosine = w.x * n_s_ + w.y * n_t_;
+        return {wi, cosine / measure(), (Real(1) / (w.y * inverse_q_)) * wi};
+    }
+
+    /// Projected solid angle per radius of the part of the light above the horizon [sr/m].
+    Real measure() const noexcept { return inverse_q_ * total_; }
+
+private:
+    static Real clamped(const Real& x) noexcept { return min(max(x, Real(-1)), Real(1)); }
+
+    /// F of Eq. 3.
+    Real integral(const Real& w_s) const noexcept {
+        return n_s_ * w_s * w_s + n_t_ * (sqrt(Real(1) - w_s * w_s) * w_s + std::asin(w_s));
+    }
+
+    /// Algorithm 2: w_s and w_t.
+    Vec2<Real> invert(const Real& u) const noexcept {
         Real w_s = clamped(start_s_ + u * (end_s_ - start_s_));
         Real w_t = sqrt(Real(1) - w_s * w_s);
         if (u >= Real(1e-5) && u <= Real(1 - 1e-5)) {
@@ -65,20 +88,13 @@ public:
                 w_t = std::cos(alpha);
             }
         }
-        const Vec3<Real> wi = (w_s - inverse_q_ * w_t * l0_s_) * s_ + (inverse_q_ * w_t) * l0_;
-        const Real cosine = w_s * n_s_ + w_t * n_t_;
-        return {wi, cosine / measure(), (Real(1) / (w_t * inverse_q_)) * wi};
+        return {w_s, w_t};
     }
 
-    /// Projected solid angle per radius of the part of the light above the horizon [sr/m].
-    Real measure() const noexcept { return inverse_q_ * total_; }
-
-private:
-    static Real clamped(const Real& x) noexcept { return min(max(x, Real(-1)), Real(1)); }
-
-    /// F of Eq. 3.
-    Real integral(const Real& w_s) const noexcept {
-        return n_s_ * w_s * w_s + n_t_ * (sqrt(Real(1) - w_s * w_s) * w_s + std::asin(w_s));
+    /// The direction w_s s + w_t t.
+    Vec3<Real> along(const Vec2<Real>& w) const noexcept {
+        const Real scaled_w_t = inverse_q_ * w.y;
+        return (w.x - scaled_w_t * l0_s_) * s_ + scaled_w_t * l0_;
     }
 
     Vec3<Real> l0_, s_;

@@ -45,7 +45,8 @@ public:
     }
 
     /// \param u in [0, 1)^2.
-    LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+    /// \returns the direction alone, as the paper does; sample() adds density and point.
+    Vec3<Real> direction(const Vec2<Real>& u) const noexcept {
         Real area = u.x * total_;
         int k = 0;
         while (k + 1 < count_ && area >= sector_[k].area) area -= sector_[k++].area;
@@ -62,7 +63,12 @@ public:
             const Real squared = (Real(1) - u.y) / form(s.inner, w) + u.y / form(s.outer, w);
             w = sqrt(squared) * w;
         }
-        const Vec3<Real> wi{w.x, mirror_ * w.y, sqrt(max(Real(1) - dot(w, w), Real(0)))};
+        return {w.x, mirror_ * w.y, sqrt(max(Real(1) - dot(w, w), Real(0)))};
+    }
+
+    /// \param u in [0, 1)^2.
+    LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        const Vec3<Real> wi = direction(u);
         return {wi, wi.z / total_, (plane_.distance / dot(plane_.normal, wi)) * wi};
     }
 

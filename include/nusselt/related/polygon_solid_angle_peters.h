@@ -36,7 +36,8 @@ public:
     }
 
     /// \param u in [0, 1)^2.
-    LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+    /// \returns the direction alone, as the paper does; sample() adds density and point.
+    Vec3<Real> direction(const Vec2<Real>& u) const noexcept {
         Real part = u.x * total_;
         int j = 0;
         while (j < N - 3 && part >= solid_angle_[j]) part -= solid_angle_[j++];
@@ -48,7 +49,12 @@ public:
         const Real s2 = dot(c, v);
         const Real s = (Real(1) - u.y) + s2 * u.y;
         const Real t = sqrt(max((Real(1) - s * s) / (Real(1) - s2 * s2), Real(0)));
-        const Vec3<Real> wi = (s - t * s2) * c + t * v;
+        return (s - t * s2) * c + t * v;
+    }
+
+    /// \param u in [0, 1)^2.
+    LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        const Vec3<Real> wi = direction(u);
         return {wi, Real(1) / total_, (plane_.distance / dot(plane_.normal, wi)) * wi};
     }
 
