@@ -19,7 +19,7 @@ template <class Real>
 class LineSolidAnglePeters {
 public:
     /// \param light relative to the shading point [m].
-    NUSSELT_HD explicit LineSolidAnglePeters(const LineSegment<Real>& light) noexcept
+    explicit LineSolidAnglePeters(const LineSegment<Real>& light) noexcept
         : l0_(light.p0), s_(light.s), l0_s_(dot(light.p0, light.s)) {
         const Real squared_l0 = dot(l0_, l0_);
         const Real squared_q = squared_l0 - l0_s_ * l0_s_;
@@ -31,13 +31,13 @@ public:
 
     /// \param u in [0, 1).
     /// \returns the direction alone, as the paper does; sample() adds density and point.
-    NUSSELT_HD Vec3<Real> direction(const Real& u) const noexcept {
+    Vec3<Real> direction(const Real& u) const noexcept {
         const Real w_s = start_s_ + u * extent_s_;
         return along(w_s, inverse_q_ * cosine(w_s));
     }
 
     /// \param u in [0, 1).
-    NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
+    LightSample<Real> sample(const Real& u) const noexcept {
         const Real w_s = start_s_ + u * extent_s_;
         const Real scaled_w_t = inverse_q_ * cosine(w_s);
         const Vec3<Real> wi = along(w_s, scaled_w_t);
@@ -45,14 +45,12 @@ public:
     }
 
     /// Solid angle per radius [sr/m].
-    NUSSELT_HD Real measure() const noexcept { return Real(2) * inverse_q_ * extent_s_; }
+    Real measure() const noexcept { return Real(2) * inverse_q_ * extent_s_; }
 
 private:
-    NUSSELT_HD static Real cosine(const Real& w_s) noexcept {
-        return sqrt(max(Real(1) - w_s * w_s, Real(0)));
-    }
+    static Real cosine(const Real& w_s) noexcept { return sqrt(max(Real(1) - w_s * w_s, Real(0))); }
     /// The direction w_s s + w_t t, given w_t over the distance of the line.
-    NUSSELT_HD Vec3<Real> along(const Real& w_s, const Real& scaled_w_t) const noexcept {
+    Vec3<Real> along(const Real& w_s, const Real& scaled_w_t) const noexcept {
         return (w_s - scaled_w_t * l0_s_) * s_ + scaled_w_t * l0_;
     }
 
