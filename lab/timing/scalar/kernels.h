@@ -53,9 +53,10 @@ void make_lights(const LightClass& light_class) {
     for (int i = 0; i < kLights; ++i) {
         const auto frame = Frame<double>::from_normal(random_normal(generator));
         const Vec3<double> point = 10.0 * random_normal(generator);
-        const auto corners = random_light<kCorners>(light_class, generator);
+        const auto corners = random_light(light_class, kCorners, generator);
         Vec3<float> world[kCorners];
-        for (int j = 0; j < kCorners; ++j) world[j] = broadcast<float>(point + frame.to_world(corners[j]));
+        for (int j = 0; j < kCorners; ++j)
+            world[j] = broadcast<float>(point + frame.to_world(corners[static_cast<std::size_t>(j)]));
         lights.frame[i] = broadcast<float>(frame);
         lights.point[i] = broadcast<float>(point);
         lights.world[i] = LightTraits<Light>::make(world);

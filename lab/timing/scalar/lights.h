@@ -24,11 +24,13 @@ inline constexpr LightClass kCentral = {"central", 1.0, 1.0, 0.5, true};
 inline constexpr LightClass kCrossing = {"crossing the horizon", -0.1, 0.1, 0.4, false};
 inline constexpr LightClass kLineAbove = {"above the horizon", 0.5, 0.7, 0.4, false};
 
+inline constexpr int kMostCorners = 8;
+
 /// The corners of an irregular convex polygon of random orientation [m], or the ends of a line. Angles between
 /// neighbouring corners differ from those of a regular polygon by up to a half.
-/// \param count of corners, 2 for a line.
-template <int count>
-std::array<Vec3<double>, count> random_light(const LightClass& c, std::mt19937& generator) {
+/// \param count of corners, at most kMostCorners; 2 for a line. Spare ones repeat the last.
+inline std::array<Vec3<double>, kMostCorners> random_light(const LightClass& c, int count,
+                                                           std::mt19937& generator) {
     constexpr double kTurn = 2 * kPi<double>;
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     std::normal_distribution<double> normal;
@@ -42,11 +44,13 @@ std::array<Vec3<double>, count> random_light(const LightClass& c, std::mt19937& 
     const Vec3<double> a = direction(c.above_zenith ? 0.0 : 1.0);
     const Vec3<double> other = c.above_zenith ? Vec3<double>{-a.y, a.x, 0.0} : direction(1.0);
     const Vec3<double> b = normalize(other - dot(a, other) * a);
-    std::array<Vec3<double>, count> corners;
-    for (int j = 0; j < count; ++j) {
+    std::array<Vec3<double>, kMostCorners> corners;
+    for (std::size_t j = 0; j < corners.size(); ++j) {
+        const int i = static_cast<int>(j);
         const double shift = count == 2 ? 0.0 : 0.5 * (uniform(generator) - 0.5);
-        const double angle = kTurn * (j + shift) / count;
-        corners[j] = centre + c.radius * (std::cos(angle) * a + std::sin(angle) * b);
+        const double angle = kTurn * (i + shift) / count;
+        const Vec3<double> corner = centre + c.radius * (std::cos(angle) * a + std::sin(angle) * b);
+        corners[j] = i < count ? corner : corners[j - 1];
     }
     return corners;
 }

@@ -21,7 +21,7 @@ const char* const kHelp =
     "  --rows TEXT         only rows whose technique or class of lights contains it\n"
     "  --repetitions R     of the interleaved loops; default 401\n"
     "  --instructions      also counts instructions, step by step, which takes a minute\n"
-    "  --json FILE         also writes all numbers\n"
+    "  --json FILE         also writes all numbers; `-` writes them instead of the table\n"
     "  --run CODE LOOP N   runs only one loop of the first row N times, for profilers; CODE is ours or\n"
     "                      published, LOOP is transform, prepare, from_world, sample, direction or once\n";
 
@@ -234,7 +234,7 @@ void write(std::FILE* file, const char* name, const Costs& c) {
 }
 
 void write_json(const std::string& path, const std::vector<Result>& results) {
-    std::FILE* file = std::fopen(path.c_str(), "w");
+    std::FILE* file = path == "-" ? stdout : std::fopen(path.c_str(), "w");
     if (!file) fail("cannot write " + path);
     std::fprintf(file, "{\"compiler\": \"%s\", \"isa\": \"%s\", \"rows\": [", kCompiler, kIsa);
     const char* separator = "\n";
@@ -252,7 +252,7 @@ void write_json(const std::string& path, const std::vector<Result>& results) {
         separator = ",\n";
     }
     std::fprintf(file, "\n]}\n");
-    if (std::fclose(file) != 0) fail("cannot write " + path);
+    if (std::fflush(file) != 0 || (file != stdout && std::fclose(file) != 0)) fail("cannot write " + path);
 }
 
 bool contains(const char* text, const std::string& part) {
@@ -290,7 +290,7 @@ int run(const Options& options) {
         results.push_back(result);
     }
     if (results.empty()) fail("no row contains " + options.rows);
-    print(results);
+    if (options.json != "-") print(results);
     if (options.instructions && !counts)
         std::fprintf(stderr, "Instructions cannot be counted on this machine.\n");
     if (!options.json.empty()) write_json(options.json, results);
