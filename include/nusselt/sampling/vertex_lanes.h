@@ -216,8 +216,8 @@ public:
 
 private:
     /// Extents for which products of coordinates stay in range before they are scaled.
-    static constexpr float kSmallest = 1e-9f;
-    static constexpr float kLargest = 1e9f;
+    static constexpr float kSmallest = 0x1p-40f;
+    static constexpr float kLargest = 0x1p40f;
 
     static int lowest_bit(std::uint32_t bits) noexcept {
         int i = 0;
