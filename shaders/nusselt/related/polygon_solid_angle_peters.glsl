@@ -11,7 +11,7 @@
 
 #include "../core/light_sample.glsl"
 #include "../geometry/convex_polygon.glsl"
-#include "peters_arithmetic.glsl"
+#include "../related/peters_arithmetic.glsl"
 
 struct PolygonSolidAnglePeters {
     vec3 plane_normal;
