@@ -51,7 +51,9 @@ std::optional<double> ratio(const std::optional<double>& a, const std::optional<
     return std::nullopt;
 }
 
-std::string name_of_code(int lanes) { return lanes == 1 ? "scalar" : "packs of " + std::to_string(lanes); }
+std::string name_of_code(int lanes) {
+    return lanes == 1 ? "scalar" : "packs of " + std::to_string(lanes) + ", per lane";
+}
 
 /// The class of lights of a row with 4 vertices, for one with another number of them.
 std::string with_four_vertices(const std::string& configuration) {

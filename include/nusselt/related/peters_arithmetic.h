@@ -3,6 +3,7 @@
 /// does without the guarantees of core/trig.h and core/vec.h.
 
 #include <cmath>
+#include <type_traits>
 
 #include <nusselt/core/trig.h>
 #include <nusselt/core/vec.h>
@@ -27,21 +28,27 @@ NUSSELT_INLINE Real multiply_add(const Real& a, const Real& b, const Real& c) no
         return a * b + c;
 }
 
-/// Kahan's algorithm where fma is an instruction.
+/// a * b - c * d by Kahan's algorithm, as the paper wants it, if fma is an instruction. Otherwise scalars compute in double,
+/// which is as accurate, and packs do without.
+template <class Real>
+NUSSELT_INLINE Real difference_of_products(const Real& a, const Real& b, const Real& c,
+                                           const Real& d) noexcept {
+    if constexpr (!kHasFma && std::is_same_v<Real, float>)
+        return static_cast<float>(double{a} * double{b} - double{c} * double{d});
+    else if constexpr (kHasFma || kIsScalar<Real>)
+        return nusselt::difference_of_products(a, b, c, d);
+    else
+        return a * b - c * d;
+}
 template <class Real>
 NUSSELT_INLINE Real det(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
-    if constexpr (kHasFma)
-        return nusselt::det(a, b);
-    else
-        return a.x * b.y - a.y * b.x;
+    return peters::difference_of_products(a.x, b.y, a.y, b.x);
 }
-/// \copydoc det
 template <class Real>
 NUSSELT_INLINE Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
-    if constexpr (kHasFma)
-        return nusselt::cross(a, b);
-    else
-        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    return {peters::difference_of_products(a.y, b.z, a.z, b.y),
+            peters::difference_of_products(a.z, b.x, a.x, b.z),
+            peters::difference_of_products(a.x, b.y, a.y, b.x)};
 }
 
 /// Angle of the point (x, y) with y >= 0; a negative y counts as 0. In float, the polynomial has a relative error of

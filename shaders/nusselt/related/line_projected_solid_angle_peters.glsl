@@ -12,7 +12,7 @@
 
 #include "../core/light_sample.glsl"
 #include "../geometry/line_segment.glsl"
-#include "peters_arithmetic.glsl"
+#include "../related/peters_arithmetic.glsl"
 
 struct LineProjectedSolidAnglePeters {
     vec3 l0, s;

@@ -12,8 +12,8 @@
 
 #include "../core/light_sample.glsl"
 #include "../geometry/convex_polygon.glsl"
-#include "bitonic_network.glsl"
-#include "peters_arithmetic.glsl"
+#include "../related/bitonic_network.glsl"
+#include "../related/peters_arithmetic.glsl"
 
 /// The region between two ellipses, or between the zenith and the outer one, within an azimuth range.
 struct PetersSector {

@@ -11,14 +11,14 @@
 
 #include "../core/light_sample.glsl"
 #include "../geometry/convex_polygon.glsl"
-#include "peters_arithmetic.glsl"
+#include "../related/peters_arithmetic.glsl"
 
 struct PolygonSolidAnglePeters {
     vec3 plane_normal;
     float plane_distance;
-    vec3 direction[kNusseltSlots]; ///< to the vertices
-    vec3 g[kNusseltSlots - 2];     ///< G_0, G_1, G_2
-    float solid_angle[kNusseltSlots - 2];
+    vec3 direction[NUSSELT_MAX_VERTICES]; ///< to the vertices
+    vec3 g[NUSSELT_MAX_VERTICES - 2];     ///< G_0, G_1, G_2
+    float solid_angle[NUSSELT_MAX_VERTICES - 2];
     float total;
 };
 
@@ -31,16 +31,16 @@ float peters_determinant(vec3 a, vec3 b, vec3 c) {
     return sgn * ((b.y - kb * a.y) * (c.z - kc * a.z) - (b.z - kb * a.z) * (c.y - kc * a.y));
 }
 
-/// \param light relative to the shading point, either winding [m].
+/// \param light relative to the shading point, either winding [m]. It is not clipped, so the last slot is spare.
 PolygonSolidAnglePeters polygon_solid_angle_peters_prepare(ConvexPolygon light) {
     PolygonSolidAnglePeters self;
     self.plane_normal = light.normal;
     self.plane_distance = dot(light.normal, light.vertex[0]);
-    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j)
+    NUSSELT_UNROLL for (int j = 0; j < NUSSELT_MAX_VERTICES; ++j)
         self.direction[j] = (1.0 / sqrt(dot(light.vertex[j], light.vertex[j]))) * light.vertex[j];
     self.total = 0.0;
     vec3 c = self.direction[0];
-    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots - 2; ++j) {
+    NUSSELT_UNROLL for (int j = 0; j < NUSSELT_MAX_VERTICES - 2; ++j) {
         vec3 a = self.direction[j + 1];
         vec3 b = self.direction[j + 2];
         self.g[j] = vec3(abs(peters_determinant(a, c, b)), dot(a, b) + dot(c, b), 1.0 + dot(a, c));
@@ -65,7 +65,7 @@ vec3 polygon_solid_angle_peters_direction(PolygonSolidAnglePeters self, vec2 u) 
     vec3 c = self.direction[0];
     vec3 g = self.g[0];
     float solid_angle = self.solid_angle[0];
-    NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots - 2; ++j) {
+    NUSSELT_UNROLL for (int j = 1; j < NUSSELT_MAX_VERTICES - 2; ++j) {
         if (self.solid_angle[j] > 0.0 && part >= solid_angle) {
             part = part - solid_angle;
             a = self.direction[j + 1];
