@@ -110,8 +110,7 @@ struct FanVolumes {
             normal = normal + n;
         }
         const Real whole = total();
-        const Real squared = max(Real(kConclusive * kConclusive) * dot(v, v), Real(kNear));
-        conclusive = whole * whole > squared * dot(normal, normal);
+        conclusive = whole * whole > Real(kConclusive * kConclusive) * dot(v, v) * dot(normal, normal);
     }
 
     /// For a polygon whose plane has a known distance.
@@ -163,8 +162,6 @@ struct FanVolumes {
     /// Least sine of the angle between the plane and the direction to vertex 0 for which rounding can be ignored: it
     /// magnifies rounding errors by the reciprocal. Products that are rounded together with their sum allow twice as much.
     static constexpr scalar_t<Real> kConclusive = scalar_t<Real>(NUSSELT_HAS_FMA ? 1.0 / 256 : 1.0 / 128);
-    /// Squared distance of planes from which on vertices are far enough from the origin to be normalised.
-    static constexpr scalar_t<Real> kNear = power_of_two<scalar_t<Real>>(-60);
 };
 
 NUSSELT_NAMESPACE_END

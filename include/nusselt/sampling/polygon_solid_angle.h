@@ -29,10 +29,15 @@ public:
     /// \param light relative to the shading point, either winding [m].
     NUSSELT_HD explicit PolygonSolidAngle(const ConvexPolygon<Real, N>& light) noexcept {
         FanVolumes<Real, N> volumes(light);
+        Real nearest = dot(light.vertex[0], light.vertex[0]); // squared distance
+        inverse_distance_[0] = Real(1) / sqrt(nearest);
         NUSSELT_UNROLL
-        for (int j = 0; j < N; ++j)
-            inverse_distance_[j] = Real(1) / sqrt(dot(light.vertex[j], light.vertex[j]));
-        if (all(volumes.conclusive)) {
+        for (int j = 1; j < N; ++j) {
+            const Real squared = dot(light.vertex[j], light.vertex[j]);
+            inverse_distance_[j] = Real(1) / sqrt(squared);
+            nearest = min(nearest, squared);
+        }
+        if (all(volumes.conclusive & (nearest > Real(kNear * kNear)))) {
             inverse_scale_ = Real(1);
             prepare(light, volumes);
         } else {
@@ -280,8 +285,9 @@ private:
         Real least = g2_[N - 2];
         NUSSELT_UNROLL
         for (int j = 0; j < kTriangles; ++j) {
-            g0_[j] = abs(volumes.volume[j]) * inverse_distance_[0] *
-                     (inverse_distance_[j + 1] * inverse_distance_[j + 2]);
+            // One distance after the other: their product might leave the range.
+            g0_[j] = abs(volumes.volume[j]) * inverse_distance_[0] * inverse_distance_[j + 1] *
+                     inverse_distance_[j + 2];
             g1_[j] = dot(sum[j], sum[j + 1]);
             one_plus_ab_[j] = (g1_[j] - g2_[j]) + (Real(2) - g2_[j + 1]);
             least = min(least, min(g2_[j], min(g1_[j], one_plus_ab_[j])));
@@ -335,7 +341,8 @@ private:
 
     using Scalar = scalar_t<Real>;
 
-    static constexpr Scalar kNear = power_of_two<Scalar>(-16);
+    /// Vertices that are not closer are normalised without scaling; nor those that are closer than the reciprocal.
+    static constexpr Scalar kNear = power_of_two<Scalar>(-20);
     /// Numbers whose fourth powers stay in range.
     static constexpr Scalar kSmall = power_of_two<Scalar>(-24);
     /// The least number whose reciprocal is finite.
