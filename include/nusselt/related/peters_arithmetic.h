@@ -35,8 +35,10 @@ NUSSELT_INLINE Real difference_of_products(const Real& a, const Real& b, const R
                                            const Real& d) noexcept {
     if constexpr (!kHasFma && std::is_same_v<Real, float>)
         return static_cast<float>(double{a} * double{b} - double{c} * double{d});
-    else if constexpr (kHasFma || kIsScalar<Real>)
+    else if constexpr (kIsScalar<Real>)
         return nusselt::difference_of_products(a, b, c, d);
+    else if constexpr (kHasFma)
+        return fma(a, b, -(c * d)) - fma(c, d, -(c * d));
     else
         return a * b - c * d;
 }
