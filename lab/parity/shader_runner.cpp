@@ -1,4 +1,4 @@
-#include "shader_runner.h"
+#include "lab/parity/shader_runner.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,7 +1,7 @@
-// Compares the functions below the techniques on the device, in C++ with float and in C++ with long double.
+#pragma once
+/// Groups of functions below the techniques: each has a shader, draws inputs, and makes the calls of the shader in C++.
 
-#include "function_parity.h"
-#include "gpu/fused_fma.h"
+#include "lab/parity/function_parity.h"
 #include "shaders/arithmetic_fused.h"
 #include "shaders/arithmetic_split.h"
 #include "shaders/bsdf_fused.h"
@@ -12,10 +12,8 @@
 #include "shaders/frame_split.h"
 #include "shaders/line_fused.h"
 #include "shaders/line_split.h"
-#include "shaders/plain_products.h"
 #include "shaders/polygon_fused.h"
 #include "shaders/polygon_split.h"
-#include "shaders/random.h"
 #include "shaders/trig_fused.h"
 #include "shaders/trig_split.h"
 
@@ -24,20 +22,13 @@
 #include <nusselt/geometry/clip_line.h>
 #include <nusselt/geometry/clip_polygon.h>
 #include <nusselt/geometry/polygon_measures.h>
-#include <nusselt/random/pcg.h>
-#include <nusselt/random/sobol.h>
-#include <nusselt/random/unit_interval.h>
 
-#include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace nusselt::parity {
 
-namespace {
-
-/// Each group of functions has a shader, draws inputs, and makes the calls of the shader in C++.
 struct Arithmetic {
+    static constexpr const char* kName = "arithmetic";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kArithmeticSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kArithmeticFused;
     static constexpr std::size_t kInputs = 11;
@@ -94,6 +85,7 @@ struct Arithmetic {
 };
 
 struct Trigonometry {
+    static constexpr const char* kName = "trigonometry";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kTrigSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kTrigFused;
     static constexpr std::size_t kInputs = 4;
@@ -135,6 +127,7 @@ struct Trigonometry {
 };
 
 struct Frames {
+    static constexpr const char* kName = "frames";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kFrameSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kFrameFused;
     static constexpr std::size_t kInputs = 6;
@@ -168,6 +161,7 @@ struct Frames {
 };
 
 struct Brdfs {
+    static constexpr const char* kName = "BRDFs";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kBsdfSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kBsdfFused;
     static constexpr std::size_t kInputs = 13;
@@ -208,7 +202,7 @@ struct Brdfs {
 
 /// Draws a point and a normal around lights whose coordinates are of order one. The point may be a corner of the
 /// light, or close to it.
-void draw_surface(RandomSource& random, const Vec3<double>& corner, std::vector<float>& inputs) {
+inline void draw_surface(RandomSource& random, const Vec3<double>& corner, std::vector<float>& inputs) {
     if (is_degenerate(random)) {
         put(inputs, corner + (random.index(2) == 0 ? 0 : 1e-6) * random.direction());
         put(inputs, axis(random));
@@ -226,6 +220,7 @@ void draw_surface(RandomSource& random, const Vec3<double>& corner, std::vector<
 }
 
 struct Polygons {
+    static constexpr const char* kName = "polygons";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kPolygonSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kPolygonFused;
     static constexpr std::size_t kInputs = 18;
@@ -262,6 +257,7 @@ struct Polygons {
 };
 
 struct Clipping {
+    static constexpr const char* kName = "clipping";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kClipSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kClipFused;
     static constexpr std::size_t kInputs = 13;
@@ -295,6 +291,7 @@ struct Clipping {
 };
 
 struct Lines {
+    static constexpr const char* kName = "lines";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kLineSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kLineFused;
     static constexpr std::size_t kInputs = 12;
@@ -325,62 +322,5 @@ struct Lines {
         return results;
     }
 };
-
-template <class Group>
-class FunctionParity : public GpuTest {};
-using Groups = testing::Types<Arithmetic, Trigonometry, Frames, Brdfs, Polygons, Clipping, Lines>;
-TYPED_TEST_SUITE(FunctionParity, Groups);
-
-TYPED_TEST(FunctionParity, IsAsAccurateAsCpp) { expect_group_parity<TypeParam>(this->device()); }
-
-class FunctionMutant : public GpuTest {};
-
-TEST_F(FunctionMutant, DifferencesThatCancelAreFound) {
-    const auto excesses = judge_group<Arithmetic>(device(), shaders::kPlainProducts, kMutantCalls).excesses;
-    ASSERT_FALSE(excesses.empty());
-    for (const std::string& excess : excesses)
-        EXPECT_EQ(excess.rfind("difference_of_products, ", 0), 0u) << excess;
-}
-
-TEST_F(FunctionMutant, TheVariantForAFusedFmaIsRejectedWhereFmaRoundsTwice) {
-    if (gpu::has_fused_fma(device())) GTEST_SKIP() << "the device fuses fma";
-    EXPECT_FALSE(judge_group<Arithmetic>(device(), shaders::kArithmeticFused, kMutantCalls).excesses.empty());
-}
-
-class RandomParity : public GpuTest {};
-
-TEST_F(RandomParity, HasTheBitsOfCpp) {
-    const std::size_t calls = function_calls();
-    std::vector<float> inputs;
-    const auto bits = [](RandomSource& random) {
-        // A word with random bits may be a signalling NaN. It must not pass through arithmetic, but loads and stores
-        // preserve it.
-        return std::bit_cast<float>(static_cast<std::uint32_t>(random.uniform() * 0x1p32));
-    };
-    for (std::size_t i = 0; i < calls; ++i) {
-        RandomSource random(2, i);
-        for (int k = 0; k < 4; ++k) inputs.push_back(bits(random));
-        inputs.push_back(static_cast<float>(random.uniform() * 0.9999));
-    }
-    const auto results = ShaderRunner(device(), shaders::kRandom, 5).run(inputs);
-    for (std::size_t i = 0; i < calls; ++i) {
-        std::uint32_t key[4], words[8];
-        std::memcpy(key, &inputs[5 * i], sizeof key);
-        std::memcpy(words, results[i].data(), sizeof words);
-        const auto hash = pcg4d({key[0], key[1], key[2], key[3]});
-        const auto plain = sobol(key[0]);
-        const auto scrambled = owen_scrambled_sobol(key[0], {key[1], key[2], key[3]});
-        const std::uint32_t expected[] = {hash.x,  hash.y,  hash.z,      hash.w,
-                                          plain.x, plain.y, scrambled.x, scrambled.y};
-        for (std::size_t k = 0; k < std::size(expected); ++k)
-            ASSERT_EQ(words[k], expected[k]) << i << ", " << k;
-        ASSERT_EQ(results[i][8], to_unit<float>(key[0])) << i;
-        const std::uint32_t points = 1 + key[2] % 1024;
-        const float jittered = uniform_jittered(inputs[5 * i + 4], key[1] % points, points);
-        ASSERT_EQ(results[i][9], jittered) << i;
-    }
-}
-
-} // namespace
 
 } // namespace nusselt::parity

@@ -1,6 +1,4 @@
-#include "technique_parity.h"
-
-#include <iostream>
+#include "lab/parity/parity.h"
 
 namespace nusselt::parity {
 
@@ -34,18 +32,18 @@ constexpr VacuousBudget kVacuousBudgets[] = {
 
 } // namespace
 
-void expect_parity(const Verdict& verdict) {
-    for (const std::string& excess : verdict.excesses) ADD_FAILURE() << excess;
-    for (const std::string& where : verdict.vacuous) {
-        const auto* known = std::find_if(std::begin(kVacuousBudgets), std::end(kVacuousBudgets),
-                                         [&](const auto& budget) { return where == budget.where; });
-        if (known == std::end(kVacuousBudgets))
-            ADD_FAILURE() << "a budget that cannot fail: " << where;
-        else
-            std::cout << fmt::format("cannot fail: {} ({})\n", where, known->reason);
-    }
-    std::cout << fmt::format("largest ratio to C++: {:.2f}, {}; {} budgets cannot fail\n",
-                             verdict.largest_ratio, verdict.where, verdict.vacuous.size());
+const char* reason_of_vacuous_budget(const std::string& where) {
+    for (const VacuousBudget& budget : kVacuousBudgets)
+        if (where == budget.where) return budget.reason;
+    return nullptr;
+}
+
+std::vector<ParityCase> parity_cases() {
+    std::vector<ParityCase> cases;
+    for (const auto add : {add_technique_cases, add_vertex_bound_cases, add_related_cases, add_function_cases,
+                           add_ltc_cases, add_estimate_cases, add_random_cases})
+        add(cases);
+    return cases;
 }
 
 } // namespace nusselt::parity

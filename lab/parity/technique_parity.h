@@ -1,16 +1,13 @@
 #pragma once
 /// Runs a technique in GLSL and in C++ on the classes of lights of the accuracy tables, and compares their errors.
 
-#include "common/effort.h"
-#include "gpu/fused_fma.h"
-#include "gpu_test.h"
-#include "inputs/hostile_inputs.h"
 #include "lab/accuracy/lobe_lights.h"
-#include "parity_check.h"
+#include "lab/parity/hostile_inputs.h"
+#include "lab/parity/parity_check.h"
+#include "lab/parity/twin.h"
+#include "lab/parity/twin_shader.h"
 #include "proof/accuracy/cases.h"
 #include "proof/techniques/registry.h"
-#include "shaders/twins.h"
-#include "twin.h"
 
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
@@ -69,49 +66,31 @@ private:
     }
 };
 
-/// The pairs of the techniques in lists, for TYPED_TEST_SUITE.
+/// The name of the suite in techniques.json.
 struct ParitySuite {
-    static constexpr std::string_view kName = "parity"; ///< in techniques.json
+    static constexpr std::string_view kName = "parity";
 };
-namespace detail {
-template <class... Kinds>
-testing::Types<TechniquePair<Kinds>...> pairs_of(hostile::KindList<Kinds...>);
-}
-template <class... Lists>
-using PairsOf = decltype(detail::pairs_of(hostile::TestedBy<ParitySuite, Lists...>()));
 
-/// Names the tests of a pair by its technique and the bound on the number of vertices.
-struct PairNames {
-    template <class Pair>
-    static std::string GetName(int) {
-        const std::string name = Pair::kName;
-        if constexpr (hostile::kIsPolygon<typename Pair::Kind>)
-            return name + std::to_string(Pair::Traits::kVertexBound);
-        return name;
-    }
-};
+/// The name of the technique and, for polygons, the bound on the number of vertices.
+template <class Pair>
+std::string name_of_pair() {
+    const std::string name = Pair::kName;
+    if constexpr (hostile::kIsPolygon<typename Pair::Kind>)
+        return name + std::to_string(Pair::Traits::kVertexBound);
+    return name;
+}
 
 /// The shader of a technique.
 template <class Pair>
 std::span<const std::uint32_t> shader_of(Variant variant) {
-    for (const TwinShader& shader : kTwinShaders)
-        if (std::string_view(shader.technique) == Pair::kName &&
-            shader.vertex_bound == Pair::Traits::kVertexBound && shader.variant == variant)
-            return shader.spirv;
-    throw std::logic_error(std::string("no such twin of ") + Pair::kName);
+    return twin_shader(Pair::kName, Pair::Traits::kVertexBound, variant);
 }
 
-/// The variants that give correct results on a device.
-inline std::vector<Variant> variants_for(const gpu::Device& device) {
-    if (gpu::has_fused_fma(device)) return {Variant::split, Variant::fused};
-    return {Variant::split};
-}
-
-/// The shaders of a technique that give correct results on a device.
+/// The shaders of a technique.
 template <class Pair>
-std::vector<std::span<const std::uint32_t>> shaders_for(const gpu::Device& device) {
+std::vector<std::span<const std::uint32_t>> shaders_of(const std::vector<Variant>& variants) {
     std::vector<std::span<const std::uint32_t>> shaders;
-    for (const Variant variant : variants_for(device)) shaders.push_back(shader_of<Pair>(variant));
+    for (const Variant variant : variants) shaders.push_back(shader_of<Pair>(variant));
     return shaders;
 }
 
@@ -187,8 +166,7 @@ std::vector<Verdict> judge_twins(const gpu::Device& device,
     std::vector<Verdict> verdicts(shaders.size());
     for (const auto* lights : judged) {
         const auto of_class = judge_class<Pair>(*lights, per_class, twins);
-        for (std::size_t k = 0; k < verdicts.size(); ++k)
-            verdicts[k].add(lights->name + std::string(": "), of_class[k]);
+        for (std::size_t k = 0; k < verdicts.size(); ++k) verdicts[k].add(lights->name, of_class[k]);
     }
     return verdicts;
 }
@@ -207,21 +185,6 @@ template <class Pair>
 Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> shader, int count) {
     return judge_twins<Pair>(device, {shader}, count).front();
 }
-
-/// Fails if errors on the device exceed a budget, or if a budget cannot be exceeded for no known reason.
-void expect_parity(const Verdict& verdict);
-
-/// Number of random lights for each technique, over all its classes. Polygons are judged for two bounds on the number
-/// of vertices.
-inline int random_lights() { return nusselt_test::at_effort(100'000, 1'000'000); }
-template <class Pair>
-int random_lights_of() {
-    return hostile::kIsPolygon<typename Pair::Kind> ? random_lights() / 2 : random_lights();
-}
-inline int hostile_lights() { return nusselt_test::at_effort(20'000, 100'000); }
-
-/// The number of lights that must suffice to reject a wrong shader. The quick effort has no fewer.
-inline constexpr int kMutantLights = 50'000;
 
 /// The first of `count` hostile lights on which a twin breaks the contract; empty if there is none.
 template <class Pair>

@@ -48,15 +48,27 @@ struct Errors {
     void append(const Errors& other);
 };
 
+/// One comparison of errors.
+struct Compared {
+    std::string lights = {}; ///< the class of lights; empty for functions
+    std::string quantity;
+    std::string quantile;
+    double device, cpp; ///< errors
+
+    std::string where() const; ///< all three names in a text
+};
+
 /// The result of comparing a device with C++.
 struct Verdict {
-    std::int64_t lights = 0;           ///< how many were judged
+    std::int64_t lights = 0;           ///< how many were judged, or calls of functions
+    std::vector<Compared> compared;    ///< all errors whose budget can be exceeded
     std::vector<std::string> excesses; ///< messages that name each exceeded budget and the error
     std::vector<std::string> vacuous;  ///< quantities and quantiles whose budget no error can exceed
     double largest_ratio = 0; ///< of an error on the device to that of C++ or to the floor; the budget is 3
     std::string where;        ///< the quantity and quantile with the largest ratio
 
-    void add(const std::string& prefix, const Verdict& other);
+    /// Adds what was found on a class of lights; its name may be empty.
+    void add(const std::string& lights_of_other, const Verdict& other);
 };
 
 /// The errors that are compared: always the median, the 99 % quantile and the tail, which is the 99.9 % quantile or a

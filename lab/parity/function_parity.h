@@ -1,27 +1,18 @@
 #pragma once
 /// Compares the functions below the techniques on the device, in C++ with float and in C++ with long double.
 
-#include "common/effort.h"
-#include "gpu/fused_fma.h"
-#include "gpu_test.h"
-#include "parity_check.h"
+#include "lab/parity/parity.h"
+#include "lab/parity/shader_runner.h"
 #include "proof/hostile/lights.h"
-#include "shader_runner.h"
 
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <iostream>
 
 namespace nusselt::parity {
 
 using hostile::RandomSource;
-
-inline std::size_t function_calls() { return nusselt_test::at_effort<std::size_t>(120'000, 1'200'000); }
-
-/// The number of calls that must suffice to reject a wrong function. The quick effort makes no fewer.
-inline constexpr std::size_t kMutantCalls = 60'000;
 
 /// Whether the next inputs are to be degenerate, as for one call in eight.
 inline bool is_degenerate(RandomSource& random) { return random.index(8) == 0; }
@@ -140,6 +131,7 @@ Verdict judge_group(const gpu::Device& device, std::span<const std::uint32_t> sh
         }
     });
     Verdict verdict;
+    verdict.lights = static_cast<std::int64_t>(calls);
     for (std::size_t i = 0; i < calls; ++i)
         for (std::size_t k = 0; k < kCount; ++k)
             if (!std::isfinite(results[i][k]))
@@ -150,20 +142,28 @@ Verdict judge_group(const gpu::Device& device, std::span<const std::uint32_t> sh
     return verdict;
 }
 
-/// Judges all variants of the shader of a group that give the right results on a device.
-/// \param table contents of the shader's third buffer, if it has one.
+/// What a group needs besides its inputs.
+struct GroupSettings {
+    std::size_t calls_divisor = 1; ///< fewer calls than for other functions, where they take longer
+    /// Makes the contents of the shader's third buffer, if it has one.
+    std::vector<std::uint32_t> (*table)() = nullptr;
+    Tail tail = Tail::largest;
+};
+
+/// The case of a group.
 template <class Group>
-void expect_group_parity(const gpu::Device& device, std::size_t calls = function_calls(),
-                         std::span<const std::uint32_t> table = {}, Tail tail = Tail::largest) {
-    std::vector<std::span<const std::uint32_t>> variants{Group::kSplit};
-    if (gpu::has_fused_fma(device)) variants.emplace_back(Group::kFused);
-    for (const auto shader : variants) {
-        const Verdict verdict = judge_group<Group>(device, shader, calls, table, tail);
-        for (const std::string& excess : verdict.excesses) ADD_FAILURE() << excess;
-        for (const std::string& where : verdict.vacuous)
-            ADD_FAILURE() << "a budget that cannot fail: " << where;
-        std::cout << fmt::format("largest ratio to C++: {:.2f}, {}\n", verdict.largest_ratio, verdict.where);
-    }
+ParityCase group_case(const GroupSettings& settings = {}) {
+    const auto judge = [settings](const gpu::Device& device, const ParityEffort& effort) {
+        const std::size_t calls = effort.function_calls() / settings.calls_divisor;
+        const auto table = settings.table ? settings.table() : std::vector<std::uint32_t>();
+        std::vector<VariantVerdict> verdicts;
+        for (const Variant variant : variants_for(device)) {
+            const auto shader = variant == Variant::fused ? Group::kFused : Group::kSplit;
+            verdicts.push_back({variant, judge_group<Group>(device, shader, calls, table, settings.tail)});
+        }
+        return verdicts;
+    };
+    return {"functions", Group::kName, judge};
 }
 
 } // namespace nusselt::parity

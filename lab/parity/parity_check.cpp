@@ -1,4 +1,4 @@
-#include "parity_check.h"
+#include "lab/parity/parity_check.h"
 
 #include <fmt/core.h>
 
@@ -65,8 +65,17 @@ void Errors::append(const Errors& other) {
     invalid += other.invalid;
 }
 
-void Verdict::add(const std::string& prefix, const Verdict& other) {
+std::string Compared::where() const {
+    return (lights.empty() ? "" : lights + ": ") + quantity + ", " + quantile;
+}
+
+void Verdict::add(const std::string& lights_of_other, const Verdict& other) {
+    const std::string prefix = lights_of_other.empty() ? "" : lights_of_other + ": ";
     lights += other.lights;
+    for (Compared row : other.compared) {
+        row.lights = lights_of_other;
+        compared.push_back(std::move(row));
+    }
     for (const std::string& excess : other.excesses) excesses.push_back(prefix + excess);
     for (const std::string& name : other.vacuous) vacuous.push_back(prefix + name);
     if (other.largest_ratio <= largest_ratio) return;
@@ -92,11 +101,13 @@ Verdict compare(const std::string& quantity, std::vector<double> device, std::ve
         const double least = quantile(floor, share);
         const double unit = std::max({reference, least, kRounding});
         const double ratio = value / unit;
-        const std::string where = fmt::format("{}, {}", quantity, name);
+        Compared row{.quantity = quantity, .quantile = name, .device = value, .cpp = reference};
+        const std::string where = row.where();
         if (!(kFactor * unit < budget.bound)) {
             verdict.vacuous.push_back(where);
             continue;
         }
+        verdict.compared.push_back(std::move(row));
         if (ratio > verdict.largest_ratio) {
             verdict.largest_ratio = ratio;
             verdict.where = where;

@@ -1,7 +1,8 @@
 // Parity of published methods, on lights for which they are made. On other lights, their errors are arbitrary in C++,
 // too.
 
-#include "technique_parity.h"
+#include "lab/parity/parity.h"
+#include "lab/parity/technique_parity.h"
 
 #include <set>
 
@@ -29,38 +30,27 @@ struct RelatedPair {
     }
 };
 
-/// The pairs of all techniques that replace a published method.
-template <class... Kinds>
-auto related_pairs(hostile::KindList<Kinds...>) {
-    const auto list = []<class Kind>(const Kind*) {
-        using Published = typename Kind::template Published<float>;
-        if constexpr (std::is_same_v<Published, hostile::Absent>)
-            return hostile::KindList<>();
-        else
-            return hostile::KindList<RelatedPair<Kind>>();
-    };
-    return hostile::Join<decltype(list(static_cast<const Kinds*>(nullptr)))...>();
-}
-template <class... Pairs>
-testing::Types<Pairs...> types_of(hostile::KindList<Pairs...>);
-
 template <class Pair>
-class RelatedParity : public GpuTest {};
-using Techniques =
-    decltype(types_of(related_pairs(hostile::Join<hostile::PolygonKinds<4>, hostile::LineKinds>())));
-TYPED_TEST_SUITE(RelatedParity, Techniques, PairNames);
-
-TYPED_TEST(RelatedParity, IsAsAccurateAsCppOnOrdinaryLights) {
+std::vector<VariantVerdict> judge_ordinary_lights(const gpu::Device& device, const ParityEffort& effort) {
     const std::set<std::string> ordinary{"decentral", "central", "ordinary"};
-    const int count = random_lights() / 10;
     const auto is_judged = [&](const auto& lights) { return ordinary.count(lights.name) > 0; };
-    const auto shaders = shaders_for<TypeParam>(this->device());
-    for (const Verdict& verdict : judge_twins<TypeParam>(this->device(), shaders, count, is_judged)) {
-        EXPECT_GE(verdict.lights, count);
-        expect_parity(verdict);
-    }
+    const std::vector<Variant> variants = variants_for(device);
+    const auto verdicts =
+        judge_twins<Pair>(device, shaders_of<Pair>(variants), effort.lights / 10, is_judged);
+    std::vector<VariantVerdict> results;
+    for (std::size_t k = 0; k < variants.size(); ++k) results.push_back({variants[k], verdicts[k]});
+    return results;
 }
 
 } // namespace
+
+void add_related_cases(std::vector<ParityCase>& cases) {
+    using Kinds = hostile::Join<hostile::PolygonKinds<4>, hostile::LineKinds>;
+    Kinds().for_each([&]<class Kind> {
+        if constexpr (!std::is_same_v<typename Kind::template Published<float>, hostile::Absent>)
+            cases.push_back({"published method", name_of_pair<RelatedPair<Kind>>(),
+                             judge_ordinary_lights<RelatedPair<Kind>>});
+    });
+}
 
 } // namespace nusselt::parity

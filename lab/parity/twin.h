@@ -1,8 +1,8 @@
 #pragma once
 /// Runs a technique in GLSL on many lights.
 
+#include "lab/parity/shader_runner.h"
 #include "proof/hostile/contract.h"
-#include "shader_runner.h"
 
 #include <bit>
 #include <cstring>

@@ -1,8 +1,9 @@
-// Parity of the functions on linearly transformed cosines that are below the techniques.
+#pragma once
+/// Groups of functions on linearly transformed cosines below the techniques.
 
-#include "function_parity.h"
-#include "inputs/table_words.h"
 #include "lab/accuracy/lobe_lights.h"
+#include "lab/parity/function_parity.h"
+#include "lab/parity/table_words.h"
 #include "shaders/engine_table_fused.h"
 #include "shaders/engine_table_split.h"
 #include "shaders/line_shading_fused.h"
@@ -11,10 +12,8 @@
 #include "shaders/lobe_split.h"
 #include "shaders/ltc_table_fused.h"
 #include "shaders/ltc_table_split.h"
-#include "shaders/plain_lobe.h"
 #include "shaders/polygon_shading_fused.h"
 #include "shaders/polygon_shading_split.h"
-#include "shaders/seamed_table.h"
 #include "shaders/shading_frame_fused.h"
 #include "shaders/shading_frame_split.h"
 #include "tables/engine_table.h"
@@ -24,10 +23,8 @@
 
 namespace nusselt::parity {
 
-namespace {
-
 /// Draws a lobe from the shipped table, or a hostile one.
-void draw_lobe(RandomSource& random, std::vector<float>& inputs) {
+inline void draw_table_lobe(RandomSource& random, std::vector<float>& inputs) {
     LtcCoefficients<float> c{};
     if (is_degenerate(random))
         c = hostile::HostileLights<float>(1, static_cast<std::uint64_t>(random.uniform() * 0x1p53)).lobe();
@@ -42,10 +39,10 @@ Ltc<Real> get_lobe(const float* inputs) {
 }
 
 /// The layout is that of shaders/parity/lobe_input.glsl.
-constexpr std::size_t kLobeSize = 6;
+inline constexpr std::size_t kLobeSize = 6;
 
 struct ShadingFrames {
-    static std::size_t calls() { return function_calls(); }
+    static constexpr const char* kName = "shading frames";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kShadingFrameSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kShadingFrameFused;
     static constexpr std::size_t kInputs = 6;
@@ -73,7 +70,7 @@ struct ShadingFrames {
 };
 
 struct Lobes {
-    static std::size_t calls() { return function_calls(); }
+    static constexpr const char* kName = "lobes";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kLobeSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kLobeFused;
     static constexpr std::size_t kInputs = kLobeSize + 3;
@@ -91,7 +88,7 @@ struct Lobes {
                                           {"radius_ratio", Error::relative}};
 
     static void draw(RandomSource& random, std::vector<float>& inputs) {
-        draw_lobe(random, inputs);
+        draw_table_lobe(random, inputs);
         const Ltc<double> ltc = get_lobe<double>(&inputs[inputs.size() - kLobeSize]);
         // Half of the directions are around the peak of the lobe or on its horizon.
         Vec3<double> v = is_degenerate(random) ? axis(random) : random.direction();
@@ -115,7 +112,7 @@ struct Lobes {
 };
 
 struct PolygonShading {
-    static std::size_t calls() { return function_calls() / 4; }
+    static constexpr const char* kName = "shading with polygons";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kPolygonShadingSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kPolygonShadingFused;
     static constexpr std::size_t kInputs = 12 + kLobeSize;
@@ -130,7 +127,7 @@ struct PolygonShading {
     static void draw(RandomSource& random, std::vector<float>& inputs) {
         const Parallelogram light(random);
         light.put_corners(inputs);
-        draw_lobe(random, inputs);
+        draw_table_lobe(random, inputs);
     }
     template <class Real>
     static Results<Real> call(const float* inputs) {
@@ -149,7 +146,7 @@ struct PolygonShading {
 };
 
 struct LineShading {
-    static std::size_t calls() { return function_calls() / 4; }
+    static constexpr const char* kName = "shading with lines";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kLineShadingSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kLineShadingFused;
     static constexpr std::size_t kInputs = 10 + kLobeSize;
@@ -169,7 +166,7 @@ struct LineShading {
         const Vec3<double> begin = random.direction();
         put(inputs, begin);
         put(inputs, is_degenerate(random) ? begin : 2.0 * random.direction());
-        draw_lobe(random, inputs);
+        draw_table_lobe(random, inputs);
         put(inputs, random.direction());
         inputs.push_back(static_cast<float>(random.log_between(1e-4, 1)));
     }
@@ -196,7 +193,7 @@ struct LineShading {
 };
 
 /// Draws a coordinate of a table, sometimes exactly that of a sample.
-float coordinate(RandomSource& random, int samples) {
+inline float coordinate(RandomSource& random, int samples) {
     if (is_degenerate(random))
         return static_cast<float>(random.index(samples)) / static_cast<float>(samples - 1);
     return static_cast<float>(random.uniform());
@@ -212,6 +209,7 @@ Results<Real> results_of(const LtcCoefficients<Real>& lobe) {
 
 /// The table with 16-bit numbers, which the device decodes.
 struct Table {
+    static constexpr const char* kName = "table of 16 bits";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kLtcTableSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kLtcTableFused;
     static constexpr std::size_t kInputs = 6;
@@ -240,15 +238,16 @@ struct Table {
     }
 };
 
-std::string engine_bytes() { return tables::encode_for_engines(tables::frostbite_ltc_table(), 0.2f); }
+inline std::string engine_bytes() { return tables::encode_for_engines(tables::frostbite_ltc_table(), 0.2f); }
 
-const tables::LtcTable& engine_table() {
+inline const tables::LtcTable& engine_table() {
     static const tables::LtcTable table = tables::decode_for_engines(engine_bytes(), 64, 64, "");
     return table;
 }
 
 /// The table with half-precision floats.
 struct EngineTable {
+    static constexpr const char* kName = "table of half floats";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kEngineTableSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kEngineTableFused;
     static constexpr std::size_t kInputs = 3;
@@ -267,43 +266,5 @@ struct EngineTable {
         return results_of(engine_table().view().lookup(roughness, cos_o, f0));
     }
 };
-
-template <class Group>
-class LtcFunctionParity : public GpuTest {};
-using Groups = testing::Types<ShadingFrames, Lobes, PolygonShading, LineShading>;
-TYPED_TEST_SUITE(LtcFunctionParity, Groups);
-
-TYPED_TEST(LtcFunctionParity, IsAsAccurateAsCpp) {
-    expect_group_parity<TypeParam>(this->device(), TypeParam::calls());
-}
-
-class LtcTableParity : public GpuTest {};
-
-TEST_F(LtcTableParity, OfSixteenBitsIsAsAccurateAsCpp) {
-    expect_group_parity<Table>(device(), function_calls(), table_words());
-}
-
-TEST_F(LtcTableParity, OfHalfFloatsIsAsAccurateAsCpp) {
-    expect_group_parity<EngineTable>(device(), function_calls(), words_of(engine_bytes()));
-}
-
-class LtcFunctionMutant : public GpuTest {};
-
-TEST_F(LtcFunctionMutant, ComponentsThatCancelAreFound) {
-    const auto excesses = judge_group<Lobes>(device(), shaders::kPlainLobe, kMutantCalls).excesses;
-    EXPECT_FALSE(excesses.empty());
-    for (const std::string& excess : excesses) EXPECT_EQ(excess.rfind("to_cosine, ", 0), 0u) << excess;
-}
-
-TEST_F(LtcFunctionMutant, SeamsAlongTheReflectanceAreFound) {
-    const auto excesses =
-        judge_group<Table>(device(), shaders::kSeamedTable, kMutantCalls, table_words()).excesses;
-    EXPECT_FALSE(excesses.empty());
-    for (const std::string& excess : excesses)
-        EXPECT_NE(excess.rfind("coloured albedo, ", 0), 0u)
-            << "only two samples of f0, so no seam: " << excess;
-}
-
-} // namespace
 
 } // namespace nusselt::parity

@@ -1,8 +1,8 @@
-// Parity of the code that turns samples into estimates of direct light: heuristics, visible normals, and whole
-// estimates.
+#pragma once
+/// Groups of code that turns samples into estimates of direct light: heuristics, visible normals, and whole estimates.
 
-#include "function_parity.h"
-#include "inputs/table_words.h"
+#include "lab/parity/function_parity.h"
+#include "lab/parity/table_words.h"
 #include "render/settings.h"
 #include "shaders/brdf_direct_light_fused.h"
 #include "shaders/brdf_direct_light_split.h"
@@ -14,16 +14,12 @@
 #include "shaders/polygon_brdf_split.h"
 #include "shaders/polygon_direct_light_fused.h"
 #include "shaders/polygon_direct_light_split.h"
-#include "shaders/swapped_techniques.h"
-#include "shaders/unbounded_normals.h"
 #include "shaders/visible_normals_fused.h"
 #include "shaders/visible_normals_split.h"
 
 #include <nusselt/estimate/direct_light.h>
 
 namespace nusselt::parity {
-
-namespace {
 
 using render::Mis;
 
@@ -48,15 +44,16 @@ auto with_heuristic(Mis mis, const Real& visibility, const Estimate& estimate) {
 }
 
 /// Draws a heuristic that combines two samples.
-Mis draw_heuristic(RandomSource& random) {
+inline Mis draw_heuristic(RandomSource& random) {
     const Mis heuristics[] = {Mis::balance,         Mis::power,   Mis::weighted_balance,
                               Mis::clamped_optimal, Mis::optimal, Mis::separate};
     return heuristics[random.index(6)];
 }
 
-Mis heuristic_of(float input) { return static_cast<Mis>(static_cast<std::uint32_t>(input)); }
+inline Mis heuristic_of(float input) { return static_cast<Mis>(static_cast<std::uint32_t>(input)); }
 
 struct Heuristics {
+    static constexpr const char* kName = "heuristics";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kMisSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kMisFused;
     static constexpr std::size_t kInputs = 20;
@@ -111,7 +108,7 @@ struct Heuristics {
 };
 
 /// Draws wo and alpha, two random numbers, and a direction that is often in the lobe.
-void draw_lobe(RandomSource& random, std::vector<float>& inputs) {
+inline void draw_ggx_lobe(RandomSource& random, std::vector<float>& inputs) {
     Vec3<double> wo = is_degenerate(random) ? axis(random) : random.direction();
     if (random.index(16) > 0) wo.z = std::fabs(wo.z);
     const double alpha = is_degenerate(random) ? 1e-4 : random.log_between(1e-3, 1);
@@ -126,6 +123,7 @@ void draw_lobe(RandomSource& random, std::vector<float>& inputs) {
 }
 
 struct VisibleNormals {
+    static constexpr const char* kName = "visible normals";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kVisibleNormalsSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kVisibleNormalsFused;
     static constexpr std::size_t kInputs = 9;
@@ -142,7 +140,7 @@ struct VisibleNormals {
                                           {"bounded first inverse", Error::absolute},
                                           {"bounded second inverse", Error::absolute}};
 
-    static void draw(RandomSource& random, std::vector<float>& inputs) { draw_lobe(random, inputs); }
+    static void draw(RandomSource& random, std::vector<float>& inputs) { draw_ggx_lobe(random, inputs); }
     template <class Real>
     static Results<Real> call(const float* inputs) {
         const auto wo = get<Real>(inputs);
@@ -163,6 +161,7 @@ struct VisibleNormals {
 };
 
 struct PolygonBrdfSampling {
+    static constexpr const char* kName = "sampling of the BRDF";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kPolygonBrdfSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kPolygonBrdfFused;
     static constexpr std::size_t kInputs = 21;
@@ -174,7 +173,7 @@ struct PolygonBrdfSampling {
 
     static void draw(RandomSource& random, std::vector<float>& inputs) {
         Parallelogram(random).put_corners(inputs);
-        draw_lobe(random, inputs);
+        draw_ggx_lobe(random, inputs);
     }
     template <class Real>
     static Results<Real> call(const float* inputs) {
@@ -193,7 +192,7 @@ struct PolygonBrdfSampling {
 };
 
 /// Draws a surface near lights whose coordinates are of order one.
-void draw_surface(RandomSource& random, std::vector<float>& inputs) {
+inline void draw_surface(RandomSource& random, std::vector<float>& inputs) {
     const Vec3<double> normal = is_degenerate(random) ? axis(random) : random.direction();
     put(inputs, random.between(0.1, 2) * random.direction());
     put(inputs, normal);
@@ -205,7 +204,7 @@ void draw_surface(RandomSource& random, std::vector<float>& inputs) {
 }
 
 /// The layout is that of shaders/parity/surface_input.glsl.
-constexpr std::size_t kSurfaceSize = 16;
+inline constexpr std::size_t kSurfaceSize = 16;
 
 template <class Real>
 SurfacePoint<Real> get_surface(const float* inputs) {
@@ -240,7 +239,7 @@ struct Choice {
     }
 };
 
-constexpr Output kSampleOutputs[] = {
+inline constexpr Output kSampleOutputs[] = {
     {"direction.x", Error::absolute},     {"direction.y", Error::absolute},
     {"direction.z", Error::absolute},     {"distance", Error::measure},
     {"shadowed, red", Error::measure},    {"shadowed, green", Error::measure},
@@ -290,11 +289,12 @@ Results<Real> sample_light(const SurfacePoint<Real>& point, const Light& light, 
     });
 }
 
-Mis draw_estimate(RandomSource& random) {
+inline Mis draw_estimate(RandomSource& random) {
     return random.index(7) == 0 ? Mis::one_sample : draw_heuristic(random);
 }
 
 struct PolygonDirectLight {
+    static constexpr const char* kName = "estimates for polygons";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kPolygonDirectLightSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kPolygonDirectLightFused;
     static constexpr std::size_t kInputs = 12 + kSurfaceSize + Choice::kSize;
@@ -319,6 +319,7 @@ struct PolygonDirectLight {
 };
 
 struct LineDirectLight {
+    static constexpr const char* kName = "estimates for lines";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kLineDirectLightSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kLineDirectLightFused;
     static constexpr std::size_t kInputs = 6 + kSurfaceSize + Choice::kSize;
@@ -341,6 +342,7 @@ struct LineDirectLight {
 
 /// A pair of techniques whose densities the test sets and whose samples may miss the light.
 struct BrdfDirectLight {
+    static constexpr const char* kName = "estimates for other pairs";
     static constexpr std::span<const std::uint32_t> kSplit = shaders::kBrdfDirectLightSplit;
     static constexpr std::span<const std::uint32_t> kFused = shaders::kBrdfDirectLightFused;
     static constexpr std::size_t kInputs = PolygonDirectLight::kInputs;
@@ -358,51 +360,5 @@ struct BrdfDirectLight {
             Choice::get(inputs + 12 + kSurfaceSize));
     }
 };
-
-class EstimateParity : public GpuTest {};
-
-TEST_F(EstimateParity, HeuristicsAreAsAccurateAsCpp) { expect_group_parity<Heuristics>(device()); }
-
-TEST_F(EstimateParity, VisibleNormalsAreAsAccurateAsCpp) {
-    expect_group_parity<VisibleNormals>(device(), function_calls(), {}, Tail::nearly_largest);
-}
-
-TEST_F(EstimateParity, SamplingOfTheBrdfIsAsAccurateAsCpp) {
-    expect_group_parity<PolygonBrdfSampling>(device(), function_calls() / 2, {}, Tail::nearly_largest);
-}
-
-/// Fewer calls than for other functions, because estimates look up a lobe for each surface.
-std::size_t estimate_calls() { return function_calls() / 8; }
-
-TEST_F(EstimateParity, PolygonsAreAsAccurateAsCpp) {
-    expect_group_parity<PolygonDirectLight>(device(), estimate_calls(), table_words(), Tail::nearly_largest);
-}
-
-TEST_F(EstimateParity, LinesAreAsAccurateAsCpp) {
-    expect_group_parity<LineDirectLight>(device(), estimate_calls(), table_words(), Tail::nearly_largest);
-}
-
-TEST_F(EstimateParity, OtherPairsOfTechniquesAreAsAccurateAsCpp) {
-    expect_group_parity<BrdfDirectLight>(device(), estimate_calls(), table_words(), Tail::nearly_largest);
-}
-
-class EstimateMutant : public GpuTest {};
-
-TEST_F(EstimateMutant, SwappedTechniquesAreFound) {
-    const auto excesses =
-        judge_group<Heuristics>(device(), shaders::kSwappedTechniques, kMutantCalls).excesses;
-    EXPECT_FALSE(excesses.empty());
-    for (const std::string& excess : excesses)
-        EXPECT_TRUE(excess.rfind("shadowed", 0) == 0 || excess.rfind("constant", 0) == 0) << excess;
-}
-
-TEST_F(EstimateMutant, UnboundedNormalsAreFound) {
-    const auto excesses =
-        judge_group<VisibleNormals>(device(), shaders::kUnboundedNormals, kMutantCalls).excesses;
-    EXPECT_FALSE(excesses.empty());
-    for (const std::string& excess : excesses) EXPECT_EQ(excess.rfind("bounded", 0), 0u) << excess;
-}
-
-} // namespace
 
 } // namespace nusselt::parity
