@@ -26,7 +26,7 @@ archive: build ## the program for other x86-64 Linux systems: out/nusselt-*.tar.
 
 gpu-kit: ## all that checks and measures a machine's GPU, without installing anything: out/nusselt-gpu-kit.tar.xz
 	scripts/setup.sh build
-	scripts/build.sh apps/nusselt/all apps/nusselt-lab/all
+	scripts/build.sh kit_programs
 	scripts/pack.sh gpu-kit
 
 single-header: ## the library in one file: out/nusselt.h (needs cmake only)

@@ -2,7 +2,7 @@
 # Packs the programs that were built, with all libraries that they need, for other x86-64 Linux systems. Needs Debian, whose
 # packages say where libraries come from and under which licences.
 # Usage: scripts/pack.sh gpu-kit|archive [BUILD_FOLDER [OUTPUT]]
-#   gpu-kit   nusselt, nusselt-lab and run.sh, to check and measure GPUs: out/nusselt-gpu-kit.tar.xz
+#   gpu-kit   nusselt without its viewer, the part of nusselt-lab for GPUs, and run.sh: out/nusselt-gpu-kit.tar.xz
 #   archive   nusselt, the library, scenes and documentation: out/nusselt-VERSION-linux-x86_64.tar.xz
 # Prints the name of the archive, its size and the glibc that it needs.
 set -euo pipefail
@@ -25,12 +25,15 @@ compiled_in=(libcli11-dev nlohmann-json3-dev libvulkan-dev libimgui-dev)
 
 version=$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")
 case $what in
-    gpu-kit) programs=(nusselt nusselt-lab) name=gpu-kit output=out/nusselt-gpu-kit.tar.xz ;;
-    archive) programs=(nusselt) name=nusselt-$version-linux-x86_64 output=out/nusselt-$version-linux-x86_64.tar.xz ;;
+    gpu-kit) built=$build/apps/kit programs=(nusselt nusselt-lab) name=gpu-kit output=out/nusselt-gpu-kit.tar.xz ;;
+    archive)
+        built=$build/apps/nusselt programs=(nusselt) name=nusselt-$version-linux-x86_64
+        output=out/$name.tar.xz
+        ;;
 esac
-[ -z "${3:-}" ] || output=$(realpath -m --relative-base=/ "$here/$3")
+[ -z "${3:-}" ] || output=$(cd "$here" && realpath -m "$3")
 for program in "${programs[@]}"; do
-    [ -x "$build/apps/$program/$program" ] || fail "$build/apps/$program/$program is not built; run make $what"
+    [ -x "$built/$program" ] || fail "$built/$program is not built; run make $what"
 done
 
 work=$(mktemp -d)
@@ -59,7 +62,8 @@ if [ "$what" = archive ]; then
     rm -rf "$root"/bin/*
     mkdir -p "$root/share/doc/nusselt/docs"
     cp README.md CHANGELOG.md CITATION.cff "$root/share/doc/nusselt"
-    cp -r docs/. "$root/share/doc/nusselt/docs"
+    # The pictures would be an eighth of the archive.
+    tar -C docs --exclude='*.png' --exclude='*.jpg' -cf - . | tar -C "$root/share/doc/nusselt/docs" -xf -
 else
     cp -r shaders/nusselt "$root/share/nusselt/shaders"
     cp docs/gpu-kit.md "$root/README.md"
@@ -68,7 +72,7 @@ fi
 cp -r scenes "$root/share/nusselt/scenes"
 cp LICENSE "$root/share/doc/nusselt/LICENSE"
 for program in "${programs[@]}"; do
-    strip -o "$root/lib/programs/$program" "$build/apps/$program/$program"
+    strip -o "$root/lib/programs/$program" "$built/$program"
     install -m 755 scripts/archive/launch.sh "$root/bin/$program"
 done
 
@@ -111,7 +115,7 @@ commit=$(git rev-parse HEAD 2>/dev/null || echo unknown)
 
 mkdir -p "$(dirname "$output")"
 date=$(git log -1 --format=%cI 2>/dev/null || date -Iseconds)
-tar -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mtime="$date" -cf - "$name" | xz -T0 -9 >"$output"
+tar -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mtime="$date" -cf - "$name" | xz --x86 --lzma2=preset=6,dict=64MiB >"$output"
 size=$(stat -c %s "$output")
 echo "$output: $((size / 1000000)).$((size / 100000 % 10)) MB, needs glibc $(sed -n 's/^glibc: //p' "$root/MANIFEST") or newer"
 # Whoever downloads it shall not wait.

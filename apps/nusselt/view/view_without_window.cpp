@@ -1,4 +1,4 @@
-#include "apps/nusselt/render/render.h"
+#include "apps/nusselt/view/view.h"
 
 #include <CLI/CLI.hpp>
 
