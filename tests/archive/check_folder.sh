@@ -50,5 +50,5 @@ LD_DEBUG=libs LD_DEBUG_OUTPUT=$work/loaded LD_LIBRARY_PATH=$path "$root/lib/prog
 foreign=$(sed -n 's/^.*calling init: \(.*\)$/\1/p' "$work"/loaded.* | grep -v "^$root/" | sed 's|.*/||' | grep -vE "$system" || true)
 [ -z "$foreign" ] || fail "these libraries came from the system: $foreign"
 # As users start it.
-"$root/bin/nusselt" convert "$work/a.exr" -o "$work/b.png" || fail "bin/nusselt does not run"
+"$root/bin/nusselt" convert "$work/a.exr" "$work/b.png" || fail "bin/nusselt does not run"
 [ -s "$work/b.png" ] || fail "no picture"
