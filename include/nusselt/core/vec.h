@@ -110,9 +110,14 @@ template <class Real>
 NUSSELT_INLINE Vec3<Real> fma(const Real& s, const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
     return {fma(s, a.x, b.x), fma(s, a.y, b.y), fma(s, a.z, b.z)};
 }
+/// s * a + b as fast as the processor can.
 template <class Real>
-NUSSELT_HD constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
+NUSSELT_INLINE Vec3<Real> multiply_add(const Real& s, const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return {multiply_add(s, a.x, b.x), multiply_add(s, a.y, b.y), multiply_add(s, a.z, b.z)};
+}
+template <class Real>
+NUSSELT_INLINE Real dot(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return multiply_add(a.z, b.z, multiply_add(a.y, b.y, a.x * b.x));
 }
 template <class Real>
 NUSSELT_HD constexpr Vec2<Real> xy(const Vec3<Real>& a) noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 /// Line segments, and the angles under which a shading point sees them.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/frame.h>
 #include <nusselt/core/trig.h>
 
@@ -37,81 +38,191 @@ NUSSELT_INLINE LineSegment<Real> to_shading_space(const LineSegment<LightReal>& 
             Real(world.length)};
 }
 
-/// A point of a line extent, given by sine and cosine of its angle alpha.
+/// A segment from the end nearer to the origin to the other one, with coordinates along its infinite line that are 0 at
+/// the point closest to the origin.
 template <class Real>
-struct LinePoint {
-    Real sine, cosine; ///< of alpha
-    Real from_start;   ///< sine minus that of the start, accurate relative to itself
-    Real to_end;       ///< sine of the end minus this one, likewise
+struct CenteredLine {
+    Vec3<Real> near;    ///< end point
+    Vec3<Real> inward;  ///< unit direction from there to the far end
+    Vec3<Real> closest; ///< the point of the infinite line closest to the origin
+    Real squared;       ///< squared distance of that point from the origin, positive
+    Real near_l, far_l; ///< coordinates of the end points; far_l is not less than |near_l|
+    Real far_z;         ///< of the far end
+    Real length;        ///< far_l - near_l, which may be known more accurately; 0 if there is no light
+    Real sign;          ///< 1 if the near end is the start, else -1
 };
 
-/// A segment in the half-plane that it spans with the origin, as angles alpha about the origin: a point of
-/// the light is distance * (tan(alpha) s + t), its direction sin(alpha) s + cos(alpha) t. Peters 2021 (linear
-/// lights), Sec. 3.1, in terms of the end points, so that short, distant or nearly aligned segments keep their
+/// The segment between two points of a line.
+/// \param s unit direction from p0 to p1.
+/// \param closest, squared, length as in CenteredLine.
+/// \param l0, l1 coordinates of the points along s.
+template <class Real>
+NUSSELT_INLINE CenteredLine<Real> line_between(const Vec3<Real>& s, const Vec3<Real>& p0,
+                                               const Vec3<Real>& p1, const Vec3<Real>& closest,
+                                               const Real& squared, const Real& l0, const Real& l1,
+                                               const Real& length) noexcept {
+    const auto starts_near = l0 + l1 >= Real(0);
+    const Real sign = select(starts_near, Real(1), Real(-1));
+    return {select(starts_near, p0, p1),
+            sign * s,
+            closest,
+            squared,
+            select(starts_near, l0, -l1),
+            select(starts_near, l1, -l0),
+            select(starts_near, p1.z, p0.z),
+            length,
+            sign};
+}
+
+/// The angles under which the origin sees a segment. In the half-plane that it spans with the origin, t leads to the point
+/// of the infinite line that is closest to the origin, and s from the end of the segment that is nearer to the origin to the
+/// other one: a point of the light is distance * (tan(alpha) s + t), its direction sin(alpha) s + cos(alpha) t. Peters 2021
+/// (linear lights), Sec. 3.1, in terms of the end points, so that short, distant or nearly aligned segments keep their
 /// relative precision. The unit of length is arbitrary.
 template <class Real>
 struct LineExtent {
-    Vec3<Real> s, t; ///< orthonormal; t points from the origin to the closest point of the infinite line
-    Real distance;   ///< of the infinite line from the origin
-    Real length;
-    Real l0, l1;                    ///< coordinates of the end points along s, 0 at the closest point
-    Real s0, s1, c0, c1;            ///< sines and cosines of the angles of the end points
-    Real height0, height1;          ///< z of the unit directions to the end points, not negative
-    Real one_plus_s0, one_minus_s1; ///< accurate relative to themselves
-    Real sin_sweep;          ///< sine of the sweep, the angle between the end points, at most half a turn
-    Real half_tangent;       ///< tangent of half the sweep or of half its supplement, whichever is acute
-    Real sine_extent;        ///< s1 - s0, accurate relative to itself
-    Vec3<Real> near, inward; ///< the end point nearer to the origin, and the direction to the other one
-    Real near_distance, near_cosine; ///< from the origin, and of the angle alpha
-    mask_t<Real> starts_near;        ///< whether it is the start
-    mask_t<Real> acute;              ///< whether the sweep is
-    mask_t<Real> visible; ///< false if the segment has no length or its line passes through the origin
+    CenteredLine<Real> line;
+    Real distance, inverse_distance; ///< of the infinite line from the origin
+    Real near_distance;              ///< of the near end from the origin
+    Real near_cosine, far_cosine;
+    Real one_plus_near_sine, one_minus_far_sine; ///< accurate relative to themselves
+    Real near_height, far_height; ///< z of the unit directions to the end points, not negative
+    Real sin_sweep;               ///< sine of the angle between the end points, which is at most half a turn
+    Real sine_extent;             ///< far sine minus near sine, accurate relative to itself
+    mask_t<Real> visible;         ///< false if the segment has no length or its line passes through the origin
 
-    /// Angle between the end points.
-    NUSSELT_HD Real sweep() const noexcept {
-        const Real angle = Real(2) * atan_up_to_one(half_tangent);
-        return select(acute, angle, Real(kPi<scalar_t<Real>>) - angle);
+    NUSSELT_HD Real near_sine() const noexcept { return one_plus_near_sine - Real(1); }
+    NUSSELT_HD Real far_sine() const noexcept { return Real(1) - one_minus_far_sine; }
+    NUSSELT_HD Real cos_sweep() const noexcept {
+        return fma(near_cosine, far_cosine, near_sine() * far_sine());
+    }
+};
+
+/// The extent of a segment.
+template <class Real>
+NUSSELT_INLINE LineExtent<Real> make_line_extent(const CenteredLine<Real>& line) noexcept {
+    using Scalar = scalar_t<Real>;
+    // Find the cosines of the angles of both ends, and their heights.
+    const Real d = sqrt(line.squared);
+    const Real inverse_d = Real(1) / d;
+    const Real near_r = sqrt(multiply_add(line.near_l, line.near_l, line.squared));
+    const Real far_r = sqrt(multiply_add(line.far_l, line.far_l, line.squared));
+    const Real near_sum = near_r + abs(line.near_l);
+    const Real far_sum = far_r + line.far_l;
+    const Real near_inverse = Real(1) / (near_r * near_sum);
+    const Real far_inverse = Real(1) / (far_r * far_sum);
+    const Real inverse_near_r = near_inverse * near_sum;
+    const Real inverse_far_r = far_inverse * far_sum;
+    const Real near_cosine = d * inverse_near_r;
+    const Real far_cosine = d * inverse_far_r;
+
+    // One plus or minus a sine cancels for one sign of it. There, it follows from the squared cosine. The far end lies
+    // always beyond the closest point.
+    const Real one_plus_near =
+        multiply_add(line.squared, near_inverse, (line.near_l + abs(line.near_l)) * inverse_near_r);
+    const Real one_minus_far = line.squared * far_inverse;
+
+    // Find the difference of both sines (Eq. 1): the tangent of half the angle between the ends times the sum of the
+    // cosines. The sine of the angle is the area of the triangle with the origin, never a difference. For angles near half
+    // a turn, the cosine cancels, but the sines add up.
+    const Real area = line.length * d;
+    const Real product = near_r * far_r;
+    const Real cosine = multiply_add(line.near_l, line.far_l, line.squared);
+    const auto is_wide = cosine < Real(Scalar(-0.5)) * product;
+    Real sine_extent = area / (product + cosine) * (near_cosine + far_cosine);
+    if (any(is_wide))
+        sine_extent =
+            select(is_wide & (line.length > Real(0)),
+                   (Real(1) - one_plus_near) + (Real(1) - one_minus_far), sine_extent);
+    const Real sin_sweep = area * inverse_near_r * inverse_far_r;
+    return {line,
+            d,
+            inverse_d,
+            near_r,
+            near_cosine,
+            far_cosine,
+            one_plus_near,
+            one_minus_far,
+            max(line.near.z, Real(0)) * inverse_near_r,
+            max(line.far_z, Real(0)) * inverse_far_r,
+            sin_sweep,
+            sine_extent,
+            mask_t<Real>((line.length > Real(0)) & (sin_sweep > Real(0)))};
+}
+
+/// A point of a segment, given by sine and cosine of its angle alpha.
+template <class Real>
+struct LinePoint {
+    Real sine, cosine; ///< of alpha
+    Real from_near;    ///< sine minus that of the near end, accurate relative to itself
+    Real to_far;       ///< sine of the far end minus this one, likewise
+};
+
+/// The map from sines of angles to directions and points of a segment.
+template <class Real>
+struct LineMap {
+    /// Uninitialised: to be assigned to before it is used.
+    LineMap() = default;
+
+    NUSSELT_INLINE explicit LineMap(const LineExtent<Real>& e) noexcept
+        : near(e.line.near),
+          inward(e.line.inward),
+          closest(e.line.closest),
+          inverse_distance(e.inverse_distance),
+          length(e.line.length),
+          twice_near_distance(Real(2) * e.near_distance),
+          near_cosine(e.near_cosine),
+          one_plus_near_sine(e.one_plus_near_sine),
+          one_minus_far_sine(e.one_minus_far_sine) {}
+
+    /// Broadcasts a map to all lanes of a pack.
+    template <class Single>
+    NUSSELT_HD explicit LineMap(const LineMap<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
     }
 
-    /// \param from_start sine minus s0, in [0, sine_extent]
-    NUSSELT_HD LinePoint<Real> point_at(const Real& from_start) const noexcept {
-        const Real to_end = max(sine_extent - from_start, Real(0));
+    /// \param from_near, to_far not negative; they add up to the difference of the sines of both ends.
+    NUSSELT_INLINE LinePoint<Real> point_at(const Real& from_near, const Real& to_far) const noexcept {
         // The square of the cosine is (1 + sine) (1 - sine): sums of positive terms.
-        const Real squared = (one_plus_s0 + from_start) * (one_minus_s1 + to_end);
-        return {s0 + from_start, sqrt(squared), from_start, to_end};
+        const Real one_plus_sine = one_plus_near_sine + from_near;
+        return {one_plus_sine - Real(1), sqrt(one_plus_sine * (one_minus_far_sine + to_far)), from_near, to_far};
     }
 
     /// The point itself, on the segment.
-    NUSSELT_HD Vec3<Real> position(const LinePoint<Real>& point) const noexcept {
+    NUSSELT_INLINE Vec3<Real> position(const LinePoint<Real>& point) const noexcept {
         // The nearer end is the more accurate place to start from. The step is 2 sin(theta / 2) cos(theta / 2)
-        // times its distance over the cosine of alpha, with tan(theta / 2) = tangent.
-        const Real tangent =
-            select(starts_near, point.from_start, point.to_end) / (near_cosine + point.cosine);
-        const Real step = Real(2) * near_distance * tangent / (point.cosine * fma(tangent, tangent, Real(1)));
-        const Vec3<Real> p = near + min(step, length) * inward;
-        const auto beside = is_beside(point);
+        // times its distance over the cosine of alpha, with tan(theta / 2) = from_near / sum.
+        const Real sum = near_cosine + point.cosine;
+        const Real squares = multiply_add(sum, sum, point.from_near * point.from_near);
+        const Real step = (twice_near_distance * point.from_near) * sum / (point.cosine * squares);
+        const Vec3<Real> p = multiply_add(min(step, length), inward, near);
+        // A point much closer to the origin than both ends would suffer from their rounding. It lies far from them.
+        const auto beside = point.cosine > Real(2) * near_cosine;
         if (!any(beside)) return p;
-        const Real l = distance * point.sine / point.cosine;
-        return select(beside, min(max(l, l0), l1) * s + distance * t, p);
+        const Real l = point.sine / (point.cosine * inverse_distance);
+        return select(beside, multiply_add(l, inward, closest), p);
     }
 
     /// Unit direction to a point.
     /// \param p its position.
-    NUSSELT_HD Vec3<Real> direction(const LinePoint<Real>& point, const Vec3<Real>& p) const noexcept {
-        Vec3<Real> wi = inverse_length(p) * p;
-        const auto beside = is_beside(point);
-        if (any(beside)) wi = select(beside, point.sine * s + point.cosine * t, wi);
-        return wi;
+    NUSSELT_INLINE Vec3<Real> direction(const LinePoint<Real>& point, const Vec3<Real>& p) const noexcept {
+        // The reciprocal of the distance is known up to rounding: a step of Newton's method replaces root and division.
+        const Real inverse = point.cosine * inverse_distance;
+        const Real squared = inverse * inverse * dot(p, p);
+        return (inverse * multiply_add(Real(-0.5), squared, Real(1.5))) * p;
     }
 
     /// The point in a unit direction that hits the segment up to rounding.
-    NUSSELT_HD LinePoint<Real> point_in(const Vec3<Real>& wi) const noexcept {
-        const Real along = dot(wi, s);
-        const Real across = max(dot(wi, t), Real(0));
+    /// \param sine_extent the difference of the sines of both ends.
+    NUSSELT_HD LinePoint<Real> point_in(const Vec3<Real>& wi, const Real& sine_extent) const noexcept {
+        const Real along = dot(wi, inward);
+        const Real across = max(inverse_distance * dot(wi, closest), Real(0));
         // The angle from the end on the same side of the closest point is acute.
         const auto before_closest = along < Real(0);
-        const Real end_sine = select(before_closest, s0, s1);
-        const Real end_cosine = select(before_closest, c0, c1);
+        const Real far_cosine = sqrt(one_minus_far_sine * (Real(2) - one_minus_far_sine));
+        const Real end_sine =
+            select(before_closest, one_plus_near_sine - Real(1), Real(1) - one_minus_far_sine);
+        const Real end_cosine = select(before_closest, near_cosine, far_cosine);
         const Real turned = difference_of_products(along, end_cosine, across, end_sine);
         const Real sin = max(select(before_closest, turned, -turned), Real(0));
         const Real cos = max(fma(along, end_sine, across * end_cosine), Real(0));
@@ -120,103 +231,20 @@ struct LineExtent {
         return {along, across, select(before_closest, step, rest), select(before_closest, rest, step)};
     }
 
-private:
-    /// Whether a point is much closer to the origin than both ends are.
-    NUSSELT_HD mask_t<Real> is_beside(const LinePoint<Real>& point) const noexcept {
-        return point.cosine > Real(2) * near_cosine;
+    Vec3<Real> near;       ///< the end nearer to the origin; the start if both are equally far
+    Vec3<Real> inward;     ///< s
+    Vec3<Real> closest;    ///< the point of the infinite line closest to the origin
+    Real inverse_distance; ///< of that point
+    Real length;
+    Real twice_near_distance; ///< of the near end from the origin
+    Real near_cosine;
+    Real one_plus_near_sine, one_minus_far_sine;
+
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.near, self.inward, self.closest, self.inverse_distance, self.length, self.twice_near_distance,
+              self.near_cosine, self.one_plus_near_sine, self.one_minus_far_sine);
     }
 };
-
-/// With coordinates of order one, a smaller distance of a line from the origin cannot be distinguished from rounding.
-template <class Scalar>
-inline constexpr Scalar kSmallestDistance = 4 * std::numeric_limits<Scalar>::epsilon();
-
-/// The part of a segment between two points of its line.
-/// \param p0, p1   the points; z only matters where it is the height above the surface.
-/// \param closest  vector to the closest point of the line.
-/// \param distance its length.
-/// \param l0, l1   coordinates of the points along the line.
-/// \param length   l1 - l0, which the caller may have more accurately.
-template <class Real>
-NUSSELT_INLINE LineExtent<Real>
-make_line_extent(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& closest,
-                 const Real& distance, const Real& l0, const Real& l1, const Real& length) noexcept {
-    LineExtent<Real> e;
-
-    // Set up the plane of the line and the origin (Peters 2021, linear lights, Sec. 3.1).
-    const auto passes_by = (distance > Real(kSmallestDistance<scalar_t<Real>>)) & (length > Real(0));
-    // If there is no light, any values will do that keep the formulas finite.
-    e.distance = select(passes_by, distance, Real(1));
-    e.s = s;
-    e.t = (Real(1) / e.distance) * closest;
-    e.length = length;
-    e.l0 = l0;
-    e.l1 = l1;
-
-    // Find sines and cosines of the angles of both ends, and their heights.
-    const Real r0 = sqrt(fma(l0, l0, e.distance * e.distance));
-    const Real r1 = sqrt(fma(l1, l1, e.distance * e.distance));
-    const Real inverse_r0 = Real(1) / r0;
-    const Real inverse_r1 = Real(1) / r1;
-    e.s0 = l0 * inverse_r0;
-    e.s1 = l1 * inverse_r1;
-    e.c0 = e.distance * inverse_r0;
-    e.c1 = e.distance * inverse_r1;
-    e.height0 = max(p0.z, Real(0)) / r0;
-    e.height1 = max(p1.z, Real(0)) / r1;
-
-    // One plus or minus a sine cancels for one sign of it; the squared cosine does not.
-    const Real one_plus_abs0 = Real(1) + abs(e.s0);
-    const Real one_plus_abs1 = Real(1) + abs(e.s1);
-    e.one_plus_s0 = select(e.s0 < Real(0), e.c0 * e.c0 / one_plus_abs0, one_plus_abs0);
-    e.one_minus_s1 = select(e.s1 > Real(0), e.c1 * e.c1 / one_plus_abs1, one_plus_abs1);
-
-    // Points are best found from the nearer end.
-    e.starts_near = r0 <= r1;
-    e.near = select(e.starts_near, p0, p1);
-    e.inward = select(e.starts_near, s, -s);
-    e.near_distance = min(r0, r1);
-    e.near_cosine = max(e.c0, e.c1);
-
-    // Find the angle between the ends. Its sine is the area of the triangle with the origin, never a difference.
-    e.sin_sweep = (length * inverse_r0) * e.c1;
-    const Real cos_sweep = fma(e.c0, e.c1, e.s0 * e.s1);
-    e.visible = passes_by & (e.sin_sweep > Real(0));
-    e.acute = cos_sweep > Real(0);
-    e.half_tangent = e.sin_sweep / (Real(1) + abs(cos_sweep));
-
-    // Find the difference of both sines (Eq. 1). Beyond a quarter of a turn the closest point lies between the ends,
-    // and they add up.
-    e.sine_extent = select(e.acute, e.half_tangent * (e.c0 + e.c1), e.s1 - e.s0);
-    return e;
-}
-
-template <class Real, class Single>
-NUSSELT_INLINE LineExtent<Real> broadcast(const LineExtent<Single>& e) noexcept {
-    return {broadcast<Real>(e.s),
-            broadcast<Real>(e.t),
-            Real(e.distance),
-            Real(e.length),
-            Real(e.l0),
-            Real(e.l1),
-            Real(e.s0),
-            Real(e.s1),
-            Real(e.c0),
-            Real(e.c1),
-            Real(e.height0),
-            Real(e.height1),
-            Real(e.one_plus_s0),
-            Real(e.one_minus_s1),
-            Real(e.sin_sweep),
-            Real(e.half_tangent),
-            Real(e.sine_extent),
-            broadcast<Real>(e.near),
-            broadcast<Real>(e.inward),
-            Real(e.near_distance),
-            Real(e.near_cosine),
-            mask_t<Real>(e.starts_near),
-            mask_t<Real>(e.acute),
-            mask_t<Real>(e.visible)};
-}
 
 NUSSELT_NAMESPACE_END

@@ -84,7 +84,10 @@ struct LobeLine {
         Vec3<Real> p1 = fma(l1, along, closest);
         p0.z = fma(part.begin, slope, height);
         p1.z = fma(part.end, slope, height);
-        return make_line_extent(along, p0, p1, closest, distance, l0, l1, (part.end - part.begin) * stretch);
+        const auto passes_by = distance > Real(kSmallestDistance<scalar_t<Real>>);
+        const Real length = (part.end - part.begin) * stretch;
+        return make_line_extent(line_between(along, p0, p1, closest, select(passes_by, distance * distance, Real(1)), l0,
+                                             l1, select(passes_by, length, Real(0))));
     }
 
     /// The piece of a part that is above the horizon of the lobe.
