@@ -6,16 +6,11 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// The largest coordinate of a segment by magnitude, or its length if that is larger [m].
-template <class Real>
-NUSSELT_INLINE Real extent_of(const LineSegment<Real>& line) noexcept {
-    return max(max(max(abs(line.p0.x), abs(line.p0.y)), abs(line.p0.z)), line.length);
-}
-
 /// Power of two that brings the coordinates of a segment to order one, so that their squares stay in range.
 template <class Real>
 NUSSELT_INLINE Real scale_of(const LineSegment<Real>& line) noexcept {
-    return reciprocal_power_of_two(extent_of(line));
+    return reciprocal_power_of_two(
+        max(max(max(abs(line.p0.x), abs(line.p0.y)), abs(line.p0.z)), line.length));
 }
 
 template <class Real>
@@ -30,7 +25,7 @@ NUSSELT_INLINE Vec3<Real> end_of(const LineSegment<Real>& line) noexcept {
     return fma(line.length, line.s, line.p0);
 }
 
-/// With coordinates of order one, a smaller distance of a line from the origin cannot be distinguished from rounding.
+/// A smaller distance of a line from the origin, relative to that of its points, cannot be distinguished from rounding.
 template <class Scalar>
 inline constexpr Scalar kSmallestDistance = 4 * std::numeric_limits<Scalar>::epsilon();
 
@@ -38,25 +33,27 @@ inline constexpr Scalar kSmallestDistance = 4 * std::numeric_limits<Scalar>::eps
 template <class Real>
 struct SafeLine {
     LineSegment<Real> line;
-    Real smallest_distance; ///< of the infinite line that can be distinguished from rounding
-    Real scale;             ///< a power of two by which it is larger than the original
+    Real squared_reach; ///< squared distance of the start, plus squared length
+    Real scale;         ///< a power of two by which it is larger than the original
     Real inverse_scale;
 };
+
+template <class Real>
+NUSSELT_INLINE Real squared_reach(const LineSegment<Real>& line) noexcept {
+    return multiply_add(line.length, line.length, dot(line.p0, line.p0));
+}
 
 /// Scales a segment only if it is very large or very small: then, nothing waits for the scale of the others.
 template <class Real>
 NUSSELT_INLINE SafeLine<Real> to_safe_extent(const LineSegment<Real>& line) noexcept {
-    using Scalar = scalar_t<Real>;
-    constexpr Scalar kLargest = power_of_two<Scalar>(16);
-    constexpr Scalar kSmallest = 1 / kLargest;
-    const Real extent = extent_of(line);
-    SafeLine<Real> safe{line, extent * Real(kSmallestDistance<Scalar>), Real(1), Real(1)};
-    const auto fits = (extent < Real(kLargest)) & (extent > Real(kSmallest));
+    constexpr scalar_t<Real> kLargest = power_of_two<scalar_t<Real>>(32);
+    SafeLine<Real> safe{line, squared_reach(line), Real(1), Real(1)};
+    const auto fits = (safe.squared_reach < Real(kLargest)) & (safe.squared_reach > Real(1 / kLargest));
     if (!all(fits)) {
-        safe.scale = select(fits, Real(1), reciprocal_power_of_two(extent));
+        safe.scale = select(fits, Real(1), scale_of(line));
         safe.inverse_scale = reciprocal_power_of_two(safe.scale);
         safe.line = scaled(line, safe.scale);
-        safe.smallest_distance = safe.scale * extent * Real(kSmallestDistance<Scalar>);
+        safe.squared_reach = squared_reach(safe.line);
     }
     return safe;
 }
@@ -75,7 +72,8 @@ NUSSELT_INLINE CenteredLine<Real> centered(const SafeLine<Real>& safe) noexcept 
     const Vec3<Real> nearly = fma(-along, s, p0);
     const Real rest = dot(nearly, s);
     const Real squared = multiply_add(-rest, rest, dot(nearly, nearly));
-    const auto passes_by = squared > safe.smallest_distance * safe.smallest_distance;
+    constexpr Scalar kSmallest = kSmallestDistance<Scalar> * kSmallestDistance<Scalar>;
+    const auto passes_by = squared > Real(kSmallest) * safe.squared_reach;
 
     // Go from the near end to the far one. Either has a distance of 0 from the start. The end points are rounded once:
     // where one is close to the origin, adding the length to its coordinates would turn its direction.
@@ -97,17 +95,21 @@ NUSSELT_INLINE CenteredLine<Real> centered(const SafeLine<Real>& safe) noexcept 
 /// Removes the part with z < 0. The line stays; only an end point moves, to z = 0 exactly.
 template <class Real>
 NUSSELT_INLINE void clip_to_horizon(CenteredLine<Real>& line) noexcept {
+    if (all(min(line.near.z, line.far_z) > Real(kTiny<scalar_t<Real>>))) return;
     // Tell which ends lie above the horizon.
     const Real near_z = without_tiny(line.near.z);
     const Real far_z = without_tiny(line.far_z);
-    if (all(min(near_z, far_z) > Real(0))) return;
     const auto rises = (near_z < Real(0)) & (far_z > Real(0));
     const auto falls = (near_z > Real(0)) & (far_z < Real(0));
     const auto crosses = rises | falls;
     const auto all_above =
         (near_z >= Real(0)) & (far_z >= Real(0)) & (max(line.near.z, line.far_z) > Real(0));
     line.length = select(crosses | all_above, line.length, Real(0));
-    if (!any(crosses)) return;
+    if (!any(crosses)) {
+        line.near.z = max(line.near.z, Real(0));
+        line.far_z = max(line.far_z, Real(0));
+        return;
+    }
 
     // Find the crossing with the horizon.
     const Real slope = select(crosses, line.inward.z, Real(1));
@@ -133,6 +135,8 @@ NUSSELT_INLINE void clip_to_horizon(CenteredLine<Real>& line) noexcept {
     line.inward = turn * line.inward;
     line.sign = turn * line.sign;
     line.length = select(crosses, remaining, line.length);
+    line.near.z = max(line.near.z, Real(0));
+    line.far_z = max(line.far_z, Real(0));
 }
 
 /// The extent of a whole segment, in any frame.
@@ -166,16 +170,13 @@ struct CosineIntegral {
     Real near, far;       ///< the integrals between the ends and the middle
 
     NUSSELT_INLINE explicit CosineIntegral(const LineExtent<Real>& e, const Real& n_t) noexcept {
-        // The direction to the middle is the sum of both unit directions, whose length is twice the cosine of half the
-        // angle between them. The sum of the sines does not cancel here.
-        const Real sines = e.one_plus_near_sine - e.one_minus_far_sine;
-        const Real cosines = e.near_cosine + e.far_cosine;
-        const Real squared = multiply_add(sines, sines, cosines * cosines);
-        const Real inverse = Real(1) / sqrt(squared);
-        middle_cosine = cosines * inverse;
+        // The direction to the middle is the sum of both unit directions, over twice the cosine of half the angle between
+        // them.
+        const Real root = sqrt(Real(2) * e.product * e.one_plus_cosine);
+        const Real inverse = e.product / root;
+        middle_cosine = (e.near_cosine + e.far_cosine) * inverse;
         middle_height = (e.near_height + e.far_height) * inverse;
-        quarter_tangent =
-            (e.sin_sweep * inverse) / multiply_add(Real(0.5) * squared, inverse, Real(1));
+        quarter_tangent = e.area / (e.one_plus_cosine + root);
         from_near = quarter_tangent * (middle_cosine + e.near_cosine);
         to_far = quarter_tangent * (middle_cosine + e.far_cosine);
         bend = n_t * angle_minus_sine(quarter_tangent);
@@ -196,7 +197,7 @@ template <class Real>
 NUSSELT_HD inline Real solid_angle(const LineSegment<Real>& line) noexcept {
     const auto safe = to_safe_extent(line);
     const LineExtent<Real> e = whole_extent(safe);
-    return select(e.visible, Real(2) * e.sine_extent * e.inverse_distance * safe.scale, Real(0));
+    return select(e.visible(), Real(2) * e.sine_extent() * e.inverse_distance * safe.scale, Real(0));
 }
 
 /// Projected solid angle per radius of the part of a linear light above the horizon in the limit of a thin
@@ -205,7 +206,7 @@ template <class Real>
 NUSSELT_HD inline Real projected_solid_angle(const LineSegment<Real>& line) noexcept {
     const auto safe = to_safe_extent(line);
     const LineExtent<Real> e = clipped_extent(safe);
-    return select(e.visible, cosine_integral(e) * e.inverse_distance * safe.scale, Real(0));
+    return select(e.visible(), cosine_integral(e) * e.inverse_distance * safe.scale, Real(0));
 }
 
 NUSSELT_NAMESPACE_END

@@ -86,16 +86,20 @@ struct LineExtent {
     Real near_distance;              ///< of the near end from the origin
     Real near_cosine, far_cosine;
     Real one_plus_near_sine, one_minus_far_sine; ///< accurate relative to themselves
-    Real near_height, far_height; ///< z of the unit directions to the end points, not negative
-    Real sin_sweep;               ///< sine of the angle between the end points, which is at most half a turn
-    Real sine_extent;             ///< far sine minus near sine, accurate relative to itself
-    mask_t<Real> visible;         ///< false if the segment has no length or its line passes through the origin
+    Real near_height, far_height; ///< z of the unit directions to the end points
+    Real product;                 ///< of the distances of both ends
+    Real area;                    ///< product times the sine of the angle between the ends, at most half a turn
+    Real one_plus_cosine;         ///< product times one plus the cosine of that angle
 
     NUSSELT_HD Real near_sine() const noexcept { return one_plus_near_sine - Real(1); }
     NUSSELT_HD Real far_sine() const noexcept { return Real(1) - one_minus_far_sine; }
-    NUSSELT_HD Real cos_sweep() const noexcept {
-        return fma(near_cosine, far_cosine, near_sine() * far_sine());
+    /// Far sine minus near sine, accurate relative to itself (Eq. 1).
+    NUSSELT_HD Real sine_extent() const noexcept {
+        // The tangent of half the angle between the ends times the sum of the cosines.
+        return area / one_plus_cosine * (near_cosine + far_cosine);
     }
+    /// False if the segment has no length or its line passes through the origin.
+    NUSSELT_HD mask_t<Real> visible() const noexcept { return area > Real(0); }
 };
 
 /// The extent of a segment.
@@ -104,7 +108,6 @@ NUSSELT_INLINE LineExtent<Real> make_line_extent(const CenteredLine<Real>& line)
     using Scalar = scalar_t<Real>;
     // Find the cosines of the angles of both ends, and their heights.
     const Real d = sqrt(line.squared);
-    const Real inverse_d = Real(1) / d;
     const Real near_r = sqrt(multiply_add(line.near_l, line.near_l, line.squared));
     const Real far_r = sqrt(multiply_add(line.far_l, line.far_l, line.squared));
     const Real near_sum = near_r + abs(line.near_l);
@@ -122,32 +125,33 @@ NUSSELT_INLINE LineExtent<Real> make_line_extent(const CenteredLine<Real>& line)
         multiply_add(line.squared, near_inverse, (line.near_l + abs(line.near_l)) * inverse_near_r);
     const Real one_minus_far = line.squared * far_inverse;
 
-    // Find the difference of both sines (Eq. 1): the tangent of half the angle between the ends times the sum of the
-    // cosines. The sine of the angle is the area of the triangle with the origin, never a difference. For angles near half
-    // a turn, the cosine cancels, but the sines add up.
-    const Real area = line.length * d;
+    // Describe the angle between the ends. Its sine is the area of the triangle with the origin, never a difference. One
+    // plus its cosine cancels near half a turn, where the sum of the unit vectors to both ends does not.
     const Real product = near_r * far_r;
     const Real cosine = multiply_add(line.near_l, line.far_l, line.squared);
-    const auto is_wide = cosine < Real(Scalar(-0.5)) * product;
-    Real sine_extent = area / (product + cosine) * (near_cosine + far_cosine);
-    if (any(is_wide))
-        sine_extent =
-            select(is_wide & (line.length > Real(0)),
-                   (Real(1) - one_plus_near) + (Real(1) - one_minus_far), sine_extent);
-    const Real sin_sweep = area * inverse_near_r * inverse_far_r;
-    return {line,
+    Real one_plus_cosine = product + cosine;
+    const auto is_wide = one_plus_cosine < Real(Scalar(0.5)) * product;
+    if (any(is_wide)) {
+        const Real sines = one_plus_near - one_minus_far;
+        const Real cosines = near_cosine + far_cosine;
+        const Real squared = multiply_add(sines, sines, cosines * cosines);
+        one_plus_cosine = select(is_wide, Real(Scalar(0.5)) * product * squared, one_plus_cosine);
+    }
+    // Member by member: as a whole, g++ would copy packs by way of memory.
+    return {{line.near, line.inward, line.closest, line.squared, line.near_l, line.far_l, line.far_z, line.length,
+             line.sign},
             d,
-            inverse_d,
+            Real(1) / d,
             near_r,
             near_cosine,
             far_cosine,
             one_plus_near,
             one_minus_far,
-            max(line.near.z, Real(0)) * inverse_near_r,
-            max(line.far_z, Real(0)) * inverse_far_r,
-            sin_sweep,
-            sine_extent,
-            mask_t<Real>((line.length > Real(0)) & (sin_sweep > Real(0)))};
+            line.near.z * inverse_near_r,
+            line.far_z * inverse_far_r,
+            product,
+            line.length * d,
+            one_plus_cosine};
 }
 
 /// A point of a segment, given by sine and cosine of its angle alpha.
@@ -206,10 +210,8 @@ struct LineMap {
     /// Unit direction to a point.
     /// \param p its position.
     NUSSELT_INLINE Vec3<Real> direction(const LinePoint<Real>& point, const Vec3<Real>& p) const noexcept {
-        // The reciprocal of the distance is known up to rounding: a step of Newton's method replaces root and division.
-        const Real inverse = point.cosine * inverse_distance;
-        const Real squared = inverse * inverse * dot(p, p);
-        return (inverse * multiply_add(Real(-0.5), squared, Real(1.5))) * p;
+        // The point is as far away as the closest one over the cosine.
+        return (point.cosine * inverse_distance) * p;
     }
 
     /// The point in a unit direction that hits the segment up to rounding.

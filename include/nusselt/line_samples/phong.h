@@ -64,7 +64,7 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
     constexpr GaussLegendre<Scalar, Quadrature::kNodes> kRule;
     const Real half_turn = Real(kPi<Scalar>);
     const Real quarter_turn = Real(kPi<Scalar> / 2);
-    if (!any(e.visible)) return Real(0);
+    if (!any(e.visible())) return Real(0);
 
     // Find the angles from the near end, theta, and from the mirrored direction in the plane of line and origin, u.
     const Vec3<Real> t = e.inverse_distance * e.line.closest;
@@ -72,7 +72,8 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
     const Real mirror_t = dot(mirror, t);
     const Real mirror_aside = dot(mirror, cross(e.line.inward, t));
     const Real near_sine = e.near_sine();
-    const Real sweep = atan2_positive(e.sin_sweep, e.cos_sweep());
+    const Real cos_sweep = e.one_plus_cosine - e.product; // times the product
+    const Real sweep = atan2_positive(e.area, cos_sweep);
     Real u0 = detail::signed_angle(difference_of_products(near_sine, mirror_t, e.near_cosine, mirror_s),
                                    fma(e.near_cosine, mirror_t, near_sine * mirror_s));
     u0 = select(u0 > quarter_turn, u0 - Real(2) * half_turn, u0);
@@ -86,9 +87,8 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
     const Real u_begin = max(u0, -cut);
 
     // Find the cosine at the line and with the normal, from their values and derivatives at the near end.
-    const Real cos_sweep = e.cos_sweep();
     const Real slope =
-        select(cos_sweep > Real(0), (e.far_height - e.near_height * cos_sweep) / e.sin_sweep,
+        select(cos_sweep > Real(0), (e.far_height * e.product - e.near_height * cos_sweep) / e.area,
                difference_of_products(e.line.inward.z, e.near_cosine, t.z, near_sine));
     const Real in_plane = sqrt(fma(mirror_s, mirror_s, mirror_t * mirror_t));
     const Real log_aside = negative_log_of_cosine(SinCos<Real>{mirror_aside, in_plane});
@@ -104,7 +104,7 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
         const Real logarithm = log_aside + negative_log_of_cosine(sincos_quarter_turn(u));
         sum = fma(Real(kRule.weight(i)) * cosine, height * exp_of_negative(exponent * logarithm), sum);
     }
-    const auto lit = e.visible & (width > Real(0)) & (mirror.z > Real(0));
+    const auto lit = e.visible() & (width > Real(0)) & (mirror.z > Real(0));
     const Real factor = Real(2) * phong_normalisation(exponent) * width * e.inverse_distance;
     return select(lit, factor * sum, Real(0));
 }
@@ -129,7 +129,7 @@ NUSSELT_HD inline Real phong_part(const LobeLine<Real>& cosine, const Interval<R
     // The factor of a cosine lobe has 1 / (2 pi distance), and the integral of the Phong lobe has the distance again.
     const Real half_cosine_at_light = Real(kPi<scalar_t<Real>>) * cosine.distance * cosine.factor;
     const LineExtent<Real> e = cosine.extent(cosine.clipped(part));
-    return select(e.visible, half_cosine_at_light * phong_integral(e, mirror, exponent), Real(0));
+    return select(e.visible(), half_cosine_at_light * phong_integral(e, mirror, exponent), Real(0));
 }
 
 NUSSELT_NAMESPACE_END

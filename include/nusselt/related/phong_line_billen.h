@@ -83,7 +83,7 @@ Real phong_integral_billen(const LineSegment<Real>& light, const Vec3<Real>& mir
     const Real mirror_s = dot(mirror, e.line.inward);
     const Real mirror_t = dot(mirror, t);
     const Real in_plane = std::hypot(mirror_s, mirror_t);
-    if (!e.visible || !(in_plane > 0) || !(mirror.z > 0)) return 0;
+    if (!e.visible() || !(in_plane > 0) || !(mirror.z > 0)) return 0;
     const Real cosine = mirror_t / in_plane;
     const Real sine = mirror_s / in_plane;
     const Real mirror_angle = std::atan2(sine, cosine);

@@ -45,11 +45,11 @@ public:
         const Real near_inverse = Real(1) / from_near_;
         const Real far_inverse = Real(1) / to_far_;
         const Real near_slope =
-            -near_inverse * multiply_add(near_inverse, halves.bend, extent.near_height - middle_height_);
+            near_inverse * multiply_add(near_inverse, halves.bend, extent.near_height - middle_height_);
         const Real far_slope =
             far_inverse * multiply_add(far_inverse, halves.bend, extent.far_height - middle_height_);
-        guess_linear_ = multiply_add(far_slope, halves.near, near_slope * halves.far);
-        guess_square_ = (far_slope - near_slope) * integral_;
+        guess_linear_ = multiply_add(far_slope, halves.near, -near_slope * halves.far);
+        guess_square_ = (far_slope + near_slope) * integral_;
     }
 
     /// Broadcasts an arc to all lanes of a pack.
@@ -62,9 +62,9 @@ public:
 
     /// E of the paper: 2 int cos(alpha) n . w(alpha) d alpha.
     NUSSELT_HD const Real& integral() const noexcept { return integral_; }
-    /// Its reciprocal, or 1 if it is 0.
+    /// Its reciprocal; finite if it is 0.
     NUSSELT_INLINE Real inverse_integral() const noexcept {
-        return Real(1) / select(integral_ > Real(0), integral_, Real(1));
+        return Real(1) / max(integral_, Real(std::numeric_limits<scalar_t<Real>>::min()));
     }
 
     /// \param u in [0, 1); increasing u moves from the start to the end.

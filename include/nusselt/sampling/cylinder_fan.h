@@ -51,21 +51,23 @@ struct UniformImportance {
     NUSSELT_HD static void clip(CenteredLine<Real>&) noexcept {}
     template <class Real>
     NUSSELT_HD static Real integral(const LineExtent<Real>& e) noexcept {
-        return Real(2) * e.sine_extent;
+        return Real(2) * e.sine_extent();
     }
     template <class Real>
     NUSSELT_HD static LinePoint<Real> point(const LineExtent<Real>& e, const Real& u) noexcept {
-        const Real from_start = u * e.sine_extent;
-        const Real to_end = e.sine_extent - from_start;
+        const Real sine_extent = e.sine_extent();
+        const Real from_start = u * sine_extent;
+        const Real to_end = sine_extent - from_start;
         const auto starts_near = e.line.sign > Real(0);
         return LineMap<Real>(e).point_at(select(starts_near, from_start, to_end),
                                          select(starts_near, to_end, from_start));
     }
     template <class Real>
     NUSSELT_HD static Real invert(const LineExtent<Real>& e, const Vec3<Real>& wi) noexcept {
-        const LinePoint<Real> point = LineMap<Real>(e).point_in(wi, e.sine_extent);
+        const Real sine_extent = e.sine_extent();
+        const LinePoint<Real> point = LineMap<Real>(e).point_in(wi, sine_extent);
         return below_one(select(e.line.sign > Real(0), point.from_near, point.to_far) /
-                         select(e.visible, e.sine_extent, Real(1)));
+                         select(e.visible(), sine_extent, Real(1)));
     }
 };
 
@@ -296,7 +298,7 @@ private:
         Importance::clip(line);
         h.extent = make_line_extent(line);
         const Real integral = Importance::integral(h.extent);
-        h.integral = select(h.extent.visible & is_finite(integral), integral, Real(0));
+        h.integral = select(h.extent.visible() & is_finite(integral), integral, Real(0));
         return h;
     }
 

@@ -71,13 +71,14 @@ protected:
 private:
     NUSSELT_INLINE LineSolidAngle(const SafeLine<Real>& safe, const LineExtent<Real>& extent) noexcept
         : map_(extent), inverse_scale_(safe.inverse_scale) {
-        const Real half = Real(0.5) * extent.sine_extent;
-        sine_scale_ = extent.line.sign * extent.sine_extent;
+        const Real sine_extent = extent.sine_extent();
+        const Real half = Real(0.5) * sine_extent;
+        sine_scale_ = extent.line.sign * sine_extent;
         sine_offset_ = half - extent.line.sign * half;
         // Eq. 1 in the limit of a radius of 0.
-        const Real solid_angle = Real(2) * extent.sine_extent;
-        const Real measure = solid_angle * extent.inverse_distance * safe.scale;
-        const Real density = extent.distance / solid_angle * inverse_scale_;
+        const Real measure = Real(2) * sine_extent * extent.inverse_distance * safe.scale;
+        const Real density = extent.one_plus_cosine * inverse_scale_ / (Real(2) * extent.line.length *
+                             (extent.near_cosine + extent.far_cosine));
         const auto lit = has_reciprocal(measure);
         measure_ = select(lit, measure, Real(0));
         pdf_ = select(lit, density, Real(0));
