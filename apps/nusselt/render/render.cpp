@@ -15,6 +15,7 @@
 #include "render_report.h"
 #include "render_settings.h"
 
+#include "base/file_checks.h"
 #include "base/stopwatch.h"
 #include "image/io.h"
 #include "image/layers.h"

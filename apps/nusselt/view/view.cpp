@@ -4,10 +4,12 @@
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 #include "apps/nusselt/render/render_backend.h"
+#include "apps/nusselt/render/render_files.h"
 #include "apps/nusselt/render/render_settings.h"
 #include "apps/nusselt/scene/camera.h"
 #include "apps/nusselt/scene/lights.h"
 
+#include "base/file_checks.h"
 #include "gpu/device.h"
 #include "render_vulkan/shadows/shadow_scene.h"
 #include "scene/rig/camera_file.h"

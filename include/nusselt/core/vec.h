@@ -52,8 +52,8 @@ NUSSELT_HD constexpr Vec2<Real>& operator/=(Vec2<Real>& a, const Real& s) noexce
     return a = a / s;
 }
 template <class Real>
-NUSSELT_HD constexpr Real dot(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
-    return a.x * b.x + a.y * b.y;
+NUSSELT_INLINE Real dot(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
+    return multiply_add(a.y, b.y, a.x * b.x);
 }
 
 template <class Real>
@@ -110,7 +110,7 @@ template <class Real>
 NUSSELT_INLINE Vec3<Real> fma(const Real& s, const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
     return {fma(s, a.x, b.x), fma(s, a.y, b.y), fma(s, a.z, b.z)};
 }
-/// s * a + b as fast as the processor can.
+/// s * a + b as multiply_add() computes it.
 template <class Real>
 NUSSELT_INLINE Vec3<Real> multiply_add(const Real& s, const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
     return {multiply_add(s, a.x, b.x), multiply_add(s, a.y, b.y), multiply_add(s, a.z, b.z)};
@@ -207,6 +207,14 @@ NUSSELT_INLINE Vec3<Real> normalize(const Vec3<Real>& a) noexcept {
     const Real squared = dot(scaled, scaled);
     const Real factor = select(squared > Real(0), Real(1) / sqrt(squared), Real(0));
     return factor * scaled;
+}
+
+/// Calls visit(member of to, member of from) for all members of two records.
+template <class To, class From, class Visit>
+NUSSELT_INLINE void visit_members(Vec3<To>& to, const Vec3<From>& from, const Visit& visit) noexcept {
+    visit(to.x, from.x);
+    visit(to.y, from.y);
+    visit(to.z, from.z);
 }
 
 /// The same vector in every lane of a pack, or in another precision.

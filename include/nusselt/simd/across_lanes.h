@@ -1,6 +1,6 @@
 #pragma once
-/// Operations across the lanes of Pack<float, 4> and Pack<float, 8>, for scalar code that takes the vertices of one
-/// light as lanes.
+/// Scalar code that takes the vertices of one light as lanes: operations across the lanes of Pack<float, L>, and records
+/// of such packs in memory.
 
 #include <nusselt/core/vec.h>
 #include <nusselt/simd/pack.h>
@@ -24,6 +24,13 @@ struct AcrossLanes {
         float lanes[L];
         p.store(lanes);
         return from([&](int i) { return lanes[indices[i]]; });
+    }
+    NUSSELT_INLINE static P sums_before(const P& p) noexcept {
+        float lanes[L];
+        p.store(lanes);
+        float sum[L] = {};
+        for (int i = 1; i < L; ++i) sum[i] = sum[i - 1] + lanes[i - 1];
+        return P::load(sum);
     }
     template <class Function>
     NUSSELT_INLINE static float reduce(const P& p, Function f) noexcept {
@@ -53,6 +60,13 @@ struct AcrossLanes<4> {
         p.store(lanes);
         return from([&](int i) { return lanes[indices[i]]; });
 #endif
+    }
+    NUSSELT_INLINE static P sums_before(const P& p) noexcept {
+        const auto by = [&](auto bytes) {
+            return P::from_native(_mm_castsi128_ps(_mm_slli_si128(_mm_castps_si128(p.native()), bytes)));
+        };
+        return by(std::integral_constant<int, 4>()) + by(std::integral_constant<int, 8>()) +
+               by(std::integral_constant<int, 12>());
     }
     template <class Function>
     NUSSELT_INLINE static float reduce(const P& p, Function f) noexcept {
@@ -85,6 +99,13 @@ struct AcrossLanes<8> {
         return from([&](int i) { return lanes[indices[i]]; });
 #endif
     }
+    NUSSELT_INLINE static P sums_before(const P& p) noexcept {
+        float lanes[8];
+        p.store(lanes);
+        float sum[8] = {};
+        for (int i = 1; i < 8; ++i) sum[i] = sum[i - 1] + lanes[i - 1];
+        return from([&](int i) { return sum[i]; });
+    }
     template <class Function>
     NUSSELT_INLINE static float reduce(const P& p, Function f) noexcept {
 #if defined(__AVX2__) && defined(__FMA__)
@@ -100,6 +121,9 @@ struct AcrossLanes<8> {
 #endif
 
 } // namespace detail
+
+/// The number of lanes in which scalar code keeps so many vertices.
+constexpr int lanes_for(int count) noexcept { return count <= 4 ? 4 : count <= 8 ? 8 : 16; }
 
 /// The pack whose lane i is f(i).
 template <int L, class Function>
@@ -126,6 +150,17 @@ NUSSELT_INLINE Vec3<Pack<float, L>> permute(const Vec3<Pack<float, L>>& v,
     return {permute(v.x, indices), permute(v.y, indices), permute(v.z, indices)};
 }
 
+/// Lane i of the result is the sum of lanes 0 to i - 1.
+template <int L>
+NUSSELT_INLINE Pack<float, L> sums_before(const Pack<float, L>& p) noexcept {
+    return detail::AcrossLanes<L>::sums_before(p);
+}
+/// \copydoc sums_before
+template <int L>
+NUSSELT_INLINE Vec3<Pack<float, L>> sums_before(const Vec3<Pack<float, L>>& v) noexcept {
+    return {sums_before(v.x), sums_before(v.y), sums_before(v.z)};
+}
+
 template <int L>
 NUSSELT_INLINE float largest_lane(const Pack<float, L>& p) noexcept {
     return detail::AcrossLanes<L>::reduce(p, [](auto a, auto b) { return max(a, b); });
@@ -138,5 +173,11 @@ template <int L>
 NUSSELT_INLINE float sum_of_lanes(const Pack<float, L>& p) noexcept {
     return detail::AcrossLanes<L>::reduce(p, [](auto a, auto b) { return a + b; });
 }
+
+/// L floats in memory, of which scalar code reads single ones.
+template <int L>
+struct StoredLanes {
+    float lane[L];
+};
 
 NUSSELT_NAMESPACE_END

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CORE_VEC_GLSL
 #define NUSSELT_CORE_VEC_GLSL
-// Follows include/nusselt/core/vec.h @ 663b44c8800a
+// Follows include/nusselt/core/vec.h @ 67fa311df98f
 /// Products that keep full relative precision, and norms without over- and underflow. Twin of
 /// include/nusselt/core/vec.h.
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_RELATED_POLYGON_SOLID_ANGLE_PETERS_GLSL
 #define NUSSELT_RELATED_POLYGON_SOLID_ANGLE_PETERS_GLSL
-// Follows include/nusselt/related/polygon_solid_angle_peters.h @ 8c3f6dc2d954
+// Follows include/nusselt/related/polygon_solid_angle_peters.h @ a94f0c4e52de
 /// A plain transcription of a published method, to compare with: accuracy and cost of the formulas as printed.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672: Sec. 5,
@@ -10,8 +10,8 @@
 /// Measure and space as polygon_solid_angle.glsl.
 
 #include "../core/light_sample.glsl"
-#include "../core/trig.glsl"
 #include "../geometry/convex_polygon.glsl"
+#include "peters_arithmetic.glsl"
 
 struct PolygonSolidAnglePeters {
     vec3 plane_normal;
@@ -44,7 +44,7 @@ PolygonSolidAnglePeters polygon_solid_angle_peters_prepare(ConvexPolygon light) 
         vec3 a = self.direction[j + 1];
         vec3 b = self.direction[j + 2];
         self.g[j] = vec3(abs(peters_determinant(a, c, b)), dot(a, b) + dot(c, b), 1.0 + dot(a, c));
-        self.solid_angle[j] = 2.0 * atan2_positive(self.g[j].x, self.g[j].y + self.g[j].z);
+        self.solid_angle[j] = 2.0 * peters_atan2_positive(self.g[j].x, self.g[j].y + self.g[j].z);
         self.total = self.total + self.solid_angle[j];
     }
     return self;
@@ -57,7 +57,8 @@ float polygon_solid_angle_peters_measure(PolygonSolidAnglePeters self) { return 
 float polygon_solid_angle_peters_pdf(PolygonSolidAnglePeters self, vec3 wi) { return 1.0 / self.total; }
 
 /// \param u in [0, 1)^2.
-LightSample polygon_solid_angle_peters_sample(PolygonSolidAnglePeters self, vec2 u) {
+/// \returns the direction alone, as the paper does; polygon_solid_angle_peters_sample() adds density and point.
+vec3 polygon_solid_angle_peters_direction(PolygonSolidAnglePeters self, vec2 u) {
     float part = u.x * self.total;
     vec3 a = self.direction[1];
     vec3 b = self.direction[2];
@@ -73,13 +74,18 @@ LightSample polygon_solid_angle_peters_sample(PolygonSolidAnglePeters self, vec2
             solid_angle = self.solid_angle[j];
         }
     }
-    SinCos half_angle = sincos_half_turn(0.5 * part);
+    SinCos half_angle = peters_sincos_half_turn(0.5 * part);
     vec3 r = (g.x * half_angle.cosine - g.y * half_angle.sine) * a + (g.z * half_angle.sine) * b;
     vec3 v = (2.0 * dot(a, r) / dot(r, r)) * r - a;
     float s2 = dot(c, v);
     float s = (1.0 - u.y) + s2 * u.y;
     float t = sqrt(nusselt_max((1.0 - s * s) / (1.0 - s2 * s2), 0.0));
-    vec3 wi = (s - t * s2) * c + t * v;
+    return (s - t * s2) * c + t * v;
+}
+
+/// \param u in [0, 1)^2.
+LightSample polygon_solid_angle_peters_sample(PolygonSolidAnglePeters self, vec2 u) {
+    vec3 wi = polygon_solid_angle_peters_direction(self, u);
     return LightSample(wi, 1.0 / self.total, (self.plane_distance / dot(self.plane_normal, wi)) * wi);
 }
 
