@@ -46,9 +46,10 @@ NUSSELT_INLINE Real squared_reach(const LineSegment<Real>& line) noexcept {
 /// Scales a segment only if it is very large or very small: then, nothing waits for the scale of the others.
 template <class Real>
 NUSSELT_INLINE SafeLine<Real> to_safe_extent(const LineSegment<Real>& line) noexcept {
-    constexpr scalar_t<Real> kLargest = power_of_two<scalar_t<Real>>(32);
+    constexpr scalar_t<Real> kLargest = power_of_two<scalar_t<Real>>(24);
+    constexpr scalar_t<Real> kSmallest = power_of_two<scalar_t<Real>>(-16);
     SafeLine<Real> safe{line, squared_reach(line), Real(1), Real(1)};
-    const auto fits = (safe.squared_reach < Real(kLargest)) & (safe.squared_reach > Real(1 / kLargest));
+    const auto fits = (safe.squared_reach < Real(kLargest)) & (safe.squared_reach > Real(kSmallest));
     if (!all(fits)) {
         safe.scale = select(fits, Real(1), scale_of(line));
         safe.inverse_scale = reciprocal_power_of_two(safe.scale);

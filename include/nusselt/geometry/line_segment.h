@@ -83,7 +83,7 @@ template <class Real>
 struct LineExtent {
     CenteredLine<Real> line;
     Real distance, inverse_distance; ///< of the infinite line from the origin
-    Real near_distance;              ///< of the near end from the origin
+    Real near_distance, far_distance; ///< of the end points
     Real near_cosine, far_cosine;
     Real one_plus_near_sine, one_minus_far_sine; ///< accurate relative to themselves
     Real near_height, far_height; ///< z of the unit directions to the end points
@@ -93,10 +93,10 @@ struct LineExtent {
 
     NUSSELT_HD Real near_sine() const noexcept { return one_plus_near_sine - Real(1); }
     NUSSELT_HD Real far_sine() const noexcept { return Real(1) - one_minus_far_sine; }
-    /// Far sine minus near sine, accurate relative to itself (Eq. 1).
+    /// Far sine minus near sine, accurate relative to itself (Eq. 1): the tangent of half the angle between the ends times
+    /// the sum of the cosines.
     NUSSELT_HD Real sine_extent() const noexcept {
-        // The tangent of half the angle between the ends times the sum of the cosines.
-        return area / one_plus_cosine * (near_cosine + far_cosine);
+        return area * (near_distance + far_distance) * distance / (product * one_plus_cosine);
     }
     /// False if the segment has no length or its line passes through the origin.
     NUSSELT_HD mask_t<Real> visible() const noexcept { return area > Real(0); }
@@ -143,6 +143,7 @@ NUSSELT_INLINE LineExtent<Real> make_line_extent(const CenteredLine<Real>& line)
             d,
             Real(1) / d,
             near_r,
+            far_r,
             near_cosine,
             far_cosine,
             one_plus_near,

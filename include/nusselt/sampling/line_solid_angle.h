@@ -77,8 +77,8 @@ private:
         sine_offset_ = half - extent.line.sign * half;
         // Eq. 1 in the limit of a radius of 0.
         const Real measure = Real(2) * sine_extent * extent.inverse_distance * safe.scale;
-        const Real density = extent.one_plus_cosine * inverse_scale_ / (Real(2) * extent.line.length *
-                             (extent.near_cosine + extent.far_cosine));
+        const Real density = extent.product * extent.one_plus_cosine /
+                             (Real(2) * extent.area * (extent.near_distance + extent.far_distance)) * inverse_scale_;
         const auto lit = has_reciprocal(measure);
         measure_ = select(lit, measure, Real(0));
         pdf_ = select(lit, density, Real(0));
