@@ -175,21 +175,23 @@ struct CosineIntegral {
         // them.
         const Real root = sqrt(Real(2) * e.product * e.one_plus_cosine);
         const Real inverse = e.product / root;
-        middle_cosine = (e.near_cosine + e.far_cosine) * inverse;
-        middle_height = (e.near_height + e.far_height) * inverse;
-        quarter_tangent = e.area / (e.one_plus_cosine + root);
-        from_near = quarter_tangent * (middle_cosine + e.near_cosine);
-        to_far = quarter_tangent * (middle_cosine + e.far_cosine);
+        const Real near_cosine = e.near_cosine(), far_cosine = e.far_cosine();
+        const Real near_height = e.near_height(), far_height = e.far_height();
+        middle_cosine = (near_cosine + far_cosine) * inverse;
+        middle_height = (near_height + far_height) * inverse;
+        quarter_tangent = e.area() / (e.one_plus_cosine + root);
+        from_near = quarter_tangent * (middle_cosine + near_cosine);
+        to_far = quarter_tangent * (middle_cosine + far_cosine);
         bend = n_t * angle_minus_sine(quarter_tangent);
-        near = max(multiply_add(from_near, middle_height + e.near_height, bend), Real(0));
-        far = max(multiply_add(to_far, middle_height + e.far_height, bend), Real(0));
+        near = max(multiply_add(from_near, middle_height + near_height, bend), Real(0));
+        far = max(multiply_add(to_far, middle_height + far_height, bend), Real(0));
     }
 };
 
 /// The integral from end to end.
 template <class Real>
 NUSSELT_INLINE Real cosine_integral(const LineExtent<Real>& e) noexcept {
-    const CosineIntegral<Real> halves(e, e.inverse_distance * e.line.closest.z);
+    const CosineIntegral<Real> halves(e, e.n_t());
     return halves.near + halves.far;
 }
 
@@ -198,7 +200,7 @@ template <class Real>
 NUSSELT_HD inline Real solid_angle(const LineSegment<Real>& line) noexcept {
     const auto safe = to_safe_extent(line);
     const LineExtent<Real> e = whole_extent(safe);
-    return select(e.visible(), Real(2) * e.sine_extent() * e.inverse_distance * safe.scale, Real(0));
+    return select(e.visible(), Real(2) * e.sine_density() * e.distance * safe.scale, Real(0));
 }
 
 /// Projected solid angle per radius of the part of a linear light above the horizon in the limit of a thin
@@ -207,7 +209,7 @@ template <class Real>
 NUSSELT_HD inline Real projected_solid_angle(const LineSegment<Real>& line) noexcept {
     const auto safe = to_safe_extent(line);
     const LineExtent<Real> e = clipped_extent(safe);
-    return select(e.visible(), cosine_integral(e) * e.inverse_distance * safe.scale, Real(0));
+    return select(e.visible(), cosine_integral(e) * e.inverse_distance() * safe.scale, Real(0));
 }
 
 NUSSELT_NAMESPACE_END

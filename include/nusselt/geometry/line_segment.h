@@ -82,85 +82,76 @@ NUSSELT_INLINE CenteredLine<Real> line_between(const Vec3<Real>& s, const Vec3<R
 template <class Real>
 struct LineExtent {
     CenteredLine<Real> line;
-    Real distance, inverse_distance; ///< of the infinite line from the origin
-    Real near_distance, far_distance; ///< of the end points
-    Real near_cosine, far_cosine;
-    Real one_plus_near_sine, one_minus_far_sine; ///< accurate relative to themselves
-    Real near_height, far_height; ///< z of the unit directions to the end points
-    Real product;                 ///< of the distances of both ends
-    Real area;                    ///< product times the sine of the angle between the ends, at most half a turn
-    Real one_plus_cosine;         ///< product times one plus the cosine of that angle
+    Real distance;                                   ///< of the infinite line from the origin
+    Real near_distance;                              ///< of the near end from the origin
+    Real near_inverse, far_inverse;                  ///< reciprocal distances of the ends
+    Real near_inverse_squared, far_inverse_squared;
+    Real product;         ///< of the distances of both ends
+    Real one_plus_cosine; ///< product times one plus the cosine of the angle between the ends, which is at most half a turn
 
-    NUSSELT_HD Real near_sine() const noexcept { return one_plus_near_sine - Real(1); }
-    NUSSELT_HD Real far_sine() const noexcept { return Real(1) - one_minus_far_sine; }
-    /// Far sine minus near sine, accurate relative to itself (Eq. 1): the tangent of half the angle between the ends times
-    /// the sum of the cosines.
-    NUSSELT_HD Real sine_extent() const noexcept {
-        return area * (near_distance + far_distance) * distance / (product * one_plus_cosine);
+    NUSSELT_INLINE Real inverse_distance() const noexcept { return Real(1) / distance; }
+    /// Component of the normal along t.
+    NUSSELT_INLINE Real n_t() const noexcept { return inverse_distance() * line.closest.z; }
+    NUSSELT_INLINE Real near_sine() const noexcept { return line.near_l * near_inverse; }
+    NUSSELT_INLINE Real far_sine() const noexcept { return line.far_l * far_inverse; }
+    NUSSELT_INLINE Real near_cosine() const noexcept { return distance * near_inverse; }
+    NUSSELT_INLINE Real far_cosine() const noexcept { return distance * far_inverse; }
+    /// z of the unit directions to the end points.
+    NUSSELT_INLINE Real near_height() const noexcept { return line.near.z * near_inverse; }
+    /// \copydoc near_height
+    NUSSELT_INLINE Real far_height() const noexcept { return line.far_z * far_inverse; }
+    /// The product times the sine of the angle between the ends: twice the area of the triangle with the origin.
+    NUSSELT_INLINE Real area() const noexcept { return line.length * distance; }
+    /// The difference of the sines of both ends over the squared distance of the line: the tangent of half the angle
+    /// between the ends times the sum of the cosines (Eq. 1), which does not cancel.
+    NUSSELT_INLINE Real sine_density() const noexcept {
+        return line.length * (near_inverse + far_inverse) / one_plus_cosine;
     }
+    /// Far sine minus near sine, accurate relative to itself.
+    NUSSELT_INLINE Real sine_extent() const noexcept { return line.squared * sine_density(); }
     /// False if the segment has no length or its line passes through the origin.
-    NUSSELT_HD mask_t<Real> visible() const noexcept { return area > Real(0); }
+    NUSSELT_INLINE mask_t<Real> visible() const noexcept { return area() > Real(0); }
 };
 
 /// The extent of a segment.
 template <class Real>
 NUSSELT_INLINE LineExtent<Real> make_line_extent(const CenteredLine<Real>& line) noexcept {
-    using Scalar = scalar_t<Real>;
-    // Find the cosines of the angles of both ends, and their heights.
-    const Real d = sqrt(line.squared);
-    const Real near_r = sqrt(multiply_add(line.near_l, line.near_l, line.squared));
-    const Real far_r = sqrt(multiply_add(line.far_l, line.far_l, line.squared));
-    const Real near_sum = near_r + abs(line.near_l);
-    const Real far_sum = far_r + line.far_l;
-    const Real near_inverse = Real(1) / (near_r * near_sum);
-    const Real far_inverse = Real(1) / (far_r * far_sum);
-    const Real inverse_near_r = near_inverse * near_sum;
-    const Real inverse_far_r = far_inverse * far_sum;
-    const Real near_cosine = d * inverse_near_r;
-    const Real far_cosine = d * inverse_far_r;
+    const Real near_squared = multiply_add(line.near_l, line.near_l, line.squared);
+    const Real far_squared = multiply_add(line.far_l, line.far_l, line.squared);
+    const Real near_inverse_squared = Real(1) / near_squared;
+    const Real far_inverse_squared = Real(1) / far_squared;
+    const Real near_distance = sqrt(near_squared);
+    const Real far_distance = sqrt(far_squared);
 
-    // One plus or minus a sine cancels for one sign of it. There, it follows from the squared cosine. The far end lies
-    // always beyond the closest point.
-    const Real one_plus_near =
-        multiply_add(line.squared, near_inverse, (line.near_l + abs(line.near_l)) * inverse_near_r);
-    const Real one_minus_far = line.squared * far_inverse;
-
-    // Describe the angle between the ends. Its sine is the area of the triangle with the origin, never a difference. One
-    // plus its cosine cancels near half a turn, where the sum of the unit vectors to both ends does not.
-    const Real product = near_r * far_r;
-    const Real cosine = multiply_add(line.near_l, line.far_l, line.squared);
-    Real one_plus_cosine = product + cosine;
-    const auto is_wide = one_plus_cosine < Real(Scalar(0.5)) * product;
+    // One plus a cosine cancels near half a turn, where the closest point lies between the ends.
+    const Real product = near_distance * far_distance;
+    const Real coordinates = line.near_l * line.far_l;
+    Real one_plus_cosine = product + (coordinates + line.squared);
+    const auto is_wide = one_plus_cosine < Real(scalar_t<Real>(0.5)) * product;
     if (any(is_wide)) {
-        const Real sines = one_plus_near - one_minus_far;
-        const Real cosines = near_cosine + far_cosine;
-        const Real squared = multiply_add(sines, sines, cosines * cosines);
-        one_plus_cosine = select(is_wide, Real(Scalar(0.5)) * product * squared, one_plus_cosine);
+        const Real squares = near_squared + line.far_l * line.far_l;
+        const Real sum = product - coordinates;
+        one_plus_cosine =
+            select(is_wide, line.squared * (Real(1) + squares / select(is_wide, sum, Real(1))), one_plus_cosine);
     }
     // Member by member: as a whole, g++ would copy packs by way of memory.
     return {{line.near, line.inward, line.closest, line.squared, line.near_l, line.far_l, line.far_z, line.length,
              line.sign},
-            d,
-            Real(1) / d,
-            near_r,
-            far_r,
-            near_cosine,
-            far_cosine,
-            one_plus_near,
-            one_minus_far,
-            line.near.z * inverse_near_r,
-            line.far_z * inverse_far_r,
+            sqrt(line.squared),
+            near_distance,
+            near_distance * near_inverse_squared,
+            far_distance * far_inverse_squared,
+            near_inverse_squared,
+            far_inverse_squared,
             product,
-            line.length * d,
             one_plus_cosine};
 }
 
-/// A point of a segment, given by sine and cosine of its angle alpha.
+/// A point of a segment.
 template <class Real>
 struct LinePoint {
-    Real sine, cosine; ///< of alpha
-    Real from_near;    ///< sine minus that of the near end, accurate relative to itself
-    Real to_far;       ///< sine of the far end minus this one, likewise
+    Real share;            ///< sine of its angle minus that of the near end, over that of the far end minus that of the near end
+    Real inverse_distance; ///< reciprocal distance from the origin
 };
 
 /// The map from sines of angles to directions and points of a segment.
@@ -173,12 +164,16 @@ struct LineMap {
         : near(e.line.near),
           inward(e.line.inward),
           closest(e.line.closest),
-          inverse_distance(e.inverse_distance),
           length(e.line.length),
-          twice_near_distance(Real(2) * e.near_distance),
-          near_cosine(e.near_cosine),
-          one_plus_near_sine(e.one_plus_near_sine),
-          one_minus_far_sine(e.one_minus_far_sine) {}
+          near_inverse(e.near_inverse),
+          near_inverse_squared(e.near_inverse_squared),
+          far_inverse_squared(e.far_inverse_squared),
+          near_sine(e.near_sine()) {
+        const Real density = e.sine_density();
+        sine_extent = e.line.squared * density;
+        squared_density = sine_extent * density;
+        step_scale = Real(2) * e.near_distance * density;
+    }
 
     /// Broadcasts a map to all lanes of a pack.
     template <class Single>
@@ -186,67 +181,73 @@ struct LineMap {
         broadcast_members<Real>(*this, single);
     }
 
-    /// \param from_near, to_far not negative; they add up to the difference of the sines of both ends.
-    NUSSELT_INLINE LinePoint<Real> point_at(const Real& from_near, const Real& to_far) const noexcept {
-        // The square of the cosine is (1 + sine) (1 - sine): sums of positive terms.
-        const Real one_plus_sine = one_plus_near_sine + from_near;
-        return {one_plus_sine - Real(1), sqrt(one_plus_sine * (one_minus_far_sine + to_far)), from_near, to_far};
+    /// \param share in [0, 1], see LinePoint.
+    NUSSELT_INLINE LinePoint<Real> point_at(const Real& share) const noexcept {
+        // With sines (1 - x) s0 + x s1, the squared cosines are (1 - x) c0^2 + x c1^2 + x (1 - x) (s1 - s0)^2: a sum of
+        // positive terms. Here it is divided by the squared distance of the line.
+        const Real rest = Real(1) - share;
+        const Real near_part = multiply_add(share, squared_density, near_inverse_squared);
+        return {share, sqrt(multiply_add(share, far_inverse_squared, rest * near_part))};
+    }
+
+    NUSSELT_INLINE Real sine_at(const Real& share) const noexcept {
+        return multiply_add(share, sine_extent, near_sine);
     }
 
     /// The point itself, on the segment.
     NUSSELT_INLINE Vec3<Real> position(const LinePoint<Real>& point) const noexcept {
-        // The nearer end is the more accurate place to start from. The step is 2 sin(theta / 2) cos(theta / 2)
-        // times its distance over the cosine of alpha, with tan(theta / 2) = from_near / sum.
-        const Real sum = near_cosine + point.cosine;
-        const Real squares = multiply_add(sum, sum, point.from_near * point.from_near);
-        const Real step = (twice_near_distance * point.from_near) * sum / (point.cosine * squares);
+        // The nearer end is the more accurate place to start from. With the tangent T of half the angle between that end and
+        // the point, the step is 2 T / (1 + T^2) times the distance of the end over the cosine of alpha.
+        const Real sum = near_inverse + point.inverse_distance;
+        const Real squares = multiply_add(sum, sum, point.share * point.share * squared_density);
+        const Real step = (step_scale * point.share) * sum / (point.inverse_distance * squares);
         const Vec3<Real> p = multiply_add(min(step, length), inward, near);
         // A point much closer to the origin than both ends would suffer from their rounding. It lies far from them.
-        const auto beside = point.cosine > Real(2) * near_cosine;
+        const auto beside = point.inverse_distance > Real(2) * near_inverse;
         if (!any(beside)) return p;
-        const Real l = point.sine / (point.cosine * inverse_distance);
+        const Real l = sine_at(point.share) / point.inverse_distance;
         return select(beside, multiply_add(l, inward, closest), p);
     }
 
     /// Unit direction to a point.
     /// \param p its position.
     NUSSELT_INLINE Vec3<Real> direction(const LinePoint<Real>& point, const Vec3<Real>& p) const noexcept {
-        // The point is as far away as the closest one over the cosine.
-        return (point.cosine * inverse_distance) * p;
+        return point.inverse_distance * p;
     }
 
-    /// The point in a unit direction that hits the segment up to rounding.
-    /// \param sine_extent the difference of the sines of both ends.
-    NUSSELT_HD LinePoint<Real> point_in(const Vec3<Real>& wi, const Real& sine_extent) const noexcept {
+    /// The share of the point in a unit direction that hits the segment up to rounding, in [0, 1].
+    NUSSELT_HD Real share_in(const Vec3<Real>& wi) const noexcept {
+        const Real distance = sqrt(dot(closest, closest));
+        const auto apart = distance > Real(0);
         const Real along = dot(wi, inward);
-        const Real across = max(inverse_distance * dot(wi, closest), Real(0));
+        const Real across = max(dot(wi, closest) / select(apart, distance, Real(1)), Real(0));
         // The angle from the end on the same side of the closest point is acute.
         const auto before_closest = along < Real(0);
-        const Real far_cosine = sqrt(one_minus_far_sine * (Real(2) - one_minus_far_sine));
-        const Real end_sine =
-            select(before_closest, one_plus_near_sine - Real(1), Real(1) - one_minus_far_sine);
-        const Real end_cosine = select(before_closest, near_cosine, far_cosine);
+        const Real end_sine = select(before_closest, near_sine, near_sine + sine_extent);
+        const Real end_cosine = distance * select(before_closest, near_inverse, sqrt(far_inverse_squared));
         const Real turned = difference_of_products(along, end_cosine, across, end_sine);
         const Real sin = max(select(before_closest, turned, -turned), Real(0));
         const Real cos = max(fma(along, end_sine, across * end_cosine), Real(0));
-        const Real step = min(sin / (Real(1) + cos) * (end_cosine + across), sine_extent);
-        const Real rest = sine_extent - step;
-        return {along, across, select(before_closest, step, rest), select(before_closest, rest, step)};
+        const Real sines = sin / (Real(1) + cos) * (end_cosine + across);
+        const Real share = min(sines / select(sine_extent > Real(0), sine_extent, Real(1)), Real(1));
+        return select(before_closest, share, Real(1) - share);
     }
 
-    Vec3<Real> near;       ///< the end nearer to the origin; the start if both are equally far
-    Vec3<Real> inward;     ///< s
-    Vec3<Real> closest;    ///< the point of the infinite line closest to the origin
-    Real inverse_distance; ///< of that point
+    Vec3<Real> near;    ///< the end nearer to the origin
+    Vec3<Real> inward;  ///< s
+    Vec3<Real> closest; ///< the point of the infinite line closest to the origin
     Real length;
-    Real twice_near_distance; ///< of the near end from the origin
-    Real near_cosine;
-    Real one_plus_near_sine, one_minus_far_sine;
+    Real near_inverse; ///< reciprocal distance of the near end
+    Real near_inverse_squared, far_inverse_squared;
+    Real near_sine, sine_extent; ///< far sine minus near sine, accurate relative to itself
+    Real squared_density;        ///< of sine_extent over the distance of the line
+    Real step_scale;
 
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.near, self.inward, self.closest, self.inverse_distance, self.length, self.twice_near_distance,
-              self.near_cosine, self.one_plus_near_sine, self.one_minus_far_sine);
+        visit(self.near, self.inward, self.closest, self.length, self.near_inverse, self.near_inverse_squared,
+              self.far_inverse_squared, self.near_sine, self.sine_extent, self.squared_density,
+              self.step_scale);
     }
 };
 

@@ -67,15 +67,17 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
     if (!any(e.visible())) return Real(0);
 
     // Find the angles from the near end, theta, and from the mirrored direction in the plane of line and origin, u.
-    const Vec3<Real> t = e.inverse_distance * e.line.closest;
+    const Vec3<Real> t = e.inverse_distance() * e.line.closest;
     const Real mirror_s = dot(mirror, e.line.inward);
     const Real mirror_t = dot(mirror, t);
     const Real mirror_aside = dot(mirror, cross(e.line.inward, t));
     const Real near_sine = e.near_sine();
+    const Real near_cosine = e.near_cosine();
+    const Real near_height = e.near_height();
     const Real cos_sweep = e.one_plus_cosine - e.product; // times the product
-    const Real sweep = atan2_positive(e.area, cos_sweep);
-    Real u0 = detail::signed_angle(difference_of_products(near_sine, mirror_t, e.near_cosine, mirror_s),
-                                   fma(e.near_cosine, mirror_t, near_sine * mirror_s));
+    const Real sweep = atan2_positive(e.area(), cos_sweep);
+    Real u0 = detail::signed_angle(difference_of_products(near_sine, mirror_t, near_cosine, mirror_s),
+                                   fma(near_cosine, mirror_t, near_sine * mirror_s));
     u0 = select(u0 > quarter_turn, u0 - Real(2) * half_turn, u0);
     const Real u1 = u0 + sweep;
 
@@ -88,8 +90,8 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
 
     // Find the cosine at the line and with the normal, from their values and derivatives at the near end.
     const Real slope =
-        select(cos_sweep > Real(0), (e.far_height * e.product - e.near_height * cos_sweep) / e.area,
-               difference_of_products(e.line.inward.z, e.near_cosine, t.z, near_sine));
+        select(cos_sweep > Real(0), (e.far_height() * e.product - near_height * cos_sweep) / e.area(),
+               difference_of_products(e.line.inward.z, near_cosine, t.z, near_sine));
     const Real in_plane = sqrt(fma(mirror_s, mirror_s, mirror_t * mirror_t));
     const Real log_aside = negative_log_of_cosine(SinCos<Real>{mirror_aside, in_plane});
 
@@ -98,14 +100,14 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
     for (int i = 0; i < Quadrature::kNodes; ++i) {
         const Real step = Real(kRule.node(i)) * width;
         const SinCos<Real> turn = sincos_half_turn(min(max(skipped + step, Real(0)), half_turn));
-        const Real cosine = max(difference_of_products(e.near_cosine, turn.cos, near_sine, turn.sin), Real(0));
-        const Real height = max(fma(slope, turn.sin, e.near_height * turn.cos), Real(0));
+        const Real cosine = max(difference_of_products(near_cosine, turn.cos, near_sine, turn.sin), Real(0));
+        const Real height = max(fma(slope, turn.sin, near_height * turn.cos), Real(0));
         const Real u = min(abs(u_begin + step), quarter_turn);
         const Real logarithm = log_aside + negative_log_of_cosine(sincos_quarter_turn(u));
         sum = fma(Real(kRule.weight(i)) * cosine, height * exp_of_negative(exponent * logarithm), sum);
     }
     const auto lit = e.visible() & (width > Real(0)) & (mirror.z > Real(0));
-    const Real factor = Real(2) * phong_normalisation(exponent) * width * e.inverse_distance;
+    const Real factor = Real(2) * phong_normalisation(exponent) * width * e.inverse_distance();
     return select(lit, factor * sum, Real(0));
 }
 

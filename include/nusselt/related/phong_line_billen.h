@@ -79,7 +79,7 @@ Real phong_integral_billen(const LineSegment<Real>& light, const Vec3<Real>& mir
                            const CosinePower& power) noexcept {
     const auto unit = to_safe_extent(light);
     const LineExtent<Real> e = clipped_extent(unit);
-    const Vec3<Real> t = e.inverse_distance * e.line.closest;
+    const Vec3<Real> t = e.inverse_distance() * e.line.closest;
     const Real mirror_s = dot(mirror, e.line.inward);
     const Real mirror_t = dot(mirror, t);
     const Real in_plane = std::hypot(mirror_s, mirror_t);
@@ -87,8 +87,8 @@ Real phong_integral_billen(const LineSegment<Real>& light, const Vec3<Real>& mir
     const Real cosine = mirror_t / in_plane;
     const Real sine = mirror_s / in_plane;
     const Real mirror_angle = std::atan2(sine, cosine);
-    Real begin = std::atan2(e.near_sine(), e.near_cosine) - mirror_angle;
-    Real end = std::atan2(e.far_sine(), e.far_cosine) - mirror_angle;
+    Real begin = std::atan2(e.near_sine(), e.near_cosine()) - mirror_angle;
+    Real end = std::atan2(e.far_sine(), e.far_cosine()) - mirror_angle;
     const Real turns = begin > kPi<Real> / 2 ? -2 * kPi<Real> : end < -kPi<Real> / 2 ? 2 * kPi<Real> : 0;
     begin = std::fmax(begin + turns, -kPi<Real> / 2);
     end = std::fmin(end + turns, kPi<Real> / 2);
@@ -107,7 +107,7 @@ Real phong_integral_billen(const LineSegment<Real>& light, const Vec3<Real>& mir
     const Real squared_sines = ((n + 2) * even - boundary) / (n + 1) - even;
     const Real sum =
         cosine * height * even + (cosine * slope - sine * height) * odd - sine * slope * squared_sines;
-    return 2 * phong_normalisation(n) * std::pow(in_plane, n) * std::fmax(sum, Real(0)) * e.inverse_distance *
+    return 2 * phong_normalisation(n) * std::pow(in_plane, n) * std::fmax(sum, Real(0)) * e.inverse_distance() *
            unit.scale;
 }
 

@@ -28,12 +28,13 @@ public:
 
     /// \param extent above the horizon.
     NUSSELT_INLINE explicit CosineArc(const LineExtent<Real>& extent) noexcept
-        : map_(extent), n_t_(extent.inverse_distance * extent.line.closest.z) {
+        : map_(extent), distance_(extent.distance), n_t_(extent.n_t()) {
         const CosineIntegral<Real> halves(extent, n_t_);
         middle_cosine_ = halves.middle_cosine;
         middle_height_ = halves.middle_height;
         from_near_ = halves.from_near;
-        to_far_ = halves.to_far;
+        const Real to_far = halves.to_far;
+        inverse_sine_extent_ = Real(1) / map_.sine_extent;
         integral_ = halves.near + halves.far;
 
         // A random number, which counts from the start, becomes a share of the integral, which counts from the middle.
@@ -43,11 +44,11 @@ public:
 
         // Choose the slopes of the height for which first_guess() is exact at the ends, and interpolate between them.
         const Real near_inverse = Real(1) / from_near_;
-        const Real far_inverse = Real(1) / to_far_;
+        const Real far_inverse = Real(1) / to_far;
         const Real near_slope =
-            near_inverse * multiply_add(near_inverse, halves.bend, extent.near_height - middle_height_);
+            near_inverse * multiply_add(near_inverse, halves.bend, extent.near_height() - middle_height_);
         const Real far_slope =
-            far_inverse * multiply_add(far_inverse, halves.bend, extent.far_height - middle_height_);
+            far_inverse * multiply_add(far_inverse, halves.bend, extent.far_height() - middle_height_);
         guess_linear_ = multiply_add(far_slope, halves.near, -near_slope * halves.far);
         guess_square_ = (far_slope + near_slope) * integral_;
     }
@@ -73,49 +74,46 @@ public:
         const Real share = multiply_add(u, share_scale_, share_offset_);
         const Real target = share * integral_;
         const Real tolerance = Real(Scalar(1.5) * std::numeric_limits<Scalar>::epsilon()) * integral_;
-        Real x = on_arc(first_guess(share, target));
+        const Real guess = first_guess(share, target) + from_near_;
+        Real x = min(max(guess * inverse_sine_extent_, Real(0)), Real(1));
         auto goes_on = mask_t<Real>(true);
         for (int i = 0; i < Iterations && any(goes_on); ++i) {
             // Laguerre's method (Algorithm 2): the root of the quadratic Taylor polynomial, in Blinn's stable form. All
             // derivatives by the sine are multiplied by the cosine.
-            const LinePoint<Real> point = point_at(x);
-            const Real height = max(multiply_add(map_.inward.z, point.sine, n_t_ * point.cosine), Real(0));
-            const Real residual = integral_to(x, point.cosine, height) - target; // Eq. 4
-            const Real first = point.cosine * height;
-            const Real second =
-                point.cosine * multiply_add(map_.inward.z, point.cosine, -n_t_ * point.sine);
+            const Real sine = map_.sine_at(x);
+            const Real cosine = distance_ * map_.point_at(x).inverse_distance;
+            const Real height = max(multiply_add(map_.inward.z, sine, n_t_ * cosine), Real(0));
+            const Real residual = integral_to(x, cosine, height) - target; // Eq. 4
+            const Real first = cosine * height;
+            const Real second = cosine * multiply_add(map_.inward.z, cosine, -n_t_ * sine);
             const Real root = sqrt(max(multiply_add(first, first, -second * residual), Real(0)));
             const Real step = residual / max(first + root, Real(kTiny<Scalar>));
             // Lanes that are done keep their result: it must not depend on their neighbours.
-            x = select(goes_on, on_arc(multiply_add(-step, point.cosine, x)), x);
+            const Real next = multiply_add(-step * cosine, inverse_sine_extent_, x);
+            x = select(goes_on, min(max(next, Real(0)), Real(1)), x);
             // What the quadratic polynomial lacks of the integral is a third of this cube, if the cosine changes little.
             const auto is_exact = abs(n_t_ * step * step * step) <= tolerance;
-            const auto is_local = abs(Real(4) * step * point.sine) <= point.cosine;
+            const auto is_local = abs(Real(4) * step * sine) <= cosine;
             goes_on = goes_on & !(is_exact & is_local);
         }
-        return point_at(x);
+        return map_.point_at(x);
     }
 
     /// The random number for which point() returns the one in direction wi, a unit direction on the arc.
     NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
-        const LinePoint<Real> point = map_.point_in(wi, from_near_ + to_far_);
-        const Real part = integral_to(point.from_near - from_near_, point.cosine, max(wi.z, Real(0)));
+        const Real x = map_.share_in(wi);
+        const Real cosine = distance_ * map_.point_at(x).inverse_distance;
+        const Real part = integral_to(x, cosine, max(wi.z, Real(0)));
         return below_one((part * inverse_integral() - share_offset_) * share_scale_);
     }
 
 private:
-    /// A sine relative to the middle that lies between the ends.
-    NUSSELT_HD Real on_arc(const Real& x) const noexcept { return min(max(x, -from_near_), to_far_); }
-
-    /// \param x sine relative to the middle.
-    NUSSELT_HD LinePoint<Real> point_at(const Real& x) const noexcept {
-        return map_.point_at(x + from_near_, to_far_ - x);
-    }
-
     /// The integral from the middle to a point, see CosineIntegral.
-    NUSSELT_HD Real integral_to(const Real& x, const Real& cosine, const Real& height) const noexcept {
-        const Real half_tangent = x / (middle_cosine_ + cosine);
-        return multiply_add(x, middle_height_ + height, n_t_ * angle_minus_sine(half_tangent));
+    /// \param x as LinePoint::share.
+    NUSSELT_INLINE Real integral_to(const Real& x, const Real& cosine, const Real& height) const noexcept {
+        const Real sine = multiply_add(x, map_.sine_extent, -from_near_);
+        const Real half_tangent = sine / (middle_cosine_ + cosine);
+        return multiply_add(sine, middle_height_ + height, n_t_ * angle_minus_sine(half_tangent));
     }
 
     /// By sine, the density is the cosine with the normal. Were that linear, the sample would solve a quadratic equation.
@@ -127,9 +125,11 @@ private:
     }
 
     LineMap<Real> map_;
+    Real distance_;                      ///< of the line from the origin
     Real n_t_;                           ///< component of the normal along t
     Real middle_cosine_, middle_height_; ///< of the middle by angle
-    Real from_near_, to_far_;            ///< sines between that middle and the ends
+    Real from_near_;                     ///< sine of that middle minus that of the near end
+    Real inverse_sine_extent_;
     Real integral_;
     Real share_scale_, share_offset_;
     Real guess_linear_, guess_square_;
@@ -137,8 +137,8 @@ private:
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.map_, self.n_t_, self.middle_cosine_, self.middle_height_, self.from_near_, self.to_far_,
-              self.integral_, self.share_scale_, self.share_offset_,
+        visit(self.map_, self.distance_, self.n_t_, self.middle_cosine_, self.middle_height_, self.from_near_,
+              self.inverse_sine_extent_, self.integral_, self.share_scale_, self.share_offset_,
               self.guess_linear_, self.guess_square_);
     }
 };

@@ -55,19 +55,12 @@ struct UniformImportance {
     }
     template <class Real>
     NUSSELT_HD static LinePoint<Real> point(const LineExtent<Real>& e, const Real& u) noexcept {
-        const Real sine_extent = e.sine_extent();
-        const Real from_start = u * sine_extent;
-        const Real to_end = sine_extent - from_start;
-        const auto starts_near = e.line.sign > Real(0);
-        return LineMap<Real>(e).point_at(select(starts_near, from_start, to_end),
-                                         select(starts_near, to_end, from_start));
+        return LineMap<Real>(e).point_at(select(e.line.sign > Real(0), u, Real(1) - u));
     }
     template <class Real>
     NUSSELT_HD static Real invert(const LineExtent<Real>& e, const Vec3<Real>& wi) noexcept {
-        const Real sine_extent = e.sine_extent();
-        const LinePoint<Real> point = LineMap<Real>(e).point_in(wi, sine_extent);
-        return below_one(select(e.line.sign > Real(0), point.from_near, point.to_far) /
-                         select(e.visible(), sine_extent, Real(1)));
+        const Real share = LineMap<Real>(e).share_in(wi);
+        return below_one(select(e.line.sign > Real(0), share, Real(1) - share));
     }
 };
 
@@ -170,7 +163,8 @@ public:
     NUSSELT_HD Vec3<Real> point(const Vec2<Real>& u) const noexcept {
         const HalfPlane h = half_plane(azimuth_at(fma(warp_.invert(u.x), range_, low_)));
         const LinePoint<Real> point = Importance::point(h.extent, u.y);
-        const Real steepness = h.extent.line.sign * point.sine / max(point.cosine, Real(1 / kSteepest<Scalar>));
+        const Real steepness = h.extent.line.sign * LineMap<Real>(h.extent).sine_at(point.share) /
+                               max(point.inverse_distance, Real(1 / kSteepest<Scalar>));
         const Real tangent = (h.widening * steepness - h.shear) / stretch_;
         const Vec2<Real> p = view_.first_point(h.slice, tangent);
         return p.x * view_.s + p.y * h.slice.t;

@@ -60,7 +60,7 @@ private:
 
     NUSSELT_INLINE LineProjectedSolidAngle(const SafeLine<Real>& safe, const LineExtent<Real>& extent) noexcept
         : arc_(extent), inverse_scale_(safe.inverse_scale) {
-        const Real measure = arc_.integral() * extent.inverse_distance * safe.scale;
+        const Real measure = arc_.integral() * extent.inverse_distance() * safe.scale;
         const Real inverse = arc_.inverse_integral() * extent.distance * inverse_scale_;
         const auto lit = has_reciprocal(measure);
         measure_ = select(lit, measure, Real(0));

@@ -33,8 +33,7 @@ public:
 
     /// \param u in [0, 1); increasing u moves from the start of the light to its end.
     NUSSELT_INLINE LightSample<Real> sample(const Real& u) const noexcept {
-        const Real from_near = multiply_add(u, sine_scale_, sine_offset_);
-        const LinePoint<Real> point = map_.point_at(from_near, abs(sine_scale_) - from_near);
+        const LinePoint<Real> point = map_.point_at(multiply_add(u, sign_, offset_));
         const Vec3<Real> p = map_.position(point);
         return {map_.direction(point, p), pdf_, inverse_scale_ * p};
     }
@@ -44,8 +43,7 @@ public:
 
     /// The random number for which sample() returns wi, a unit direction on the light.
     NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
-        const Real part = map_.point_in(wi, abs(sine_scale_)).from_near - sine_offset_;
-        return below_one(part / select(pdf_ > Real(0), sine_scale_, Real(1)));
+        return below_one((map_.share_in(wi) - offset_) * sign_);
     }
 
     /// Solid angle per radius, in the limit of a thin cylinder [sr/m].
@@ -71,21 +69,19 @@ protected:
 private:
     NUSSELT_INLINE LineSolidAngle(const SafeLine<Real>& safe, const LineExtent<Real>& extent) noexcept
         : map_(extent), inverse_scale_(safe.inverse_scale) {
-        const Real sine_extent = extent.sine_extent();
-        const Real half = Real(0.5) * sine_extent;
-        sine_scale_ = extent.line.sign * sine_extent;
-        sine_offset_ = half - extent.line.sign * half;
+        sign_ = extent.line.sign;
+        offset_ = multiply_add(Real(-0.5), sign_, Real(0.5));
         // Eq. 1 in the limit of a radius of 0.
-        const Real measure = Real(2) * sine_extent * extent.inverse_distance * safe.scale;
-        const Real density = extent.product * extent.one_plus_cosine /
-                             (Real(2) * extent.area * (extent.near_distance + extent.far_distance)) * inverse_scale_;
+        const Real measure = Real(2) * extent.distance * extent.sine_density() * safe.scale;
+        const Real area = extent.distance * extent.line.length * (extent.near_inverse + extent.far_inverse);
+        const Real density = Real(0.5) * extent.one_plus_cosine / area * inverse_scale_;
         const auto lit = has_reciprocal(measure);
         measure_ = select(lit, measure, Real(0));
         pdf_ = select(lit, density, Real(0));
     }
 
     LineMap<Real> map_;
-    Real sine_scale_, sine_offset_; ///< of the map from random numbers to sines relative to the near end
+    Real sign_, offset_; ///< of the map from random numbers, which count from the start, to shares from the near end
     Real inverse_scale_;
     Real measure_;
     Real pdf_;
@@ -93,7 +89,7 @@ private:
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.map_, self.sine_scale_, self.sine_offset_, self.inverse_scale_, self.measure_, self.pdf_);
+        visit(self.map_, self.sign_, self.offset_, self.inverse_scale_, self.measure_, self.pdf_);
     }
 };
 
