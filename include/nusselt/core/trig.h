@@ -223,8 +223,9 @@ namespace detail {
 struct AngleMinusSine {
     static constexpr int kTerms = 10;
     static constexpr float coefficient(int i) noexcept {
-        constexpr float kFitted[] = {1.33333325f,  -1.59998238f, 1.71369636f,   -1.76994431f,  1.7636472f,
-                                     -1.61840236f, 1.24713326f,  -7.13133872e-1f, 2.57261246e-1f, -4.28121388e-2f};
+        constexpr float kFitted[] = {1.33333325f,    -1.59998238f,   1.71369636f, -1.76994431f,
+                                     1.7636472f,     -1.61840236f,   1.24713326f, -7.13133872e-1f,
+                                     2.57261246e-1f, -4.28121388e-2f};
         return kFitted[i];
     }
 };

@@ -165,10 +165,10 @@ NUSSELT_INLINE LineExtent<Real> clipped_extent(const SafeLine<Real>& safe) noexc
 template <class Real>
 struct CosineIntegral {
     Real middle_cosine, middle_height; ///< cosines of the middle direction with t and with the normal
-    Real from_near, to_far; ///< as in LinePoint, of the middle
-    Real quarter_tangent; ///< tangent of a quarter of the angle between the ends
-    Real bend;            ///< theta - sin(theta) for half the angle
-    Real near, far;       ///< the integrals between the ends and the middle
+    Real from_near, to_far;            ///< as in LinePoint, of the middle
+    Real quarter_tangent;              ///< tangent of a quarter of the angle between the ends
+    Real bend;                         ///< theta - sin(theta) for half the angle
+    Real near, far;                    ///< the integrals between the ends and the middle
 
     NUSSELT_INLINE explicit CosineIntegral(const LineExtent<Real>& e, const Real& n_t) noexcept {
         // The direction to the middle is the sum of both unit directions, over twice the cosine of half the angle between

@@ -57,10 +57,9 @@ struct CenteredLine {
 /// \param closest, squared, length as in CenteredLine.
 /// \param l0, l1 coordinates of the points along s.
 template <class Real>
-NUSSELT_INLINE CenteredLine<Real> line_between(const Vec3<Real>& s, const Vec3<Real>& p0,
-                                               const Vec3<Real>& p1, const Vec3<Real>& closest,
-                                               const Real& squared, const Real& l0, const Real& l1,
-                                               const Real& length) noexcept {
+NUSSELT_INLINE CenteredLine<Real>
+line_between(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& closest,
+             const Real& squared, const Real& l0, const Real& l1, const Real& length) noexcept {
     const auto starts_near = l0 + l1 >= Real(0);
     const Real sign = select(starts_near, Real(1), Real(-1));
     return {select(starts_near, p0, p1),
@@ -82,12 +81,13 @@ NUSSELT_INLINE CenteredLine<Real> line_between(const Vec3<Real>& s, const Vec3<R
 template <class Real>
 struct LineExtent {
     CenteredLine<Real> line;
-    Real distance;                                   ///< of the infinite line from the origin
-    Real near_distance;                              ///< of the near end from the origin
-    Real near_inverse, far_inverse;                  ///< reciprocal distances of the ends
+    Real distance;                  ///< of the infinite line from the origin
+    Real near_distance;             ///< of the near end from the origin
+    Real near_inverse, far_inverse; ///< reciprocal distances of the ends
     Real near_inverse_squared, far_inverse_squared;
-    Real product;         ///< of the distances of both ends
-    Real one_plus_cosine; ///< product times one plus the cosine of the angle between the ends, which is at most half a turn
+    Real product; ///< of the distances of both ends
+    Real
+        one_plus_cosine; ///< product times one plus the cosine of the angle between the ends, which is at most half a turn
 
     NUSSELT_INLINE Real inverse_distance() const noexcept { return Real(1) / distance; }
     /// Component of the normal along t.
@@ -131,12 +131,12 @@ NUSSELT_INLINE LineExtent<Real> make_line_extent(const CenteredLine<Real>& line)
     if (any(is_wide)) {
         const Real squares = near_squared + line.far_l * line.far_l;
         const Real sum = product - coordinates;
-        one_plus_cosine =
-            select(is_wide, line.squared * (Real(1) + squares / select(is_wide, sum, Real(1))), one_plus_cosine);
+        one_plus_cosine = select(is_wide, line.squared * (Real(1) + squares / select(is_wide, sum, Real(1))),
+                                 one_plus_cosine);
     }
     // Member by member: as a whole, g++ would copy packs by way of memory.
-    return {{line.near, line.inward, line.closest, line.squared, line.near_l, line.far_l, line.far_z, line.length,
-             line.sign},
+    return {{line.near, line.inward, line.closest, line.squared, line.near_l, line.far_l, line.far_z,
+             line.length, line.sign},
             sqrt(line.squared),
             near_distance,
             near_distance * near_inverse_squared,
@@ -150,7 +150,8 @@ NUSSELT_INLINE LineExtent<Real> make_line_extent(const CenteredLine<Real>& line)
 /// A point of a segment.
 template <class Real>
 struct LinePoint {
-    Real share;            ///< sine of its angle minus that of the near end, over that of the far end minus that of the near end
+    Real
+        share; ///< sine of its angle minus that of the near end, over that of the far end minus that of the near end
     Real inverse_distance; ///< reciprocal distance from the origin
 };
 

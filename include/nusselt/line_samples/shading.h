@@ -86,8 +86,9 @@ struct LobeLine {
         p1.z = max(fma(part.end, slope, height), Real(0));
         const auto passes_by = distance > Real(kSmallestDistance<scalar_t<Real>>);
         const Real length = (part.end - part.begin) * stretch;
-        return make_line_extent(line_between(along, p0, p1, closest, select(passes_by, distance * distance, Real(1)), l0,
-                                             l1, select(passes_by, length, Real(0))));
+        return make_line_extent(line_between(along, p0, p1, closest,
+                                             select(passes_by, distance * distance, Real(1)), l0, l1,
+                                             select(passes_by, length, Real(0))));
     }
 
     /// The piece of a part that is above the horizon of the lobe.

@@ -107,8 +107,8 @@ Real phong_integral_billen(const LineSegment<Real>& light, const Vec3<Real>& mir
     const Real squared_sines = ((n + 2) * even - boundary) / (n + 1) - even;
     const Real sum =
         cosine * height * even + (cosine * slope - sine * height) * odd - sine * slope * squared_sines;
-    return 2 * phong_normalisation(n) * std::pow(in_plane, n) * std::fmax(sum, Real(0)) * e.inverse_distance() *
-           unit.scale;
+    return 2 * phong_normalisation(n) * std::pow(in_plane, n) * std::fmax(sum, Real(0)) *
+           e.inverse_distance() * unit.scale;
 }
 
 NUSSELT_NAMESPACE_END

@@ -58,7 +58,8 @@ private:
     NUSSELT_INLINE explicit LineProjectedSolidAngle(const SafeLine<Real>& safe) noexcept
         : LineProjectedSolidAngle(safe, clipped_extent(safe)) {}
 
-    NUSSELT_INLINE LineProjectedSolidAngle(const SafeLine<Real>& safe, const LineExtent<Real>& extent) noexcept
+    NUSSELT_INLINE LineProjectedSolidAngle(const SafeLine<Real>& safe,
+                                           const LineExtent<Real>& extent) noexcept
         : arc_(extent), inverse_scale_(safe.inverse_scale) {
         const Real measure = arc_.integral() * extent.inverse_distance() * safe.scale;
         const Real inverse = arc_.inverse_integral() * extent.distance * inverse_scale_;

@@ -81,7 +81,8 @@ private:
     }
 
     LineMap<Real> map_;
-    Real sign_, offset_; ///< of the map from random numbers, which count from the start, to shares from the near end
+    Real sign_,
+        offset_; ///< of the map from random numbers, which count from the start, to shares from the near end
     Real inverse_scale_;
     Real measure_;
     Real pdf_;

@@ -41,12 +41,13 @@ template <class T>
 void check_line(Input& input) {
     const LineSegment<T> light = line<T>(input);
     const LineExtent<T> extent = clipped_extent(to_safe_extent(light));
-    fail_if(!hostile::all_finite(extent.line.near) || !is_finite(extent.near_height) || !is_finite(extent.far_height),
+    fail_if(!hostile::all_finite(extent.line.near) || !is_finite(extent.near_height()) ||
+                !is_finite(extent.far_height()),
             "clipped_extent", "end is not finite", light);
     if (!extent.visible()) return;
     fail_if(!(extent.sine_extent() >= 0 && extent.sine_extent() <= T(2.001)), "clipped_extent",
             "not a difference of sines", light);
-    fail_if(!(extent.area <= T(1.001) * extent.product), "clipped_extent", "not a sine", light);
+    fail_if(!(extent.area() <= T(1.001) * extent.product), "clipped_extent", "not a sine", light);
 }
 
 } // namespace

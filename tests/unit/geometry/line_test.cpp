@@ -51,7 +51,7 @@ TYPED_TEST(LineTest, ClosedFormsAgreeWithQuadrature) {
         const Point to = end.z < 0 ? crossing : end;
         EXPECT_NEAR(projected_solid_angle(line) / integrate(from, to, projected), 1, tolerance) << light.name;
         const auto extent = clipped_extent(to_safe_extent(line));
-        EXPECT_NEAR(2 * extent.sine_extent() / extent.distance / integrate(from, to, solid), 1, tolerance)
+        EXPECT_NEAR(2 * extent.sine_density() * extent.distance / integrate(from, to, solid), 1, tolerance)
             << light.name;
     }
 }
@@ -74,14 +74,15 @@ TYPED_TEST(LineTest, ExtentHasUnitVectors) {
         const auto line = hostile.line();
         const auto e = clipped_extent(to_safe_extent(line));
         if (!e.visible()) continue;
-        const auto t = e.inverse_distance * e.line.closest;
+        const auto t = e.inverse_distance() * e.line.closest;
         for (const auto& unit : {e.line.inward, t}) EXPECT_NEAR(length(unit), 1, 16 * this->kEpsilon);
         EXPECT_NEAR(dot(e.line.inward, t), 0, 4 * this->kEpsilon);
-        EXPECT_NEAR(e.near_sine() * e.near_sine() + e.near_cosine * e.near_cosine, 1, 16 * this->kEpsilon);
-        EXPECT_NEAR(e.far_sine() * e.far_sine() + e.far_cosine * e.far_cosine, 1, 16 * this->kEpsilon);
-        EXPECT_GT(e.near_cosine, 0);
-        EXPECT_GT(e.far_cosine, 0);
-        EXPECT_GT(e.area, 0);
+        EXPECT_NEAR(e.near_sine() * e.near_sine() + e.near_cosine() * e.near_cosine(), 1,
+                    16 * this->kEpsilon);
+        EXPECT_NEAR(e.far_sine() * e.far_sine() + e.far_cosine() * e.far_cosine(), 1, 16 * this->kEpsilon);
+        EXPECT_GT(e.near_cosine(), 0);
+        EXPECT_GT(e.far_cosine(), 0);
+        EXPECT_GT(e.area(), 0);
         EXPECT_GT(e.sine_extent(), 0);
         EXPECT_LE(e.sine_extent(), 2 + 4 * this->kEpsilon);
     }
@@ -94,8 +95,7 @@ TYPED_TEST(LineTest, PointsOfTheExtentLieOnTheLine) {
         const auto e = whole_extent(to_safe_extent(line));
         const nusselt::LineMap<T> map(e);
         for (int i = 0; i <= 10; ++i) {
-            const T from_near = e.sine_extent() * static_cast<T>(i) / 10;
-            const auto point = map.point_at(from_near, e.sine_extent() - from_near);
+            const auto point = map.point_at(static_cast<T>(i) / 10);
             const auto p = map.position(point);
             const auto direction = map.direction(point, p);
             EXPECT_NEAR(length(direction), 1, 8 * this->kEpsilon) << light.name;
@@ -105,8 +105,7 @@ TYPED_TEST(LineTest, PointsOfTheExtentLieOnTheLine) {
             const T extent = std::max(length(p), length(line.p0));
             EXPECT_LE(length(p - line.p0 - along * line.s), 4 * this->kEpsilon * extent) << light.name;
             // The direction leads back to the point.
-            EXPECT_NEAR(map.point_in(direction, e.sine_extent()).from_near, point.from_near, 64 * this->kEpsilon)
-                << light.name;
+            EXPECT_NEAR(map.share_in(direction), point.share, 64 * this->kEpsilon) << light.name;
         }
     }
 }
