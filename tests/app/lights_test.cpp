@@ -77,15 +77,16 @@ TEST_F(LightRigs, AreNamedInFiles) {
 
 TEST_F(LightRigs, WrongRigsAreErrors) {
     write("rig.json", R"({"version": 1, "lights": [{"light": 0, "radiance": [1, "a", 2]}]})");
+    write("wrong.pbrt", "this is no scene");
     for (const char* command : {"render --lights rig.json ", "lights --lights rig.json "}) {
-        // The rig is read first: otherwise the missing scene would be the error.
-        const Outcome wrong = run(std::string(command) + "no-such-scene.pbrt");
+        // The rig is read first: otherwise the wrong scene would be the error.
+        const Outcome wrong = run(std::string(command) + "wrong.pbrt");
         EXPECT_EQ(wrong.exit_code, 1) << command;
         expect_message(wrong.err, "rig.json: lights[0].radiance[1]: must be a number from 0 to 1e+30, found");
     }
     const Outcome missing = run("render --lights none.json '" + kScenes + "/room.pbrt'");
     EXPECT_EQ(missing.exit_code, 1);
-    expect_message(missing.err, "none.json: no such file");
+    expect_message(missing.err, "no such file: 'none.json'");
 }
 
 } // namespace
