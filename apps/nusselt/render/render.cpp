@@ -209,9 +209,9 @@ int run_render(const RenderOptions& options) {
     base::check_exist(input_paths(options));
     const std::unique_ptr<render::Backend> backend = make_backend(options, settings);
 
-    InterruptGuard guard(options.quiet ? "" : InterruptGuard::kNotice);
     const bool goes_on = options.checkpoint && std::filesystem::exists(*options.checkpoint);
-    guard.end_at_once(options.quiet ? "" : goes_on ? kCheckpointKept : kStoppedEarly);
+    const char* const last_words = goes_on ? kCheckpointKept : kStoppedEarly;
+    InterruptGuard guard(options.quiet ? "" : InterruptGuard::kNotice, options.quiet ? "" : last_words);
     scene::Scene scene = load_scene(options.scene, options.rigs);
     if (options.camera) apply_camera(scene::read_camera_file(*options.camera), scene);
     check_names(options, scene);
