@@ -1,4 +1,5 @@
 #include "render.h"
+#include "apps/common/error_text.h"
 #include "apps/common/help.h"
 #include "apps/common/interrupt.h"
 #include "apps/common/line_options.h"
@@ -39,22 +40,24 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace nusselt::app {
 
 namespace {
 
-/// Steps of which each is tried whether the others fail or not: hours of work may be in what they write.
+/// Files of which each is tried whether the others fail or not: hours of work may be in what they hold.
 class Attempts {
 public:
-    /// \returns whether the step succeeded
-    template <class Step>
-    bool attempt(const Step& step) {
+    /// \param write a step towards these files
+    /// \returns whether it succeeded
+    template <class Write>
+    bool attempt(const std::vector<std::filesystem::path>& files, const Write& write) {
         try {
-            step();
+            write();
             return true;
         } catch (const std::exception& error) {
-            add_failure(error.what());
+            add_failure(error_text(error, files));
             return false;
         }
     }
@@ -76,16 +79,23 @@ void write_outputs(const RenderOptions& options, const render::RenderSettings& s
                    const scene::Film& film, render::Frame&& frame, const image::Metadata& metadata,
                    Attempts& attempts) {
     const std::vector<std::filesystem::path> paths = output_paths(options, film);
+    std::vector<std::filesystem::path> exr_paths;
     std::set<std::filesystem::path> written;
     const auto write = [&](const std::filesystem::path& path, const auto& write_file) {
-        if (attempts.attempt(write_file)) written.insert(path);
+        if (attempts.attempt({path}, write_file)) written.insert(path);
     };
     for (const std::filesystem::path& path : paths)
-        if (!image::is_exr(path))
+        if (image::is_exr(path))
+            exr_paths.push_back(path);
+        else
             write(path, [&] { image::write_image(path, frame.image, metadata, options.exposure); });
-    const image::LayeredImage layered = to_layered_image(std::move(frame), film, settings, metadata);
-    for (const std::filesystem::path& path : paths)
-        if (image::is_exr(path)) write(path, [&] { image::write_layers(path, layered); });
+    image::LayeredImage layered;
+    const auto collect_layers = [&] {
+        layered = to_layered_image(std::move(frame), film, settings, metadata);
+    };
+    if (!exr_paths.empty() && attempts.attempt(exr_paths, collect_layers))
+        for (const std::filesystem::path& path : exr_paths)
+            write(path, [&] { image::write_layers(path, layered); });
     for (const std::filesystem::path& path : paths)
         if (written.count(path) != 0) print_output(options, path);
 }
@@ -278,7 +288,7 @@ int run_render(const RenderOptions& options) {
     times.write = writing.seconds();
     times.total = stopwatch.seconds();
     if (options.json)
-        attempts.attempt([&] {
+        attempts.attempt({*options.json}, [&] {
             write_report(*options.json, report_json(options, settings, scene, *backend, statistics, times));
         });
     attempts.report();
