@@ -159,8 +159,7 @@ void add_checkpoint_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option("--checkpoint", options.checkpoint,
                     "Store what is finished in this file while rendering. After an interruption of any kind, "
-                    "the same "
-                    "command continues from it; the file is removed once the image is written")
+                    "the same command continues from it; the file is removed once the image is written")
         ->type_name("FILE")
         ->default_str(kNone)
         ->group(kPartsGroup);
@@ -176,9 +175,8 @@ void add_checkpoint_options(CLI::App& command, RenderOptions& options) {
 void setup_render(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand(
-        "render", "Render the direct light of a scene. Ctrl-C stops early and writes what is "
-                  "there, with the rest black; the exit code is then 130. A second Ctrl-C "
-                  "ends the program at once.");
+        "render", "Render the direct light of a scene. Ctrl-C stops early and writes what is there, with "
+                  "the rest black; the exit code is then 130. A second Ctrl-C ends the program at once.");
     add_scene_argument(*command, options->scene);
     add_output_options(*command, *options);
     command->add_option("--spp", options->samples, "Samples per pixel, light and technique")
@@ -195,8 +193,7 @@ void setup_render(CLI::App& app, int& exit_code) {
             "--pixel-center",
             [options] { options->pixel_position = render::name_of(render::PixelPosition::center); },
             "Send all camera rays through pixel centres, to measure noise, in place of random positions "
-            "within the "
-            "pixel")
+            "within the pixel")
         ->group(kSamplingGroup);
     add_line_options(*command, options->lines);
     add_rigs_option(*command, options->rigs);
