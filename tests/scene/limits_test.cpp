@@ -232,10 +232,8 @@ private:
         const double seconds = base::process_seconds() - seconds_before;
         std::fprintf(stderr, "%g MB, %g s\n", 1e-6 * bytes, seconds);
         const bool is_complete = scene.lights.size() == kLights && scene.emitters.size() == emitters;
-        std::exit(is_complete && bytes <= (nusselt_test::kHasSanitizer ? 1e9 : max_bytes) &&
-                          seconds <= kMaxSeconds
-                      ? 0
-                      : 1);
+        const double byte_limit = nusselt_test::kHasSanitizer ? 1e9 : max_bytes;
+        std::exit(is_complete && bytes <= byte_limit && seconds <= kMaxSeconds ? 0 : 1);
     }
 };
 
