@@ -38,4 +38,4 @@ grep -q libembree-dev "$work/output" || fail "the programs do not name their pac
 grep -q qemu-user "$work/output" || fail "the tests do not name their packages"
 
 unset CMAKE_TOOLCHAIN_FILE CMAKE_GENERATOR
-"$here/consume.sh" "$HOME/nusselt" "$work" "$compiler"
+"$here/consume.sh" "$HOME/nusselt-library" "$work" "$compiler"
