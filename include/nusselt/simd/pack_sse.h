@@ -1,9 +1,10 @@
 #pragma once
-/// Packs in 128-bit registers. A mask is a vector whose lanes are all ones or all zeros.
+/// Packs in 128-bit registers, for all x86-64 processors: SSE2 is always there. A mask is a vector whose lanes are all
+/// ones or all zeros.
 
 #include <nusselt/simd/pack_generic.h>
 
-#if defined(__SSE4_2__)
+#if defined(__SSE2__)
 #include <immintrin.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -41,8 +42,27 @@ struct PackOps<float, 4> {
         return _mm_movelh_ps(_mm_cvtpd_ps(sum_low), _mm_cvtpd_ps(sum_high));
 #endif
     }
+    /// See Pack: without an instruction for fma only.
+    static Vector difference_of_products(Vector a, Vector b, Vector c, Vector d) noexcept {
+        const auto low = [](__m128 x) { return _mm_cvtps_pd(x); };
+        const auto high = [](__m128 x) { return _mm_cvtps_pd(_mm_movehl_ps(x, x)); };
+        const __m128d first = _mm_sub_pd(_mm_mul_pd(low(a), low(b)), _mm_mul_pd(low(c), low(d)));
+        const __m128d second = _mm_sub_pd(_mm_mul_pd(high(a), high(b)), _mm_mul_pd(high(c), high(d)));
+        return _mm_movelh_ps(_mm_cvtpd_ps(first), _mm_cvtpd_ps(second));
+    }
     static Vector sqrt(Vector a) noexcept { return _mm_sqrt_ps(a); }
-    static Vector floor(Vector a) noexcept { return _mm_floor_ps(a); }
+    static Vector floor(Vector a) noexcept {
+#if defined(__SSE4_1__)
+        return _mm_floor_ps(a);
+#else
+        // Numbers from 2^23 on are integers already, and so is what is no number.
+        const __m128 sign_bit = _mm_set1_ps(-0.0f);
+        const __m128 fits = less(bit_clear(a, sign_bit), _mm_set1_ps(8388608.0f));
+        const __m128 truncated = _mm_cvtepi32_ps(_mm_cvttps_epi32(a));
+        const __m128 below = _mm_sub_ps(truncated, _mm_and_ps(less(a, truncated), _mm_set1_ps(1.0f)));
+        return select(fits, _mm_or_ps(below, _mm_and_ps(a, sign_bit)), a);
+#endif
+    }
     static Vector max(Vector a, Vector b) noexcept { return _mm_max_ps(a, b); }
     static Vector min(Vector a, Vector b) noexcept { return _mm_min_ps(a, b); }
 
@@ -57,7 +77,13 @@ struct PackOps<float, 4> {
     static MaskVector less_equal(Vector a, Vector b) noexcept { return _mm_cmple_ps(a, b); }
     static MaskVector equal(Vector a, Vector b) noexcept { return _mm_cmpeq_ps(a, b); }
     static MaskVector not_equal(Vector a, Vector b) noexcept { return _mm_cmpneq_ps(a, b); }
-    static Vector select(MaskVector mask, Vector a, Vector b) noexcept { return _mm_blendv_ps(b, a, mask); }
+    static Vector select(MaskVector mask, Vector a, Vector b) noexcept {
+#if defined(__SSE4_1__)
+        return _mm_blendv_ps(b, a, mask);
+#else
+        return _mm_or_ps(_mm_and_ps(mask, a), _mm_andnot_ps(mask, b));
+#endif
+    }
 
     static MaskVector mask_and(MaskVector a, MaskVector b) noexcept { return _mm_and_ps(a, b); }
     static MaskVector mask_or(MaskVector a, MaskVector b) noexcept { return _mm_or_ps(a, b); }
@@ -105,7 +131,14 @@ struct PackOps<double, 2> {
 #endif
     }
     static Vector sqrt(Vector a) noexcept { return _mm_sqrt_pd(a); }
-    static Vector floor(Vector a) noexcept { return _mm_floor_pd(a); }
+    static Vector floor(Vector a) noexcept {
+#if defined(__SSE4_1__)
+        return _mm_floor_pd(a);
+#else
+        return _mm_setr_pd(nusselt::floor(_mm_cvtsd_f64(a)),
+                           nusselt::floor(_mm_cvtsd_f64(_mm_unpackhi_pd(a, a))));
+#endif
+    }
     static Vector max(Vector a, Vector b) noexcept { return _mm_max_pd(a, b); }
     static Vector min(Vector a, Vector b) noexcept { return _mm_min_pd(a, b); }
 
@@ -120,7 +153,13 @@ struct PackOps<double, 2> {
     static MaskVector less_equal(Vector a, Vector b) noexcept { return _mm_cmple_pd(a, b); }
     static MaskVector equal(Vector a, Vector b) noexcept { return _mm_cmpeq_pd(a, b); }
     static MaskVector not_equal(Vector a, Vector b) noexcept { return _mm_cmpneq_pd(a, b); }
-    static Vector select(MaskVector mask, Vector a, Vector b) noexcept { return _mm_blendv_pd(b, a, mask); }
+    static Vector select(MaskVector mask, Vector a, Vector b) noexcept {
+#if defined(__SSE4_1__)
+        return _mm_blendv_pd(b, a, mask);
+#else
+        return _mm_or_pd(_mm_and_pd(mask, a), _mm_andnot_pd(mask, b));
+#endif
+    }
 
     static MaskVector mask_and(MaskVector a, MaskVector b) noexcept { return _mm_and_pd(a, b); }
     static MaskVector mask_or(MaskVector a, MaskVector b) noexcept { return _mm_or_pd(a, b); }
@@ -129,9 +168,8 @@ struct PackOps<double, 2> {
         return _mm_xor_pd(a, _mm_castsi128_pd(_mm_set1_epi32(-1)));
     }
     static MaskVector mask_from_bits(std::uint32_t bits) noexcept {
-        const __m128i own_bit = _mm_set_epi64x(2, 1);
-        const __m128i all_bits = _mm_set1_epi64x(bits);
-        return _mm_castsi128_pd(_mm_cmpeq_epi64(_mm_and_si128(all_bits, own_bit), own_bit));
+        const auto all_ones_if = [](std::uint32_t bit) { return -static_cast<std::int64_t>(bit); };
+        return _mm_castsi128_pd(_mm_set_epi64x(all_ones_if(bits >> 1 & 1u), all_ones_if(bits & 1u)));
     }
     static std::uint32_t mask_to_bits(MaskVector a) noexcept {
         return static_cast<std::uint32_t>(_mm_movemask_pd(a));
