@@ -19,8 +19,6 @@ template <class Real>
 struct SectorPlanes {
     Real outer_squared, inner_squared; ///< squared lengths of the normals
     Real squared_step;                 ///< their difference
-    Real begin_squared;                ///< dot(begin, begin)
-    Real along;                        ///< dot(begin, chord)
 };
 
 /// Two quads that approximate a sector (Sec. 3.4): each lies between the chords of both ellipses from one end of the
@@ -68,8 +66,7 @@ struct DecentralSector {
                               multiply_add(begin_gap, chord.x, -turn * begin.x), Real(0)};
         const Vec3<Real> inner_normal = outer_normal + lift;
         return {dot(outer_normal, outer_normal), dot(inner_normal, inner_normal),
-                lift.x * (outer_normal.x + inner_normal.x) + lift.y * (outer_normal.y + inner_normal.y),
-                dot(begin, begin), dot(begin, chord)};
+                lift.x * (outer_normal.x + inner_normal.x) + lift.y * (outer_normal.y + inner_normal.y)};
     }
 
     /// Twice the area from the start to x (Prop. 1 for both ellipses). Each ellipse contributes the
@@ -77,8 +74,9 @@ struct DecentralSector {
     template <class Angles>
     NUSSELT_INLINE Real doubled_area_to(const Real& x, const SectorPlanes<Real>& planes) const noexcept {
         // Describe the end points on both circles by their angles about the origin: cosines, not normalised; the sines
-        // are x times the lengths of the normals.
-        const Real outer_cosine = multiply_add(x, planes.along, planes.begin_squared);
+        // are x times the lengths of the normals. The cosine is not a linear function of x: near a right angle, that
+        // would cancel more.
+        const Real outer_cosine = dot(begin, begin + x * chord);
         const Real gap = multiply_add(x, end_gap - begin_gap, begin_gap);
         const Real rise = multiply_add(begin_gap, multiply_add(x, chord.z, begin.z) + gap, begin.z * gap);
         const Real inner_cosine = outer_cosine + rise;
@@ -247,8 +245,6 @@ NUSSELT_INLINE void visit_members(SectorPlanes<To>& to, const SectorPlanes<From>
     visit(to.outer_squared, from.outer_squared);
     visit(to.inner_squared, from.inner_squared);
     visit(to.squared_step, from.squared_step);
-    visit(to.begin_squared, from.begin_squared);
-    visit(to.along, from.along);
 }
 /// \copydoc visit_members
 template <class To, class From, class Visit>

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_DECENTRAL_SECTOR_GLSL
 #define NUSSELT_SAMPLING_DECENTRAL_SECTOR_GLSL
-// Follows include/nusselt/sampling/decentral_sector.h @ b8ddbb664e65
+// Follows include/nusselt/sampling/decentral_sector.h @ cf93806919a1
 /// Area between two projected great circles and its inversion: the azimuth of a sample when the zenith lies outside of
 /// the polygon (Peters 2021, polygonal lights, Sec. 3.1 and 3.3 to 3.6). Twin of
 /// include/nusselt/sampling/decentral_sector.h.
@@ -52,8 +52,6 @@ struct DecentralArcs {
 struct DecentralPlanes {
     float outer_squared, inner_squared; ///< squared lengths of the normals
     float squared_step;                 ///< their difference
-    float begin_squared;                ///< dot(begin, begin)
-    float along;                        ///< dot(begin, chord)
 };
 
 DecentralPlanes decentral_sector_planes(DecentralSector self) {
@@ -65,11 +63,11 @@ DecentralPlanes decentral_sector_planes(DecentralSector self) {
                      nusselt_fma(self.begin_gap, chord.x, -turn * begin.x));
     vec3 inner_normal = vec3(outer_normal.xy + lift, outer_normal.z);
     return DecentralPlanes(dot(outer_normal, outer_normal), dot(inner_normal, inner_normal),
-                           dot(lift, outer_normal.xy + inner_normal.xy), dot(begin, begin), dot(begin, chord));
+                           dot(lift, outer_normal.xy + inner_normal.xy));
 }
 
 DecentralArcs decentral_sector_arcs_to(DecentralSector self, DecentralPlanes planes, float x) {
-    float outer_cosine = nusselt_fma(x, planes.along, planes.begin_squared);
+    float outer_cosine = dot(self.begin, self.begin + x * self.chord);
     float gap = nusselt_fma(x, self.end_gap - self.begin_gap, self.begin_gap);
     float rise = nusselt_fma(self.begin_gap, nusselt_fma(x, self.chord.z, self.begin.z) + gap, self.begin.z * gap);
     float x2 = x * x;
