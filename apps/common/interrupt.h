@@ -21,9 +21,9 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_alw
 /// The exit code by which shells report the end of a program by the signal: 130 for Ctrl-C.
 inline int interrupted_exit_code() { return 128 + interrupting_signal; }
 
-/// While this lives, the first Ctrl-C, SIGTERM (clusters that need the machine) or SIGHUP (a terminal that is closed)
-/// requests a stop by `interrupted`. The second Ctrl-C ends the program; the others may come repeatedly, as they do when
-/// a terminal is closed. What was ignored, as by nohup, stays ignored.
+/// While this lives, the first Ctrl-C or other signal that announces the end requests a stop by `interrupted`. The second
+/// Ctrl-C ends the program; the others may come repeatedly, as they do when a terminal is closed. What was ignored, as by
+/// nohup, stays ignored.
 class InterruptGuard {
 public:
     static constexpr const char* kNotice = "\nstopping; a second Ctrl-C ends the program at once\n";
@@ -33,23 +33,25 @@ public:
         stop_notice = notice;
         install(request_stop);
     }
+    /// Until stop_in_order(), the first signal ends the program at once, with the exit code that interrupted_exit_code()
+    /// would have: preparations that may take long have no result that could be kept.
+    /// \param words to print then; lives as long as the program
+    InterruptGuard(const char* notice, const char* words) {
+        stop_notice = notice;
+        last_words = words;
+        install(end);
+    }
     ~InterruptGuard() { install(SIG_DFL); }
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
-
-    /// Until further notice, the first signal ends the program at once, with the exit code that interrupted_exit_code()
-    /// would have: preparations that may take long have no result that could be kept.
-    /// \param message to print then; lives as long as the program
-    void end_at_once(const char* message) {
-        last_words = message;
-        install(end);
-    }
 
     /// From now on, signals request a stop.
     void stop_in_order() { install(request_stop); }
 
 private:
-    static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
+    /// Besides Ctrl-C: clusters that need the machine send SIGTERM, terminals that are closed SIGHUP, and batch systems
+    /// SIGXCPU or SIGUSR1 before they kill a job that has used up its time. SIGQUIT stays a way to end at once.
+    static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1};
     static inline std::atomic<const char*> stop_notice = kNotice;
     static inline std::atomic<const char*> last_words = "";
     static_assert(std::atomic<const char*>::is_always_lock_free);

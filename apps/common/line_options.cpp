@@ -19,20 +19,17 @@ void add_line_kind_options(CLI::App& command, LineKindOptions& options) {
     };
     add("--orientation", options.orientation,
         "Directions of lines: parallel (random, but the same for all lines of a shading point and a light), "
-        "fixed "
-        "(along the longest edge of the light) or independent")
+        "fixed (along the longest edge of the light) or independent")
         ->transform(to_one_of(names_of(render::kLineOrientations)))
         ->default_str(std::string(name_of(defaults.orientation)));
     add("--offsets", options.offsets,
         "Density of lines: length (proportional to their length on the light), uniform, or reflected "
-        "(proportional "
-        "to what the surface would reflect of them without shadows)")
+        "(proportional to what the surface would reflect of them without shadows)")
         ->transform(to_one_of(names_of(render::kLineOffsets)))
         ->default_str(std::string(name_of(defaults.offsets)));
     add("--line-shading", options.shading,
         "How lines are shaded: unbiased (the integral of a linearly transformed cosine over the visible "
-        "parts of a "
-        "line, plus one point for the difference from the BRDF) or analytic (the integral alone)")
+        "parts of a line, plus one point for the difference from the BRDF) or analytic (the integral alone)")
         ->transform(to_one_of(names_of(render::kLineShadings)))
         ->default_str(std::string(name_of(defaults.shading)));
 }
@@ -68,8 +65,7 @@ void add_line_options(CLI::App& command, LineOptions& options) {
         .add_option(
             "--many-occluders", options.many_occluders,
             "What to do where many triangles may hide a light, because lines are slow there: points, replace "
-            "N "
-            "lines by points with the given technique, strategies and --mis, as many as the power of two "
+            "N lines by points with the given technique, strategies and --mis, as many as the power of two "
             "nearest to N^1.4 (and everywhere with fewer than 16 lines); or lines, keep lines")
         ->transform(to_one_of(names_of(render::kManyOccludersChoices)))
         ->default_str(std::string(name_of(defaults.many_occluders)))

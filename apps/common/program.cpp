@@ -1,6 +1,7 @@
 #include "program.h"
 
 #include "base/words.h"
+#include "error_text.h"
 #include "help.h"
 #include "print_message.h"
 #include "scene/input/message.h"
@@ -15,7 +16,6 @@
 #include <exception>
 #include <iostream>
 #include <memory>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -199,14 +199,10 @@ int run_program(const Program& program, int argc, char** argv) {
         const bool is_help = error.get_exit_code() == 0;
         app.exit(error);
         return is_help ? finished(program, 0) : 2;
-    } catch (const std::bad_alloc&) {
-        print_message("{}: error: not enough memory; use a smaller scene, a smaller image or fewer layers\n",
-                      program.name);
-        return 1;
     } catch (const std::exception& error) {
         // Texts longer than the buffer of the stream are written, and lost, before the end of the command.
         if (std::ferror(stdout) != 0) return report_lost_output(program);
-        print_message("{}: error: {}\n", program.name, scene::message_line(error.what()));
+        print_message("{}: error: {}\n", program.name, scene::message_line(error_text(error)));
         return 1;
     }
     return finished(program, exit_code);

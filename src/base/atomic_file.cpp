@@ -90,6 +90,12 @@ void write_atomically(const std::filesystem::path& name, const std::function<voi
                        "); check its permissions or choose another folder");
     }
     const RemoveAtExit remove_temporary(temporary);
+    // Before there is anything to read: who may not read the old contents may not read the new ones. store() reads.
+    if (std::filesystem::exists(status)) {
+        const std::filesystem::perms rights = status.permissions() & std::filesystem::perms::all;
+        // Errors are ignored: file systems without permissions give all files the same ones.
+        std::filesystem::permissions(temporary, rights | std::filesystem::perms::owner_read, error);
+    }
     errno = 0;
     try {
         write(stream);

@@ -88,6 +88,20 @@ TEST_F(OutputFiles, ReproduceChecksItsFolderBeforeItRenders) {
     EXPECT_EQ(outcome.out, "");
     expect_lab_message(outcome.err, "cannot create the folder '/dev/null/x'");
     expect_lab_message(outcome.err, "--output");
+
+    // Also the folder of each experiment.
+    std::filesystem::create_directory(path("out"));
+    for (const char* name : {"planes", "biased", "lines-large", "lines-visibility"}) {
+        std::ofstream(path("out/" + std::string(name))) << "a file";
+        const Outcome late = run_lab("reproduce " + std::string(name) + " --scenes '" + kScenes + "' -o out");
+        EXPECT_EQ(late.exit_code, 1) << name;
+        EXPECT_EQ(late.out, "") << name;
+        expect_lab_message(late.err, "cannot create the folder 'out/" + std::string(name) + "'");
+    }
+    std::filesystem::create_directories(path("out/wall/index.html"));
+    const Outcome page = run_lab("reproduce wall --scenes '" + kScenes + "' -o out");
+    EXPECT_EQ(page.out, "");
+    expect_lab_message(page.err, "cannot write 'out/wall/index.html'");
 }
 
 /// A limit on the size of files lets the large image fail once everything is rendered.

@@ -51,6 +51,7 @@ protected:
         std::vector<char*> argv = {const_cast<char*>("nusselt")};
         for (const std::string& text : texts) argv.push_back(const_cast<char*>(text.c_str()));
         argv.push_back(nullptr);
+        std::filesystem::remove(messages); // those of an earlier run would be taken for new ones
         const pid_t child = ::fork();
         if (child != 0) return child;
         if (!messages.empty() && std::freopen(messages.c_str(), "w", stderr) == nullptr) std::_Exit(126);
@@ -73,12 +74,33 @@ protected:
         return child;
     }
 
-    /// \returns the exit code, or -1 if a signal ended the program
-    static int end(pid_t child, int signal) {
+    /// Waits until the program has written this file, or some of it.
+    void wait_for(const std::string& file, const std::string& part = "") const {
+        for (int i = 0; i < 60'000; ++i) {
+            if (std::filesystem::exists(path(file)) && read(file).find(part) != std::string::npos) return;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        ADD_FAILURE() << "'" << part << "' is missing in " << file;
+    }
+
+    /// Sends a signal. \returns what waitpid() says of the end
+    static int status_after(pid_t child, int signal) {
         ::kill(child, signal);
         int status = 0;
         EXPECT_EQ(::waitpid(child, &status, 0), child);
+        return status;
+    }
+
+    /// \returns the exit code, or -1 if a signal ended the program
+    static int end(pid_t child, int signal) {
+        const int status = status_after(child, signal);
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+    /// \returns 0 if the program ended by itself
+    static int signal_that_ended(pid_t child, int signal) {
+        const int status = status_after(child, signal);
+        return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     }
 
     /// Ends the program by SIGTERM after some time. \returns how long that took
@@ -92,8 +114,7 @@ protected:
     /// Starts the rendering and sends it a signal once there is a checkpoint.
     int end_when_stored(int signal) const {
         const pid_t child = start();
-        for (int i = 0; i < 10'000 && !std::filesystem::exists(path("state")); ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        wait_for("state");
         return end(child, signal);
     }
 
@@ -142,10 +163,11 @@ TEST_F(RenderCheckpoint, KilledAtAnyTimeItGoesOnToTheSameImage) {
     EXPECT_FALSE(std::filesystem::exists(path("state")));
 }
 
-/// Clusters send SIGTERM before they take a machine away; terminals that are closed send SIGHUP, often twice.
+/// Clusters send SIGTERM before they take a machine away, batch systems SIGXCPU or SIGUSR1 before a job has used up its
+/// time, and terminals that are closed SIGHUP.
 TEST_F(RenderCheckpoint, SignalsOfClustersAndTerminalsStoreAllThatIsFinished) {
     const image::LayeredImage expected = whole();
-    for (const int signal : {SIGTERM, SIGHUP}) {
+    for (const int signal : {SIGTERM, SIGHUP, SIGXCPU, SIGUSR1}) {
         std::filesystem::remove(path("state"));
         EXPECT_EQ(end_when_stored(signal), 128 + signal);
         EXPECT_TRUE(std::filesystem::exists(path("state")));
@@ -153,6 +175,34 @@ TEST_F(RenderCheckpoint, SignalsOfClustersAndTerminalsStoreAllThatIsFinished) {
     }
     EXPECT_EQ(run(command()).exit_code, 0);
     expect_same_image(expected);
+}
+
+/// As closed terminals send it.
+TEST_F(RenderCheckpoint, ASecondSighupDoesNotEndTheProgram) {
+    const pid_t child = start();
+    wait_for("state");
+    ::kill(child, SIGHUP);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1)); // otherwise both may arrive as one
+    EXPECT_EQ(end(child, SIGHUP), 129);
+    EXPECT_TRUE(std::filesystem::exists(path("state")));
+    EXPECT_TRUE(std::filesystem::exists(path("a.exr")));
+}
+
+/// Chance decides whether the second Ctrl-C arrives while the program stops: camera rays take some tenths of a second.
+TEST_F(RenderCheckpoint, ASecondCtrlCEndsTheProgramAtOnce) {
+    bool is_ended = false;
+    for (int i = 1; i <= 20 && !is_ended; ++i) {
+        const pid_t child = start({"render", kScenes + "/room.pbrt", "--resolution", "16x16", "--spp",
+                                   "65536", "--camera-rays", "1", "--threads", "1", "-o", path("a.exr")},
+                                  path("messages.txt"));
+        std::this_thread::sleep_for(i * std::chrono::milliseconds(100));
+        ::kill(child, SIGINT);
+        for (int k = 0; k < 1000 && read("messages.txt").find("stop") == std::string::npos; ++k)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        is_ended = signal_that_ended(child, SIGINT) == SIGINT;
+    }
+    EXPECT_TRUE(is_ended);
+    EXPECT_EQ(read("messages.txt"), "\nstopping; a second Ctrl-C ends the program at once\n");
 }
 
 TEST_F(RenderCheckpoint, CtrlCStoresAllThatIsFinished) {
@@ -213,6 +263,35 @@ TEST_F(RenderCheckpoint, LoadingEndsAtOnce) {
     EXPECT_LT(terminate(start_loading(render)).count(), 1);
     EXPECT_EQ(read("messages.txt"), "stopped before rendering went on; the checkpoint stays as it was\n");
     EXPECT_EQ(read("state"), "of an earlier run");
+}
+
+/// Many large triangles keep Embree and the hierarchy for GPUs busy for seconds. The warning comes right before.
+TEST_F(RenderCheckpoint, BuildingEndsAtOnce) {
+    {
+        std::mt19937 random(1);
+        std::uniform_real_distribution<float> coordinate(-1, 1);
+        std::ofstream scene(path("large.pbrt"));
+        scene << "Camera \"perspective\"\nWorldBegin\nShape \"trianglemesh\" \"point3 P\" [\n";
+        for (int i = 0; i < 3 * 1000; ++i) scene << coordinate(random) << '\n';
+        scene << "] \"integer indices\" [\n";
+        for (int i = 0; i < 1'000'000; ++i)
+            scene << i % 1000 << ' ' << (i / 1000 + 7 * i + 1) % 1000 << ' ' << (i / 7 + 3 * i) % 1000
+                  << '\n';
+        scene << "]\n";
+    }
+    std::ofstream(path("empty.pbrt")) << "";
+    const Outcome device = run("render empty.pbrt --backend vulkan");
+    for (const char* backend : {"cpu", "vulkan"}) {
+        if (backend == std::string("vulkan") && lacks_device(device)) GTEST_SKIP() << device.err;
+        const pid_t child = start({"render", path("large.pbrt"), "--backend", backend, "-o", path("a.exr")},
+                                  path("messages.txt"));
+        wait_for("messages.txt", "the scene has no area lights");
+        EXPECT_LT(terminate(child, std::chrono::milliseconds(50)).count(), 1) << backend;
+        EXPECT_NE(read("messages.txt").find("stopped before rendering began; no image is written\n"),
+                  std::string::npos)
+            << read("messages.txt");
+        EXPECT_FALSE(std::filesystem::exists(path("a.exr"))) << backend;
+    }
 }
 
 TEST_F(RenderCheckpoint, OfAnotherCommandIsRefused) {

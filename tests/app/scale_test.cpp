@@ -135,7 +135,7 @@ TEST_F(Scale, LayersTakeTheMemoryThatIsAnnounced) {
 }
 
 /// At most 0.4 GB for a million lights.
-TEST_F(Scale, InfoTakesNoMemoryForItsText) {
+TEST_F(Scale, InfoOfManyLightsTakesLittleMemory) {
     const auto peak_bytes = [&](int lights) {
         write_many_lights(path("scene.pbrt"), lights);
         const lab::ChildResult info = lab::run_child({kProgram, "info", path("scene.pbrt")});

@@ -65,6 +65,25 @@ TEST_F(Files, WritingReplacesAnExistingFile) {
     }
 }
 
+TEST_F(Files, WritingKeepsThePermissionsOfAnExistingFile) {
+    using std::filesystem::perms;
+    const auto rights = [&](const std::filesystem::path& path) {
+        return std::filesystem::status(path).permissions();
+    };
+    const std::filesystem::path path = in_folder("a.json");
+    base::write_atomically(path, [](std::ofstream& stream) { stream << "first"; });
+    for (const perms mode : {perms(0600), perms(0664), perms(0444)}) {
+        std::filesystem::permissions(path, mode);
+        base::write_atomically(path, [&](std::ofstream& stream) {
+            for (const auto& entry : std::filesystem::directory_iterator(in_folder(".")))
+                EXPECT_EQ(rights(entry.path()), mode) << entry.path();
+            stream << "next";
+        });
+        EXPECT_EQ(rights(path), mode);
+        EXPECT_EQ(read_bytes(path), "next");
+    }
+}
+
 TEST_F(Files, ALimitOnTheSizeOfFilesLeavesTheOldFileAndNoOther) {
     const Image image = random_image(250, 250, 1); // above 100 kB in every format
     for (const std::string& extension : kWritable) {

@@ -74,6 +74,12 @@ void prepare_folder(const std::filesystem::path& folder) {
     base::check_writable(folder / "index.html");
 }
 
+void prepare_folders(const ReproduceOptions& options) {
+    prepare_folder(options.output);
+    for (const Heading& h : all_headings())
+        if (is_chosen(options, h.name)) prepare_folder(options.output / h.name);
+}
+
 void write_index(const ReproduceOptions& options) {
     base::write_atomically(options.output / "index.html", [&](std::ofstream& file) {
         file << "<!DOCTYPE html>\n<meta charset=\"utf-8\"><title>Nusselt: experiments</title>\n<ul>\n";
@@ -90,8 +96,8 @@ void setup_reproduce(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<ReproduceOptions>();
     CLI::App* command =
         app.add_subcommand("reproduce", "Render the comparisons of the papers and check their claims. Prints "
-                                        "a table and writes a page with all images "
-                                        "for each experiment. Exits with 1 if an expectation fails.");
+                                        "a table and writes a page with all images for each experiment. "
+                                        "Exits with 1 if an expectation fails.");
     std::vector<std::string> names;
     for (const Heading& h : all_headings()) names.push_back(h.name);
     command->add_option("EXPERIMENT", options->experiments, "Names of experiments, see --list")
@@ -125,7 +131,7 @@ int run_reproduce(const ReproduceOptions& options) {
         throw std::runtime_error(
             "missing folder '" + options.scenes.string() +
             "'; run in the repository, or name the folder of the shipped scenes with --scenes");
-    prepare_folder(options.output);
+    prepare_folders(options);
     lab::RunSettings settings;
     settings.scenes = options.scenes;
     settings.reference_samples = options.reference_samples;

@@ -1,5 +1,6 @@
 #include "checkpointer.h"
 
+#include "apps/common/error_text.h"
 #include "apps/common/print_message.h"
 #include "render/checkpoint.h"
 
@@ -29,7 +30,7 @@ std::optional<std::string> Checkpointer::save_all() {
     try {
         render::save_checkpoint(path_, run_, frame_, finished_, frame_.begun);
     } catch (const std::exception& error) {
-        return error.what();
+        return error_text(error, {path_});
     }
     return std::nullopt;
 }
@@ -47,7 +48,7 @@ void Checkpointer::save_at_intervals(std::chrono::duration<double> interval, std
             saved = tiles.size();
         } catch (const std::exception& error) {
             // The rendering goes on: the disk may have space for the next checkpoint.
-            if (!std::exchange(failed, true)) print_message("\nwarning: {}\n", error.what());
+            if (!std::exchange(failed, true)) print_message("\nwarning: {}\n", error_text(error, {path_}));
         }
         lock.lock();
     }

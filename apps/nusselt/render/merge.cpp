@@ -20,12 +20,10 @@ namespace nusselt::app {
 
 void setup_merge(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<MergeOptions>();
-    CLI::App* command =
-        app.add_subcommand("merge", "Combine EXR files of `nusselt render`: parts of one image (--part), or "
-                                    "images with different seeds (--seed). "
-                                    "Pixels become means over all samples. Scene, size, layers and settings "
-                                    "must be the same; samples that would "
-                                    "count twice are an error.");
+    CLI::App* command = app.add_subcommand(
+        "merge", "Combine EXR files of `nusselt render`: parts of one image (--part), or images with "
+                 "different seeds (--seed). Pixels become means over all samples. Scene, size, layers and "
+                 "settings must be the same; samples that would count twice are an error.");
     const auto check_exr = [](const std::filesystem::path& path) {
         return image::is_exr(path) ? std::string()
                                    : "'" + path.string() + "' must be the name of an EXR file";

@@ -1,4 +1,5 @@
 #include "render.h"
+#include "apps/common/error_text.h"
 #include "apps/common/help.h"
 #include "apps/common/interrupt.h"
 #include "apps/common/line_options.h"
@@ -39,22 +40,24 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace nusselt::app {
 
 namespace {
 
-/// Steps of which each is tried whether the others fail or not: hours of work may be in what they write.
+/// Files of which each is tried whether the others fail or not: hours of work may be in what they hold.
 class Attempts {
 public:
-    /// \returns whether the step succeeded
-    template <class Step>
-    bool attempt(const Step& step) {
+    /// \param write a step towards these files
+    /// \returns whether it succeeded
+    template <class Write>
+    bool attempt(const std::vector<std::filesystem::path>& files, const Write& write) {
         try {
-            step();
+            write();
             return true;
         } catch (const std::exception& error) {
-            add_failure(error.what());
+            add_failure(error_text(error, files));
             return false;
         }
     }
@@ -76,16 +79,23 @@ void write_outputs(const RenderOptions& options, const render::RenderSettings& s
                    const scene::Film& film, render::Frame&& frame, const image::Metadata& metadata,
                    Attempts& attempts) {
     const std::vector<std::filesystem::path> paths = output_paths(options, film);
+    std::vector<std::filesystem::path> exr_paths;
     std::set<std::filesystem::path> written;
     const auto write = [&](const std::filesystem::path& path, const auto& write_file) {
-        if (attempts.attempt(write_file)) written.insert(path);
+        if (attempts.attempt({path}, write_file)) written.insert(path);
     };
     for (const std::filesystem::path& path : paths)
-        if (!image::is_exr(path))
+        if (image::is_exr(path))
+            exr_paths.push_back(path);
+        else
             write(path, [&] { image::write_image(path, frame.image, metadata, options.exposure); });
-    const image::LayeredImage layered = to_layered_image(std::move(frame), film, settings, metadata);
-    for (const std::filesystem::path& path : paths)
-        if (image::is_exr(path)) write(path, [&] { image::write_layers(path, layered); });
+    image::LayeredImage layered;
+    const auto collect_layers = [&] {
+        layered = to_layered_image(std::move(frame), film, settings, metadata);
+    };
+    if (!exr_paths.empty() && attempts.attempt(exr_paths, collect_layers))
+        for (const std::filesystem::path& path : exr_paths)
+            write(path, [&] { image::write_layers(path, layered); });
     for (const std::filesystem::path& path : paths)
         if (written.count(path) != 0) print_output(options, path);
 }
@@ -149,8 +159,7 @@ void add_checkpoint_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option("--checkpoint", options.checkpoint,
                     "Store what is finished in this file while rendering. After an interruption of any kind, "
-                    "the same "
-                    "command continues from it; the file is removed once the image is written")
+                    "the same command continues from it; the file is removed once the image is written")
         ->type_name("FILE")
         ->default_str(kNone)
         ->group(kPartsGroup);
@@ -166,9 +175,8 @@ void add_checkpoint_options(CLI::App& command, RenderOptions& options) {
 void setup_render(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand(
-        "render", "Render the direct light of a scene. Ctrl-C stops early and writes what is "
-                  "there, with the rest black; the exit code is then 130. A second Ctrl-C "
-                  "ends the program at once.");
+        "render", "Render the direct light of a scene. Ctrl-C stops early and writes what is there, with "
+                  "the rest black; the exit code is then 130. A second Ctrl-C ends the program at once.");
     add_scene_argument(*command, options->scene);
     add_output_options(*command, *options);
     command->add_option("--spp", options->samples, "Samples per pixel, light and technique")
@@ -185,8 +193,7 @@ void setup_render(CLI::App& app, int& exit_code) {
             "--pixel-center",
             [options] { options->pixel_position = render::name_of(render::PixelPosition::center); },
             "Send all camera rays through pixel centres, to measure noise, in place of random positions "
-            "within the "
-            "pixel")
+            "within the pixel")
         ->group(kSamplingGroup);
     add_line_options(*command, options->lines);
     add_rigs_option(*command, options->rigs);
@@ -209,9 +216,9 @@ int run_render(const RenderOptions& options) {
     base::check_exist(input_paths(options));
     const std::unique_ptr<render::Backend> backend = make_backend(options, settings);
 
-    InterruptGuard guard(options.quiet ? "" : InterruptGuard::kNotice);
     const bool goes_on = options.checkpoint && std::filesystem::exists(*options.checkpoint);
-    guard.end_at_once(options.quiet ? "" : goes_on ? kCheckpointKept : kStoppedEarly);
+    const char* const last_words = goes_on ? kCheckpointKept : kStoppedEarly;
+    InterruptGuard guard(options.quiet ? "" : InterruptGuard::kNotice, options.quiet ? "" : last_words);
     scene::Scene scene = load_scene(options.scene, options.rigs);
     if (options.camera) apply_camera(scene::read_camera_file(*options.camera), scene);
     check_names(options, scene);
@@ -278,7 +285,7 @@ int run_render(const RenderOptions& options) {
     times.write = writing.seconds();
     times.total = stopwatch.seconds();
     if (options.json)
-        attempts.attempt([&] {
+        attempts.attempt({*options.json}, [&] {
             write_report(*options.json, report_json(options, settings, scene, *backend, statistics, times));
         });
     attempts.report();

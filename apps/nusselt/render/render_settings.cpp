@@ -98,8 +98,7 @@ void add_sampling_options(CLI::App& command, RenderOptions& options) {
         .add_option(
             "--strategies", options.strategies,
             "Which techniques take samples: diffuse, that of --technique alone; diffuse+ltc, that one for "
-            "the "
-            "diffuse component of materials and linearly transformed cosines for the specular component; "
+            "the diffuse component of materials and linearly transformed cosines for the specular component; "
             "diffuse+ggx and diffuse+ggx_bounded, the same with GGX visible normals, for polygons only")
         ->transform(to_one_of(names_of(render::kStrategies)))
         ->default_str(
@@ -125,11 +124,9 @@ void add_sampling_options(CLI::App& command, RenderOptions& options) {
         .add_option(
             "--sampler", options.sampler,
             "How samples are distributed: independent; sobol, Owen-scrambled Sobol' points; jittered, "
-            "equidistant "
-            "points with one random shift, also known as uniform jittered sampling (best for linear lights); "
-            "stratified, multi-jittered points with as many strata in each dimension as samples (best for "
-            "line "
-            "samples)")
+            "equidistant points with one random shift, also known as uniform jittered sampling (best for "
+            "linear lights); stratified, multi-jittered points with as many strata in each dimension as "
+            "samples (best for line samples)")
         ->transform(to_one_of(names_of(render::kSampleOrders)))
         ->group(kSamplingGroup);
     command

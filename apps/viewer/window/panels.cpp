@@ -223,6 +223,7 @@ void Panels::draw_lights(Viewer& viewer) {
                     state.selected_light = light;
             }
         ImGui::EndListBox();
+        explain("Click a light to select it.");
     }
     if (button("add panel", "Add a square light in the middle of the image, which lights what is below."))
         viewer.add_light(LightShape::panel);
@@ -256,8 +257,7 @@ void Panels::draw_selected_light(Viewer& viewer) {
               "How far the light moves along x, y and z."));
     note(drag("turn", edit_.turn, 0.5, "%.1f deg",
               "A rotation about the centroid: its vector has the direction of the axis and the length of the "
-              "angle. "
-              "If two numbers are 0, the third is the angle about x, y or z."));
+              "angle. If two numbers are 0, the third is the angle about x, y or z."));
     note(slider("size", edit_.size, 0.05, 20, "%.2f", "A factor on all lengths of the light.", kFactor));
     note(slider("brightness", edit_.brightness, 0.01, 100, "%.2f", "A factor on the radiance.", kFactor));
     ImGui::BeginGroup();
@@ -289,8 +289,7 @@ void Panels::draw_selected_light(Viewer& viewer) {
 void Panels::draw_files(Viewer& viewer) {
     ImGui::InputText("file", &file_);
     explain("The file of a screenshot: .png for the picture; .exr, .hdr or .pfm for the radiance. Cameras "
-            "and lights use the "
-            "same name, or this one if it ends in .json.");
+            "and lights use the same name, or this one if it ends in .json.");
     const auto act_on = [&](const char* label, const char* explanation, const char* done,
                             const std::filesystem::path& file, const std::function<void()>& act) {
         if (!button(label, explanation)) return;

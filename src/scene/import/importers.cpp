@@ -16,11 +16,6 @@ constexpr Importer kImporters[] = {
     {"pbrt", ".pbrt", read_pbrt, looks_like_pbrt},
 };
 
-std::string extension_of(const std::filesystem::path& path) {
-    const std::filesystem::path extension = path.extension();
-    return extension == ".gz" ? path.stem().extension().string() : extension.string();
-}
-
 [[noreturn]] void fail_unknown(const std::filesystem::path& path, std::span<const Importer> formats) {
     std::string known;
     for (const Importer& format : formats)

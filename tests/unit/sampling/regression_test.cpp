@@ -19,10 +19,10 @@ Quad quad(const nusselt::Vec3<float>& a, const nusselt::Vec3<float>& b, const nu
     return nusselt::make_polygon<4>(vertices, 4);
 }
 
-template <class Kind>
-void expect_contract(const typename Kind::template Light<float>& light,
-                     const typename Kind::template Random<float>& u) {
-    EXPECT_STREQ((violation<Kind, float>(light, outputs_of<Kind, float>(light, u))), nullptr);
+template <class Kind, class Real = float>
+void expect_contract(const typename Kind::template Light<Real>& light,
+                     const typename Kind::template Random<Real>& u) {
+    EXPECT_STREQ((violation<Kind, Real>(light, outputs_of<Kind, Real>(light, u))), nullptr);
 }
 
 /// The end on the horizon is closer to the point than the rounding error of the length. Its coordinate along the line
@@ -42,13 +42,22 @@ TEST(RegressionTest, LineEndsOnTheHorizonNextToThePoint) {
 
 /// Rounding turned the directions to ends next to the horizon below it.
 TEST(RegressionTest, LineThatDipsBelowTheHorizonIsSampledAboveIt) {
-    const auto expect_above = [](const nusselt::Vec3<float>& start, const nusselt::Vec3<float>& end,
-                                 float u) {
-        expect_contract<LineClippedSolidAngleKind>(nusselt::make_line(start, end), u);
-        EXPECT_GE(nusselt::LineClippedSolidAngle<float>(nusselt::make_line(start, end)).sample(u).wi.z, 0);
+    const auto expect_above = [](const auto& start, const auto& end, auto u) {
+        using Real = decltype(u);
+        const nusselt::LineSegment<Real> light = nusselt::make_line(start, end);
+        expect_contract<LineClippedSolidAngleKind, Real>(light, u);
+        EXPECT_GE(nusselt::LineClippedSolidAngle<Real>(light).sample(u).wi.z, 0);
     };
-    expect_above({9.30984879f, 10.7484589f, -0.27369687f}, {2.2934885f, 11.2559195f, 6.13668823f}, 0);
-    expect_above({-165.985092f, 759.862427f, 7.84876941e-10f}, {0, 0, -341.590363f}, 0.99999994f);
+    using Float3 = nusselt::Vec3<float>;
+    expect_above(Float3{9.30984879f, 10.7484589f, -0.27369687f}, Float3{2.2934885f, 11.2559195f, 6.13668823f},
+                 0.0f);
+    expect_above(Float3{-165.985092f, 759.862427f, 7.84876941e-10f}, Float3{0, 0, -341.590363f}, 0.99999994f);
+    // Some 1e-17 and 1e-16 below it.
+    using Double3 = nusselt::Vec3<double>;
+    expect_above(Double3{0.13322549278580736, 0.91956543366479615, -0.00012728463884091167},
+                 Double3{-0.32702894597440407, -0.28041254868413101, 0.39008675965661305}, 0.0);
+    expect_above(Double3{1.5687714194960134, 1.3304330570687801, -0.21789756778839836},
+                 Double3{0.20972649888283695, -0.12202478433976012, 1.6588432342540258}, 0.0);
 }
 
 /// The sector spans half a turn, so the directions of its ends add up to zero.
