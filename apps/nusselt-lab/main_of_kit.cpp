@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
          "\n"
          "`nusselt-lab COMMAND --help` explains a command.\n"
          "Exit codes: 0 success, 1 error or broken expectation, 2 wrong usage; 130 stopped by Ctrl-C,\n"
-         "143 by SIGTERM, 129 by SIGHUP.",
+         "143 by SIGTERM, 129 by SIGHUP, 152 by SIGXCPU, 138 by SIGUSR1.",
          {setup_gpu_benches, setup_gpu}},
         argc, argv);
 }

@@ -108,13 +108,14 @@ void check_same_run(const image::Metadata& stored, const image::Metadata& run) {
 }
 
 void read_tiles(Reader& reader, Frame& frame) {
+    BegunTiles& begun = *frame.begun;
     const std::uint64_t count = reader.number();
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::uint64_t number = reader.number();
-        if (number >= frame.tiles.size() || frame.is_finished[number] != 0 || frame.begun.count(number) != 0)
+        if (number >= frame.tiles.size() || frame.is_finished[number] != 0 || begun.count(number) != 0)
             throw std::runtime_error("the file is damaged or truncated");
         if (std::vector<std::byte> state = reader.block(); !state.empty()) {
-            frame.begun[number] = std::move(state);
+            begun[number] = std::move(state);
             continue;
         }
         for_each_row(frame, frame.tiles[number],
@@ -182,6 +183,7 @@ void save_checkpoint(const std::filesystem::path& path, const image::Metadata& r
 }
 
 void load_checkpoint(const std::filesystem::path& path, const image::Metadata& run, Frame& frame) {
+    frame.begun.emplace();
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (status.type() == std::filesystem::file_type::not_found) return;

@@ -23,7 +23,8 @@ image::Metadata describe_run(image::Metadata settings, const Frame& frame);
 void save_checkpoint(const std::filesystem::path& path, const image::Metadata& run, const Frame& frame,
                      const std::vector<std::size_t>& tiles, const BegunTiles& begun);
 
-/// Restores the tiles that a checkpoint holds: the pixels of finished ones, the states of begun ones. Without such a file nothing happens.
+/// Restores the tiles that a checkpoint holds: the pixels of finished ones, the states of begun ones. Without such a file
+/// there are none. From now on, the frame keeps begun tiles.
 /// \param run   from describe_run()
 /// \param frame new from make_frame(); of no use after an exception
 /// \throws std::runtime_error naming the path, if the file cannot be read, is damaged or belongs to another run; the

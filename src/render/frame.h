@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace nusselt::render {
@@ -26,7 +27,8 @@ struct Frame {
     std::vector<float> rays;               ///< how many of them each pixel of the image has
     std::vector<Tile> tiles;               ///< the tiles of the part to render
     std::vector<std::uint8_t> is_finished; ///< 1 for tiles whose pixels are final; one for each tile
-    BegunTiles begun;                      ///< tiles that are not finished
+    /// Tiles that are not finished. Without a map, what a backend needs to go on with them is not kept: nobody will.
+    std::optional<BegunTiles> begun;
 };
 
 /// How much a frame holds.

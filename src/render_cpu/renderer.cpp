@@ -2,6 +2,7 @@
 
 #include "base/flush_denormals.h"
 #include "base/stopwatch.h"
+#include "base/threads.h"
 #include "render/film.h"
 #include "render/line_choice.h"
 #include "render/memory.h"
@@ -90,7 +91,7 @@ public:
 
     /// The tiles that were begun, now or before, and are not finished.
     BegunTiles take_begun() {
-        kept_.merge(frame_.begun);
+        kept_.merge(*frame_.begun);
         std::erase_if(kept_, [&](const auto& tile) { return frame_.is_finished[tile.first] != 0; });
         return std::move(kept_);
     }
@@ -134,6 +135,13 @@ private:
     std::vector<Block> lines_;
 };
 
+/// The number of threads that oneTBB may start for so many of a renderer.
+int checked_thread_limit(int thread_count) {
+    const int limit = std::max(thread_count, default_thread_count());
+    base::check_threads(limit);
+    return limit;
+}
+
 /// What RenderJob::stop_requested points to: without a request, nothing ever stops.
 const unsigned char* bytes_of(const std::atomic<bool>* cancel) {
     static constexpr unsigned char kNever = 0;
@@ -171,7 +179,7 @@ Renderer::Renderer(const scene::Scene& scene, int thread_count, const Integrator
       integrator_(&integrator),
       // Otherwise oneTBB refuses more threads than the machine runs at once, with a message of its own.
       thread_limit_(tbb::global_control::max_allowed_parallelism,
-                    static_cast<std::size_t>(std::max(thread_count, default_thread_count()))),
+                    static_cast<std::size_t>(checked_thread_limit(thread_count))),
       arena_(thread_count),
       arrays_(scene, kernels),
       embree_([&] {
@@ -257,7 +265,8 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     const std::size_t sum_bytes = kPacketSumBytes + light_sum_bytes(scene_, settings, isa);
     const std::size_t kept_bytes = kept_sum_bytes(scene_, settings, isa);
     const std::size_t line_bytes = settings.light_samples == LightSamples::lines ? kLineMemoryBytes : 0;
-    for (const auto& [tile, state] : frame.begun) restore_pixels(frame, tile, state, sum_bytes);
+    if (frame.begun)
+        for (const auto& [tile, state] : *frame.begun) restore_pixels(frame, tile, state, sum_bytes);
     tbb::enumerable_thread_specific<ThreadMemory> memory(sum_bytes, kept_bytes, line_bytes);
     if (monitor.started) monitor.started();
     Tally tally(frame, monitor);
@@ -269,17 +278,19 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
             ThreadMemory& own = memory.local();
             TileStatistics work{};
             TileProgress progress{};
-            const auto begun = frame.begun.find(i);
-            if (begun != frame.begun.end()) progress = restore_sums(begun->second, own.sums());
+            if (frame.begun) {
+                const auto begun = frame.begun->find(i);
+                if (begun != frame.begun->end()) progress = restore_sums(begun->second, own.sums());
+            }
             const bool is_finished = render_tile(job, frame.tiles[i], own.view(), progress, work);
             tally.add(work);
             if (is_finished)
                 tally.finish(i);
-            else
+            else if (frame.begun)
                 tally.keep(i, store_begun_tile(frame, i, progress, own.sums()));
         });
     });
-    frame.begun = tally.take_begun();
+    if (frame.begun) frame.begun = tally.take_begun();
 
     const TileStatistics& work = tally.work();
     const double scale = clock.seconds_per_tick();

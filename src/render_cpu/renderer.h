@@ -35,7 +35,7 @@ public:
     /// \param thread_count threads for building and rendering, at least 1
     /// \param integrator   must outlive the renderer
     /// \param kernels      likewise
-    /// \throws std::runtime_error see EmbreeScene and KernelArrays
+    /// \throws std::runtime_error see base::check_threads(), EmbreeScene and KernelArrays
     Renderer(const scene::Scene& scene, int thread_count,
              const Integrator& integrator = integrators().front(),
              std::span<const LightKernel> kernels = light_kernels());
@@ -49,7 +49,7 @@ public:
     RenderResult render(const RenderSettings& settings, base::Isa isa, const visibility::RayTracer& tracer,
                         const RenderMonitor& monitor = {}) const;
 
-    /// Renders the tiles of a frame that are not finished. What it was stopped in is in the frame, for the next call.
+    /// Renders the tiles of a frame that are not finished. What it was stopped in is in Frame::begun, for the next call.
     /// \param frame    from make_frame() with this scene and these settings
     /// \param settings valid
     /// \throws std::runtime_error see LineBvh, for line samples; if a tile of Frame::begun has the wrong size; if the

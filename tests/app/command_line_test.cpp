@@ -377,6 +377,15 @@ TEST_F(CommandLine, CtrlCKeepsFittedColumns) {
     EXPECT_GT(std::stoi(read("state").substr(title.size())), 0);
 }
 
+TEST_F(CommandLine, ThreadsThatTheSystemDoesNotStartAreAnError) {
+    const auto limited =
+        run("render '" + kScenes + "/room.pbrt' --resolution 16x12 --quiet --threads 64 -o a.exr",
+            "ulimit -v 300000;");
+    EXPECT_EQ(limited.exit_code, 1);
+    expect_message(limited.err, " of 64 threads; take fewer with --threads");
+    EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
+}
+
 TEST_F(CommandLine, WithoutAGpuTheBenchmarkSaysInOneLineWhatIsMissing) {
     const auto without_driver =
         run_lab("bench gpu-samplers", "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent");

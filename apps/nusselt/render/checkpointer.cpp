@@ -11,7 +11,7 @@ namespace nusselt::app {
 
 Checkpointer::Checkpointer(std::filesystem::path path, image::Metadata run, const render::Frame& frame,
                            std::chrono::duration<double> interval)
-    : path_(std::move(path)), run_(std::move(run)), frame_(frame), begun_(frame.begun) {
+    : path_(std::move(path)), run_(std::move(run)), frame_(frame), begun_(*frame.begun) {
     for (std::size_t i = 0; i < frame.tiles.size(); ++i)
         if (frame.is_finished[i] != 0) finished_.push_back(i);
     // The count is taken here because more tiles may be finished when the thread starts.
@@ -28,7 +28,7 @@ void Checkpointer::add(std::size_t tile) {
 std::optional<std::string> Checkpointer::save_all() {
     stop();
     try {
-        render::save_checkpoint(path_, run_, frame_, finished_, frame_.begun);
+        render::save_checkpoint(path_, run_, frame_, finished_, *frame_.begun);
     } catch (const std::exception& error) {
         return error_text(error, {path_});
     }

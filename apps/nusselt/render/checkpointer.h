@@ -19,7 +19,7 @@ namespace nusselt::app {
 class Checkpointer {
 public:
     /// \param run   see render::save_checkpoint()
-    /// \param frame must outlive the object; finished and begun tiles count as stored
+    /// \param frame after render::load_checkpoint(), must outlive the object; its finished and begun tiles count as stored
     Checkpointer(std::filesystem::path path, image::Metadata run, const render::Frame& frame,
                  std::chrono::duration<double> interval);
     /// Stores nothing.

@@ -95,14 +95,14 @@ TEST_F(Checkpoint, GoesOnWithTheTilesItHas) {
 
 TEST_F(Checkpoint, KeepsWhatIsNeededToGoOnWithBegunTiles) {
     Frame begun = render::make_frame(scene_, settings_);
-    begun.begun[2] = {std::byte{1}, std::byte{255}, std::byte{0}};
-    save_checkpoint(path_, run_of(begun), begun, {}, begun.begun);
+    begun.begun = {{2, {std::byte{1}, std::byte{255}, std::byte{0}}}};
+    save_checkpoint(path_, run_of(begun), begun, {}, *begun.begun);
     Frame frame = render::make_frame(scene_, settings_);
     load_checkpoint(path_, run_of(frame), frame);
     EXPECT_EQ(frame.begun, begun.begun);
     EXPECT_EQ(finished_fraction(frame), 0);
     // A tile is finished or begun, not both.
-    save_checkpoint(path_, run_of(begun), begun, {2}, begun.begun);
+    save_checkpoint(path_, run_of(begun), begun, {2}, *begun.begun);
     EXPECT_NE(problem_with_file().find("damaged"), std::string::npos);
 }
 

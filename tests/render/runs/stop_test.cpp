@@ -33,7 +33,9 @@ constexpr int kSize = 24;
 class Runs {
 public:
     Runs(const scene::Scene& scene, const RenderSettings& settings, base::Isa isa)
-        : settings_(settings), isa_(isa), renderer_(scene, 2), frame_(render::make_frame(scene, settings)) {}
+        : settings_(settings), isa_(isa), renderer_(scene, 2), frame_(render::make_frame(scene, settings)) {
+        frame_.begun.emplace();
+    }
 
     /// Renders on, and requests a stop after some time.
     /// \returns how long it took to stop
@@ -76,7 +78,7 @@ Frame stored_and_read(const Frame& frame, const scene::Scene& scene, const Rende
     std::vector<std::size_t> finished;
     for (std::size_t i = 0; i < frame.tiles.size(); ++i)
         if (frame.is_finished[i] != 0) finished.push_back(i);
-    save_checkpoint(path, {}, frame, finished, frame.begun);
+    save_checkpoint(path, {}, frame, finished, *frame.begun);
     Frame result = render::make_frame(scene, settings);
     load_checkpoint(path, {}, result);
     return result;
@@ -122,7 +124,7 @@ TEST(Stop, RenderingsThatAreStoppedOftenKeepTheirBitsAndLoseNoWork) {
             for (int i = 0; finished < 1 && i < 1000; ++i) {
                 stopped.go_on_for(Seconds(0.02));
                 expect_pixels_with_rays(stopped.frame());
-                begun_tiles += stopped.frame().begun.size();
+                begun_tiles += stopped.frame().begun->size();
                 stopped.frame() = stored_and_read(stopped.frame(), scene, settings);
                 finished = std::max(finished, finished_fraction(stopped.frame()));
                 // Pixels of tiles that were begun come back with the next run.
@@ -242,11 +244,23 @@ TEST(Stop, LayersOfLightsGetOnWhereCameraRaysAreSlow) {
     }
 }
 
+TEST(Stop, WithoutANextRunNothingIsKeptForIt) {
+    const scene::Scene scene = make_box_scene(kSize);
+    RenderSettings settings;
+    settings.samples = render::kMaxSamples;
+    Runs runs(scene, settings, base::choose_isa());
+    runs.frame().begun.reset();
+    runs.go_on_for(Seconds(0.1));
+    EXPECT_FALSE(runs.frame().begun);
+    EXPECT_GT(finished_fraction(runs.frame()), 0);
+    expect_pixels_with_rays(runs.frame());
+}
+
 TEST(Stop, BegunTilesOfAnotherSizeAreRefused) {
     const scene::Scene scene = make_box_scene(kSize);
     for (const std::size_t size : {0, 1, 4096}) {
         Runs runs(scene, {}, base::choose_isa());
-        runs.frame().begun[1].resize(size);
+        (*runs.frame().begun)[1].resize(size);
         EXPECT_THROW(runs.go_on(nullptr), std::runtime_error) << size;
     }
 }

@@ -394,7 +394,7 @@ void Parser::import() {
 // ---- Camera and film
 
 void Parser::camera() {
-    const std::string type = read_string();
+    const std::string type = reader_.read_type();
     ParameterList parameters = read_parameters();
     camera_ = read_camera(type, parameters, state_.current().ctm, scene_.warnings);
     has_moved_camera_ = !is_identity(state_.current().ctm);
@@ -403,7 +403,7 @@ void Parser::camera() {
 }
 
 void Parser::film() {
-    const std::string type = read_string();
+    const std::string type = reader_.read_type();
     ParameterList parameters = read_parameters();
     scene_.film = read_film(type, parameters, scene_.warnings);
     version_ = type == "image" ? PbrtVersion::v3 : PbrtVersion::v4;
@@ -411,18 +411,18 @@ void Parser::film() {
 
 /// Its defaults depend on the version, which the film may determine later.
 void Parser::pixel_filter() {
-    std::string type = read_string();
+    std::string type = reader_.read_type();
     pixel_filter_ = {std::move(type), read_parameters()};
 }
 
 void Parser::sampler() {
-    const std::string type = read_string();
+    const std::string type = reader_.read_type();
     ParameterList parameters = read_parameters();
     pixel_samples_ = read_pixel_samples(type, parameters, scene_.warnings);
 }
 
 void Parser::ignore_with_parameters() {
-    read_string();
+    reader_.read_type();
     read_parameters();
 }
 
@@ -451,13 +451,13 @@ void Parser::color_space() {
 }
 
 void Parser::light_source() {
-    const std::string type = read_string();
+    const std::string type = reader_.read_type();
     read_parameters();
     ignored_lights_.add(type, location_);
 }
 
 void Parser::area_light_source() {
-    const std::string type = read_string();
+    const std::string type = reader_.read_type();
     ParameterList parameters = read_parameters(AttributeTarget::light);
     const std::string image_name = parameters.string("filename", "");
     const std::filesystem::path image = image_name.empty() ? std::filesystem::path() : resolve(image_name);
@@ -473,7 +473,7 @@ MaterialEntry& Parser::add_material(const std::string& name, const std::string& 
 }
 
 void Parser::material() {
-    const std::string type = read_string();
+    const std::string type = reader_.read_type();
     state_.current().material = &add_material(type, type, read_parameters(AttributeTarget::material));
 }
 
@@ -498,7 +498,7 @@ void Parser::named_material() {
 void Parser::texture() {
     TextureDirective directive;
     directive.name = read_string();
-    const std::string type = read_string();
+    const std::string type = reader_.read_type();
     directive.texture_class = read_string();
     directive.parameters = read_parameters(AttributeTarget::texture);
     if (type != "float" && type != "spectrum" && type != "color")
@@ -534,7 +534,7 @@ int Parser::invisible_light_material() {
 
 void Parser::shape() {
     ShapeDirective shape;
-    shape.type = read_string();
+    shape.type = reader_.read_type();
     shape.parameters = read_parameters(AttributeTarget::shape);
     const GraphicsState& state = state_.current();
     shape.world_from_object = state.ctm;

@@ -78,6 +78,15 @@ std::string SourceReader::read_string() {
     return unescape(token.text);
 }
 
+std::string SourceReader::read_type() {
+    const Token token = tokens().peek();
+    std::string type = read_string();
+    if (type.find(' ') != std::string::npos)
+        throw SceneError(tokens().location(token),
+                         "expected the type, found the parameter " + Tokenizer::describe(token));
+    return type;
+}
+
 double SourceReader::read_number() {
     const Token token = tokens().next();
     if (token.kind != TokenKind::word)

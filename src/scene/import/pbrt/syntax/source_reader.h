@@ -39,6 +39,8 @@ public:
 
     // Arguments of directives. All throw SceneError if something else follows.
     std::string read_string();
+    /// Types come before the parameters and contain no spaces.
+    std::string read_type();
     double read_number();
     Double3 read_vector();
     /// Sixteen numbers column by column, with or without brackets.
