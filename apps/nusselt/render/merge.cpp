@@ -10,6 +10,7 @@
 #include "render/merge.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
@@ -66,11 +67,12 @@ int run_merge(const MergeOptions& options) {
     render::Merger merger;
     for (const std::filesystem::path& path : options.inputs) merger.add(image::read_layers(path), path);
     const image::LayeredImage result = merger.result();
-    if (const std::string& finished = result.metadata.at("finished_fraction");
-        finished != "1" && !options.allows_partial)
-        throw std::runtime_error("only a fraction of " + finished +
-                                 " of the pixels has samples; add the missing parts, or use --partial to "
-                                 "write what is there");
+    const double finished = std::stod(result.metadata.at("finished_fraction"));
+    if (finished < 1 && !options.allows_partial)
+        throw std::runtime_error(fmt::format(
+            "only {:.1f} % of the pixels have samples; add the missing parts, or use --partial to "
+            "write what is there",
+            std::floor(1000 * finished) / 10));
     image::write_layers(*options.output, result);
     return 0;
 }

@@ -221,9 +221,9 @@ void Panels::draw_lights(Viewer& viewer) {
                                                       state.edits.get(light).is_enabled ? "" : " (off)");
                 if (ImGui::Selectable(label.c_str(), state.selected_light == light))
                     state.selected_light = light;
+                explain("A light of the scene, or one that was added. Click it to select it.");
             }
         ImGui::EndListBox();
-        explain("Click a light to select it.");
     }
     if (button("add panel", "Add a square light in the middle of the image, which lights what is below."))
         viewer.add_light(LightShape::panel);
