@@ -105,7 +105,8 @@ struct LineExtent {
     /// The difference of the sines of both ends over the squared distance of the line: the tangent of half the angle
     /// between the ends times the sum of the cosines (Eq. 1), which does not cancel.
     NUSSELT_INLINE Real sine_density() const noexcept {
-        return line.length * (near_inverse + far_inverse) / one_plus_cosine;
+        const Real by_ends = (line.far_l * far_inverse - line.near_l * near_inverse) / line.squared;
+        return select(line.near_l < Real(0), by_ends, line.length * (near_inverse + far_inverse) / one_plus_cosine);
     }
     /// Far sine minus near sine, accurate relative to itself.
     NUSSELT_INLINE Real sine_extent() const noexcept { return line.squared * sine_density(); }
