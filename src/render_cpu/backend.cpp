@@ -1,7 +1,9 @@
 #include "render_cpu/backend.h"
 
+#include "base/threads.h"
 #include "render_cpu/renderer.h"
 
+#include <algorithm>
 #include <string>
 
 namespace nusselt::render_cpu {
@@ -23,6 +25,11 @@ private:
 };
 
 } // namespace
+
+// Scenes are loaded with the default number.
+CpuBackend::CpuBackend(base::Isa isa, int threads) : isa_(isa), threads_(threads) {
+    base::check_threads(std::max(threads, default_thread_count()));
+}
 
 std::optional<std::string> CpuBackend::why_unsupported(const render::RenderSettings&) const {
     return std::nullopt;

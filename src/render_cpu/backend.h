@@ -10,7 +10,8 @@ class CpuBackend final : public render::Backend {
 public:
     /// \param isa     supported by the processor
     /// \param threads at least 1
-    CpuBackend(base::Isa isa, int threads) : isa_(isa), threads_(threads) {}
+    /// \throws std::runtime_error see base::check_threads()
+    CpuBackend(base::Isa isa, int threads);
 
     std::string_view name() const override { return "cpu"; }
     std::optional<std::string> why_unsupported(const render::RenderSettings& settings) const override;

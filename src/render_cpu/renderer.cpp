@@ -2,7 +2,6 @@
 
 #include "base/flush_denormals.h"
 #include "base/stopwatch.h"
-#include "base/threads.h"
 #include "render/film.h"
 #include "render/line_choice.h"
 #include "render/memory.h"
@@ -135,13 +134,6 @@ private:
     std::vector<Block> lines_;
 };
 
-/// The number of threads that oneTBB may start for so many of a renderer.
-int checked_thread_limit(int thread_count) {
-    const int limit = std::max(thread_count, default_thread_count());
-    base::check_threads(limit);
-    return limit;
-}
-
 /// What RenderJob::stop_requested points to: without a request, nothing ever stops.
 const unsigned char* bytes_of(const std::atomic<bool>* cancel) {
     static constexpr unsigned char kNever = 0;
@@ -179,7 +171,7 @@ Renderer::Renderer(const scene::Scene& scene, int thread_count, const Integrator
       integrator_(&integrator),
       // Otherwise oneTBB refuses more threads than the machine runs at once, with a message of its own.
       thread_limit_(tbb::global_control::max_allowed_parallelism,
-                    static_cast<std::size_t>(checked_thread_limit(thread_count))),
+                    static_cast<std::size_t>(std::max(thread_count, default_thread_count()))),
       arena_(thread_count),
       arrays_(scene, kernels),
       embree_([&] {

@@ -35,7 +35,7 @@ public:
     /// \param thread_count threads for building and rendering, at least 1
     /// \param integrator   must outlive the renderer
     /// \param kernels      likewise
-    /// \throws std::runtime_error see base::check_threads(), EmbreeScene and KernelArrays
+    /// \throws std::runtime_error see EmbreeScene and KernelArrays
     Renderer(const scene::Scene& scene, int thread_count,
              const Integrator& integrator = integrators().front(),
              std::span<const LightKernel> kernels = light_kernels());
