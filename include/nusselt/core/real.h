@@ -78,21 +78,28 @@ NUSSELT_HD constexpr T min(T a, T b) noexcept {
     return a < b ? a : b;
 }
 
-/// a * b + c, rounded once. Without the instruction, float goes through double: the product is exact there
-/// and the result differs from a true fma by at most one rounding in 2^29 cases, while the library routine
-/// would take a hundred nanoseconds.
-NUSSELT_INLINE float fma(float a, float b, float c) noexcept {
-#if defined(__FMA__) || defined(__ARM_FEATURE_FMA) || defined(__CUDA_ARCH__)
-    return std::fma(a, b, c);
-#else
-    auto rounded =
-        static_cast<float>(static_cast<double>(a) * static_cast<double>(b) + static_cast<double>(c));
+namespace detail {
+
+NUSSELT_INLINE float round_to_float(double x) noexcept {
+    auto rounded = static_cast<float>(x);
 #if defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)
     // g++ 12 vectorises neighbouring calls and forgets to round what is an operand of another call: without this,
     // TriangleShadow.PacksHaveTheBitsOfScalars fails for x86-64-v2.
     __asm__("" : "+x"(rounded));
 #endif
     return rounded;
+}
+
+} // namespace detail
+
+/// a * b + c, rounded once. Without the instruction, float goes through double: the product is exact there
+/// and the result differs from a true fma by at most one rounding in 2^29 cases, while the library routine
+/// would take a hundred nanoseconds. Where two roundings do no harm, multiply_add() is faster.
+NUSSELT_INLINE float fma(float a, float b, float c) noexcept {
+#if NUSSELT_HAS_FMA
+    return std::fma(a, b, c);
+#else
+    return detail::round_to_float(static_cast<double>(a) * static_cast<double>(b) + static_cast<double>(c));
 #endif
 }
 NUSSELT_INLINE double fma(double a, double b, double c) noexcept { return std::fma(a, b, c); }
@@ -118,6 +125,32 @@ NUSSELT_HD inline long double fma(long double a, long double b, long double c) n
         const long double lost = (product - (sum - added)) + (c - added);
         return sum + (lost + error);
     }
+}
+
+/// a * b + c as fast as the processor can: rounded once where it has an instruction for that, else twice. For
+/// polynomials and other sums whose error bounds do not need the exact product.
+template <class T, EnableScalar<T> = 0>
+NUSSELT_INLINE T multiply_add(T a, T b, T c) noexcept {
+#if NUSSELT_HAS_FMA
+    if constexpr (!std::is_same_v<T, long double>) return std::fma(a, b, c);
+#endif
+    return a * b + c;
+}
+
+/// a * b - c * d with an error of at most 1.5 ulp barring under- and overflow, and never the wrong sign
+/// (Kahan's algorithm; Jeannerod, Louvet, Muller 2013, doi:10.1090/S0025-5718-2013-02679-8).
+template <class T, EnableScalar<T> = 0>
+NUSSELT_INLINE T difference_of_products(T a, T b, T c, T d) noexcept {
+#if !NUSSELT_HAS_FMA
+    // Both products are exact in double precision.
+    if constexpr (std::is_same_v<T, float>) {
+        return detail::round_to_float(static_cast<double>(a) * static_cast<double>(b) -
+                                      static_cast<double>(c) * static_cast<double>(d));
+    }
+#endif
+    const T cd = c * d;
+    const T error = fma(c, d, -cd);
+    return fma(a, b, -cd) - error;
 }
 
 /// Whether x is neither NaN nor infinite.
