@@ -13,6 +13,10 @@
 
 #include <nusselt/core/config.h>
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 NUSSELT_NAMESPACE_BEGIN
 
 /// Maps a number type to its scalar, its mask and its number of lanes. simd/pack.h specialises it.
@@ -54,6 +58,34 @@ template <class T, EnableScalar<T> = 0>
 NUSSELT_INLINE T sqrt(T x) noexcept {
     return std::sqrt(x);
 }
+#if defined(__SSE2__) && !defined(__NO_MATH_ERRNO__)
+/// The instruction alone. std::sqrt() sets errno, for which compilers call the library, so that all registers have to be
+/// saved somewhere even if no argument is ever negative.
+NUSSELT_INLINE float sqrt(float x) noexcept {
+#if defined(__clang__) || !defined(__GNUC__)
+    return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(x)));
+#elif defined(__AVX__)
+    __asm__("vsqrtss %0, %0, %0" : "+x"(x));
+    return x;
+#else
+    // The intrinsic would clear the upper part of the register by way of another one.
+    __asm__("sqrtss %0, %0" : "+x"(x));
+    return x;
+#endif
+}
+/// \copydoc sqrt(float)
+NUSSELT_INLINE double sqrt(double x) noexcept {
+#if defined(__clang__) || !defined(__GNUC__)
+    return _mm_cvtsd_f64(_mm_sqrt_sd(_mm_setzero_pd(), _mm_set_sd(x)));
+#elif defined(__AVX__)
+    __asm__("vsqrtsd %0, %0, %0" : "+x"(x));
+    return x;
+#else
+    __asm__("sqrtsd %0, %0" : "+x"(x));
+    return x;
+#endif
+}
+#endif
 template <class T, EnableScalar<T> = 0>
 NUSSELT_INLINE T abs(T x) noexcept {
     return std::fabs(x);

@@ -219,35 +219,30 @@ NUSSELT_INLINE SinCos<Real> sincos_quarter_turn(const Real& angle) noexcept {
 
 namespace detail {
 
-/// Coefficients of (x - sin(x)) / x^3 as a polynomial in x^2. Float: fitted on [0, pi], relative error 1e-7. Others:
-/// Taylor series.
-template <class Scalar>
-struct XMinusSin {
-    static constexpr int kTerms = std::is_same_v<Scalar, double> ? 14 : 17;
-    static constexpr Scalar coefficient(int i) noexcept {
-        Scalar c = Scalar(1) / 6;
-        for (int k = 1; k <= i; ++k) c /= -static_cast<Scalar>((2 * k + 2) * (2 * k + 3));
-        return c;
-    }
-};
-template <>
-struct XMinusSin<float> {
-    static constexpr int kTerms = 6;
+/// Coefficients of (x - sin(x)) / t^3 with x = 2 atan(t) as a polynomial in t^2, fitted on [0, 1], relative error 1.3e-7.
+struct AngleMinusSine {
+    static constexpr int kTerms = 10;
     static constexpr float coefficient(int i) noexcept {
-        constexpr float kFitted[] = {1.666666716e-1f,  -8.333330974e-3f, 1.984097180e-4f,
-                                     -2.754484285e-6f, 2.481271544e-8f,  -1.390407928e-10f};
+        constexpr float kFitted[] = {1.33333325f,    -1.59998238f,   1.71369636f, -1.76994431f,
+                                     1.7636472f,     -1.61840236f,   1.24713326f, -7.13133872e-1f,
+                                     2.57261246e-1f, -4.28121388e-2f};
         return kFitted[i];
     }
 };
 
 } // namespace detail
 
-/// x - sin(x) on [0, pi]. Single precision: relative error at most 5e-7; others: full relative precision.
+/// x - sin(x) of the angle x = 2 atan(t) in [-pi / 2, pi / 2]. Single precision: relative error at most 6e-7; others: full
+/// relative precision.
+/// \param t in [-1, 1].
 template <class Real>
-NUSSELT_INLINE Real x_minus_sin(const Real& x) noexcept {
-    using Polynomial = detail::XMinusSin<scalar_t<Real>>;
-    const Real s = x * x;
-    return x * s * polynomial<Polynomial>(s);
+NUSSELT_INLINE Real angle_minus_sine(const Real& t) noexcept {
+    const Real s = t * t;
+    if constexpr (kIsSingle<Real>) {
+        return t * s * polynomial<detail::AngleMinusSine>(s);
+    } else {
+        return Real(2) * t * (s / (Real(1) + s) - one_minus_atan_ratio(s));
+    }
 }
 
 NUSSELT_NAMESPACE_END

@@ -92,7 +92,7 @@ struct Trigonometry {
     static constexpr Output kOutputs[] = {
         {"atan2_positive", Error::relative},           {"sine of a half turn", Error::absolute},
         {"cosine of a half turn", Error::absolute},    {"sine of a quarter turn", Error::relative},
-        {"cosine of a quarter turn", Error::absolute}, {"x_minus_sin", Error::relative},
+        {"cosine of a quarter turn", Error::absolute}, {"angle_minus_sine", Error::relative},
         {"one_minus_atan_ratio", Error::relative}};
 
     static void draw(RandomSource& random, std::vector<float>& inputs) {
@@ -121,7 +121,7 @@ struct Trigonometry {
                 half_turn.cos,
                 quarter_turn.sin,
                 quarter_turn.cos,
-                x_minus_sin(angle),
+                angle_minus_sine(Real(inputs[3])),
                 one_minus_atan_ratio(Real(inputs[3]))};
     }
 };

@@ -62,10 +62,10 @@ ScaledPolygon part_above_horizon(ConvexPolygon light) {
 /// The part of a line above the surface.
 /// \param light in shading space, with coordinates of order one (scaled()).
 LineSegment part_above_horizon(LineSegment light) {
-    LineExtent e = clipped_extent(light);
-    vec3 start = e.starts_near ? e.near : exact_fma(e.len, e.inward, e.near);
+    CenteredLine part = clip_to_horizon(centered(light));
+    vec3 start = part.sign_of_s > 0.0 ? part.near : exact_fma(part.len, part.inward, part.near);
     start.z = nusselt_max(start.z, 0.0);
-    return LineSegment(start, light.s, e.visible ? e.len : 0.0);
+    return LineSegment(start, light.s, part.len);
 }
 
 #endif
