@@ -69,7 +69,7 @@ public:
         }
         Real excess = max(multiply_add(t.g0, angle.cos, -t.g1 * angle.sin), Real(0));
         Real y = t.g2_a * angle.sin;
-        if (!all(max(excess, y) > Real(kSmall))) {
+        if (!all(excess + y > Real(kSmall))) {
             const Real scale = reciprocal_power_of_two(max(excess, y));
             excess = scale * excess;
             y = scale * y;
@@ -206,7 +206,7 @@ private:
         const auto that_of_j = [](const auto& of_j, const auto&) { return of_j; };
         if constexpr (RealTraits<Real>::kLanes == 1) {
             int found = 0;
-            for (int j = 1; j < kTriangles; ++j) found = target >= begin_[j] ? j : found;
+            for (int j = 1; j < kTriangles; ++j) found += static_cast<int>(target >= begin_[j]);
             update(t, found, that_of_j);
         } else {
             update(t, 0, that_of_j);

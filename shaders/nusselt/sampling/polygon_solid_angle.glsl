@@ -194,9 +194,8 @@ LightSample polygon_solid_angle_sample(PolygonSolidAngle self, vec2 u) {
         angle = sincos_quarter_turn(half_angle);
     float excess = nusselt_max(nusselt_fma(g0, angle.cosine, -g1 * angle.sine), 0.0);
     float y = g2_a * angle.sine;
-    float largest = nusselt_max(excess, y);
-    if (!(largest > 1.0 / 16777216.0)) {
-        float scale = reciprocal_power_of_two(largest);
+    if (!(excess + y > 1.0 / 16777216.0)) {
+        float scale = reciprocal_power_of_two(nusselt_max(excess, y));
         excess = scale * excess;
         y = scale * y;
     }
