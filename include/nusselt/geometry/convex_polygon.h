@@ -101,7 +101,6 @@ NUSSELT_INLINE void for_each_precise_triangle(const ConvexPolygon<Real, N>& poly
     Vec3<Real> offset = polygon.edge[0]; // from vertex 0 to vertex j + 1
     Vec3<Real> lost = zero;
     Vec3<Real> rounding = rounding_of(offset);
-    NUSSELT_UNROLL
     for (int j = 0; j < N - 2; ++j) {
         const Vec3<Real>& a = polygon.vertex[j + 1];
         const Vec3<Real>& edge = polygon.edge[j + 1];

@@ -12,8 +12,7 @@ struct FanVolumes {
     Real volume[N - 2];
     mask_t<Real> conclusive; ///< whether refine() would change only the last digits
 
-    FanVolumes() = default;
-
+    /// \param polygon relative to the shading point [m].
     NUSSELT_INLINE explicit FanVolumes(const ConvexPolygon<Real, N>& polygon) noexcept {
         const Vec3<Real>& v = polygon.vertex[0];
         Vec3<Real> offset = polygon.edge[0];
@@ -27,9 +26,9 @@ struct FanVolumes {
             normal = normal + n;
         }
         const Real whole = total();
-        conclusive =
-            whole * whole > Real(detail::kConclusive<scalar_t<Real>> * detail::kConclusive<scalar_t<Real>>) *
-                                dot(v, v) * dot(normal, normal);
+        // Squares that leave the range of numbers are not conclusive.
+        constexpr scalar_t<Real> kSine = detail::kConclusive<scalar_t<Real>>;
+        conclusive = whole * whole > Real(kSine * kSine) * dot(v, v) * dot(normal, normal);
     }
 
     /// For a polygon whose plane has a known distance.
@@ -42,13 +41,15 @@ struct FanVolumes {
         }
     }
 
+    /// Their sum.
     NUSSELT_INLINE Real total() const noexcept {
         Real sum = volume[0];
         for (int j = 1; j < N - 2; ++j) sum = sum + volume[j];
         return sum;
     }
 
-    /// Computes volumes that are not conclusive once more, with products of twice the precision.
+    /// Computes volumes that are not conclusive once more, with products of twice the precision. They are 0 if the plane
+    /// of the polygon cannot be told from one through the origin.
     NUSSELT_HD void refine(const ConvexPolygon<Real, N>& polygon) noexcept {
         const Real distance = detail::rounded_plane_distance(polygon, detail::nearest_vertex(polygon));
         const Real side = copysign(Real(1), distance);

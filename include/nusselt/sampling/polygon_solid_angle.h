@@ -87,7 +87,7 @@ public:
         Real room = squared + cosine;
         Vec3<Real> cv;
         if (any(wide_)) {
-            // Weights may be large and cancel. Find v from the sum of a and b, which is then small but accurate.
+            // Weights are large and cancel. Find v from the sum of a and b instead, which is small but accurate.
             const Vec3<Real> c = direction(0);
             const Vec3<Real> a = t.inverse_a * t.pa;
             const Vec3<Real> ab = a + t.inverse_b * t.pb;
@@ -228,9 +228,8 @@ private:
         return inverse_scale_ / max(least, Real(kLeast));
     }
 
-    /// The unit vector of one that has length one up to rounding, in most cases.
+    /// A vector that has length one up to rounding, in most cases, as a unit vector: one step of Newton's iteration.
     NUSSELT_INLINE static Vec3<Real> unit_vector(const Vec3<Real>& a) noexcept {
-        // One step of Newton's iteration.
         const Real squared = dot(a, a);
         Real factor = multiply_add(Real(-0.5), squared, Real(1.5));
         const auto close = abs(squared - Real(1)) < Real(kNewton);
@@ -238,7 +237,8 @@ private:
         return factor * a;
     }
 
-    /// For lights with volumes that are not conclusive.
+    /// For lights that are seen almost edge-on, very close, very small or very large.
+    /// \param volumes of the light, as they are.
     NUSSELT_HD void prepare_carefully(const ConvexPolygon<Real, N>& light,
                                       FanVolumes<Real, N>& volumes) noexcept {
         Real least = inverse_distance_[0];
@@ -315,8 +315,8 @@ private:
         counterclockwise_ = volumes.total() >= Real(0);
     }
 
-    /// Finds the terms of Eq. 13 once more, for wide lights.
-    /// \param half solid angles.
+    /// Finds the terms of Eq. 13 and the solid angles of wide lights.
+    /// \param half solid angles of triangles.
     NUSSELT_HD void prepare_wide(Real* half) noexcept {
         const Vec3<Real> c = direction(0);
         for (int j = 0; j < kTriangles; ++j) {
