@@ -34,11 +34,10 @@ public:
 
         // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. With exactly equal
         // azimuths they do not disturb the order of the others. In both directions, for runs of such edges.
+        auto uncertain = is_close(azimuth[0], azimuth[M - 1]);
         NUSSELT_UNROLL
-        for (int j = 1; j < M; ++j) unite(azimuth[j], azimuth[j - 1]);
-        unite(azimuth[0], azimuth[M - 1]);
-        NUSSELT_UNROLL
-        for (int j = M - 1; j > 0; --j) unite(azimuth[j - 1], azimuth[j]);
+        for (int j = 1; j < M; ++j) uncertain = uncertain | is_close(azimuth[j], azimuth[j - 1]);
+        if (any(uncertain)) unite_all(azimuth);
 
         // Associate each vertex with the edge that begins there in counterclockwise order (Sec. 3.7).
         first_inner_ = {offset[0], offset[0], mask_t<Real>(false)};
@@ -144,15 +143,24 @@ private:
                 Real(kRounding) * inverse * size};
     }
 
-    /// Makes azimuths equal if they are so up to rounding: the less certain one takes over the other. That of a vertex
-    /// next to the zenith, which is hardly known, does not bridge those of its neighbours so.
+    NUSSELT_INLINE static mask_t<Real> is_close(const Azimuth& a, const Azimuth& b) noexcept {
+        return abs(a.angle - b.angle) <= max(a.rounding, b.rounding);
+    }
+
+    /// Makes azimuths of neighbours equal if they are so up to rounding: the less certain one takes over the other. That
+    /// of a vertex next to the zenith, which is hardly known, does not bridge those of its neighbours so.
     NUSSELT_HD static void unite(Azimuth& a, Azimuth& b) noexcept {
-        const auto close = abs(a.angle - b.angle) <= max(a.rounding, b.rounding);
+        const auto close = is_close(a, b);
         const auto a_moves = close & (a.rounding >= b.rounding);
         const auto b_moves = close & (a.rounding < b.rounding);
         const Azimuth old = a;
         a = {select(a_moves, b.angle, a.angle), select(a_moves, b.rounding, a.rounding)};
         b = {select(b_moves, old.angle, b.angle), select(b_moves, old.rounding, b.rounding)};
+    }
+    NUSSELT_HD static void unite_all(Azimuth* azimuth) noexcept {
+        for (int j = 1; j < M; ++j) unite(azimuth[j], azimuth[j - 1]);
+        unite(azimuth[0], azimuth[M - 1]);
+        for (int j = M - 1; j > 0; --j) unite(azimuth[j - 1], azimuth[j]);
     }
 
     /// The position of the sweep on the outer or the inner edges.
