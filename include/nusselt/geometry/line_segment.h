@@ -120,9 +120,7 @@ struct LineExtent {
         return sines;
     }
     /// Whether the angle between the ends exceeds a quarter of a turn.
-    NUSSELT_INLINE mask_t<Real> is_obtuse() const noexcept {
-        return one_plus_cosine < product;
-    }
+    NUSSELT_INLINE mask_t<Real> is_obtuse() const noexcept { return one_plus_cosine < product; }
     /// False if the segment has no length or its line passes through the origin.
     NUSSELT_INLINE mask_t<Real> visible() const noexcept { return area() > Real(0); }
 };
@@ -145,8 +143,8 @@ NUSSELT_INLINE LineExtent<Real> make_line_extent(const CenteredLine<Real>& line)
     if (any(is_obtuse)) {
         const Real squares = near_squared + line.far_l * line.far_l;
         const Real sum = product - coordinates;
-        one_plus_cosine = select(is_obtuse, line.squared * (Real(1) + squares / select(is_obtuse, sum, Real(1))),
-                                 one_plus_cosine);
+        one_plus_cosine = select(
+            is_obtuse, line.squared * (Real(1) + squares / select(is_obtuse, sum, Real(1))), one_plus_cosine);
     }
     // Member by member: as a whole, g++ would copy packs by way of memory.
     return {{line.near, line.inward, line.closest, line.squared, line.near_l, line.far_l, line.far_z,

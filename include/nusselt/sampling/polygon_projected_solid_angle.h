@@ -48,10 +48,14 @@ public:
             if (prepare_ordinary(light)) return;
         }
 #endif
-        // Scale the light to coordinates of order one.
-        const ScaledPolygon<Real, N> unit = to_unit_extent(light);
-        ConvexPolygon<Real, N> polygon = unit.light;
-        inverse_scale_ = unit.inverse_scale;
+        // Scale the light to coordinates of order one, unless products of coordinates stay in range anyway.
+        ConvexPolygon<Real, N> polygon = light;
+        inverse_scale_ = Real(1);
+        if (!all(is_moderate(light))) {
+            const ScaledPolygon<Real, N> unit = to_unit_extent(light);
+            polygon = unit.light;
+            inverse_scale_ = unit.inverse_scale;
+        }
         const Real distance = plane_distance(polygon);
 
         // The method wants the winding that is clockwise as seen from the origin: mirror y otherwise (Sec. 3.1).
@@ -155,6 +159,22 @@ private:
     using Sectors = ProjectedSectors<Real, kSectors, Angles>;
     using Selection = typename Sectors::Selection;
 
+    /// Whether a light is clear of the horizon and of the zenith's axis and has coordinates of order one.
+    NUSSELT_INLINE static mask_t<Real> is_moderate(const ConvexPolygon<Real, N>& light) noexcept {
+        Real least = light.vertex[0].z;
+        Real largest = Real(0);
+        NUSSELT_UNROLL
+        for (int j = 0; j < N; ++j) {
+            const Vec3<Real>& v = light.vertex[j];
+            const Real reach = abs(v.x) + abs(v.y);
+            least = min(least, min(reach, v.z));
+            largest = max(largest, max(reach, v.z));
+        }
+        constexpr scalar_t<Real> kLargest = power_of_two<scalar_t<Real>>(8);
+        constexpr scalar_t<Real> kLeast = power_of_two<scalar_t<Real>>(-16);
+        return (least > Real(kLeast)) & (largest < Real(kLargest)) & (largest > Real(1 / kLargest));
+    }
+
     static constexpr int successor(int k, int count) noexcept { return k + 1 < count ? k + 1 : 0; }
 
 #if NUSSELT_HAS_VERTEX_LANES
@@ -250,16 +270,17 @@ private:
             is_outer[j] = turn > Real(0);
             decentral = decentral | ((turn < Real(0)) & (!on_horizon));
             // The zenith is on the boundary within rounding. Then no edge determines on which side it is.
+            const auto close = abs(turn) <= rounding * (abs(edge.x) + abs(edge.y));
+            if (!any(close)) continue;
             const auto at_vertex = (v.z > Real(0)) & (abs(v.x) + abs(v.y) <= rounding);
             const auto across = dot(xy(v), xy(next)) < Real(0);
-            const auto on_edge = across & (abs(turn) <= rounding * (abs(edge.x) + abs(edge.y)));
-            touches_zenith = touches_zenith | at_vertex | on_edge;
+            touches_zenith = touches_zenith | (close & (at_vertex | across));
         }
 
         // Tell the central case, where the zenith lies in the light, from the decentral one. On the zenith's axis, the
         // plane has the height distance / normal.z: some vertex is at least as high if the light is there. Strips along
         // the horizon have less conclusive edges.
-        const Real slack = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon());
+        const Real slack = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon()) * hull_.plane.farthest;
         const auto reaches_axis = (distance * polygon.normal.z >= Real(0)) &
                                   (abs(distance) <= fma(abs(polygon.normal.z), hull_.high.z, slack));
         decentral = (decentral & (!touches_zenith)) | (!reaches_axis);
@@ -384,7 +405,7 @@ private:
         return select(central_, select(radius > Real(0), central, Real(0)), decentral);
     }
 
-    // Coordinates are scaled to an extent of order one, and mirrored.
+    // Coordinates are scaled unless they are moderate, and mirrored.
     PolygonHull<Real> hull_; ///< of the light above the horizon
     Real mirror_;            ///< -1 if y is mirrored to get the expected winding
     Real inverse_scale_;     ///< a power of two

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CORE_TRIG_GLSL
 #define NUSSELT_CORE_TRIG_GLSL
-// Follows include/nusselt/core/trig.h @ 2f2fb4b813e8
+// Follows include/nusselt/core/trig.h @ d194530e63a2
 /// Trigonometric functions as polynomials, the same ones as in single precision on the CPU: the built-in functions of
 /// GLSL may err by 4e-4 and leave special values undefined. Twin of include/nusselt/core/trig.h, where the error bounds
 /// stand.

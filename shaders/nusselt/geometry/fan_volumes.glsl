@@ -1,6 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_FAN_VOLUMES_GLSL
 #define NUSSELT_GEOMETRY_FAN_VOLUMES_GLSL
-// Follows include/nusselt/geometry/fan_volumes.h @ 0f07a15af712
+// Follows include/nusselt/geometry/fan_volumes.h @ ee99be24acdc
 /// Triple products of the triangles of a polygon. Twin of include/nusselt/geometry/fan_volumes.h.
 
 #include "../geometry/convex_polygon.glsl"

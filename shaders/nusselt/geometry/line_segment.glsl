@@ -1,6 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_LINE_SEGMENT_GLSL
 #define NUSSELT_GEOMETRY_LINE_SEGMENT_GLSL
-// Follows include/nusselt/geometry/line_segment.h @ 3f5fd28b510b
+// Follows include/nusselt/geometry/line_segment.h @ 6d9147a914e6
 /// Line segments, and the angles under which a shading point sees them. Twin of
 /// include/nusselt/geometry/line_segment.h.
 

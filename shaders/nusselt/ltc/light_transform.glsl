@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LTC_LIGHT_TRANSFORM_GLSL
 #define NUSSELT_LTC_LIGHT_TRANSFORM_GLSL
-// Follows include/nusselt/ltc/light_transform.h @ d936b5a8b35a
+// Follows include/nusselt/ltc/light_transform.h @ 7e7483140d16
 /// Lights in the cosine space of a lobe. A linear map takes polygons to polygons and segments to segments, and the
 /// integral of the lobe over the light to that of the clamped cosine over its image. Twin of
 /// include/nusselt/ltc/light_transform.h.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_LTC_GLSL
 #define NUSSELT_SAMPLING_LINE_LTC_GLSL
-// Follows include/nusselt/sampling/line_ltc.h @ 668e1c1ab419
+// Follows include/nusselt/sampling/line_ltc.h @ aa62462c9081
 /// Sampling of a linear light proportional to a linearly transformed cosine. With a lobe that fits the specular BRDF
 /// times cosine, the noise that remains comes from shadows and from the misfit.
 ///

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_LINE_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/line_projected_solid_angle.h @ dd4c84864f7e
+// Follows include/nusselt/sampling/line_projected_solid_angle.h @ f25e159f23a5
 /// Uniform sampling of the projected solid angle of a linear light: density proportional to the cosine at the surface.
 /// With a Lambertian tube on a Lambertian surface, all noise that remains comes from shadows.
 ///

@@ -45,8 +45,8 @@ void check_line(Input& input) {
                 !is_finite(extent.far_height()),
             "clipped_extent", "end is not finite", light);
     if (!extent.visible()) return;
-    fail_if(!(extent.sine_extent().difference >= 0 && extent.sine_extent().difference <= T(2.001)), "clipped_extent",
-            "not a difference of sines", light);
+    fail_if(!(extent.sine_extent().difference >= 0 && extent.sine_extent().difference <= T(2.001)),
+            "clipped_extent", "not a difference of sines", light);
     fail_if(!(extent.area() <= T(1.001) * extent.product), "clipped_extent", "not a sine", light);
 }
 

@@ -51,7 +51,8 @@ TYPED_TEST(LineTest, ClosedFormsAgreeWithQuadrature) {
         const Point to = end.z < 0 ? crossing : end;
         EXPECT_NEAR(projected_solid_angle(line) / integrate(from, to, projected), 1, tolerance) << light.name;
         const auto extent = clipped_extent(to_safe_extent(line));
-        EXPECT_NEAR(2 * extent.sine_extent().density * extent.distance / integrate(from, to, solid), 1, tolerance)
+        EXPECT_NEAR(2 * extent.sine_extent().density * extent.distance / integrate(from, to, solid), 1,
+                    tolerance)
             << light.name;
     }
 }
