@@ -6,8 +6,8 @@
 #            FOLDER/results
 #   MIRROR   (environment) Debian mirror; default: the first one that this machine's apt uses for Debian
 set -euo pipefail
-[ $# -ge 2 ] || { sed -n '2,7s/^# //p' "$0"; exit 2; }
-kit=$(realpath "$(dirname "$0")/../out/nusselt-gpu-kit.tar.xz")
+[ $# -ge 2 ] || { sed -n '2,7s/^# //p' "$0" >&2; exit 2; }
+kit=$(realpath -m "$(dirname "$0")/../out/nusselt-gpu-kit.tar.xz")
 root=$(realpath -m "$1")
 suite=$2
 shift 2

@@ -7,9 +7,11 @@
 # Prints the name of the archive, its size and the glibc that it needs.
 set -euo pipefail
 here=$(pwd)
-cd "$(dirname "$0")/.."
-what=${1:-} build=${2:-build/release}
+what=${1:-} build=${2:-}
 [[ $what =~ ^(gpu-kit|archive)$ ]] || { sed -n '4,7s/^# //p' "$0" >&2; exit 2; }
+[ -z "$build" ] || build=$(realpath -m "$build")
+cd "$(dirname "$0")/.."
+build=${build:-build/release}
 
 fail() {
     echo "pack: $*" >&2
@@ -101,6 +103,8 @@ grep -ohE '/usr/share/common-licenses/[A-Za-z0-9.-]*[A-Za-z0-9]' -r "$root/share
 
 # The newest version of glibc that files ask for.
 glibc_of() { objdump -T "$@" | grep -oE 'GLIBC_[0-9.]+' | sort -uV | tail -1 | cut -d_ -f2; }
+glibc=$(glibc_of "$root/lib/programs/"* "$root/lib/"*.so*)
+spare_glibc=$(glibc_of "$root/lib/spare/"*/*)
 commit=$(git rev-parse HEAD 2>/dev/null || echo unknown)
 [ -z "$(git status --porcelain 2>/dev/null)" ] || commit+=" with changes"
 {
@@ -108,8 +112,8 @@ commit=$(git rev-parse HEAD 2>/dev/null || echo unknown)
     echo "commit: $commit"
     echo "built on: $(. /etc/os-release && echo "$PRETTY_NAME"), $(c++ --version | head -1)"
     echo "processors: x86-64-v2 and newer"
-    echo "glibc: $(glibc_of "$root/lib/programs/"* "$root/lib/"*.so*)"
-    echo "glibc for spare libraries: $(glibc_of "$root/lib/spare/"*/*)"
+    echo "glibc: $glibc"
+    echo "glibc for spare libraries: $spare_glibc"
     sort -u "$work/libraries"
 } >"$root/MANIFEST"
 

@@ -47,7 +47,7 @@ if [ -n "$(ls -A "$out")" ] || ! (set -C && : >"$out/steps.txt") 2>/dev/null; th
     exit 2
 fi
 
-ended= child= stopped_by=
+ended= child= stopped_by= outcome=
 stop() {
     ended=$1 stopped_by=$2
     [ -z "$child" ] || kill "$child" 2>/dev/null

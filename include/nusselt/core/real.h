@@ -13,8 +13,12 @@
 
 #include <nusselt/core/config.h>
 
-#if defined(__SSE2__)
+// 1 where std::sqrt() is a call of the library although the target has an instruction.
+#if defined(__SSE2__) && !defined(__NO_MATH_ERRNO__) && !defined(__CUDACC__) && !defined(__CUDA__)
+#define NUSSELT_HAS_SQRT_INSTRUCTION 1
 #include <emmintrin.h>
+#else
+#define NUSSELT_HAS_SQRT_INSTRUCTION 0
 #endif
 
 NUSSELT_NAMESPACE_BEGIN
@@ -54,17 +58,15 @@ NUSSELT_HD constexpr T select(bool mask, T a, T b) noexcept {
 NUSSELT_HD constexpr bool any(bool mask) noexcept { return mask; }
 NUSSELT_HD constexpr bool all(bool mask) noexcept { return mask; }
 
-template <class T, EnableScalar<T> = 0>
-NUSSELT_INLINE T sqrt(T x) noexcept {
-    return std::sqrt(x);
-}
-#if defined(__SSE2__) && !defined(__NO_MATH_ERRNO__)
-/// The instruction alone. std::sqrt() sets errno, for which compilers call the library, so that all registers have to be
-/// saved somewhere even if no argument is ever negative.
-NUSSELT_INLINE float sqrt(float x) noexcept {
+#if NUSSELT_HAS_SQRT_INSTRUCTION
+namespace detail {
+
+/// std::sqrt() sets errno, for which compilers call the library, so that all registers have to be saved somewhere even if
+/// no argument is ever negative.
+NUSSELT_INLINE float sqrt_instruction(float x) noexcept {
 #if defined(__clang__) || !defined(__GNUC__)
     return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(x)));
-#elif defined(__AVX__)
+#elif defined(__AVX2__) && defined(__FMA__)
     __asm__("vsqrtss %0, %0, %0" : "+x"(x));
     return x;
 #else
@@ -73,11 +75,11 @@ NUSSELT_INLINE float sqrt(float x) noexcept {
     return x;
 #endif
 }
-/// \copydoc sqrt(float)
-NUSSELT_INLINE double sqrt(double x) noexcept {
+/// \copydoc sqrt_instruction(float)
+NUSSELT_INLINE double sqrt_instruction(double x) noexcept {
 #if defined(__clang__) || !defined(__GNUC__)
     return _mm_cvtsd_f64(_mm_sqrt_sd(_mm_setzero_pd(), _mm_set_sd(x)));
-#elif defined(__AVX__)
+#elif defined(__AVX2__) && defined(__FMA__)
     __asm__("vsqrtsd %0, %0, %0" : "+x"(x));
     return x;
 #else
@@ -85,7 +87,17 @@ NUSSELT_INLINE double sqrt(double x) noexcept {
     return x;
 #endif
 }
+
+} // namespace detail
 #endif
+
+template <class T, EnableScalar<T> = 0>
+NUSSELT_INLINE T sqrt(T x) noexcept {
+#if NUSSELT_HAS_SQRT_INSTRUCTION
+    if constexpr (!std::is_same_v<T, long double>) return detail::sqrt_instruction(x);
+#endif
+    return std::sqrt(x);
+}
 template <class T, EnableScalar<T> = 0>
 NUSSELT_INLINE T abs(T x) noexcept {
     return std::fabs(x);
@@ -162,9 +174,10 @@ NUSSELT_HD inline long double fma(long double a, long double b, long double c) n
 /// a * b + c as fast as the processor can: rounded once where it has an instruction for that, else twice. For
 /// polynomials and other sums whose error bounds do not need the exact product.
 template <class T, EnableScalar<T> = 0>
-NUSSELT_INLINE T multiply_add(T a, T b, T c) noexcept {
+NUSSELT_INLINE constexpr T multiply_add(T a, T b, T c) noexcept {
 #if NUSSELT_HAS_FMA
-    if constexpr (!std::is_same_v<T, long double>) return std::fma(a, b, c);
+    if constexpr (!std::is_same_v<T, long double>)
+        if (!__builtin_is_constant_evaluated()) return std::fma(a, b, c);
 #endif
     return a * b + c;
 }

@@ -52,7 +52,7 @@ NUSSELT_HD constexpr Vec2<Real>& operator/=(Vec2<Real>& a, const Real& s) noexce
     return a = a / s;
 }
 template <class Real>
-NUSSELT_INLINE Real dot(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
+NUSSELT_INLINE constexpr Real dot(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
     return multiply_add(a.y, b.y, a.x * b.x);
 }
 
@@ -116,7 +116,7 @@ NUSSELT_INLINE Vec3<Real> multiply_add(const Real& s, const Vec3<Real>& a, const
     return {multiply_add(s, a.x, b.x), multiply_add(s, a.y, b.y), multiply_add(s, a.z, b.z)};
 }
 template <class Real>
-NUSSELT_INLINE Real dot(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+NUSSELT_INLINE constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
     return multiply_add(a.z, b.z, multiply_add(a.y, b.y, a.x * b.x));
 }
 template <class Real>

@@ -43,7 +43,7 @@ NUSSELT_INLINE Real squared_reach(const LineSegment<Real>& line) noexcept {
     return multiply_add(line.length, line.length, dot(line.p0, line.p0));
 }
 
-/// Scales a segment only if it is very large or very small: then, nothing waits for the scale of the others.
+/// Scales a segment only if it is very large or very small, so that the ordinary case does not wait for a scale.
 template <class Real>
 NUSSELT_INLINE SafeLine<Real> to_safe_extent(const LineSegment<Real>& line) noexcept {
     constexpr scalar_t<Real> kLargest = power_of_two<scalar_t<Real>>(24);

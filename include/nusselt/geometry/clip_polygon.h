@@ -101,6 +101,7 @@ struct Outline {
     Vec3<float> vertex[Capacity]; ///< from count on: vertex 0, unless there is none
     Vec3<float> edge[Capacity];   ///< to the next vertex, never of length zero; from count on: zero
 
+    /// The caller makes sure that the capacity suffices.
     void add(const Vec3<float>& position, const Vec3<float>& to_next) noexcept {
         vertex[count] = position;
         edge[count] = to_next;
@@ -109,7 +110,8 @@ struct Outline {
 };
 
 /// clip_to_horizon() for scalar code. Has no vertices if nothing of the polygon, or no more than rounding can tell, is
-/// above the horizon.
+/// above the horizon; nor if the boundary goes below it more than once. That of a convex polygon does so by rounding only,
+/// along the horizon.
 /// \tparam Capacity at least N + 1.
 template <int Capacity, int N>
 inline Outline<Capacity> outline_above_horizon(const ConvexPolygon<float, N>& polygon) noexcept {
@@ -127,7 +129,12 @@ inline Outline<Capacity> outline_above_horizon(const ConvexPolygon<float, N>& po
         return Vec3<float>{b.z == 0 ? b.x : a.x + part.x, b.z == 0 ? b.y : a.y + part.y, 0};
     };
 
-    Outline<Capacity> outline;
+    Outline<Capacity> outline{};
+    int falls = 0;
+    for (int j = 0; j < N; ++j)
+        falls += polygon.vertex[j].z > 0 && !(polygon.vertex[j + 1 < N ? j + 1 : 0].z > 0) ? 1 : 0;
+    if (falls > 1) return outline;
+
     Vec3<float> sum{0, 0, 0};
     float extents = 0;
     int horizon = -1; // the vertex where the edge along the horizon begins

@@ -19,7 +19,7 @@ inline constexpr int kLineIterations = kIsSingle<Real> ? 3 : 4;
 
 /// \tparam Iterations steps of the iteration per sample, at most.
 ///
-/// In terms of the angle alpha of LineMap, the density is cos(alpha) n . w(alpha) / (integral() / 2).
+/// In terms of the angle alpha of LineExtent, the density is cos(alpha) n . w(alpha) / (integral() / 2).
 template <class Real, int Iterations = kLineIterations<Real>>
 class CosineArc {
 public:
@@ -34,7 +34,9 @@ public:
         middle_height_ = halves.middle_height;
         from_near_ = halves.from_near;
         const Real to_far = halves.to_far;
-        inverse_sine_extent_ = Real(1) / map_.sine_extent;
+        // Without light, the denominators are 0; any values will do that keep the formulas finite.
+        const Real least = Real(std::numeric_limits<scalar_t<Real>>::min());
+        inverse_sine_extent_ = Real(1) / max(map_.sine_extent, least);
         integral_ = halves.near + halves.far;
 
         // A random number, which counts from the start, becomes a share of the integral, which counts from the middle.
@@ -43,8 +45,8 @@ public:
         share_offset_ = multiply_add(Real(-0.5), share_scale_, Real(0.5)) - near_share;
 
         // Choose the slopes of the height for which first_guess() is exact at the ends, and interpolate between them.
-        const Real near_inverse = Real(1) / from_near_;
-        const Real far_inverse = Real(1) / to_far;
+        const Real near_inverse = Real(1) / max(from_near_, least);
+        const Real far_inverse = Real(1) / max(to_far, least);
         const Real near_slope =
             near_inverse * multiply_add(near_inverse, halves.bend, extent.near_height() - middle_height_);
         const Real far_slope =

@@ -163,6 +163,7 @@ public:
     NUSSELT_HD Vec3<Real> point(const Vec2<Real>& u) const noexcept {
         const HalfPlane h = half_plane(azimuth_at(fma(warp_.invert(u.x), range_, low_)));
         const LinePoint<Real> point = Importance::point(h.extent, u.y);
+        // The line is at distance one: the reciprocal distance of a point is the cosine of its angle.
         const Real steepness = h.extent.line.sign * LineMap<Real>(h.extent).sine_at(point.share) /
                                max(point.inverse_distance, Real(1 / kSteepest<Scalar>));
         const Real tangent = (h.widening * steepness - h.shear) / stretch_;

@@ -51,8 +51,9 @@ public:
         // Scale the light to coordinates of order one, unless products of coordinates stay in range anyway.
         ConvexPolygon<Real, N> polygon = light;
         inverse_scale_ = Real(1);
-        if (!all(is_moderate(light))) {
-            const ScaledPolygon<Real, N> unit = to_unit_extent(light);
+        const auto moderate = is_moderate(light);
+        if (!all(moderate)) {
+            const ScaledPolygon<Real, N> unit = to_unit_extent_where(!moderate, light);
             polygon = unit.light;
             inverse_scale_ = unit.inverse_scale;
         }
@@ -191,7 +192,7 @@ private:
                 [&](int j) {
                     return j < N ? light.edge[j] : Vec3<float>{0, 0, 0};
                 },
-                light.normal, [&](int) { return plane_distance(light); });
+                light.normal, [&] { return plane_distance(light); });
             if (lanes.is_ordinary()) return prepare_lanes(lanes);
         }
         const auto outline = outline_above_horizon<lanes_for(N + 1)>(light);
@@ -199,8 +200,7 @@ private:
         const auto prepare_outline = [&](auto lane_count) {
             const VertexLanes<lane_count> lanes(
                 outline.count, [&](int j) { return outline.vertex[j]; },
-                [&](int j) { return outline.edge[j]; }, light.normal,
-                [&](int) { return plane_distance(light); });
+                [&](int j) { return outline.edge[j]; }, light.normal, [&] { return plane_distance(light); });
             return lanes.is_ordinary() && prepare_lanes(lanes);
         };
         return outline.count <= 4 ? prepare_outline(std::integral_constant<int, 4>())

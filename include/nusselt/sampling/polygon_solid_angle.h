@@ -29,19 +29,22 @@ public:
     /// \param light relative to the shading point, either winding [m].
     NUSSELT_HD explicit PolygonSolidAngle(const ConvexPolygon<Real, N>& light) noexcept {
         FanVolumes<Real, N> volumes(light);
-        Real nearest = dot(light.vertex[0], light.vertex[0]); // squared distance
+        Real nearest = dot(light.vertex[0], light.vertex[0]); // squared distances
+        Real farthest = nearest;
         inverse_distance_[0] = Real(1) / sqrt(nearest);
         NUSSELT_UNROLL
         for (int j = 1; j < N; ++j) {
             const Real squared = dot(light.vertex[j], light.vertex[j]);
             inverse_distance_[j] = Real(1) / sqrt(squared);
             nearest = min(nearest, squared);
+            farthest = max(farthest, squared);
         }
-        if (all(volumes.conclusive & (nearest > Real(kNear * kNear)))) {
+        const auto in_range = (nearest > Real(kNear * kNear)) & (farthest < Real(1 / (kNear * kNear)));
+        if (all(volumes.conclusive & in_range)) {
             inverse_scale_ = Real(1);
             prepare(light, volumes);
         } else {
-            prepare_carefully(light, volumes);
+            prepare_carefully(light, volumes, in_range);
         }
     }
 
@@ -238,24 +241,20 @@ private:
     }
 
     /// For lights that are seen almost edge-on, very close, very small or very large.
-    /// \param volumes of the light, as they are.
-    NUSSELT_HD void prepare_carefully(const ConvexPolygon<Real, N>& light,
-                                      FanVolumes<Real, N>& volumes) noexcept {
-        Real least = inverse_distance_[0];
-        Real largest = least;
-        for (int j = 1; j < N; ++j) {
-            least = min(least, inverse_distance_[j]);
-            largest = max(largest, inverse_distance_[j]);
-        }
+    /// \param volumes  of the light, as they are.
+    /// \param in_range whether products of coordinates stay in range.
+    NUSSELT_HD void prepare_carefully(const ConvexPolygon<Real, N>& light, FanVolumes<Real, N>& volumes,
+                                      const mask_t<Real>& in_range) noexcept {
         inverse_scale_ = Real(1);
         const ConvexPolygon<Real, N>* polygon = &light;
         ScaledPolygon<Real, N> unit;
-        if (!all((least > Real(kNear)) & (largest < Real(1 / kNear)))) {
-            // Products might leave the range.
-            unit = to_unit_extent(light);
+        if (!all(in_range)) {
+            unit = to_unit_extent_where(!in_range, light);
             polygon = &unit.light;
             inverse_scale_ = unit.inverse_scale;
-            find_inverse_distances(unit.light);
+            for (int j = 0; j < N; ++j)
+                inverse_distance_[j] =
+                    select(in_range, inverse_distance_[j], inverse_length(unit.light.vertex[j]));
             volumes = FanVolumes<Real, N>(unit.light);
         }
         volumes.refine(*polygon);

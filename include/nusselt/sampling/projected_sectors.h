@@ -170,9 +170,12 @@ public:
         float rest; ///< of the doubled area, up to the sample
     };
 
-    void clear() noexcept {
+    void clear() noexcept { clear(0, kLanes); }
+
+    /// Makes the sectors from `first` to before `end` empty.
+    void clear(int first, int end) noexcept {
         constexpr Vec3<float> kAnywhere{1, 0, 0};
-        for (int k = 0; k < kLanes; ++k) {
+        for (int k = first; k < end; ++k) {
             set_decentral(k, {kAnywhere, {0, 0, 0}, 0, 0, 0}, 0);
             arc_.angle_per_area.lane[k] = 0;
         }
@@ -212,6 +215,7 @@ public:
         store(sector_, sector);
         store_followers(sector, planes);
         arc_.angle_per_area = {};
+        clear(L, K);
         return sum_areas(L);
     }
     /// Sets all sectors as central ones.
@@ -225,6 +229,7 @@ public:
         sector_.begin_gap = sector_.end_gap = {};
         store(arc_, arc_of(begin, chord, angle_per_area));
         area.store(doubled_area_.lane);
+        clear(L, K);
         return sum_areas(L);
     }
 

@@ -115,8 +115,7 @@ public:
     /// \param vertex_of, edge_of give the vertices and edges of the light above the horizon in shading space, as
     ///                 functions of the lane. Lanes from count on have edges of length zero at any of the vertices.
     /// \param normal   of the light.
-    /// \param distance_of gives the distance of its plane from the origin; its argument is the lane of the vertex that is
-    ///                 closest to the origin.
+    /// \param distance_of gives the distance of its plane from the origin.
     template <class VertexOf, class EdgeOf, class DistanceOf>
     NUSSELT_INLINE VertexLanes(int count, VertexOf vertex_of, EdgeOf edge_of, const Vec3<float>& normal,
                                DistanceOf distance_of) noexcept
@@ -145,7 +144,6 @@ public:
         // Bring the light to coordinates of order one, and mirror it.
         const P size = max(max(abs(vertex_.x), abs(vertex_.y)), vertex_.z);
         const float extent = largest_lane(size);
-        const std::uint32_t nearest = (size <= P(smallest_lane(size))).bits();
         const float scale = reciprocal_power_of_two(extent);
         inverse_scale_ = reciprocal_power_of_two(scale);
         const Vec3<P> scales{P(scale), P(mirror_ * scale), P(scale)};
@@ -155,7 +153,7 @@ public:
         const Vec3<float> base = vertex_of(0);
         base_ = {scale * base.x, mirror_ * scale * base.y, scale * base.z};
         turn_ = P(scale * scale) * turn_size;
-        const float distance = scale * distance_of(lowest_bit(nearest));
+        const float distance = scale * distance_of();
         hull_.low = {smallest_lane(vertex_.x), smallest_lane(vertex_.y), smallest_lane(vertex_.z)};
         hull_.high = {largest_lane(vertex_.x), largest_lane(vertex_.y), largest_lane(vertex_.z)};
         hull_.plane = {
@@ -220,12 +218,6 @@ private:
     /// Extents for which products of coordinates stay in range before they are scaled.
     static constexpr float kSmallest = 0x1p-40f;
     static constexpr float kLargest = 0x1p40f;
-
-    static int lowest_bit(std::uint32_t bits) noexcept {
-        int i = 0;
-        while (i + 1 < L && (bits >> i & 1u) == 0) ++i;
-        return i;
-    }
 
     /// What belongs to the opposite vertex of a quadrilateral.
     static P opposite(const P& p) noexcept {

@@ -5,6 +5,8 @@
 #include <nusselt/core/vec.h>
 #include <nusselt/simd/pack.h>
 
+#if NUSSELT_HAS_VERTEX_LANES
+
 NUSSELT_NAMESPACE_BEGIN
 
 namespace detail {
@@ -52,7 +54,7 @@ struct AcrossLanes<4> {
         return P::from_native(_mm_setr_ps(f(0), f(1), f(2), f(3)));
     }
     NUSSELT_INLINE static P permute(const P& p, const std::int32_t* indices) noexcept {
-#if defined(__AVX__)
+#if defined(__AVX2__) && defined(__FMA__)
         return P::from_native(
             _mm_permutevar_ps(p.native(), _mm_loadu_si128(reinterpret_cast<const __m128i*>(indices))));
 #else
@@ -169,10 +171,6 @@ template <int L>
 NUSSELT_INLINE float smallest_lane(const Pack<float, L>& p) noexcept {
     return detail::AcrossLanes<L>::reduce(p, [](auto a, auto b) { return min(a, b); });
 }
-template <int L>
-NUSSELT_INLINE float sum_of_lanes(const Pack<float, L>& p) noexcept {
-    return detail::AcrossLanes<L>::reduce(p, [](auto a, auto b) { return a + b; });
-}
 
 /// L floats in memory, of which scalar code reads single ones.
 template <int L>
@@ -181,3 +179,4 @@ struct StoredLanes {
 };
 
 NUSSELT_NAMESPACE_END
+#endif

@@ -52,7 +52,7 @@ struct PackOps<float, 4> {
     }
     static Vector sqrt(Vector a) noexcept { return _mm_sqrt_ps(a); }
     static Vector floor(Vector a) noexcept {
-#if defined(__SSE4_1__)
+#if defined(__SSE4_2__)
         return _mm_floor_ps(a);
 #else
         // Numbers from 2^23 on are integers already, and so is what is no number.
@@ -78,7 +78,7 @@ struct PackOps<float, 4> {
     static MaskVector equal(Vector a, Vector b) noexcept { return _mm_cmpeq_ps(a, b); }
     static MaskVector not_equal(Vector a, Vector b) noexcept { return _mm_cmpneq_ps(a, b); }
     static Vector select(MaskVector mask, Vector a, Vector b) noexcept {
-#if defined(__SSE4_1__)
+#if defined(__SSE4_2__)
         return _mm_blendv_ps(b, a, mask);
 #else
         return _mm_or_ps(_mm_and_ps(mask, a), _mm_andnot_ps(mask, b));
@@ -132,7 +132,7 @@ struct PackOps<double, 2> {
     }
     static Vector sqrt(Vector a) noexcept { return _mm_sqrt_pd(a); }
     static Vector floor(Vector a) noexcept {
-#if defined(__SSE4_1__)
+#if defined(__SSE4_2__)
         return _mm_floor_pd(a);
 #else
         return _mm_setr_pd(nusselt::floor(_mm_cvtsd_f64(a)),
@@ -154,7 +154,7 @@ struct PackOps<double, 2> {
     static MaskVector equal(Vector a, Vector b) noexcept { return _mm_cmpeq_pd(a, b); }
     static MaskVector not_equal(Vector a, Vector b) noexcept { return _mm_cmpneq_pd(a, b); }
     static Vector select(MaskVector mask, Vector a, Vector b) noexcept {
-#if defined(__SSE4_1__)
+#if defined(__SSE4_2__)
         return _mm_blendv_pd(b, a, mask);
 #else
         return _mm_or_pd(_mm_and_pd(mask, a), _mm_andnot_pd(mask, b));

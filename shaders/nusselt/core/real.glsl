@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CORE_REAL_GLSL
 #define NUSSELT_CORE_REAL_GLSL
-// Follows include/nusselt/core/real.h @ bb302b1373a2
+// Follows include/nusselt/core/real.h @ 076faed516ec
 /// Arithmetic with known rounding. Twin of include/nusselt/core/real.h; functions whose names GLSL has already are
 /// called nusselt_*. Statements about NaN hold on devices that preserve NaN (README.md).
 
@@ -105,7 +105,7 @@ vec3 exact_fma(float s, vec3 a, vec3 b) {
 }
 
 /// s * a + b with an error of two roundings of each component: faster than exact_fma().
-vec3 rounded_sum(float s, vec3 a, vec3 b) {
+vec3 rounded_multiply_add(float s, vec3 a, vec3 b) {
 #if NUSSELT_FUSED_FMA
     NUSSELT_PRECISE vec3 result = fma(vec3(s), a, b);
 #else

@@ -29,7 +29,7 @@ CenteredLine centered(LineSegment line) {
     // Subtract the part along the line in two steps, of which the first one rounds the difference only. What it leaves is the
     // error of the scalar product, and of the direction, which is not quite of unit length.
     float along = dot(line.p0, line.s);
-    vec3 nearly = rounded_sum(-along, line.s, line.p0);
+    vec3 nearly = rounded_multiply_add(-along, line.s, line.p0);
     float rest = dot(nearly, line.s);
     float squared = nusselt_fma(-rest, rest, dot(nearly, nearly));
     float reach = nusselt_fma(line.len, line.len, dot(line.p0, line.p0));
@@ -38,7 +38,7 @@ CenteredLine centered(LineSegment line) {
     // Go from the near end to the far one. Either has a distance of 0 from the start.
     bool starts_near = nusselt_fma(2.0, along, line.len) >= 0.0;
     float sign_of_s = starts_near ? 1.0 : -1.0;
-    vec3 end = rounded_sum(line.len, line.s, line.p0);
+    vec3 end = rounded_multiply_add(line.len, line.s, line.p0);
     float l0 = along + rest;
     float l1 = (along + line.len) + rest;
     return CenteredLine(starts_near ? line.p0 : end, sign_of_s * line.s, nusselt_fma(-rest, line.s, nearly),

@@ -18,15 +18,16 @@ FanVolumes fan_volumes(ConvexPolygon polygon) {
     vec3 v = polygon.vertex[0];
     vec3 offset = polygon.edge[0];
     vec3 normal = vec3(0.0);
-    float sturdy = 0.0;
+    float product_bound = 0.0;
     self.total = 0.0;
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots - 2; ++j) {
         vec3 edge = polygon.edge[j + 1];
 #if NUSSELT_FUSED_FMA
         vec3 n = nusselt_cross(offset, edge);
 #else
+        // Rounding of the cross product is relative to the product of the lengths.
         vec3 n = cross(offset, edge);
-        sturdy = sturdy + dot(offset, offset) * dot(edge, edge);
+        product_bound = product_bound + dot(offset, offset) * dot(edge, edge);
 #endif
         self.volume[j] = nusselt_fma(v.z, n.z, nusselt_fma(v.y, n.y, v.x * n.x));
         self.total = self.total + self.volume[j];
@@ -34,10 +35,10 @@ FanVolumes fan_volumes(ConvexPolygon polygon) {
         offset = offset + edge;
     }
 #if NUSSELT_FUSED_FMA
-    sturdy = dot(normal, normal);
+    product_bound = dot(normal, normal);
 #endif
-    // Squares that underflow are not conclusive.
-    self.conclusive = self.total * self.total > (kNusseltConclusive * kNusseltConclusive) * dot(v, v) * sturdy;
+    // Squares that leave the range of numbers are not conclusive.
+    self.conclusive = self.total * self.total > (kNusseltConclusive * kNusseltConclusive) * dot(v, v) * product_bound;
     return self;
 }
 

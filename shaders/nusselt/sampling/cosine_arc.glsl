@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_COSINE_ARC_GLSL
 #define NUSSELT_SAMPLING_COSINE_ARC_GLSL
-// Follows include/nusselt/sampling/cosine_arc.h @ a3f05a814067
+// Follows include/nusselt/sampling/cosine_arc.h @ 20956852530d
 /// Directions on an arc of a great circle with a density proportional to the cosine at the surface times the cosine of
 /// the angle to the middle of the circle: the inner step of projected solid angle sampling of lines and tubes.
 ///

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_solid_angle.h @ ad564f6a39cf
+// Follows include/nusselt/sampling/polygon_solid_angle.h @ fa5ea8d68deb
 /// Uniform sampling of the solid angle of a convex polygon, for surfaces and for volumes.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672: Sec. 5,
@@ -129,8 +129,9 @@ PolygonSolidAngle polygon_solid_angle_prepare(ConvexPolygon light) {
         farthest = nusselt_max(farthest, squared);
     }
     float inverse_scale = 1.0;
-    if (!(volumes.conclusive && nearest > kNusseltNear * kNusseltNear)) {
-        if (!(nearest > kNusseltNear * kNusseltNear && farthest < 1.0 / (kNusseltNear * kNusseltNear))) {
+    bool in_range = nearest > kNusseltNear * kNusseltNear && farthest < 1.0 / (kNusseltNear * kNusseltNear);
+    if (!(volumes.conclusive && in_range)) {
+        if (!in_range) {
             // Products might leave the range.
             inverse_scale = reciprocal_power_of_two(unit_extent_scale(light));
             light = with_unit_extent(light);

@@ -157,6 +157,13 @@ TYPED_TEST(PacksTest, ScalarsSampleTheSameMap) {
                 if (!(packed.sample.pdf > 0)) continue;
                 const auto difference = scalar.sample.wi - packed.sample.wi;
                 EXPECT_LE(std::sqrt(dot(difference, difference)), 1e-4f) << "u = " << u.x << ", " << u.y;
+                EXPECT_NEAR(scalar.sample.pdf, packed.sample.pdf, 1e-3f * packed.sample.pdf);
+                EXPECT_NEAR(scalar.pdf, packed.pdf, 1e-3f * packed.pdf);
+                const auto apart = scalar.sample.p - packed.sample.p;
+                EXPECT_LE(std::sqrt(dot(apart, apart)),
+                          1e-3f * std::sqrt(dot(packed.sample.p, packed.sample.p)));
+                EXPECT_NEAR(scalar.inverse.x, packed.inverse.x, 1e-2f);
+                EXPECT_NEAR(scalar.inverse.y, packed.inverse.y, 1e-2f);
             }
         }
     }
