@@ -57,16 +57,16 @@ using Counts = Bounds<3, 4, 5, 6, 7, 8>;
 TYPED_TEST_SUITE(OutlineTest, Counts);
 
 TYPED_TEST(OutlineTest, HasTheVerticesThatClippingKeeps) {
-    constexpr int kCount = TypeParam::value;
+    constexpr int kVertices = TypeParam::value;
     int clipped_lights = 0;
     for (int i = 0; i < 2000; ++i) {
         const auto polygon = this->random_polygon({0.3f, 0.2f, 0.4f});
-        const auto outline = nusselt::outline_above_horizon<kCount + 1>(polygon);
+        const auto outline = nusselt::outline_above_horizon<kVertices + 1>(polygon);
         const auto clipped = nusselt::clip_to_horizon(polygon);
-        ASSERT_LE(outline.count, kCount + 1);
+        ASSERT_LE(outline.count, kVertices + 1);
         int k = 0;
         Vec sum{0, 0, 0};
-        for (int j = 0; j <= kCount; ++j) {
+        for (int j = 0; j <= kVertices; ++j) {
             const Vec& edge = clipped.edge[j];
             if (nusselt::dot(edge, edge) == 0) continue;
             ASSERT_LT(k, outline.count);
@@ -79,20 +79,20 @@ TYPED_TEST(OutlineTest, HasTheVerticesThatClippingKeeps) {
         }
         EXPECT_EQ(k, outline.count);
         EXPECT_LE(std::sqrt(nusselt::dot(sum, sum)), 2e-6f);
-        if (outline.count != kCount) ++clipped_lights;
+        if (outline.count != kVertices) ++clipped_lights;
     }
     EXPECT_GT(clipped_lights, 100);
 }
 
 TYPED_TEST(OutlineTest, LeavesBoundariesThatCrossTheHorizonSeveralTimesToTheGeneralCase) {
-    constexpr int kCount = TypeParam::value;
+    constexpr int kVertices = TypeParam::value;
     const auto polygon = this->jagged_polygon();
-    const auto outline = nusselt::outline_above_horizon<kCount + 1>(polygon);
-    if (kCount >= 4)
+    const auto outline = nusselt::outline_above_horizon<kVertices + 1>(polygon);
+    if (kVertices >= 4)
         EXPECT_EQ(outline.count, 0);
     else
-        EXPECT_LE(outline.count, kCount + 1);
-    const nusselt::PolygonProjectedSolidAngle<float, kCount> technique(polygon);
+        EXPECT_LE(outline.count, kVertices + 1);
+    const nusselt::PolygonProjectedSolidAngle<float, kVertices> technique(polygon);
     EXPECT_GE(technique.measure(), 0);
     EXPECT_LE(technique.measure(), nusselt::kPi<float>);
 }

@@ -43,15 +43,15 @@ TYPED_TEST_SUITE(AcrossLanesTest, LaneCounts);
 TYPED_TEST(AcrossLanesTest, LanesAreInOrder) { this->expect_lanes(this->pack_, this->numbers_); }
 
 TYPED_TEST(AcrossLanesTest, PermutationsRepeatAndReverse) {
-    constexpr int kLanes = TypeParam::value;
-    std::int32_t reversed[kLanes];
-    std::int32_t halved[kLanes];
-    float expected_reversed[kLanes];
-    float expected_halved[kLanes];
-    for (int i = 0; i < kLanes; ++i) {
-        reversed[i] = kLanes - 1 - i;
+    constexpr int kCount = TypeParam::value;
+    std::int32_t reversed[kCount];
+    std::int32_t halved[kCount];
+    float expected_reversed[kCount];
+    float expected_halved[kCount];
+    for (int i = 0; i < kCount; ++i) {
+        reversed[i] = kCount - 1 - i;
         halved[i] = i / 2;
-        expected_reversed[i] = this->numbers_[kLanes - 1 - i];
+        expected_reversed[i] = this->numbers_[kCount - 1 - i];
         expected_halved[i] = this->numbers_[i / 2];
     }
     this->expect_lanes(nusselt::permute(this->pack_, reversed), expected_reversed);
@@ -59,9 +59,9 @@ TYPED_TEST(AcrossLanesTest, PermutationsRepeatAndReverse) {
 }
 
 TYPED_TEST(AcrossLanesTest, SumsLeaveOutTheirOwnLane) {
-    constexpr int kLanes = TypeParam::value;
-    float expected[kLanes] = {};
-    for (int i = 1; i < kLanes; ++i) expected[i] = expected[i - 1] + this->numbers_[i - 1];
+    constexpr int kCount = TypeParam::value;
+    float expected[kCount] = {};
+    for (int i = 1; i < kCount; ++i) expected[i] = expected[i - 1] + this->numbers_[i - 1];
     this->expect_lanes(nusselt::sums_before(this->pack_), expected);
 }
 
