@@ -111,7 +111,7 @@ struct LineExtent {
         // point lies between the ends, nor do the sines.
         const Real density = line.length * (near_inverse + far_inverse) / one_plus_cosine;
         SineExtent sines{line.squared * density, density};
-        const auto surrounds = line.near_l < Real(0);
+        const auto surrounds = (line.near_l < Real(0)) & (line.length > Real(0));
         if (any(surrounds)) {
             const Real sum = far_sine() - near_sine();
             sines.difference = select(surrounds, sum, sines.difference);
@@ -119,8 +119,10 @@ struct LineExtent {
         }
         return sines;
     }
-    /// Whether the angle between the ends exceeds a quarter of a turn.
-    NUSSELT_INLINE mask_t<Real> is_obtuse() const noexcept { return one_plus_cosine < product; }
+    /// Whether there is light and the angle between its ends exceeds a quarter of a turn.
+    NUSSELT_INLINE mask_t<Real> is_obtuse() const noexcept {
+        return (one_plus_cosine < product) & (line.length > Real(0));
+    }
     /// False if the segment has no length or its line passes through the origin.
     NUSSELT_INLINE mask_t<Real> visible() const noexcept { return area() > Real(0); }
 };

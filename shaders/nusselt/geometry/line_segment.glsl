@@ -1,6 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_LINE_SEGMENT_GLSL
 #define NUSSELT_GEOMETRY_LINE_SEGMENT_GLSL
-// Follows include/nusselt/geometry/line_segment.h @ 6d9147a914e6
+// Follows include/nusselt/geometry/line_segment.h @ be9a9a3f79ff
 /// Line segments, and the angles under which a shading point sees them. Twin of
 /// include/nusselt/geometry/line_segment.h.
 
@@ -72,7 +72,7 @@ struct SineExtent {
 
 SineExtent line_extent_sine_extent(LineExtent self) {
     // If the closest point lies between the ends, the sines add up.
-    if (self.line.near_l < 0.0) {
+    if (self.line.near_l < 0.0 && self.line.len > 0.0) {
         float sum = self.line.far_l * self.far_inverse - self.line.near_l * self.near_inverse;
         return SineExtent(sum, sum / self.line.squared);
     }
@@ -81,8 +81,8 @@ SineExtent line_extent_sine_extent(LineExtent self) {
     return SineExtent(self.line.squared * density, density);
 }
 
-/// Whether the angle between the ends exceeds a quarter of a turn.
-bool line_extent_is_obtuse(LineExtent self) { return self.one_plus_cosine < self.product; }
+/// Whether there is light and the angle between its ends exceeds a quarter of a turn.
+bool line_extent_is_obtuse(LineExtent self) { return self.one_plus_cosine < self.product && self.line.len > 0.0; }
 
 /// False if the segment has no length or its line passes through the origin.
 bool line_extent_visible(LineExtent self) { return self.line.len * self.distance > 0.0; }
