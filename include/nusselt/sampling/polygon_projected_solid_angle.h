@@ -240,7 +240,8 @@ private:
             const auto present = is_outer & (n.z > T(0)) & (sine > T(0));
             const T sweep = Angles::atan2_positive(sine, dot(vertex, next));
             area = select(present, n.z * sweep / select(present, sine, T(1)), T(0));
-            const T ratio = sine / select(present, n.z, T(1));
+            // By the rounded area: with all of it, the angle is the sweep.
+            const T ratio = sweep / select(area > T(0), area, T(1));
             angle_per_area = select(is_finite(ratio), ratio, T(0));
         }
     };
