@@ -104,7 +104,7 @@ LineExtent make_line_extent(CenteredLine line) {
     float coordinates = line.near_l * line.far_l;
     e.one_plus_cosine = e.product + nusselt_fma(line.near_l, line.far_l, line.squared);
     // One plus a cosine cancels near half a turn, where the closest point lies between the ends.
-    if (line_extent_is_obtuse(e)) {
+    if (e.one_plus_cosine < e.product) {
         float squares = near_squared + line.far_l * line.far_l;
         e.one_plus_cosine = line.squared * (1.0 + squares / (e.product - coordinates));
     }

@@ -40,7 +40,8 @@ CosineArc make_cosine_arc(LineExtent e) {
     self.middle_cosine = halves.middle_cosine;
     self.middle_height = halves.middle_height;
     self.from_near = halves.from_near;
-    self.inverse_sine_extent = 1.0 / self.map.sine_extent;
+    // Without light, the denominators are 0; any values will do that keep the formulas finite.
+    self.inverse_sine_extent = 1.0 / nusselt_max(self.map.sine_extent, kNusseltSmallestNormal);
     self.integral = halves.near + halves.far;
 
     // A random number, which counts from the start, becomes a share of the integral, which counts from the middle.
@@ -49,8 +50,8 @@ CosineArc make_cosine_arc(LineExtent e) {
     self.share_offset = nusselt_fma(-0.5, self.share_scale, 0.5) - near_share;
 
     // Choose the slopes of the height for which cosine_arc_first_guess() is exact at the ends, and interpolate between them.
-    float near_inverse = 1.0 / halves.from_near;
-    float far_inverse = 1.0 / halves.to_far;
+    float near_inverse = 1.0 / nusselt_max(halves.from_near, kNusseltSmallestNormal);
+    float far_inverse = 1.0 / nusselt_max(halves.to_far, kNusseltSmallestNormal);
     float near_slope =
         near_inverse * nusselt_fma(near_inverse, halves.bend, halves.near_height - halves.middle_height);
     float far_slope = far_inverse * nusselt_fma(far_inverse, halves.bend, halves.far_height - halves.middle_height);
