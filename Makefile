@@ -1,6 +1,6 @@
 # make demo, make check and make test need Debian 12 or 13, git and make; scripts/setup.sh installs the rest.
 
-.PHONY: build demo check test test-full single-header shaders clean help
+.PHONY: build demo check test test-full archive gpu-kit single-header shaders clean help
 
 build: ## the programs, optimised, in build/release
 	scripts/setup.sh build
@@ -20,6 +20,14 @@ test: ## builds and runs all tests and checks (docs/testing.md)
 test-full: ## the same with full effort, and with other compilers and processors: hours
 	scripts/setup.sh test
 	NUSSELT_TEST_EFFORT=full scripts/test.sh full
+
+archive: build ## the program for other x86-64 Linux systems: out/nusselt-*.tar.xz (docs/gpu-kit.md)
+	scripts/pack.sh archive
+
+gpu-kit: ## all that checks and measures a machine's GPU, without installing anything: out/nusselt-gpu-kit.tar.xz
+	scripts/setup.sh build
+	scripts/build.sh kit_programs
+	scripts/pack.sh gpu-kit
 
 single-header: ## the library in one file: out/nusselt.h (needs cmake only)
 	cmake -D OUTPUT=out/nusselt.h -P scripts/amalgamate.cmake

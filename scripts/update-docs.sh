@@ -64,9 +64,8 @@ viewer) picture_viewer ;;
 lines) measure_lines ;;
 '')
     draw_pictures
-    for bench in accuracy samplers; do
-        "$program" bench $bench --json docs/data/$bench.json >/dev/null
-    done
+    "$program" bench accuracy --json docs/data/accuracy.json >/dev/null
+    "$program" bench samplers --compilers --repetitions 61 --json docs/data/samplers.json >/dev/null
     ;;
 *)
     sed -n '3,11s/^# //p' "$0" >&2

@@ -4,6 +4,7 @@
 #include "apps/nusselt-lab/evidence/fuzz.h"
 #include "apps/nusselt-lab/evidence/map.h"
 #include "apps/nusselt-lab/evidence/reproduce.h"
+#include "apps/nusselt-lab/gpu/gpu.h"
 
 int main(int argc, char** argv) {
     using namespace nusselt::app;
@@ -17,6 +18,6 @@ int main(int argc, char** argv) {
          "`nusselt-lab COMMAND --help` explains a command.\n"
          "Exit codes: 0 success, 1 error or broken expectation, 2 wrong usage; 130 stopped by Ctrl-C,\n"
          "143 by SIGTERM, 129 by SIGHUP, 152 by SIGXCPU, 138 by SIGUSR1.",
-         {setup_reproduce, setup_bench, setup_map, setup_fuzz, setup_fit_ltc}},
+         {setup_reproduce, setup_bench, setup_gpu, setup_map, setup_fuzz, setup_fit_ltc}},
         argc, argv);
 }

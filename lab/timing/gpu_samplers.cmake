@@ -5,17 +5,22 @@ set(includes)
 set(rows)
 
 # Adds variants for devices whose fma rounds twice or once. Polygons have room for the vertices that `technique`
-# needs. nusselt_add_technique_shader() describes the other arguments.
-function(add_timed_shaders name technique light vertex_count file struct)
+# needs. `suffix` is empty, or _direction for samples without density and hit point.
+# nusselt_add_technique_shader() describes the other arguments.
+function(add_timed_shaders name technique light vertex_count suffix file struct)
     nusselt_snake_case(shader ${name})
-    set(shader bench_${shader}_${light}_${vertex_count})
+    set(shader bench_${shader}_${light}_${vertex_count}${suffix})
+    set(directions false)
+    if(suffix)
+        set(directions true)
+    endif()
     nusselt_vertex_defines(vertices ${technique} ${vertex_count})
     foreach(fused 0 1)
-        nusselt_add_technique_shader(nusselt_lab ${shader}_${fused} bench/${light} ${file} ${struct} ${ARGN}
+        nusselt_add_technique_shader(nusselt_lab ${shader}_${fused} bench/${light}${suffix} ${file} ${struct} ${ARGN}
             DEFINES ${vertices} NUSSELT_FUSED_FMA=${fused})
         nusselt_shader_array(array ${shader}_${fused})
         list(APPEND includes "#include \"shaders/${shader}_${fused}.h\"\n")
-        list(APPEND rows "    {\"${name}\", LightKind::${light}, ${vertex_count}, ${fused} == 1, shaders::${array}},\n")
+        list(APPEND rows "    {\"${name}\", LightKind::${light}, ${vertex_count}, ${fused} == 1, ${directions}, shaders::${array}},\n")
     endforeach()
     set(includes ${includes} PARENT_SCOPE)
     set(rows ${rows} PARENT_SCOPE)
@@ -36,16 +41,21 @@ macro(add_timed_light light vertex_count)
         if(NOT has_baseline)
             nusselt_pascal_case(struct ${light})
             string(REPLACE "OnLobe" "" struct ${struct})
-            add_timed_shaders(Baseline ${name} ${light} ${vertex_count} bench/baseline_${light} Baseline${struct})
+            add_timed_shaders(Baseline ${name} ${light} ${vertex_count} "" bench/baseline_${light} Baseline${struct})
             set(has_baseline ON)
         endif()
         if(${row}_published)
             nusselt_snake_case(file ${${row}_published})
-            add_timed_shaders(${${row}_published} ${name} ${light} ${vertex_count}
+            add_timed_shaders(${${row}_published} ${name} ${light} ${vertex_count} ""
                 nusselt/related/${file} ${${row}_published})
+            # For lines and quadrilaterals, also directions alone.
+            if(${vertex_count} EQUAL 2 OR ${vertex_count} EQUAL 4)
+                add_timed_shaders(${${row}_published} ${name} ${light} ${vertex_count} _direction
+                    nusselt/related/${file} ${${row}_published})
+            endif()
         endif()
         nusselt_shader_arguments(arguments ${name})
-        add_timed_shaders(${name} ${name} ${light} ${vertex_count} ${arguments})
+        add_timed_shaders(${name} ${name} ${light} ${vertex_count} "" ${arguments})
     endforeach()
 endmacro()
 

@@ -137,7 +137,8 @@ std::optional<double> ratio(double time, double other) {
 void add_ratios(std::vector<GpuSamplerTiming>& rows) {
     for (GpuSamplerTiming& row : rows)
         for (const GpuSamplerTiming& other : rows) {
-            if (other.technique != competitor_of(row.technique) || other.configuration != row.configuration)
+            if (other.technique != competitor_of(row.technique) || other.configuration != row.configuration ||
+                other.directions)
                 continue;
             row.light_ratio = ratio(row.light_ns, other.light_ns);
             row.sample_ratio = ratio(row.sample_ns, other.sample_ns);
@@ -159,6 +160,7 @@ std::vector<GpuSamplerTiming> rows_of(const std::vector<GpuSamplerSeries>& serie
         GpuSamplerTiming row;
         row.technique = s.technique;
         row.configuration = s.configuration;
+        row.directions = s.directions;
         row.light_ns = light - quantile(baseline->light_ns, 0.5);
         row.sample_ns = sample - quantile(baseline->sample_ns, 0.5);
         row.light_spread = half_interquartile_range(s.light_ns) / light;
@@ -188,7 +190,12 @@ GpuSamplerTable time_gpu_samplers(const GpuSamplerSettings& settings) {
     for (const TimedConfiguration& c : configurations)
         for (const auto& timed : all)
             if (timed->shader->kind == c.kind && timed->shader->vertex_count == c.vertex_count)
-                all_running.push_back({timed.get(), &c, 0, 0, {timed->shader->technique, c.name, {}, {}}});
+                all_running.push_back(
+                    {timed.get(),
+                     &c,
+                     0,
+                     0,
+                     {timed->shader->technique, c.name, {}, {}, timed->shader->directions}});
 
     const auto upload = [&](const TimedConfiguration& c) {
         make_timed_lights(c, *lights);

@@ -14,8 +14,9 @@ namespace nusselt::lab {
 struct GpuSamplerTiming {
     std::string technique; ///< class name; one that ends in Peters follows the published formulas
     std::string configuration;
-    double light_ns = 0;  ///< per light that is prepared, clipped and sampled once [ns], median
-    double sample_ns = 0; ///< per sample, with 1/128 of preparing its light [ns], median
+    double light_ns = 0;     ///< per light that is prepared, clipped and sampled once [ns], median
+    double sample_ns = 0;    ///< per sample, with 1/128 of preparing its light [ns], median
+    bool directions = false; ///< the samples are directions without density and hit point
     /// Half the interquartile range of either time over its median, including the baseline.
     double light_spread = 0, sample_spread = 0;
     /// Time over that of the published formulas, per light and per sample. None without published formulas, or if
@@ -43,6 +44,7 @@ struct GpuSamplerSeries {
     std::string technique; ///< class name, or "Baseline", which precedes its techniques
     std::string configuration;
     std::vector<double> light_ns, sample_ns; ///< including the baseline
+    bool directions = false;                 ///< as GpuSamplerTiming::directions
 };
 
 /// Computes the medians minus the baseline, the spreads and the ratios.

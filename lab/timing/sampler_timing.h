@@ -7,21 +7,28 @@
 
 namespace nusselt::lab {
 
-/// Cost of one technique for one class of lights. All times are without the baseline, a technique of practically no
+/// Cost of one technique for one class of lights. All costs are without the baseline, a technique of practically no
 /// cost in the same loops over the same lights.
 struct SamplerTiming {
-    /// Class name; a name that ends in Peters is the plain transcription of the published formulas.
-    std::string technique;
+    std::string technique;     ///< class name; a name that ends in Peters has the published formulas
     std::string configuration; ///< for example "decentral, 4 vertices"
-    std::string isa;           ///< instruction set the code was compiled for
-    int lanes = 1; ///< 1 for scalar code, otherwise the lanes of a register or of two registers in flight
-    double prepare_ns = 0;    ///< per light, with clipping [ns], median
-    double sample_ns = 0;     ///< per sample, with different lights in the lanes [ns], median
-    double sample_one_ns = 0; ///< per sample, with one light in all lanes [ns], median
-    double spread = 0;        ///< half the interquartile range of prepare_ns over its median
-    /// Times for preparing and for sampling, over those of the plain transcription in scalar code; 0 if there is
-    /// none.
-    double prepare_ratio = 0, sample_ratio = 0;
+    /// How the technique is compiled: "scalar", packs of the lanes of one register or of two in flight, or a compiler with
+    /// options. Only costs of the same code compare.
+    std::string code;
+    std::string isa; ///< instruction set the code was compiled for
+    /// Per light or sample [ns], medians.
+    std::optional<double> prepare_ns, sample_ns;
+    std::optional<double> direction_ns; ///< a sample without density and hit point
+    std::optional<double> transform_ns; ///< to shading space
+    std::optional<double> world_ns;     ///< transform and prepare together
+    std::optional<double> once_ns;      ///< prepare and take one sample, in one go
+    std::optional<double> prepare_instructions, sample_instructions; ///< executed
+    /// Costs over those of the published formulas in the same code.
+    std::optional<double> prepare_ratio, sample_ratio, world_ratio, once_ratio;
+    std::optional<double> prepare_instructions_ratio, sample_instructions_ratio;
+    /// For polygons, ratio over that of lights of the same class with 4 vertices: above 1, the technique grows faster with
+    /// the number of vertices than the published formulas.
+    std::optional<double> prepare_growth, sample_growth;
 };
 
 struct SamplerTimingSettings {
@@ -29,8 +36,11 @@ struct SamplerTimingSettings {
     std::optional<std::string> isa; ///< as base::choose_isa()
 };
 
-/// Times all techniques in turn, so that a drift of the clock rate affects all alike.
+/// Times all techniques as scalars and packs in turn, so that a drift of the clock rate affects all alike. Without ratios.
 /// \throws std::runtime_error for an instruction set that is unknown or that the CPU lacks.
 std::vector<SamplerTiming> time_samplers(const SamplerTimingSettings& settings);
+
+/// Fills the ratios and growths of all rows.
+void add_ratios(std::vector<SamplerTiming>& rows);
 
 } // namespace nusselt::lab

@@ -10,12 +10,15 @@ namespace nusselt::lab {
 inline constexpr int kTimedLights = 256;
 inline constexpr int kLargestVertexCount = 8;
 
-/// Lights in shading space and random numbers, one column per light. Polygons with fewer vertices repeat the last
-/// one; lines and the axes of cylinders have two vertices.
+/// Lights and random numbers, one column per light. Polygons with fewer vertices repeat the last one; lines and the axes
+/// of cylinders have two vertices.
 struct TimedLights {
-    float coordinates[kLargestVertexCount][3][kTimedLights];
-    float radius[kTimedLights];  ///< of cylinders [m]
-    float lobe[6][kTimedLights]; ///< the members of LtcCoefficients in order
+    float coordinates[kLargestVertexCount][3][kTimedLights]; ///< in shading space [m]
+    float world[kLargestVertexCount][3][kTimedLights];       ///< of the same lights [m]
+    float point[3][kTimedLights];                            ///< shading points [m]
+    float normal[3][kTimedLights];                           ///< at the shading points
+    float radius[kTimedLights];                              ///< of cylinders [m]
+    float lobe[6][kTimedLights];                             ///< the members of LtcCoefficients in order
     float u[2][kTimedLights];
 };
 
@@ -38,15 +41,17 @@ struct TimedTechnique {
     const char* name;
     LightKind kind;
     int lanes;
-    int vertex_bound; ///< largest vertex count, 2 for lines and cylinders
+    int vertex_count; ///< the bound on the number of vertices; 2 for lines and cylinders
     /// Converts the lights to the type of the technique. Must be called first.
     void (*load)(const TimedLights&);
     /// Prepares every light. Like the other functions, it returns a number that depends on the results.
     float (*prepare)();
+    /// Transforms every light to shading space and prepares it. Null for techniques without a competitor.
+    float (*prepare_from_world)();
     /// Takes a sample of each prepared light. Each lane has a different light.
     float (*sample)();
-    /// Takes kTimedLights samples of the first light, which is in all lanes.
-    float (*sample_one)();
+    /// Like sample(), but without density and point. Null for techniques that have no such function.
+    float (*direction)();
 };
 
 template <base::Isa>

@@ -4,58 +4,49 @@
 #include "proof/tube_lights.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
-#include <numbers>
 #include <random>
 
 namespace nusselt::lab {
 
+static_assert(kLargestVertexCount == kMostCorners);
+
 std::vector<TimedConfiguration> timed_configurations() {
     std::vector<TimedConfiguration> result;
-    for (int n = 3; n <= 7; ++n) {
-        const std::string vertices = ", " + std::to_string(n) + " vertices";
-        result.push_back({"decentral" + vertices, LightKind::polygon, n, 0.5, 0.7, 0.3, false});
-        result.push_back({"central" + vertices, LightKind::polygon, n, 1.0, 1.0, 0.5, true});
-        result.push_back({"crossing the horizon" + vertices, LightKind::polygon, n, -0.1, 0.1, 0.4, false});
-    }
-    result.push_back({"decentral, 4 vertices", LightKind::polygon_on_lobe, 4, 0.5, 0.7, 0.3, false});
-    result.push_back(
-        {"crossing the horizon, 4 vertices", LightKind::polygon_on_lobe, 4, -0.1, 0.1, 0.4, false});
+    const auto add = [&](LightKind kind, const LightClass& lights, int n) {
+        const std::string vertices = is_polygon(kind) ? ", " + std::to_string(n) + " vertices" : "";
+        result.push_back({lights.name + vertices, kind, n, lights});
+    };
+    for (int n = 3; n <= 7; ++n)
+        for (const LightClass& lights : {kDecentral, kCentral, kCrossing}) add(LightKind::polygon, lights, n);
+    for (const LightClass& lights : {kDecentral, kCrossing}) add(LightKind::polygon_on_lobe, lights, 4);
     for (const LightKind kind :
-         {LightKind::line, LightKind::line_on_lobe, LightKind::cylinder, LightKind::cylinder_on_lobe}) {
-        result.push_back({"above the horizon", kind, 2, 0.5, 0.7, 0.4, false});
-        result.push_back({"crossing the horizon", kind, 2, -0.1, 0.1, 0.4, false});
-    }
+         {LightKind::line, LightKind::line_on_lobe, LightKind::cylinder, LightKind::cylinder_on_lobe})
+        for (const LightClass& lights : {kLineAbove, kCrossing}) add(kind, lights, 2);
     return result;
 }
 
 void make_timed_lights(const TimedConfiguration& c, TimedLights& lights) {
     std::mt19937 generator(1);
     std::uniform_real_distribution<float> uniform(0.0f, 0.9999f);
-    std::normal_distribution<double> normal;
-    const auto unit = [&](double x, double y, double z) {
-        const double r = std::sqrt(x * x + y * y + z * z);
-        return std::array{x / r, y / r, z / r};
+    const auto put = [](float(&columns)[3][kTimedLights], int i, const Vec3<double>& v) {
+        columns[0][i] = static_cast<float>(v.x);
+        columns[1][i] = static_cast<float>(v.y);
+        columns[2][i] = static_cast<float>(v.z);
     };
     for (int i = 0; i < kTimedLights; ++i) {
-        const double height = c.lowest + (c.highest - c.lowest) * uniform(generator);
-        const double azimuth = 2 * std::numbers::pi * uniform(generator);
-        const double side = c.above_zenith ? 0.0 : std::sqrt(1 - height * height);
-        const std::array centre{side * std::cos(azimuth), side * std::sin(azimuth), height};
-        std::array a = unit(normal(generator), normal(generator), c.above_zenith ? 0 : normal(generator));
-        std::array b = unit(normal(generator), normal(generator), normal(generator));
-        if (c.above_zenith) b = {-a[1], a[0], 0};
-        const double along = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-        b = unit(b[0] - along * a[0], b[1] - along * a[1], b[2] - along * a[2]);
+        const Vec3<double> normal = random_normal(generator);
+        const Vec3<double> point = 10.0 * random_normal(generator);
+        const auto frame = Frame<double>::from_normal(normal);
+        const auto corners = random_light(c.lights, c.vertex_count, generator);
+        put(lights.normal, i, normal);
+        put(lights.point, i, point);
         for (int j = 0; j < kLargestVertexCount; ++j) {
-            const double angle = 2 * std::numbers::pi * std::min(j, c.vertex_count - 1) / c.vertex_count;
-            for (int axis = 0; axis < 3; ++axis)
-                lights.coordinates[j][axis][i] = static_cast<float>(
-                    centre[axis] + c.radius * (std::cos(angle) * a[axis] + std::sin(angle) * b[axis]));
+            const Vec3<double>& corner = corners[static_cast<std::size_t>(j)];
+            put(lights.coordinates[j], i, corner);
+            put(lights.world[j], i, point + frame.to_world(corner));
         }
-        lights.radius[i] = static_cast<float>(c.radius / 4);
+        lights.radius[i] = static_cast<float>(c.lights.radius / 4);
         const auto& lobe = proof::kGlossyLobe;
         const double entries[] = {lobe.m00, lobe.m02, lobe.m11, lobe.m20, lobe.m22, lobe.albedo};
         for (std::size_t k = 0; k < std::size(entries); ++k)

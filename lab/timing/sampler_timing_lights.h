@@ -2,27 +2,25 @@
 /// The lights for timing samplers on CPU and GPU, and the evaluation of the times.
 
 #include "lab/timing/sampler_timing_kernel.h"
+#include "lab/timing/scalar/lights.h"
 
 #include <string>
 #include <vector>
 
 namespace nusselt::lab {
 
-/// A class of lights in shading space, at a distance of about one.
+/// Lights of one class and one kind.
 struct TimedConfiguration {
-    std::string name;
+    std::string name; ///< of the class, and the number of vertices of polygons
     LightKind kind;
-    int vertex_count;
-    double lowest, highest; ///< height of the centre
-    double radius;          ///< half the extent of the light
-    bool above_zenith;      ///< centred at the zenith
+    int vertex_count; ///< 2 for lines and cylinders
+    LightClass lights;
 };
 
 /// All classes of lights for which techniques are timed.
 std::vector<TimedConfiguration> timed_configurations();
 
-/// Regular polygons (or segments) of random orientation. Those at the zenith are horizontal. The radius of cylinders
-/// is an eighth of their length. All lights are on the same glossy lobe.
+/// Random lights of a class. The radius of cylinders is an eighth of their length. All lights are on the same glossy lobe.
 void make_timed_lights(const TimedConfiguration& c, TimedLights& lights);
 
 /// The value below which the given share of the values lies.

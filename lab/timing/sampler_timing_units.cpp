@@ -11,6 +11,7 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace timing {
 
+using lab::kLargestVertexCount;
 using lab::kTimedLights;
 using lab::LightKind;
 using lab::TimedLights;
@@ -26,11 +27,15 @@ Real column(const float* values, int light) {
 }
 
 template <class Real>
-Vec3<Real> vertex(const TimedLights& lights, int light, int j) {
-    const auto& v = lights.coordinates[j];
-    return {column<Real>(v[0], light), column<Real>(v[1], light), column<Real>(v[2], light)};
+Vec3<Real> vector(const float (&columns)[3][kTimedLights], int light) {
+    return {column<Real>(columns[0], light), column<Real>(columns[1], light),
+            column<Real>(columns[2], light)};
 }
 
+template <class Real>
+Real sum(const Vec3<Real>& v) {
+    return v.x + v.y + v.z;
+}
 template <class Real>
 Real sum(const LightSample<Real>& s) {
     return s.wi.x + s.wi.y + s.wi.z + s.pdf + s.p.x + s.p.y + s.p.z;
@@ -44,17 +49,6 @@ float lane_sum(const Real& x) {
         float result = 0;
         for (int i = 0; i < RealTraits<Real>::kLanes; ++i) result += x.lane(i);
         return result;
-    }
-}
-
-/// The technique for one light, the same in all lanes.
-template <template <class> class Technique, class Real, class Light>
-Technique<Real> of_one_light(const Light& light) {
-    const Technique<float> single(light);
-    if constexpr (RealTraits<Real>::kLanes == 1) {
-        return single;
-    } else {
-        return Technique<Real>(single);
     }
 }
 
@@ -81,10 +75,16 @@ struct Input {
     static Light<Real> light(const TimedLights& lights, int i) {
         if constexpr (kHasLobe) {
             const auto entry = [&](int k) { return column<Real>(lights.lobe[k], i); };
-            return {geometry<Real>(lights, i), {entry(0), entry(1), entry(2), entry(3), entry(4), entry(5)}};
+            return {geometry<Real>(lights.coordinates, lights, i),
+                    {entry(0), entry(1), entry(2), entry(3), entry(4), entry(5)}};
         } else {
-            return Kind::from(geometry<Real>(lights, i));
+            return Kind::from(geometry<Real>(lights.coordinates, lights, i));
         }
+    }
+    /// The light in world space, for those without a lobe.
+    template <class Real>
+    static Light<Real> world(const TimedLights& lights, int i) {
+        return geometry<Real>(lights.world, lights, i);
     }
     template <class Real>
     static Random<Real> random(const TimedLights& lights, int i) {
@@ -96,13 +96,14 @@ struct Input {
 
 private:
     template <class Real>
-    static auto geometry(const TimedLights& lights, int i) {
+    static auto geometry(const float (&corners)[kLargestVertexCount][3][kTimedLights],
+                         const TimedLights& lights, int i) {
         if constexpr (kIsPolygon) {
             Vec3<Real> vertices[kVertexBound];
-            for (int j = 0; j < kVertexBound; ++j) vertices[j] = vertex<Real>(lights, i, j);
+            for (int j = 0; j < kVertexBound; ++j) vertices[j] = vector<Real>(corners[j], i);
             return make_polygon<kVertexBound>(vertices, kVertexBound);
         } else {
-            const auto line = make_line(vertex<Real>(lights, i, 0), vertex<Real>(lights, i, 1));
+            const auto line = make_line(vector<Real>(corners[0], i), vector<Real>(corners[1], i));
             if constexpr (kIsCylinder)
                 return Cylinder<Real>{line, column<Real>(lights.radius, i)};
             else
@@ -116,7 +117,6 @@ struct Loaded {
     static constexpr int kLanes = RealTraits<Real>::kLanes;
     static constexpr int kGroups = kTimedLights / kLanes;
     static inline typename Input::template Light<Real> light[kGroups];
-    static inline typename Input::template Light<float> first;
     static inline typename Input::template Random<Real> random[kGroups];
 
     static void load(const TimedLights& lights) {
@@ -124,7 +124,50 @@ struct Loaded {
             light[i] = Input::template light<Real>(lights, i * kLanes);
             random[i] = Input::template random<Real>(lights, i * kLanes);
         }
-        first = Input::template light<float>(lights, 0);
+    }
+};
+
+/// The same lights in world space, and where they are seen from.
+template <class Input, class Real>
+struct LoadedWorld {
+    static constexpr int kLanes = RealTraits<Real>::kLanes;
+    static constexpr int kGroups = kTimedLights / kLanes;
+    static inline typename Input::template Light<Real> light[kGroups];
+    static inline Vec3<Real> point[kGroups];
+    static inline Frame<Real> frame[kGroups];
+
+    static void load(const TimedLights& lights) {
+        for (int i = 0; i < kGroups; ++i) {
+            light[i] = Input::template world<Real>(lights, i * kLanes);
+            point[i] = vector<Real>(lights.point, i * kLanes);
+            frame[i] = Frame<Real>::from_normal(vector<Real>(lights.normal, i * kLanes));
+        }
+    }
+};
+
+/// How lights get to shading space. The published formulas take no edges.
+struct WholeLight {
+    template <class Light, class Real>
+    static Light transform(const Light& world, const Vec3<Real>& point, const Frame<Real>& frame) {
+        return to_shading_space(world, point, frame);
+    }
+};
+struct CornersOnly : WholeLight {
+    using WholeLight::transform;
+    template <class Real, int N>
+    static ConvexPolygon<Real, N> transform(const ConvexPolygon<Real, N>& world, const Vec3<Real>& point,
+                                            const Frame<Real>& frame) {
+        ConvexPolygon<Real, N> local;
+        for (int j = 0; j < N; ++j) local.vertex[j] = frame.to_local(world.vertex[j] - point);
+        local.normal = frame.to_local(world.normal);
+        return local;
+    }
+};
+/// Of the baseline, which takes light from shading space.
+struct NoTransform {
+    template <class Light, class Real>
+    static const Light& transform(const Light& world, const Vec3<Real>&, const Frame<Real>&) {
+        return world;
     }
 };
 
@@ -136,8 +179,8 @@ struct Baseline {
     explicit Baseline(const ConvexPolygon<Real, N>& light) : v(light.vertex[0] + light.normal) {}
     explicit Baseline(const LineSegment<Real>& light) : v(light.p0 + light.s) {}
     explicit Baseline(const Cylinder<Real>& light) : v(light.axis.p0 + light.axis.s) {}
-    template <class Single>
-    explicit Baseline(const Baseline<Single>& single) : v(broadcast<Real>(single.v)) {}
+    Vec3<Real> direction(const Real&) const { return v; }
+    Vec3<Real> direction(const Vec2<Real>&) const { return v; }
     LightSample<Real> sample(const Real& u) const { return {v, u, v}; }
     LightSample<Real> sample(const Vec2<Real>& u) const { return {v, u.x + u.y, v}; }
 };
@@ -155,22 +198,34 @@ struct Prepared {
     static inline std::optional<Technique<Real>> technique[Data::kGroups];
 };
 
-template <template <class> class Technique, class Input, class Real>
-float prepare() {
-    using Data = Loaded<Input, Real>;
-    for (int i = 0; i < Data::kGroups; ++i) {
-        const Technique<Real> technique(Data::light[i]);
-        escape(technique);
-    }
-    return 0;
-}
-
+/// The functions of TimedTechnique.
 template <template <class> class Technique, class Input, class Real>
 void load(const TimedLights& lights) {
     using Data = Loaded<Input, Real>;
     Data::load(lights);
     for (int i = 0; i < Data::kGroups; ++i)
         Prepared<Technique, Input, Real>::technique[i].emplace(Data::light[i]);
+}
+
+template <template <class> class Technique, class Input, class Real>
+void load_with_world(const TimedLights& lights) {
+    load<Technique, Input, Real>(lights);
+    LoadedWorld<Input, Real>::load(lights);
+}
+
+template <template <class> class Technique, class Input, class Real>
+float prepare() {
+    using Data = Loaded<Input, Real>;
+    for (int i = 0; i < Data::kGroups; ++i) escape(Technique<Real>(Data::light[i]));
+    return 0;
+}
+
+template <template <class> class Technique, class Input, class Real, class Transform>
+float prepare_from_world() {
+    using Data = LoadedWorld<Input, Real>;
+    for (int i = 0; i < Data::kGroups; ++i)
+        escape(Technique<Real>(Transform::transform(Data::light[i], Data::point[i], Data::frame[i])));
+    return 0;
 }
 
 template <template <class> class Technique, class Input, class Real>
@@ -183,12 +238,11 @@ float sample() {
 }
 
 template <template <class> class Technique, class Input, class Real>
-float sample_one() {
+float direction() {
     using Data = Loaded<Input, Real>;
-    const auto technique = of_one_light<Technique, Real>(Data::first);
-    escape(technique);
     Real total = Real(0);
-    for (int i = 0; i < Data::kGroups; ++i) total = total + sum(technique.sample(Data::random[i]));
+    for (int i = 0; i < Data::kGroups; ++i)
+        total = total + sum((*Prepared<Technique, Input, Real>::technique[i]).direction(Data::random[i]));
     return lane_sum(total);
 }
 
@@ -200,50 +254,95 @@ constexpr TimedTechnique timed(const char* name) {
             Input::kVertexBound,
             load<Technique, Input, Real>,
             prepare<Technique, Input, Real>,
+            nullptr,
             sample<Technique, Input, Real>,
-            sample_one<Technique, Input, Real>};
+            nullptr};
 }
+
+/// Adds how long it takes from world space on.
+template <template <class> class Technique, class Input, class Real, class Transform>
+constexpr TimedTechnique timed_from_world(const char* name) {
+    TimedTechnique result = timed<Technique, Input, Real>(name);
+    result.load = load_with_world<Technique, Input, Real>;
+    result.prepare_from_world = prepare_from_world<Technique, Input, Real, Transform>;
+    return result;
+}
+
+/// For techniques that have direction().
+template <template <class> class Technique, class Input, class Real, class Transform>
+constexpr TimedTechnique timed_with_direction(const char* name) {
+    TimedTechnique result = timed_from_world<Technique, Input, Real, Transform>(name);
+    result.direction = direction<Technique, Input, Real>;
+    return result;
+}
+
+template <class Kind>
+inline constexpr bool kHasPublished =
+    !std::is_same_v<typename Kind::template Published<float>, hostile::Absent>;
 
 using Native = Pack<float, kNativeLanes<float>>;
 using Pair = Pack<float, 2 * kNativeLanes<float>>;
-
-/// Adds a technique as scalar code, with a light per lane of one register, and with two registers in flight.
-template <template <class> class Technique, class Input>
-void add(std::vector<TimedTechnique>& techniques, const char* name) {
-    techniques.push_back(timed<Technique, Input, float>(name));
-    techniques.push_back(timed<Technique, Input, Native>(name));
-    techniques.push_back(timed<Technique, Input, Pair>(name));
-}
 
 /// The name of the suite in techniques.json.
 struct TimingSuite {
     static constexpr std::string_view kName = "timing";
 };
 
-/// Adds the baseline and then the techniques of a list, each after the formulas that it replaces.
-template <class First, class... Rest>
-void add_all(hostile::KindList<First, Rest...> list, std::vector<TimedTechnique>& techniques) {
-    add<Baseline, Input<First>>(techniques, "Baseline");
+/// Adds a technique with published formulas after these.
+template <class Kind, class Real>
+void add_compared(std::vector<TimedTechnique>& techniques) {
+    techniques.push_back(
+        timed_with_direction<Kind::template Published, Input<Kind>, Real, CornersOnly>(Kind::kPublishedName));
+    techniques.push_back(
+        timed_from_world<Kind::template Technique, Input<Kind>, Real, WholeLight>(Kind::kName));
+}
+
+/// Adds the baseline and the techniques of a list that have published formulas.
+template <class Real, class First, class... Rest>
+void add_compared_of(hostile::KindList<First, Rest...> list, std::vector<TimedTechnique>& techniques) {
+    techniques.push_back(timed_with_direction<Baseline, Input<First>, Real, NoTransform>("Baseline"));
     list.for_each([&]<class Kind> {
-        using Published = typename Kind::template Published<float>;
-        if constexpr (!std::is_same_v<Published, hostile::Absent>)
-            techniques.push_back(timed<Kind::template Published, Input<Kind>, float>(Kind::kPublishedName));
-        add<Kind::template Technique, Input<Kind>>(techniques, Kind::kName);
+        if constexpr (kHasPublished<Kind>) add_compared<Kind, Real>(techniques);
     });
 }
 
-/// All techniques that are timed.
+/// Adds the techniques of a list that have none. Without any that have some, the baseline, too.
+template <class Real, class First, class... Rest>
+void add_others_of(hostile::KindList<First, Rest...> list, std::vector<TimedTechnique>& techniques) {
+    if constexpr (!(kHasPublished<First> || ... || kHasPublished<Rest>))
+        techniques.push_back(timed<Baseline, Input<First>, Real>("Baseline"));
+    list.for_each([&]<class Kind> {
+        if constexpr (!kHasPublished<Kind>)
+            techniques.push_back(timed<Kind::template Technique, Input<Kind>, Real>(Kind::kName));
+    });
+}
+
+/// All techniques that are timed. Those with published formulas also with two registers in flight, and for each number of
+/// vertices.
 inline std::vector<TimedTechnique> techniques() {
     using namespace hostile;
-    std::vector<TimedTechnique> result;
     // A baseline belongs to the type of light that techniques take, so rectangles share that of polygons.
-    add_all(TestedBy<TimingSuite, PolygonKinds<4>, RectangleKinds>(), result);
-    add_all(TestedBy<TimingSuite, PolygonKinds<8>>(), result);
-    add_all(TestedBy<TimingSuite, PolygonOnLobeKinds<4>>(), result);
-    add_all(TestedBy<TimingSuite, LineKinds>(), result);
-    add_all(TestedBy<TimingSuite, LineOnLobeKinds>(), result);
-    add_all(TestedBy<TimingSuite, CylinderKinds>(), result);
-    add_all(TestedBy<TimingSuite, CylinderOnLobeKinds>(), result);
+    using Polygons = TestedBy<TimingSuite, PolygonKinds<4>, RectangleKinds>;
+    using Lines = TestedBy<TimingSuite, LineKinds>;
+    std::vector<TimedTechnique> result;
+    const auto add_all = [&]<class Real> {
+        add_compared_of<Real>(Polygons(), result);
+        add_others_of<Real>(Polygons(), result);
+        add_compared_of<Real>(Lines(), result);
+        add_others_of<Real>(Lines(), result);
+        add_others_of<Real>(TestedBy<TimingSuite, PolygonOnLobeKinds<4>>(), result);
+        add_others_of<Real>(TestedBy<TimingSuite, LineOnLobeKinds>(), result);
+        add_others_of<Real>(TestedBy<TimingSuite, CylinderKinds>(), result);
+        add_others_of<Real>(TestedBy<TimingSuite, CylinderOnLobeKinds>(), result);
+    };
+    add_all.template operator()<float>();
+    add_all.template operator()<Native>();
+    add_compared_of<Pair>(Polygons(), result);
+    add_compared_of<Pair>(Lines(), result);
+    add_compared_of<Native>(TestedBy<TimingSuite, PolygonKinds<3>>(), result);
+    add_compared_of<Native>(TestedBy<TimingSuite, PolygonKinds<5>>(), result);
+    add_compared_of<Native>(TestedBy<TimingSuite, PolygonKinds<6>>(), result);
+    add_compared_of<Native>(TestedBy<TimingSuite, PolygonKinds<7>>(), result);
     return result;
 }
 

@@ -1,7 +1,9 @@
 // The parity tests must reject a wrong technique for cylinders.
 
+#include "gpu_test.h"
+#include "lab/parity/technique_parity.h"
+#include "mutant.h"
 #include "shaders/lidless_cylinder.h"
-#include "technique_parity.h"
 
 namespace nusselt::parity {
 

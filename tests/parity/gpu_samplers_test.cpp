@@ -40,15 +40,28 @@ TEST(GpuSamplerRows, HaveRatiosOfTimesAboveTheBaseline) {
     EXPECT_EQ(rows[3].light_ratio, std::nullopt) << "no competitor with these lights";
 }
 
+TEST(GpuSamplerRows, CompareSamplesWithDensityAndPoint) {
+    const auto rows = lab::rows_of({{"Baseline", "any", {1}, {1}},
+                                    {"LineSolidAnglePeters", "any", {5}, {5}},
+                                    {"LineSolidAnglePeters", "any", {3}, {3}, true},
+                                    {"LineSolidAngle", "any", {9}, {3}}});
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_TRUE(rows[1].directions);
+    EXPECT_EQ(rows[1].light_ns, 2);
+    EXPECT_EQ(rows[2].light_ratio, 2) << "not over directions alone";
+    EXPECT_EQ(rows[2].sample_ratio, 0.5);
+}
+
 class GpuSamplers : public GpuTest {};
 
 TEST_F(GpuSamplers, HaveARowForEachTechniqueAndClassOfLights) {
     const auto table = lab::time_gpu_samplers({.repetitions = 1});
     EXPECT_EQ(table.device.name, device().description().name);
     EXPECT_EQ(table.llvmpipe_threads.has_value(), table.device.name.find("llvmpipe") != std::string::npos);
-    std::map<std::string, std::set<std::string>> lights;
+    std::map<std::string, std::set<std::string>> lights, lights_of_directions;
     for (const auto& row : table.rows) {
-        EXPECT_TRUE(lights[row.technique].insert(row.configuration).second)
+        EXPECT_TRUE(
+            (row.directions ? lights_of_directions : lights)[row.technique].insert(row.configuration).second)
             << row.technique << " has two rows for " << row.configuration;
         EXPECT_TRUE(std::isfinite(row.light_ns) && std::isfinite(row.sample_ns)) << row.technique;
     }
@@ -57,6 +70,9 @@ TEST_F(GpuSamplers, HaveARowForEachTechniqueAndClassOfLights) {
             EXPECT_EQ(lights[Kind::kName].size(), count) << Kind::kName << ": " << what;
             if (*Kind::kPublishedName != '\0') {
                 EXPECT_EQ(lights[Kind::kPublishedName].size(), count) << Kind::kPublishedName;
+                EXPECT_EQ(lights_of_directions[Kind::kPublishedName].size(),
+                          hostile::kIsPolygon<Kind> ? 3u : 2u)
+                    << Kind::kPublishedName << ": each class, polygons with 4 vertices";
             }
         });
     };

@@ -1,6 +1,8 @@
 // The parity tests must reject a wrong technique for linearly transformed cosines.
 
-#include "technique_parity.h"
+#include "gpu_test.h"
+#include "lab/parity/technique_parity.h"
+#include "mutant.h"
 
 namespace nusselt::parity {
 

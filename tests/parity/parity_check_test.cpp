@@ -1,4 +1,4 @@
-#include "parity_check.h"
+#include "lab/parity/parity_check.h"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,9 @@
 #include "base/json_output.h"
 #include "scene/import/importers.h"
 
+#include <algorithm>
+#include <cstdlib>
+
 namespace nusselt::app {
 
 void add_repetitions_option(CLI::App& command, int& repetitions) {
@@ -37,6 +40,28 @@ scene::Scene load_scene(const std::filesystem::path& path, const std::optional<s
     if (scene.lights.empty())
         throw std::runtime_error("the scene has no lights; there is nothing to measure");
     return scene;
+}
+
+void add_scenes_options(CLI::App& command, std::vector<std::filesystem::path>& scenes,
+                        std::filesystem::path& folder) {
+    command.add_option("SCENES", scenes, "Scene files")
+        ->default_str("all of --scenes, and bathroom/bathroom.pbrt in the folder that the environment "
+                      "variable NUSSELT_SCENES names");
+    command.add_option("--scenes", folder, "Folder with the shipped scenes")->type_name("FOLDER");
+}
+
+std::vector<std::filesystem::path> shipped_scenes(const std::filesystem::path& folder) {
+    if (!std::filesystem::is_directory(folder))
+        throw std::runtime_error(
+            "missing folder '" + folder.string() +
+            "'; run in the repository, name the folder of the shipped scenes with --scenes, or name scenes");
+    std::vector<std::filesystem::path> scenes;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".pbrt") scenes.push_back(entry.path());
+    std::sort(scenes.begin(), scenes.end());
+    if (const char* published = std::getenv("NUSSELT_SCENES"))
+        scenes.push_back(std::filesystem::path(published) / "bathroom" / "bathroom.pbrt");
+    return scenes;
 }
 
 void write_results(const std::optional<std::string>& file, const lab::Results& results,

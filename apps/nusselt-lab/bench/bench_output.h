@@ -30,6 +30,14 @@ void check_json_option(const std::optional<std::string>& file,
 /// \throws std::runtime_error if the scene cannot be read or has no lights, or the results would replace one of its files
 scene::Scene load_scene(const std::filesystem::path& path, const std::optional<std::string>& json);
 
+/// Adds the argument SCENES and --scenes.
+void add_scenes_options(CLI::App& command, std::vector<std::filesystem::path>& scenes,
+                        std::filesystem::path& folder);
+
+/// The scenes of a folder, and the bathroom where it is available.
+/// \throws std::runtime_error if the folder does not exist
+std::vector<std::filesystem::path> shipped_scenes(const std::filesystem::path& folder);
+
 /// Prints the table, and writes the results to the file, if one is named; or prints them as JSON alone.
 /// \param file as in --json: "-" is the standard output.
 /// \throws std::runtime_error if the file cannot be written.

@@ -13,7 +13,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
 #include <deque>
 #include <memory>
 #include <span>
@@ -27,21 +26,6 @@ using lab::GpuFrame;
 using lab::GpuFrameTimes;
 using render_vulkan::DeviceScene;
 using render_vulkan::ShadowRays;
-
-/// The shipped scenes, and the bathroom where it is available.
-std::vector<std::filesystem::path> all_scenes(const std::filesystem::path& folder) {
-    if (!std::filesystem::is_directory(folder))
-        throw std::runtime_error(
-            "missing folder '" + folder.string() +
-            "'; run in the repository, name the folder of the shipped scenes with --scenes, or name scenes");
-    std::vector<std::filesystem::path> scenes;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        if (entry.path().extension() == ".pbrt") scenes.push_back(entry.path());
-    std::sort(scenes.begin(), scenes.end());
-    if (const char* published = std::getenv("NUSSELT_SCENES"))
-        scenes.push_back(std::filesystem::path(published) / "bathroom" / "bathroom.pbrt");
-    return scenes;
-}
 
 /// Fills a table, scene by scene.
 class Measurement {
@@ -142,7 +126,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& scene) 
 int run_bench_gpu_frames(const BenchGpuFramesOptions& options) {
     check_json_option(options.json, options.scenes);
     const std::vector<std::filesystem::path> scenes =
-        options.scenes.empty() ? all_scenes(options.scene_folder) : options.scenes;
+        options.scenes.empty() ? shipped_scenes(options.scene_folder) : options.scenes;
     // Before hours of measuring, for the results must not replace a file of a scene.
     if (options.json)
         for (const std::filesystem::path& path : scenes) check_json_option(options.json, files_of(path));
@@ -179,12 +163,7 @@ void setup_bench_gpu_frames(CLI::App& bench, int& exit_code) {
                "that Peters (2021, polygonal lights, Fig. 1) compares; and where a scene has a tube, the "
                "ratio between "
                "analytic shading of a line and of a quad in its place (Heitz and Hill 2017, Sec. 1.7).");
-    command->add_option("SCENES", options->scenes, "Scene files")
-        ->default_str("all of --scenes, and bathroom/bathroom.pbrt in the folder that the environment "
-                      "variable NUSSELT_SCENES "
-                      "names");
-    command->add_option("--scenes", options->scene_folder, "Folder with the shipped scenes")
-        ->type_name("FOLDER");
+    add_scenes_options(*command, options->scenes, options->scene_folder);
     add_resolution_option(*command, options->resolution);
     command->get_option("--resolution")->default_str(*options->resolution);
     command->add_option("--frames", options->frames, "Frames of each kind; the median is reported")

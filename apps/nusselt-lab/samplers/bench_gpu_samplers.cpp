@@ -23,13 +23,14 @@ void print_table(const lab::GpuSamplerTable& table) {
     fmt::print(
         "ns, medians with the baseline subtracted. light: per light, prepared and sampled once, 128\n"
         "lights per thread. sample: per sample of a light, prepared once for 128. x Peters: both over\n"
-        "the published formulas.\n\n");
-    fmt::print("{:<34}{:<34}{:>10}{:>8}{:>10}{:>8}{:>15}\n", "technique", "lights", "light", "spread",
-               "sample", "spread", "x Peters");
+        "the published formulas. alone: samples without density and hit point.\n\n");
+    fmt::print("{:<34}{:<34}{:<6}{:>10}{:>8}{:>10}{:>8}{:>15}\n", "technique", "lights", "", "light",
+               "spread", "sample", "spread", "x Peters");
     for (const auto& row : table.rows) {
-        fmt::print("{:<34}{:<34}{:>10.4g}{:>7.0f}%{:>10.4g}{:>7.0f}%{:>15}\n", row.technique,
-                   row.configuration, row.light_ns, 100 * row.light_spread, row.sample_ns,
-                   100 * row.sample_spread, text_of(row.light_ratio) + " / " + text_of(row.sample_ratio));
+        fmt::print("{:<34}{:<34}{:<6}{:>10.4g}{:>7.0f}%{:>10.4g}{:>7.0f}%{:>15}\n", row.technique,
+                   row.configuration, row.directions ? "alone" : "", row.light_ns, 100 * row.light_spread,
+                   row.sample_ns, 100 * row.sample_spread,
+                   text_of(row.light_ratio) + " / " + text_of(row.sample_ratio));
     }
 }
 
@@ -37,6 +38,7 @@ lab::Results results_of(const lab::GpuSamplerTable& table) {
     lab::ResultTable rows = {"samplers",
                              {{"technique"},
                               {"lights"},
+                              {"samples"},
                               {"light_ns", "ns"},
                               {"sample_ns", "ns"},
                               {"light_spread"},
@@ -44,9 +46,10 @@ lab::Results results_of(const lab::GpuSamplerTable& table) {
                               {"light_ratio"},
                               {"sample_ratio"}}};
     for (const auto& row : table.rows)
-        rows.rows.push_back({row.technique, row.configuration, row.light_ns, row.sample_ns, row.light_spread,
-                             row.sample_spread, lab::cell_of(row.light_ratio),
-                             lab::cell_of(row.sample_ratio)});
+        rows.rows.push_back({row.technique, row.configuration,
+                             row.directions ? "directions alone" : "with density and point", row.light_ns,
+                             row.sample_ns, row.light_spread, row.sample_spread,
+                             lab::cell_of(row.light_ratio), lab::cell_of(row.sample_ratio)});
     lab::Results results = {"gpu-samplers",
                             device_settings(table.device, table.clock, table.llvmpipe_threads),
                             {std::move(rows)}};

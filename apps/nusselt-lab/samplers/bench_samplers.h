@@ -13,6 +13,7 @@ namespace nusselt::app {
 struct BenchSamplersOptions {
     int repetitions = 31;
     std::optional<std::string> isa;
+    bool compilers = false;          ///< also runs the programs of lab/timing/scalar
     std::optional<std::string> json; ///< "-" is the standard output, instead of the table
 };
 

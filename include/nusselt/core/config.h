@@ -20,6 +20,20 @@
 #define NUSSELT_INLINE NUSSELT_HD inline __attribute__((always_inline))
 #endif
 
+/// 1 if the target has an instruction for a * b + c with one rounding.
+#if defined(__FMA__) || defined(__ARM_FEATURE_FMA) || defined(__CUDA_ARCH__)
+#define NUSSELT_HAS_FMA 1
+#else
+#define NUSSELT_HAS_FMA 0
+#endif
+
+/// 1 where scalar code for float takes the vertices of a light as lanes of a register: on CPUs.
+#if defined(__CUDACC__) || defined(__CUDA__)
+#define NUSSELT_HAS_VERTEX_LANES 0
+#else
+#define NUSSELT_HAS_VERTEX_LANES 1
+#endif
+
 /// Everything lives in an inline namespace named after the instruction set of the translation unit. A program
 /// may compile the library for several instruction sets; without distinct names the linker would merge their
 /// inline functions and could give the baseline a copy that needs AVX-512.

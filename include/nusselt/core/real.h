@@ -13,6 +13,14 @@
 
 #include <nusselt/core/config.h>
 
+// 1 where std::sqrt() is a call of the library although the target has an instruction.
+#if defined(__SSE2__) && !defined(__NO_MATH_ERRNO__) && !defined(__CUDACC__) && !defined(__CUDA__)
+#define NUSSELT_HAS_SQRT_INSTRUCTION 1
+#include <emmintrin.h>
+#else
+#define NUSSELT_HAS_SQRT_INSTRUCTION 0
+#endif
+
 NUSSELT_NAMESPACE_BEGIN
 
 /// Maps a number type to its scalar, its mask and its number of lanes. simd/pack.h specialises it.
@@ -50,8 +58,44 @@ NUSSELT_HD constexpr T select(bool mask, T a, T b) noexcept {
 NUSSELT_HD constexpr bool any(bool mask) noexcept { return mask; }
 NUSSELT_HD constexpr bool all(bool mask) noexcept { return mask; }
 
+#if NUSSELT_HAS_SQRT_INSTRUCTION
+namespace detail {
+
+/// std::sqrt() sets errno, for which compilers call the library, so that all registers have to be saved somewhere even if
+/// no argument is ever negative.
+NUSSELT_INLINE float sqrt_instruction(float x) noexcept {
+#if defined(__clang__) || !defined(__GNUC__)
+    return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(x)));
+#elif defined(__AVX2__) && defined(__FMA__)
+    __asm__("vsqrtss %0, %0, %0" : "+x"(x));
+    return x;
+#else
+    // The intrinsic would clear the upper part of the register by way of another one.
+    __asm__("sqrtss %0, %0" : "+x"(x));
+    return x;
+#endif
+}
+/// \copydoc sqrt_instruction(float)
+NUSSELT_INLINE double sqrt_instruction(double x) noexcept {
+#if defined(__clang__) || !defined(__GNUC__)
+    return _mm_cvtsd_f64(_mm_sqrt_sd(_mm_setzero_pd(), _mm_set_sd(x)));
+#elif defined(__AVX2__) && defined(__FMA__)
+    __asm__("vsqrtsd %0, %0, %0" : "+x"(x));
+    return x;
+#else
+    __asm__("sqrtsd %0, %0" : "+x"(x));
+    return x;
+#endif
+}
+
+} // namespace detail
+#endif
+
 template <class T, EnableScalar<T> = 0>
 NUSSELT_INLINE T sqrt(T x) noexcept {
+#if NUSSELT_HAS_SQRT_INSTRUCTION
+    if constexpr (!std::is_same_v<T, long double>) return detail::sqrt_instruction(x);
+#endif
     return std::sqrt(x);
 }
 template <class T, EnableScalar<T> = 0>
@@ -78,21 +122,28 @@ NUSSELT_HD constexpr T min(T a, T b) noexcept {
     return a < b ? a : b;
 }
 
-/// a * b + c, rounded once. Without the instruction, float goes through double: the product is exact there
-/// and the result differs from a true fma by at most one rounding in 2^29 cases, while the library routine
-/// would take a hundred nanoseconds.
-NUSSELT_INLINE float fma(float a, float b, float c) noexcept {
-#if defined(__FMA__) || defined(__ARM_FEATURE_FMA) || defined(__CUDA_ARCH__)
-    return std::fma(a, b, c);
-#else
-    auto rounded =
-        static_cast<float>(static_cast<double>(a) * static_cast<double>(b) + static_cast<double>(c));
+namespace detail {
+
+NUSSELT_INLINE float round_to_float(double x) noexcept {
+    auto rounded = static_cast<float>(x);
 #if defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)
     // g++ 12 vectorises neighbouring calls and forgets to round what is an operand of another call: without this,
     // TriangleShadow.PacksHaveTheBitsOfScalars fails for x86-64-v2.
     __asm__("" : "+x"(rounded));
 #endif
     return rounded;
+}
+
+} // namespace detail
+
+/// a * b + c, rounded once. Without the instruction, float goes through double: the product is exact there
+/// and the result differs from a true fma by at most one rounding in 2^29 cases, while the library routine
+/// would take a hundred nanoseconds. Where two roundings do no harm, multiply_add() is faster.
+NUSSELT_INLINE float fma(float a, float b, float c) noexcept {
+#if NUSSELT_HAS_FMA
+    return std::fma(a, b, c);
+#else
+    return detail::round_to_float(static_cast<double>(a) * static_cast<double>(b) + static_cast<double>(c));
 #endif
 }
 NUSSELT_INLINE double fma(double a, double b, double c) noexcept { return std::fma(a, b, c); }
@@ -118,6 +169,33 @@ NUSSELT_HD inline long double fma(long double a, long double b, long double c) n
         const long double lost = (product - (sum - added)) + (c - added);
         return sum + (lost + error);
     }
+}
+
+/// a * b + c as fast as the processor can: rounded once where it has an instruction for that, else twice. For
+/// polynomials and other sums whose error bounds do not need the exact product.
+template <class T, EnableScalar<T> = 0>
+NUSSELT_INLINE constexpr T multiply_add(T a, T b, T c) noexcept {
+#if NUSSELT_HAS_FMA
+    if constexpr (!std::is_same_v<T, long double>)
+        if (!__builtin_is_constant_evaluated()) return std::fma(a, b, c);
+#endif
+    return a * b + c;
+}
+
+/// a * b - c * d with an error of at most 1.5 ulp barring under- and overflow, and never the wrong sign
+/// (Kahan's algorithm; Jeannerod, Louvet, Muller 2013, doi:10.1090/S0025-5718-2013-02679-8).
+template <class T, EnableScalar<T> = 0>
+NUSSELT_INLINE T difference_of_products(T a, T b, T c, T d) noexcept {
+#if !NUSSELT_HAS_FMA
+    // Both products are exact in double precision.
+    if constexpr (std::is_same_v<T, float>) {
+        return detail::round_to_float(static_cast<double>(a) * static_cast<double>(b) -
+                                      static_cast<double>(c) * static_cast<double>(d));
+    }
+#endif
+    const T cd = c * d;
+    const T error = fma(c, d, -cd);
+    return fma(a, b, -cd) - error;
 }
 
 /// Whether x is neither NaN nor infinite.

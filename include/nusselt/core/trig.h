@@ -1,11 +1,11 @@
 #pragma once
 /// Trigonometric functions on the ranges that the techniques need.
 ///
-/// Single precision, scalar or pack, evaluates polynomials (minimax, fitted for this library) with fma, so that scalars
-/// and packs give the same bits, and shaders/nusselt the same up to the rounding of the device. Double and long double
-/// call the standard library. tests/unit/core/trig_test.cpp enforces the error bounds.
+/// Single precision, scalar or pack, evaluates polynomials (minimax, fitted for this library) in the same order, so that
+/// scalars and packs give the same bits, and shaders/nusselt the same up to the rounding of the device. Double and long
+/// double call the standard library. tests/unit/core/trig_test.cpp enforces the error bounds.
 
-#include <nusselt/core/real.h>
+#include <nusselt/core/polynomial.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -75,8 +75,7 @@ NUSSELT_INLINE Real one_minus_atan_ratio_of_large(const Real& s) noexcept {
 template <class Real>
 NUSSELT_INLINE Real one_minus_atan_ratio(const Real& s) noexcept {
     using Polynomial = detail::AtanRatio<scalar_t<Real>>;
-    Real p = Real(Polynomial::coefficient(Polynomial::kTerms - 1));
-    for (int i = Polynomial::kTerms - 2; i >= 0; --i) p = fma(p, s, Real(Polynomial::coefficient(i)));
+    const Real p = polynomial<Polynomial>(s);
     if constexpr (kIsSingle<Real>) {
         return s * p;
     } else {
@@ -97,20 +96,16 @@ struct AtanRatioDifference {
 template <class Real>
 NUSSELT_INLINE AtanRatioDifference<Real> one_minus_atan_ratio_difference(const Real& s,
                                                                          const Real& step) noexcept {
-    // Horner's scheme for the polynomial (without constant term) at s, and for its divided difference.
+    // The function is s p(s). Its divided difference is p(s) plus the end times that of p.
     using Polynomial = detail::AtanRatio<scalar_t<Real>>;
     const Real end = s + step;
-    Real p = Real(Polynomial::coefficient(Polynomial::kTerms - 1));
-    Real slope = p;
-    for (int i = Polynomial::kTerms - 2; i >= 0; --i) {
-        p = fma(p, s, Real(Polynomial::coefficient(i)));
-        slope = fma(slope, end, p);
-    }
+    const auto p = divided_difference<Polynomial>(s, end);
+    const Real slope = multiply_add(end, p.slope, p.value);
     if constexpr (kIsSingle<Real>) {
-        return {s * p, step * slope};
+        return {s * p.value, step * slope};
     } else {
         const auto small = max(s, end) <= Real(Polynomial::kLargest);
-        if (all(small)) return {s * p, step * slope};
+        if (all(small)) return {s * p.value, step * slope};
         const Real value = one_minus_atan_ratio(s);
         return {value, select(small, step * slope, one_minus_atan_ratio(end) - value)};
     }
@@ -120,7 +115,7 @@ NUSSELT_INLINE AtanRatioDifference<Real> one_minus_atan_ratio_difference(const R
 template <class Real>
 NUSSELT_INLINE Real atan_up_to_one(const Real& q) noexcept {
     if constexpr (kIsSingle<Real>) {
-        return fma(-q, one_minus_atan_ratio(q * q), q);
+        return multiply_add(-q, one_minus_atan_ratio(q * q), q);
     } else {
         return detail::for_each_lane(q, q, [](auto x, auto) { return std::atan(x); });
     }
@@ -151,10 +146,10 @@ NUSSELT_INLINE Real atan2_positive_fast(const Real& y_in, const Real& x) noexcep
     const Real large = max(ax, y);
     const Real q = min(ax, y) / select(large > Real(0), large, Real(1));
     const Real s = q * q;
-    Real p = fma(Real(2.0845112e-2f), s, Real(-8.5156346e-2f));
-    p = fma(p, s, Real(1.80159291e-1f));
-    p = fma(p, s, Real(-3.30304785e-1f));
-    p = fma(p, s, Real(9.99866329e-1f));
+    Real p = multiply_add(Real(2.0845112e-2f), s, Real(-8.5156346e-2f));
+    p = multiply_add(p, s, Real(1.80159291e-1f));
+    p = multiply_add(p, s, Real(-3.30304785e-1f));
+    p = multiply_add(p, s, Real(9.99866329e-1f));
     return detail::unfold_octants(y, x, p * q);
 }
 
@@ -185,15 +180,15 @@ template <class Real>
 NUSSELT_INLINE SinCos<Real> sincos_half_turn(const Real& angle) noexcept {
     if constexpr (kIsSingle<Real>) {
         // r = angle - k pi / 2 in two steps: the first constant has few bits, so that its product is exact.
-        const Real k = floor(fma(angle, Real(2 / kPi<float>), Real(0.5f)));
-        const Real r = fma(k, Real(-4.83826792e-4f), fma(k, Real(-1.5703125f), angle));
+        const Real k = floor(multiply_add(angle, Real(2 / kPi<float>), Real(0.5f)));
+        const Real r = multiply_add(k, Real(-4.83826792e-4f), multiply_add(k, Real(-1.5703125f), angle));
         const Real s = r * r;
-        Real ps = fma(Real(-1.95169776e-4f), s, Real(8.33217585e-3f));
-        ps = fma(ps, s, Real(-1.66666549e-1f));
-        const Real sin_r = fma(r * s, ps, r);
-        Real pc = fma(Real(2.44380910e-5f), s, Real(-1.38873645e-3f));
-        pc = fma(pc, s, Real(4.16666468e-2f));
-        const Real cos_r = fma(s * s, pc, fma(s, Real(-0.5f), Real(1)));
+        Real ps = multiply_add(Real(-1.95169776e-4f), s, Real(8.33217585e-3f));
+        ps = multiply_add(ps, s, Real(-1.66666549e-1f));
+        const Real sin_r = multiply_add(r * s, ps, r);
+        Real pc = multiply_add(Real(2.44380910e-5f), s, Real(-1.38873645e-3f));
+        pc = multiply_add(pc, s, Real(4.16666468e-2f));
+        const Real cos_r = multiply_add(s * s, pc, multiply_add(s, Real(-0.5f), Real(1)));
         const mask_t<Real> quarter = abs(k - Real(1)) < Real(0.5f);
         const mask_t<Real> half = k > Real(1.5f);
         return {select(quarter, cos_r, select(half, -sin_r, sin_r)),
@@ -210,13 +205,13 @@ template <class Real>
 NUSSELT_INLINE SinCos<Real> sincos_quarter_turn(const Real& angle) noexcept {
     if constexpr (kIsSingle<Real>) {
         const Real s = angle * angle;
-        Real ps = fma(Real(2.608932605e-6f), s, Real(-1.981111272e-4f));
-        ps = fma(ps, s, Real(8.333088167e-3f));
-        ps = fma(ps, s, Real(-1.666666046e-1f));
-        Real pc = fma(Real(-2.619381449e-7f), s, Real(2.476930420e-5f));
-        pc = fma(pc, s, Real(-1.388856916e-3f));
-        pc = fma(pc, s, Real(4.166665577e-2f));
-        return {fma(angle * s, ps, angle), fma(s * s, pc, fma(s, Real(-0.5f), Real(1)))};
+        const Real s2 = s * s;
+        const Real ps = multiply_add(multiply_add(Real(2.608932605e-6f), s, Real(-1.981111272e-4f)), s2,
+                                     multiply_add(Real(8.333088167e-3f), s, Real(-1.666666046e-1f)));
+        const Real pc = multiply_add(multiply_add(Real(-2.619381449e-7f), s, Real(2.476930420e-5f)), s2,
+                                     multiply_add(Real(-1.388856916e-3f), s, Real(4.166665577e-2f)));
+        return {multiply_add(angle * s, ps, angle),
+                multiply_add(s2, pc, multiply_add(s, Real(-0.5f), Real(1)))};
     } else {
         return sincos_half_turn(angle);
     }
@@ -224,37 +219,30 @@ NUSSELT_INLINE SinCos<Real> sincos_quarter_turn(const Real& angle) noexcept {
 
 namespace detail {
 
-/// Coefficients of (x - sin(x)) / x^3 as a polynomial in x^2. Float: fitted on [0, pi], relative error 1e-7. Others:
-/// Taylor series.
-template <class Scalar>
-struct XMinusSin {
-    static constexpr int kTerms = std::is_same_v<Scalar, double> ? 14 : 17;
-    static constexpr Scalar coefficient(int i) noexcept {
-        Scalar c = Scalar(1) / 6;
-        for (int k = 1; k <= i; ++k) c /= -static_cast<Scalar>((2 * k + 2) * (2 * k + 3));
-        return c;
-    }
-};
-template <>
-struct XMinusSin<float> {
-    static constexpr int kTerms = 6;
+/// Coefficients of (x - sin(x)) / t^3 with x = 2 atan(t) as a polynomial in t^2, fitted on [0, 1], relative error 1.3e-7.
+struct AngleMinusSine {
+    static constexpr int kTerms = 10;
     static constexpr float coefficient(int i) noexcept {
-        constexpr float kFitted[] = {1.666666716e-1f,  -8.333330974e-3f, 1.984097180e-4f,
-                                     -2.754484285e-6f, 2.481271544e-8f,  -1.390407928e-10f};
+        constexpr float kFitted[] = {1.33333325f,    -1.59998238f,   1.71369636f, -1.76994431f,
+                                     1.7636472f,     -1.61840236f,   1.24713326f, -7.13133872e-1f,
+                                     2.57261246e-1f, -4.28121388e-2f};
         return kFitted[i];
     }
 };
 
 } // namespace detail
 
-/// x - sin(x) on [0, pi]. Single precision: relative error at most 5e-7; others: full relative precision.
+/// x - sin(x) of the angle x = 2 atan(t) in [-pi / 2, pi / 2]. Single precision: relative error at most 6e-7; others: full
+/// relative precision.
+/// \param t in [-1, 1].
 template <class Real>
-NUSSELT_INLINE Real x_minus_sin(const Real& x) noexcept {
-    using Polynomial = detail::XMinusSin<scalar_t<Real>>;
-    const Real s = x * x;
-    Real p = Real(Polynomial::coefficient(Polynomial::kTerms - 1));
-    for (int i = Polynomial::kTerms - 2; i >= 0; --i) p = fma(p, s, Real(Polynomial::coefficient(i)));
-    return x * s * p;
+NUSSELT_INLINE Real angle_minus_sine(const Real& t) noexcept {
+    const Real s = t * t;
+    if constexpr (kIsSingle<Real>) {
+        return t * s * polynomial<detail::AngleMinusSine>(s);
+    } else {
+        return Real(2) * t * (s / (Real(1) + s) - one_minus_atan_ratio(s));
+    }
 }
 
 NUSSELT_NAMESPACE_END

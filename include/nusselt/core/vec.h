@@ -52,8 +52,8 @@ NUSSELT_HD constexpr Vec2<Real>& operator/=(Vec2<Real>& a, const Real& s) noexce
     return a = a / s;
 }
 template <class Real>
-NUSSELT_HD constexpr Real dot(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
-    return a.x * b.x + a.y * b.y;
+NUSSELT_INLINE constexpr Real dot(const Vec2<Real>& a, const Vec2<Real>& b) noexcept {
+    return multiply_add(a.y, b.y, a.x * b.x);
 }
 
 template <class Real>
@@ -110,9 +110,14 @@ template <class Real>
 NUSSELT_INLINE Vec3<Real> fma(const Real& s, const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
     return {fma(s, a.x, b.x), fma(s, a.y, b.y), fma(s, a.z, b.z)};
 }
+/// s * a + b as multiply_add() computes it.
 template <class Real>
-NUSSELT_HD constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
+NUSSELT_INLINE Vec3<Real> multiply_add(const Real& s, const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return {multiply_add(s, a.x, b.x), multiply_add(s, a.y, b.y), multiply_add(s, a.z, b.z)};
+}
+template <class Real>
+NUSSELT_INLINE constexpr Real dot(const Vec3<Real>& a, const Vec3<Real>& b) noexcept {
+    return multiply_add(a.z, b.z, multiply_add(a.y, b.y, a.x * b.x));
 }
 template <class Real>
 NUSSELT_HD constexpr Vec2<Real> xy(const Vec3<Real>& a) noexcept {
@@ -144,16 +149,6 @@ NUSSELT_HD constexpr Vec3<Real> max(const Vec3<Real>& a, const Vec3<Real>& b) no
 /// 2^(-3/4 of the exponent range).
 template <class Scalar>
 inline constexpr Scalar kTiny = power_of_two<Scalar>(-std::numeric_limits<Scalar>::max_exponent / 4 * 3);
-
-/// a * b - c * d with an error of at most 1.5 ulp barring under- and overflow, and never the wrong sign
-/// (Kahan's algorithm; Jeannerod, Louvet, Muller 2013, doi:10.1090/S0025-5718-2013-02679-8).
-template <class Real>
-NUSSELT_INLINE Real difference_of_products(const Real& a, const Real& b, const Real& c,
-                                           const Real& d) noexcept {
-    const Real cd = c * d;
-    const Real error = fma(c, d, -cd);
-    return fma(a, b, -cd) - error;
-}
 
 /// Determinant of the matrix with columns a, b; accurate to 1.5 ulp, exact sign.
 template <class Real>
@@ -212,6 +207,14 @@ NUSSELT_INLINE Vec3<Real> normalize(const Vec3<Real>& a) noexcept {
     const Real squared = dot(scaled, scaled);
     const Real factor = select(squared > Real(0), Real(1) / sqrt(squared), Real(0));
     return factor * scaled;
+}
+
+/// Calls visit(member of to, member of from) for all members of two records.
+template <class To, class From, class Visit>
+NUSSELT_INLINE void visit_members(Vec3<To>& to, const Vec3<From>& from, const Visit& visit) noexcept {
+    visit(to.x, from.x);
+    visit(to.y, from.y);
+    visit(to.z, from.z);
 }
 
 /// The same vector in every lane of a pack, or in another precision.

@@ -163,7 +163,7 @@ private:
     NUSSELT_HD Vec3<Real> direction_to(const Line& line, const Choice& choice) const noexcept {
         const auto image = LobeLine<Real>::select_between(choice.is_lobe, line.lobe, line.cosine);
         const CosineArc<Real> arc(image.extent(choice.part));
-        const Real coordinate = dot(arc.extent().position(arc.point(choice.u)), image.along) - image.shift;
+        const Real coordinate = dot(arc.map().position(arc.point(choice.u)), image.along) - image.shift;
         const Real at = coordinate / select(image.stretch > Real(0), image.stretch, Real(1));
         const Real on_part = min(max(at, choice.part.begin), choice.part.end);
         const Vec3<Real> p =

@@ -2,6 +2,7 @@
 /// Convex planar polygons with a compile-time bound on the number of vertices.
 
 #include <nusselt/core/frame.h>
+#include <nusselt/geometry/precise_products.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -58,18 +59,93 @@ NUSSELT_INLINE Real dot_or_zero(const Vec3<Real>& a, const Vec3<Real>& b) noexce
     return select(abs(sum) > rounding, sum, Real(0));
 }
 
+/// Least sine of the angle between the plane of a polygon and the direction to a vertex for which rounding can be
+/// ignored: it magnifies rounding errors by the reciprocal. Products that are rounded together with their sum allow
+/// twice as much.
+template <class Scalar>
+inline constexpr Scalar kConclusive = Scalar(NUSSELT_HAS_FMA ? 1.0 / 256 : 1.0 / 128);
+
+/// Largest coordinate by magnitude.
+template <class Real>
+NUSSELT_INLINE Real extent_of(const Vec3<Real>& v) noexcept {
+    return max(max(abs(v.x), abs(v.y)), abs(v.z));
+}
+
+/// The vertex whose product with the normal has the smallest rounding error, none if it is the origin.
+template <class Real, int N>
+NUSSELT_INLINE Vec3<Real> nearest_vertex(const ConvexPolygon<Real, N>& polygon) noexcept {
+    Vec3<Real> nearest = polygon.vertex[0];
+    NUSSELT_UNROLL
+    for (int j = 1; j < N; ++j)
+        nearest = select(extent_of(polygon.vertex[j]) < extent_of(nearest), polygon.vertex[j], nearest);
+    return nearest;
+}
+
+/// The distance of the plane that the rounded normal describes; 0 if it cannot be distinguished from rounding.
+template <class Real, int N>
+NUSSELT_INLINE Real rounded_plane_distance(const ConvexPolygon<Real, N>& polygon,
+                                           const Vec3<Real>& nearest) noexcept {
+    return dot_or_zero(polygon.normal, nearest);
+}
+
+/// Calls visit(j, product) for each triangle j of the fan around vertex 0: with the triple product of v and two of its
+/// sides, in the order of the winding, whose error is that of a single rounding.
+///
+/// Edges of polygons from make_polygon() are rounded differences of vertices: the vertices tell what was lost. Where
+/// the edges were there first, as in shading space, the vertices are rounded sums of edges: they differ from the edges
+/// by more than rounding of the edges explains, except where both errors are equally small.
+template <class Real, int N, class Visit>
+NUSSELT_INLINE void for_each_precise_triangle(const ConvexPolygon<Real, N>& polygon, const Vec3<Real>& v,
+                                              const Visit& visit) noexcept {
+    const Vec3<Real> zero{Real(0), Real(0), Real(0)};
+    Vec3<Real> offset = polygon.edge[0]; // from vertex 0 to vertex j + 1
+    Vec3<Real> lost = zero;
+    Vec3<Real> rounding = rounding_of(offset);
+    for (int j = 0; j < N - 2; ++j) {
+        const Vec3<Real>& a = polygon.vertex[j + 1];
+        const Vec3<Real>& edge = polygon.edge[j + 1];
+        const Vec3<Real> edge_rounding = rounding_of(edge);
+        const Vec3<Real> offset_excess = excess_of_side(polygon.vertex[0], a, offset, lost, rounding);
+        const Vec3<Real> edge_excess = excess_of_side(a, polygon.vertex[j + 2], edge, zero, edge_rounding);
+        visit(j, precise_triple_product(v, offset, edge) +
+                     (triple_product(v, offset_excess, edge) + triple_product(v, offset, edge_excess)));
+        const WithError<Real> x = exact_sum(offset.x, edge.x);
+        const WithError<Real> y = exact_sum(offset.y, edge.y);
+        const WithError<Real> z = exact_sum(offset.z, edge.z);
+        offset = {x.value, y.value, z.value};
+        lost = lost + Vec3<Real>{x.error, y.error, z.error};
+        rounding = rounding + edge_rounding;
+    }
+}
+
+/// The distance of the plane through a vertex, from the vertices and edges instead of the rounded normal.
+/// \param rounded distance, for lights whose areas leave the range of numbers.
+template <class Real, int N>
+NUSSELT_HD inline Real precise_plane_distance(const ConvexPolygon<Real, N>& polygon, const Vec3<Real>& vertex,
+                                              const Real& rounded) noexcept {
+    Real product = Real(0);
+    for_each_precise_triangle(polygon, vertex,
+                              [&](int, const Real& of_triangle) { product = product + of_triangle; });
+    const Vec3<Real> normal = doubled_area_normal(polygon);
+    const Real squared = dot(normal, normal);
+    constexpr scalar_t<Real> kLeast = kTiny<scalar_t<Real>>;
+    const auto in_range = (squared > Real(kLeast)) & (squared < Real(1 / kLeast));
+    return select(in_range, product / sqrt(select(in_range, squared, Real(1))), rounded);
+}
+
 } // namespace detail
 
 /// Signed distance of the origin from the plane of the polygon [m], positive if the normal points away from it; 0 if it
-/// cannot be distinguished from rounding. The nearest vertex decides: it has the smallest rounding error, none if it is
-/// the origin.
+/// cannot be distinguished from rounding.
 template <class Real, int N>
 NUSSELT_HD inline Real plane_distance(const ConvexPolygon<Real, N>& polygon) noexcept {
-    const auto extent = [](const Vec3<Real>& v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); };
-    Vec3<Real> nearest = polygon.vertex[0];
-    for (int j = 1; j < N; ++j)
-        nearest = select(extent(polygon.vertex[j]) < extent(nearest), polygon.vertex[j], nearest);
-    return detail::dot_or_zero(polygon.normal, nearest);
+    const Vec3<Real> nearest = detail::nearest_vertex(polygon);
+    const Real rounded = detail::rounded_plane_distance(polygon, nearest);
+    const auto close =
+        (abs(rounded) < Real(detail::kConclusive<scalar_t<Real>>) * detail::extent_of(nearest)) &
+        (rounded != Real(0));
+    if (!any(close)) return rounded;
+    return select(close, detail::precise_plane_distance(polygon, nearest, rounded), rounded);
 }
 
 /// The polygon with the given vertices [m].

@@ -1,6 +1,7 @@
 #pragma once
 /// Line segments, and the angles under which a shading point sees them.
 
+#include <nusselt/core/broadcast.h>
 #include <nusselt/core/frame.h>
 #include <nusselt/core/trig.h>
 
@@ -37,186 +38,232 @@ NUSSELT_INLINE LineSegment<Real> to_shading_space(const LineSegment<LightReal>& 
             Real(world.length)};
 }
 
-/// A point of a line extent, given by sine and cosine of its angle alpha.
+/// A segment from the end nearer to the origin to the other one, with coordinates along its infinite line that are 0 at
+/// the point closest to the origin.
 template <class Real>
-struct LinePoint {
-    Real sine, cosine; ///< of alpha
-    Real from_start;   ///< sine minus that of the start, accurate relative to itself
-    Real to_end;       ///< sine of the end minus this one, likewise
+struct CenteredLine {
+    Vec3<Real> near;    ///< end point
+    Vec3<Real> inward;  ///< unit direction from there to the far end
+    Vec3<Real> closest; ///< the point of the infinite line closest to the origin
+    Real squared;       ///< squared distance of that point from the origin, positive
+    Real near_l, far_l; ///< coordinates of the end points; far_l is not less than |near_l|
+    Real far_z;         ///< of the far end
+    Real length;        ///< far_l - near_l, which may be known more accurately; 0 if there is no light
+    Real sign;          ///< 1 if the near end is the start, else -1
 };
 
-/// A segment in the half-plane that it spans with the origin, as angles alpha about the origin: a point of
-/// the light is distance * (tan(alpha) s + t), its direction sin(alpha) s + cos(alpha) t. Peters 2021 (linear
-/// lights), Sec. 3.1, in terms of the end points, so that short, distant or nearly aligned segments keep their
+/// The segment between two points of a line.
+/// \param s unit direction from p0 to p1.
+/// \param closest, squared, length as in CenteredLine.
+/// \param l0, l1 coordinates of the points along s.
+template <class Real>
+NUSSELT_INLINE CenteredLine<Real>
+line_between(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& closest,
+             const Real& squared, const Real& l0, const Real& l1, const Real& length) noexcept {
+    const auto starts_near = l0 + l1 >= Real(0);
+    const Real sign = select(starts_near, Real(1), Real(-1));
+    return {select(starts_near, p0, p1),
+            sign * s,
+            closest,
+            squared,
+            select(starts_near, l0, -l1),
+            select(starts_near, l1, -l0),
+            select(starts_near, p1.z, p0.z),
+            length,
+            sign};
+}
+
+/// The angles under which the origin sees a segment. In the half-plane that it spans with the origin, t leads to the point
+/// of the infinite line that is closest to the origin, and s from the end of the segment that is nearer to the origin to the
+/// other one: a point of the light is distance * (tan(alpha) s + t), its direction sin(alpha) s + cos(alpha) t. Peters 2021
+/// (linear lights), Sec. 3.1, in terms of the end points, so that short, distant or nearly aligned segments keep their
 /// relative precision. The unit of length is arbitrary.
 template <class Real>
 struct LineExtent {
-    Vec3<Real> s, t; ///< orthonormal; t points from the origin to the closest point of the infinite line
-    Real distance;   ///< of the infinite line from the origin
-    Real length;
-    Real l0, l1;                    ///< coordinates of the end points along s, 0 at the closest point
-    Real s0, s1, c0, c1;            ///< sines and cosines of the angles of the end points
-    Real height0, height1;          ///< z of the unit directions to the end points, not negative
-    Real one_plus_s0, one_minus_s1; ///< accurate relative to themselves
-    Real sin_sweep;          ///< sine of the sweep, the angle between the end points, at most half a turn
-    Real half_tangent;       ///< tangent of half the sweep or of half its supplement, whichever is acute
-    Real sine_extent;        ///< s1 - s0, accurate relative to itself
-    Vec3<Real> near, inward; ///< the end point nearer to the origin, and the direction to the other one
-    Real near_distance, near_cosine; ///< from the origin, and of the angle alpha
-    mask_t<Real> starts_near;        ///< whether it is the start
-    mask_t<Real> acute;              ///< whether the sweep is
-    mask_t<Real> visible; ///< false if the segment has no length or its line passes through the origin
+    CenteredLine<Real> line;
+    Real distance;                  ///< of the infinite line from the origin
+    Real near_distance;             ///< of the near end from the origin
+    Real near_inverse, far_inverse; ///< reciprocal distances of the ends
+    Real near_inverse_squared, far_inverse_squared;
+    Real product; ///< of the distances of both ends
+    Real
+        one_plus_cosine; ///< product times one plus the cosine of the angle between the ends, which is at most half a turn
 
-    /// Angle between the end points.
-    NUSSELT_HD Real sweep() const noexcept {
-        const Real angle = Real(2) * atan_up_to_one(half_tangent);
-        return select(acute, angle, Real(kPi<scalar_t<Real>>) - angle);
+    NUSSELT_INLINE Real inverse_distance() const noexcept { return Real(1) / distance; }
+    /// Component of the normal along t.
+    NUSSELT_INLINE Real n_t() const noexcept { return inverse_distance() * line.closest.z; }
+    NUSSELT_INLINE Real near_sine() const noexcept { return line.near_l * near_inverse; }
+    NUSSELT_INLINE Real far_sine() const noexcept { return line.far_l * far_inverse; }
+    NUSSELT_INLINE Real near_cosine() const noexcept { return distance * near_inverse; }
+    NUSSELT_INLINE Real far_cosine() const noexcept { return distance * far_inverse; }
+    /// z of the unit directions to the end points.
+    NUSSELT_INLINE Real near_height() const noexcept { return line.near.z * near_inverse; }
+    /// \copydoc near_height
+    NUSSELT_INLINE Real far_height() const noexcept { return line.far_z * far_inverse; }
+    /// The product times the sine of the angle between the ends: twice the area of the triangle with the origin.
+    NUSSELT_INLINE Real area() const noexcept { return line.length * distance; }
+    struct SineExtent {
+        Real difference; ///< far sine minus near sine, accurate relative to itself
+        Real density;    ///< the same over the squared distance of the line
+    };
+    NUSSELT_INLINE SineExtent sine_extent() const noexcept {
+        // The tangent of half the angle between the ends times the sum of the cosines (Eq. 1) does not cancel. If the closest
+        // point lies between the ends, nor do the sines.
+        const Real density = line.length * (near_inverse + far_inverse) / one_plus_cosine;
+        SineExtent sines{line.squared * density, density};
+        const auto surrounds = (line.near_l < Real(0)) & (line.length > Real(0));
+        if (any(surrounds)) {
+            const Real sum = far_sine() - near_sine();
+            sines.difference = select(surrounds, sum, sines.difference);
+            sines.density = select(surrounds, sum / line.squared, density);
+        }
+        return sines;
+    }
+    /// Whether there is light and the angle between its ends exceeds a quarter of a turn.
+    NUSSELT_INLINE mask_t<Real> is_obtuse() const noexcept {
+        return (one_plus_cosine < product) & (line.length > Real(0));
+    }
+    /// False if the segment has no length or its line passes through the origin.
+    NUSSELT_INLINE mask_t<Real> visible() const noexcept { return area() > Real(0); }
+};
+
+/// The extent of a segment.
+template <class Real>
+NUSSELT_INLINE LineExtent<Real> make_line_extent(const CenteredLine<Real>& line) noexcept {
+    const Real near_squared = multiply_add(line.near_l, line.near_l, line.squared);
+    const Real far_squared = multiply_add(line.far_l, line.far_l, line.squared);
+    const Real near_inverse_squared = Real(1) / near_squared;
+    const Real far_inverse_squared = Real(1) / far_squared;
+    const Real near_distance = sqrt(near_squared);
+    const Real far_distance = sqrt(far_squared);
+
+    // One plus a cosine cancels near half a turn, where the closest point lies between the ends.
+    const Real product = near_distance * far_distance;
+    const Real coordinates = line.near_l * line.far_l;
+    Real one_plus_cosine = product + multiply_add(line.near_l, line.far_l, line.squared);
+    const auto is_obtuse = one_plus_cosine < product;
+    if (any(is_obtuse)) {
+        const Real squares = near_squared + line.far_l * line.far_l;
+        const Real sum = product - coordinates;
+        one_plus_cosine = select(
+            is_obtuse, line.squared * (Real(1) + squares / select(is_obtuse, sum, Real(1))), one_plus_cosine);
+    }
+    // Member by member: as a whole, g++ would copy packs by way of memory.
+    return {{line.near, line.inward, line.closest, line.squared, line.near_l, line.far_l, line.far_z,
+             line.length, line.sign},
+            sqrt(line.squared),
+            near_distance,
+            near_distance * near_inverse_squared,
+            far_distance * far_inverse_squared,
+            near_inverse_squared,
+            far_inverse_squared,
+            product,
+            one_plus_cosine};
+}
+
+/// A point of a segment.
+template <class Real>
+struct LinePoint {
+    Real
+        share; ///< sine of its angle minus that of the near end, over that of the far end minus that of the near end
+    Real inverse_distance; ///< reciprocal distance from the origin
+};
+
+/// The map from sines of angles to directions and points of a segment.
+template <class Real>
+struct LineMap {
+    /// Uninitialised: to be assigned to before it is used.
+    LineMap() = default;
+
+    NUSSELT_INLINE explicit LineMap(const LineExtent<Real>& e) noexcept
+        : near(e.line.near),
+          inward(e.line.inward),
+          closest(e.line.closest),
+          length(e.line.length),
+          near_inverse(e.near_inverse),
+          near_inverse_squared(e.near_inverse_squared),
+          far_inverse_squared(e.far_inverse_squared),
+          near_sine(e.near_sine()) {
+        const auto sines = e.sine_extent();
+        sine_extent = sines.difference;
+        squared_density = sine_extent * sines.density;
+        step_scale = Real(2) * e.near_distance * sines.density;
     }
 
-    /// \param from_start sine minus s0, in [0, sine_extent]
-    NUSSELT_HD LinePoint<Real> point_at(const Real& from_start) const noexcept {
-        const Real to_end = max(sine_extent - from_start, Real(0));
-        // The square of the cosine is (1 + sine) (1 - sine): sums of positive terms.
-        const Real squared = (one_plus_s0 + from_start) * (one_minus_s1 + to_end);
-        return {s0 + from_start, sqrt(squared), from_start, to_end};
+    /// Broadcasts a map to all lanes of a pack.
+    template <class Single>
+    NUSSELT_HD explicit LineMap(const LineMap<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
+
+    /// \param share in [0, 1], see LinePoint.
+    NUSSELT_INLINE LinePoint<Real> point_at(const Real& share) const noexcept {
+        // With sines (1 - x) s0 + x s1, the squared cosines are (1 - x) c0^2 + x c1^2 + x (1 - x) (s1 - s0)^2: a sum of
+        // positive terms. Here it is divided by the squared distance of the line.
+        const Real rest = Real(1) - share;
+        const Real near_part = multiply_add(share, squared_density, near_inverse_squared);
+        return {share, sqrt(multiply_add(share, far_inverse_squared, rest * near_part))};
+    }
+
+    NUSSELT_INLINE Real sine_at(const Real& share) const noexcept {
+        return multiply_add(share, sine_extent, near_sine);
     }
 
     /// The point itself, on the segment.
-    NUSSELT_HD Vec3<Real> position(const LinePoint<Real>& point) const noexcept {
-        // The nearer end is the more accurate place to start from. The step is 2 sin(theta / 2) cos(theta / 2)
-        // times its distance over the cosine of alpha, with tan(theta / 2) = tangent.
-        const Real tangent =
-            select(starts_near, point.from_start, point.to_end) / (near_cosine + point.cosine);
-        const Real step = Real(2) * near_distance * tangent / (point.cosine * fma(tangent, tangent, Real(1)));
-        const Vec3<Real> p = near + min(step, length) * inward;
-        const auto beside = is_beside(point);
+    NUSSELT_INLINE Vec3<Real> position(const LinePoint<Real>& point) const noexcept {
+        // The nearer end is the more accurate place to start from. With the tangent T of half the angle between that end and
+        // the point, the step is 2 T / (1 + T^2) times the distance of the end over the cosine of alpha.
+        const Real sum = near_inverse + point.inverse_distance;
+        const Real squares = multiply_add(sum, sum, point.share * point.share * squared_density);
+        const Real step = (step_scale * point.share) * sum / (point.inverse_distance * squares);
+        const Vec3<Real> p = multiply_add(min(step, length), inward, near);
+        // A point much closer to the origin than both ends would suffer from their rounding. It lies far from them.
+        const auto beside = point.inverse_distance > Real(2) * near_inverse;
         if (!any(beside)) return p;
-        const Real l = distance * point.sine / point.cosine;
-        return select(beside, min(max(l, l0), l1) * s + distance * t, p);
+        const Real l = sine_at(point.share) / point.inverse_distance;
+        return select(beside, multiply_add(l, inward, closest), p);
     }
 
     /// Unit direction to a point.
     /// \param p its position.
-    NUSSELT_HD Vec3<Real> direction(const LinePoint<Real>& point, const Vec3<Real>& p) const noexcept {
-        Vec3<Real> wi = inverse_length(p) * p;
-        const auto beside = is_beside(point);
-        if (any(beside)) wi = select(beside, point.sine * s + point.cosine * t, wi);
-        return wi;
+    NUSSELT_INLINE Vec3<Real> direction(const LinePoint<Real>& point, const Vec3<Real>& p) const noexcept {
+        return point.inverse_distance * p;
     }
 
-    /// The point in a unit direction that hits the segment up to rounding.
-    NUSSELT_HD LinePoint<Real> point_in(const Vec3<Real>& wi) const noexcept {
-        const Real along = dot(wi, s);
-        const Real across = max(dot(wi, t), Real(0));
+    /// The share of the point in a unit direction that hits the segment up to rounding, in [0, 1].
+    NUSSELT_HD Real share_in(const Vec3<Real>& wi) const noexcept {
+        const Real distance = sqrt(dot(closest, closest));
+        const auto apart = distance > Real(0);
+        const Real along = dot(wi, inward);
+        const Real across = max(dot(wi, closest) / select(apart, distance, Real(1)), Real(0));
         // The angle from the end on the same side of the closest point is acute.
         const auto before_closest = along < Real(0);
-        const Real end_sine = select(before_closest, s0, s1);
-        const Real end_cosine = select(before_closest, c0, c1);
+        const Real end_sine = select(before_closest, near_sine, near_sine + sine_extent);
+        const Real end_cosine = distance * select(before_closest, near_inverse, sqrt(far_inverse_squared));
         const Real turned = difference_of_products(along, end_cosine, across, end_sine);
         const Real sin = max(select(before_closest, turned, -turned), Real(0));
         const Real cos = max(fma(along, end_sine, across * end_cosine), Real(0));
-        const Real step = min(sin / (Real(1) + cos) * (end_cosine + across), sine_extent);
-        const Real rest = sine_extent - step;
-        return {along, across, select(before_closest, step, rest), select(before_closest, rest, step)};
+        const Real sines = sin / (Real(1) + cos) * (end_cosine + across);
+        const Real share = min(sines / select(sine_extent > Real(0), sine_extent, Real(1)), Real(1));
+        return select(before_closest, share, Real(1) - share);
     }
 
-private:
-    /// Whether a point is much closer to the origin than both ends are.
-    NUSSELT_HD mask_t<Real> is_beside(const LinePoint<Real>& point) const noexcept {
-        return point.cosine > Real(2) * near_cosine;
+    Vec3<Real> near;    ///< the end nearer to the origin
+    Vec3<Real> inward;  ///< s
+    Vec3<Real> closest; ///< the point of the infinite line closest to the origin
+    Real length;
+    Real near_inverse; ///< reciprocal distance of the near end
+    Real near_inverse_squared, far_inverse_squared;
+    Real near_sine, sine_extent; ///< far sine minus near sine, accurate relative to itself
+    Real squared_density;        ///< of sine_extent over the distance of the line
+    Real step_scale;
+
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.near, self.inward, self.closest, self.length, self.near_inverse, self.near_inverse_squared,
+              self.far_inverse_squared, self.near_sine, self.sine_extent, self.squared_density,
+              self.step_scale);
     }
 };
-
-/// With coordinates of order one, a smaller distance of a line from the origin cannot be distinguished from rounding.
-template <class Scalar>
-inline constexpr Scalar kSmallestDistance = 4 * std::numeric_limits<Scalar>::epsilon();
-
-/// The part of a segment between two points of its line.
-/// \param p0, p1   the points; z only matters where it is the height above the surface.
-/// \param closest  vector to the closest point of the line.
-/// \param distance its length.
-/// \param l0, l1   coordinates of the points along the line.
-/// \param length   l1 - l0, which the caller may have more accurately.
-template <class Real>
-NUSSELT_INLINE LineExtent<Real>
-make_line_extent(const Vec3<Real>& s, const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& closest,
-                 const Real& distance, const Real& l0, const Real& l1, const Real& length) noexcept {
-    LineExtent<Real> e;
-
-    // Set up the plane of the line and the origin (Peters 2021, linear lights, Sec. 3.1).
-    const auto passes_by = (distance > Real(kSmallestDistance<scalar_t<Real>>)) & (length > Real(0));
-    // If there is no light, any values will do that keep the formulas finite.
-    e.distance = select(passes_by, distance, Real(1));
-    e.s = s;
-    e.t = (Real(1) / e.distance) * closest;
-    e.length = length;
-    e.l0 = l0;
-    e.l1 = l1;
-
-    // Find sines and cosines of the angles of both ends, and their heights.
-    const Real r0 = sqrt(fma(l0, l0, e.distance * e.distance));
-    const Real r1 = sqrt(fma(l1, l1, e.distance * e.distance));
-    const Real inverse_r0 = Real(1) / r0;
-    const Real inverse_r1 = Real(1) / r1;
-    e.s0 = l0 * inverse_r0;
-    e.s1 = l1 * inverse_r1;
-    e.c0 = e.distance * inverse_r0;
-    e.c1 = e.distance * inverse_r1;
-    e.height0 = max(p0.z, Real(0)) / r0;
-    e.height1 = max(p1.z, Real(0)) / r1;
-
-    // One plus or minus a sine cancels for one sign of it; the squared cosine does not.
-    const Real one_plus_abs0 = Real(1) + abs(e.s0);
-    const Real one_plus_abs1 = Real(1) + abs(e.s1);
-    e.one_plus_s0 = select(e.s0 < Real(0), e.c0 * e.c0 / one_plus_abs0, one_plus_abs0);
-    e.one_minus_s1 = select(e.s1 > Real(0), e.c1 * e.c1 / one_plus_abs1, one_plus_abs1);
-
-    // Points are best found from the nearer end.
-    e.starts_near = r0 <= r1;
-    e.near = select(e.starts_near, p0, p1);
-    e.inward = select(e.starts_near, s, -s);
-    e.near_distance = min(r0, r1);
-    e.near_cosine = max(e.c0, e.c1);
-
-    // Find the angle between the ends. Its sine is the area of the triangle with the origin, never a difference.
-    e.sin_sweep = (length * inverse_r0) * e.c1;
-    const Real cos_sweep = fma(e.c0, e.c1, e.s0 * e.s1);
-    e.visible = passes_by & (e.sin_sweep > Real(0));
-    e.acute = cos_sweep > Real(0);
-    e.half_tangent = e.sin_sweep / (Real(1) + abs(cos_sweep));
-
-    // Find the difference of both sines (Eq. 1). Beyond a quarter of a turn the closest point lies between the ends,
-    // and they add up.
-    e.sine_extent = select(e.acute, e.half_tangent * (e.c0 + e.c1), e.s1 - e.s0);
-    return e;
-}
-
-template <class Real, class Single>
-NUSSELT_INLINE LineExtent<Real> broadcast(const LineExtent<Single>& e) noexcept {
-    return {broadcast<Real>(e.s),
-            broadcast<Real>(e.t),
-            Real(e.distance),
-            Real(e.length),
-            Real(e.l0),
-            Real(e.l1),
-            Real(e.s0),
-            Real(e.s1),
-            Real(e.c0),
-            Real(e.c1),
-            Real(e.height0),
-            Real(e.height1),
-            Real(e.one_plus_s0),
-            Real(e.one_minus_s1),
-            Real(e.sin_sweep),
-            Real(e.half_tangent),
-            Real(e.sine_extent),
-            broadcast<Real>(e.near),
-            broadcast<Real>(e.inward),
-            Real(e.near_distance),
-            Real(e.near_cosine),
-            mask_t<Real>(e.starts_near),
-            mask_t<Real>(e.acute),
-            mask_t<Real>(e.visible)};
-}
 
 NUSSELT_NAMESPACE_END

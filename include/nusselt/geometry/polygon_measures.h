@@ -58,6 +58,21 @@ NUSSELT_HD inline ScaledPolygon<Real, N> to_unit_extent(const ConvexPolygon<Real
     return {with_unit_extent(polygon, scale), scale, reciprocal_power_of_two(scale)};
 }
 
+/// The polygon, scaled where the mask is set. Lanes do not depend on their neighbours.
+template <class Real, int N>
+NUSSELT_HD inline ScaledPolygon<Real, N>
+to_unit_extent_where(const mask_t<Real>& scales, const ConvexPolygon<Real, N>& polygon) noexcept {
+    ScaledPolygon<Real, N> unit = to_unit_extent(polygon);
+    NUSSELT_UNROLL
+    for (int j = 0; j < N; ++j) {
+        unit.light.vertex[j] = select(scales, unit.light.vertex[j], polygon.vertex[j]);
+        unit.light.edge[j] = select(scales, unit.light.edge[j], polygon.edge[j]);
+    }
+    unit.scale = select(scales, unit.scale, Real(1));
+    unit.inverse_scale = select(scales, unit.inverse_scale, Real(1));
+    return unit;
+}
+
 /// The plane of a polygon with coordinates of order one and a box around it, to find where directions meet it.
 template <class Real>
 struct PolygonHull {

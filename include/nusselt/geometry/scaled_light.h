@@ -14,6 +14,13 @@ struct ScaledLight {
     Real inverse_scale; ///< by which the original is larger
 };
 
+/// Whether a positive number and its reciprocal are normal numbers.
+template <class Real>
+NUSSELT_INLINE mask_t<Real> has_reciprocal(const Real& x) noexcept {
+    constexpr scalar_t<Real> kSmallest = std::numeric_limits<scalar_t<Real>>::min();
+    return (x > Real(kSmallest)) & (x < Real(1 / kSmallest));
+}
+
 /// Scales a line or a cylinder, which have scale_of() and scaled().
 template <template <class> class Light, class Real>
 NUSSELT_INLINE ScaledLight<Light<Real>, Real> to_unit_extent(const Light<Real>& light) noexcept {

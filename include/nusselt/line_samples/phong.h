@@ -64,15 +64,20 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
     constexpr GaussLegendre<Scalar, Quadrature::kNodes> kRule;
     const Real half_turn = Real(kPi<Scalar>);
     const Real quarter_turn = Real(kPi<Scalar> / 2);
-    if (!any(e.visible)) return Real(0);
+    if (!any(e.visible())) return Real(0);
 
-    // Find the angles from the start, theta, and from the mirrored direction in the plane of line and origin, u.
-    const Real mirror_s = dot(mirror, e.s);
-    const Real mirror_t = dot(mirror, e.t);
-    const Real mirror_aside = dot(mirror, cross(e.s, e.t));
-    const Real sweep = e.sweep();
-    Real u0 = detail::signed_angle(difference_of_products(e.s0, mirror_t, e.c0, mirror_s),
-                                   fma(e.c0, mirror_t, e.s0 * mirror_s));
+    // Find the angles from the near end, theta, and from the mirrored direction in the plane of line and origin, u.
+    const Vec3<Real> t = e.inverse_distance() * e.line.closest;
+    const Real mirror_s = dot(mirror, e.line.inward);
+    const Real mirror_t = dot(mirror, t);
+    const Real mirror_aside = dot(mirror, cross(e.line.inward, t));
+    const Real near_sine = e.near_sine();
+    const Real near_cosine = e.near_cosine();
+    const Real near_height = e.near_height();
+    const Real cos_sweep = e.one_plus_cosine - e.product; // times the product
+    const Real sweep = atan2_positive(e.area(), cos_sweep);
+    Real u0 = detail::signed_angle(difference_of_products(near_sine, mirror_t, near_cosine, mirror_s),
+                                   fma(near_cosine, mirror_t, near_sine * mirror_s));
     u0 = select(u0 > quarter_turn, u0 - Real(2) * half_turn, u0);
     const Real u1 = u0 + sweep;
 
@@ -83,10 +88,10 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
     const Real width = (sweep - skipped) - max(u1 - cut, Real(0));
     const Real u_begin = max(u0, -cut);
 
-    // Find the cosine at the line and with the normal, from their values and derivatives at the start.
-    const Real cos_sweep = fma(e.c0, e.c1, e.s0 * e.s1);
-    const Real slope = select(e.acute, (e.height1 - e.height0 * cos_sweep) / e.sin_sweep,
-                              difference_of_products(e.s.z, e.c0, e.t.z, e.s0));
+    // Find the cosine at the line and with the normal, from their values and derivatives at the near end.
+    const Real slope =
+        select(cos_sweep > Real(0), (e.far_height() * e.product - near_height * cos_sweep) / e.area(),
+               difference_of_products(e.line.inward.z, near_cosine, t.z, near_sine));
     const Real in_plane = sqrt(fma(mirror_s, mirror_s, mirror_t * mirror_t));
     const Real log_aside = negative_log_of_cosine(SinCos<Real>{mirror_aside, in_plane});
 
@@ -95,14 +100,14 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
     for (int i = 0; i < Quadrature::kNodes; ++i) {
         const Real step = Real(kRule.node(i)) * width;
         const SinCos<Real> turn = sincos_half_turn(min(max(skipped + step, Real(0)), half_turn));
-        const Real cosine = max(difference_of_products(e.c0, turn.cos, e.s0, turn.sin), Real(0));
-        const Real height = max(fma(slope, turn.sin, e.height0 * turn.cos), Real(0));
+        const Real cosine = max(difference_of_products(near_cosine, turn.cos, near_sine, turn.sin), Real(0));
+        const Real height = max(fma(slope, turn.sin, near_height * turn.cos), Real(0));
         const Real u = min(abs(u_begin + step), quarter_turn);
         const Real logarithm = log_aside + negative_log_of_cosine(sincos_quarter_turn(u));
         sum = fma(Real(kRule.weight(i)) * cosine, height * exp_of_negative(exponent * logarithm), sum);
     }
-    const auto lit = e.visible & (width > Real(0)) & (mirror.z > Real(0));
-    const Real factor = Real(2) * phong_normalisation(exponent) * width / e.distance;
+    const auto lit = e.visible() & (width > Real(0)) & (mirror.z > Real(0));
+    const Real factor = Real(2) * phong_normalisation(exponent) * width * e.inverse_distance();
     return select(lit, factor * sum, Real(0));
 }
 
@@ -111,8 +116,8 @@ NUSSELT_HD inline Real phong_integral(const LineExtent<Real>& e, const Vec3<Real
 template <class Real>
 NUSSELT_HD inline Real phong_integral(const LineSegment<Real>& light, const Vec3<Real>& mirror,
                                       const Real& exponent) noexcept {
-    const auto unit = to_unit_extent(light);
-    return phong_integral(clipped_extent(unit.light), mirror, exponent) * unit.scale;
+    const auto unit = to_safe_extent(light);
+    return phong_integral(clipped_extent(unit), mirror, exponent) * unit.scale;
 }
 
 /// The contribution of a part of a line of a planar light to a Phong surface [1/m], see shading.h.
@@ -126,7 +131,7 @@ NUSSELT_HD inline Real phong_part(const LobeLine<Real>& cosine, const Interval<R
     // The factor of a cosine lobe has 1 / (2 pi distance), and the integral of the Phong lobe has the distance again.
     const Real half_cosine_at_light = Real(kPi<scalar_t<Real>>) * cosine.distance * cosine.factor;
     const LineExtent<Real> e = cosine.extent(cosine.clipped(part));
-    return select(e.visible, half_cosine_at_light * phong_integral(e, mirror, exponent), Real(0));
+    return select(e.visible(), half_cosine_at_light * phong_integral(e, mirror, exponent), Real(0));
 }
 
 NUSSELT_NAMESPACE_END

@@ -73,7 +73,7 @@ struct LobeLine {
     /// \param part above the horizon of the lobe, see clipped() [m].
     NUSSELT_INLINE Real integral(const Interval<Real>& part) const noexcept {
         const LineExtent<Real> e = extent(part);
-        return select(e.visible, cosine_integral(e) * factor, Real(0));
+        return select(e.visible(), cosine_integral(e) * factor, Real(0));
     }
 
     /// \param part as for integral() [m].
@@ -82,9 +82,13 @@ struct LobeLine {
         const Real l1 = fma(part.end, stretch, shift);
         Vec3<Real> p0 = fma(l0, along, closest);
         Vec3<Real> p1 = fma(l1, along, closest);
-        p0.z = fma(part.begin, slope, height);
-        p1.z = fma(part.end, slope, height);
-        return make_line_extent(along, p0, p1, closest, distance, l0, l1, (part.end - part.begin) * stretch);
+        p0.z = max(fma(part.begin, slope, height), Real(0));
+        p1.z = max(fma(part.end, slope, height), Real(0));
+        const auto passes_by = distance > Real(kSmallestDistance<scalar_t<Real>>);
+        const Real length = (part.end - part.begin) * stretch;
+        return make_line_extent(line_between(along, p0, p1, closest,
+                                             select(passes_by, distance * distance, Real(1)), l0, l1,
+                                             select(passes_by, length, Real(0))));
     }
 
     /// The piece of a part that is above the horizon of the lobe.

@@ -78,11 +78,12 @@ struct BothHorizons {
     }
     template <class Real>
     NUSSELT_HD static LineSegment<Real> part_of(const LineSegment<Real>& light) noexcept {
-        const LineExtent<Real> e = clipped_extent(light);
-        const Vec3<Real> far = fma(e.length, e.inward, e.near);
-        Vec3<Real> start = select(e.starts_near, e.near, far);
+        CenteredLine<Real> part = centered(to_safe_extent(light));
+        clip_to_horizon(part);
+        const Vec3<Real> far = fma(part.length, part.inward, part.near);
+        Vec3<Real> start = select(part.sign > Real(0), part.near, far);
         start.z = max(start.z, Real(0));
-        return {start, light.s, select(e.visible, e.length, Real(0))};
+        return {start, light.s, part.length};
     }
     /// A point of the part, or a vector towards it, lifted to the surface if rounding moved it below.
     template <class Real>

@@ -77,25 +77,26 @@ private:
 template <class Real, class CosinePower>
 Real phong_integral_billen(const LineSegment<Real>& light, const Vec3<Real>& mirror, int exponent,
                            const CosinePower& power) noexcept {
-    const auto unit = to_unit_extent(light);
-    const LineExtent<Real> e = clipped_extent(unit.light);
-    const Real mirror_s = dot(mirror, e.s);
-    const Real mirror_t = dot(mirror, e.t);
+    const auto unit = to_safe_extent(light);
+    const LineExtent<Real> e = clipped_extent(unit);
+    const Vec3<Real> t = e.inverse_distance() * e.line.closest;
+    const Real mirror_s = dot(mirror, e.line.inward);
+    const Real mirror_t = dot(mirror, t);
     const Real in_plane = std::hypot(mirror_s, mirror_t);
-    if (!e.visible || !(in_plane > 0) || !(mirror.z > 0)) return 0;
+    if (!e.visible() || !(in_plane > 0) || !(mirror.z > 0)) return 0;
     const Real cosine = mirror_t / in_plane;
     const Real sine = mirror_s / in_plane;
     const Real mirror_angle = std::atan2(sine, cosine);
-    Real begin = std::atan2(e.s0, e.c0) - mirror_angle;
-    Real end = std::atan2(e.s1, e.c1) - mirror_angle;
+    Real begin = std::atan2(e.near_sine(), e.near_cosine()) - mirror_angle;
+    Real end = std::atan2(e.far_sine(), e.far_cosine()) - mirror_angle;
     const Real turns = begin > kPi<Real> / 2 ? -2 * kPi<Real> : end < -kPi<Real> / 2 ? 2 * kPi<Real> : 0;
     begin = std::fmax(begin + turns, -kPi<Real> / 2);
     end = std::fmin(end + turns, kPi<Real> / 2);
     if (!(begin < end)) return 0;
 
     // Cosine at the light and with the normal, as a cos(u) + b sin(u) each.
-    const Real height = cosine * e.t.z + sine * e.s.z;
-    const Real slope = cosine * e.s.z - sine * e.t.z;
+    const Real height = cosine * t.z + sine * e.line.inward.z;
+    const Real slope = cosine * e.line.inward.z - sine * t.z;
     const auto n = static_cast<Real>(exponent);
     const Real cos_begin = std::cos(begin);
     const Real cos_end = std::cos(end);
@@ -106,8 +107,8 @@ Real phong_integral_billen(const LineSegment<Real>& light, const Vec3<Real>& mir
     const Real squared_sines = ((n + 2) * even - boundary) / (n + 1) - even;
     const Real sum =
         cosine * height * even + (cosine * slope - sine * height) * odd - sine * slope * squared_sines;
-    return 2 * phong_normalisation(n) * std::pow(in_plane, n) * std::fmax(sum, Real(0)) / e.distance *
-           unit.scale;
+    return 2 * phong_normalisation(n) * std::pow(in_plane, n) * std::fmax(sum, Real(0)) *
+           e.inverse_distance() * unit.scale;
 }
 
 NUSSELT_NAMESPACE_END

@@ -34,11 +34,10 @@ public:
 
         // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. With exactly equal
         // azimuths they do not disturb the order of the others. In both directions, for runs of such edges.
+        auto uncertain = is_close(azimuth[0], azimuth[M - 1]);
         NUSSELT_UNROLL
-        for (int j = 1; j < M; ++j) unite(azimuth[j], azimuth[j - 1]);
-        unite(azimuth[0], azimuth[M - 1]);
-        NUSSELT_UNROLL
-        for (int j = M - 1; j > 0; --j) unite(azimuth[j - 1], azimuth[j]);
+        for (int j = 1; j < M; ++j) uncertain = uncertain | is_close(azimuth[j], azimuth[j - 1]);
+        if (any(uncertain)) unite_all(azimuth);
 
         // Associate each vertex with the edge that begins there in counterclockwise order (Sec. 3.7).
         first_inner_ = {offset[0], offset[0], mask_t<Real>(false)};
@@ -92,13 +91,13 @@ public:
             const Vec3<Real> begin = outer.at;
             const Real begin_gap = gap;
             if (k + 1 < M) {
-                pass(event_[k], outer, inner);
+                pass(event_[k], outer, inner, gap);
             } else {
                 // Both chains end at the last azimuth.
                 outer.at = outer.at + outer.rest;
                 inner.at = inner.at + inner.rest;
+                gap = end_gap(outer.at, inner.at);
             }
-            gap = gap_between(outer.at, inner.at);
             DecentralSector<Real> sector;
             sector.begin = point(begin);
             sector.chord = outer.at - begin;
@@ -144,15 +143,24 @@ private:
                 Real(kRounding) * inverse * size};
     }
 
-    /// Makes azimuths equal if they are so up to rounding: the less certain one takes over the other. That of a vertex
-    /// next to the zenith, which is hardly known, does not bridge those of its neighbours so.
+    NUSSELT_INLINE static mask_t<Real> is_close(const Azimuth& a, const Azimuth& b) noexcept {
+        return abs(a.angle - b.angle) <= max(a.rounding, b.rounding);
+    }
+
+    /// Makes azimuths of neighbours equal if they are so up to rounding: the less certain one takes over the other. That
+    /// of a vertex next to the zenith, which is hardly known, does not bridge those of its neighbours so.
     NUSSELT_HD static void unite(Azimuth& a, Azimuth& b) noexcept {
-        const auto close = abs(a.angle - b.angle) <= max(a.rounding, b.rounding);
+        const auto close = is_close(a, b);
         const auto a_moves = close & (a.rounding >= b.rounding);
         const auto b_moves = close & (a.rounding < b.rounding);
         const Azimuth old = a;
         a = {select(a_moves, b.angle, a.angle), select(a_moves, b.rounding, a.rounding)};
         b = {select(b_moves, old.angle, b.angle), select(b_moves, old.rounding, b.rounding)};
+    }
+    NUSSELT_HD static void unite_all(Azimuth* azimuth) noexcept {
+        for (int j = 1; j < M; ++j) unite(azimuth[j], azimuth[j - 1]);
+        unite(azimuth[0], azimuth[M - 1]);
+        for (int j = M - 1; j > 0; --j) unite(azimuth[j - 1], azimuth[j]);
     }
 
     /// The position of the sweep on the outer or the inner edges.
@@ -172,53 +180,59 @@ private:
         return {base_.x + offset.x, base_.y + offset.y, max(base_.z + offset.z, Real(0))};
     }
 
-    /// det(a, b) of two points in the tangent plane, positive if b lies counterclockwise of a.
-    NUSSELT_HD Real turn(const Vec3<Real>& a, const Vec3<Real>& b) const noexcept {
-        return det(xy(closer_to_zenith(base_ + a, base_ + b)), xy(b - a));
-    }
-
-    /// The intersection of an edge with the azimuth of a point, as a fraction of the rest of the edge.
-    NUSSELT_HD Real crossing(const Chain& chain, const Vec3<Real>& at) const noexcept {
-        const Real slope = det(xy(base_ + at), xy(chain.rest));
-        const Real distance = turn(chain.at, at);
-        return min(max(distance / select(slope > Real(0), slope, Real(1)), Real(0)), Real(1));
-    }
-
-    NUSSELT_HD static void advance(Chain& chain, const Real& x) noexcept {
-        chain.at = chain.at + x * chain.rest;
-        chain.rest = (Real(1) - x) * chain.rest;
-    }
-
     /// Brings both chains to the azimuth of a vertex, where one of them continues with another edge.
-    NUSSELT_HD void pass(const Event& at, Chain& outer, Chain& inner) const noexcept {
+    /// \param gap becomes that between both chains; see end_gap().
+    NUSSELT_HD void pass(const Event& at, Chain& outer, Chain& inner, Real& gap) const noexcept {
         const auto outer_begins = at.kind > Real(0);
         const auto inner_begins = at.kind < Real(0);
-        Chain other{select(outer_begins, inner.at, outer.at), select(outer_begins, inner.rest, outer.rest),
-                    mask_t<Real>(true)};
-        advance(other, crossing(other, at.offset));
-        const Chain new_outer{select(outer_begins, at.offset, other.at),
-                              select(outer_begins, at.edge, other.rest),
-                              mask_t<Real>(outer.begun | outer_begins)};
-        const Chain new_inner{select(outer_begins, other.at, at.offset),
-                              select(outer_begins, other.rest, at.edge),
-                              mask_t<Real>(inner.begun | inner_begins)};
+        const Vec3<Real> from = select(outer_begins, inner.at, outer.at);
+        const Vec3<Real> along = select(outer_begins, inner.rest, outer.rest);
+
+        // Intersect the other chain with the azimuth.
+        const Vec3<Real> vertex = base_ + at.offset;
+        const Vec3<Real> start = base_ + from;
+        const Vec3<Real> step = at.offset - from;
+        const Real way = det(xy(closer_to_zenith(start, vertex)), xy(step)); // positive: counterclockwise
+        const Real slope = det(xy(vertex), xy(along));
+        const Real safe_slope = select(slope > Real(0), slope, Real(1));
+        const Real x = min(max(way / safe_slope, Real(0)), Real(1));
+        const Vec3<Real> other = from + x * along;
+        const Vec3<Real> rest = (Real(1) - x) * along;
+
+        // Express the gap by determinants: the difference of both points cancels where the chains are close to each other
+        // (as in vertex_lanes.h).
+        const Real upright = normal_.z * normal_.z * dot(xy(vertex), xy(vertex));
+        const Real level = dot(xy(normal_), xy(vertex));
+        const auto flat = upright >= level * level;
+        const Real outward =
+            select(flat, det(xy(along), xy(step)), difference_of_products(step.z, slope, way, along.z));
+        const Real turn = det(xy(closer_to_zenith(start, start + along)), xy(along));
+        const Real extent = select(flat, normal_.z, level) * select(outer_begins, -turn, safe_slope);
+        const Real new_gap = max(distance_ * outward / select(extent == Real(0), Real(1), extent), Real(0));
+
         // No edge begins at repeated vertices and at ends of edges with one azimuth.
         const auto begins = outer_begins | inner_begins;
         if (all(begins)) {
-            outer = new_outer;
-            inner = new_inner;
+            outer.at = select(outer_begins, at.offset, other);
+            outer.rest = select(outer_begins, at.edge, rest);
+            inner.at = select(outer_begins, other, at.offset);
+            inner.rest = select(outer_begins, rest, at.edge);
+            gap = new_gap;
         } else {
-            outer = {select(begins, new_outer.at, outer.at), select(begins, new_outer.rest, outer.rest),
-                     new_outer.begun};
-            inner = {select(begins, new_inner.at, inner.at), select(begins, new_inner.rest, inner.rest),
-                     new_inner.begun};
+            outer.at = select(outer_begins, at.offset, select(inner_begins, other, outer.at));
+            outer.rest = select(outer_begins, at.edge, select(inner_begins, rest, outer.rest));
+            inner.at = select(inner_begins, at.offset, select(outer_begins, other, inner.at));
+            inner.rest = select(inner_begins, at.edge, select(outer_begins, rest, inner.rest));
+            gap = select(begins, new_gap, gap);
         }
+        outer.begun = outer.begun | outer_begins;
+        inner.begun = inner.begun | inner_begins;
     }
 
     /// Height of the plane through the origin and an inner edge above the point of the outer edge that has the
     /// same azimuth. Both points lie in the plane of the polygon, whose distance is a common factor: only the step
     /// between them matters.
-    NUSSELT_HD Real gap_between(const Vec3<Real>& outer, const Vec3<Real>& inner) const noexcept {
+    NUSSELT_HD Real end_gap(const Vec3<Real>& outer, const Vec3<Real>& inner) const noexcept {
         const Vec3<Real> outward = outer - inner;
         const Vec2<Real> azimuth = xy(base_) + xy(inner);
         const Real upright = normal_.z * dot(azimuth, azimuth);

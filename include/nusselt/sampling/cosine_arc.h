@@ -3,24 +3,19 @@
 /// the angle to the middle of the circle: the inner step of projected solid angle sampling of lines and tubes.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Sec. 3.2 and
-/// 3.3, Algorithms 1 and 2. Deviations: the integral is written by the end points of the light, so that
-/// nothing cancels (the paper accepts that short and distant lights lose precision); the unknown is the angle
-/// from the start of the light; the initial guess takes the cosine with the normal into account; the iteration also
-/// runs near the ends, where it needs no exception in this form.
+/// 3.3, Algorithms 1 and 2. Deviations: the integral is written by the end points of the light, so that nothing cancels
+/// (the paper accepts that short and distant lights lose precision); the unknown is the sine of the angle, counted from the
+/// middle of the light, so that a step needs one polynomial instead of trigonometric functions; the initial guess is exact
+/// at both ends and in the middle; the iteration also runs near the ends, where it needs no exception in this form.
 
 #include <nusselt/core/broadcast.h>
 #include <nusselt/geometry/clip_line.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// Steps of the iteration, at most: most lights need one. The largest backward error found in exact arithmetic is
-/// 3.6e-5 after two and 1.3e-10 after three.
+/// Steps of the iteration, at most: most lights need one.
 template <class Real>
 inline constexpr int kLineIterations = kIsSingle<Real> ? 3 : 4;
-
-/// A step of the iteration below it is the last one: its cube is rounding.
-template <class Scalar>
-inline constexpr Scalar kSmallStep = power_of_two<Scalar>(-std::numeric_limits<Scalar>::digits / 3);
 
 /// \tparam Iterations steps of the iteration per sample, at most.
 ///
@@ -32,13 +27,32 @@ public:
     CosineArc() = default;
 
     /// \param extent above the horizon.
-    NUSSELT_HD explicit CosineArc(const LineExtent<Real>& extent) noexcept
-        : extent_(extent), sweep_(extent_.sweep()) {
-        const LinePoint<Real> middle = extent_.point_at(Real(0.5) * extent_.sine_extent);
-        middle_height_ = max(fma(extent_.s.z, middle.sine, extent_.t.z * middle.cosine), Real(0));
-        slope_ = extent_.s.z * extent_.c0 - extent_.t.z * extent_.s0;
-        integral_ =
-            cosine_integral(sweep_, extent_.sine_extent, extent_.height0 + extent_.height1, extent_.t.z);
+    NUSSELT_INLINE explicit CosineArc(const LineExtent<Real>& extent) noexcept
+        : map_(extent), distance_(extent.distance), n_t_(extent.n_t()) {
+        const CosineIntegral<Real> halves(extent, n_t_);
+        middle_cosine_ = halves.middle_cosine;
+        middle_height_ = halves.middle_height;
+        from_near_ = halves.from_near;
+        const Real to_far = halves.to_far;
+        // Without light, the denominators are 0; any values will do that keep the formulas finite.
+        const Real least = Real(std::numeric_limits<scalar_t<Real>>::min());
+        inverse_sine_extent_ = Real(1) / max(map_.sine_extent, least);
+        integral_ = halves.near + halves.far;
+
+        // A random number, which counts from the start, becomes a share of the integral, which counts from the middle.
+        const Real near_share = halves.near * inverse_integral();
+        share_scale_ = extent.line.sign;
+        share_offset_ = multiply_add(Real(-0.5), share_scale_, Real(0.5)) - near_share;
+
+        // Choose the slopes of the height for which first_guess() is exact at the ends, and interpolate between them.
+        const Real near_inverse = Real(1) / max(from_near_, least);
+        const Real far_inverse = Real(1) / max(to_far, least);
+        const Real near_slope =
+            near_inverse * multiply_add(near_inverse, halves.bend, extent.near_height() - middle_height_);
+        const Real far_slope =
+            far_inverse * multiply_add(far_inverse, halves.bend, extent.far_height() - middle_height_);
+        guess_linear_ = multiply_add(far_slope, halves.near, -near_slope * halves.far);
+        guess_square_ = (far_slope + near_slope) * integral_;
     }
 
     /// Broadcasts an arc to all lanes of a pack.
@@ -47,100 +61,87 @@ public:
         broadcast_members<Real>(*this, single);
     }
 
-    NUSSELT_HD const LineExtent<Real>& extent() const noexcept { return extent_; }
+    NUSSELT_HD const LineMap<Real>& map() const noexcept { return map_; }
 
     /// E of the paper: 2 int cos(alpha) n . w(alpha) d alpha.
     NUSSELT_HD const Real& integral() const noexcept { return integral_; }
+    /// Its reciprocal; finite if it is 0.
+    NUSSELT_INLINE Real inverse_integral() const noexcept {
+        return Real(1) / max(integral_, Real(std::numeric_limits<scalar_t<Real>>::min()));
+    }
 
     /// \param u in [0, 1); increasing u moves from the start to the end.
-    NUSSELT_HD LinePoint<Real> point(const Real& u) const noexcept {
-        Real theta = angle_at(initial_sine(u));
+    NUSSELT_INLINE LinePoint<Real> point(const Real& u) const noexcept {
+        using Scalar = scalar_t<Real>;
+        const Real share = multiply_add(u, share_scale_, share_offset_);
+        const Real target = share * integral_;
+        const Real tolerance = Real(Scalar(1.5) * std::numeric_limits<Scalar>::epsilon()) * integral_;
+        const Real guess = first_guess(share, target) + from_near_;
+        Real x = min(max(guess * inverse_sine_extent_, Real(0)), Real(1));
         auto goes_on = mask_t<Real>(true);
         for (int i = 0; i < Iterations && any(goes_on); ++i) {
-            const Rotation rotation = rotation_to(theta);
-            const Real residual = fma(-u, integral_, rotation.integral); // Eq. 4
-            // Laguerre's method (Algorithm 2): the root of the quadratic Taylor polynomial, in Blinn's stable form.
-            const Real first = rotation.cosine * rotation.height;
-            const Real second = fma(rotation.cosine, rotation.height_slope, -rotation.sine * rotation.height);
-            const Real denominator = first + sqrt(max(fma(first, first, -second * residual), Real(0)));
-            const Real step = residual / select(denominator > Real(0), denominator, Real(1));
+            // Laguerre's method (Algorithm 2): the root of the quadratic Taylor polynomial, in Blinn's stable form. All
+            // derivatives by the sine are multiplied by the cosine.
+            const Real sine = map_.sine_at(x);
+            const Real cosine = distance_ * map_.point_at(x).inverse_distance;
+            const Real height = max(multiply_add(map_.inward.z, sine, n_t_ * cosine), Real(0));
+            const Real residual = integral_to(x, cosine, height) - target; // Eq. 4
+            const Real first = cosine * height;
+            const Real second = cosine * multiply_add(map_.inward.z, cosine, -n_t_ * sine);
+            const Real root = sqrt(max(multiply_add(first, first, -second * residual), Real(0)));
+            const Real step = residual / max(first + root, Real(kTiny<Scalar>));
             // Lanes that are done keep their result: it must not depend on their neighbours.
-            theta = select(goes_on, min(max(theta - step, Real(0)), sweep_), theta);
-            // The step leaves an error of the order of its cube, relative to the scale on which the density changes.
-            goes_on =
-                goes_on & (abs(step) * (first + abs(second)) > Real(kSmallStep<scalar_t<Real>>) * first);
+            const Real next = multiply_add(-step * cosine, inverse_sine_extent_, x);
+            x = select(goes_on, min(max(next, Real(0)), Real(1)), x);
+            // What the quadratic polynomial lacks of the integral is a third of this cube, if the cosine changes little.
+            const auto is_exact = abs(n_t_ * step * step * step) <= tolerance;
+            const auto is_local = abs(Real(4) * step * sine) <= cosine;
+            goes_on = goes_on & !(is_exact & is_local);
         }
-        const Real from_start = sine_from_start(sincos_quarter_turn(Real(0.5) * theta));
-        return extent_.point_at(min(from_start, extent_.sine_extent));
+        return map_.point_at(x);
     }
 
     /// The random number for which point() returns the one in direction wi, a unit direction on the arc.
     NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
-        const LinePoint<Real> point = extent_.point_in(wi);
-        const Real theta = angle_at(point.from_start);
-        const Real part =
-            cosine_integral(theta, point.from_start, extent_.height0 + max(wi.z, Real(0)), extent_.t.z);
-        return below_one(part / select(integral_ > Real(0), integral_, Real(1)));
+        const Real x = map_.share_in(wi);
+        const Real cosine = distance_ * map_.point_at(x).inverse_distance;
+        const Real part = integral_to(x, cosine, max(wi.z, Real(0)));
+        return below_one((part * inverse_integral() - share_offset_) * share_scale_);
     }
 
 private:
-    /// The quantities that the iteration needs at the angle theta from the start.
-    struct Rotation {
-        Real sine, cosine;         ///< of alpha
-        Real height, height_slope; ///< cosine with the normal and its derivative
-        Real integral;             ///< from the start
-    };
-
-    NUSSELT_HD Rotation rotation_to(const Real& theta) const noexcept {
-        const SinCos<Real> half = sincos_quarter_turn(Real(0.5) * theta);
-        const Real sin = Real(2) * half.sin * half.cos;
-        const Real cos = fma(Real(-2) * half.sin, half.sin, Real(1));
-        Rotation r;
-        r.sine = fma(extent_.s0, cos, extent_.c0 * sin);
-        r.cosine = max(fma(extent_.c0, cos, -extent_.s0 * sin), Real(0));
-        r.height = max(fma(extent_.height0, cos, slope_ * sin), Real(0));
-        r.height_slope = fma(slope_, cos, -extent_.height0 * sin);
-        r.integral = cosine_integral(theta, sine_from_start(half), extent_.height0 + r.height, extent_.t.z);
-        return r;
+    /// The integral from the middle to a point, see CosineIntegral.
+    /// \param x as LinePoint::share.
+    NUSSELT_INLINE Real integral_to(const Real& x, const Real& cosine, const Real& height) const noexcept {
+        const Real sine = multiply_add(x, map_.sine_extent, -from_near_);
+        const Real half_tangent = sine / (middle_cosine_ + cosine);
+        return multiply_add(sine, middle_height_ + height, n_t_ * angle_minus_sine(half_tangent));
     }
 
-    /// \param half sine and cosine of half the angle from the start.
-    NUSSELT_HD Real sine_from_start(const SinCos<Real>& half) const noexcept {
-        const Real middle = fma(extent_.c0, half.cos, -extent_.s0 * half.sin);
-        return Real(2) * half.sin * max(middle, Real(0));
+    /// By sine, the density is the cosine with the normal. Were that linear, the sample would solve a quadratic equation.
+    /// Its slope is taken as a linear function of the integral instead of a constant.
+    NUSSELT_HD Real first_guess(const Real& share, const Real& target) const noexcept {
+        const Real change = share * multiply_add(share, guess_square_, guess_linear_);
+        const Real squared = max(multiply_add(middle_height_, middle_height_, change), Real(0));
+        return target / (middle_height_ + sqrt(squared));
     }
 
-    /// The angle from the start.
-    NUSSELT_HD Real angle_at(const Real& from_start) const noexcept {
-        const LinePoint<Real> point = extent_.point_at(from_start);
-        return min(Real(2) * atan2_positive(from_start, extent_.c0 + point.cosine), sweep_);
-    }
-
-    /// The initial guess of the iteration: by sine, the density is the cosine with the normal. It is taken as linear
-    /// from the start to the middle and from there to the end.
-    NUSSELT_HD Real initial_sine(const Real& u) const noexcept {
-        const Real first_half = extent_.height0 + middle_height_;
-        const Real target = u * (first_half + middle_height_ + extent_.height1);
-        const auto in_first = target < first_half;
-        const Real low = select(in_first, extent_.height0, middle_height_);
-        const Real rise =
-            select(in_first, middle_height_ - extent_.height0, extent_.height1 - middle_height_);
-        const Real rest = select(in_first, target, target - first_half);
-        const Real denominator = low + sqrt(max(fma(rise, rest, low * low), Real(0)));
-        const Real share = rest / select(denominator > Real(0), denominator, Real(1));
-        return Real(0.5) * min(select(in_first, share, share + Real(1)), Real(2)) * extent_.sine_extent;
-    }
-
-    LineExtent<Real> extent_;
-    Real sweep_;         ///< angle between the end points
-    Real middle_height_; ///< cosine of the direction to the middle by sine with the normal
-    Real slope_;         ///< derivative by theta of that cosine, at the start
+    LineMap<Real> map_;
+    Real distance_;                      ///< of the line from the origin
+    Real n_t_;                           ///< component of the normal along t
+    Real middle_cosine_, middle_height_; ///< of the middle by angle
+    Real from_near_;                     ///< sine of that middle minus that of the near end
+    Real inverse_sine_extent_;
     Real integral_;
+    Real share_scale_, share_offset_;
+    Real guess_linear_, guess_square_;
 
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.extent_, self.sweep_, self.middle_height_, self.slope_, self.integral_);
+        visit(self.map_, self.distance_, self.n_t_, self.middle_cosine_, self.middle_height_, self.from_near_,
+              self.inverse_sine_extent_, self.integral_, self.share_scale_, self.share_offset_,
+              self.guess_linear_, self.guess_square_);
     }
 };
 

@@ -47,21 +47,20 @@ NUSSELT_HD inline ShadingSpace<Real> broadcast(const ShadingSpace<Single>&) noex
 struct UniformImportance {
     static constexpr bool kEndsAtHorizon = false;
 
-    template <class... Line>
-    NUSSELT_HD static auto extent(const Line&... line) noexcept {
-        return make_line_extent(line...);
-    }
+    template <class Real>
+    NUSSELT_HD static void clip(CenteredLine<Real>&) noexcept {}
     template <class Real>
     NUSSELT_HD static Real integral(const LineExtent<Real>& e) noexcept {
-        return Real(2) * e.sine_extent;
+        return Real(2) * e.sine_extent().difference;
     }
     template <class Real>
     NUSSELT_HD static LinePoint<Real> point(const LineExtent<Real>& e, const Real& u) noexcept {
-        return e.point_at(u * e.sine_extent);
+        return LineMap<Real>(e).point_at(select(e.line.sign > Real(0), u, Real(1) - u));
     }
     template <class Real>
     NUSSELT_HD static Real invert(const LineExtent<Real>& e, const Vec3<Real>& wi) noexcept {
-        return below_one(e.point_in(wi).from_start / select(e.visible, e.sine_extent, Real(1)));
+        const Real share = LineMap<Real>(e).share_in(wi);
+        return below_one(select(e.line.sign > Real(0), share, Real(1) - share));
     }
 };
 
@@ -69,9 +68,9 @@ struct UniformImportance {
 struct CosineImportance {
     static constexpr bool kEndsAtHorizon = true;
 
-    template <class... Line>
-    NUSSELT_HD static auto extent(const Line&... line) noexcept {
-        return clipped_extent(line...);
+    template <class Real>
+    NUSSELT_HD static void clip(CenteredLine<Real>& line) noexcept {
+        clip_to_horizon(line);
     }
     template <class Real>
     NUSSELT_HD static Real integral(const LineExtent<Real>& e) noexcept {
@@ -164,7 +163,9 @@ public:
     NUSSELT_HD Vec3<Real> point(const Vec2<Real>& u) const noexcept {
         const HalfPlane h = half_plane(azimuth_at(fma(warp_.invert(u.x), range_, low_)));
         const LinePoint<Real> point = Importance::point(h.extent, u.y);
-        const Real steepness = point.sine / max(point.cosine, Real(1 / kSteepest<Scalar>));
+        // The line is at distance one: the reciprocal distance of a point is the cosine of its angle.
+        const Real steepness = h.extent.line.sign * LineMap<Real>(h.extent).sine_at(point.share) /
+                               max(point.inverse_distance, Real(1 / kSteepest<Scalar>));
         const Real tangent = (h.widening * steepness - h.shear) / stretch_;
         const Vec2<Real> p = view_.first_point(h.slice, tangent);
         return p.x * view_.s + p.y * h.slice.t;
@@ -286,11 +287,13 @@ private:
         };
 
         // They are the end points of a line at distance one, whose importance has a closed form.
-        h.extent = Importance::extent(s_, corner(tangent0, steep0, starts_far, start_height_, rho0),
-                                      corner(tangent1, steep1, ends_far, end_height_, rho1), t, Real(1),
-                                      tangent0, tangent1, length);
+        CenteredLine<Real> line = line_between(s_, corner(tangent0, steep0, starts_far, start_height_, rho0),
+                                               corner(tangent1, steep1, ends_far, end_height_, rho1), t,
+                                               Real(1), tangent0, tangent1, length);
+        Importance::clip(line);
+        h.extent = make_line_extent(line);
         const Real integral = Importance::integral(h.extent);
-        h.integral = select(h.extent.visible & is_finite(integral), integral, Real(0));
+        h.integral = select(h.extent.visible() & is_finite(integral), integral, Real(0));
         return h;
     }
 

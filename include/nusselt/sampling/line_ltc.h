@@ -26,7 +26,7 @@ class LineLtc {
 public:
     /// \param light in shading space [m].
     NUSSELT_HD LineLtc(const LineSegment<Real>& light, const Ltc<Real>& ltc) noexcept
-        : LineLtc(Horizons::part_of(scaled(light, scale_of(light))), scale_of(light), ltc) {}
+        : LineLtc(part_of(to_safe_extent(light)), ltc) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
@@ -58,27 +58,26 @@ public:
     NUSSELT_HD Real measure() const noexcept { return measure_; }
 
 private:
-    /// Takes the parts of a ScaledLight one by one: as a whole it would go through memory, which costs a fifth.
-    /// \param part  of the scaled light that counts.
-    /// \param scale of that light.
-    NUSSELT_HD LineLtc(const LineSegment<Real>& part, const Real& scale, const Ltc<Real>& ltc) noexcept
-        : ltc_(ltc),
-          image_(to_cosine_space(part, ltc)),
-          s_(part.s),
-          inverse_scale_(reciprocal_power_of_two(scale)) {
+    NUSSELT_INLINE static SafeLine<Real> part_of(const SafeLine<Real>& safe) noexcept {
+        return {Horizons::part_of(safe.line), safe.squared_reach, safe.scale, safe.inverse_scale};
+    }
+
+    /// \param safe the part of the light that counts.
+    NUSSELT_INLINE LineLtc(const SafeLine<Real>& safe, const Ltc<Real>& ltc) noexcept
+        : ltc_(ltc), image_(to_cosine_space(safe.line, ltc)), inverse_scale_(safe.inverse_scale) {
         // Describe the line by its closest point and the coordinates of its ends.
-        const Vec3<Real> moment = cross(part.p0, part.s);
-        closest_ = cross(part.s, moment);
-        l0_ = dot(part.p0, part.s);
-        l1_ = dot(end_of(part), part.s);
+        const CenteredLine<Real> line = centered(safe);
+        s_ = line.inward;
+        closest_ = line.closest;
+        l0_ = line.near_l;
+        l1_ = line.far_l;
 
         // Correct the radius, which differs in cosine space (Eq. 5). The ratio is the reciprocal of what the density of
         // directions on the image is divided by.
-        const Real ratio = Real(kPi<scalar_t<Real>>) * radius_ratio(moment, ltc);
-        const auto passes_by = length(moment) > Real(kSmallestDistance<scalar_t<Real>>);
+        const Real ratio = Real(kPi<scalar_t<Real>>) * radius_ratio(cross(safe.line.p0, safe.line.s), ltc);
         const auto in_lobe = image_.measure() > Real(0);
-        const auto seen = passes_by & in_lobe & (ratio > Real(0));
-        const Real measure = image_.measure() / select(seen, ratio, Real(1)) * scale;
+        const auto seen = (line.length > Real(0)) & in_lobe & (ratio > Real(0));
+        const Real measure = image_.measure() / select(seen, ratio, Real(1)) * safe.scale;
         const Real inverse = ratio / select(seen, image_.measure(), Real(1)) * inverse_scale_;
         const auto fits = is_finite(max(measure, inverse));
         const auto lit = seen & fits & (measure > Real(0));
@@ -90,9 +89,9 @@ private:
     LineProjectedSolidAngle<Real> image_; ///< in cosine space
 
     // The part of the light that counts, in shading space and scaled to an extent of order one.
-    Vec3<Real> s_;
+    Vec3<Real> s_;       ///< from the near end to the far one
     Vec3<Real> closest_; ///< point of the infinite line
-    Real l0_, l1_;       ///< coordinates of the end points along s, 0 at the closest point
+    Real l0_, l1_;       ///< coordinates of the near and the far end along s, 0 at the closest point
     Real inverse_scale_; ///< a power of two
 
     Real measure_;

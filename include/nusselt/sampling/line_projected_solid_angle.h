@@ -26,8 +26,8 @@ public:
     LineProjectedSolidAngle() = default;
 
     /// \param light in shading space [m].
-    NUSSELT_HD explicit LineProjectedSolidAngle(const LineSegment<Real>& light) noexcept
-        : LineProjectedSolidAngle(to_unit_extent(light)) {}
+    NUSSELT_INLINE explicit LineProjectedSolidAngle(const LineSegment<Real>& light) noexcept
+        : LineProjectedSolidAngle(to_safe_extent(light)) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
@@ -37,10 +37,10 @@ public:
     }
 
     /// \param u in [0, 1); increasing u moves from the start of the light to its end.
-    NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
+    NUSSELT_INLINE LightSample<Real> sample(const Real& u) const noexcept {
         const LinePoint<Real> point = arc_.point(u);
-        const Vec3<Real> p = arc_.extent().position(point);
-        Vec3<Real> wi = arc_.extent().direction(point, p);
+        const Vec3<Real> p = arc_.map().position(point);
+        Vec3<Real> wi = arc_.map().direction(point, p);
         wi.z = max(wi.z, Real(0));
         return {wi, pdf(wi), inverse_scale_ * p};
     }
@@ -55,14 +55,15 @@ public:
     NUSSELT_HD Real measure() const noexcept { return measure_; }
 
 private:
-    NUSSELT_INLINE explicit LineProjectedSolidAngle(const ScaledLight<LineSegment<Real>, Real>& unit) noexcept
-        : arc_(clipped_extent(unit.light)), inverse_scale_(unit.inverse_scale) {
-        const Real& integral = arc_.integral();
-        const Real& distance = arc_.extent().distance;
-        const Real measure = integral / distance * unit.scale;
-        const Real inverse = distance / select(integral > Real(0), integral, Real(1)) * inverse_scale_;
-        const auto fits = is_finite(max(measure, inverse));
-        const auto lit = arc_.extent().visible & (measure > Real(0)) & fits;
+    NUSSELT_INLINE explicit LineProjectedSolidAngle(const SafeLine<Real>& safe) noexcept
+        : LineProjectedSolidAngle(safe, clipped_extent(safe)) {}
+
+    NUSSELT_INLINE LineProjectedSolidAngle(const SafeLine<Real>& safe,
+                                           const LineExtent<Real>& extent) noexcept
+        : arc_(extent), inverse_scale_(safe.inverse_scale) {
+        const Real measure = arc_.integral() * extent.inverse_distance() * safe.scale;
+        const Real inverse = arc_.inverse_integral() * extent.distance * inverse_scale_;
+        const auto lit = has_reciprocal(measure);
         measure_ = select(lit, measure, Real(0));
         inverse_measure_ = select(lit, inverse, Real(0));
     }

@@ -22,9 +22,8 @@ template <class Real>
 class LineSolidAngle {
 public:
     /// \param light relative to the shading point [m].
-    NUSSELT_HD explicit LineSolidAngle(const LineSegment<Real>& light) noexcept
-        : LineSolidAngle(to_unit_extent(light),
-                         [](const LineSegment<Real>& line) { return make_line_extent(line); }) {}
+    NUSSELT_INLINE explicit LineSolidAngle(const LineSegment<Real>& light) noexcept
+        : LineSolidAngle(to_safe_extent(light), WholeExtent()) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
@@ -33,10 +32,10 @@ public:
     }
 
     /// \param u in [0, 1); increasing u moves from the start of the light to its end.
-    NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
-        const LinePoint<Real> point = extent_.point_at(u * extent_.sine_extent);
-        const Vec3<Real> p = extent_.position(point);
-        return {extent_.direction(point, p), pdf_, inverse_scale_ * p};
+    NUSSELT_INLINE LightSample<Real> sample(const Real& u) const noexcept {
+        const LinePoint<Real> point = map_.point_at(multiply_add(u, sign_, offset_));
+        const Vec3<Real> p = map_.position(point);
+        return {map_.direction(point, p), pdf_, inverse_scale_ * p};
     }
 
     /// Constant on the light; the caller knows that wi hits it.
@@ -44,34 +43,46 @@ public:
 
     /// The random number for which sample() returns wi, a unit direction on the light.
     NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
-        const Real part = extent_.point_in(wi).from_start;
-        return below_one(part / select(extent_.visible, extent_.sine_extent, Real(1)));
+        return below_one((map_.share_in(wi) - offset_) * sign_);
     }
 
     /// Solid angle per radius, in the limit of a thin cylinder [sr/m].
     NUSSELT_HD Real measure() const noexcept { return measure_; }
 
 protected:
+    struct WholeExtent {
+        NUSSELT_INLINE LineExtent<Real> operator()(const SafeLine<Real>& safe) const noexcept {
+            return whole_extent(safe);
+        }
+    };
+    struct ClippedExtent {
+        NUSSELT_INLINE LineExtent<Real> operator()(const SafeLine<Real>& safe) const noexcept {
+            return clipped_extent(safe);
+        }
+    };
+
     /// \param extent_of returns the extent of the part of a segment to sample.
     template <class ExtentOf>
-    NUSSELT_HD LineSolidAngle(const ScaledLight<LineSegment<Real>, Real>& unit, ExtentOf extent_of) noexcept
-        : extent_(extent_of(unit.light)), inverse_scale_(unit.inverse_scale) {
+    NUSSELT_INLINE LineSolidAngle(const SafeLine<Real>& safe, ExtentOf extent_of) noexcept
+        : LineSolidAngle(safe, extent_of(safe)) {}
+
+private:
+    NUSSELT_INLINE LineSolidAngle(const SafeLine<Real>& safe, const LineExtent<Real>& extent) noexcept
+        : map_(extent), inverse_scale_(safe.inverse_scale) {
+        sign_ = extent.line.sign;
+        offset_ = multiply_add(Real(-0.5), sign_, Real(0.5));
         // Eq. 1 in the limit of a radius of 0.
-        const Real solid_angle = Real(2) * extent_.sine_extent;
-        const Real measure = solid_angle / extent_.distance * unit.scale;
-        const Real density =
-            extent_.distance / select(extent_.visible, solid_angle, Real(1)) * inverse_scale_;
-        const auto measure_fits =
-            (measure > Real(0)) & (measure <= Real(std::numeric_limits<scalar_t<Real>>::max()));
-        const auto density_fits =
-            (density > Real(0)) & (density <= Real(std::numeric_limits<scalar_t<Real>>::max()));
-        const auto lit = extent_.visible & measure_fits & density_fits;
+        const Real measure = Real(2) * extent.distance * extent.sine_extent().density * safe.scale;
+        const Real area = extent.distance * extent.line.length * (extent.near_inverse + extent.far_inverse);
+        const Real density = Real(0.5) * extent.one_plus_cosine / area * inverse_scale_;
+        const auto lit = has_reciprocal(measure);
         measure_ = select(lit, measure, Real(0));
         pdf_ = select(lit, density, Real(0));
     }
 
-private:
-    LineExtent<Real> extent_; ///< scaled to an extent of order one
+    LineMap<Real> map_;
+    Real sign_,
+        offset_; ///< of the map from random numbers, which count from the start, to shares from the near end
     Real inverse_scale_;
     Real measure_;
     Real pdf_;
@@ -79,7 +90,7 @@ private:
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.extent_, self.inverse_scale_, self.measure_, self.pdf_);
+        visit(self.map_, self.sign_, self.offset_, self.inverse_scale_, self.measure_, self.pdf_);
     }
 };
 
@@ -91,8 +102,7 @@ class LineClippedSolidAngle : public LineSolidAngle<Real> {
 public:
     /// \param light in shading space [m].
     NUSSELT_HD explicit LineClippedSolidAngle(const LineSegment<Real>& light) noexcept
-        : LineSolidAngle<Real>(to_unit_extent(light),
-                               [](const LineSegment<Real>& line) { return clipped_extent(line); }) {}
+        : LineSolidAngle<Real>(to_safe_extent(light), typename LineSolidAngle<Real>::ClippedExtent()) {}
 
     /// \copydoc LineSolidAngle::LineSolidAngle(const LineSolidAngle<Single>&)
     template <class Single>
@@ -100,7 +110,7 @@ public:
         : LineSolidAngle<Real>(static_cast<const LineSolidAngle<Single>&>(single)) {}
 
     /// \copydoc LineSolidAngle::sample
-    NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
+    NUSSELT_INLINE LightSample<Real> sample(const Real& u) const noexcept {
         LightSample<Real> s = LineSolidAngle<Real>::sample(u);
         // Next to the horizon, rounding turns directions below it.
         s.wi.z = max(s.wi.z, Real(0));

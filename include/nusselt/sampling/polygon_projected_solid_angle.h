@@ -13,6 +13,8 @@
 #include <nusselt/geometry/clip_polygon.h>
 #include <nusselt/geometry/polygon_measures.h>
 #include <nusselt/sampling/azimuthal_sweep.h>
+#include <nusselt/sampling/projected_sectors.h>
+#include <nusselt/sampling/vertex_lanes.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -41,10 +43,20 @@ public:
 
     /// \param light in shading space, either winding [m].
     NUSSELT_HD explicit PolygonProjectedSolidAngle(const ConvexPolygon<Real, N>& light) noexcept {
-        // Scale the light to coordinates of order one.
-        const ScaledPolygon<Real, N> unit = to_unit_extent(light);
-        ConvexPolygon<Real, N> polygon = unit.light;
-        inverse_scale_ = unit.inverse_scale;
+#if NUSSELT_HAS_VERTEX_LANES
+        if constexpr (std::is_same_v<Real, float>) {
+            if (prepare_ordinary(light)) return;
+        }
+#endif
+        // Scale the light to coordinates of order one, unless products of coordinates stay in range anyway.
+        ConvexPolygon<Real, N> polygon = light;
+        inverse_scale_ = Real(1);
+        const auto moderate = is_moderate(light);
+        if (!all(moderate)) {
+            const ScaledPolygon<Real, N> unit = to_unit_extent_where(!moderate, light);
+            polygon = unit.light;
+            inverse_scale_ = unit.inverse_scale;
+        }
         const Real distance = plane_distance(polygon);
 
         // The method wants the winding that is clockwise as seen from the origin: mirror y otherwise (Sec. 3.1).
@@ -57,11 +69,7 @@ public:
         }
         polygon.normal.y = mirror_ * polygon.normal.y;
 
-        // Sectors that are not filled below have no area.
-        for (int k = 0; k < kSectors; ++k) {
-            begin_[k] = chord_[k] = {Real(0), Real(0), Real(0)};
-            begin_gap_[k] = end_gap_[k] = angle_per_area_[k] = doubled_area_[k] = Real(0);
-        }
+        sectors_.clear();
 
         // Clip the light to the horizon and find its sectors.
         if (all(all_above)) {
@@ -84,7 +92,7 @@ public:
     /// \param u in [0, 1)^2; x selects the azimuth, y the inclination. Continuous, up to the cyclic start in
     ///          the central case, so that stratification survives.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
-        const Selection selection = select_sector(u.x);
+        const Selection selection = sectors_.select_sector(u.x, doubled_total_);
         LightSample<Real> s{{Real(0), Real(0), Real(1)}, Real(0), {Real(0), Real(0), Real(1)}};
         if (any(central_)) s = sample_central(selection, u.y);
         if (!all(central_)) {
@@ -117,7 +125,8 @@ public:
         NUSSELT_UNROLL
         for (int k = 0; k < kSectors; ++k) {
             // Tell whether the azimuth of wi lies in this sector.
-            const DecentralSector<Real> sector = decentral_sector(k);
+            const DecentralSector<Real> sector = sectors_.sector(k);
+            const Real doubled_area = sectors_.doubled_area(k);
             const Real from_start = det(xy(sector.begin), w);
             const Vec3<Real> end = sector.begin + sector.chord;
             const Real to_end = det(w, xy(end));
@@ -128,15 +137,15 @@ public:
             const Real begin_slack = tolerance * (abs(sector.begin.x) + abs(sector.begin.y));
             const Real end_slack = tolerance * (abs(end.x) + abs(end.y));
             const auto inside = (from_start >= -begin_slack) & (to_end >= -end_slack);
-            const auto here = (!found) & (doubled_area_[k] > Real(0)) & ((!central_) | inside);
+            const auto here = (!found) & (doubled_area > Real(0)) & ((!central_) | inside);
 
             // Find where the chord meets the ray along w, and with it the area of the sector up to there.
             const Real slope = det(w, xy(sector.chord));
             const Real x = min(max(from_start / select(slope > Real(0), slope, Real(1)), Real(0)), Real(1));
-            const Real partial =
-                select(central_, central_area_to(sector, x, k), sector.template doubled_area_to<Angles>(x));
-            area = select(here, before + min(partial, doubled_area_[k]), area);
-            before = before + doubled_area_[k];
+            const Real partial = select(central_, central_area_to(sector, x, k),
+                                        sector.template doubled_area_to<Angles>(x, sector.planes()));
+            area = select(here, before + min(partial, doubled_area), area);
+            before = before + doubled_area;
             height = select(here, relative_height(sector, x, w, wi.z), height);
             found = found | (here & (central_ | (to_end > Real(0))));
         }
@@ -148,19 +157,94 @@ public:
     NUSSELT_HD Real measure() const noexcept { return Real(0.5) * doubled_total_; }
 
 private:
-    /// The sector that a random number falls into.
-    struct Selection {
-        DecentralSector<Real> sector;
-        Real doubled_area, angle_per_area;
-        Real rest; ///< of the doubled area, up to the sample
-    };
+    using Sectors = ProjectedSectors<Real, kSectors, Angles>;
+    using Selection = typename Sectors::Selection;
+
+    /// Whether a light is clear of the horizon and of the zenith's axis and has coordinates of order one.
+    NUSSELT_INLINE static mask_t<Real> is_moderate(const ConvexPolygon<Real, N>& light) noexcept {
+        Real least = light.vertex[0].z;
+        Real largest = Real(0);
+        NUSSELT_UNROLL
+        for (int j = 0; j < N; ++j) {
+            const Vec3<Real>& v = light.vertex[j];
+            const Real reach = abs(v.x) + abs(v.y);
+            least = min(least, min(reach, v.z));
+            largest = max(largest, max(reach, v.z));
+        }
+        constexpr scalar_t<Real> kLargest = power_of_two<scalar_t<Real>>(8);
+        constexpr scalar_t<Real> kLeast = power_of_two<scalar_t<Real>>(-16);
+        return (least > Real(kLeast)) & (largest < Real(kLargest)) & (largest > Real(1 / kLargest));
+    }
 
     static constexpr int successor(int k, int count) noexcept { return k + 1 < count ? k + 1 : 0; }
 
-    /// Sector k. In the central case the gaps mean nothing.
-    NUSSELT_HD DecentralSector<Real> decentral_sector(int k) const noexcept {
-        return {begin_[k], chord_[k], begin_gap_[k], end_gap_[k], det(xy(begin_[k]), xy(chord_[k]))};
+#if NUSSELT_HAS_VERTEX_LANES
+    /// Prepares scalar code for an ordinary light (vertex_lanes.h).
+    /// A template, so that explicit instantiations for packs leave it out.
+    /// \returns false for others
+    template <class Light>
+    bool prepare_ordinary(const Light& light) noexcept {
+        bool all_above = true;
+        for (const Vec3<float>& v : light.vertex) all_above &= v.z > 0;
+        if (all_above) {
+            const VertexLanes<lanes_for(N)> lanes(
+                N, [&](int j) { return light.vertex[j < N ? j : N - 1]; },
+                [&](int j) {
+                    return j < N ? light.edge[j] : Vec3<float>{0, 0, 0};
+                },
+                light.normal, [&] { return plane_distance(light); });
+            if (lanes.is_ordinary()) return prepare_lanes(lanes);
+        }
+        const auto outline = outline_above_horizon<lanes_for(N + 1)>(light);
+        if (outline.count < 3 || (all_above && outline.count == N)) return false;
+        const auto prepare_outline = [&](auto lane_count) {
+            const VertexLanes<lane_count> lanes(
+                outline.count, [&](int j) { return outline.vertex[j]; },
+                [&](int j) { return outline.edge[j]; }, light.normal, [&] { return plane_distance(light); });
+            return lanes.is_ordinary() && prepare_lanes(lanes);
+        };
+        return outline.count <= 4 ? prepare_outline(std::integral_constant<int, 4>())
+                                  : prepare_outline(std::integral_constant<int, lanes_for(N + 1)>());
     }
+
+    template <int L>
+    NUSSELT_INLINE bool prepare_lanes(const VertexLanes<L>& lanes) noexcept {
+        hull_ = lanes.hull();
+        mirror_ = lanes.mirror();
+        inverse_scale_ = lanes.inverse_scale();
+        central_ = lanes.is_central();
+        if (central_) {
+            const CentralEdges<Pack<float, L>> edges(lanes.vertex(), lanes.edge(), lanes.next(),
+                                                     lanes.lanes());
+            set_total(
+                sectors_.set_all_central(lanes.vertex(), lanes.edge(), edges.angle_per_area, edges.area));
+        } else {
+            Mask<float, L> present;
+            const auto sectors = lanes.sectors(present);
+            set_total(sectors_.set_all_decentral(sectors, present));
+        }
+        return true;
+    }
+#endif
+
+    /// The projected solid angles between the zenith and the edges of a light in the central case. The area of the
+    /// ellipse in each sector (Prop. 1, Eq. 1) simplifies to Lambert's formula.
+    template <class T>
+    struct CentralEdges {
+        T area;           ///< twice the area of each sector
+        T angle_per_area; ///< see EdgeCircle
+        NUSSELT_HD CentralEdges(const Vec3<T>& vertex, const Vec3<T>& edge, const Vec3<T>& next,
+                                const mask_t<T>& is_outer) noexcept {
+            const Vec3<T> n = cross(vertex, edge);
+            const T sine = sqrt(dot(n, n));
+            const auto present = is_outer & (n.z > T(0)) & (sine > T(0));
+            const T sweep = Angles::atan2_positive(sine, dot(vertex, next));
+            area = select(present, n.z * sweep / select(present, sine, T(1)), T(0));
+            // By the rounded area: with all of it, the angle is the sweep.
+            const T ratio = sweep / select(area > T(0), area, T(1));
+            angle_per_area = select(is_finite(ratio), ratio, T(0));
+        }
+    };
 
     /// \param polygon  the part above the horizon, mirrored and with coordinates of order one: M = N without and
     ///                 N + 1 with clipping.
@@ -187,16 +271,17 @@ private:
             is_outer[j] = turn > Real(0);
             decentral = decentral | ((turn < Real(0)) & (!on_horizon));
             // The zenith is on the boundary within rounding. Then no edge determines on which side it is.
+            const auto close = abs(turn) <= rounding * (abs(edge.x) + abs(edge.y));
+            if (!any(close)) continue;
             const auto at_vertex = (v.z > Real(0)) & (abs(v.x) + abs(v.y) <= rounding);
             const auto across = dot(xy(v), xy(next)) < Real(0);
-            const auto on_edge = across & (abs(turn) <= rounding * (abs(edge.x) + abs(edge.y)));
-            touches_zenith = touches_zenith | at_vertex | on_edge;
+            touches_zenith = touches_zenith | (close & (at_vertex | across));
         }
 
         // Tell the central case, where the zenith lies in the light, from the decentral one. On the zenith's axis, the
         // plane has the height distance / normal.z: some vertex is at least as high if the light is there. Strips along
         // the horizon have less conclusive edges.
-        const Real slack = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon());
+        const Real slack = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon()) * hull_.plane.farthest;
         const auto reaches_axis = (distance * polygon.normal.z >= Real(0)) &
                                   (abs(distance) <= fma(abs(polygon.normal.z), hull_.high.z, slack));
         decentral = (decentral & (!touches_zenith)) | (!reaches_axis);
@@ -207,10 +292,11 @@ private:
         if (any(central_)) prepare_central(polygon, is_outer);
 
         // Their sum is the projected solid angle.
-        doubled_total_ = Real(0);
-        NUSSELT_UNROLL
-        for (int k = 0; k < M; ++k) doubled_total_ = doubled_total_ + doubled_area_[k];
-        doubled_total_ = select(distance == Real(0), Real(0), doubled_total_);
+        set_total(select(distance == Real(0), Real(0), sectors_.complete(central_)));
+    }
+
+    NUSSELT_HD void set_total(const Real& doubled_total) noexcept {
+        doubled_total_ = doubled_total;
         const auto lit = measure() > Real(0);
         inverse_measure_ = select(lit, Real(2) / select(lit, doubled_total_, Real(1)), Real(0));
     }
@@ -223,24 +309,16 @@ private:
         return reach;
     }
 
-    /// Each edge has a sector of its own: the area of the ellipse in it (Prop. 1, Eq. 1) simplifies to Lambert's
-    /// formula.
+    /// Each edge has a sector of its own.
     template <int M>
     NUSSELT_HD void prepare_central(const ConvexPolygon<Real, M>& polygon,
                                     const mask_t<Real>* is_outer) noexcept {
         NUSSELT_UNROLL
         for (int k = 0; k < M; ++k) {
-            const Vec3<Real>& v = polygon.vertex[k];
-            const Vec3<Real> n = cross(v, polygon.edge[k]);
-            const Real sine = sqrt(dot(n, n));
-            const auto present = is_outer[k] & (n.z > Real(0)) & (sine > Real(0));
-            const Real sweep = Angles::atan2_positive(sine, dot(v, polygon.vertex[successor(k, M)]));
-            const Real area = select(present, n.z * sweep / select(present, sine, Real(1)), Real(0));
-            begin_[k] = select(central_, v, begin_[k]);
-            chord_[k] = select(central_, polygon.edge[k], chord_[k]);
-            const Real ratio = sine / select(present, n.z, Real(1));
-            angle_per_area_[k] = select(is_finite(ratio), ratio, Real(0));
-            doubled_area_[k] = select(central_, area, doubled_area_[k]);
+            const CentralEdges<Real> edge(polygon.vertex[k], polygon.edge[k], polygon.vertex[successor(k, M)],
+                                          is_outer[k]);
+            sectors_.set_central(k, central_, polygon.vertex[k], polygon.edge[k], edge.angle_per_area,
+                                 edge.area);
         }
     }
 
@@ -250,77 +328,50 @@ private:
                                       const mask_t<Real>& decentral) noexcept {
         const AzimuthalSweep<Real, M> sweep(polygon, hull_.plane.distance);
         sweep.for_each_sector([&](int k, const DecentralSector<Real>& sector, const mask_t<Real>& present) {
-            const Real doubled = sector.template doubled_area_to<Angles>(Real(1));
-            begin_[k] = sector.begin;
-            chord_[k] = sector.chord;
-            begin_gap_[k] = sector.begin_gap;
-            end_gap_[k] = sector.end_gap;
-            doubled_area_[k] = select(decentral & present & is_finite(doubled), doubled, Real(0));
+            const Real doubled = sector.template doubled_area_to<Angles>(Real(1), sector.planes());
+            sectors_.set_decentral(k, sector,
+                                   select(decentral & present & is_finite(doubled), doubled, Real(0)));
         });
-    }
-
-    NUSSELT_HD Selection select_sector(const Real& u) const noexcept {
-        // Walk along the sectors up to the area that the random number demands.
-        const Real target = u * doubled_total_;
-        Selection s{decentral_sector(0), doubled_area_[0], angle_per_area_[0], Real(0)};
-        Real before = Real(0);
-        Real first = Real(0);
-        NUSSELT_UNROLL
-        for (int k = 0; k < kSectors; ++k) {
-            const auto reached = (doubled_area_[k] > Real(0)) & (target >= before);
-            s.sector.begin = select(reached, begin_[k], s.sector.begin);
-            s.sector.chord = select(reached, chord_[k], s.sector.chord);
-            s.sector.begin_gap = select(reached, begin_gap_[k], s.sector.begin_gap);
-            s.sector.end_gap = select(reached, end_gap_[k], s.sector.end_gap);
-            s.angle_per_area = select(reached, angle_per_area_[k], s.angle_per_area);
-            s.doubled_area = select(reached, doubled_area_[k], s.doubled_area);
-            first = select(reached, before, first);
-            before = before + doubled_area_[k];
-        }
-
-        // The rest is to be found in the sector itself.
-        s.sector.doubled_triangle = det(xy(s.sector.begin), xy(s.sector.chord));
-        s.rest = min(max(fma(u, doubled_total_, -first), Real(0)), s.doubled_area);
-        return s;
     }
 
     /// Sec. 3.2 in three dimensions: equal areas between the zenith and the edge are equal angles on its
     /// circle.
     NUSSELT_HD LightSample<Real> sample_central(const Selection& s, const Real& u) const noexcept {
         // Turn along the great circle of the edge by the angle that belongs to the area.
-        const Vec3<Real> n = cross(s.sector.begin, s.sector.chord);
-        const Vec3<Real> a = inverse_length(s.sector.begin) * s.sector.begin;
-        const Vec3<Real> t = inverse_length(n) * cross(n, a);
+        const EdgeCircle<Real> arc = sectors_.central(s);
         const SinCos<Real> angle =
-            sincos_half_turn(min(s.rest * s.angle_per_area, Real(kPi<scalar_t<Real>>)));
-        const Vec3<Real> q = fma(angle.cos, a, angle.sin * t);
+            sincos_half_turn(min(s.rest * arc.angle_per_area, Real(kPi<scalar_t<Real>>)));
+        const Vec3<Real> q = multiply_add(angle.cos, arc.begin, angle.sin * arc.tangent);
 
         // Squared radii below the ellipse are uniform; project the point up to the hemisphere (Eq. 2).
         const Real root = sqrt(u);
-        const Vec3<Real> wi{root * q.x, root * q.y, sqrt(fma(u, q.z * q.z, Real(1) - u))};
+        const Vec3<Real> wi{root * q.x, root * q.y, sqrt(multiply_add(u, q.z * q.z, Real(1) - u))};
         return {wi, Real(0), hull_.plane.distance_along(wi) * wi};
     }
 
     NUSSELT_HD LightSample<Real> sample_decentral(const Selection& s, const Real& u) const noexcept {
         // Find the azimuth, as a position on the chord (Sec. 3.3).
-        const Real x = s.sector.template position<Iterations, Angles>(s.rest, s.doubled_area);
-        const auto forms = s.sector.at(x);
+        const PreparedSector<Real> prepared = sectors_.decentral(s);
+        const DecentralSector<Real>& sector = prepared.sector;
+        const Real x = sector.template position<Iterations, Angles>(s.rest, s.doubled_area, prepared.planes,
+                                                                    prepared.quads);
+        const auto forms = sector.at(x);
 
         // Choose the inclination. The squared radius is uniform between the ellipses, and so is the reciprocal of the
         // form. The form of the circle through the sample gives its height above the outer point, in the same azimuth.
         const Real inner = forms.outer + forms.rise;
         const Real v = Real(1) - u;
-        const Real mixed = fma(u, inner, v * forms.outer);
+        const Real mixed = multiply_add(u, inner, v * forms.outer);
         const Real rise = v * forms.outer * forms.rise / select(mixed > Real(0), mixed, Real(1));
         const Real z = forms.outer_point.z;
-        const Real top = z + sqrt(fma(z, z, rise));
+        const Real top = z + sqrt(multiply_add(z, z, rise));
         const Real lift = min(rise / select(top > Real(0), top, Real(1)), forms.gap);
         const Vec3<Real> direction{forms.outer_point.x, forms.outer_point.y, z + lift};
         const Real inverse = inverse_length(direction);
 
         // Find the hit point. The lifted point lies on the ray to the sample; scale it to the plane of the light, but
         // not beyond the farthest vertex.
-        const Real lifted = fma(lift, hull_.plane.normal.z, hull_.plane.distance);
+        const Real lifted = multiply_add(lift, hull_.plane.normal.z, hull_.plane.distance);
         const auto usable = hull_.plane.distance * lifted > Real(0);
         const Real stretch = select(usable, hull_.plane.distance / select(usable, lifted, Real(1)), Real(1));
         const Real along = min(stretch, hull_.plane.farthest * inverse);
@@ -333,7 +384,8 @@ private:
         const Vec3<Real> n = x * cross(sector.begin, sector.chord);
         const Real sine = sqrt(dot(n, n));
         const Real angle = Angles::atan2_positive(sine, dot(sector.begin, sector.begin + x * sector.chord));
-        return angle / select(angle_per_area_[k] > Real(0), angle_per_area_[k], Real(1));
+        const Real per_area = sectors_.angle_per_area(k);
+        return angle / select(per_area > Real(0), per_area, Real(1));
     }
 
     /// The position, in squared radii, between the inner ellipse (0; the zenith in the central case) and the outer one
@@ -345,7 +397,7 @@ private:
         const Real radius = sqrt(dot(w, w));
         // Height and form of the direction above the outer point.
         const Real height = sqrt(across) * z / select(radius > Real(0), radius, Real(1));
-        const Real form = fma(height, height, across);
+        const Real form = multiply_add(height, height, across);
         const Real from_inner = forms.outer_point.z + forms.gap - height;
         const Real below = from_inner * (forms.outer_point.z + forms.gap + height);
         const auto usable = (form > Real(0)) & (forms.rise > Real(0));
@@ -354,26 +406,20 @@ private:
         return select(central_, select(radius > Real(0), central, Real(0)), decentral);
     }
 
-    // Coordinates are scaled to an extent of order one, and mirrored.
-    PolygonHull<Real> hull_;     ///< of the light above the horizon
-    Real mirror_;                ///< -1 if y is mirrored to get the expected winding
-    Real inverse_scale_;         ///< a power of two
-    mask_t<Real> central_;       ///< the zenith is in the polygon or on its boundary
-    Real doubled_total_;         ///< twice the projected solid angle
-    Real inverse_measure_;       ///< 0 without light
-    Vec3<Real> begin_[kSectors]; ///< where the outer edge of each sector begins, in order of azimuth
-    Vec3<Real> chord_[kSectors]; ///< the part of the edge in the sector
-    Real begin_gap_[kSectors];   ///< see DecentralSector; decentral case only
-    Real end_gap_[kSectors];
-    Real angle_per_area_[kSectors]; ///< on the great circle of the edge, per doubled area; central case only
-    Real doubled_area_[kSectors];   ///< twice the area of each sector, 0 for those without light
+    // Coordinates are scaled unless they are moderate, and mirrored.
+    PolygonHull<Real> hull_; ///< of the light above the horizon
+    Real mirror_;            ///< -1 if y is mirrored to get the expected winding
+    Real inverse_scale_;     ///< a power of two
+    mask_t<Real> central_;   ///< the zenith is in the polygon or on its boundary
+    Real doubled_total_;     ///< twice the projected solid angle
+    Real inverse_measure_;   ///< 0 without light
+    Sectors sectors_;
 
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
         visit(self.hull_, self.mirror_, self.inverse_scale_, self.central_, self.doubled_total_,
-              self.inverse_measure_, self.begin_, self.chord_, self.begin_gap_, self.end_gap_,
-              self.angle_per_area_, self.doubled_area_);
+              self.inverse_measure_, self.sectors_);
     }
 };
 

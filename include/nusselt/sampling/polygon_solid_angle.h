@@ -2,13 +2,14 @@
 /// Uniform sampling of the solid angle of a convex polygon, for surfaces and for volumes.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672:
-/// Sec. 5, supplement C re-derived. The map equals that of Arvo 1995. Deviations: the triple product is the
-/// area of the triangle times the distance of its plane, which cancels nowhere, instead of a Householder
-/// reflection; the hit point comes from barycentric coordinates.
+/// Sec. 5, supplement C re-derived. The map equals that of Arvo 1995. Deviations: triple products come from
+/// edges instead of directions (fan_volumes.h); directions and hit points are sums of the vertices with the same
+/// weights, none of which is negative.
 
 #include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_polygon.h>
+#include <nusselt/geometry/fan_volumes.h>
 #include <nusselt/geometry/polygon_measures.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -26,8 +27,26 @@ class PolygonSolidAngle {
 
 public:
     /// \param light relative to the shading point, either winding [m].
-    NUSSELT_HD explicit PolygonSolidAngle(const ConvexPolygon<Real, N>& light) noexcept
-        : PolygonSolidAngle(to_unit_extent(light)) {}
+    NUSSELT_HD explicit PolygonSolidAngle(const ConvexPolygon<Real, N>& light) noexcept {
+        FanVolumes<Real, N> volumes(light);
+        Real nearest = dot(light.vertex[0], light.vertex[0]); // squared distances
+        Real farthest = nearest;
+        inverse_distance_[0] = Real(1) / sqrt(nearest);
+        NUSSELT_UNROLL
+        for (int j = 1; j < N; ++j) {
+            const Real squared = dot(light.vertex[j], light.vertex[j]);
+            inverse_distance_[j] = Real(1) / sqrt(squared);
+            nearest = min(nearest, squared);
+            farthest = max(farthest, squared);
+        }
+        const auto in_range = (nearest > Real(kNear * kNear)) & (farthest < Real(1 / (kNear * kNear)));
+        if (all(volumes.conclusive & in_range)) {
+            inverse_scale_ = Real(1);
+            prepare(light, volumes);
+        } else {
+            prepare_carefully(light, volumes, in_range);
+        }
+    }
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
@@ -40,57 +59,73 @@ public:
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         // Choose a triangle of the fan in proportion to its solid angle (Sec. 5).
         const Real target = u.x * total_;
-        Triangle t = triangle(0);
-        Real before = Real(0);
-        Real begin = Real(0);
-        for (int j = 0; j < kTriangles; ++j) {
-            const auto reached = (solid_angle_[j] > Real(0)) & (target >= before);
-            if (j > 0 && any(reached)) t = select_triangle(reached, triangle(j), t);
-            begin = select(reached, before, begin);
-            before = before + solid_angle_[j];
-        }
-        const Real part = min(max(target - begin, Real(0)), t.solid_angle);
+        Triangle t;
+        find_triangle(target, t);
 
         // Find the corner v, on the arc from a to b, for which the triangle (a, c, v) has the remaining solid angle
-        // (Eq. 14). It is the mirror image of a at the direction r = excess a + y (a + b).
-        const SinCos<Real> half = sincos_half_turn(Real(0.5) * part);
-        const Vec3<Real> ab = t.a + t.b;
-        const Real one_plus_ab = max(Real(0.5) * dot(ab, ab), Real(kOpposite));
-        Real excess = max(fma(t.g0, half.cos, -t.g1 * half.sin), Real(0));
-        Real y = t.g2 * half.sin;
-        const Real scale = reciprocal_power_of_two(max(excess, y));
-        excess = scale * excess;
-        y = scale * y;
-        const Real squared = fma(excess, excess, Real(2) * one_plus_ab * y * (excess + y));
-        const Real inverse = Real(1) / select(squared > Real(0), squared, Real(1));
-        const Real weight_a = excess * (excess + Real(2) * y) * inverse;
-        const Real weight_b = Real(2) * y * fma(y, one_plus_ab, excess) * inverse;
-        const Real difference = fma(excess, excess, Real(-2) * one_plus_ab * y * y) * inverse;
-        const Vec3<Real> v = difference * t.a + weight_b * ab;
+        // (Eq. 14). It is the mirror image of a at the direction r = excess a + y (a + b), of any length.
+        const Real half = Real(0.5) * (target - t.begin);
+        SinCos<Real> angle = sincos_quarter_turn(half);
+        if (any(wide_)) {
+            const SinCos<Real> wide_angle = sincos_half_turn(half);
+            angle = {select(wide_, wide_angle.sin, angle.sin), select(wide_, wide_angle.cos, angle.cos)};
+        }
+        Real excess = max(multiply_add(t.g0, angle.cos, -t.g1 * angle.sin), Real(0));
+        Real y = t.g2_a * angle.sin;
+        if (!all(excess + y > Real(kSmall))) {
+            const Real scale = reciprocal_power_of_two(max(excess, y));
+            excess = scale * excess;
+            y = scale * y;
+        }
+        const Real twice_y = y + y;
+        const Real ky = t.one_plus_ab * twice_y;
+        const Real squared = max(multiply_add(excess, excess, ky * (excess + y)), Real(kLeast)); // of |r|
+        const Real inverse = Real(1) / squared;
+
+        // What follows in terms of |r|^2 = `squared`: v as a weighted sum of a and b, c v, and 1 - c v and 1 + c v.
+        const Real weight_a = excess * (excess + twice_y);
+        const Real weight_b = multiply_add(twice_y, excess, ky * y);
+        const Real cosine = multiply_add(weight_a, t.g2_a - Real(1), weight_b * (t.g2_b - Real(1)));
+        Real depth = squared - cosine;
+        Real room = squared + cosine;
+        Vec3<Real> cv;
+        if (any(wide_)) {
+            // Weights are large and cancel. Find v from the sum of a and b instead, which is small but accurate.
+            const Vec3<Real> c = direction(0);
+            const Vec3<Real> a = t.inverse_a * t.pa;
+            const Vec3<Real> ab = a + t.inverse_b * t.pb;
+            const Vec3<Real> v =
+                (inverse * multiply_add(excess, excess, -ky * y)) * a + (inverse * weight_b) * ab;
+            const Vec3<Real> chord = v - c;
+            cv = v + c;
+            depth = select(wide_, squared * (Real(0.5) * dot(chord, chord)), depth);
+            room = select(wide_, max(squared * max(Real(0.5) * dot(cv, cv), Real(kOpposite)), Real(kLeast)),
+                          room);
+        }
 
         // Choose the point on the arc from c to v: its cosine with c is uniform (Arvo 1995).
-        const Vec3<Real> chord = v - direction_[0];
-        const Vec3<Real> cv = v + direction_[0];
-        const Real depth = Real(0.5) * dot(chord, chord); // 1 - cosine of the arc
-        const Real room = max(Real(0.5) * dot(cv, cv), Real(kOpposite));
-        const Real tau = sqrt(u.y * fma(u.y, room, Real(2) * (Real(1) - u.y)) / room);
-        const Real weight_c = (Real(1) - tau) + depth * (tau - u.y);
-        // Unit up to rounding, except where the arc is almost half a turn.
-        Vec3<Real> wi = fma(-tau, room, fma(-u.y, depth, Real(1))) * direction_[0] + tau * cv;
-        wi = inverse_length(wi) * wi;
+        const Real tau = sqrt(u.y * multiply_add(u.y, room, (Real(2) - (u.y + u.y)) * squared) / room);
+        depth = inverse * depth;
 
-        // Find the point of the light in that direction: the same weights, divided by the distances, are its
-        // barycentric coordinates up to their sum.
-        const Real at_a = max(tau * weight_a, Real(0)) * t.inverse_a;
-        const Real at_b = max(tau * weight_b, Real(0)) * t.inverse_b;
-        const Real at_c = max(weight_c, Real(0)) * inverse_distance_[0];
-        const Real sum = at_a + at_b + at_c;
-        const Real normalisation = Real(1) / select(sum > Real(0), sum, Real(1));
-        const Vec3<Real> p = (at_a * normalisation) * t.pa + (at_b * normalisation) * t.pb +
-                             (at_c * normalisation) * vertex_[0];
-        // From close by, rounding relative to the size of the light would turn p away from wi.
-        const Real along = dot(p, wi);
-        return {wi, inverse_total_, inverse_scale_ * select(along < Real(0.125), along * wi, p)};
+        // Add the vertices with the weights of their directions, divided by their distances. The sum has the sampled
+        // direction and length one up to rounding; divided by the sum of the weights, it is a point of the light.
+        const Real at_v = tau * inverse;
+        const Real at_a = at_v * weight_a * t.inverse_a;
+        const Real at_b = at_v * weight_b * t.inverse_b;
+        const Real at_c = max(multiply_add(depth, tau - u.y, Real(1) - tau), Real(0)) * inverse_distance_[0];
+        const Vec3<Real> sum = at_a * t.pa + at_b * t.pb + at_c * vertex_[0];
+        const Real to_light = inverse_scale_ / max(at_a + at_b + at_c, Real(kLeast));
+        LightSample<Real> s{unit_vector(sum), inverse_total_, to_light * sum};
+        if (any(wide_)) {
+            const Vec3<Real> wi =
+                multiply_add(-tau, inverse * room, multiply_add(-u.y, depth, Real(1))) * direction(0) +
+                tau * cv;
+            s.wi = select(wide_, inverse_length(wi) * wi, s.wi);
+            // From close by, rounding relative to the size of the light would turn the point away from the direction.
+            const Real along = dot(s.p, s.wi);
+            s.p = select(wide_ & (along < Real(0.125) * reach()), along * s.wi, s.p);
+        }
+        return s;
     }
 
     /// Constant on the light; the caller knows that wi hits it.
@@ -98,19 +133,19 @@ public:
 
     /// The random numbers for which sample() returns wi, a unit direction on the light; (0, 0) at vertex 0.
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
-        const Vec3<Real>& c = direction_[0];
+        const Vec3<Real> c = direction(0);
         const Vec3<Real> n = cross(c, wi); // of the great circle through c and wi
         auto found = total_ <= Real(0);
         Vec2<Real> u{Real(0), Real(0)};
-        Real before = Real(0);
         for (int j = 0; j < kTriangles; ++j) {
-            const Vec3<Real>& a = direction_[j + 1];
-            const Vec3<Real>& b = direction_[j + 2];
+            const Vec3<Real> a = direction(j + 1);
+            const Vec3<Real> b = direction(j + 2);
             // Tell on which sides of the great circle through c and wi the other vertices lie.
             const Real to_b = select(counterclockwise_, dot(n, b), -dot(n, b));
             const Real from_a = select(counterclockwise_, -dot(n, a), dot(n, a));
             // The last triangle also has what rounding moved beyond its end.
-            const auto here = (!found) & (solid_angle_[j] > Real(0));
+            const Real solid_angle = (j + 1 < kTriangles ? begin_[j + 1] : total_) - begin_[j];
+            const auto here = (!found) & (solid_angle > Real(0));
             // Find v, where the arc from c through wi meets the edge, as the normalised sum of both directions.
             const Real weight_a = max(to_b, Real(0));
             const Real weight_b = max(from_a, Real(0));
@@ -124,8 +159,7 @@ public:
             const Vec3<Real> to_wi = wi - c;
             const Vec3<Real> to_v = v - c;
             const Real whole = dot(to_v, to_v);
-            u.x = select(here, before + min(partial, solid_angle_[j]), u.x);
-            before = before + solid_angle_[j];
+            u.x = select(here, begin_[j] + min(partial, solid_angle), u.x);
             u.y = select(here, dot(to_wi, to_wi) / select(whole > Real(0), whole, Real(1)), u.y);
             found = found | (here & (to_b > Real(0)));
         }
@@ -136,35 +170,157 @@ public:
     NUSSELT_HD Real measure() const noexcept { return total_; }
 
 protected:
-    /// \param polygon         with coordinates of order one.
-    /// \param inverse_scale   from there to the light.
-    /// \param signed_distance of the plane of the polygon from the origin, see plane_distance().
-    NUSSELT_HD PolygonSolidAngle(const ConvexPolygon<Real, N>& polygon, const Real& inverse_scale,
-                                 const Real& signed_distance) noexcept
-        : inverse_scale_(inverse_scale) {
-        // Project the vertices to the unit sphere.
-        for (int j = 0; j < N; ++j) {
-            vertex_[j] = polygon.vertex[j];
-            // A vertex at the origin implies that no triangle has a solid angle; any direction will do.
-            inverse_distance_[j] = inverse_length(polygon.vertex[j]);
-            direction_[j] = inverse_distance_[j] * polygon.vertex[j];
-        }
-        counterclockwise_ = signed_distance >= Real(0);
+    /// \param unit            with coordinates of order one.
+    /// \param signed_distance of its plane from the origin, see plane_distance().
+    NUSSELT_HD PolygonSolidAngle(const ScaledPolygon<Real, N>& unit, const Real& signed_distance) noexcept
+        : inverse_scale_(unit.inverse_scale) {
+        find_inverse_distances(unit.light);
+        prepare(unit.light, FanVolumes<Real, N>(unit.light, signed_distance));
+    }
 
-        // Prepare the triangles of the fan around vertex 0.
-        Vec3<Real> offset = polygon.edge[0];
-        total_ = Real(0);
+private:
+    /// A triangle of the fan; c is vertex 0 of the polygon, a and b are consecutive vertices.
+    struct Triangle {
+        Vec3<Real> pa, pb;         ///< vertices
+        Real inverse_a, inverse_b; ///< reciprocal distances
+        Real g0, g1, g2_a, g2_b;   ///< terms of Eq. 13; G2 of this triangle and of the next one
+        Real one_plus_ab;
+        Real begin; ///< solid angle of the triangles before
+    };
+
+    /// Writes member by member: g++ copies such a large structure of packs through memory.
+    /// \param choose picks one of two numbers or vectors: that of triangle j, or what t has.
+    template <class Choose>
+    NUSSELT_INLINE void update(Triangle& t, int j, const Choose& choose) const noexcept {
+        t.pa = choose(vertex_[j + 1], t.pa);
+        t.pb = choose(vertex_[j + 2], t.pb);
+        t.inverse_a = choose(inverse_distance_[j + 1], t.inverse_a);
+        t.inverse_b = choose(inverse_distance_[j + 2], t.inverse_b);
+        t.g0 = choose(g0_[j], t.g0);
+        t.g1 = choose(g1_[j], t.g1);
+        t.g2_a = choose(g2_[j], t.g2_a);
+        t.g2_b = choose(g2_[j + 1], t.g2_b);
+        t.one_plus_ab = choose(one_plus_ab_[j], t.one_plus_ab);
+        t.begin = choose(begin_[j], t.begin);
+    }
+
+    /// \param target solid angle from the first arc of the fan on.
+    NUSSELT_INLINE void find_triangle(const Real& target, Triangle& t) const noexcept {
+        const auto that_of_j = [](const auto& of_j, const auto&) { return of_j; };
+        if constexpr (RealTraits<Real>::kLanes == 1) {
+            int found = 0;
+            for (int j = 1; j < kTriangles; ++j) found += static_cast<int>(target >= begin_[j]);
+            update(t, found, that_of_j);
+        } else {
+            update(t, 0, that_of_j);
+            NUSSELT_UNROLL
+            for (int j = 1; j < kTriangles; ++j) {
+                const auto reached = target >= begin_[j];
+                update(t, j,
+                       [&](const auto& of_j, const auto& found) { return select(reached, of_j, found); });
+            }
+        }
+    }
+
+    NUSSELT_HD Vec3<Real> direction(int j) const noexcept { return inverse_distance_[j] * vertex_[j]; }
+
+    /// The largest distance of a vertex [m].
+    NUSSELT_HD Real reach() const noexcept {
+        Real least = inverse_distance_[0];
+        for (int j = 1; j < N; ++j) least = min(least, inverse_distance_[j]);
+        return inverse_scale_ / max(least, Real(kLeast));
+    }
+
+    /// A vector that has length one up to rounding, in most cases, as a unit vector: one step of Newton's iteration.
+    NUSSELT_INLINE static Vec3<Real> unit_vector(const Vec3<Real>& a) noexcept {
+        const Real squared = dot(a, a);
+        Real factor = multiply_add(Real(-0.5), squared, Real(1.5));
+        const auto close = abs(squared - Real(1)) < Real(kNewton);
+        if (!all(close)) factor = select(close, factor, inverse_length(a));
+        return factor * a;
+    }
+
+    /// For lights that are seen almost edge-on, very close, very small or very large.
+    /// \param volumes  of the light, as they are.
+    /// \param in_range whether products of coordinates stay in range.
+    NUSSELT_HD void prepare_carefully(const ConvexPolygon<Real, N>& light, FanVolumes<Real, N>& volumes,
+                                      const mask_t<Real>& in_range) noexcept {
+        inverse_scale_ = Real(1);
+        const ConvexPolygon<Real, N>* polygon = &light;
+        ScaledPolygon<Real, N> unit;
+        if (!all(in_range)) {
+            unit = to_unit_extent_where(!in_range, light);
+            polygon = &unit.light;
+            inverse_scale_ = unit.inverse_scale;
+            for (int j = 0; j < N; ++j)
+                inverse_distance_[j] =
+                    select(in_range, inverse_distance_[j], inverse_length(unit.light.vertex[j]));
+            volumes = FanVolumes<Real, N>(unit.light);
+        }
+        volumes.refine(*polygon);
+        prepare(*polygon, volumes);
+    }
+
+    NUSSELT_HD void find_inverse_distances(const ConvexPolygon<Real, N>& unit) noexcept {
+        // A vertex at the origin implies that no triangle has a solid angle; any direction will do.
+        for (int j = 0; j < N; ++j) inverse_distance_[j] = inverse_length(unit.vertex[j]);
+    }
+
+    /// \param polygon in the scale of the members.
+    NUSSELT_INLINE void prepare(const ConvexPolygon<Real, N>& polygon,
+                                const FanVolumes<Real, N>& volumes) noexcept {
+        // Sum up directions: the squared length of such a sum is 2 + twice the cosine.
+        Vec3<Real> sum[N - 1];
+        vertex_[0] = polygon.vertex[0];
+        const Vec3<Real> c = direction(0);
+        NUSSELT_UNROLL
+        for (int j = 0; j < N - 1; ++j) {
+            vertex_[j + 1] = polygon.vertex[j + 1];
+            sum[j] = direction(j + 1) + c;
+            g2_[j] = Real(0.5) * dot(sum[j], sum[j]);
+        }
+
+        // Find the terms of Eq. 13. Where two directions are almost opposite, cosines lose what is left of their sum.
+        Real least = g2_[N - 2];
         NUSSELT_UNROLL
         for (int j = 0; j < kTriangles; ++j) {
-            const Vec3<Real>& a = direction_[j + 1];
-            const Vec3<Real>& c = direction_[0];
-            const Vec3<Real>& b = direction_[j + 2];
-            // The triple product G0 follows from twice the area of the triangle and the distance of its plane.
-            const Real doubled_area = abs(dot(polygon.normal, cross(offset, polygon.edge[j + 1])));
-            g0_[j] = abs(signed_distance) * doubled_area * inverse_distance_[0] * inverse_distance_[j + 1] *
+            // One distance after the other: their product might leave the range.
+            g0_[j] = abs(volumes.volume[j]) * inverse_distance_[0] * inverse_distance_[j + 1] *
                      inverse_distance_[j + 2];
-            // Form G1 + G2 and G2 of the paper from sums of directions: two of the three directions may be almost
-            // opposite, and cosines would lose what is left of their sum.
+            g1_[j] = dot(sum[j], sum[j + 1]);
+            one_plus_ab_[j] = (g1_[j] - g2_[j]) + (Real(2) - g2_[j + 1]);
+            least = min(least, min(g2_[j], min(g1_[j], one_plus_ab_[j])));
+        }
+        wide_ = least < Real(0.25);
+
+        // Find the solid angles (Eq. 13).
+        Real half[kTriangles];
+        NUSSELT_UNROLL
+        for (int j = 0; j < kTriangles; ++j) {
+            const Real ratio = min(g0_[j], g1_[j]) / max(g0_[j], g1_[j]);
+            const Real octant = atan_up_to_one(ratio);
+            half[j] = select(g0_[j] > g1_[j], Real(kPi<Scalar> / 2) - octant, octant);
+        }
+        if (any(wide_)) prepare_wide(half);
+        begin_[0] = Real(0);
+        total_ = half[0] + half[0];
+        NUSSELT_UNROLL
+        for (int j = 1; j < kTriangles; ++j) {
+            begin_[j] = total_;
+            total_ = total_ + (half[j] + half[j]);
+        }
+        const auto lit = total_ > Real(kLeast);
+        inverse_total_ = select(lit, Real(1) / total_, Real(0));
+        counterclockwise_ = volumes.total() >= Real(0);
+    }
+
+    /// Finds the terms of Eq. 13 and the solid angles of wide lights.
+    /// \param half solid angles of triangles.
+    NUSSELT_HD void prepare_wide(Real* half) noexcept {
+        const Vec3<Real> c = direction(0);
+        for (int j = 0; j < kTriangles; ++j) {
+            const Vec3<Real> a = direction(j + 1);
+            const Vec3<Real> b = direction(j + 2);
             const Vec3<Real> ab = a + b;
             const Vec3<Real> ac = a + c;
             const Vec3<Real> bc = b + c;
@@ -174,82 +330,51 @@ protected:
             // Any two of the three sums have the product 1 + a b + a c + b c; the longest one would cancel most.
             const Vec3<Real> s0 = select((ac2 >= ab2) & (ac2 >= bc2), ab, ac);
             const Vec3<Real> s1 = select((bc2 > ab2) & (bc2 > ac2), ab, bc);
-            g1_[j] = dot(s0, s1);
-            g2_[j] = max(Real(0.5) * ac2, Real(kOpposite));
-            const Real solid_angle = Real(2) * atan2_positive(g0_[j], g1_[j]); // Eq. 13
-            solid_angle_[j] = select(g0_[j] > Real(0), solid_angle, Real(0));
-            total_ = total_ + solid_angle_[j];
-            offset = offset + polygon.edge[j + 1];
+            g1_[j] = select(wide_, dot(s0, s1), g1_[j]);
+            g2_[j] = max(g2_[j], Real(kOpposite));
+            one_plus_ab_[j] = select(wide_, max(Real(0.5) * ab2, Real(kOpposite)), one_plus_ab_[j]);
+            half[j] =
+                select(wide_, select(g0_[j] > Real(0), atan2_positive(g0_[j], g1_[j]), Real(0)), half[j]);
         }
-        inverse_total_ = inverse(total_);
     }
 
-private:
-    NUSSELT_HD explicit PolygonSolidAngle(const ScaledPolygon<Real, N>& unit) noexcept
-        : PolygonSolidAngle(unit.light, unit.inverse_scale, plane_distance(unit.light)) {}
+    using Scalar = scalar_t<Real>;
 
-    /// 0 where there is no finite one.
-    NUSSELT_HD static Real inverse(const Real& total) noexcept {
-        const auto lit = total > Real(0);
-        const Real density = Real(1) / select(lit, total, Real(1));
-        return select(lit & is_finite(density), density, Real(0));
-    }
-
-    /// A triangle of the fan; c is vertex 0 of the polygon, a and b are consecutive vertices.
-    struct Triangle {
-        Vec3<Real> a, b;              ///< unit directions
-        Vec3<Real> pa, pb;            ///< vertices
-        Real inverse_a, inverse_b;    ///< reciprocal distances
-        Real g0, g1, g2, solid_angle; ///< terms of Eq. 13 and its result
-    };
-
-    NUSSELT_HD Triangle triangle(int j) const noexcept {
-        return {direction_[j + 1],
-                direction_[j + 2],
-                vertex_[j + 1],
-                vertex_[j + 2],
-                inverse_distance_[j + 1],
-                inverse_distance_[j + 2],
-                g0_[j],
-                g1_[j],
-                g2_[j],
-                solid_angle_[j]};
-    }
-    NUSSELT_HD static Triangle select_triangle(const mask_t<Real>& mask, const Triangle& a,
-                                               const Triangle& b) noexcept {
-        return {select(mask, a.a, b.a),
-                select(mask, a.b, b.b),
-                select(mask, a.pa, b.pa),
-                select(mask, a.pb, b.pb),
-                select(mask, a.inverse_a, b.inverse_a),
-                select(mask, a.inverse_b, b.inverse_b),
-                select(mask, a.g0, b.g0),
-                select(mask, a.g1, b.g1),
-                select(mask, a.g2, b.g2),
-                select(mask, a.solid_angle, b.solid_angle)};
-    }
-
+    /// Vertices that are not closer are normalised without scaling; nor those that are closer than the reciprocal.
+    static constexpr Scalar kNear = power_of_two<Scalar>(-20);
+    /// Numbers whose fourth powers stay in range.
+    static constexpr Scalar kSmall = power_of_two<Scalar>(-24);
+    /// The least number whose reciprocal is finite.
+    static constexpr Scalar kLeast = 4 * std::numeric_limits<Scalar>::min();
+    /// For deviations of a square from one up to this, the error of Newton's iteration is below rounding.
+    static constexpr Scalar kNewton = 1 / power_of_two<Scalar>(std::numeric_limits<Scalar>::digits / 2 - 1);
     /// Least value of 1 + the cosine of two directions: the sum of opposite ones is lost to rounding.
-    static constexpr scalar_t<Real> kOpposite =
-        std::numeric_limits<scalar_t<Real>>::epsilon() * std::numeric_limits<scalar_t<Real>>::epsilon();
+    static constexpr Scalar kOpposite =
+        std::numeric_limits<Scalar>::epsilon() * std::numeric_limits<Scalar>::epsilon();
 
-    Vec3<Real> vertex_[N];     ///< scaled to coordinates of order one
-    Vec3<Real> direction_[N];  ///< unit vectors to the vertices
-    Real inverse_distance_[N]; ///< of the scaled vertices
-    Real inverse_scale_;       ///< a power of two
-    Real g0_[kTriangles];      ///< triple product of the directions
-    Real g1_[kTriangles];      ///< 1 + dot(a, b) + dot(a, c) + dot(b, c)
-    Real g2_[kTriangles];      ///< 1 + dot(a, c)
-    Real solid_angle_[kTriangles];
+    Vec3<Real> vertex_[N];     ///< [m] or, for very large and very small lights, in a unit of order one
+    Real inverse_distance_[N]; ///< of the vertices
+    Real inverse_scale_;       ///< from the unit to metres, a power of two
+
+    // For each triangle, with unit directions a, b, c to vertices j + 1, j + 2 and 0:
+    Real g0_[kTriangles];          ///< triple product, not negative
+    Real g1_[kTriangles];          ///< 1 + dot(a, b) + dot(a, c) + dot(b, c)
+    Real g2_[N - 1];               ///< 1 + dot(a, c)
+    Real one_plus_ab_[kTriangles]; ///< 1 + dot(a, b)
+    Real begin_[kTriangles];       ///< solid angle of the triangles before
+
     Real total_;
-    Real inverse_total_;            ///< the density; 0 without light
+    Real inverse_total_; ///< the density; 0 without light
+    mask_t<Real>
+        wide_; ///< some directions differ by more than a right angle, or the light surrounds the point
     mask_t<Real> counterclockwise_; ///< winding as seen along a ray from the origin through the polygon
 
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.vertex_, self.direction_, self.inverse_distance_, self.inverse_scale_, self.g0_, self.g1_,
-              self.g2_, self.solid_angle_, self.total_, self.inverse_total_, self.counterclockwise_);
+        visit(self.vertex_, self.inverse_distance_, self.inverse_scale_, self.g0_, self.g1_, self.g2_,
+              self.one_plus_ab_, self.begin_, self.total_, self.inverse_total_, self.wide_,
+              self.counterclockwise_);
     }
 };
 
@@ -293,7 +418,7 @@ private:
                                         const ConvexPolygon<Real, N + 1>& clipped,
                                         const ScaledPolygon<Real, N + 1>& unit) noexcept
         : PolygonSolidAngle<Real, N + 1>(
-              unit.light, whole.inverse_scale * unit.inverse_scale,
+              {unit.light, unit.scale, whole.inverse_scale * unit.inverse_scale},
               select(plane_distance(whole.light) == Real(0), Real(0), plane_distance(clipped)) * unit.scale) {
     }
 };

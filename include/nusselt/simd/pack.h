@@ -20,7 +20,7 @@
 #include <nusselt/simd/pack_generic.h>
 #include <nusselt/simd/pack_neon.h>
 #include <nusselt/simd/pack_pair.h>
-#include <nusselt/simd/pack_sse42.h>
+#include <nusselt/simd/pack_sse.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -185,6 +185,26 @@ public:
     /// a * b + c as the scalar fma in core/real.h: rounded once, by the instruction where there is one.
     friend Pack fma(Pack a, Pack b, Pack c) noexcept {
         return from_native(Ops::fma(a.native_, b.native_, c.native_));
+    }
+
+    /// a * b + c as the scalar multiply_add in core/real.h: rounded once where that is fastest, else twice.
+    friend Pack multiply_add(Pack a, Pack b, Pack c) noexcept {
+#if NUSSELT_HAS_FMA
+        return fma(a, b, c);
+#else
+        return a * b + c;
+#endif
+    }
+
+    /// a * b - c * d as the scalar function in core/real.h.
+    friend Pack difference_of_products(Pack a, Pack b, Pack c, Pack d) noexcept {
+        if constexpr (!NUSSELT_HAS_FMA && std::is_same_v<T, float>) {
+            return from_native(Ops::difference_of_products(a.native_, b.native_, c.native_, d.native_));
+        } else {
+            const Pack cd = c * d;
+            const Pack error = fma(c, d, -cd);
+            return fma(a, b, -cd) - error;
+        }
     }
 
     /// Whether a lane is neither NaN nor infinite.

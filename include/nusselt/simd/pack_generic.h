@@ -1,5 +1,5 @@
 #pragma once
-/// The bases of Pack and Mask, over arrays. The specialisations in pack_sse42.h, pack_avx2.h,
+/// The bases of Pack and Mask, over arrays. The specialisations in pack_sse.h, pack_avx2.h,
 /// pack_avx512.h and pack_neon.h have the same members over registers.
 
 #include <cstdint>
@@ -59,6 +59,11 @@ struct PackOps {
     }
     static Vector fma(const Vector& a, const Vector& b, const Vector& c) noexcept {
         return map([](T x, T y, T z) { return nusselt::fma(x, y, z); }, a, b, c);
+    }
+    static Vector difference_of_products(const Vector& a, const Vector& b, const Vector& c,
+                                         const Vector& d) noexcept {
+        return map([](T x, T y, T z, T w) { return nusselt::difference_of_products(x, y, z, w); }, a, b, c,
+                   d);
     }
     static Vector sqrt(const Vector& a) noexcept {
         return map([](T x) { return nusselt::sqrt(x); }, a);

@@ -62,6 +62,11 @@ struct PackOps<T, N, std::enable_if_t<kIsPair<T, N>>> {
     static Vector fma(const Vector& a, const Vector& b, const Vector& c) noexcept {
         return {Half::fma(a.low, b.low, c.low), Half::fma(a.high, b.high, c.high)};
     }
+    static Vector difference_of_products(const Vector& a, const Vector& b, const Vector& c,
+                                         const Vector& d) noexcept {
+        return {Half::difference_of_products(a.low, b.low, c.low, d.low),
+                Half::difference_of_products(a.high, b.high, c.high, d.high)};
+    }
     static Vector sqrt(const Vector& a) noexcept { return {Half::sqrt(a.low), Half::sqrt(a.high)}; }
     static Vector floor(const Vector& a) noexcept { return {Half::floor(a.low), Half::floor(a.high)}; }
     static Vector max(const Vector& a, const Vector& b) noexcept {

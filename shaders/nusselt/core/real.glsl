@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CORE_REAL_GLSL
 #define NUSSELT_CORE_REAL_GLSL
-// Follows include/nusselt/core/real.h @ ab00cf4c419d
+// Follows include/nusselt/core/real.h @ 076faed516ec
 /// Arithmetic with known rounding. Twin of include/nusselt/core/real.h; functions whose names GLSL has already are
 /// called nusselt_*. Statements about NaN hold on devices that preserve NaN (README.md).
 
@@ -100,6 +100,18 @@ vec3 exact_fma(float s, vec3 a, vec3 b) {
     NUSSELT_PRECISE vec3 added = sum - product;
     NUSSELT_PRECISE vec3 lost = (product - (sum - added)) + (b - added);
     NUSSELT_PRECISE vec3 result = sum + (lost + error);
+#endif
+    return result;
+}
+
+/// s * a + b with an error of two roundings of each component: faster than exact_fma().
+vec3 rounded_multiply_add(float s, vec3 a, vec3 b) {
+#if NUSSELT_FUSED_FMA
+    NUSSELT_PRECISE vec3 result = fma(vec3(s), a, b);
+#else
+    // Where the product and b cancel, their sum is exact.
+    NUSSELT_PRECISE vec3 product = s * a;
+    NUSSELT_PRECISE vec3 result = (product + b) + two_product_error(vec3(s), a, product);
 #endif
     return result;
 }

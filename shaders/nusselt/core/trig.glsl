@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CORE_TRIG_GLSL
 #define NUSSELT_CORE_TRIG_GLSL
-// Follows include/nusselt/core/trig.h @ 5e644da0bb70
+// Follows include/nusselt/core/trig.h @ d194530e63a2
 /// Trigonometric functions as polynomials, the same ones as in single precision on the CPU: the built-in functions of
 /// GLSL may err by 4e-4 and leave special values undefined. Twin of include/nusselt/core/trig.h, where the error bounds
 /// stand.
@@ -123,15 +123,20 @@ SinCos sincos_quarter_turn(float angle) {
     return SinCos(nusselt_fma(angle * s, ps, angle), nusselt_fma(s * s, pc, nusselt_fma(s, -0.5, 1.0)));
 }
 
-/// x - sin(x) with full relative precision on [0, pi].
-float x_minus_sin(float x) {
-    float s = x * x;
-    float p = nusselt_fma(-1.390407928e-10, s, 2.481271544e-8);
-    p = nusselt_fma(p, s, -2.754484285e-6);
-    p = nusselt_fma(p, s, 1.984097180e-4);
-    p = nusselt_fma(p, s, -8.333330974e-3);
-    p = nusselt_fma(p, s, 1.666666716e-1);
-    return x * s * p;
+/// x - sin(x) of the angle x = 2 atan(t) in [-pi / 2, pi / 2], with an error relative to itself.
+/// \param t in [-1, 1].
+float angle_minus_sine(float t) {
+    float s = t * t;
+    float p = nusselt_fma(-4.28121388e-2, s, 2.57261246e-1);
+    p = nusselt_fma(p, s, -7.13133872e-1);
+    p = nusselt_fma(p, s, 1.24713326);
+    p = nusselt_fma(p, s, -1.61840236);
+    p = nusselt_fma(p, s, 1.7636472);
+    p = nusselt_fma(p, s, -1.76994431);
+    p = nusselt_fma(p, s, 1.71369636);
+    p = nusselt_fma(p, s, -1.59998238);
+    p = nusselt_fma(p, s, 1.33333325);
+    return t * s * p;
 }
 
 #endif

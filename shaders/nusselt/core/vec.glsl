@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CORE_VEC_GLSL
 #define NUSSELT_CORE_VEC_GLSL
-// Follows include/nusselt/core/vec.h @ 59f3018022a7
+// Follows include/nusselt/core/vec.h @ ac59f87154f2
 /// Products that keep full relative precision, and norms without over- and underflow. Twin of
 /// include/nusselt/core/vec.h.
 

@@ -1,9 +1,10 @@
 #ifndef NUSSELT_GEOMETRY_CONVEX_POLYGON_GLSL
 #define NUSSELT_GEOMETRY_CONVEX_POLYGON_GLSL
-// Follows include/nusselt/geometry/convex_polygon.h @ b38c85eba488
+// Follows include/nusselt/geometry/convex_polygon.h @ 05d50c8677f8
 /// Convex planar polygons. Twin of include/nusselt/geometry/convex_polygon.h.
 
 #include "../core/frame.glsl"
+#include "../geometry/precise_products.glsl"
 
 /// Clipping adds at most one vertex.
 const int kNusseltSlots = NUSSELT_MAX_VERTICES + 1;
@@ -40,18 +41,73 @@ vec3 doubled_area_normal(ConvexPolygon polygon) {
     return present ? sum : vec3(0.0);
 }
 
-/// Signed distance of the origin from the plane of the polygon [m], positive if the normal points away from it; 0 if
-/// it cannot be distinguished from rounding. The nearest vertex decides: it has the smallest rounding error.
-float plane_distance(ConvexPolygon polygon) {
+/// Least sine of the angle between the plane of a polygon and the direction to a vertex for which rounding can be ignored:
+/// it magnifies rounding errors by the reciprocal. Products that are rounded together with their sum allow twice as much.
+#if NUSSELT_FUSED_FMA
+const float kNusseltConclusive = 1.0 / 256.0;
+#else
+const float kNusseltConclusive = 1.0 / 128.0;
+#endif
+
+/// The vertex whose product with the normal has the smallest rounding error, none if it is the origin.
+vec3 nearest_vertex(ConvexPolygon polygon) {
     vec3 nearest = polygon.vertex[0];
     NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) {
         vec3 v = polygon.vertex[j];
         nearest = largest_component(v) < largest_component(nearest) ? v : nearest;
     }
+    return nearest;
+}
+
+/// The distance of the plane that the rounded normal describes; 0 if it cannot be distinguished from rounding.
+float rounded_plane_distance(ConvexPolygon polygon, vec3 nearest) {
     vec3 product = polygon.normal * nearest;
     float distance = product.x + product.y + product.z;
     float rounding = (4.0 * kNusseltEpsilon) * (abs(product.x) + abs(product.y) + abs(product.z));
     return abs(distance) > rounding ? distance : 0.0;
+}
+
+/// For each triangle of the fan around vertex 0 the triple product of v and two of its sides, in the order of the
+/// winding, with an error as of a single rounding. The C++ text explains how edges and vertices complement each other.
+void precise_fan_products(ConvexPolygon polygon, vec3 v, out float product[kNusseltSlots - 2]) {
+    NUSSELT_PRECISE vec3 offset = polygon.edge[0]; // from vertex 0 to vertex j + 1
+    vec3 lost = vec3(0.0);
+    vec3 rounding = (0.5 * kNusseltEpsilon) * abs(offset);
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots - 2; ++j) {
+        vec3 a = polygon.vertex[j + 1];
+        vec3 edge = polygon.edge[j + 1];
+        vec3 edge_rounding = (0.5 * kNusseltEpsilon) * abs(edge);
+        vec3 offset_excess = excess_of_side(polygon.vertex[0], a, offset, lost, rounding);
+        vec3 edge_excess = excess_of_side(a, polygon.vertex[j + 2], edge, vec3(0.0), edge_rounding);
+        product[j] = precise_triple_product(v, offset, edge) +
+                     (dot(v, cross(offset_excess, edge)) + dot(v, cross(offset, edge_excess)));
+        NUSSELT_PRECISE vec3 next = offset + edge;
+        lost = lost + two_sum_error(offset, edge, next);
+        rounding = rounding + edge_rounding;
+        offset = next;
+    }
+}
+
+/// The distance of the plane through a vertex, from the vertices and edges instead of the rounded normal.
+/// \param rounded distance, for lights whose areas leave the range of numbers.
+float precise_plane_distance(ConvexPolygon polygon, vec3 vertex, float rounded) {
+    float product[kNusseltSlots - 2];
+    precise_fan_products(polygon, vertex, product);
+    float sum = 0.0;
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots - 2; ++j) sum = sum + product[j];
+    vec3 normal = doubled_area_normal(polygon);
+    float squared = dot(normal, normal);
+    return squared > kNusseltTiny && squared < 1.0 / kNusseltTiny ? sum / sqrt(squared) : rounded;
+}
+
+/// Signed distance of the origin from the plane of the polygon [m], positive if the normal points away from it; 0 if
+/// it cannot be distinguished from rounding.
+float plane_distance(ConvexPolygon polygon) {
+    vec3 nearest = nearest_vertex(polygon);
+    float distance = rounded_plane_distance(polygon, nearest);
+    if (distance != 0.0 && abs(distance) < kNusseltConclusive * largest_component(nearest))
+        distance = precise_plane_distance(polygon, nearest, distance);
+    return distance;
 }
 
 /// The polygon with the given vertices [m].

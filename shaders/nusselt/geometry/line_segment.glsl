@@ -1,6 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_LINE_SEGMENT_GLSL
 #define NUSSELT_GEOMETRY_LINE_SEGMENT_GLSL
-// Follows include/nusselt/geometry/line_segment.h @ 3f5fd28b510b
+// Follows include/nusselt/geometry/line_segment.h @ be9a9a3f79ff
 /// Line segments, and the angles under which a shading point sees them. Twin of
 /// include/nusselt/geometry/line_segment.h.
 
@@ -24,136 +24,161 @@ LineSegment to_shading_space(LineSegment world, vec3 point, Frame frame) {
     return LineSegment(frame_to_local(frame, world.p0 - point), frame_to_local(frame, world.s), world.len);
 }
 
-/// A point of a line extent, given by sine and cosine of its angle alpha.
-struct LinePoint {
-    float sine, cosine; ///< of alpha
-    float from_start;   ///< sine minus that of the start, accurate relative to itself
-    float to_end;       ///< sine of the end minus this one, likewise
+/// A segment from the end nearer to the origin to the other one, with coordinates along its infinite line that are 0 at
+/// the point closest to the origin.
+struct CenteredLine {
+    vec3 near;           ///< end point
+    vec3 inward;         ///< unit direction from there to the far end
+    vec3 closest;        ///< the point of the infinite line closest to the origin
+    float squared;       ///< squared distance of that point from the origin, positive
+    float near_l, far_l; ///< coordinates of the end points; far_l is not less than |near_l|
+    float far_z;         ///< of the far end
+    float len;           ///< far_l - near_l, which may be known more accurately; 0 if there is no light
+    float sign_of_s;     ///< 1 if the near end is the start, else -1
 };
 
-/// A segment in the half-plane that it spans with the origin, as angles alpha about the origin: a point of the light is
-/// distance * (tan(alpha) s + t), its direction sin(alpha) s + cos(alpha) t. Peters 2021 (linear lights), Sec. 3.1, in
-/// terms of the end points, so that short, distant or nearly aligned segments keep their relative precision. The unit
-/// of length is arbitrary.
+/// The segment between two points of a line.
+/// \param s unit direction from p0 to p1.
+/// \param closest, squared, len as in CenteredLine.
+/// \param l0, l1 coordinates of the points along s.
+CenteredLine line_between(vec3 s, vec3 p0, vec3 p1, vec3 closest, float squared, float l0, float l1, float len) {
+    if (l0 + l1 >= 0.0) return CenteredLine(p0, s, closest, squared, l0, l1, p1.z, len, 1.0);
+    return CenteredLine(p1, -s, closest, squared, -l1, -l0, p0.z, len, -1.0);
+}
+
+/// The angles under which the origin sees a segment. In the half-plane that it spans with the origin, t leads to the point
+/// of the infinite line that is closest to the origin, and s from the end of the segment that is nearer to the origin to the
+/// other one: a point of the light is distance * (tan(alpha) s + t), its direction sin(alpha) s + cos(alpha) t. Peters 2021
+/// (linear lights), Sec. 3.1, in terms of the end points, so that short, distant or nearly aligned segments keep their
+/// relative precision. The unit of length is arbitrary.
 struct LineExtent {
-    vec3 s, t;      ///< orthonormal; t points from the origin to the closest point of the infinite line
-    float distance; ///< of the infinite line from the origin
-    float len;
-    float l0, l1;                    ///< coordinates of the end points along s, 0 at the closest point
-    float s0, s1, c0, c1;            ///< sines and cosines of the angles of the end points
-    float height0, height1;          ///< z of the unit directions to the end points, not negative
-    float one_plus_s0, one_minus_s1; ///< accurate relative to themselves
-    float half_tangent; ///< tangent of half the sweep or of half its supplement, whichever is acute; the sweep is the
-                        ///< angle between the end points, at most half a turn
-    float sine_extent;  ///< s1 - s0, accurate relative to itself
-    vec3 near, inward;  ///< the end point nearer to the origin, and the direction to the other one
-    float near_distance, near_cosine; ///< from the origin, and of the angle alpha
-    bool starts_near; ///< whether it is the start
-    bool acute;       ///< whether the sweep is
-    bool visible;     ///< false if the segment has no length or its line passes through the origin
+    CenteredLine line;
+    float distance;                  ///< of the infinite line from the origin
+    float near_distance;             ///< of the near end from the origin
+    float near_inverse, far_inverse; ///< reciprocal distances of the ends
+    float near_inverse_squared, far_inverse_squared;
+    float product;         ///< of the distances of both ends
+    float one_plus_cosine; ///< product times one plus the cosine of the angle between the ends, which is at most half a
+                           ///< turn
 };
 
-/// Angle between the end points.
-float line_extent_sweep(LineExtent self) {
-    float angle = 2.0 * atan_up_to_one(self.half_tangent);
-    return self.acute ? angle : kNusseltPi - angle;
+/// Component of the normal along t.
+float line_extent_n_t(LineExtent self) { return self.line.closest.z / self.distance; }
+
+struct SineExtent {
+    float difference; ///< far sine minus near sine, accurate relative to itself
+    float density;    ///< the same over the squared distance of the line
+};
+
+SineExtent line_extent_sine_extent(LineExtent self) {
+    // If the closest point lies between the ends, the sines add up.
+    if (self.line.near_l < 0.0 && self.line.len > 0.0) {
+        float sum = self.line.far_l * self.far_inverse - self.line.near_l * self.near_inverse;
+        return SineExtent(sum, sum / self.line.squared);
+    }
+    // Else the tangent of half the angle between the ends times the sum of the cosines (Eq. 1) does not cancel.
+    float density = self.line.len * (self.near_inverse + self.far_inverse) / self.one_plus_cosine;
+    return SineExtent(self.line.squared * density, density);
 }
 
-/// \param from_start sine minus s0, in [0, sine_extent].
-LinePoint line_extent_point_at(LineExtent self, float from_start) {
-    float to_end = nusselt_max(self.sine_extent - from_start, 0.0);
-    // The square of the cosine is (1 + sine) (1 - sine): sums of positive terms.
-    float squared = (self.one_plus_s0 + from_start) * (self.one_minus_s1 + to_end);
-    return LinePoint(self.s0 + from_start, sqrt(squared), from_start, to_end);
+/// Whether there is light and the angle between its ends exceeds a quarter of a turn.
+bool line_extent_is_obtuse(LineExtent self) { return self.one_plus_cosine < self.product && self.line.len > 0.0; }
+
+/// False if the segment has no length or its line passes through the origin.
+bool line_extent_visible(LineExtent self) { return self.line.len * self.distance > 0.0; }
+
+/// The extent of a segment.
+LineExtent make_line_extent(CenteredLine line) {
+    LineExtent e;
+    e.line = line;
+    e.distance = sqrt(line.squared);
+    float near_squared = nusselt_fma(line.near_l, line.near_l, line.squared);
+    float far_squared = nusselt_fma(line.far_l, line.far_l, line.squared);
+    e.near_inverse_squared = 1.0 / near_squared;
+    e.far_inverse_squared = 1.0 / far_squared;
+    e.near_distance = sqrt(near_squared);
+    float far_distance = sqrt(far_squared);
+    e.near_inverse = e.near_distance * e.near_inverse_squared;
+    e.far_inverse = far_distance * e.far_inverse_squared;
+    e.product = e.near_distance * far_distance;
+    float coordinates = line.near_l * line.far_l;
+    e.one_plus_cosine = e.product + nusselt_fma(line.near_l, line.far_l, line.squared);
+    // One plus a cosine cancels near half a turn, where the closest point lies between the ends.
+    if (e.one_plus_cosine < e.product) {
+        float squares = near_squared + line.far_l * line.far_l;
+        e.one_plus_cosine = line.squared * (1.0 + squares / (e.product - coordinates));
+    }
+    return e;
 }
 
-/// Whether a point is much closer to the origin than both ends are.
-bool line_extent_is_beside(LineExtent self, LinePoint point) { return point.cosine > 2.0 * self.near_cosine; }
+/// A point of a segment.
+struct LinePoint {
+    float share;            ///< sine of its angle minus that of the near end, over that of the far end minus that of the near end
+    float inverse_distance; ///< reciprocal distance from the origin
+};
+
+/// The map from sines of angles to directions and points of a segment.
+struct LineMap {
+    vec3 near;    ///< the end nearer to the origin
+    vec3 inward;  ///< s
+    vec3 closest; ///< the point of the infinite line closest to the origin
+    float len;
+    float near_inverse; ///< reciprocal distance of the near end
+    float near_inverse_squared, far_inverse_squared;
+    float near_sine, sine_extent; ///< far sine minus near sine, accurate relative to itself
+    float squared_density;        ///< of sine_extent over the distance of the line
+    float step_scale;
+};
+
+LineMap make_line_map(LineExtent e) {
+    SineExtent sines = line_extent_sine_extent(e);
+    return LineMap(e.line.near, e.line.inward, e.line.closest, e.line.len, e.near_inverse, e.near_inverse_squared,
+                   e.far_inverse_squared, e.line.near_l * e.near_inverse, sines.difference,
+                   sines.difference * sines.density, 2.0 * e.near_distance * sines.density);
+}
+
+/// \param share in [0, 1], see LinePoint.
+LinePoint line_map_point_at(LineMap self, float share) {
+    // With sines (1 - x) s0 + x s1, the squared cosines are (1 - x) c0^2 + x c1^2 + x (1 - x) (s1 - s0)^2: a sum of positive
+    // terms. Here it is divided by the squared distance of the line.
+    float near_part = nusselt_fma(share, self.squared_density, self.near_inverse_squared);
+    return LinePoint(share, sqrt(nusselt_fma(share, self.far_inverse_squared, (1.0 - share) * near_part)));
+}
+
+float line_map_sine_at(LineMap self, float share) { return nusselt_fma(share, self.sine_extent, self.near_sine); }
 
 /// The point itself, on the segment.
-vec3 line_extent_position(LineExtent self, LinePoint point) {
-    if (line_extent_is_beside(self, point)) {
-        float l = self.distance * point.sine / point.cosine;
-        return nusselt_min(nusselt_max(l, self.l0), self.l1) * self.s + self.distance * self.t;
-    }
-    // The nearer end is the more accurate place to start from. The step is 2 sin(theta / 2) cos(theta / 2) times its
-    // distance over the cosine of alpha, with tan(theta / 2) = tangent.
-    float tangent = (self.starts_near ? point.from_start : point.to_end) / (self.near_cosine + point.cosine);
-    float step = 2.0 * self.near_distance * tangent / (point.cosine * nusselt_fma(tangent, tangent, 1.0));
-    return self.near + nusselt_min(step, self.len) * self.inward;
+vec3 line_map_position(LineMap self, LinePoint point) {
+    // A point much closer to the origin than both ends would suffer from their rounding. It lies far from them.
+    bool beside = point.inverse_distance > 2.0 * self.near_inverse;
+    // Else the nearer end is the more accurate place to start from. With the tangent T of half the angle between that end
+    // and the point, the step is 2 T / (1 + T^2) times the distance of the end over the cosine of alpha.
+    float sum = self.near_inverse + point.inverse_distance;
+    float squares = nusselt_fma(sum, sum, point.share * point.share * self.squared_density);
+    float dividend = beside ? line_map_sine_at(self, point.share) : self.step_scale * point.share * sum;
+    float l = dividend / (beside ? point.inverse_distance : point.inverse_distance * squares);
+    return nusselt_fma(beside ? l : nusselt_min(l, self.len), self.inward, beside ? self.closest : self.near);
 }
 
 /// Unit direction to a point.
 /// \param p its position.
-vec3 line_extent_direction(LineExtent self, LinePoint point, vec3 p) {
-    if (line_extent_is_beside(self, point)) return point.sine * self.s + point.cosine * self.t;
-    return inverse_length(p) * p;
-}
+vec3 line_map_direction(LineMap self, LinePoint point, vec3 p) { return point.inverse_distance * p; }
 
-/// The point in a unit direction that hits the segment up to rounding.
-LinePoint line_extent_point_in(LineExtent self, vec3 wi) {
-    float along = dot(wi, self.s);
-    float across = nusselt_max(dot(wi, self.t), 0.0);
+/// The share of the point in a unit direction that hits the segment up to rounding, in [0, 1].
+float line_map_share_in(LineMap self, vec3 wi) {
+    float distance = sqrt(dot(self.closest, self.closest));
+    float along = dot(wi, self.inward);
+    float across = nusselt_max(dot(wi, self.closest) / (distance > 0.0 ? distance : 1.0), 0.0);
     // The angle from the end on the same side of the closest point is acute.
     bool before_closest = along < 0.0;
-    float end_sine = before_closest ? self.s0 : self.s1;
-    float end_cosine = before_closest ? self.c0 : self.c1;
+    float end_sine = before_closest ? self.near_sine : self.near_sine + self.sine_extent;
+    float end_cosine = distance * (before_closest ? self.near_inverse : sqrt(self.far_inverse_squared));
     float turned = difference_of_products(along, end_cosine, across, end_sine);
     float sine = nusselt_max(before_closest ? turned : -turned, 0.0);
     float cosine = nusselt_max(nusselt_fma(along, end_sine, across * end_cosine), 0.0);
-    float step = nusselt_min(sine / (1.0 + cosine) * (end_cosine + across), self.sine_extent);
-    float rest = self.sine_extent - step;
-    return LinePoint(along, across, before_closest ? step : rest, before_closest ? rest : step);
-}
-
-/// 4 roundings: for coordinates of order one, a smaller distance of a line from the origin cannot be distinguished from
-/// rounding.
-const float kNusseltSmallestDistance = 4.76837158203125e-7;
-
-/// The part of a segment between two points of its line.
-/// \param p0, p1   the points; z only matters where it is the height above the surface.
-/// \param closest  vector to the closest point of the line.
-/// \param distance its length.
-/// \param l0, l1   coordinates of the points along the line.
-/// \param length   l1 - l0, which the caller may have more accurately.
-LineExtent make_line_extent(vec3 s, vec3 p0, vec3 p1, vec3 closest, float distance, float l0, float l1, float length) {
-    LineExtent e;
-    bool passes_by = distance > kNusseltSmallestDistance && length > 0.0;
-    // If there is no light, any values will do that keep the formulas finite.
-    e.distance = passes_by ? distance : 1.0;
-    e.s = s;
-    e.t = (1.0 / e.distance) * closest;
-    e.len = length;
-    e.l0 = l0;
-    e.l1 = l1;
-    float r0 = sqrt(nusselt_fma(l0, l0, e.distance * e.distance));
-    float r1 = sqrt(nusselt_fma(l1, l1, e.distance * e.distance));
-    float inverse_r0 = 1.0 / r0;
-    float inverse_r1 = 1.0 / r1;
-    e.s0 = l0 * inverse_r0;
-    e.s1 = l1 * inverse_r1;
-    e.c0 = e.distance * inverse_r0;
-    e.c1 = e.distance * inverse_r1;
-    e.height0 = nusselt_max(p0.z, 0.0) / r0;
-    e.height1 = nusselt_max(p1.z, 0.0) / r1;
-    float one_plus_abs0 = 1.0 + abs(e.s0);
-    float one_plus_abs1 = 1.0 + abs(e.s1);
-    e.one_plus_s0 = e.s0 < 0.0 ? e.c0 * e.c0 / one_plus_abs0 : one_plus_abs0;
-    e.one_minus_s1 = e.s1 > 0.0 ? e.c1 * e.c1 / one_plus_abs1 : one_plus_abs1;
-    e.starts_near = r0 <= r1;
-    e.near = e.starts_near ? p0 : p1;
-    e.inward = e.starts_near ? s : -s;
-    e.near_distance = nusselt_min(r0, r1);
-    e.near_cosine = nusselt_max(e.c0, e.c1);
-    // The sine of the sweep is the area of the triangle with the origin, never a difference.
-    float sin_sweep = (length * inverse_r0) * e.c1;
-    float cos_sweep = nusselt_fma(e.c0, e.c1, e.s0 * e.s1);
-    e.visible = passes_by && sin_sweep > 0.0;
-    e.acute = cos_sweep > 0.0;
-    e.half_tangent = sin_sweep / (1.0 + abs(cos_sweep));
-    // Beyond a quarter of a turn the closest point lies between the ends: both sines add up.
-    e.sine_extent = e.acute ? e.half_tangent * (e.c0 + e.c1) : e.s1 - e.s0;
-    return e;
+    float sines = sine / (1.0 + cosine) * (end_cosine + across);
+    float share = nusselt_min(sines / (self.sine_extent > 0.0 ? self.sine_extent : 1.0), 1.0);
+    return before_closest ? share : 1.0 - share;
 }
 
 #endif

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LTC_LIGHT_TRANSFORM_GLSL
 #define NUSSELT_LTC_LIGHT_TRANSFORM_GLSL
-// Follows include/nusselt/ltc/light_transform.h @ d936b5a8b35a
+// Follows include/nusselt/ltc/light_transform.h @ 7e7483140d16
 /// Lights in the cosine space of a lobe. A linear map takes polygons to polygons and segments to segments, and the
 /// integral of the lobe over the light to that of the clamped cosine over its image. Twin of
 /// include/nusselt/ltc/light_transform.h.
@@ -62,10 +62,10 @@ ScaledPolygon part_above_horizon(ConvexPolygon light) {
 /// The part of a line above the surface.
 /// \param light in shading space, with coordinates of order one (scaled()).
 LineSegment part_above_horizon(LineSegment light) {
-    LineExtent e = clipped_extent(light);
-    vec3 start = e.starts_near ? e.near : exact_fma(e.len, e.inward, e.near);
+    CenteredLine part = clip_to_horizon(centered(light));
+    vec3 start = part.sign_of_s > 0.0 ? part.near : exact_fma(part.len, part.inward, part.near);
     start.z = nusselt_max(start.z, 0.0);
-    return LineSegment(start, light.s, e.visible ? e.len : 0.0);
+    return LineSegment(start, light.s, part.len);
 }
 
 #endif

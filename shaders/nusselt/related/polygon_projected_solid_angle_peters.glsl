@@ -1,20 +1,19 @@
 #ifndef NUSSELT_RELATED_POLYGON_PROJECTED_SOLID_ANGLE_PETERS_GLSL
 #define NUSSELT_RELATED_POLYGON_PROJECTED_SOLID_ANGLE_PETERS_GLSL
-// Follows include/nusselt/related/polygon_projected_solid_angle_peters.h @ 80ba7df30c2f
+// Follows include/nusselt/related/polygon_projected_solid_angle_peters.h @ 8ec2bc99b59f
 /// A plain transcription of a published method, to compare with: accuracy and cost of the formulas as printed.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672: Sec. 3
-/// with the Kahan products and the sorting network of Sec. 3.7. Use polygon_projected_solid_angle.glsl instead: this
+/// with the Kahan products and the sorting networks of Sec. 3.7. Use polygon_projected_solid_angle.glsl instead: this
 /// one loses small lights to the difference of two arctangents, and its iteration diverges at some corners on the
-/// horizon. Twin of include/nusselt/related/polygon_projected_solid_angle_peters.h, which walks along both chains of
-/// edges instead of sorting.
+/// horizon. Twin of include/nusselt/related/polygon_projected_solid_angle_peters.h.
 ///
 /// Measure and space as polygon_projected_solid_angle.glsl.
 
 #include "../core/light_sample.glsl"
-#include "../core/trig.glsl"
-#include "../geometry/clip_polygon.glsl"
-#include "../geometry/sorting_network.glsl"
+#include "../geometry/convex_polygon.glsl"
+#include "../related/bitonic_network.glsl"
+#include "../related/peters_arithmetic.glsl"
 
 /// The region between two ellipses, or between the zenith and the outer one, within an azimuth range.
 struct PetersSector {
@@ -47,10 +46,12 @@ vec2 peters_times(vec2 u, vec2 w) { return w + dot(u, w) * u; }
 
 float peters_form(vec2 u, vec2 w) { return dot(w, w) + dot(u, w) * dot(u, w); }
 
+float peters_plain_det(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
+
 /// Eq. 1.
 float peters_area_of(vec2 u, vec2 s0, vec2 s1) {
     float inverse_root = 1.0 / sqrt(1.0 + dot(u, u));
-    return 0.5 * inverse_root * atan2_positive(det(s0, s1), inverse_root * dot(s0, peters_times(u, s1)));
+    return 0.5 * inverse_root * peters_atan2_positive(peters_plain_det(s0, s1), inverse_root * dot(s0, peters_times(u, s1)));
 }
 
 /// Eq. 6 for the form with the matrix [[a, b], [b, c]].
@@ -59,14 +60,58 @@ vec2 peters_root(float a, float b, float c) {
     return b >= 0.0 ? vec2(b + r, -a) : vec2(c, r - b);
 }
 
-/// Sorts two events by azimuth; where equal, outer edges come first.
+/// Sorts two events by azimuth.
 void peters_compare_and_swap(inout PetersEvent a, inout PetersEvent b) {
-    float order = det(a.s, b.s);
-    if (order < 0.0 || (order == 0.0 && b.kind > a.kind)) {
+    if (peters_det(a.s, b.s) < 0.0) {
         PetersEvent c = a;
         a = b;
         b = c;
     }
+}
+
+/// The point where an edge meets the horizon.
+vec3 peters_crossing(vec3 a, vec3 b) {
+    float t = a.z / (a.z - b.z);
+    return vec3(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), 0.0);
+}
+
+/// The mirrored vertices above the horizon; spare slots repeat vertices.
+void peters_clip(ConvexPolygon light, float mirror, out vec3 v[kNusseltSlots]) {
+    // The last slot of a light is spare.
+    const int kVertices = kNusseltSlots - 1;
+    bool above[kNusseltSlots];
+    bool all_above = true;
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
+        v[j] = vec3(light.vertex[j].x, mirror * light.vertex[j].y, light.vertex[j].z);
+        above[j] = v[j].z > 0.0;
+        all_above = all_above && above[j];
+    }
+    if (all_above) return;
+    // Each lower vertex becomes the point where the boundary comes up again; the point where it goes down is inserted
+    // before the first of them.
+    vec3 vertex[kNusseltSlots] = v;
+    vec3 down = vec3(0.0);
+    vec3 up = vec3(0.0);
+    NUSSELT_UNROLL for (int j = 0; j < kVertices; ++j) {
+        int next = j + 1 < kVertices ? j + 1 : 0;
+        if (above[j] != above[next]) {
+            vec3 point = peters_crossing(vertex[j], vertex[next]);
+            if (above[j])
+                down = point;
+            else
+                up = point;
+        }
+    }
+    bool inserted = false;
+    NUSSELT_UNROLL for (int k = 0; k < kVertices; ++k) {
+        int before = k > 0 ? k - 1 : 0;
+        bool insert = above[k > 0 ? k - 1 : kVertices - 1] && !above[k];
+        vec3 kept = above[k] ? vertex[k] : up;
+        vec3 shifted = above[before] ? vertex[before] : up;
+        v[k] = insert ? down : (inserted ? shifted : kept);
+        inserted = inserted || insert;
+    }
+    v[kVertices] = above[kVertices - 1] ? vertex[kVertices - 1] : up;
 }
 
 /// Sec. 3.7.
@@ -91,7 +136,7 @@ void polygon_projected_solid_angle_peters_prepare_decentral(inout PolygonProject
         }
     }
 #define NUSSELT_SORT_EVENTS(low, high) peters_compare_and_swap(event[low], event[high]);
-    NUSSELT_SORT_BY_NETWORK(NUSSELT_SORT_EVENTS)
+    NUSSELT_SORT_BITONIC(NUSSELT_SORT_EVENTS)
 #undef NUSSELT_SORT_EVENTS
 
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots - 1; ++k) {
@@ -117,17 +162,14 @@ PolygonProjectedSolidAnglePeters polygon_projected_solid_angle_peters_prepare(Co
     self.plane_normal = light.normal;
     self.plane_distance = dot(light.normal, light.vertex[0]);
     self.mirror = self.plane_distance < 0.0 ? -1.0 : 1.0;
-    ConvexPolygon clipped = clip_to_horizon(light);
     vec3 vertex[kNusseltSlots];
     vec3 normal[kNusseltSlots];
-    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
-        vec3 v = clipped.vertex[j];
-        vertex[j] = vec3(v.x, self.mirror * v.y, v.z);
+    peters_clip(light, self.mirror, vertex);
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j)
         self.sector[j] = PetersSector(vec2(0.0), vec2(0.0), vec2(0.0), vec2(0.0), 0.0);
-    }
     bool has_inner = false;
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
-        normal[j] = nusselt_cross(vertex[j], vertex[j + 1 < kNusseltSlots ? j + 1 : 0]);
+        normal[j] = peters_cross(vertex[j], vertex[j + 1 < kNusseltSlots ? j + 1 : 0]);
         has_inner = has_inner || normal[j].z < 0.0;
     }
     self.central = !has_inner;
@@ -175,7 +217,7 @@ vec2 peters_invert_decentral(PetersSector s, float area) {
     vec2 sk = first ? s0 : s1;
     float ik = first ? i0 : i1;
     float ok = first ? o0 : o1;
-    quad_area = (first ? quad_area + quad_0 : quad_area - quad_1) * abs(det(sh, sk));
+    quad_area = (first ? quad_area + quad_0 : quad_area - quad_1) * abs(peters_plain_det(sh, sk));
     vec2 ri = peters_times(s.inner, ih * sh + ik * sk);
     vec2 ro = peters_times(s.outer, oh * sh + ok * sk);
     vec2 turned = vec2(-sk.y, sk.x);
@@ -200,7 +242,8 @@ vec2 peters_invert_decentral(PetersSector s, float area) {
 }
 
 /// \param u in [0, 1)^2.
-LightSample polygon_projected_solid_angle_peters_sample(PolygonProjectedSolidAnglePeters self, vec2 u) {
+/// \returns the direction alone, as the paper does; polygon_projected_solid_angle_peters_sample() adds density and point.
+vec3 polygon_projected_solid_angle_peters_direction(PolygonProjectedSolidAnglePeters self, vec2 u) {
     float area = u.x * self.total;
     PetersSector s = self.sector[0];
     NUSSELT_UNROLL for (int k = 1; k < kNusseltSlots; ++k) {
@@ -213,14 +256,19 @@ LightSample polygon_projected_solid_angle_peters_sample(PolygonProjectedSolidAng
     if (self.central) {
         float root = sqrt(1.0 + dot(s.outer, s.outer));
         vec2 c = peters_times(s.outer, s.s0);
-        SinCos angle = sincos_half_turn(nusselt_min(2.0 * root * area, kNusseltPi));
+        SinCos angle = peters_sincos_half_turn(2.0 * root * area);
         w = (root * angle.cosine) * s.s0 + angle.sine * vec2(-c.y, c.x);
         w = sqrt(u.y / peters_form(s.outer, w)) * w;
     } else {
         w = peters_invert_decentral(s, area);
         w = sqrt((1.0 - u.y) / peters_form(s.inner, w) + u.y / peters_form(s.outer, w)) * w;
     }
-    vec3 wi = vec3(w.x, self.mirror * w.y, sqrt(nusselt_max(1.0 - dot(w, w), 0.0)));
+    return vec3(w.x, self.mirror * w.y, sqrt(nusselt_max(1.0 - dot(w, w), 0.0)));
+}
+
+/// \param u in [0, 1)^2.
+LightSample polygon_projected_solid_angle_peters_sample(PolygonProjectedSolidAnglePeters self, vec2 u) {
+    vec3 wi = polygon_projected_solid_angle_peters_direction(self, u);
     return LightSample(wi, wi.z / self.total, (self.plane_distance / dot(self.plane_normal, wi)) * wi);
 }
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_AZIMUTHAL_SWEEP_GLSL
 #define NUSSELT_SAMPLING_AZIMUTHAL_SWEEP_GLSL
-// Follows include/nusselt/sampling/azimuthal_sweep.h @ 49da0861b10e
+// Follows include/nusselt/sampling/azimuthal_sweep.h @ 5829bc66c8ff
 /// Cuts a polygon beside the zenith into sectors at the azimuths of its vertices, each bounded by one outer and one
 /// inner edge (Peters 2021, polygonal lights, Sec. 3.7). Twin of include/nusselt/sampling/azimuthal_sweep.h.
 
@@ -119,37 +119,48 @@ AzimuthalSweep azimuthal_sweep_prepare(ConvexPolygon polygon, float distance) {
     return sweep;
 }
 
-/// The intersection of an edge with the azimuth of a point, as a fraction of the rest of the edge.
-float sweep_crossing(vec3 base, vec3 from, vec3 rest, vec3 at) {
-    float slope = det((base + at).xy, rest.xy);
-    // Positive if the point lies counterclockwise.
-    float turn = det(closer_to_zenith(base + from, base + at).xy, (at - from).xy);
-    return nusselt_min(nusselt_max(turn / (slope > 0.0 ? slope : 1.0), 0.0), 1.0);
-}
-
 /// Brings both chains to the azimuth of a vertex, where one of them continues with another edge. No edge begins at
 /// repeated vertices and at ends of edges with one azimuth.
-void sweep_pass(vec3 base, SweepEvent at, inout SweepChain outer, inout SweepChain inner) {
+void sweep_pass(inout AzimuthalSweep self, SweepEvent at) {
     if (at.kind == 0.0) return;
     bool outer_begins = at.kind > 0.0;
-    vec3 other_at = outer_begins ? inner.at : outer.at;
-    vec3 other_rest = outer_begins ? inner.rest : outer.rest;
-    float x = sweep_crossing(base, other_at, other_rest, at.offset);
-    other_at = other_at + x * other_rest;
-    other_rest = (1.0 - x) * other_rest;
+    vec3 from = outer_begins ? self.inner.at : self.outer.at;
+    vec3 along = outer_begins ? self.inner.rest : self.outer.rest;
+
+    // Intersect the other chain with the azimuth.
+    vec3 vertex = self.base + at.offset;
+    vec3 start = self.base + from;
+    vec3 step = at.offset - from;
+    float way = det(closer_to_zenith(start, vertex).xy, step.xy); // positive if the vertex lies counterclockwise
+    float slope = det(vertex.xy, along.xy);
+    float safe_slope = slope > 0.0 ? slope : 1.0;
+    float x = nusselt_min(nusselt_max(way / safe_slope, 0.0), 1.0);
+
+    // The gap, as in sweep_end_gap(), by determinants instead of the difference of both points, which cancels where the
+    // chains are close to each other (as in vertex_lanes.h).
+    float upright = (self.normal.z * self.normal.z) * dot(vertex.xy, vertex.xy);
+    float level = dot(self.normal.xy, vertex.xy);
+    bool is_flat = upright >= level * level;
+    float outward = is_flat ? det(along.xy, step.xy) : difference_of_products(step.z, slope, way, along.z);
+    float turn = det(closer_to_zenith(start, start + along).xy, along.xy);
+    float extent = (is_flat ? self.normal.z : level) * (outer_begins ? -turn : safe_slope);
+    self.gap = nusselt_max(self.distance * outward / (extent != 0.0 ? extent : 1.0), 0.0);
+
+    SweepChain begun = SweepChain(at.offset, at.edge, true);
+    SweepChain other = SweepChain(from + x * along, (1.0 - x) * along, outer_begins ? self.inner.begun : self.outer.begun);
     if (outer_begins) {
-        outer = SweepChain(at.offset, at.edge, true);
-        inner = SweepChain(other_at, other_rest, inner.begun);
+        self.outer = begun;
+        self.inner = other;
     } else {
-        outer = SweepChain(other_at, other_rest, outer.begun);
-        inner = SweepChain(at.offset, at.edge, true);
+        self.outer = other;
+        self.inner = begun;
     }
 }
 
 /// Height of the plane through the origin and an inner edge above the point of the outer edge that has the same
 /// azimuth. Both points lie in the plane of the polygon, whose distance is a common factor: only the step between them
 /// matters.
-float sweep_gap_between(vec3 base, vec3 normal, float distance, vec3 outer, vec3 inner) {
+float sweep_end_gap(vec3 base, vec3 normal, float distance, vec3 outer, vec3 inner) {
     vec3 outward = outer - inner;
     vec2 azimuth = base.xy + inner.xy;
     float upright = normal.z * dot(azimuth, azimuth);
@@ -169,13 +180,13 @@ bool azimuthal_sweep_advance(inout AzimuthalSweep self, int k, out DecentralSect
     vec3 begin = self.outer.at;
     sector.begin_gap = self.gap;
     if (k + 1 < kNusseltSlots) {
-        sweep_pass(self.base, self.event[k], self.outer, self.inner);
+        sweep_pass(self, self.event[k]);
     } else {
         // Both chains end at the last azimuth.
         self.outer.at = self.outer.at + self.outer.rest;
         self.inner.at = self.inner.at + self.inner.rest;
+        self.gap = sweep_end_gap(self.base, self.normal, self.distance, self.outer.at, self.inner.at);
     }
-    self.gap = sweep_gap_between(self.base, self.normal, self.distance, self.outer.at, self.inner.at);
     // Above the horizon in spite of rounding.
     sector.begin = vec3((self.base + begin).xy, nusselt_max(self.base.z + begin.z, 0.0));
     sector.chord = self.outer.at - begin;

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_COSINE_ARC_GLSL
 #define NUSSELT_SAMPLING_COSINE_ARC_GLSL
-// Follows include/nusselt/sampling/cosine_arc.h @ 5b54ee07aa66
+// Follows include/nusselt/sampling/cosine_arc.h @ 20956852530d
 /// Directions on an arc of a great circle with a density proportional to the cosine at the surface times the cosine of
 /// the angle to the middle of the circle: the inner step of projected solid angle sampling of lines and tubes.
 ///
@@ -12,103 +12,103 @@
 /// Steps of the iteration, at most: most lights need one.
 const int kNusseltLineIterations = 3;
 
-/// A step of the iteration below it is the last one: its cube is rounding.
-const float kNusseltSmallStep = 0.00390625; // 2^-8
-
 /// In terms of the angle alpha of LineExtent, the density is cos(alpha) n . w(alpha) / (integral / 2).
 struct CosineArc {
-    LineExtent extent;   ///< above the horizon
-    float sweep;         ///< angle between the end points
-    float middle_height; ///< cosine of the direction to the middle by sine with the normal
-    float slope;         ///< derivative by theta, at the start, of the cosine with the normal
-    float integral;      ///< E of the paper: 2 int cos(alpha) n . w(alpha) d alpha
+    LineMap map;                        ///< of the part above the horizon
+    float distance;                     ///< of the line from the origin
+    float n_t;                          ///< component of the normal along t
+    float middle_cosine, middle_height; ///< of the middle by angle
+    float from_near;                    ///< sine of that middle minus that of the near end
+    float inverse_sine_extent;
+    float integral; ///< E of the paper: 2 int cos(alpha) n . w(alpha) d alpha
+    float share_scale, share_offset;
+    float guess_linear, guess_square;
 };
+
+/// The reciprocal of the integral; finite if it is 0.
+float cosine_arc_inverse_integral(CosineArc self) {
+    return 1.0 / nusselt_max(self.integral, kNusseltSmallestNormal);
+}
 
 /// \param e above the horizon.
 CosineArc make_cosine_arc(LineExtent e) {
     CosineArc self;
-    self.extent = e;
-    self.sweep = line_extent_sweep(e);
-    LinePoint middle = line_extent_point_at(e, 0.5 * e.sine_extent);
-    self.middle_height = nusselt_max(nusselt_fma(e.s.z, middle.sine, e.t.z * middle.cosine), 0.0);
-    self.slope = e.s.z * e.c0 - e.t.z * e.s0;
-    self.integral = cosine_integral(self.sweep, e.sine_extent, e.height0 + e.height1, e.t.z);
+    self.map = make_line_map(e);
+    self.distance = e.distance;
+    self.n_t = line_extent_n_t(e);
+    CosineIntegral halves = make_cosine_integral(e, self.n_t);
+    self.middle_cosine = halves.middle_cosine;
+    self.middle_height = halves.middle_height;
+    self.from_near = halves.from_near;
+    // Without light, the denominators are 0; any values will do that keep the formulas finite.
+    self.inverse_sine_extent = 1.0 / nusselt_max(self.map.sine_extent, kNusseltSmallestNormal);
+    self.integral = halves.near + halves.far;
+
+    // A random number, which counts from the start, becomes a share of the integral, which counts from the middle.
+    float near_share = halves.near * cosine_arc_inverse_integral(self);
+    self.share_scale = e.line.sign_of_s;
+    self.share_offset = nusselt_fma(-0.5, self.share_scale, 0.5) - near_share;
+
+    // Choose the slopes of the height for which cosine_arc_first_guess() is exact at the ends, and interpolate between them.
+    float near_inverse = 1.0 / nusselt_max(halves.from_near, kNusseltSmallestNormal);
+    float far_inverse = 1.0 / nusselt_max(halves.to_far, kNusseltSmallestNormal);
+    float near_slope =
+        near_inverse * nusselt_fma(near_inverse, halves.bend, halves.near_height - halves.middle_height);
+    float far_slope = far_inverse * nusselt_fma(far_inverse, halves.bend, halves.far_height - halves.middle_height);
+    self.guess_linear = nusselt_fma(far_slope, halves.near, -near_slope * halves.far);
+    self.guess_square = (far_slope + near_slope) * self.integral;
     return self;
 }
 
-/// The quantities that the iteration needs at the angle theta from the start.
-struct ArcRotation {
-    float sine, cosine;         ///< of alpha
-    float height, height_slope; ///< cosine with the normal and its derivative
-    float integral;             ///< from the start
-};
-
-/// \param half_angle sine and cosine of half the angle from the start.
-float cosine_arc_sine_from_start(CosineArc self, SinCos half_angle) {
-    float middle = nusselt_fma(self.extent.c0, half_angle.cosine, -self.extent.s0 * half_angle.sine);
-    return 2.0 * half_angle.sine * nusselt_max(middle, 0.0);
+/// The integral from the middle to a point, see CosineIntegral.
+/// \param x as LinePoint.share.
+float cosine_arc_integral_to(CosineArc self, float x, float cosine, float height) {
+    float sine = nusselt_fma(x, self.map.sine_extent, -self.from_near);
+    float half_tangent = sine / (self.middle_cosine + cosine);
+    return nusselt_fma(sine, self.middle_height + height, self.n_t * angle_minus_sine(half_tangent));
 }
 
-ArcRotation cosine_arc_rotation_to(CosineArc self, float theta) {
-    LineExtent e = self.extent;
-    SinCos half_angle = sincos_quarter_turn(0.5 * theta);
-    float sine = 2.0 * half_angle.sine * half_angle.cosine;
-    float cosine = nusselt_fma(-2.0 * half_angle.sine, half_angle.sine, 1.0);
-    ArcRotation r;
-    r.sine = nusselt_fma(e.s0, cosine, e.c0 * sine);
-    r.cosine = nusselt_max(nusselt_fma(e.c0, cosine, -e.s0 * sine), 0.0);
-    r.height = nusselt_max(nusselt_fma(e.height0, cosine, self.slope * sine), 0.0);
-    r.height_slope = nusselt_fma(self.slope, cosine, -e.height0 * sine);
-    r.integral = cosine_integral(theta, cosine_arc_sine_from_start(self, half_angle), e.height0 + r.height, e.t.z);
-    return r;
-}
-
-/// The angle from the start.
-float cosine_arc_angle_at(CosineArc self, float from_start) {
-    LinePoint point = line_extent_point_at(self.extent, from_start);
-    return nusselt_min(2.0 * atan2_positive(from_start, self.extent.c0 + point.cosine), self.sweep);
-}
-
-/// The initial guess of the iteration: by sine, the density is the cosine with the normal. It is taken as linear from
-/// the start to the middle and from there to the end.
-float cosine_arc_initial_sine(CosineArc self, float u) {
-    float first_half = self.extent.height0 + self.middle_height;
-    float target = u * (first_half + self.middle_height + self.extent.height1);
-    bool in_first = target < first_half;
-    float low = in_first ? self.extent.height0 : self.middle_height;
-    float rise = in_first ? self.middle_height - self.extent.height0 : self.extent.height1 - self.middle_height;
-    float rest = in_first ? target : target - first_half;
-    float denominator = low + sqrt(nusselt_max(nusselt_fma(rise, rest, low * low), 0.0));
-    float share = rest / (denominator > 0.0 ? denominator : 1.0);
-    return 0.5 * nusselt_min(in_first ? share : share + 1.0, 2.0) * self.extent.sine_extent;
+/// By sine, the density is the cosine with the normal. Were that linear, the sample would solve a quadratic equation. Its
+/// slope is taken as a linear function of the integral instead of a constant.
+/// \returns the sine relative to the middle.
+float cosine_arc_first_guess(CosineArc self, float share, float target) {
+    float change = share * nusselt_fma(share, self.guess_square, self.guess_linear);
+    float squared = nusselt_max(nusselt_fma(self.middle_height, self.middle_height, change), 0.0);
+    return target / (self.middle_height + sqrt(squared));
 }
 
 /// \param u in [0, 1); increasing u moves from the start to the end.
 LinePoint cosine_arc_point(CosineArc self, float u) {
-    float theta = cosine_arc_angle_at(self, cosine_arc_initial_sine(self, u));
+    float share = nusselt_fma(u, self.share_scale, self.share_offset);
+    float target = share * self.integral;
+    float tolerance = 1.5 * kNusseltEpsilon * self.integral;
+    float guess = cosine_arc_first_guess(self, share, target) + self.from_near;
+    float x = nusselt_min(nusselt_max(guess * self.inverse_sine_extent, 0.0), 1.0);
+    float n_s = self.map.inward.z;
     for (int i = 0; i < kNusseltLineIterations; ++i) {
-        ArcRotation rotation = cosine_arc_rotation_to(self, theta);
-        float residual = nusselt_fma(-u, self.integral, rotation.integral);
-        // Laguerre's method: the root of the quadratic Taylor polynomial, in Blinn's stable form.
-        float first = rotation.cosine * rotation.height;
-        float second = nusselt_fma(rotation.cosine, rotation.height_slope, -rotation.sine * rotation.height);
-        float denominator = first + sqrt(nusselt_max(nusselt_fma(first, first, -second * residual), 0.0));
-        float step = residual / (denominator > 0.0 ? denominator : 1.0);
-        theta = nusselt_min(nusselt_max(theta - step, 0.0), self.sweep);
-        // The step leaves an error of the order of its cube, relative to the scale on which the density changes.
-        if (!(abs(step) * (first + abs(second)) > kNusseltSmallStep * first)) break;
+        // Laguerre's method (Algorithm 2): the root of the quadratic Taylor polynomial, in Blinn's stable form. All
+        // derivatives by the sine are multiplied by the cosine.
+        float sine = line_map_sine_at(self.map, x);
+        float cosine = self.distance * line_map_point_at(self.map, x).inverse_distance;
+        float height = nusselt_max(nusselt_fma(n_s, sine, self.n_t * cosine), 0.0);
+        float residual = cosine_arc_integral_to(self, x, cosine, height) - target; // Eq. 4
+        float first = cosine * height;
+        float second = cosine * nusselt_fma(n_s, cosine, -self.n_t * sine);
+        float root = sqrt(nusselt_max(nusselt_fma(first, first, -second * residual), 0.0));
+        float step = residual / nusselt_max(first + root, kNusseltTiny);
+        x = nusselt_min(nusselt_max(nusselt_fma(-step * cosine, self.inverse_sine_extent, x), 0.0), 1.0);
+        // What the quadratic polynomial lacks of the integral is a third of this cube, if the cosine changes little.
+        if (abs(self.n_t * step * step * step) <= tolerance && abs(4.0 * step * sine) <= cosine) break;
     }
-    float from_start = cosine_arc_sine_from_start(self, sincos_quarter_turn(0.5 * theta));
-    return line_extent_point_at(self.extent, nusselt_min(from_start, self.extent.sine_extent));
+    return line_map_point_at(self.map, x);
 }
 
 /// The random number for which cosine_arc_point() returns the one in direction wi, a unit direction on the arc.
 float cosine_arc_invert(CosineArc self, vec3 wi) {
-    LinePoint point = line_extent_point_in(self.extent, wi);
-    float theta = cosine_arc_angle_at(self, point.from_start);
-    float heights = self.extent.height0 + nusselt_max(wi.z, 0.0);
-    float part = cosine_integral(theta, point.from_start, heights, self.extent.t.z);
-    return below_one(part / (self.integral > 0.0 ? self.integral : 1.0));
+    float x = line_map_share_in(self.map, wi);
+    float cosine = self.distance * line_map_point_at(self.map, x).inverse_distance;
+    float part = cosine_arc_integral_to(self, x, cosine, nusselt_max(wi.z, 0.0));
+    return below_one((part * cosine_arc_inverse_integral(self) - self.share_offset) * self.share_scale);
 }
 
 #endif

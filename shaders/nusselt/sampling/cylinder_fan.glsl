@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_CYLINDER_FAN_GLSL
 #define NUSSELT_SAMPLING_CYLINDER_FAN_GLSL
-// Follows include/nusselt/sampling/cylinder_fan.h @ fbc39dab51fc
+// Follows include/nusselt/sampling/cylinder_fan.h @ ccaddb0133a0
 /// Sampling of closed cylinders without rejection: first a half-plane of the fan around the direction of the axis, then
 /// a direction in it. What the techniques for cylinders share. Twin of include/nusselt/sampling/cylinder_fan.h;
 /// docs/techniques/cylinder.md has the derivation.
@@ -26,26 +26,27 @@ const float kNusseltSteepest = 68719476736.0; // 2^36
 const int kNusseltUniformImportance = 0;
 const int kNusseltCosineImportance = 1;
 
-/// Parameters as those of make_line_extent().
-LineExtent importance_extent(int importance, vec3 s, vec3 p0, vec3 p1, vec3 closest, float distance, float l0,
-                             float l1, float length) {
-    if (importance == kNusseltUniformImportance) return make_line_extent(s, p0, p1, closest, distance, l0, l1, length);
-    return clipped_extent(s, p0, p1, closest, distance, l0, l1, length);
+LineExtent importance_extent(int importance, CenteredLine line) {
+    if (importance == kNusseltUniformImportance) return make_line_extent(line);
+    return make_line_extent(clip_to_horizon(line));
 }
 
 /// Twice the integral over the solid angle, per azimuth.
 float importance_integral(int importance, LineExtent e) {
-    return importance == kNusseltUniformImportance ? 2.0 * e.sine_extent : cosine_integral(e);
+    return importance == kNusseltUniformImportance ? 2.0 * line_extent_sine_extent(e).difference : cosine_integral(e);
 }
 
 LinePoint importance_point(int importance, LineExtent e, float u) {
-    if (importance == kNusseltUniformImportance) return line_extent_point_at(e, u * e.sine_extent);
+    if (importance == kNusseltUniformImportance)
+        return line_map_point_at(make_line_map(e), e.line.sign_of_s > 0.0 ? u : 1.0 - u);
     return cosine_arc_point(make_cosine_arc(e), u);
 }
 
 float importance_invert(int importance, LineExtent e, vec3 wi) {
-    if (importance == kNusseltUniformImportance)
-        return below_one(line_extent_point_in(e, wi).from_start / (e.visible ? e.sine_extent : 1.0));
+    if (importance == kNusseltUniformImportance) {
+        float share = line_map_share_in(make_line_map(e), wi);
+        return below_one(e.line.sign_of_s > 0.0 ? share : 1.0 - share);
+    }
     return cosine_arc_invert(make_cosine_arc(e), wi);
 }
 
@@ -229,9 +230,9 @@ CylinderHalfPlane cylinder_half_plane(CylinderImage self, int importance, vec2 d
     float height1 = self.end_height + (sideways + (ends_far ? across : -across));
     vec3 p0 = cylinder_image_corner(self, t, tangent0, height0, rho0 * h.widening);
     vec3 p1 = cylinder_image_corner(self, t, tangent1, height1, rho1 * h.widening);
-    h.extent = importance_extent(importance, self.s, p0, p1, t, 1.0, tangent0, tangent1, len);
+    h.extent = importance_extent(importance, line_between(self.s, p0, p1, t, 1.0, tangent0, tangent1, len));
     float integral = importance_integral(importance, h.extent);
-    h.integral = h.extent.visible && is_finite(integral) ? integral : 0.0;
+    h.integral = line_extent_visible(h.extent) && is_finite(integral) ? integral : 0.0;
     return h;
 }
 
@@ -287,7 +288,8 @@ vec3 cylinder_fan_point(CylinderFan self, vec2 u) {
     vec2 azimuth = cylinder_image_azimuth_at(self.image, angle);
     CylinderHalfPlane h = cylinder_half_plane(self.image, self.importance, azimuth);
     LinePoint point = importance_point(self.importance, h.extent, u.y);
-    float steepness = point.sine / nusselt_max(point.cosine, 1.0 / kNusseltSteepest);
+    float sine = h.extent.line.sign_of_s * line_map_sine_at(make_line_map(h.extent), point.share);
+    float steepness = sine / nusselt_max(point.inverse_distance, 1.0 / kNusseltSteepest);
     float tangent = (h.widening * steepness - h.shear) / self.image.stretch;
     vec2 p = cylinder_view_first_point(self.image.view, h.slice, tangent);
     return p.x * self.image.view.s + p.y * h.slice.t;

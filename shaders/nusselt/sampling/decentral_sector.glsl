@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_DECENTRAL_SECTOR_GLSL
 #define NUSSELT_SAMPLING_DECENTRAL_SECTOR_GLSL
-// Follows include/nusselt/sampling/decentral_sector.h @ 8a1c87b32341
+// Follows include/nusselt/sampling/decentral_sector.h @ cf93806919a1
 /// Area between two projected great circles and its inversion: the azimuth of a sample when the zenith lies outside of
 /// the polygon (Peters 2021, polygonal lights, Sec. 3.1 and 3.3 to 3.6). Twin of
 /// include/nusselt/sampling/decentral_sector.h.
@@ -47,23 +47,32 @@ struct DecentralArcs {
     float sine2_step;               ///< inner square minus the outer one, accurate relative to itself
 };
 
-DecentralArcs decentral_sector_arcs_to(DecentralSector self, float x) {
+/// What all areas of a sector need: properties of the planes through the origin and both circles. Their normals are those
+/// of the segments from the start to x, divided by x.
+struct DecentralPlanes {
+    float outer_squared, inner_squared; ///< squared lengths of the normals
+    float squared_step;                 ///< their difference
+};
+
+DecentralPlanes decentral_sector_planes(DecentralSector self) {
     vec3 begin = self.begin;
     vec3 chord = self.chord;
     float turn = self.end_gap - self.begin_gap;
-    // Normals of the planes through the origin and the segments from start to x, divided by x: times x, their lengths
-    // are the sines.
     vec3 outer_normal = nusselt_cross(begin, chord);
-    vec3 lift = vec3(nusselt_fma(turn, begin.y, -self.begin_gap * chord.y),
-                     nusselt_fma(self.begin_gap, chord.x, -turn * begin.x), 0.0);
-    vec3 inner_normal = outer_normal + lift;
-    float outer_cosine = dot(begin, begin + x * chord);
-    float gap = nusselt_fma(x, turn, self.begin_gap);
-    float rise = nusselt_fma(self.begin_gap, nusselt_fma(x, chord.z, begin.z) + gap, begin.z * gap);
+    vec2 lift = vec2(nusselt_fma(turn, begin.y, -self.begin_gap * chord.y),
+                     nusselt_fma(self.begin_gap, chord.x, -turn * begin.x));
+    vec3 inner_normal = vec3(outer_normal.xy + lift, outer_normal.z);
+    return DecentralPlanes(dot(outer_normal, outer_normal), dot(inner_normal, inner_normal),
+                           dot(lift, outer_normal.xy + inner_normal.xy));
+}
+
+DecentralArcs decentral_sector_arcs_to(DecentralSector self, DecentralPlanes planes, float x) {
+    float outer_cosine = dot(self.begin, self.begin + x * self.chord);
+    float gap = nusselt_fma(x, self.end_gap - self.begin_gap, self.begin_gap);
+    float rise = nusselt_fma(self.begin_gap, nusselt_fma(x, self.chord.z, self.begin.z) + gap, self.begin.z * gap);
     float x2 = x * x;
     return DecentralArcs(x * self.doubled_triangle, outer_cosine, rise, outer_cosine + rise,
-                         x2 * dot(outer_normal, outer_normal), x2 * dot(inner_normal, inner_normal),
-                         x2 * dot(lift, outer_normal + inner_normal));
+                         x2 * planes.outer_squared, x2 * planes.inner_squared, x2 * planes.squared_step);
 }
 
 /// Whether both angles are at most an eighth of a turn.
@@ -116,8 +125,8 @@ float decentral_wide_doubled_area(DecentralWideArcs arcs, float inner_angle, flo
 
 /// Twice the area from the start to x (Prop. 1 for both ellipses). Each ellipse contributes the determinant of its end
 /// points times angle / sine; the determinants are equal.
-float decentral_sector_doubled_area_to(DecentralSector self, float x) {
-    DecentralArcs arcs = decentral_sector_arcs_to(self, x);
+float decentral_sector_doubled_area_to(DecentralSector self, DecentralPlanes planes, float x) {
+    DecentralArcs arcs = decentral_sector_arcs_to(self, planes, x);
     if (decentral_arcs_are_narrow(arcs)) return decentral_narrow_doubled_area(arcs);
     DecentralWideArcs wide = decentral_wide_arcs(arcs);
     return decentral_wide_doubled_area(wide, atan2_positive(wide.inner_sine, wide.inner_cosine),
@@ -125,8 +134,8 @@ float decentral_sector_doubled_area_to(DecentralSector self, float x) {
 }
 
 /// The same with atan2_positive_fast().
-float decentral_sector_fast_doubled_area_to(DecentralSector self, float x) {
-    DecentralArcs arcs = decentral_sector_arcs_to(self, x);
+float decentral_sector_fast_doubled_area_to(DecentralSector self, DecentralPlanes planes, float x) {
+    DecentralArcs arcs = decentral_sector_arcs_to(self, planes, x);
     if (decentral_arcs_are_narrow(arcs)) return decentral_narrow_doubled_area(arcs);
     DecentralWideArcs wide = decentral_wide_arcs(arcs);
     return decentral_wide_doubled_area(wide, atan2_positive_fast(wide.inner_sine, wide.inner_cosine),
@@ -210,8 +219,9 @@ float decentral_sector_position(DecentralSector self, float target, float double
     float x = decentral_sector_initial_position(self, nusselt_min(fraction, 1.0));
     // Rounding of the areas; nothing is gained below.
     float tolerance = (4.0 * kNusseltEpsilon) * doubled_total;
+    DecentralPlanes planes = decentral_sector_planes(self);
     for (int i = 0; i < kNusseltPolygonIterations; ++i) {
-        float missing = target - decentral_sector_doubled_area_to(self, x);
+        float missing = target - decentral_sector_doubled_area_to(self, planes, x);
         if (!(abs(missing) > tolerance)) break;
         x = decentral_sector_step(self, x, missing);
     }

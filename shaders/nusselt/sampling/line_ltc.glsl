@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_LTC_GLSL
 #define NUSSELT_SAMPLING_LINE_LTC_GLSL
-// Follows include/nusselt/sampling/line_ltc.h @ 668e1c1ab419
+// Follows include/nusselt/sampling/line_ltc.h @ aa62462c9081
 /// Sampling of a linear light proportional to a linearly transformed cosine. With a lobe that fits the specular BRDF
 /// times cosine, the noise that remains comes from shadows and from the misfit.
 ///
@@ -20,10 +20,10 @@ struct LineLtc {
     Ltc ltc;
     LineProjectedSolidAngle image; ///< in cosine space
     // The part of the light that counts, in shading space and scaled to an extent of order one.
-    vec3 s;
+    vec3 s;              ///< from the near end to the far one
     vec3 closest;        ///< point of the infinite line
     float lowest;        ///< bound on z of points: 0 above the surface, else the lowest number
-    float l0, l1;        ///< coordinates of the end points along s, 0 at the closest point
+    float l0, l1;        ///< coordinates of the near and the far end along s, 0 at the closest point
     float inverse_scale; ///< a power of two
     float measure;
     float inverse_measure; ///< 0 without light
@@ -36,16 +36,16 @@ LineLtc line_ltc_prepare_part(LineSegment part, float scale, Ltc ltc) {
     self.lowest = -kNusseltLargest;
     self.ltc = ltc;
     self.image = line_projected_solid_angle_prepare(to_cosine_space(part, ltc));
-    self.s = part.s;
     self.inverse_scale = reciprocal_power_of_two(scale);
-    vec3 moment = nusselt_cross(part.p0, part.s);
-    self.closest = nusselt_cross(part.s, moment);
-    self.l0 = dot(part.p0, part.s);
-    self.l1 = dot(end_of(part), part.s);
+    CenteredLine line = centered(part);
+    self.s = line.inward;
+    self.closest = line.closest;
+    self.l0 = line.near_l;
+    self.l1 = line.far_l;
     // The reciprocal of what the density of directions on the image is divided by.
-    float ratio = kNusseltPi * radius_ratio(moment, ltc);
+    float ratio = kNusseltPi * radius_ratio(nusselt_cross(part.p0, part.s), ltc);
     float in_lobe = line_projected_solid_angle_measure(self.image);
-    bool seen = nusselt_length(moment) > kNusseltSmallestDistance && in_lobe > 0.0 && ratio > 0.0;
+    bool seen = line.len > 0.0 && in_lobe > 0.0 && ratio > 0.0;
     float measure = in_lobe / (seen ? ratio : 1.0) * scale;
     float inverse_measure = ratio / (seen ? in_lobe : 1.0) * self.inverse_scale;
     bool lit = seen && measure > 0.0 && is_finite(measure) && is_finite(inverse_measure);

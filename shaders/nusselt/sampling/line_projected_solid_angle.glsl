@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_LINE_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/line_projected_solid_angle.h @ dd4c84864f7e
+// Follows include/nusselt/sampling/line_projected_solid_angle.h @ f25e159f23a5
 /// Uniform sampling of the projected solid angle of a linear light: density proportional to the cosine at the surface.
 /// With a Lambertian tube on a Lambertian surface, all noise that remains comes from shadows.
 ///
@@ -28,11 +28,9 @@ LineProjectedSolidAngle line_projected_solid_angle_prepare(LineSegment light) {
     float scale = scale_of(light);
     self.inverse_scale = reciprocal_power_of_two(scale);
     self.arc = make_cosine_arc(clipped_extent(scaled(light, scale)));
-    float distance = self.arc.extent.distance;
-    float integral = self.arc.integral;
-    float measure = integral / distance * scale;
-    float inverse_measure = distance / (integral > 0.0 ? integral : 1.0) * self.inverse_scale;
-    bool lit = self.arc.extent.visible && measure > 0.0 && is_finite(measure) && is_finite(inverse_measure);
+    float measure = self.arc.integral / self.arc.distance * scale;
+    float inverse_measure = cosine_arc_inverse_integral(self.arc) * self.arc.distance * self.inverse_scale;
+    bool lit = measure > kNusseltSmallestNormal && measure < 1.0 / kNusseltSmallestNormal;
     self.measure = lit ? measure : 0.0;
     self.inverse_measure = lit ? inverse_measure : 0.0;
     return self;
@@ -49,8 +47,8 @@ float line_projected_solid_angle_pdf(LineProjectedSolidAngle self, vec3 wi) {
 /// \param u in [0, 1); increasing u moves from the start of the light to its end.
 LightSample line_projected_solid_angle_sample(LineProjectedSolidAngle self, float u) {
     LinePoint point = cosine_arc_point(self.arc, u);
-    vec3 p = line_extent_position(self.arc.extent, point);
-    vec3 wi = line_extent_direction(self.arc.extent, point, p);
+    vec3 p = line_map_position(self.arc.map, point);
+    vec3 wi = line_map_direction(self.arc.map, point, p);
     wi.z = nusselt_max(wi.z, 0.0);
     return LightSample(wi, line_projected_solid_angle_pdf(self, wi), self.inverse_scale * p);
 }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_LINE_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/line_solid_angle.h @ 583db3f7c1fd
+// Follows include/nusselt/sampling/line_solid_angle.h @ 15f125834611
 /// Uniform sampling of the solid angle of a linear light, for surfaces and for volumes.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Sec. 3.1, Eq. 1. Twin
@@ -15,8 +15,9 @@
 #include "../geometry/clip_line.glsl"
 
 struct LineSolidAngle {
-    LineExtent extent; ///< scaled to an extent of order one
-    float lowest;      ///< bound on z of directions: 0 above the horizon, else the lowest number
+    LineMap map;              ///< scaled to an extent of order one
+    float sign_of_s, offset; ///< of the map from random numbers, which count from the start, to shares from the near end
+    float lowest;             ///< bound on z of directions: 0 above the horizon, else the lowest number
     float inverse_scale;
     float measure;
     float pdf;
@@ -25,14 +26,16 @@ struct LineSolidAngle {
 /// \param scale by which the extent is larger than the light.
 LineSolidAngle line_solid_angle_prepare_extent(float scale, LineExtent extent) {
     LineSolidAngle self;
-    self.extent = extent;
+    self.map = make_line_map(extent);
+    self.sign_of_s = extent.line.sign_of_s;
+    self.offset = nusselt_fma(-0.5, self.sign_of_s, 0.5);
     self.lowest = -kNusseltLargest;
     self.inverse_scale = reciprocal_power_of_two(scale);
     // Eq. 1 in the limit of a radius of 0.
-    float angle = 2.0 * extent.sine_extent;
-    float measure = angle / extent.distance * scale;
-    float density = extent.distance / (extent.visible ? angle : 1.0) * self.inverse_scale;
-    bool lit = extent.visible && measure > 0.0 && is_finite(measure) && density > 0.0 && is_finite(density);
+    float measure = 2.0 * extent.distance * line_extent_sine_extent(extent).density * scale;
+    float area = extent.distance * extent.line.len * (extent.near_inverse + extent.far_inverse);
+    float density = 0.5 * extent.one_plus_cosine / area * self.inverse_scale;
+    bool lit = measure > kNusseltSmallestNormal && measure < 1.0 / kNusseltSmallestNormal;
     self.measure = lit ? measure : 0.0;
     self.pdf = lit ? density : 0.0;
     return self;
@@ -41,7 +44,7 @@ LineSolidAngle line_solid_angle_prepare_extent(float scale, LineExtent extent) {
 /// \param light relative to the shading point [m]. Nothing is clipped.
 LineSolidAngle line_solid_angle_prepare(LineSegment light) {
     float scale = scale_of(light);
-    return line_solid_angle_prepare_extent(scale, make_line_extent(scaled(light, scale)));
+    return line_solid_angle_prepare_extent(scale, whole_extent(scaled(light, scale)));
 }
 
 /// Prepares the part of a light above the horizon: wi.z is never negative.
@@ -61,9 +64,9 @@ float line_solid_angle_pdf(LineSolidAngle self, vec3 wi) { return self.pdf; }
 
 /// \param u in [0, 1); increasing u moves from the start of the light to its end.
 LightSample line_solid_angle_sample(LineSolidAngle self, float u) {
-    LinePoint point = line_extent_point_at(self.extent, u * self.extent.sine_extent);
-    vec3 p = line_extent_position(self.extent, point);
-    vec3 wi = line_extent_direction(self.extent, point, p);
+    LinePoint point = line_map_point_at(self.map, nusselt_fma(u, self.sign_of_s, self.offset));
+    vec3 p = line_map_position(self.map, point);
+    vec3 wi = line_map_direction(self.map, point, p);
     // Next to the horizon, rounding turns directions below it.
     wi.z = nusselt_max(wi.z, self.lowest);
     return LightSample(wi, self.pdf, self.inverse_scale * p);
@@ -71,8 +74,7 @@ LightSample line_solid_angle_sample(LineSolidAngle self, float u) {
 
 /// The random number for which the sample is wi, a unit direction on the light.
 float line_solid_angle_invert(LineSolidAngle self, vec3 wi) {
-    float part = line_extent_point_in(self.extent, wi).from_start;
-    return below_one(part / (self.extent.visible ? self.extent.sine_extent : 1.0));
+    return below_one((line_map_share_in(self.map, wi) - self.offset) * self.sign_of_s);
 }
 
 #endif

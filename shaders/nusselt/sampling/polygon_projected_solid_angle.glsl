@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 0225fb081251
+// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ dcaba532438c
 /// Uniform sampling of the projected solid angle of a convex polygon: density proportional to the cosine at the
 /// surface. With a Lambertian emitter on a Lambertian surface, all noise that remains comes from shadows.
 ///
@@ -115,7 +115,8 @@ void polygon_projected_solid_angle_prepare_decentral(inout PolygonProjectedSolid
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots - 1; ++k) {
         DecentralSector sector;
         if (azimuthal_sweep_advance(sweep, k + 1, sector))
-            polygon_projected_solid_angle_put(self, k, sector, decentral_sector_doubled_area_to(sector, 1.0));
+            polygon_projected_solid_angle_put(
+                self, k, sector, decentral_sector_doubled_area_to(sector, decentral_sector_planes(sector), 1.0));
     }
 }
 
@@ -379,7 +380,7 @@ vec2 polygon_projected_solid_angle_invert(PolygonProjectedSolidAngle self, vec3 
         SinCos angle = central_sector_angle(at);
         partial_area = central_sector_doubled_area(at, atan2_positive(angle.sine, angle.cosine));
     } else {
-        partial_area = decentral_sector_doubled_area_to(at.sector, at.x);
+        partial_area = decentral_sector_doubled_area_to(at.sector, decentral_sector_planes(at.sector), at.x);
     }
     return polygon_projected_solid_angle_random_numbers(self, at, partial_area, w, wi.z);
 }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_BIASED_GLSL
 #define NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_BIASED_GLSL
-// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 0225fb081251
+// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ dcaba532438c
 /// The biased variant of polygon_projected_solid_angle.glsl (Peters 2021, polygonal lights, Sec. 6.4): no iteration,
 /// fast arctangents. The density is that of exact projected solid angle sampling, which the samples follow
 /// approximately: estimates are biased accordingly. Twin of PolygonProjectedSolidAngleBiased in
@@ -29,7 +29,9 @@ void polygon_projected_solid_angle_biased_prepare_decentral(inout PolygonProject
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots - 1; ++k) {
         DecentralSector sector;
         if (azimuthal_sweep_advance(sweep, k + 1, sector))
-            polygon_projected_solid_angle_put(self, k, sector, decentral_sector_fast_doubled_area_to(sector, 1.0));
+            polygon_projected_solid_angle_put(
+                self, k, sector,
+                decentral_sector_fast_doubled_area_to(sector, decentral_sector_planes(sector), 1.0));
     }
 }
 
@@ -78,7 +80,7 @@ vec2 polygon_projected_solid_angle_biased_invert(PolygonProjectedSolidAngleBiase
         SinCos angle = central_sector_angle(at);
         partial_area = central_sector_doubled_area(at, atan2_positive_fast(angle.sine, angle.cosine));
     } else {
-        partial_area = decentral_sector_fast_doubled_area_to(at.sector, at.x);
+        partial_area = decentral_sector_fast_doubled_area_to(at.sector, decentral_sector_planes(at.sector), at.x);
     }
     return polygon_projected_solid_angle_random_numbers(self.approximate, at, partial_area, w, wi.z);
 }

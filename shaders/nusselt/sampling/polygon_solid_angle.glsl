@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_solid_angle.h @ ca93e5fccb57
+// Follows include/nusselt/sampling/polygon_solid_angle.h @ fa5ea8d68deb
 /// Uniform sampling of the solid angle of a convex polygon, for surfaces and for volumes.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672: Sec. 5,
@@ -12,75 +12,135 @@
 /// Edge cases: no area, or origin in the plane of the polygon: pdf = 0, measure 0.
 
 #include "../core/light_sample.glsl"
+#include "../geometry/fan_volumes.glsl"
 #include "../geometry/polygon_measures.glsl"
 
 /// Least value of 1 + the cosine of two directions: the sum of opposite ones is lost to rounding.
 const float kNusseltOpposite = kNusseltEpsilon * kNusseltEpsilon;
+/// Vertices that are not closer are normalised without scaling; nor those that are closer than the reciprocal.
+const float kNusseltNear = 1.0 / 1048576.0;
+/// The least number whose reciprocal is finite.
+const float kNusseltLeast = 4.0 * kNusseltSmallestNormal;
 
 struct PolygonSolidAngle {
-    vec3 vertex[kNusseltSlots];            ///< scaled to coordinates of order one
-    vec3 direction[kNusseltSlots];         ///< unit vectors to the vertices
-    float inverse_distance[kNusseltSlots]; ///< of the scaled vertices
-    float inverse_scale;                   ///< a power of two
-    float g0[kNusseltSlots - 2];           ///< triple product of the directions
+    vec3 vertex[kNusseltSlots];            ///< [m] or, for very large and very small lights, in a unit of order one
+    float inverse_distance[kNusseltSlots]; ///< of the vertices
+    float inverse_scale;                   ///< from the unit to metres, a power of two
+    // For each triangle, with unit directions a, b, c to vertices j + 1, j + 2 and 0:
+    float g0[kNusseltSlots - 2];           ///< triple product, not negative
     float g1[kNusseltSlots - 2];           ///< 1 + dot(a, b) + dot(a, c) + dot(b, c)
-    float g2[kNusseltSlots - 2];           ///< 1 + dot(a, c)
-    float solid_angle[kNusseltSlots - 2];
+    float g2[kNusseltSlots - 1];           ///< 1 + dot(a, c)
+    float one_plus_ab[kNusseltSlots - 2];  ///< 1 + dot(a, b)
+    float begin[kNusseltSlots - 2];        ///< solid angle of the triangles before
     float total;
     float inverse_total;   ///< the density; 0 without light
+    bool wide;             ///< some directions differ by more than a right angle, or the light surrounds the point
     bool counterclockwise; ///< winding as seen along a ray from the origin through the polygon
 };
+
+vec3 polygon_solid_angle_direction(PolygonSolidAngle self, int j) { return self.inverse_distance[j] * self.vertex[j]; }
+
+/// \param polygon          in a unit of order one or in metres.
+/// \param inverse_distance of its vertices.
+/// \param inverse_scale    from the unit to metres.
+PolygonSolidAngle polygon_solid_angle_prepare_volumes(ConvexPolygon polygon, float inverse_distance[kNusseltSlots],
+                                                      float inverse_scale, FanVolumes volumes) {
+    PolygonSolidAngle self;
+    self.vertex = polygon.vertex;
+    self.inverse_distance = inverse_distance;
+    self.inverse_scale = inverse_scale;
+
+    // Sum up directions: the squared length of such a sum is 2 + twice the cosine.
+    vec3 sum[kNusseltSlots - 1];
+    vec3 c = polygon_solid_angle_direction(self, 0);
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots - 1; ++j) {
+        sum[j] = polygon_solid_angle_direction(self, j + 1) + c;
+        self.g2[j] = 0.5 * dot(sum[j], sum[j]);
+    }
+
+    // The terms of Eq. 13. Where two directions are almost opposite, cosines lose what is left of their sum.
+    float least = self.g2[kNusseltSlots - 2];
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots - 2; ++j) {
+        // One distance after the other: their product might leave the range.
+        self.g0[j] = abs(volumes.volume[j]) * inverse_distance[0] * inverse_distance[j + 1] * inverse_distance[j + 2];
+        self.g1[j] = dot(sum[j], sum[j + 1]);
+        self.one_plus_ab[j] = (self.g1[j] - self.g2[j]) + (2.0 - self.g2[j + 1]);
+        least = nusselt_min(least, nusselt_min(self.g2[j], nusselt_min(self.g1[j], self.one_plus_ab[j])));
+    }
+    self.wide = least < 0.25;
+
+    // The solid angles (Eq. 13).
+    float angle[kNusseltSlots - 2]; // halves
+    if (self.wide) {
+        NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots - 2; ++j) {
+            vec3 ab = polygon_solid_angle_direction(self, j + 1) + polygon_solid_angle_direction(self, j + 2);
+            float ab2 = dot(ab, ab);
+            float ac2 = dot(sum[j], sum[j]);
+            float bc2 = dot(sum[j + 1], sum[j + 1]);
+            // Any two of the three sums have the product 1 + a b + a c + b c; the longest one would cancel most.
+            vec3 s0 = ac2 >= ab2 && ac2 >= bc2 ? ab : sum[j];
+            vec3 s1 = bc2 > ab2 && bc2 > ac2 ? ab : sum[j + 1];
+            self.g1[j] = dot(s0, s1);
+            self.g2[j] = nusselt_max(self.g2[j], kNusseltOpposite);
+            self.one_plus_ab[j] = nusselt_max(0.5 * ab2, kNusseltOpposite);
+            angle[j] = 0.0;
+            if (self.g0[j] > 0.0) angle[j] = atan2_positive(self.g0[j], self.g1[j]);
+        }
+    } else {
+        NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots - 2; ++j) {
+            float octant = atan_up_to_one(nusselt_min(self.g0[j], self.g1[j]) / nusselt_max(self.g0[j], self.g1[j]));
+            angle[j] = self.g0[j] > self.g1[j] ? 0.5 * kNusseltPi - octant : octant;
+        }
+    }
+    self.total = 0.0;
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots - 2; ++j) {
+        self.begin[j] = self.total;
+        self.total = self.total + (angle[j] + angle[j]);
+    }
+    self.inverse_total = 0.0;
+    if (self.total > kNusseltLeast) self.inverse_total = 1.0 / self.total;
+    self.counterclockwise = volumes.total >= 0.0;
+    return self;
+}
 
 /// \param polygon         with coordinates of order one.
 /// \param inverse_scale   from there to the light.
 /// \param signed_distance of the plane of the polygon from the origin, see plane_distance().
 PolygonSolidAngle polygon_solid_angle_prepare_scaled(ConvexPolygon polygon, float inverse_scale,
                                                      float signed_distance) {
-    PolygonSolidAngle self;
-    self.inverse_scale = inverse_scale;
-    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
-        self.vertex[j] = polygon.vertex[j];
-        // A vertex at the origin implies that no triangle has a solid angle; any direction will do.
-        self.inverse_distance[j] = inverse_length(polygon.vertex[j]);
-        self.direction[j] = self.inverse_distance[j] * polygon.vertex[j];
-    }
-    self.counterclockwise = signed_distance >= 0.0;
-    vec3 offset = polygon.edge[0];
-    self.total = 0.0;
-    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots - 2; ++j) {
-        vec3 a = self.direction[j + 1];
-        vec3 c = self.direction[0];
-        vec3 b = self.direction[j + 2];
-        float doubled_area = abs(dot(polygon.normal, nusselt_cross(offset, polygon.edge[j + 1])));
-        self.g0[j] = abs(signed_distance) * doubled_area * self.inverse_distance[0] * self.inverse_distance[j + 1] *
-                     self.inverse_distance[j + 2];
-        // Two of three directions may be almost opposite: cosines would lose what is left of their sum.
-        vec3 ab = a + b;
-        vec3 ac = a + c;
-        vec3 bc = b + c;
-        float ab2 = dot(ab, ab);
-        float ac2 = dot(ac, ac);
-        float bc2 = dot(bc, bc);
-        // Any two of the three sums have the product 1 + a b + a c + b c; the longest one would cancel most.
-        vec3 s0 = ac2 >= ab2 && ac2 >= bc2 ? ab : ac;
-        vec3 s1 = bc2 > ab2 && bc2 > ac2 ? ab : bc;
-        self.g1[j] = dot(s0, s1);
-        self.g2[j] = nusselt_max(0.5 * ac2, kNusseltOpposite);
-        self.solid_angle[j] = 0.0;
-        if (self.g0[j] > 0.0) self.solid_angle[j] = 2.0 * atan2_positive(self.g0[j], self.g1[j]);
-        self.total = self.total + self.solid_angle[j];
-        offset = offset + polygon.edge[j + 1];
-    }
-    float density = 1.0 / (self.total > 0.0 ? self.total : 1.0);
-    self.inverse_total = self.total > 0.0 && is_finite(density) ? density : 0.0;
-    return self;
+    // A vertex at the origin implies that no triangle has a solid angle; any direction will do.
+    float inverse_distance[kNusseltSlots];
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) inverse_distance[j] = inverse_length(polygon.vertex[j]);
+    return polygon_solid_angle_prepare_volumes(polygon, inverse_distance, inverse_scale,
+                                               fan_volumes(polygon, signed_distance));
 }
 
 /// \param light relative to the shading point, either winding [m]. Nothing is clipped.
 PolygonSolidAngle polygon_solid_angle_prepare(ConvexPolygon light) {
-    ConvexPolygon polygon = with_unit_extent(light);
-    return polygon_solid_angle_prepare_scaled(polygon, reciprocal_power_of_two(unit_extent_scale(light)),
-                                              plane_distance(polygon));
+    FanVolumes volumes = fan_volumes(light);
+    float inverse_distance[kNusseltSlots];
+    float nearest = dot(light.vertex[0], light.vertex[0]); // squared distances
+    float farthest = nearest;
+    inverse_distance[0] = 1.0 / sqrt(nearest);
+    NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) {
+        float squared = dot(light.vertex[j], light.vertex[j]);
+        inverse_distance[j] = 1.0 / sqrt(squared);
+        nearest = nusselt_min(nearest, squared);
+        farthest = nusselt_max(farthest, squared);
+    }
+    float inverse_scale = 1.0;
+    bool in_range = nearest > kNusseltNear * kNusseltNear && farthest < 1.0 / (kNusseltNear * kNusseltNear);
+    if (!(volumes.conclusive && in_range)) {
+        if (!in_range) {
+            // Products might leave the range.
+            inverse_scale = reciprocal_power_of_two(unit_extent_scale(light));
+            light = with_unit_extent(light);
+            volumes = fan_volumes(light);
+            NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) inverse_distance[j] = inverse_length(light.vertex[j]);
+        }
+        if (!volumes.conclusive) volumes = fan_volumes_refined(light);
+    }
+    return polygon_solid_angle_prepare_volumes(light, inverse_distance, inverse_scale, volumes);
 }
 
 /// Solid angle of the light [sr].
@@ -89,89 +149,122 @@ float polygon_solid_angle_measure(PolygonSolidAngle self) { return self.total; }
 /// Constant on the light; the caller knows that wi hits it.
 float polygon_solid_angle_pdf(PolygonSolidAngle self, vec3 wi) { return self.inverse_total; }
 
-/// A triangle of the fan; c is vertex 0 of the polygon, a and b are consecutive vertices.
-struct SolidAngleTriangle {
-    vec3 a, b;                   ///< unit directions
-    vec3 pa, pb;                 ///< vertices
-    float inverse_a, inverse_b;  ///< reciprocal distances
-    float g0, g1, g2;            ///< terms of Eq. 13
-    float solid_angle;
-};
-
-SolidAngleTriangle polygon_solid_angle_triangle(PolygonSolidAngle self, int j) {
-    return SolidAngleTriangle(self.direction[j + 1], self.direction[j + 2], self.vertex[j + 1], self.vertex[j + 2],
-                              self.inverse_distance[j + 1], self.inverse_distance[j + 2], self.g0[j], self.g1[j],
-                              self.g2[j], self.solid_angle[j]);
+/// The largest distance of a vertex [m].
+float polygon_solid_angle_reach(PolygonSolidAngle self) {
+    float least = self.inverse_distance[0];
+    NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) least = nusselt_min(least, self.inverse_distance[j]);
+    return self.inverse_scale / nusselt_max(least, kNusseltLeast);
 }
 
 /// \param u in [0, 1)^2; x selects the great circle through vertex 0, y the point on it, beginning at vertex 0.
 LightSample polygon_solid_angle_sample(PolygonSolidAngle self, vec2 u) {
+    // Choose a triangle of the fan in proportion to its solid angle (Sec. 5).
     float target = u.x * self.total;
-    SolidAngleTriangle t = polygon_solid_angle_triangle(self, 0);
+    vec3 pa = self.vertex[1];
+    vec3 pb = self.vertex[2];
+    float inverse_a = self.inverse_distance[1];
+    float inverse_b = self.inverse_distance[2];
+    float g0 = self.g0[0];
+    float g1 = self.g1[0];
+    float g2_a = self.g2[0];
+    float g2_b = self.g2[1];
+    float one_plus_ab = self.one_plus_ab[0];
     float begin = 0.0;
-    float before = self.solid_angle[0];
     NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots - 2; ++j) {
-        if (self.solid_angle[j] > 0.0 && target >= before) {
-            t = polygon_solid_angle_triangle(self, j);
-            begin = before;
+        if (target >= self.begin[j]) {
+            pa = self.vertex[j + 1];
+            pb = self.vertex[j + 2];
+            inverse_a = self.inverse_distance[j + 1];
+            inverse_b = self.inverse_distance[j + 2];
+            g0 = self.g0[j];
+            g1 = self.g1[j];
+            g2_a = self.g2[j];
+            g2_b = self.g2[j + 1];
+            one_plus_ab = self.one_plus_ab[j];
+            begin = self.begin[j];
         }
-        before = before + self.solid_angle[j];
     }
-    float part = nusselt_min(nusselt_max(target - begin, 0.0), t.solid_angle);
 
-    // The corner v of the sub-triangle (a, c, v) with that solid angle, v on the arc from a to b.
-    SinCos half_angle = sincos_half_turn(0.5 * part);
-    vec3 ab = t.a + t.b;
-    float one_plus_ab = nusselt_max(0.5 * dot(ab, ab), kNusseltOpposite);
-    float excess = nusselt_max(nusselt_fma(t.g0, half_angle.cosine, -t.g1 * half_angle.sine), 0.0);
-    float y = t.g2 * half_angle.sine;
-    float scale = reciprocal_power_of_two(nusselt_max(excess, y));
-    excess = scale * excess;
-    y = scale * y;
-    float squared = nusselt_fma(excess, excess, 2.0 * one_plus_ab * y * (excess + y));
-    float inverse_squared = 1.0 / (squared > 0.0 ? squared : 1.0);
-    float weight_a = excess * (excess + 2.0 * y) * inverse_squared;
-    float weight_b = 2.0 * y * nusselt_fma(y, one_plus_ab, excess) * inverse_squared;
-    float difference = nusselt_fma(excess, excess, -2.0 * one_plus_ab * y * y) * inverse_squared;
-    vec3 v = difference * t.a + weight_b * ab;
+    // The corner v, on the arc from a to b, for which the triangle (a, c, v) has the remaining solid angle (Eq. 14). It
+    // is the mirror image of a at the direction r = excess a + y (a + b), of any length.
+    float half_angle = 0.5 * (target - begin);
+    SinCos angle;
+    if (self.wide)
+        angle = sincos_half_turn(half_angle);
+    else
+        angle = sincos_quarter_turn(half_angle);
+    float excess = nusselt_max(nusselt_fma(g0, angle.cosine, -g1 * angle.sine), 0.0);
+    float y = g2_a * angle.sine;
+    if (!(excess + y > 1.0 / 16777216.0)) {
+        float scale = reciprocal_power_of_two(nusselt_max(excess, y));
+        excess = scale * excess;
+        y = scale * y;
+    }
+    float twice_y = y + y;
+    float ky = one_plus_ab * twice_y;
+    float squared = nusselt_max(nusselt_fma(excess, excess, ky * (excess + y)), kNusseltLeast); // of |r|
+    float inverse_squared = 1.0 / squared;
 
-    // The point on the arc from c to v, whose cosine with c is uniform.
-    vec3 c = self.direction[0];
-    vec3 chord = v - c;
-    vec3 cv = v + c;
-    float depth = 0.5 * dot(chord, chord); // 1 - cosine of the arc
-    float room = nusselt_max(0.5 * dot(cv, cv), kNusseltOpposite);
-    float tau = sqrt(u.y * nusselt_fma(u.y, room, 2.0 * (1.0 - u.y)) / room);
-    float weight_c = (1.0 - tau) + depth * (tau - u.y);
-    // Unit up to rounding, except where the arc is almost half a turn.
-    vec3 wi = nusselt_fma(-tau, room, nusselt_fma(-u.y, depth, 1.0)) * c + tau * cv;
-    wi = inverse_length(wi) * wi;
+    // What follows in terms of |r|^2: v as a weighted sum of a and b, c v, and 1 - c v and 1 + c v.
+    float weight_a = excess * (excess + twice_y);
+    float weight_b = nusselt_fma(twice_y, excess, ky * y);
+    float cosine = nusselt_fma(weight_a, g2_a - 1.0, weight_b * (g2_b - 1.0));
+    float depth = squared - cosine;
+    float room = squared + cosine;
+    vec3 c = self.inverse_distance[0] * self.vertex[0];
+    vec3 cv = vec3(0.0);
+    if (self.wide) {
+        // Weights may be large and cancel. Find v from the sum of a and b, which is then small but accurate.
+        vec3 a = inverse_a * pa;
+        vec3 ab = a + inverse_b * pb;
+        vec3 v = (inverse_squared * nusselt_fma(excess, excess, -ky * y)) * a + (inverse_squared * weight_b) * ab;
+        vec3 chord = v - c;
+        cv = v + c;
+        depth = squared * (0.5 * dot(chord, chord));
+        room = nusselt_max(squared * nusselt_max(0.5 * dot(cv, cv), kNusseltOpposite), kNusseltLeast);
+    }
 
-    // The same weights divided by the distances are barycentric coordinates up to their sum.
-    float at_a = nusselt_max(tau * weight_a, 0.0) * t.inverse_a;
-    float at_b = nusselt_max(tau * weight_b, 0.0) * t.inverse_b;
-    float at_c = nusselt_max(weight_c, 0.0) * self.inverse_distance[0];
-    float sum = at_a + at_b + at_c;
-    float normalisation = 1.0 / (sum > 0.0 ? sum : 1.0);
-    vec3 p = (at_a * normalisation) * t.pa + (at_b * normalisation) * t.pb + (at_c * normalisation) * self.vertex[0];
-    // From close by, rounding relative to the size of the light would turn p away from wi.
-    float along = dot(p, wi);
-    return LightSample(wi, self.inverse_total, self.inverse_scale * (along < 0.125 ? along * wi : p));
+    // The point on the arc from c to v, whose cosine with c is uniform (Arvo 1995).
+    float tau = sqrt(u.y * nusselt_fma(u.y, room, (2.0 - (u.y + u.y)) * squared) / room);
+    depth = inverse_squared * depth;
+
+    // Add the vertices with the weights of their directions, divided by their distances. The sum has the sampled direction
+    // and length one up to rounding; divided by the sum of the weights, it is a point of the light.
+    float at_v = tau * inverse_squared;
+    float at_a = at_v * weight_a * inverse_a;
+    float at_b = at_v * weight_b * inverse_b;
+    float at_c = nusselt_max(nusselt_fma(depth, tau - u.y, 1.0 - tau), 0.0) * self.inverse_distance[0];
+    vec3 sum = at_a * pa + at_b * pb + at_c * self.vertex[0];
+    float to_light = self.inverse_scale / nusselt_max(at_a + at_b + at_c, kNusseltLeast);
+    vec3 p = to_light * sum;
+    if (self.wide) {
+        vec3 wi = nusselt_fma(-tau, inverse_squared * room, nusselt_fma(-u.y, depth, 1.0)) * c + tau * cv;
+        wi = inverse_length(wi) * wi;
+        // From close by, rounding relative to the size of the light would turn the point away from the direction.
+        float along = dot(p, wi);
+        return LightSample(wi, self.inverse_total, along < 0.125 * polygon_solid_angle_reach(self) ? along * wi : p);
+    }
+    // One step of Newton's iteration normalises a vector that is almost normalised.
+    float length2 = dot(sum, sum);
+    float factor = nusselt_fma(-0.5, length2, 1.5);
+    if (!(abs(length2 - 1.0) < 1.0 / 2048.0)) factor = inverse_length(sum);
+    return LightSample(factor * sum, self.inverse_total, p);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light; (0, 0) at vertex 0.
 vec2 polygon_solid_angle_invert(PolygonSolidAngle self, vec3 wi) {
-    vec3 c = self.direction[0];
+    vec3 c = polygon_solid_angle_direction(self, 0);
     vec3 n = nusselt_cross(c, wi); // of the great circle through c and wi
     vec3 to_wi = wi - c;
     bool found = self.total <= 0.0;
     vec2 u = vec2(0.0);
-    float before = 0.0;
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots - 2; ++j) {
         // The last triangle also has what rounding moved beyond it.
-        if (!found && self.solid_angle[j] > 0.0) {
-            vec3 a = self.direction[j + 1];
-            vec3 b = self.direction[j + 2];
+        float end = j + 3 < kNusseltSlots ? self.begin[j + 3 < kNusseltSlots ? j + 1 : j] : self.total;
+        float solid_angle = end - self.begin[j];
+        if (!found && solid_angle > 0.0) {
+            vec3 a = polygon_solid_angle_direction(self, j + 1);
+            vec3 b = polygon_solid_angle_direction(self, j + 2);
             float to_b = self.counterclockwise ? dot(n, b) : -dot(n, b);
             float from_a = self.counterclockwise ? -dot(n, a) : dot(n, a);
             // The arc meets the edge at v = (weight_a a + weight_b b) / |...|.
@@ -185,11 +278,10 @@ vec2 polygon_solid_angle_invert(PolygonSolidAngle self, vec3 wi) {
                                                        1.0 + dot(a, c) + dot(a, v) + dot(c, v));
             vec3 to_v = v - c;
             float whole = dot(to_v, to_v);
-            u.x = before + nusselt_min(partial_angle, self.solid_angle[j]);
+            u.x = self.begin[j] + nusselt_min(partial_angle, solid_angle);
             u.y = dot(to_wi, to_wi) / (whole > 0.0 ? whole : 1.0);
             found = to_b > 0.0;
         }
-        before = before + self.solid_angle[j];
     }
     return vec2(below_one(u.x / (self.total > 0.0 ? self.total : 1.0)), below_one(u.y));
 }

@@ -16,6 +16,6 @@ void main() {
     outputs[at + 2u] = half_turn.cosine;
     outputs[at + 3u] = quarter_turn.sine;
     outputs[at + 4u] = quarter_turn.cosine;
-    outputs[at + 5u] = x_minus_sin(angle);
+    outputs[at + 5u] = angle_minus_sine(inputs[4u * i + 3u]);
     outputs[at + 6u] = one_minus_atan_ratio(inputs[4u * i + 3u]);
 }

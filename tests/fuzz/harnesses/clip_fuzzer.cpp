@@ -40,13 +40,14 @@ void check_polygon(Input& input) {
 template <class T>
 void check_line(Input& input) {
     const LineSegment<T> light = line<T>(input);
-    const LineExtent<T> extent = clipped_extent(scaled(light, scale_of(light)));
-    fail_if(!hostile::all_finite(extent.near) || !is_finite(extent.height0) || !is_finite(extent.height1),
+    const LineExtent<T> extent = clipped_extent(to_safe_extent(light));
+    fail_if(!hostile::all_finite(extent.line.near) || !is_finite(extent.near_height()) ||
+                !is_finite(extent.far_height()),
             "clipped_extent", "end is not finite", light);
-    if (!extent.visible) return;
-    fail_if(!(extent.sine_extent >= 0 && extent.sine_extent <= T(2.001)), "clipped_extent",
-            "not a difference of sines", light);
-    fail_if(!(extent.sin_sweep > 0 && extent.sin_sweep <= T(1.001)), "clipped_extent", "not a sine", light);
+    if (!extent.visible()) return;
+    fail_if(!(extent.sine_extent().difference >= 0 && extent.sine_extent().difference <= T(2.001)),
+            "clipped_extent", "not a difference of sines", light);
+    fail_if(!(extent.area() <= T(1.001) * extent.product), "clipped_extent", "not a sine", light);
 }
 
 } // namespace

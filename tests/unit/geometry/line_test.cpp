@@ -50,8 +50,9 @@ TYPED_TEST(LineTest, ClosedFormsAgreeWithQuadrature) {
         const Point from = begin.z < 0 ? crossing : begin;
         const Point to = end.z < 0 ? crossing : end;
         EXPECT_NEAR(projected_solid_angle(line) / integrate(from, to, projected), 1, tolerance) << light.name;
-        const auto extent = clipped_extent(line);
-        EXPECT_NEAR(2 * extent.sine_extent / extent.distance / integrate(from, to, solid), 1, tolerance)
+        const auto extent = clipped_extent(to_safe_extent(line));
+        EXPECT_NEAR(2 * extent.sine_extent().density * extent.distance / integrate(from, to, solid), 1,
+                    tolerance)
             << light.name;
     }
 }
@@ -72,17 +73,19 @@ TYPED_TEST(LineTest, ExtentHasUnitVectors) {
     HostileLights<T> hostile(1);
     for (int i = 0; i < 20'000; ++i) {
         const auto line = hostile.line();
-        const auto e = clipped_extent(scaled(line, scale_of(line)));
-        if (!e.visible) continue;
-        for (const auto& unit : {e.s, e.t}) EXPECT_NEAR(length(unit), 1, 16 * this->kEpsilon);
-        EXPECT_NEAR(dot(e.s, e.t), 0, 4 * this->kEpsilon);
-        EXPECT_NEAR(e.s0 * e.s0 + e.c0 * e.c0, 1, 16 * this->kEpsilon);
-        EXPECT_NEAR(e.s1 * e.s1 + e.c1 * e.c1, 1, 16 * this->kEpsilon);
-        EXPECT_GT(e.c0, 0);
-        EXPECT_GT(e.c1, 0);
-        EXPECT_GT(e.sin_sweep, 0);
-        EXPECT_GT(e.sine_extent, 0);
-        EXPECT_LE(e.sine_extent, 2 + 4 * this->kEpsilon);
+        const auto e = clipped_extent(to_safe_extent(line));
+        if (!e.visible()) continue;
+        const auto t = e.inverse_distance() * e.line.closest;
+        for (const auto& unit : {e.line.inward, t}) EXPECT_NEAR(length(unit), 1, 16 * this->kEpsilon);
+        EXPECT_NEAR(dot(e.line.inward, t), 0, 4 * this->kEpsilon);
+        EXPECT_NEAR(e.near_sine() * e.near_sine() + e.near_cosine() * e.near_cosine(), 1,
+                    16 * this->kEpsilon);
+        EXPECT_NEAR(e.far_sine() * e.far_sine() + e.far_cosine() * e.far_cosine(), 1, 16 * this->kEpsilon);
+        EXPECT_GT(e.near_cosine(), 0);
+        EXPECT_GT(e.far_cosine(), 0);
+        EXPECT_GT(e.area(), 0);
+        EXPECT_GT(e.sine_extent().difference, 0);
+        EXPECT_LE(e.sine_extent().difference, 2 + 4 * this->kEpsilon);
     }
 }
 
@@ -90,11 +93,12 @@ TYPED_TEST(LineTest, PointsOfTheExtentLieOnTheLine) {
     using T = TypeParam;
     for (const LineCase& light : line_cases()) {
         const auto line = make_light<T>(light);
-        const auto e = make_line_extent(line);
+        const auto e = whole_extent(to_safe_extent(line));
+        const nusselt::LineMap<T> map(e);
         for (int i = 0; i <= 10; ++i) {
-            const auto point = e.point_at(e.sine_extent * static_cast<T>(i) / 10);
-            const auto p = e.position(point);
-            const auto direction = e.direction(point, p);
+            const auto point = map.point_at(static_cast<T>(i) / 10);
+            const auto p = map.position(point);
+            const auto direction = map.direction(point, p);
             EXPECT_NEAR(length(direction), 1, 8 * this->kEpsilon) << light.name;
             EXPECT_LE(length(cross(p, direction)), 64 * this->kEpsilon * length(p)) << light.name;
             const T along = dot(p - line.p0, line.s);
@@ -102,8 +106,7 @@ TYPED_TEST(LineTest, PointsOfTheExtentLieOnTheLine) {
             const T extent = std::max(length(p), length(line.p0));
             EXPECT_LE(length(p - line.p0 - along * line.s), 4 * this->kEpsilon * extent) << light.name;
             // The direction leads back to the point.
-            EXPECT_NEAR(e.point_in(direction).from_start, point.from_start, 64 * this->kEpsilon)
-                << light.name;
+            EXPECT_NEAR(map.share_in(direction), point.share, 64 * this->kEpsilon) << light.name;
         }
     }
 }

@@ -92,8 +92,8 @@ std::string problem_of_parts(HostileCase<T>& c) {
     // Rounding moves the ends of lines across the horizon and turns lines that are close to the point.
     const auto e = line.extent(line.clipped(whole));
     const T rounding =
-        64 * std::numeric_limits<T>::epsilon() / (e.visible ? std::min(e.distance, T(1)) : T(1));
-    const T above_horizon = e.visible ? 2 * nusselt::kPi<T> * line.factor * e.sine_extent : 0;
+        64 * std::numeric_limits<T>::epsilon() / (e.visible() ? std::min(e.distance, T(1)) : T(1));
+    const T above_horizon = e.visible() ? 2 * nusselt::kPi<T> * line.factor * e.sine_extent().difference : 0;
     const T diffuse = diffuse_part(line, whole);
     const T diffuse_of_part = diffuse_part(line, part);
     const T phong = phong_part(line, whole, mirror, exponent);

@@ -165,6 +165,27 @@ TEST(RegressionTest, ClippedSolidAngleFromCloseBy) {
     }
 }
 
+/// The ends lie on both sides of the closest point, where the extent of the light once came from their sines alone.
+TEST(RegressionTest, LineBelowTheHorizonIsDarkAroundTheClosestPoint) {
+    const Line below = nusselt::make_line<float>({-1, 0.3f, -0.5f}, {1, 0.3f, -0.5f});
+    const nusselt::LineClippedSolidAngle<float> solid_angle(below);
+    EXPECT_EQ(solid_angle.measure(), 0);
+    EXPECT_EQ(solid_angle.sample(0.3f).pdf, 0);
+    expect_contract<LineClippedSolidAngleKind>(below, 0.3f);
+    const nusselt::LineProjectedSolidAngle<float> projected(below);
+    EXPECT_EQ(projected.measure(), 0);
+    EXPECT_EQ(projected.sample(0.3f).pdf, 0);
+    expect_contract<LineProjectedSolidAngleKind>(below, 0.3f);
+}
+
+/// Vertices whose squared distances leave the range of float once had no solid angle.
+TEST(RegressionTest, PolygonThatReachesVeryFarKeepsItsSolidAngle) {
+    const nusselt::Vec3<float> vertices[] = {{0, 0, 1}, {2e19f, 0, 1}, {2e19f, 0.5f, 1}};
+    const auto polygon = nusselt::make_polygon<3>(vertices, 3);
+    const nusselt::PolygonSolidAngle<float, 3> technique(polygon);
+    EXPECT_NEAR(technique.measure() / 2.5e-20f, 1, 1e-5f);
+}
+
 /// A line that passed through the point except for rounding had a measure of up to 1e11.
 TEST(RegressionTest, LineThroughThePointIsDark) {
     const nusselt::Vec3<float> a{0.3f, -0.7f, 0.4f};

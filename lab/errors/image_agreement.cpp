@@ -1,0 +1,57 @@
+#include "lab/errors/image_agreement.h"
+
+#include "render_cpu/renderer.h"
+#include "render_vulkan/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nusselt::lab {
+
+double differing_share(const image::Image& a, const image::Image& b) {
+    double mean = 0;
+    for (const float value : b.pixels) mean += value / static_cast<double>(b.pixels.size());
+    const auto differs = [&](std::size_t i) {
+        const double difference = std::fabs(static_cast<double>(a.pixels[i]) - b.pixels[i]);
+        return !(difference <= kRelativeTolerance * std::max<double>(std::fabs(b.pixels[i]), 0.01 * mean));
+    };
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < b.pixels.size(); i += 3)
+        count += differs(i) || differs(i + 1) || differs(i + 2);
+    return static_cast<double>(count) / (static_cast<double>(b.pixels.size()) / 3);
+}
+
+std::vector<render::RenderSettings> compared_settings() {
+    std::vector<render::RenderSettings> all;
+    for (const render::Technique technique : render::kTechniques) {
+        render::RenderSettings& settings = all.emplace_back();
+        settings.technique = technique;
+        settings.pixel_position = render::PixelPosition::center;
+        settings.samples = 2;
+    }
+    render::RenderSettings& both = all.emplace_back(all.front());
+    both.technique = render::Technique::projected_solid_angle;
+    both.strategies = render::Strategies::diffuse_ltc;
+    return all;
+}
+
+std::vector<ImageAgreement> compare_with_cpu(const gpu::Device& device, const scene::Scene& scene,
+                                             std::span<const render_vulkan::ShadowRays> ways,
+                                             std::span<const render::RenderSettings> settings) {
+    const render_cpu::Renderer cpu(scene, render_cpu::default_thread_count());
+    std::vector<image::Image> references;
+    for (const render::RenderSettings& one : settings)
+        references.push_back(cpu.render(one, base::choose_isa()).image);
+    std::vector<ImageAgreement> rows;
+    for (const render_vulkan::ShadowRays way : ways) {
+        render_vulkan::VulkanRenderer gpu(device, scene, way);
+        for (std::size_t i = 0; i < settings.size(); ++i) {
+            const render::RenderResult result = gpu.render(settings[i]);
+            rows.push_back({way, settings[i], differing_share(result.image, references[i]),
+                            result.statistics.rejected_samples});
+        }
+    }
+    return rows;
+}
+
+} // namespace nusselt::lab

@@ -1,0 +1,16 @@
+#pragma once
+/// Random numbers of renderers, which have the same bits on devices and in C++.
+
+#include "gpu/device.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace nusselt::parity {
+
+/// How many numbers of a shader differ from those of C++, for each sampler and, in the last entry, for camera rays.
+std::array<int, 5> different_random_numbers(const gpu::Device& device, std::span<const std::uint32_t> shader,
+                                            std::size_t calls);
+
+} // namespace nusselt::parity

@@ -1,0 +1,98 @@
+# Parity of GLSL and C++ on a device: `nusselt-lab parity` and the tests run these comparisons. A library of its own, because
+# it takes long to compile and nothing else of the laboratory needs it.
+add_library(nusselt_lab_parity STATIC
+    parity/groups/estimate_groups.cpp
+    parity/groups/function_groups.cpp
+    parity/groups/ltc_groups.cpp
+    parity/groups/random_numbers.cpp
+    parity/parity.cpp
+    parity/parity_check.cpp
+    parity/related_parity.cpp
+    parity/shader_runner.cpp
+    parity/techniques.cpp
+    parity/twin_shader.cpp
+    parity/vertex_bounds.cpp)
+# Most of the time is spent on reading headers and instantiating templates.
+target_compile_options(nusselt_lab_parity PRIVATE -O1)
+target_link_libraries(nusselt_lab_parity
+    PUBLIC nusselt_build_flags nusselt::nusselt nusselt_gpu nusselt_proof nusselt_render nusselt_tables fmt::fmt TBB::tbb)
+# Tests take the shaders of the comparisons, too.
+target_include_directories(nusselt_lab_parity PUBLIC ${CMAKE_CURRENT_BINARY_DIR})
+
+# Adds a row to the table of twins. `name` is the name of a technique, or of the published method that it replaces.
+# nusselt_add_technique_shader() describes the other arguments.
+set(includes)
+set(rows)
+function(add_twin name technique bound variant entry)
+    cmake_parse_arguments(arg "" "" "DEFINES" ${ARGN})
+    nusselt_vertex_defines(vertices ${technique} ${bound})
+    nusselt_snake_case(shader ${name})
+    set(shader twin_${shader}_${bound}_${variant})
+    nusselt_add_technique_shader(nusselt_lab_parity ${shader} parity/${entry} ${arg_UNPARSED_ARGUMENTS}
+        DEFINES ${arg_DEFINES} ${vertices})
+    nusselt_shader_array(array ${shader})
+    list(APPEND includes "#include \"shaders/${shader}.h\"\n")
+    list(APPEND rows "    {\"${name}\", ${bound}, Variant::${variant}, shaders::${array}},\n")
+    set(includes ${includes} PARENT_SCOPE)
+    set(rows ${rows} PARENT_SCOPE)
+endfunction()
+
+# The bounds on the number of vertices to judge. vertex_bounds.cpp runs polygons with each of them.
+set(bounds_of_polygon 3 4 5 6 7 8)
+set(bounds_of_polygon_on_lobe 4 8)
+set(bounds_of_rectangle 4)
+foreach(light line line_on_lobe cylinder cylinder_on_lobe)
+    set(bounds_of_${light} 2)
+endforeach()
+foreach(name IN LISTS nusselt_techniques)
+    set(row nusselt_technique_${name})
+    if(parity IN_LIST ${row}_exempt)
+        continue()
+    endif()
+    nusselt_geometry_of(light ${name})
+    nusselt_shader_arguments(arguments ${name})
+    set(bounds ${bounds_of_${${row}_light}})
+    if(${row}_clips_twice)
+        list(TRANSFORM bounds REPLACE 8 7)
+    endif()
+    foreach(bound IN LISTS bounds)
+        add_twin(${name} ${name} ${bound} split ${light} ${arguments} DEFINES NUSSELT_FUSED_FMA=0)
+        add_twin(${name} ${name} ${bound} fused ${light} ${arguments} DEFINES NUSSELT_FUSED_FMA=1)
+    endforeach()
+    # Published methods have no invert().
+    if(${row}_published)
+        nusselt_snake_case(file ${${row}_published})
+        set(arguments related_${light} nusselt/related/${file} ${${row}_published})
+        set(bound 2)
+        if(light STREQUAL polygon)
+            set(bound 4)
+        endif()
+        add_twin(${${row}_published} ${name} ${bound} split ${arguments} DEFINES NUSSELT_FUSED_FMA=0)
+        add_twin(${${row}_published} ${name} ${bound} fused ${arguments} DEFINES NUSSELT_FUSED_FMA=1)
+    endif()
+endforeach()
+
+# The variant whose loops are not marked with [[unroll]].
+nusselt_shader_arguments(arguments PolygonProjectedSolidAngle)
+foreach(bound 4 8)
+    add_twin(PolygonProjectedSolidAngle PolygonProjectedSolidAngle ${bound} rolled polygon ${arguments}
+        DEFINES NUSSELT_FUSED_FMA=0 NUSSELT_UNROLL=)
+endforeach()
+
+list(JOIN includes "" includes)
+list(JOIN rows "" rows)
+configure_file(parity/twins.h.in ${CMAKE_CURRENT_BINARY_DIR}/shaders/twins.h @ONLY)
+
+foreach(functions arithmetic brdf_direct_light bsdf clip engine_table frame light_random line line_direct_light
+    line_shading lobe ltc_table mis polygon polygon_brdf polygon_direct_light polygon_shading shading_frame trig
+    visible_normals)
+    foreach(variant "split 0" "fused 1")
+        separate_arguments(variant)
+        list(GET variant 0 suffix)
+        list(GET variant 1 fused)
+        nusselt_add_shader(nusselt_lab_parity ${functions}_${suffix}
+            ${PROJECT_SOURCE_DIR}/shaders/parity/functions/${functions}.comp DEFINES NUSSELT_FUSED_FMA=${fused})
+    endforeach()
+endforeach()
+# Functions of integers.
+nusselt_add_shader(nusselt_lab_parity random ${PROJECT_SOURCE_DIR}/shaders/parity/functions/random.comp)

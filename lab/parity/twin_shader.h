@@ -1,0 +1,29 @@
+#pragma once
+/// The shaders of the techniques in GLSL.
+
+#include "gpu/device.h"
+#include "lab/parity/variant_names.h"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace nusselt::parity {
+
+/// A row of the table of shaders that the build generates.
+struct TwinShader {
+    const char* technique; ///< class name
+    int vertex_bound;      ///< 2 for lines and cylinders
+    Variant variant;
+    std::span<const std::uint32_t> spirv;
+};
+
+/// \param technique class name, of a technique or of the published method that it replaces
+/// \throws std::logic_error if there is no such shader
+std::span<const std::uint32_t> twin_shader(std::string_view technique, int vertex_bound, Variant variant);
+
+/// The variants that give correct results on a device.
+std::vector<Variant> variants_for(const gpu::Device& device);
+
+} // namespace nusselt::parity

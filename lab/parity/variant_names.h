@@ -1,0 +1,16 @@
+#pragma once
+/// The variants of shaders, by how they take exact products.
+
+#include <cstddef>
+
+namespace nusselt::parity {
+
+enum class Variant {
+    split,  ///< for any device
+    fused,  ///< for devices whose fma rounds once
+    rolled, ///< for any device, with loops that are not marked with [[unroll]]
+};
+inline constexpr const char* kVariantNames[] = {"any device", "fused fma", "any device, rolled loops"};
+inline const char* name_of(Variant variant) { return kVariantNames[static_cast<std::size_t>(variant)]; }
+
+} // namespace nusselt::parity
