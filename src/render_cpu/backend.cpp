@@ -1,9 +1,7 @@
 #include "render_cpu/backend.h"
 
-#include "base/threads.h"
 #include "render_cpu/renderer.h"
 
-#include <algorithm>
 #include <string>
 
 namespace nusselt::render_cpu {
@@ -26,10 +24,7 @@ private:
 
 } // namespace
 
-// Scenes are loaded with the default number.
-CpuBackend::CpuBackend(base::Isa isa, int threads) : isa_(isa), threads_(threads) {
-    base::check_threads(std::max(threads, default_thread_count()));
-}
+CpuBackend::CpuBackend(base::Isa isa, int threads) : isa_(isa), threads_(checked_thread_count(threads)) {}
 
 std::optional<std::string> CpuBackend::why_unsupported(const render::RenderSettings&) const {
     return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include "base/flush_denormals.h"
 #include "base/stopwatch.h"
+#include "base/threads.h"
 #include "render/film.h"
 #include "render/line_choice.h"
 #include "render/memory.h"
@@ -164,6 +165,14 @@ std::size_t layer_sum_bytes(const scene::Scene& scene, const RenderSettings& set
 
 int default_thread_count() { return std::max(1, tbb::this_task_arena::max_concurrency()); }
 
+int largest_thread_count(int count) { return std::max(count, default_thread_count()); }
+
+int checked_thread_count(std::optional<int> count) {
+    const int threads = count.value_or(default_thread_count());
+    base::check_threads(largest_thread_count(threads));
+    return threads;
+}
+
 Renderer::Renderer(const scene::Scene& scene, int thread_count, const Integrator& integrator,
                    std::span<const LightKernel> kernels)
     : scene_(scene),
@@ -171,7 +180,7 @@ Renderer::Renderer(const scene::Scene& scene, int thread_count, const Integrator
       integrator_(&integrator),
       // Otherwise oneTBB refuses more threads than the machine runs at once, with a message of its own.
       thread_limit_(tbb::global_control::max_allowed_parallelism,
-                    static_cast<std::size_t>(std::max(thread_count, default_thread_count()))),
+                    static_cast<std::size_t>(largest_thread_count(thread_count))),
       arena_(thread_count),
       arrays_(scene, kernels),
       embree_([&] {

@@ -86,4 +86,12 @@ private:
 /// The number of hardware threads.
 int default_thread_count();
 
+/// The number of threads that run at once when a renderer has `count`: scenes are loaded with the default number.
+int largest_thread_count(int count);
+
+/// The number of threads that a command shall use: `count` or, without one, the number of hardware threads. To be called
+/// before a scene is loaded, because oneTBB ends the program where the system does not start a thread.
+/// \throws std::runtime_error see base::check_threads()
+int checked_thread_count(std::optional<int> count);
+
 } // namespace nusselt::render_cpu

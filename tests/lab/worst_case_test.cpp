@@ -88,10 +88,14 @@ TEST(WorstCase, CoordinatesReachBothEndsOfTheRange) {
 // Ten times the largest deviation for four seeds; it comes from the next term of the expansion of the error.
 constexpr double kOrderTolerance = 0.01;
 
-void expect_cubic(const std::vector<ErrorSequence>& errors) {
+/// Most lines start so close to the result that one step reaches rounding. Those with an error left after two steps took
+/// a large first step, for which the next term of the expansion is half of the first one.
+constexpr double kOrderToleranceOfLines = 0.1;
+
+void expect_cubic(const std::vector<ErrorSequence>& errors, double tolerance) {
     const std::vector<ConvergenceRow> rows = convergence_of(errors);
     EXPECT_GE(rows[2].order_cases, 30u); // also where long double is double
-    EXPECT_NEAR(rows[2].order, 3, kOrderTolerance);
+    EXPECT_NEAR(rows[2].order, 3, tolerance);
     // Errors of random lights start below 0.1 and are below 1e-5 after one step and at rounding after two.
     EXPECT_LT(rows[0].median_error, 0.1);
     EXPECT_LT(rows[1].median_error, 1e-5);
@@ -99,9 +103,9 @@ void expect_cubic(const std::vector<ErrorSequence>& errors) {
     EXPECT_LT(rows[4].median_error, 100 * std::numeric_limits<Real>::epsilon());
 }
 
-TEST(Convergence, LinesHaveOrderThree) { expect_cubic(line_errors(4000, 1)); }
+TEST(Convergence, LinesHaveOrderThree) { expect_cubic(line_errors(60'000, 1), kOrderToleranceOfLines); }
 
-TEST(Convergence, SectorsHaveOrderThree) { expect_cubic(sector_errors(500, 1)); }
+TEST(Convergence, SectorsHaveOrderThree) { expect_cubic(sector_errors(500, 1), kOrderTolerance); }
 
 /// The errors of the technique with Newton's method instead of Laguerre's, from the integral of the paper.
 ErrorSequence newton_errors(const LineCase<Real>& light) {

@@ -232,7 +232,7 @@ int run_fit_ltc(const FitLtcOptions& options) {
     if (options.checkpoint) outputs.push_back(*options.checkpoint);
     base::check_distinct(outputs, {});
     TableFit fitted(brdf, parse_size(options.size).value());
-    tbb::task_arena arena(options.threads.value_or(render_cpu::default_thread_count()));
+    tbb::task_arena arena(render_cpu::checked_thread_count(options.threads));
     const InterruptGuard guard;
     const base::Stopwatch stopwatch;
     const int columns = fit_columns(options, fitted, arena);

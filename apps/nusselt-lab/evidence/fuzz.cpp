@@ -49,7 +49,7 @@ int run_fuzz(const FuzzOptions& options) {
     check_json_option(options.json);
     const std::string isa(name_of(base::choose_isa(options.isa)));
     lab::FuzzSettings settings{options.techniques, options.seed, options.first, options.count,
-                               options.threads.value_or(render_cpu::default_thread_count())};
+                               render_cpu::checked_thread_count(options.threads)};
     const base::Stopwatch stopwatch;
     Progress progress;
     const auto rows =

@@ -136,7 +136,7 @@ int run_reproduce(const ReproduceOptions& options) {
     settings.scenes = options.scenes;
     settings.reference_samples = options.reference_samples;
     settings.width = options.width;
-    settings.threads = options.threads.value_or(0);
+    settings.threads = render_cpu::checked_thread_count(options.threads);
     bool all_hold = true;
     const auto run_all = [&](const auto& all, const auto& run) {
         for (const auto& experiment : all) {

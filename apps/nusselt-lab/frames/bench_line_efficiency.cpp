@@ -191,12 +191,12 @@ void setup_bench_line_efficiency(CLI::App& bench, int& exit_code) {
 
 int run_bench_line_efficiency(const BenchLineEfficiencyOptions& options) {
     const base::Isa isa = base::choose_isa(options.isa);
+    std::vector<int> threads = {render_cpu::checked_thread_count(options.threads)};
+    if (!options.threads) threads.insert(threads.begin(), 1);
     scene::Scene scene = load_scene(options.scene, options.json);
     apply_resolution(options.resolution, scene);
     if (options.roughness) lab::make_glossy(scene, *options.roughness);
     lab::LineEfficiencySettings settings = settings_of(options);
-    std::vector<int> threads = {1, render_cpu::default_thread_count()};
-    if (options.threads) threads = {*options.threads};
 
     if (scene.lights.of<scene::PolygonLight>().empty())
         throw std::runtime_error("the scene has no polygonal lights; choose one that has");

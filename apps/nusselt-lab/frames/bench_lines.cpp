@@ -166,9 +166,9 @@ void setup_bench_lines(CLI::App& bench, int& exit_code) {
 
 int run_bench_lines(const BenchLinesOptions& options) {
     const base::Isa isa = base::choose_isa(options.isa);
+    const int threads = render_cpu::checked_thread_count(options.threads);
     scene::Scene scene = load_scene(options.scene, options.json);
     apply_resolution(options.resolution, scene);
-    const int threads = options.threads.value_or(render_cpu::default_thread_count());
     const render_cpu::Renderer renderer(scene, threads);
     const LinesTable table = measure(renderer, options, isa, threads);
     write_results(options.json, results_of(table, options, scene, isa, threads), [&] { print_table(table); });

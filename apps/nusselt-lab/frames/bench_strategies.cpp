@@ -102,9 +102,9 @@ void setup_bench_strategies(CLI::App& bench, int& exit_code) {
 
 int run_bench_strategies(const BenchStrategiesOptions& options) {
     const base::Isa isa = base::choose_isa(options.isa);
+    const int threads = render_cpu::checked_thread_count(options.threads);
     scene::Scene scene = load_scene(options.scene, options.json);
     apply_resolution(options.resolution, scene);
-    const int threads = options.threads.value_or(render_cpu::default_thread_count());
     const render_cpu::Renderer renderer(scene, threads);
     std::vector<StrategiesRow> rows = make_rows(options.samples);
     measure(rows, renderer, isa, options.repetitions);

@@ -45,7 +45,7 @@ int run_bench_shadows(const BenchShadowsOptions& options) {
     check_json_option(options.json);
     const std::string isa(name_of(base::choose_isa(options.isa)));
     const lab::ShadowFuzzSettings settings{options.seed, options.first, options.count,
-                                           options.threads.value_or(render_cpu::default_thread_count())};
+                                           render_cpu::checked_thread_count(options.threads)};
     const base::Stopwatch stopwatch;
     Progress progress;
     const auto rows = lab::fuzz_shadows(lab::choose_shadow_checks(isa), settings,

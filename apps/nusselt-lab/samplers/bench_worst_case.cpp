@@ -78,7 +78,7 @@ private:
 
 /// Searches for all targets in turn until time or starts are used up, or Ctrl-C.
 void search(const BenchWorstCaseOptions& options, Session& session) {
-    const int threads = options.threads.value_or(render_cpu::default_thread_count());
+    const int threads = render_cpu::checked_thread_count(options.threads);
     tbb::task_arena arena(threads);
     const std::uint64_t block = kStartsPerThread * static_cast<std::uint64_t>(threads);
     constexpr auto kUnlimited = std::numeric_limits<std::uint64_t>::max();

@@ -184,13 +184,15 @@ struct CosineIntegral {
         if (any(obtuse)) {
             // The sum nearly vanishes, but not the difference of the directions, which is perpendicular to the middle.
             const Real twice = e.product + e.product;
-            const Real difference = sqrt(twice * (twice - e.one_plus_cosine));
+            const Real one_plus_cosine = e.precise_one_plus_cosine();
+            const Real difference = sqrt(twice * (twice - one_plus_cosine));
             const Real inverse_difference = e.product / difference;
             const Real cosine = e.sine_extent().difference * inverse_difference;
             const Real sine = (near_cosine - far_cosine) * inverse_difference;
             middle_cosine = select(obtuse, cosine, middle_cosine);
             middle_height = select(obtuse, multiply_add(e.line.inward.z, sine, n_t * cosine), middle_height);
-            quarter_tangent = select(obtuse, difference / (twice + root), quarter_tangent);
+            quarter_tangent =
+                select(obtuse, difference / (twice + sqrt(twice * one_plus_cosine)), quarter_tangent);
         }
         from_near = quarter_tangent * (middle_cosine + near_cosine);
         to_far = quarter_tangent * (middle_cosine + far_cosine);

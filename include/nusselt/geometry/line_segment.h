@@ -86,8 +86,9 @@ struct LineExtent {
     Real near_inverse, far_inverse; ///< reciprocal distances of the ends
     Real near_inverse_squared, far_inverse_squared;
     Real product; ///< of the distances of both ends
-    Real
-        one_plus_cosine; ///< product times one plus the cosine of the angle between the ends, which is at most half a turn
+    /// The product times one plus the cosine of the angle between the ends, which is at most half a turn. Its error is
+    /// relative to the product: see precise_one_plus_cosine().
+    Real one_plus_cosine;
 
     NUSSELT_INLINE Real inverse_distance() const noexcept { return Real(1) / distance; }
     /// Component of the normal along t.
@@ -107,21 +108,33 @@ struct LineExtent {
         Real density;    ///< the same over the squared distance of the line
     };
     NUSSELT_INLINE SineExtent sine_extent() const noexcept {
+        const SineRatio ratio = sine_ratio();
+        const Real density = ratio.numerator / ratio.denominator;
+        return {select(line.near_l < Real(0), ratio.numerator, line.squared * density), density};
+    }
+    /// The density of SineExtent as a ratio, whose reciprocal does not wait for it.
+    struct SineRatio {
+        Real numerator;   ///< 0 without light
+        Real denominator; ///< positive
+    };
+    NUSSELT_INLINE SineRatio sine_ratio() const noexcept {
         // The tangent of half the angle between the ends times the sum of the cosines (Eq. 1) does not cancel. If the closest
         // point lies between the ends, nor do the sines.
-        const Real density = line.length * (near_inverse + far_inverse) / one_plus_cosine;
-        SineExtent sines{line.squared * density, density};
-        const auto surrounds = (line.near_l < Real(0)) & (line.length > Real(0));
-        if (any(surrounds)) {
-            const Real sum = far_sine() - near_sine();
-            sines.difference = select(surrounds, sum, sines.difference);
-            sines.density = select(surrounds, sum / line.squared, density);
-        }
-        return sines;
+        const auto surrounds = line.near_l < Real(0);
+        return {select(surrounds & (line.length > Real(0)), far_sine() - near_sine(),
+                       line.length * (near_inverse + far_inverse)),
+                select(surrounds, line.squared, one_plus_cosine)};
     }
     /// Whether there is light and the angle between its ends exceeds a quarter of a turn.
     NUSSELT_INLINE mask_t<Real> is_obtuse() const noexcept {
         return (one_plus_cosine < product) & (line.length > Real(0));
+    }
+    /// one_plus_cosine if is_obtuse(), accurate relative to itself: the closest point lies between the ends.
+    NUSSELT_INLINE Real precise_one_plus_cosine() const noexcept {
+        const Real squares =
+            multiply_add(line.near_l, line.near_l, multiply_add(line.far_l, line.far_l, line.squared));
+        const Real sum = multiply_add(-line.near_l, line.far_l, product);
+        return line.squared * (Real(1) + squares / sum);
     }
     /// False if the segment has no length or its line passes through the origin.
     NUSSELT_INLINE mask_t<Real> visible() const noexcept { return area() > Real(0); }
@@ -136,18 +149,7 @@ NUSSELT_INLINE LineExtent<Real> make_line_extent(const CenteredLine<Real>& line)
     const Real far_inverse_squared = Real(1) / far_squared;
     const Real near_distance = sqrt(near_squared);
     const Real far_distance = sqrt(far_squared);
-
-    // One plus a cosine cancels near half a turn, where the closest point lies between the ends.
     const Real product = near_distance * far_distance;
-    const Real coordinates = line.near_l * line.far_l;
-    Real one_plus_cosine = product + multiply_add(line.near_l, line.far_l, line.squared);
-    const auto is_obtuse = one_plus_cosine < product;
-    if (any(is_obtuse)) {
-        const Real squares = near_squared + line.far_l * line.far_l;
-        const Real sum = product - coordinates;
-        one_plus_cosine = select(
-            is_obtuse, line.squared * (Real(1) + squares / select(is_obtuse, sum, Real(1))), one_plus_cosine);
-    }
     // Member by member: as a whole, g++ would copy packs by way of memory.
     return {{line.near, line.inward, line.closest, line.squared, line.near_l, line.far_l, line.far_z,
              line.length, line.sign},
@@ -158,7 +160,7 @@ NUSSELT_INLINE LineExtent<Real> make_line_extent(const CenteredLine<Real>& line)
             near_inverse_squared,
             far_inverse_squared,
             product,
-            one_plus_cosine};
+            product + multiply_add(line.near_l, line.far_l, line.squared)};
 }
 
 /// A point of a segment.

@@ -72,9 +72,10 @@ private:
         sign_ = extent.line.sign;
         offset_ = multiply_add(Real(-0.5), sign_, Real(0.5));
         // Eq. 1 in the limit of a radius of 0.
+        const auto ratio = extent.sine_ratio();
         const Real measure = Real(2) * extent.distance * extent.sine_extent().density * safe.scale;
-        const Real area = extent.distance * extent.line.length * (extent.near_inverse + extent.far_inverse);
-        const Real density = Real(0.5) * extent.one_plus_cosine / area * inverse_scale_;
+        const Real density =
+            Real(0.5) * ratio.denominator / (extent.distance * ratio.numerator) * inverse_scale_;
         const auto lit = has_reciprocal(measure);
         measure_ = select(lit, measure, Real(0));
         pdf_ = select(lit, density, Real(0));

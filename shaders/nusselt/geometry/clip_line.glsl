@@ -126,12 +126,13 @@ CosineIntegral make_cosine_integral(LineExtent e, float n_t) {
     if (line_extent_is_obtuse(e)) {
         // The sum nearly vanishes, but not the difference of the directions, which is perpendicular to the middle.
         float twice = e.product + e.product;
-        float difference = sqrt(twice * (twice - e.one_plus_cosine));
+        float one_plus_cosine = line_extent_precise_one_plus_cosine(e);
+        float difference = sqrt(twice * (twice - one_plus_cosine));
         float inverse_difference = e.product / difference;
         float sine = (near_cosine - far_cosine) * inverse_difference;
         self.middle_cosine = line_extent_sine_extent(e).difference * inverse_difference;
         self.middle_height = nusselt_fma(e.line.inward.z, sine, n_t * self.middle_cosine);
-        quarter_tangent = difference / (twice + root);
+        quarter_tangent = difference / (twice + sqrt(twice * one_plus_cosine));
     }
     self.from_near = quarter_tangent * (self.middle_cosine + near_cosine);
     self.to_far = quarter_tangent * (self.middle_cosine + far_cosine);

@@ -57,9 +57,10 @@ struct LineExtent {
     float near_distance;             ///< of the near end from the origin
     float near_inverse, far_inverse; ///< reciprocal distances of the ends
     float near_inverse_squared, far_inverse_squared;
-    float product;         ///< of the distances of both ends
-    float one_plus_cosine; ///< product times one plus the cosine of the angle between the ends, which is at most half a
-                           ///< turn
+    float product; ///< of the distances of both ends
+    /// The product times one plus the cosine of the angle between the ends, which is at most half a turn. Its error is
+    /// relative to the product: see line_extent_precise_one_plus_cosine().
+    float one_plus_cosine;
 };
 
 /// Component of the normal along t.
@@ -70,19 +71,38 @@ struct SineExtent {
     float density;    ///< the same over the squared distance of the line
 };
 
+/// The density of SineExtent as a ratio, whose reciprocal does not wait for it.
+struct SineRatio {
+    float numerator;   ///< 0 without light
+    float denominator; ///< positive
+};
+
+SineRatio line_extent_sine_ratio(LineExtent self) {
+    // The tangent of half the angle between the ends times the sum of the cosines (Eq. 1) does not cancel. If the closest
+    // point lies between the ends, nor do the sines.
+    bool surrounds = self.line.near_l < 0.0;
+    float difference = self.line.far_l * self.far_inverse - self.line.near_l * self.near_inverse;
+    return SineRatio(surrounds && self.line.len > 0.0 ? difference
+                                                      : self.line.len * (self.near_inverse + self.far_inverse),
+                     surrounds ? self.line.squared : self.one_plus_cosine);
+}
+
 SineExtent line_extent_sine_extent(LineExtent self) {
-    // If the closest point lies between the ends, the sines add up.
-    if (self.line.near_l < 0.0 && self.line.len > 0.0) {
-        float sum = self.line.far_l * self.far_inverse - self.line.near_l * self.near_inverse;
-        return SineExtent(sum, sum / self.line.squared);
-    }
-    // Else the tangent of half the angle between the ends times the sum of the cosines (Eq. 1) does not cancel.
-    float density = self.line.len * (self.near_inverse + self.far_inverse) / self.one_plus_cosine;
-    return SineExtent(self.line.squared * density, density);
+    SineRatio ratio = line_extent_sine_ratio(self);
+    float density = ratio.numerator / ratio.denominator;
+    return SineExtent(self.line.near_l < 0.0 ? ratio.numerator : self.line.squared * density, density);
 }
 
 /// Whether there is light and the angle between its ends exceeds a quarter of a turn.
 bool line_extent_is_obtuse(LineExtent self) { return self.one_plus_cosine < self.product && self.line.len > 0.0; }
+
+/// one_plus_cosine of an obtuse angle, accurate relative to itself: the closest point lies between the ends.
+float line_extent_precise_one_plus_cosine(LineExtent self) {
+    float squares =
+        nusselt_fma(self.line.near_l, self.line.near_l, nusselt_fma(self.line.far_l, self.line.far_l, self.line.squared));
+    float sum = nusselt_fma(-self.line.near_l, self.line.far_l, self.product);
+    return self.line.squared * (1.0 + squares / sum);
+}
 
 /// False if the segment has no length or its line passes through the origin.
 bool line_extent_visible(LineExtent self) { return self.line.len * self.distance > 0.0; }
@@ -101,13 +121,7 @@ LineExtent make_line_extent(CenteredLine line) {
     e.near_inverse = e.near_distance * e.near_inverse_squared;
     e.far_inverse = far_distance * e.far_inverse_squared;
     e.product = e.near_distance * far_distance;
-    float coordinates = line.near_l * line.far_l;
     e.one_plus_cosine = e.product + nusselt_fma(line.near_l, line.far_l, line.squared);
-    // One plus a cosine cancels near half a turn, where the closest point lies between the ends.
-    if (e.one_plus_cosine < e.product) {
-        float squares = near_squared + line.far_l * line.far_l;
-        e.one_plus_cosine = line.squared * (1.0 + squares / (e.product - coordinates));
-    }
     return e;
 }
 

@@ -33,8 +33,8 @@ LineSolidAngle line_solid_angle_prepare_extent(float scale, LineExtent extent) {
     self.inverse_scale = reciprocal_power_of_two(scale);
     // Eq. 1 in the limit of a radius of 0.
     float measure = 2.0 * extent.distance * line_extent_sine_extent(extent).density * scale;
-    float area = extent.distance * extent.line.len * (extent.near_inverse + extent.far_inverse);
-    float density = 0.5 * extent.one_plus_cosine / area * self.inverse_scale;
+    SineRatio ratio = line_extent_sine_ratio(extent);
+    float density = 0.5 * ratio.denominator / (extent.distance * ratio.numerator) * self.inverse_scale;
     bool lit = measure > kNusseltSmallestNormal && measure < 1.0 / kNusseltSmallestNormal;
     self.measure = lit ? measure : 0.0;
     self.pdf = lit ? density : 0.0;

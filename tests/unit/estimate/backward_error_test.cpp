@@ -194,7 +194,7 @@ TEST(BackwardErrorTest, PolygonsConvergeWithOrderThree) {
 }
 
 TEST(BackwardErrorTest, WorstCasesOfLines) {
-    EXPECT_GT(line_errors<0>(10'000).largest(), 0.05L);
+    EXPECT_GT(line_errors<0>(10'000).largest(), 0.01L);
     EXPECT_LE(line_errors<2>(100'000).largest(), 3.6e-5L);
     EXPECT_LE(line_errors<3>(20'000).largest(), 2e-10L);
     // With one step fewer, the bounds do not hold.

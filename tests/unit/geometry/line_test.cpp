@@ -106,7 +106,9 @@ TYPED_TEST(LineTest, PointsOfTheExtentLieOnTheLine) {
             const T extent = std::max(length(p), length(line.p0));
             EXPECT_LE(length(p - line.p0 - along * line.s), 4 * this->kEpsilon * extent) << light.name;
             // The direction leads back to the point.
-            EXPECT_NEAR(map.share_in(direction), point.share, 64 * this->kEpsilon) << light.name;
+            EXPECT_NEAR(map.sine_extent * map.share_in(direction), map.sine_extent * point.share,
+                        64 * this->kEpsilon)
+                << light.name;
         }
     }
 }

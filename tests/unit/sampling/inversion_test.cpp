@@ -18,9 +18,9 @@ constexpr T kInversionBudget = 2000 * std::numeric_limits<T>::epsilon();
 /// flatten the octant of the list, for which the error reaches 1.8e-12.
 template <class Kind>
 constexpr double kIterationBudget = kHasLobe<Kind> ? 2e-12 : 1e-12;
-/// Two samples, each normalised from three weighted vertices.
-template <class T>
-constexpr T kDirectionBudget = 16 * std::numeric_limits<T>::epsilon();
+/// Two samples, each normalised from three weighted vertices. A lobe adds a linear map and normalises once more.
+template <class Kind, class T>
+constexpr T kDirectionBudget = (kHasLobe<Kind> ? 24 : 16) * std::numeric_limits<T>::epsilon();
 /// The error of a hit point is one rounding over the cosine at the light, which is at least 0.0128 in the list.
 /// Squaring the distance doubles it.
 template <class T>
@@ -50,7 +50,7 @@ bool recovered(const Technique& technique, const nusselt::Vec2<T>& u, T error,
         return length(technique.sample(other).wi - technique.sample(u).wi);
     };
     return std::fabs(error) <= kInversionBudget<T> + T(kIterationBudget<Kind>) ||
-           moved(with_error) <= std::max(kDirectionBudget<T>, moved(with_budget));
+           moved(with_error) <= std::max(kDirectionBudget<Kind, T>, moved(with_budget));
 }
 
 /// Leaves out the ends for cylinders. Where a half-plane touches a cylinder or meets the others at the axis, random
