@@ -107,6 +107,11 @@ function check(from, to,    layer) {
     if (!((from, layer) in allowed)) report(from " must not include " to)
 }
 
+# Headers of the compiler, for vector instructions.
+function is_of_compiler(from, name) {
+    return from == "include/simd" && name ~ /^(immintrin|arm_neon)\.h$/ || from == "include/core" && name == "emmintrin.h"
+}
+
 function check_shader(from, name, quoted) {
     if (from == "shaders/interface" && name == "cstdint") return
     if (!quoted) return report("write \"" name "\"")
@@ -138,7 +143,7 @@ FNR == 1 {
     } else if (quoted && in_library) report("the library includes itself as <nusselt/...>")
     else if (quoted && name ~ /\//) check(from, included_layer(name))
     else if (quoted && from !~ /^apps/) report("write \"module/" name "\"")
-    else if (!quoted && in_library && name ~ /[.\/]/ && !(from == "include/simd" && name ~ /^(immintrin|arm_neon)\.h$/))
+    else if (!quoted && in_library && name ~ /[.\/]/ && !is_of_compiler(from, name))
         report("the library uses the standard library only, not <" name ">")
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <vector>
 
 namespace nusselt::base {
 
@@ -20,10 +21,18 @@ std::string processor_name() {
 
 std::string command_line() {
     std::ifstream file("/proc/self/cmdline");
-    std::string text;
-    for (std::string argument; std::getline(file, argument, '\0');)
-        text +=
-            text.empty() ? std::filesystem::path(argument).filename().string() : " " + shell_word(argument);
+    std::vector<std::string> arguments;
+    for (std::string argument; std::getline(file, argument, '\0');) arguments.push_back(argument);
+    auto at = arguments.begin();
+    const auto name = [&] { return std::filesystem::path(*at).filename().string(); };
+    // A program with libraries of its own is an argument of the loader, after options that have one value each.
+    if (at != arguments.end() && name().rfind("ld-linux", 0) == 0) {
+        ++at;
+        while (arguments.end() - at > 2 && at->rfind("--", 0) == 0) at += 2;
+    }
+    if (at == arguments.end()) return "";
+    std::string text = name();
+    while (++at != arguments.end()) text += " " + shell_word(*at);
     return text;
 }
 

@@ -199,16 +199,9 @@ private:
         const Vec3<Real> other = from + x * along;
         const Vec3<Real> rest = (Real(1) - x) * along;
 
-        // Express the gap by determinants: the difference of both points cancels where the chains are close to each other
-        // (as in vertex_lanes.h).
-        const Real upright = normal_.z * normal_.z * dot(xy(vertex), xy(vertex));
-        const Real level = dot(xy(normal_), xy(vertex));
-        const auto flat = upright >= level * level;
-        const Real outward =
-            select(flat, det(xy(along), xy(step)), difference_of_products(step.z, slope, way, along.z));
         const Real turn = det(xy(closer_to_zenith(start, start + along)), xy(along));
-        const Real extent = select(flat, normal_.z, level) * select(outer_begins, -turn, safe_slope);
-        const Real new_gap = max(distance_ * outward / select(extent == Real(0), Real(1), extent), Real(0));
+        const AzimuthOnEdge<Real> azimuth{xy(vertex), along, step, way, slope};
+        const Real new_gap = azimuth.gap(normal_, distance_, select(outer_begins, -turn, safe_slope));
 
         // No edge begins at repeated vertices and at ends of edges with one azimuth.
         const auto begins = outer_begins | inner_begins;

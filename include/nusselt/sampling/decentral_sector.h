@@ -228,6 +228,35 @@ private:
     }
 };
 
+/// The azimuth of a vertex, which belongs to the outer or the inner edges of a polygon, on an edge of the others.
+template <class Real>
+struct AzimuthOnEdge {
+    Vec2<Real> vertex; ///< its projection to the tangent plane
+    Vec3<Real> edge;   ///< from its start to its end, counterclockwise around the zenith
+    Vec3<Real> step;   ///< from that start to the vertex
+    Real way; ///< determinant of the start with the step in the tangent plane, positive: counterclockwise
+    Real
+        slope; ///< determinant of the vertex with the edge; the share of the edge up to the azimuth is way / slope
+
+    /// Height of the plane of the inner circle above the outer point at this azimuth. It is the distance of the plane of the
+    /// polygon times the step between both chains, over the extent of that plane along the azimuth, by the larger component
+    /// of its normal within the vertical plane. All is expressed by determinants, because the difference of both points
+    /// cancels where the chains are close to each other, and need not wait for the intersection.
+    /// \param normal, distance of the plane of the polygon.
+    /// \param divisor if the vertex belongs to the outer edges, minus the determinant of start and end of the edge in the
+    ///                 tangent plane; else the slope.
+    NUSSELT_INLINE Real gap(const Vec3<Real>& normal, const Real& distance,
+                            const Real& divisor) const noexcept {
+        const Real upright = normal.z * normal.z * dot(vertex, vertex);
+        const Real level = dot(xy(normal), vertex);
+        const auto flat = upright >= level * level;
+        const Real outward =
+            select(flat, det(xy(edge), xy(step)), difference_of_products(step.z, slope, way, edge.z));
+        const Real extent = select(flat, normal.z, level) * divisor;
+        return max(distance * outward / select(extent == Real(0), Real(1), extent), Real(0));
+    }
+};
+
 /// Calls visit(member of to, member of from) for all members of two records.
 template <class To, class From, class Visit>
 NUSSELT_INLINE void visit_members(DecentralSector<To>& to, const DecentralSector<From>& from,

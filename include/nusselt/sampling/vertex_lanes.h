@@ -248,20 +248,10 @@ private:
         sector.begin = Vec3<P>{P(base_.x), P(base_.y), P(base_.z)} + outer;
         sector.begin.z = max(sector.begin.z, P(0));
 
-        // The height of the plane of the inner circle above the outer point is the distance of the plane of the light
-        // times the step between both edges, over the extent of that plane along this azimuth (as in AzimuthalSweep), by
-        // the larger component of its normal within the vertical plane. All is expressed by determinants, so that it
-        // need not wait for the intersection.
         const Vec3<float>& normal = hull_.plane.normal;
-        const P upright = P(normal.z * normal.z) * dot(xy(vertex), xy(vertex));
-        const P level = dot(Vec2<P>{P(normal.x), P(normal.y)}, xy(vertex));
-        const M flat = upright >= level * level;
-        const P outward =
-            select(flat, det(xy(along), xy(step)), difference_of_products(step.z, slope, way, along.z));
-        const P extent =
-            select(flat, P(normal.z), level) * select(is_outer, permute(turn_, order.edge), safe_slope);
-        const P signed_gap = sign * P(hull_.plane.distance) * outward / select(extent == P(0), P(1), extent);
-        const P gap = max(signed_gap, P(0));
+        const AzimuthOnEdge<P> azimuth{xy(vertex), along, step, way, slope};
+        const P gap = azimuth.gap({P(normal.x), P(normal.y), P(normal.z)}, P(hull_.plane.distance),
+                                  select(is_outer, -permute(turn_, order.edge), safe_slope));
 
         const std::int32_t* const next_azimuth = detail::kNextVertex<L>.lane[L];
         sector.chord = permute(outer, next_azimuth) - outer;

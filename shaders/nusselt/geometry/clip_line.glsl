@@ -1,6 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_CLIP_LINE_GLSL
 #define NUSSELT_GEOMETRY_CLIP_LINE_GLSL
-// Follows include/nusselt/geometry/clip_line.h @ a19408056e5c
+// Follows include/nusselt/geometry/clip_line.h @ 39f49f8f8ef3
 /// Extents of line segments, whole or clipped to the upper hemisphere, and their closed forms. Twin of
 /// include/nusselt/geometry/clip_line.h.
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_LINE_SEGMENT_GLSL
 #define NUSSELT_GEOMETRY_LINE_SEGMENT_GLSL
-// Follows include/nusselt/geometry/line_segment.h @ be9a9a3f79ff
+// Follows include/nusselt/geometry/line_segment.h @ efee6853a19f
 /// Line segments, and the angles under which a shading point sees them. Twin of
 /// include/nusselt/geometry/line_segment.h.
 

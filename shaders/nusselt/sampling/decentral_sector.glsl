@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_DECENTRAL_SECTOR_GLSL
 #define NUSSELT_SAMPLING_DECENTRAL_SECTOR_GLSL
-// Follows include/nusselt/sampling/decentral_sector.h @ cf93806919a1
+// Follows include/nusselt/sampling/decentral_sector.h @ 8a63403667b0
 /// Area between two projected great circles and its inversion: the azimuth of a sample when the zenith lies outside of
 /// the polygon (Peters 2021, polygonal lights, Sec. 3.1 and 3.3 to 3.6). Twin of
 /// include/nusselt/sampling/decentral_sector.h.
