@@ -88,7 +88,6 @@ public:
         const Real cosine = multiply_add(weight_a, t.g2_a - Real(1), weight_b * (t.g2_b - Real(1)));
         Real depth = squared - cosine;
         Real room = squared + cosine;
-        Vec3<Real> cv;
         if (any(wide_)) {
             // Weights are large and cancel. Find v from the sum of a and b instead, which is small but accurate.
             const Vec3<Real> c = direction(0);
@@ -97,7 +96,7 @@ public:
             const Vec3<Real> v =
                 (inverse * multiply_add(excess, excess, -ky * y)) * a + (inverse * weight_b) * ab;
             const Vec3<Real> chord = v - c;
-            cv = v + c;
+            const Vec3<Real> cv = v + c;
             depth = select(wide_, squared * (Real(0.5) * dot(chord, chord)), depth);
             room = select(wide_, max(squared * max(Real(0.5) * dot(cv, cv), Real(kOpposite)), Real(kLeast)),
                           room);
@@ -117,13 +116,12 @@ public:
         const Real to_light = inverse_scale_ / max(at_a + at_b + at_c, Real(kLeast));
         LightSample<Real> s{unit_vector(sum), inverse_total_, to_light * sum};
         if (any(wide_)) {
-            const Vec3<Real> wi =
-                multiply_add(-tau, inverse * room, multiply_add(-u.y, depth, Real(1))) * direction(0) +
-                tau * cv;
-            s.wi = select(wide_, inverse_length(wi) * wi, s.wi);
-            // From close by, rounding relative to the size of the light would turn the point away from the direction.
-            const Real along = dot(s.p, s.wi);
-            s.p = select(wide_ & (along < Real(0.125) * reach()), along * s.wi, s.p);
+            // From close by, the sum is too rough. Points far away are better in it, and few.
+            const Vec3<Real> wi = wide_direction(t, angle, u.y * depth);
+            const Real along = wide_distance(t, wi, s.p);
+            const auto close = wide_ & (along < Real(0.125) * reach());
+            s.p = select(close, along * wi, s.p);
+            s.wi = select(close, wi, select(wide_, inverse_length(sum) * sum, s.wi));
         }
         return s;
     }
@@ -229,6 +227,54 @@ private:
         Real least = inverse_distance_[0];
         for (int j = 1; j < N; ++j) least = min(least, inverse_distance_[j]);
         return inverse_scale_ / max(least, Real(kLeast));
+    }
+
+    /// A direction, up to its length, where v may be almost opposite to c, as for lights that fill a hemisphere. Then all of
+    /// its solid angle belongs to corners v next to that point, and v is not accurate enough to tell the great circle through
+    /// c and v. With E = 2 angle, a' perpendicular to a towards b, k = g0 / |a x b| and q = c a', its normal is proportional to
+    ///
+    ///     (sin(E) (1 + a c - k^2) - k q cos(E)) a x b / |a x b| +- (2 x y a + (y^2 - x^2) a'),
+    ///     x = k cos(angle) - q sin(angle), y = (1 + a c) sin(angle),
+    ///
+    /// which follows from Eq. 13 for the triangle (a, c, v), solved for the tangent of half the angle between a and v, x / y
+    /// being its cotangent. Here all is multiplied by powers of |a x b|.
+    /// \param angle half of the solid angle of the triangle (a, c, v).
+    /// \param drop  one minus the cosine of the angle between c and the direction.
+    NUSSELT_HD Vec3<Real> wide_direction(const Triangle& t, const SinCos<Real>& angle,
+                                         const Real& drop) const noexcept {
+        const Vec3<Real> c = direction(0);
+        const Vec3<Real> a = t.inverse_a * t.pa;
+        const Vec3<Real> n = (t.inverse_a * t.inverse_b) * cross(t.pa, t.pb);
+        const Real squared = dot(n, n);
+        const Real sine = sqrt(squared);
+        const Real q = multiply_add(-t.g2_a, t.one_plus_ab, t.g1);
+        const Real x = multiply_add(t.g0, angle.cos, -q * angle.sin);
+        const Real y = sine * t.g2_a * angle.sin;
+        const Real double_sin = Real(2) * angle.sin * angle.cos;
+        const Real double_cos = multiply_add(angle.cos, angle.cos, -angle.sin * angle.sin);
+        const Real upright =
+            multiply_add(double_sin, multiply_add(t.g2_a, squared, -t.g0 * t.g0), -t.g0 * q * double_cos);
+        const Real side = select(counterclockwise_, Real(-1), Real(1));
+        const Vec3<Real> normal =
+            (side * upright) * n + (Real(2) * x * y * sine) * a + (y * y - x * x) * cross(n, a);
+        const Vec3<Real> tangent = side * cross(normal, c);
+        const Real rise = sqrt(max(drop * (Real(2) - drop), Real(0)));
+        const Vec3<Real> wi = (Real(1) - drop) * c + (rise * inverse_length(tangent)) * tangent;
+        return inverse_length(wi) * wi;
+    }
+
+    /// Distance of the light along a direction [m].
+    /// \param wi unit direction.
+    /// \param p  where it meets the light, up to rounding relative to the size of the light.
+    NUSSELT_HD Real wide_distance(const Triangle& t, const Vec3<Real>& wi,
+                                  const Vec3<Real>& p) const noexcept {
+        // The plane of the triangle tells more as long as it is not seen edge-on.
+        const Vec3<Real> normal = cross(t.pa - vertex_[0], t.pb - vertex_[0]);
+        const Real volume = t.g0 / (t.inverse_a * t.inverse_b * inverse_distance_[0]);
+        const Real cosine = max(abs(dot(normal, wi)), Real(kLeast));
+        const Real along = inverse_scale_ * volume / cosine;
+        const auto upright = along * sqrt(dot(normal, normal)) < reach() * cosine;
+        return select(upright, along, dot(p, wi));
     }
 
     /// A vector that has length one up to rounding, in most cases, as a unit vector: one step of Newton's iteration.

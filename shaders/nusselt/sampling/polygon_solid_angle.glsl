@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_solid_angle.h @ fa5ea8d68deb
+// Follows include/nusselt/sampling/polygon_solid_angle.h @ 14f02f01bba9
 /// Uniform sampling of the solid angle of a convex polygon, for surfaces and for volumes.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672: Sec. 5,
@@ -156,31 +156,66 @@ float polygon_solid_angle_reach(PolygonSolidAngle self) {
     return self.inverse_scale / nusselt_max(least, kNusseltLeast);
 }
 
+/// The part of a sample that depends on its triangle, with unit directions a, b, c as in PolygonSolidAngle.
+struct SolidAngleTriangle {
+    vec3 pa, pb; ///< vertices
+    float inverse_a, inverse_b;
+    float g0, g1, g2_a, one_plus_ab;
+};
+
+/// A unit direction where v may be almost opposite to c, as for lights that fill a hemisphere. The derivation is in
+/// include/nusselt/sampling/polygon_solid_angle.h.
+/// \param angle half of the solid angle of the triangle (a, c, v).
+/// \param drop  one minus the cosine of the angle between c and the direction.
+vec3 polygon_solid_angle_wide_direction(PolygonSolidAngle self, SolidAngleTriangle t, SinCos angle, float drop) {
+    vec3 c = polygon_solid_angle_direction(self, 0);
+    vec3 a = t.inverse_a * t.pa;
+    vec3 n = (t.inverse_a * t.inverse_b) * nusselt_cross(t.pa, t.pb);
+    float squared = dot(n, n);
+    float sine = sqrt(squared);
+    float q = nusselt_fma(-t.g2_a, t.one_plus_ab, t.g1);
+    float x = nusselt_fma(t.g0, angle.cosine, -q * angle.sine);
+    float y = sine * t.g2_a * angle.sine;
+    float double_sine = 2.0 * angle.sine * angle.cosine;
+    float double_cosine = nusselt_fma(angle.cosine, angle.cosine, -angle.sine * angle.sine);
+    float upright =
+        nusselt_fma(double_sine, nusselt_fma(t.g2_a, squared, -t.g0 * t.g0), -t.g0 * q * double_cosine);
+    float side = self.counterclockwise ? -1.0 : 1.0;
+    vec3 normal = (side * upright) * n + (2.0 * x * y * sine) * a + (y * y - x * x) * nusselt_cross(n, a);
+    vec3 tangent = side * nusselt_cross(normal, c);
+    float rise = sqrt(nusselt_max(drop * (2.0 - drop), 0.0));
+    vec3 wi = (1.0 - drop) * c + (rise * inverse_length(tangent)) * tangent;
+    return inverse_length(wi) * wi;
+}
+
+/// Distance of the light along a direction [m].
+/// \param wi unit direction.
+/// \param p  where it meets the light, up to rounding relative to the size of the light.
+float polygon_solid_angle_wide_distance(PolygonSolidAngle self, SolidAngleTriangle t, vec3 wi, vec3 p) {
+    // The plane of the triangle tells more as long as it is not seen edge-on.
+    vec3 normal = nusselt_cross(t.pa - self.vertex[0], t.pb - self.vertex[0]);
+    float volume = t.g0 / (t.inverse_a * t.inverse_b * self.inverse_distance[0]);
+    float cosine = nusselt_max(abs(dot(normal, wi)), kNusseltLeast);
+    float along = self.inverse_scale * volume / cosine;
+    bool upright = along * sqrt(dot(normal, normal)) < polygon_solid_angle_reach(self) * cosine;
+    return upright ? along : dot(p, wi);
+}
+
 /// \param u in [0, 1)^2; x selects the great circle through vertex 0, y the point on it, beginning at vertex 0.
 LightSample polygon_solid_angle_sample(PolygonSolidAngle self, vec2 u) {
     // Choose a triangle of the fan in proportion to its solid angle (Sec. 5).
     float target = u.x * self.total;
-    vec3 pa = self.vertex[1];
-    vec3 pb = self.vertex[2];
-    float inverse_a = self.inverse_distance[1];
-    float inverse_b = self.inverse_distance[2];
-    float g0 = self.g0[0];
-    float g1 = self.g1[0];
-    float g2_a = self.g2[0];
+    SolidAngleTriangle t = SolidAngleTriangle(self.vertex[1], self.vertex[2], self.inverse_distance[1],
+                                              self.inverse_distance[2], self.g0[0], self.g1[0], self.g2[0],
+                                              self.one_plus_ab[0]);
     float g2_b = self.g2[1];
-    float one_plus_ab = self.one_plus_ab[0];
     float begin = 0.0;
     NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots - 2; ++j) {
         if (target >= self.begin[j]) {
-            pa = self.vertex[j + 1];
-            pb = self.vertex[j + 2];
-            inverse_a = self.inverse_distance[j + 1];
-            inverse_b = self.inverse_distance[j + 2];
-            g0 = self.g0[j];
-            g1 = self.g1[j];
-            g2_a = self.g2[j];
+            t = SolidAngleTriangle(self.vertex[j + 1], self.vertex[j + 2], self.inverse_distance[j + 1],
+                                   self.inverse_distance[j + 2], self.g0[j], self.g1[j], self.g2[j],
+                                   self.one_plus_ab[j]);
             g2_b = self.g2[j + 1];
-            one_plus_ab = self.one_plus_ab[j];
             begin = self.begin[j];
         }
     }
@@ -193,33 +228,32 @@ LightSample polygon_solid_angle_sample(PolygonSolidAngle self, vec2 u) {
         angle = sincos_half_turn(half_angle);
     else
         angle = sincos_quarter_turn(half_angle);
-    float excess = nusselt_max(nusselt_fma(g0, angle.cosine, -g1 * angle.sine), 0.0);
-    float y = g2_a * angle.sine;
+    float excess = nusselt_max(nusselt_fma(t.g0, angle.cosine, -t.g1 * angle.sine), 0.0);
+    float y = t.g2_a * angle.sine;
     if (!(excess + y > 1.0 / 16777216.0)) {
         float scale = reciprocal_power_of_two(nusselt_max(excess, y));
         excess = scale * excess;
         y = scale * y;
     }
     float twice_y = y + y;
-    float ky = one_plus_ab * twice_y;
+    float ky = t.one_plus_ab * twice_y;
     float squared = nusselt_max(nusselt_fma(excess, excess, ky * (excess + y)), kNusseltLeast); // of |r|
     float inverse_squared = 1.0 / squared;
 
     // What follows in terms of |r|^2: v as a weighted sum of a and b, c v, and 1 - c v and 1 + c v.
     float weight_a = excess * (excess + twice_y);
     float weight_b = nusselt_fma(twice_y, excess, ky * y);
-    float cosine = nusselt_fma(weight_a, g2_a - 1.0, weight_b * (g2_b - 1.0));
+    float cosine = nusselt_fma(weight_a, t.g2_a - 1.0, weight_b * (g2_b - 1.0));
     float depth = squared - cosine;
     float room = squared + cosine;
-    vec3 c = self.inverse_distance[0] * self.vertex[0];
-    vec3 cv = vec3(0.0);
     if (self.wide) {
         // Weights may be large and cancel. Find v from the sum of a and b, which is then small but accurate.
-        vec3 a = inverse_a * pa;
-        vec3 ab = a + inverse_b * pb;
+        vec3 c = polygon_solid_angle_direction(self, 0);
+        vec3 a = t.inverse_a * t.pa;
+        vec3 ab = a + t.inverse_b * t.pb;
         vec3 v = (inverse_squared * nusselt_fma(excess, excess, -ky * y)) * a + (inverse_squared * weight_b) * ab;
         vec3 chord = v - c;
-        cv = v + c;
+        vec3 cv = v + c;
         depth = squared * (0.5 * dot(chord, chord));
         room = nusselt_max(squared * nusselt_max(0.5 * dot(cv, cv), kNusseltOpposite), kNusseltLeast);
     }
@@ -231,18 +265,18 @@ LightSample polygon_solid_angle_sample(PolygonSolidAngle self, vec2 u) {
     // Add the vertices with the weights of their directions, divided by their distances. The sum has the sampled direction
     // and length one up to rounding; divided by the sum of the weights, it is a point of the light.
     float at_v = tau * inverse_squared;
-    float at_a = at_v * weight_a * inverse_a;
-    float at_b = at_v * weight_b * inverse_b;
+    float at_a = at_v * weight_a * t.inverse_a;
+    float at_b = at_v * weight_b * t.inverse_b;
     float at_c = nusselt_max(nusselt_fma(depth, tau - u.y, 1.0 - tau), 0.0) * self.inverse_distance[0];
-    vec3 sum = at_a * pa + at_b * pb + at_c * self.vertex[0];
+    vec3 sum = at_a * t.pa + at_b * t.pb + at_c * self.vertex[0];
     float to_light = self.inverse_scale / nusselt_max(at_a + at_b + at_c, kNusseltLeast);
     vec3 p = to_light * sum;
     if (self.wide) {
-        vec3 wi = nusselt_fma(-tau, inverse_squared * room, nusselt_fma(-u.y, depth, 1.0)) * c + tau * cv;
-        wi = inverse_length(wi) * wi;
-        // From close by, rounding relative to the size of the light would turn the point away from the direction.
-        float along = dot(p, wi);
-        return LightSample(wi, self.inverse_total, along < 0.125 * polygon_solid_angle_reach(self) ? along * wi : p);
+        // From close by, the sum is too rough. Points far away are better in it, and few.
+        vec3 wi = polygon_solid_angle_wide_direction(self, t, angle, u.y * depth);
+        float along = polygon_solid_angle_wide_distance(self, t, wi, p);
+        bool close = along < 0.125 * polygon_solid_angle_reach(self);
+        return LightSample(close ? wi : inverse_length(sum) * sum, self.inverse_total, close ? along * wi : p);
     }
     // One step of Newton's iteration normalises a vector that is almost normalised.
     float length2 = dot(sum, sum);
