@@ -88,6 +88,7 @@ public:
         const Real cosine = multiply_add(weight_a, t.g2_a - Real(1), weight_b * (t.g2_b - Real(1)));
         Real depth = squared - cosine;
         Real room = squared + cosine;
+        Vec3<Real> cv;
         if (any(wide_)) {
             // Weights are large and cancel. Find v from the sum of a and b instead, which is small but accurate.
             const Vec3<Real> c = direction(0);
@@ -96,7 +97,7 @@ public:
             const Vec3<Real> v =
                 (inverse * multiply_add(excess, excess, -ky * y)) * a + (inverse * weight_b) * ab;
             const Vec3<Real> chord = v - c;
-            const Vec3<Real> cv = v + c;
+            cv = v + c;
             depth = select(wide_, squared * (Real(0.5) * dot(chord, chord)), depth);
             room = select(wide_, max(squared * max(Real(0.5) * dot(cv, cv), Real(kOpposite)), Real(kLeast)),
                           room);
@@ -116,12 +117,26 @@ public:
         const Real to_light = inverse_scale_ / max(at_a + at_b + at_c, Real(kLeast));
         LightSample<Real> s{unit_vector(sum), inverse_total_, to_light * sum};
         if (any(wide_)) {
-            // From close by, the sum is too rough. Points far away are better in it, and few.
-            const Vec3<Real> wi = wide_direction(t, angle, u.y * depth);
-            const Real along = wide_distance(t, wi, s.p);
-            const auto close = wide_ & (along < Real(0.125) * reach());
-            s.p = select(close, along * wi, s.p);
-            s.wi = select(close, wi, select(wide_, inverse_length(sum) * sum, s.wi));
+            const Vec3<Real> c = direction(0);
+            const Real drop = u.y * depth;
+            const Vec3<Real> by_corner = multiply_add(-tau, inverse * room, Real(1) - drop) * c + tau * cv;
+            const Vec3<Real> rough = inverse_length(by_corner) * by_corner;
+            const Real rough_distance = dot(s.p, rough);
+            s.wi = select(wide_, rough, s.wi);
+            // From close by, rounding relative to the size of the light would turn the point away from the direction.
+            s.p = select(wide_ & (rough_distance < Real(0.125) * reach()), rough_distance * rough, s.p);
+
+            // Rounding of its normal turns the circle by its reciprocal sharpness, and that of the corner by that of c + v.
+            const WideCircle circle(t, angle, c, counterclockwise_);
+            const Real rest = multiply_add(u.y, inverse * room, Real(2) - (u.y + u.y));
+            const Vec3<Real> wi = circle.direction(drop, rest, c);
+            const Real distance = distance_along(wi, t);
+            const auto close = distance < min(circle.sharpness, Real(0.125)) * reach();
+            const auto better = circle.sharpness * circle.sharpness > Real(16) * dot(cv, cv);
+            // A triangle that fills much of a hemisphere has a solid angle of more than a quarter of it.
+            const auto use_circle = wide_ & (t.g0 > t.g1) & close & better;
+            s.wi = select(use_circle, wi, s.wi);
+            s.p = select(use_circle, distance * wi, s.p);
         }
         return s;
     }
@@ -224,57 +239,71 @@ private:
 
     /// The largest distance of a vertex [m].
     NUSSELT_HD Real reach() const noexcept {
-        Real least = inverse_distance_[0];
-        for (int j = 1; j < N; ++j) least = min(least, inverse_distance_[j]);
-        return inverse_scale_ / max(least, Real(kLeast));
+        // Vertices at the origin have a reciprocal distance of 0.
+        Real least = Real(std::numeric_limits<Scalar>::max());
+        for (int j = 0; j < N; ++j)
+            least = select(inverse_distance_[j] > Real(0), min(least, inverse_distance_[j]), least);
+        return inverse_scale_ / least;
     }
 
-    /// A direction, up to its length, where v may be almost opposite to c, as for lights that fill a hemisphere. Then all of
-    /// its solid angle belongs to corners v next to that point, and v is not accurate enough to tell the great circle through
-    /// c and v. With E = 2 angle, a' perpendicular to a towards b, k = g0 / |a x b| and q = c a', its normal is proportional to
+    /// The great circle of a sample through c and v where v may be almost opposite to c, as for lights that fill a
+    /// hemisphere. Then all of their solid angle belongs to corners v next to that point, and v is not accurate enough to
+    /// tell the circle. With E = 2 angle, a' perpendicular to a towards b, k = g0 / |a x b| and q = c a', its normal is
+    /// proportional to
     ///
     ///     (sin(E) (1 + a c - k^2) - k q cos(E)) a x b / |a x b| +- (2 x y a + (y^2 - x^2) a'),
     ///     x = k cos(angle) - q sin(angle), y = (1 + a c) sin(angle),
     ///
-    /// which follows from Eq. 13 for the triangle (a, c, v), solved for the tangent of half the angle between a and v, x / y
-    /// being its cotangent. Here all is multiplied by powers of |a x b|.
-    /// \param angle half of the solid angle of the triangle (a, c, v).
-    /// \param drop  one minus the cosine of the angle between c and the direction.
-    NUSSELT_HD Vec3<Real> wide_direction(const Triangle& t, const SinCos<Real>& angle,
-                                         const Real& drop) const noexcept {
-        const Vec3<Real> c = direction(0);
-        const Vec3<Real> a = t.inverse_a * t.pa;
-        const Vec3<Real> n = (t.inverse_a * t.inverse_b) * cross(t.pa, t.pb);
-        const Real squared = dot(n, n);
-        const Real sine = sqrt(squared);
-        const Real q = multiply_add(-t.g2_a, t.one_plus_ab, t.g1);
-        const Real x = multiply_add(t.g0, angle.cos, -q * angle.sin);
-        const Real y = sine * t.g2_a * angle.sin;
-        const Real double_sin = Real(2) * angle.sin * angle.cos;
-        const Real double_cos = multiply_add(angle.cos, angle.cos, -angle.sin * angle.sin);
-        const Real upright =
-            multiply_add(double_sin, multiply_add(t.g2_a, squared, -t.g0 * t.g0), -t.g0 * q * double_cos);
-        const Real side = select(counterclockwise_, Real(-1), Real(1));
-        const Vec3<Real> normal =
-            (side * upright) * n + (Real(2) * x * y * sine) * a + (y * y - x * x) * cross(n, a);
-        const Vec3<Real> tangent = side * cross(normal, c);
-        const Real rise = sqrt(max(drop * (Real(2) - drop), Real(0)));
-        const Vec3<Real> wi = (Real(1) - drop) * c + (rise * inverse_length(tangent)) * tangent;
-        return inverse_length(wi) * wi;
-    }
+    /// which follows from Eq. 13 for the triangle (a, c, v), solved for the cotangent x / y of half the angle between a and v.
+    /// Here all is multiplied by powers of |a x b|.
+    struct WideCircle {
+        Vec3<Real> tangent; ///< of the circle at c, towards v, of any length
+        Real sharpness;     ///< small if a is almost opposite to c or b: k and q then have different errors
 
-    /// Distance of the light along a direction [m].
-    /// \param wi unit direction.
-    /// \param p  where it meets the light, up to rounding relative to the size of the light.
-    NUSSELT_HD Real wide_distance(const Triangle& t, const Vec3<Real>& wi,
-                                  const Vec3<Real>& p) const noexcept {
-        // The plane of the triangle tells more as long as it is not seen edge-on.
-        const Vec3<Real> normal = cross(t.pa - vertex_[0], t.pb - vertex_[0]);
+        /// \param angle half of the solid angle of the triangle (a, c, v).
+        NUSSELT_INLINE WideCircle(const Triangle& t, const SinCos<Real>& angle, const Vec3<Real>& c,
+                                  const mask_t<Real>& counterclockwise) noexcept {
+            const Vec3<Real> a = t.inverse_a * t.pa;
+            const Vec3<Real> n = (t.inverse_a * t.inverse_b) * cross(t.pa, t.pb);
+            const Real squared = dot(n, n);
+            const Real sine = sqrt(squared);
+            const Real q = multiply_add(-t.g2_a, t.one_plus_ab, t.g1);
+            const Real x = multiply_add(t.g0, angle.cos, -q * angle.sin);
+            const Real y = sine * t.g2_a * angle.sin;
+            const Real double_sin = Real(2) * angle.sin * angle.cos;
+            const Real double_cos = multiply_add(angle.cos, angle.cos, -angle.sin * angle.sin);
+            const Real upright =
+                multiply_add(double_sin, multiply_add(t.g2_a, squared, -t.g0 * t.g0), -t.g0 * q * double_cos);
+            const Real side = select(counterclockwise, Real(-1), Real(1));
+            const Vec3<Real> normal =
+                (side * upright) * n + (Real(2) * x * y * sine) * a + (y * y - x * x) * cross(n, a);
+            tangent = side * cross(normal, c);
+            sharpness = min(sine, sqrt(t.g2_a));
+        }
+
+        /// A unit direction on the circle.
+        /// \param drop, rest one minus and one plus the cosine of its angle with c.
+        NUSSELT_INLINE Vec3<Real> direction(const Real& drop, const Real& rest,
+                                            const Vec3<Real>& c) const noexcept {
+            const Real rise = sqrt(max(drop * rest, Real(0)));
+            const Vec3<Real> wi = (Real(1) - drop) * c + (rise * inverse_length(tangent)) * tangent;
+            return inverse_length(wi) * wi;
+        }
+    };
+
+    /// Distance of the plane of a triangle along a unit direction [m]; the largest number if rounding relative to the reach
+    /// of the light would move that point by more: if the triangle is a sliver, or its plane is seen too flat.
+    NUSSELT_INLINE Real distance_along(const Vec3<Real>& wi, const Triangle& t) const noexcept {
+        const Vec3<Real> to_a = t.pa - vertex_[0];
+        const Vec3<Real> to_b = t.pb - vertex_[0];
+        const Vec3<Real> normal = cross(to_a, to_b);
+        const Real squared = dot(normal, normal);
         const Real volume = t.g0 / (t.inverse_a * t.inverse_b * inverse_distance_[0]);
         const Real cosine = max(abs(dot(normal, wi)), Real(kLeast));
         const Real along = inverse_scale_ * volume / cosine;
-        const auto upright = along * sqrt(dot(normal, normal)) < reach() * cosine;
-        return select(upright, along, dot(p, wi));
+        const auto known = squared > Real(kSliver) * dot(to_a, to_a) * dot(to_b, to_b);
+        const auto upright = along * sqrt(squared) < Real(16) * reach() * cosine;
+        return select(known & upright, along, Real(std::numeric_limits<Scalar>::max()));
     }
 
     /// A vector that has length one up to rounding, in most cases, as a unit vector: one step of Newton's iteration.
@@ -330,9 +359,11 @@ private:
         Real least = g2_[N - 2];
         NUSSELT_UNROLL
         for (int j = 0; j < kTriangles; ++j) {
-            // One distance after the other: their product might leave the range.
-            g0_[j] = abs(volumes.volume[j]) * inverse_distance_[0] * inverse_distance_[j + 1] *
-                     inverse_distance_[j + 2];
+            // One distance after the other: their product might leave the range. Where a vertex is almost at the origin,
+            // rounding of edges, divided by its distance, would exceed any triple product of unit vectors.
+            g0_[j] = min(abs(volumes.volume[j]) * inverse_distance_[0] * inverse_distance_[j + 1] *
+                             inverse_distance_[j + 2],
+                         Real(1));
             g1_[j] = dot(sum[j], sum[j + 1]);
             one_plus_ab_[j] = (g1_[j] - g2_[j]) + (Real(2) - g2_[j + 1]);
             least = min(least, min(g2_[j], min(g1_[j], one_plus_ab_[j])));
@@ -390,6 +421,8 @@ private:
     static constexpr Scalar kNear = power_of_two<Scalar>(-20);
     /// Numbers whose fourth powers stay in range.
     static constexpr Scalar kSmall = power_of_two<Scalar>(-24);
+    /// Squared sine of the angle at vertex 0 below which a triangle is a sliver.
+    static constexpr Scalar kSliver = power_of_two<Scalar>(-8);
     /// The least number whose reciprocal is finite.
     static constexpr Scalar kLeast = 4 * std::numeric_limits<Scalar>::min();
     /// For deviations of a square from one up to this, the error of Newton's iteration is below rounding.

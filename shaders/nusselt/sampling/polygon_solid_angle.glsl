@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_solid_angle.h @ 14f02f01bba9
+// Follows include/nusselt/sampling/polygon_solid_angle.h @ aa4d422bbc66
 /// Uniform sampling of the solid angle of a convex polygon, for surfaces and for volumes.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672: Sec. 5,
@@ -19,6 +19,8 @@
 const float kNusseltOpposite = kNusseltEpsilon * kNusseltEpsilon;
 /// Vertices that are not closer are normalised without scaling; nor those that are closer than the reciprocal.
 const float kNusseltNear = 1.0 / 1048576.0;
+/// Squared sine of the angle at vertex 0 below which a triangle is a sliver.
+const float kNusseltSliver = 1.0 / 256.0;
 /// The least number whose reciprocal is finite.
 const float kNusseltLeast = 4.0 * kNusseltSmallestNormal;
 
@@ -61,8 +63,10 @@ PolygonSolidAngle polygon_solid_angle_prepare_volumes(ConvexPolygon polygon, flo
     // The terms of Eq. 13. Where two directions are almost opposite, cosines lose what is left of their sum.
     float least = self.g2[kNusseltSlots - 2];
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots - 2; ++j) {
-        // One distance after the other: their product might leave the range.
-        self.g0[j] = abs(volumes.volume[j]) * inverse_distance[0] * inverse_distance[j + 1] * inverse_distance[j + 2];
+        // One distance after the other: their product might leave the range. Where a vertex is almost at the origin,
+        // rounding of edges, divided by its distance, would exceed any triple product of unit vectors.
+        self.g0[j] = nusselt_min(
+            abs(volumes.volume[j]) * inverse_distance[0] * inverse_distance[j + 1] * inverse_distance[j + 2], 1.0);
         self.g1[j] = dot(sum[j], sum[j + 1]);
         self.one_plus_ab[j] = (self.g1[j] - self.g2[j]) + (2.0 - self.g2[j + 1]);
         least = nusselt_min(least, nusselt_min(self.g2[j], nusselt_min(self.g1[j], self.one_plus_ab[j])));
@@ -151,9 +155,12 @@ float polygon_solid_angle_pdf(PolygonSolidAngle self, vec3 wi) { return self.inv
 
 /// The largest distance of a vertex [m].
 float polygon_solid_angle_reach(PolygonSolidAngle self) {
-    float least = self.inverse_distance[0];
-    NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) least = nusselt_min(least, self.inverse_distance[j]);
-    return self.inverse_scale / nusselt_max(least, kNusseltLeast);
+    // Vertices at the origin have a reciprocal distance of 0.
+    float least = kNusseltLargest;
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
+        if (self.inverse_distance[j] > 0.0) least = nusselt_min(least, self.inverse_distance[j]);
+    }
+    return self.inverse_scale / least;
 }
 
 /// The part of a sample that depends on its triangle, with unit directions a, b, c as in PolygonSolidAngle.
@@ -163,12 +170,15 @@ struct SolidAngleTriangle {
     float g0, g1, g2_a, one_plus_ab;
 };
 
-/// A unit direction where v may be almost opposite to c, as for lights that fill a hemisphere. The derivation is in
-/// include/nusselt/sampling/polygon_solid_angle.h.
+/// The great circle of a sample through c and v where v may be almost opposite to c, as for lights that fill a hemisphere.
+/// The derivation is in include/nusselt/sampling/polygon_solid_angle.h.
+struct WideCircle {
+    vec3 tangent;    ///< of the circle at c, towards v, of any length
+    float sharpness; ///< small if a is almost opposite to c or b
+};
+
 /// \param angle half of the solid angle of the triangle (a, c, v).
-/// \param drop  one minus the cosine of the angle between c and the direction.
-vec3 polygon_solid_angle_wide_direction(PolygonSolidAngle self, SolidAngleTriangle t, SinCos angle, float drop) {
-    vec3 c = polygon_solid_angle_direction(self, 0);
+WideCircle polygon_solid_angle_wide_circle(PolygonSolidAngle self, SolidAngleTriangle t, SinCos angle) {
     vec3 a = t.inverse_a * t.pa;
     vec3 n = (t.inverse_a * t.inverse_b) * nusselt_cross(t.pa, t.pb);
     float squared = dot(n, n);
@@ -182,23 +192,31 @@ vec3 polygon_solid_angle_wide_direction(PolygonSolidAngle self, SolidAngleTriang
         nusselt_fma(double_sine, nusselt_fma(t.g2_a, squared, -t.g0 * t.g0), -t.g0 * q * double_cosine);
     float side = self.counterclockwise ? -1.0 : 1.0;
     vec3 normal = (side * upright) * n + (2.0 * x * y * sine) * a + (y * y - x * x) * nusselt_cross(n, a);
-    vec3 tangent = side * nusselt_cross(normal, c);
-    float rise = sqrt(nusselt_max(drop * (2.0 - drop), 0.0));
-    vec3 wi = (1.0 - drop) * c + (rise * inverse_length(tangent)) * tangent;
+    return WideCircle(side * nusselt_cross(normal, polygon_solid_angle_direction(self, 0)),
+                      nusselt_min(sine, sqrt(t.g2_a)));
+}
+
+/// A unit direction on the circle.
+/// \param drop, rest one minus and one plus the cosine of its angle with c.
+vec3 wide_circle_direction(WideCircle self, float drop, float rest, vec3 c) {
+    float rise = sqrt(nusselt_max(drop * rest, 0.0));
+    vec3 wi = (1.0 - drop) * c + (rise * inverse_length(self.tangent)) * self.tangent;
     return inverse_length(wi) * wi;
 }
 
-/// Distance of the light along a direction [m].
-/// \param wi unit direction.
-/// \param p  where it meets the light, up to rounding relative to the size of the light.
-float polygon_solid_angle_wide_distance(PolygonSolidAngle self, SolidAngleTriangle t, vec3 wi, vec3 p) {
-    // The plane of the triangle tells more as long as it is not seen edge-on.
-    vec3 normal = nusselt_cross(t.pa - self.vertex[0], t.pb - self.vertex[0]);
+/// Distance of the plane of a triangle along a unit direction [m]; the largest number if rounding relative to the reach of
+/// the light would move that point by more: if the triangle is a sliver, or its plane is seen too flat.
+float polygon_solid_angle_distance_along(PolygonSolidAngle self, vec3 wi, SolidAngleTriangle t, float reach) {
+    vec3 to_a = t.pa - self.vertex[0];
+    vec3 to_b = t.pb - self.vertex[0];
+    vec3 normal = nusselt_cross(to_a, to_b);
+    float squared = dot(normal, normal);
     float volume = t.g0 / (t.inverse_a * t.inverse_b * self.inverse_distance[0]);
     float cosine = nusselt_max(abs(dot(normal, wi)), kNusseltLeast);
     float along = self.inverse_scale * volume / cosine;
-    bool upright = along * sqrt(dot(normal, normal)) < polygon_solid_angle_reach(self) * cosine;
-    return upright ? along : dot(p, wi);
+    bool known = squared > kNusseltSliver * dot(to_a, to_a) * dot(to_b, to_b);
+    bool upright = along * sqrt(squared) < 16.0 * reach * cosine;
+    return known && upright ? along : kNusseltLargest;
 }
 
 /// \param u in [0, 1)^2; x selects the great circle through vertex 0, y the point on it, beginning at vertex 0.
@@ -246,14 +264,15 @@ LightSample polygon_solid_angle_sample(PolygonSolidAngle self, vec2 u) {
     float cosine = nusselt_fma(weight_a, t.g2_a - 1.0, weight_b * (g2_b - 1.0));
     float depth = squared - cosine;
     float room = squared + cosine;
+    vec3 c = polygon_solid_angle_direction(self, 0);
+    vec3 cv = vec3(0.0);
     if (self.wide) {
         // Weights may be large and cancel. Find v from the sum of a and b, which is then small but accurate.
-        vec3 c = polygon_solid_angle_direction(self, 0);
         vec3 a = t.inverse_a * t.pa;
         vec3 ab = a + t.inverse_b * t.pb;
         vec3 v = (inverse_squared * nusselt_fma(excess, excess, -ky * y)) * a + (inverse_squared * weight_b) * ab;
         vec3 chord = v - c;
-        vec3 cv = v + c;
+        cv = v + c;
         depth = squared * (0.5 * dot(chord, chord));
         room = nusselt_max(squared * nusselt_max(0.5 * dot(cv, cv), kNusseltOpposite), kNusseltLeast);
     }
@@ -272,11 +291,27 @@ LightSample polygon_solid_angle_sample(PolygonSolidAngle self, vec2 u) {
     float to_light = self.inverse_scale / nusselt_max(at_a + at_b + at_c, kNusseltLeast);
     vec3 p = to_light * sum;
     if (self.wide) {
-        // From close by, the sum is too rough. Points far away are better in it, and few.
-        vec3 wi = polygon_solid_angle_wide_direction(self, t, angle, u.y * depth);
-        float along = polygon_solid_angle_wide_distance(self, t, wi, p);
-        bool close = along < 0.125 * polygon_solid_angle_reach(self);
-        return LightSample(close ? wi : inverse_length(sum) * sum, self.inverse_total, close ? along * wi : p);
+        float drop = u.y * depth;
+        vec3 wi = nusselt_fma(-tau, inverse_squared * room, 1.0 - drop) * c + tau * cv;
+        wi = inverse_length(wi) * wi;
+        // From close by, rounding relative to the size of the light would turn the point away from the direction.
+        float reach = polygon_solid_angle_reach(self);
+        float along = dot(p, wi);
+        if (along < 0.125 * reach) p = along * wi;
+
+        // Rounding of its normal turns the circle by its reciprocal sharpness, and that of the corner by that of c + v.
+        WideCircle circle = polygon_solid_angle_wide_circle(self, t, angle);
+        // A triangle that fills much of a hemisphere has a solid angle of more than a quarter of it.
+        if (t.g0 > t.g1 && circle.sharpness * circle.sharpness > 16.0 * dot(cv, cv)) {
+            float rest = nusselt_fma(u.y, inverse_squared * room, 2.0 - (u.y + u.y));
+            vec3 on_circle = wide_circle_direction(circle, drop, rest, c);
+            along = polygon_solid_angle_distance_along(self, on_circle, t, reach);
+            if (along < nusselt_min(circle.sharpness, 0.125) * reach) {
+                wi = on_circle;
+                p = along * wi;
+            }
+        }
+        return LightSample(wi, self.inverse_total, p);
     }
     // One step of Newton's iteration normalises a vector that is almost normalised.
     float length2 = dot(sum, sum);

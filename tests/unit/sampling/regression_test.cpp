@@ -196,5 +196,25 @@ TEST(RegressionTest, LineThroughThePointIsDark) {
     }
 }
 
+/// Rounding of the edges, divided by the distance of a vertex almost at the point, overflowed.
+TEST(RegressionTest, PolygonWithAVertexAlmostAtThePointStaysFinite) {
+    const Quad light = quad({-9.8800797e-37f, 0, 0}, {-8.82394957e-09f, 3.15119379e-08f, 3.46915785e-09f},
+                            {-1.76478991e-08f, 6.30238759e-08f, 6.9383157e-09f},
+                            {8.82394957e-09f, -3.15119379e-08f, -3.46915785e-09f});
+    expect_contract<PolygonClippedSolidAngleKindOf<4>>(light, {1.87669364e-08f, 0.56669569f});
+}
+
+/// Lights that fill a hemisphere, and samples at their first vertex, where the plane is seen edge-on.
+TEST(RegressionTest, HemispheresKeepTheirFirstVertex) {
+    const Quad along_the_surface =
+        quad({-60.29739f, 9.22776413f, 0}, {-325.03772f, -1031.86768f, -1063.83374f},
+             {146.348312f, -1150.14771f, -1109.21582f}, {580.917297f, -88.9021454f, 0});
+    expect_contract<PolygonSolidAngleKindOf<4>>(along_the_surface, {0.972615123f, 0});
+    const Quad close =
+        quad({-0.0517238155f, 0.103447631f, -0.172414273f}, {-1.55172384f, 0.103447631f, -1.1724143f},
+             {-0.551723838f, -0.896552384f, 0.827585697f}, {1.44827616f, 0.103447631f, 0.827585697f});
+    expect_contract<PolygonSolidAngleKindOf<4>>(close, {0.774859369f, 0});
+}
+
 } // namespace
 } // namespace nusselt_test
