@@ -100,81 +100,91 @@ struct Outline {
     int count = 0;
     Vec3<float> vertex[Capacity]; ///< from count on: vertex 0, unless there is none
     Vec3<float> edge[Capacity];   ///< to the next vertex, never of length zero; from count on: zero
-
-    /// The caller makes sure that the capacity suffices.
-    void add(const Vec3<float>& position, const Vec3<float>& to_next) noexcept {
-        vertex[count] = position;
-        edge[count] = to_next;
-        ++count;
-    }
 };
 
-/// clip_to_horizon() for scalar code. Has no vertices if nothing of the polygon, or no more than rounding can tell, is
-/// above the horizon; nor if the boundary goes below it more than once. That of a convex polygon does so by rounding only,
-/// along the horizon.
+/// clip_to_horizon() for scalar code, with vertices in the same order. Has no vertices if nothing of the polygon, or no more
+/// than rounding can tell, is above the horizon; nor if the boundary goes below it more than once. That of a convex polygon
+/// does so by rounding only, along the horizon.
 /// \tparam Capacity at least N + 1.
 template <int Capacity, int N>
 inline Outline<Capacity> outline_above_horizon(const ConvexPolygon<float, N>& polygon) noexcept {
     static_assert(Capacity > N, "clipping adds a vertex");
-    const auto share_above = [](float a, float b) { return max(a, b) / abs(a - b); };
-    // The part of edge j above the horizon, and where it meets it. A vertex on the horizon stays exactly where it is.
-    const auto falling_part = [&](int j, float end) {
+    const auto next = [](int j) { return j + 1 < N ? j + 1 : 0; };
+    const auto extent_of = [&](int j) {
         const Vec3<float>& e = polygon.edge[j];
-        const float share = share_above(polygon.vertex[j].z, end);
-        return Vec3<float>{share * e.x, share * e.y, -polygon.vertex[j].z};
-    };
-    const auto end_of_falling = [&](int j, const Vec3<float>& b) {
-        const Vec3<float>& a = polygon.vertex[j];
-        const Vec3<float> part = falling_part(j, b.z);
-        return Vec3<float>{b.z == 0 ? b.x : a.x + part.x, b.z == 0 ? b.y : a.y + part.y, 0};
+        return max(max(abs(e.x), abs(e.y)), abs(e.z));
     };
 
-    Outline<Capacity> outline{};
-    int falls = 0;
-    for (int j = 0; j < N; ++j)
-        falls += polygon.vertex[j].z > 0 && !(polygon.vertex[j + 1 < N ? j + 1 : 0].z > 0) ? 1 : 0;
-    if (falls > 1) return outline;
+    // Find the vertices that stay, and the edges where the boundary goes below the horizon and comes up again. Without such
+    // edges, the walk begins at vertex 0.
+    bool stays[N];
+    int fall = N - 1, rise = N - 1;
+    int falls = 0, stay_count = 0, stay_after_rise = 0;
+    NUSSELT_UNROLL
+    for (int j = 0; j < N; ++j) {
+        const bool above = polygon.vertex[j].z > 0;
+        const bool next_above = polygon.vertex[next(j)].z > 0;
+        const bool is_fall = above && !next_above;
+        const bool is_rise = !above && next_above;
+        stays[j] = above && extent_of(j) > 0;
+        falls += is_fall ? 1 : 0;
+        fall = is_fall ? j : fall;
+        rise = is_rise ? j : rise;
+        stay_count += stays[j] ? 1 : 0;
+        stay_after_rise = is_rise ? 0 : stay_after_rise + (stays[j] ? 1 : 0);
+    }
+    Outline<Capacity> outline;
+    if (stay_count == 0 || falls > 1) return outline;
+    const int count = stay_count + 2 * falls;
 
+    // Walk from where the boundary comes up to where it goes down. The order of clip_to_horizon() begins with vertex 0 or
+    // what replaces it.
+    int slot = 0;
     Vec3<float> sum{0, 0, 0};
     float extents = 0;
-    int horizon = -1; // the vertex where the edge along the horizon begins
-    const auto add_end = [&](int j, const Vec3<float>& b) {
-        horizon = outline.count;
-        outline.add(end_of_falling(j, b), {0, 0, 0});
+    const auto add = [&](const Vec3<float>& position, const Vec3<float>& to_next) {
+        outline.vertex[slot] = position;
+        outline.edge[slot] = to_next;
+        sum = sum + to_next;
+        slot = slot + 1 < count ? slot + 1 : 0;
     };
-    // The order is that of clip_to_horizon().
-    const bool begins_on_horizon = polygon.vertex[N - 1].z > 0 && !(polygon.vertex[0].z > 0);
-    if (begins_on_horizon) add_end(N - 1, polygon.vertex[0]);
-    for (int j = 0; j < N; ++j) {
-        const Vec3<float>& a = polygon.vertex[j];
-        const Vec3<float>& b = polygon.vertex[j + 1 < N ? j + 1 : 0];
-        const Vec3<float>& e = polygon.edge[j];
-        const float extent = max(max(abs(e.x), abs(e.y)), abs(e.z));
-        if (max(a.z, b.z) <= 0 || extent == 0) continue;
-        Vec3<float> part = e;
-        if (min(a.z, b.z) > 0) {
-            outline.add(a, part);
-        } else if (a.z > 0) {
-            part = falling_part(j, b.z);
-            outline.add(a, part);
-            if (j + 1 < N) add_end(j, b);
-        } else {
-            const float share = share_above(a.z, b.z);
-            part = {share * e.x, share * e.y, b.z};
-            outline.add({a.z == 0 ? a.x : b.x - part.x, a.z == 0 ? a.y : b.y - part.y, 0}, part);
-        }
-        sum = sum + part;
-        extents += extent;
+    // A vertex on the horizon stays exactly where it is.
+    const auto on_horizon = [](const Vec3<float>& v, float x, float y) {
+        return Vec3<float>{v.z == 0 ? v.x : x, v.z == 0 ? v.y : y, 0};
+    };
+    if (falls == 1) {
+        const bool begins_above = polygon.vertex[0].z > 0;
+        slot = begins_above ? count - 1 - stay_after_rise : fall == N - 1 ? 1 : 0;
+        const Vec3<float>&a = polygon.vertex[rise], &b = polygon.vertex[next(rise)], &e = polygon.edge[rise];
+        const float share = b.z / (b.z - a.z);
+        const Vec3<float> part{share * e.x, share * e.y, b.z};
+        extents = extent_of(rise);
+        add(on_horizon(a, b.x - part.x, b.y - part.y), part);
     }
-    if (horizon >= 0) {
+    const auto add_edge = [&](int j) {
+        if (!stays[j]) return;
+        add(polygon.vertex[j], polygon.edge[j]);
+        extents += extent_of(j);
+    };
+    int j = next(rise);
+    for (; j != fall; j = next(j)) add_edge(j);
+    if (falls == 0) {
+        add_edge(j);
+    } else {
+        const Vec3<float>&a = polygon.vertex[j], &b = polygon.vertex[next(j)], &e = polygon.edge[j];
+        const float share = a.z / (a.z - b.z);
+        const Vec3<float> part{share * e.x, share * e.y, -a.z};
+        extents += extent_of(j);
+        if (stays[j]) add(a, part);
         // Close the polygon along the horizon.
-        outline.edge[horizon] = {-sum.x, -sum.y, 0};
         const float rounding = 4 * std::numeric_limits<float>::epsilon() * extents;
-        if (max(abs(sum.x), abs(sum.y)) <= rounding) outline.count = 0;
+        if (max(abs(sum.x), abs(sum.y)) <= rounding) return outline;
+        add(on_horizon(b, a.x + part.x, a.y + part.y), {-sum.x, -sum.y, 0});
     }
-    for (int j = outline.count; j < Capacity; ++j) {
-        outline.vertex[j] = outline.vertex[0];
-        outline.edge[j] = {0, 0, 0};
+    outline.count = count;
+    for (int k = count; k < Capacity; ++k) {
+        outline.vertex[k] = outline.vertex[0];
+        outline.edge[k] = {0, 0, 0};
     }
     return outline;
 }

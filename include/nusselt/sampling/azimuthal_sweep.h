@@ -73,7 +73,7 @@ public:
         });
     }
 
-    /// Calls emit(k, sector, present) for k = 0 to M - 2, in counterclockwise order, where any lane has a sector.
+    /// Calls emit(k, sector, present) for k = 0 to M - 2, in counterclockwise order, with the lanes that have a sector.
     template <class Emit>
     NUSSELT_HD void for_each_sector(Emit emit) const noexcept {
         // Start both chains of edges at the clockwise end of the polygon.
@@ -104,8 +104,7 @@ public:
             sector.begin_gap = begin_gap;
             sector.end_gap = gap;
             sector.doubled_triangle = det(xy(sector.begin), xy(sector.chord));
-            const auto present = open & (sector.doubled_triangle > Real(0));
-            if (any(present)) emit(k - 1, sector, present);
+            emit(k - 1, sector, open & (sector.doubled_triangle > Real(0)));
         }
     }
 

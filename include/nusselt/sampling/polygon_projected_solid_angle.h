@@ -49,36 +49,14 @@ public:
         }
 #endif
         // Scale the light to coordinates of order one, unless products of coordinates stay in range anyway.
-        ConvexPolygon<Real, N> polygon = light;
-        inverse_scale_ = Real(1);
         const auto moderate = is_moderate(light);
-        if (!all(moderate)) {
-            const ScaledPolygon<Real, N> unit = to_unit_extent_where(!moderate, light);
-            polygon = unit.light;
-            inverse_scale_ = unit.inverse_scale;
-        }
-        const Real distance = plane_distance(polygon);
-
-        // The method wants the winding that is clockwise as seen from the origin: mirror y otherwise (Sec. 3.1).
-        mirror_ = copysign(Real(1), distance);
-        auto all_above = mask_t<Real>(true);
-        for (int j = 0; j < N; ++j) {
-            polygon.vertex[j].y = mirror_ * polygon.vertex[j].y;
-            polygon.edge[j].y = mirror_ * polygon.edge[j].y;
-            all_above = all_above & (polygon.vertex[j].z > Real(0));
-        }
-        polygon.normal.y = mirror_ * polygon.normal.y;
-
-        sectors_.clear();
-
-        // Clip the light to the horizon and find its sectors.
-        if (all(all_above)) {
-            prepare(polygon, distance);
+        if (all(moderate)) {
+            inverse_scale_ = Real(1);
+            prepare_scaled(light);
         } else {
-            // Once more to an extent of order one, since little may be left of the light.
-            const ScaledPolygon<Real, N + 1> clipped = to_unit_extent(clip_to_horizon(polygon));
-            inverse_scale_ = inverse_scale_ * clipped.inverse_scale;
-            prepare(clipped.light, clipped.scale * distance);
+            const ScaledPolygon<Real, N> unit = to_unit_extent_where(!moderate, light);
+            inverse_scale_ = unit.inverse_scale;
+            prepare_scaled(unit.light);
         }
     }
 
@@ -176,6 +154,33 @@ private:
         return (least > Real(kLeast)) & (largest < Real(kLargest)) & (largest > Real(1 / kLargest));
     }
 
+    /// \param light with coordinates of order one.
+    NUSSELT_HD void prepare_scaled(const ConvexPolygon<Real, N>& light) noexcept {
+        // The method wants the winding that is clockwise as seen from the origin: mirror y otherwise (Sec. 3.1).
+        const Real distance = plane_distance(light);
+        mirror_ = copysign(Real(1), distance);
+        const auto mirrored = [this](const Vec3<Real>& v) { return Vec3<Real>{v.x, mirror_ * v.y, v.z}; };
+        ConvexPolygon<Real, N> polygon;
+        auto all_above = mask_t<Real>(true);
+        NUSSELT_UNROLL
+        for (int j = 0; j < N; ++j) {
+            polygon.vertex[j] = mirrored(light.vertex[j]);
+            polygon.edge[j] = mirrored(light.edge[j]);
+            all_above = all_above & (polygon.vertex[j].z > Real(0));
+        }
+        polygon.normal = mirrored(light.normal);
+
+        // Clip the light to the horizon and find its sectors.
+        if (all(all_above)) {
+            prepare(polygon, distance);
+        } else {
+            // Once more to an extent of order one, since little may be left of the light.
+            const ScaledPolygon<Real, N + 1> clipped = to_unit_extent(clip_to_horizon(polygon));
+            inverse_scale_ = inverse_scale_ * clipped.inverse_scale;
+            prepare(clipped.light, clipped.scale * distance);
+        }
+    }
+
     static constexpr int successor(int k, int count) noexcept { return k + 1 < count ? k + 1 : 0; }
 
 #if NUSSELT_HAS_VERTEX_LANES
@@ -185,7 +190,15 @@ private:
     template <class Light>
     bool prepare_ordinary(const Light& light) noexcept {
         bool all_above = true;
-        for (const Vec3<float>& v : light.vertex) all_above &= v.z > 0;
+        bool any_above = false;
+        for (const Vec3<float>& v : light.vertex) {
+            all_above &= v.z > 0;
+            any_above |= v.z > 0;
+        }
+        if (!any_above) {
+            prepare_dark();
+            return true;
+        }
         if (all_above) {
             const VertexLanes<lanes_for(N)> lanes(
                 N, [&](int j) { return light.vertex[j < N ? j : N - 1]; },
@@ -207,6 +220,15 @@ private:
                                   : prepare_outline(std::integral_constant<int, lanes_for(N + 1)>());
     }
 
+    /// For lights below the horizon.
+    void prepare_dark() noexcept {
+        hull_ = {};
+        mirror_ = inverse_scale_ = 1;
+        central_ = false;
+        sectors_.clear(0, kSectors);
+        set_total(sectors_.complete(false));
+    }
+
     template <int L>
     NUSSELT_INLINE bool prepare_lanes(const VertexLanes<L>& lanes) noexcept {
         hull_ = lanes.hull();
@@ -218,12 +240,25 @@ private:
                                                      lanes.lanes());
             set_total(
                 sectors_.set_all_central(lanes.vertex(), lanes.edge(), edges.angle_per_area, edges.area));
-        } else {
-            Mask<float, L> present;
-            const auto sectors = lanes.sectors(present);
-            set_total(sectors_.set_all_decentral(sectors, present));
+            return true;
         }
+        // Half of the lanes suffice for the sectors of quadrilaterals that clipping gave another vertex.
+        if constexpr (L > 4) {
+            if (lanes.count() - 1 <= L / 2) {
+                prepare_decentral_lanes<L / 2>(lanes);
+                return true;
+            }
+        }
+        prepare_decentral_lanes<L>(lanes);
         return true;
+    }
+
+    /// \tparam S a bound on the number of sectors.
+    template <int S, int L>
+    NUSSELT_INLINE void prepare_decentral_lanes(const VertexLanes<L>& lanes) noexcept {
+        Mask<float, S> present;
+        const auto sectors = lanes.template sectors<S>(present);
+        set_total(sectors_.set_all_decentral(sectors, present));
     }
 #endif
 
@@ -288,7 +323,10 @@ private:
         central_ = !decentral;
 
         // Find the sectors and their areas.
-        if (any(decentral)) prepare_decentral(polygon, decentral);
+        if (any(decentral))
+            prepare_decentral(polygon, decentral);
+        else
+            sectors_.clear(0, kSectors);
         if (any(central_)) prepare_central(polygon, is_outer);
 
         // Their sum is the projected solid angle.
@@ -328,10 +366,15 @@ private:
                                       const mask_t<Real>& decentral) noexcept {
         const AzimuthalSweep<Real, M> sweep(polygon, hull_.plane.distance);
         sweep.for_each_sector([&](int k, const DecentralSector<Real>& sector, const mask_t<Real>& present) {
+            if (!any(present)) {
+                sectors_.clear(k, k + 1);
+                return;
+            }
             const Real doubled = sector.template doubled_area_to<Angles>(Real(1), sector.planes());
             sectors_.set_decentral(k, sector,
                                    select(decentral & present & is_finite(doubled), doubled, Real(0)));
         });
+        sectors_.clear(M - 1, kSectors);
     }
 
     /// Sec. 3.2 in three dimensions: equal areas between the zenith and the edge are equal angles on its

@@ -72,9 +72,9 @@ public:
         }
     }
 
-    /// Makes all sectors empty.
-    NUSSELT_HD void clear() noexcept {
-        for (int k = 0; k < K; ++k) {
+    /// Makes the sectors from `first` to before `end` empty.
+    NUSSELT_HD void clear(int first, int end) noexcept {
+        for (int k = first; k < end; ++k) {
             begin_[k] = chord_[k] = {Real(0), Real(0), Real(0)};
             begin_gap_[k] = end_gap_[k] = angle_per_area_[k] = doubled_area_[k] = Real(0);
         }
@@ -86,6 +86,7 @@ public:
         chord_[k] = sector.chord;
         begin_gap_[k] = sector.begin_gap;
         end_gap_[k] = sector.end_gap;
+        angle_per_area_[k] = Real(0);
         doubled_area_[k] = area;
     }
     /// Makes sector k a central one where the mask is set.
@@ -170,8 +171,6 @@ public:
         float rest; ///< of the doubled area, up to the sample
     };
 
-    void clear() noexcept { clear(0, kLanes); }
-
     /// Makes the sectors from `first` to before `end` empty.
     void clear(int first, int end) noexcept {
         constexpr Vec3<float> kAnywhere{1, 0, 0};
@@ -192,6 +191,7 @@ public:
         arc_.angle_per_area.lane[k] = angle_per_area;
     }
     float complete(bool central) noexcept {
+        clear(K, kLanes);
         using P = Pack<float, kLanes>;
         DecentralSector<P> sector;
         visit_members(sector, sector_, [](P& to, const Stored& from) { to = P::load(from.lane); });

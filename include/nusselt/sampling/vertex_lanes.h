@@ -125,9 +125,9 @@ public:
 
         // Outer edges run counterclockwise around the zenith, inner ones clockwise (Sec. 3.7), if the light is clockwise
         // as seen from the origin; else it is to be mirrored. This depends on signs only, not on the scale.
-        const Vec2<P> next{permute(vertex_.x, next_lane), permute(vertex_.y, next_lane)};
+        const Vec2<P> next{permute<L>(vertex_.x, next_lane), permute<L>(vertex_.y, next_lane)};
         const P reach = abs(vertex_.x) + abs(vertex_.y);
-        const P next_reach = permute(reach, next_lane);
+        const P next_reach = permute<L>(reach, next_lane);
         const P edge_reach = abs(edge_.x) + abs(edge_.y);
         const P turn = det(select(reach <= next_reach, xy(vertex_), next), xy(edge_));
         const P turn_size = abs(turn);
@@ -191,13 +191,18 @@ public:
     const Vec3<P>& vertex() const noexcept { return vertex_; }
     const Vec3<P>& edge() const noexcept { return edge_; }
     /// The vertices after those of each lane.
-    Vec3<P> next() const noexcept { return permute(vertex_, detail::kNextVertex<L>.lane[count_]); }
+    Vec3<P> next() const noexcept { return permute<L>(vertex_, detail::kNextVertex<L>.lane[count_]); }
     /// The lanes with a vertex.
     M lanes() const noexcept { return M::from_bits((std::uint32_t{1} << count_) - 1); }
 
+    /// How many there are.
+    int count() const noexcept { return count_; }
+
     /// The decentral sectors, in order of azimuth.
+    /// \tparam S      at least count() - 1: there is one sector less than vertices.
     /// \param present becomes the lanes that have one.
-    NUSSELT_INLINE DecentralSector<P> sectors(M& present) const noexcept {
+    template <int S>
+    NUSSELT_INLINE DecentralSector<Pack<float, S>> sectors(Mask<float, S>& present) const noexcept {
         if constexpr (L == 4) {
             return sectors_in_order(detail::kSmallOrders.find(count_, outer_edges_, before_opposite_),
                                     present);
@@ -222,47 +227,57 @@ private:
     /// What belongs to the opposite vertex of a quadrilateral.
     static P opposite(const P& p) noexcept {
         constexpr std::int32_t kOpposite[] = {2, 3, 0, 1};
-        return permute(p, kOpposite);
+        return permute<L>(p, kOpposite);
     }
 
-    NUSSELT_INLINE DecentralSector<P> sectors_in_order(const detail::AzimuthOrder<L>& order,
-                                                       M& present) const noexcept {
-        const P sign = P::load(order.sign);
-        const M is_outer = sign < P(0);
-        const Vec3<P> at = permute(offset_, order.vertex);
-        const Vec3<P> from = permute(offset_, order.start);
-        const Vec3<P> along = sign * permute(edge_, order.edge);
-        const Vec3<P> vertex = permute(vertex_, order.vertex);
-        const Vec3<P> start = permute(vertex_, order.start);
+    template <int S>
+    NUSSELT_INLINE DecentralSector<Pack<float, S>> sectors_in_order(const detail::AzimuthOrder<L>& order,
+                                                                    Mask<float, S>& present) const noexcept {
+        using Q = Pack<float, S>;
+        const Q sign = Q::load(order.sign);
+        const Mask<float, S> is_outer = sign < Q(0);
+        const Vec3<Q> at = permute<S>(offset_, order.vertex);
+        const Vec3<Q> from = permute<S>(offset_, order.start);
+        const Vec3<Q> along = sign * permute<S>(edge_, order.edge);
+        const Vec3<Q> vertex = permute<S>(vertex_, order.vertex);
+        const Vec3<Q> start = permute<S>(vertex_, order.start);
 
         // Intersect that edge with the azimuth of the vertex.
-        const Vec3<P> step = at - from;
-        const M start_closer = abs(start.x) + abs(start.y) <= abs(vertex.x) + abs(vertex.y);
-        const P way = det(select(start_closer, xy(start), xy(vertex)), xy(step));
-        const P slope = det(xy(vertex), xy(along));
-        const P safe_slope = select(slope > P(0), slope, P(1));
-        const P x = min(max(way / safe_slope, P(0)), P(1));
-        const Vec3<P> outer = select(is_outer, at, from + x * along);
-        DecentralSector<P> sector;
+        const Vec3<Q> step = at - from;
+        const Mask<float, S> start_closer = abs(start.x) + abs(start.y) <= abs(vertex.x) + abs(vertex.y);
+        const Q way = det(select(start_closer, xy(start), xy(vertex)), xy(step));
+        const Q slope = det(xy(vertex), xy(along));
+        const Q safe_slope = select(slope > Q(0), slope, Q(1));
+        const Q x = min(max(way / safe_slope, Q(0)), Q(1));
+        const Vec3<Q> outer = select(is_outer, at, from + x * along);
+        DecentralSector<Q> sector;
         // Begins and chords have the rounding errors of the same offsets, so that sectors meet.
-        sector.begin = Vec3<P>{P(base_.x), P(base_.y), P(base_.z)} + outer;
-        sector.begin.z = max(sector.begin.z, P(0));
+        sector.begin = Vec3<Q>{Q(base_.x), Q(base_.y), Q(base_.z)} + outer;
+        sector.begin.z = max(sector.begin.z, Q(0));
 
         const Vec3<float>& normal = hull_.plane.normal;
-        const AzimuthOnEdge<P> azimuth{xy(vertex), along, step, way, slope};
-        const P gap = azimuth.gap({P(normal.x), P(normal.y), P(normal.z)}, P(hull_.plane.distance),
-                                  select(is_outer, -permute(turn_, order.edge), safe_slope));
+        const AzimuthOnEdge<Q> azimuth{xy(vertex), along, step, way, slope};
+        const Q gap = azimuth.gap({Q(normal.x), Q(normal.y), Q(normal.z)}, Q(hull_.plane.distance),
+                                  select(is_outer, -permute<S>(turn_, order.edge), safe_slope));
 
-        const std::int32_t* const next_azimuth = detail::kNextVertex<L>.lane[L];
-        sector.chord = permute(outer, next_azimuth) - outer;
+        // Sectors end where the next ones begin. Both chains meet in the last vertex.
+        const std::int32_t* const next_azimuth = detail::kNextVertex<S>.lane[S];
+        Vec3<Q> end = permute<S>(outer, next_azimuth);
+        sector.end_gap = permute<S>(gap, next_azimuth);
+        if constexpr (S < L) {
+            const auto last_lane = Mask<float, S>::from_bits(std::uint32_t{1} << (S - 1));
+            end = select(last_lane, permute<S>(offset_, order.vertex + S), end);
+            sector.end_gap = select(last_lane, Q(0), sector.end_gap);
+        }
+        sector.chord = end - outer;
         sector.begin_gap = gap;
-        sector.end_gap = permute(gap, next_azimuth);
         sector.doubled_triangle = det(xy(sector.begin), xy(sector.chord));
-        present = (sector.doubled_triangle > P(0)) & M::from_bits((std::uint32_t{1} << (count_ - 1)) - 1);
-        const Vec3<P> none{P(0), P(0), P(0)};
+        present = (sector.doubled_triangle > Q(0)) &
+                  Mask<float, S>::from_bits((std::uint32_t{1} << (count_ - 1)) - 1);
+        const Vec3<Q> none{Q(0), Q(0), Q(0)};
         sector.chord = select(present, sector.chord, none);
-        sector.begin_gap = select(present, sector.begin_gap, P(0));
-        sector.end_gap = select(present, sector.end_gap, P(0));
+        sector.begin_gap = select(present, sector.begin_gap, Q(0));
+        sector.end_gap = select(present, sector.end_gap, Q(0));
         return sector;
     }
 

@@ -27,6 +27,12 @@ struct AcrossLanes {
         p.store(lanes);
         return from([&](int i) { return lanes[indices[i]]; });
     }
+    NUSSELT_INLINE static Pack<float, L / 2> permute_to_half(const P& p,
+                                                             const std::int32_t* indices) noexcept {
+        float lanes[L];
+        p.store(lanes);
+        return AcrossLanes<L / 2>::from([&](int i) { return lanes[indices[i]]; });
+    }
     NUSSELT_INLINE static P sums_before(const P& p) noexcept {
         float lanes[L];
         p.store(lanes);
@@ -101,6 +107,15 @@ struct AcrossLanes<8> {
         return from([&](int i) { return lanes[indices[i]]; });
 #endif
     }
+    NUSSELT_INLINE static Half permute_to_half(const P& p, const std::int32_t* indices) noexcept {
+#if defined(__AVX2__) && defined(__FMA__)
+        return Half::from_native(_mm256_castps256_ps128(permute(p, indices).native()));
+#else
+        float lanes[8];
+        p.store(lanes);
+        return AcrossLanes<4>::from([&](int i) { return lanes[indices[i]]; });
+#endif
+    }
     NUSSELT_INLINE static P sums_before(const P& p) noexcept {
         float lanes[8];
         p.store(lanes);
@@ -140,16 +155,21 @@ NUSSELT_INLINE Vec3<Pack<float, L>> make_vector_lanes(Function f) noexcept {
 }
 
 /// Lane i of the result is lane indices[i].
-/// \param indices L of them, each in [0, L).
-template <int L>
-NUSSELT_INLINE Pack<float, L> permute(const Pack<float, L>& p, const std::int32_t* indices) noexcept {
-    return detail::AcrossLanes<L>::permute(p, indices);
+/// \tparam S      number of lanes of the result, L or half of it.
+/// \param indices S of them, each in [0, L), followed by L - S readable ones.
+template <int S, int L>
+NUSSELT_INLINE Pack<float, S> permute(const Pack<float, L>& p, const std::int32_t* indices) noexcept {
+    static_assert(S == L || 2 * S == L, "all lanes, or half of them");
+    if constexpr (S == L)
+        return detail::AcrossLanes<L>::permute(p, indices);
+    else
+        return detail::AcrossLanes<L>::permute_to_half(p, indices);
 }
 /// \copydoc permute
-template <int L>
-NUSSELT_INLINE Vec3<Pack<float, L>> permute(const Vec3<Pack<float, L>>& v,
+template <int S, int L>
+NUSSELT_INLINE Vec3<Pack<float, S>> permute(const Vec3<Pack<float, L>>& v,
                                             const std::int32_t* indices) noexcept {
-    return {permute(v.x, indices), permute(v.y, indices), permute(v.z, indices)};
+    return {permute<S>(v.x, indices), permute<S>(v.y, indices), permute<S>(v.z, indices)};
 }
 
 /// Lane i of the result is the sum of lanes 0 to i - 1.

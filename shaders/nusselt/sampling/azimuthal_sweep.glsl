@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_AZIMUTHAL_SWEEP_GLSL
 #define NUSSELT_SAMPLING_AZIMUTHAL_SWEEP_GLSL
-// Follows include/nusselt/sampling/azimuthal_sweep.h @ 9d303fabb30f
+// Follows include/nusselt/sampling/azimuthal_sweep.h @ 1e12f18a3d55
 /// Cuts a polygon beside the zenith into sectors at the azimuths of its vertices, each bounded by one outer and one
 /// inner edge (Peters 2021, polygonal lights, Sec. 3.7). Twin of include/nusselt/sampling/azimuthal_sweep.h.
 

@@ -54,8 +54,19 @@ TYPED_TEST(AcrossLanesTest, PermutationsRepeatAndReverse) {
         expected_reversed[i] = this->numbers_[kCount - 1 - i];
         expected_halved[i] = this->numbers_[i / 2];
     }
-    this->expect_lanes(nusselt::permute(this->pack_, reversed), expected_reversed);
-    this->expect_lanes(nusselt::permute(this->pack_, halved), expected_halved);
+    this->expect_lanes(nusselt::permute<kCount>(this->pack_, reversed), expected_reversed);
+    this->expect_lanes(nusselt::permute<kCount>(this->pack_, halved), expected_halved);
+}
+
+TYPED_TEST(AcrossLanesTest, PermutationsToHalfOfTheLanesTakeAnyOfThem) {
+    constexpr int kCount = TypeParam::value;
+    if constexpr (kCount > 4) {
+        std::int32_t indices[kCount]; // only half of them count
+        for (int i = 0; i < kCount; ++i) indices[i] = (3 * i + 1) % kCount;
+        float lanes[kCount / 2];
+        nusselt::permute<kCount / 2>(this->pack_, indices).store(lanes);
+        for (int i = 0; i < kCount / 2; ++i) EXPECT_EQ(lanes[i], this->numbers_[indices[i]]) << "lane " << i;
+    }
 }
 
 TYPED_TEST(AcrossLanesTest, SumsLeaveOutTheirOwnLane) {
