@@ -140,12 +140,10 @@ inline Outline<Capacity> outline_above_horizon(const ConvexPolygon<float, N>& po
     // Walk from where the boundary comes up to where it goes down. The order of clip_to_horizon() begins with vertex 0 or
     // what replaces it.
     int slot = 0;
-    Vec3<float> sum{0, 0, 0};
     float extents = 0;
     const auto add = [&](const Vec3<float>& position, const Vec3<float>& to_next) {
         outline.vertex[slot] = position;
         outline.edge[slot] = to_next;
-        sum = sum + to_next;
         slot = slot + 1 < count ? slot + 1 : 0;
     };
     // A vertex on the horizon stays exactly where it is.
@@ -176,10 +174,15 @@ inline Outline<Capacity> outline_above_horizon(const ConvexPolygon<float, N>& po
         const Vec3<float> part{share * e.x, share * e.y, -a.z};
         extents += extent_of(j);
         if (stays[j]) add(a, part);
-        // Close the polygon along the horizon.
+        // Close the polygon along the horizon. Users sum edges up in the order of the slots, and so does this sum: they share
+        // its rounding.
+        const int horizon = slot;
+        add(on_horizon(b, a.x + part.x, a.y + part.y), {0, 0, 0});
+        Vec2<float> sum{0, 0};
+        for (int k = 0; k < count; ++k) sum = sum + xy(outline.edge[k]);
         const float rounding = 4 * std::numeric_limits<float>::epsilon() * extents;
         if (max(abs(sum.x), abs(sum.y)) <= rounding) return outline;
-        add(on_horizon(b, a.x + part.x, a.y + part.y), {-sum.x, -sum.y, 0});
+        outline.edge[horizon] = {-sum.x, -sum.y, 0};
     }
     outline.count = count;
     for (int k = count; k < Capacity; ++k) {

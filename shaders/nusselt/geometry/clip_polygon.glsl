@@ -1,6 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_CLIP_POLYGON_GLSL
 #define NUSSELT_GEOMETRY_CLIP_POLYGON_GLSL
-// Follows include/nusselt/geometry/clip_polygon.h @ 0f638ab005f0
+// Follows include/nusselt/geometry/clip_polygon.h @ 39d26adaa4b1
 /// Clipping of convex polygons to the upper hemisphere. Twin of include/nusselt/geometry/clip_polygon.h.
 
 #include "../geometry/convex_polygon.glsl"
