@@ -23,12 +23,20 @@ std::string command_line() {
     std::ifstream file("/proc/self/cmdline");
     std::vector<std::string> arguments;
     for (std::string argument; std::getline(file, argument, '\0');) arguments.push_back(argument);
+    return command_line_of(arguments);
+}
+
+std::string command_line_of(const std::vector<std::string>& arguments) {
     auto at = arguments.begin();
     const auto name = [&] { return std::filesystem::path(*at).filename().string(); };
-    // A program with libraries of its own is an argument of the loader, after options that have one value each.
+    // A program with libraries of its own is an argument of the loader, after the loader's options.
     if (at != arguments.end() && name().rfind("ld-linux", 0) == 0) {
         ++at;
-        while (arguments.end() - at > 2 && at->rfind("--", 0) == 0) at += 2;
+        while (at != arguments.end() && at->rfind("--", 0) == 0) {
+            const bool has_value = *at != "--inhibit-cache";
+            ++at;
+            if (has_value && at != arguments.end()) ++at;
+        }
     }
     if (at == arguments.end()) return "";
     std::string text = name();

@@ -2,6 +2,7 @@
 /// Describes the machine and the process, on which measurements depend.
 
 #include <string>
+#include <vector>
 
 namespace nusselt::base {
 
@@ -10,5 +11,8 @@ std::string processor_name();
 
 /// The command line of this process as one would type it, with the name of the program instead of its path.
 std::string command_line();
+/// The same for given arguments, the first of which is the path of the program. Programs that have libraries of their own are
+/// started by the loader: `ld-linux-x86-64.so.2 --library-path DIR PROGRAM ...`.
+std::string command_line_of(const std::vector<std::string>& arguments);
 
 } // namespace nusselt::base

@@ -11,6 +11,7 @@
 #include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/clip_polygon.h>
+#include <nusselt/geometry/outline.h>
 #include <nusselt/geometry/polygon_measures.h>
 #include <nusselt/sampling/azimuthal_sweep.h>
 #include <nusselt/sampling/projected_sectors.h>
@@ -154,7 +155,7 @@ private:
         return (least > Real(kLeast)) & (largest < Real(kLargest)) & (largest > Real(1 / kLargest));
     }
 
-    /// \param light with coordinates of order one.
+    /// \param light whose coordinates have products in range.
     NUSSELT_HD void prepare_scaled(const ConvexPolygon<Real, N>& light) noexcept {
         // The method wants the winding that is clockwise as seen from the origin: mirror y otherwise (Sec. 3.1).
         const Real distance = plane_distance(light);
@@ -184,9 +185,9 @@ private:
     static constexpr int successor(int k, int count) noexcept { return k + 1 < count ? k + 1 : 0; }
 
 #if NUSSELT_HAS_VERTEX_LANES
-    /// Prepares scalar code for an ordinary light (vertex_lanes.h).
+    /// Prepares scalar code for a light below the horizon or an ordinary one (vertex_lanes.h).
     /// A template, so that explicit instantiations for packs leave it out.
-    /// \returns false for others
+    /// \returns false for other lights, for which nothing is done.
     template <class Light>
     bool prepare_ordinary(const Light& light) noexcept {
         bool all_above = true;
@@ -211,7 +212,7 @@ private:
         const auto outline = outline_above_horizon<lanes_for(N + 1)>(light);
         if (outline.count < 3 || (all_above && outline.count == N)) return false;
         const auto prepare_outline = [&](auto lane_count) {
-            const VertexLanes<lane_count> lanes(
+            const VertexLanes<decltype(lane_count)::value> lanes(
                 outline.count, [&](int j) { return outline.vertex[j]; },
                 [&](int j) { return outline.edge[j]; }, light.normal, [&] { return plane_distance(light); });
             return lanes.is_ordinary() && prepare_lanes(lanes);
@@ -220,7 +221,7 @@ private:
                                   : prepare_outline(std::integral_constant<int, lanes_for(N + 1)>());
     }
 
-    /// For lights below the horizon.
+    /// Makes this the technique of a light below the horizon, whose samples have no density.
     void prepare_dark() noexcept {
         hull_ = {};
         mirror_ = inverse_scale_ = 1;
@@ -242,14 +243,16 @@ private:
                 sectors_.set_all_central(lanes.vertex(), lanes.edge(), edges.angle_per_area, edges.area));
             return true;
         }
-        // Half of the lanes suffice for the sectors of quadrilaterals that clipping gave another vertex.
-        if constexpr (L > 4) {
-            if (lanes.count() - 1 <= L / 2) {
-                prepare_decentral_lanes<L / 2>(lanes);
+        // Five vertices have four sectors, and nine have eight: half of the lanes suffice for them.
+        constexpr int kFew = L > 4 ? L / 2 : L;
+        constexpr int kMost = N < L ? N : L - 1; // sectors
+        if constexpr (kMost > kFew) {
+            if (lanes.count() - 1 > kFew) {
+                prepare_decentral_lanes<L>(lanes);
                 return true;
             }
         }
-        prepare_decentral_lanes<L>(lanes);
+        prepare_decentral_lanes<kFew>(lanes);
         return true;
     }
 

@@ -124,15 +124,16 @@ public:
             const Real rough_distance = dot(s.p, rough);
             s.wi = select(wide_, rough, s.wi);
             // From close by, rounding relative to the size of the light would turn the point away from the direction.
-            s.p = select(wide_ & (rough_distance < Real(0.125) * reach()), rough_distance * rough, s.p);
+            s.p = select(wide_ & (rough_distance < Real(kNearby) * reach()), rough_distance * rough, s.p);
 
-            // Rounding of its normal turns the circle by its reciprocal sharpness, and that of the corner by that of c + v.
+            // Rounding turns the circle by eps / sharpness, and the direction by way of the corner by eps / |c + v|.
             const WideCircle circle(t, angle, c, counterclockwise_);
             const Real rest = multiply_add(u.y, inverse * room, Real(2) - (u.y + u.y));
             const Vec3<Real> wi = circle.direction(drop, rest, c);
             const Real distance = distance_along(wi, t);
-            const auto close = distance < min(circle.sharpness, Real(0.125)) * reach();
-            const auto better = circle.sharpness * circle.sharpness > Real(16) * dot(cv, cv);
+            const auto close = distance < min(circle.sharpness, Real(kNearby)) * reach();
+            const auto better =
+                circle.sharpness * circle.sharpness > Real(kMuchSharper * kMuchSharper) * dot(cv, cv);
             // A triangle that fills much of a hemisphere has a solid angle of more than a quarter of it.
             const auto use_circle = wide_ & (t.g0 > t.g1) & close & better;
             s.wi = select(use_circle, wi, s.wi);
@@ -258,7 +259,8 @@ private:
     /// Here all is multiplied by powers of |a x b|.
     struct WideCircle {
         Vec3<Real> tangent; ///< of the circle at c, towards v, of any length
-        Real sharpness;     ///< small if a is almost opposite to c or b: k and q then have different errors
+        Real
+            sharpness; ///< small if a is almost on one line with b, or opposite to c: k and q then lose digits
 
         /// \param angle half of the solid angle of the triangle (a, c, v).
         NUSSELT_INLINE WideCircle(const Triangle& t, const SinCos<Real>& angle, const Vec3<Real>& c,
@@ -302,7 +304,7 @@ private:
         const Real cosine = max(abs(dot(normal, wi)), Real(kLeast));
         const Real along = inverse_scale_ * volume / cosine;
         const auto known = squared > Real(kSliver) * dot(to_a, to_a) * dot(to_b, to_b);
-        const auto upright = along * sqrt(squared) < Real(16) * reach() * cosine;
+        const auto upright = along * sqrt(squared) < Real(kFlattest) * reach() * cosine;
         return select(known & upright, along, Real(std::numeric_limits<Scalar>::max()));
     }
 
@@ -421,7 +423,15 @@ private:
     static constexpr Scalar kNear = power_of_two<Scalar>(-20);
     /// Numbers whose fourth powers stay in range.
     static constexpr Scalar kSmall = power_of_two<Scalar>(-24);
-    /// Squared sine of the angle at vertex 0 below which a triangle is a sliver.
+    /// Share of the largest distance of a vertex below which a point counts as nearby: rounding relative to the size of the
+    /// light then exceeds rounding relative to the distance by a factor of eight, three of 24 bits.
+    static constexpr Scalar kNearby = Scalar(0.125);
+    /// By which factor the circle must be better to be taken: with errors of one order, the corner also gives the hit point.
+    static constexpr Scalar kMuchSharper = Scalar(4);
+    /// Largest factor by which a plane that is seen flat may magnify rounding relative to the reach of the light.
+    static constexpr Scalar kFlattest = Scalar(16);
+    /// Squared sine of the angle at vertex 0 below which a triangle is a sliver: rounding turns its plane by 16 times as
+    /// much as that of an upright one.
     static constexpr Scalar kSliver = power_of_two<Scalar>(-8);
     /// The least number whose reciprocal is finite.
     static constexpr Scalar kLeast = 4 * std::numeric_limits<Scalar>::min();

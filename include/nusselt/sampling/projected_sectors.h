@@ -174,14 +174,12 @@ public:
     /// Makes the sectors from `first` to before `end` empty.
     void clear(int first, int end) noexcept {
         constexpr Vec3<float> kAnywhere{1, 0, 0};
-        for (int k = first; k < end; ++k) {
-            set_decentral(k, {kAnywhere, {0, 0, 0}, 0, 0, 0}, 0);
-            arc_.angle_per_area.lane[k] = 0;
-        }
+        for (int k = first; k < end; ++k) set_decentral(k, {kAnywhere, {0, 0, 0}, 0, 0, 0}, 0);
     }
 
     void set_decentral(int k, const DecentralSector<float>& sector, float area) noexcept {
         visit_members(sector_, sector, [k](Stored& to, float from) { to.lane[k] = from; });
+        arc_.angle_per_area.lane[k] = 0;
         doubled_area_.lane[k] = area;
     }
     void set_central(int k, bool mask, const Vec3<float>& begin, const Vec3<float>& chord,
@@ -226,7 +224,7 @@ public:
                       [](Stored& to, const Pack<float, L>& from) { from.store(to.lane); });
         visit_members(sector_.chord, chord,
                       [](Stored& to, const Pack<float, L>& from) { from.store(to.lane); });
-        sector_.begin_gap = sector_.end_gap = {};
+        sector_.begin_gap = sector_.end_gap = sector_.doubled_triangle = {};
         store(arc_, arc_of(begin, chord, angle_per_area));
         area.store(doubled_area_.lane);
         clear(L, K);

@@ -6,6 +6,10 @@
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672:
 /// Sec. 3.2 and 3.7.
 
+#include <cstdint>
+#include <limits>
+#include <utility>
+
 #include <nusselt/geometry/polygon_measures.h>
 #include <nusselt/sampling/decentral_sector.h>
 #include <nusselt/simd/across_lanes.h>
@@ -195,7 +199,7 @@ public:
     /// The lanes with a vertex.
     M lanes() const noexcept { return M::from_bits((std::uint32_t{1} << count_) - 1); }
 
-    /// How many there are.
+    /// Number of vertices.
     int count() const noexcept { return count_; }
 
     /// The decentral sectors, in order of azimuth.

@@ -109,7 +109,9 @@ struct AcrossLanes<8> {
     }
     NUSSELT_INLINE static Half permute_to_half(const P& p, const std::int32_t* indices) noexcept {
 #if defined(__AVX2__) && defined(__FMA__)
-        return Half::from_native(_mm256_castps256_ps128(permute(p, indices).native()));
+        const __m128i four = _mm_loadu_si128(reinterpret_cast<const __m128i*>(indices));
+        return Half::from_native(
+            _mm256_castps256_ps128(_mm256_permutevar8x32_ps(p.native(), _mm256_castsi128_si256(four))));
 #else
         float lanes[8];
         p.store(lanes);
@@ -156,7 +158,7 @@ NUSSELT_INLINE Vec3<Pack<float, L>> make_vector_lanes(Function f) noexcept {
 
 /// Lane i of the result is lane indices[i].
 /// \tparam S      number of lanes of the result, L or half of it.
-/// \param indices S of them, each in [0, L), followed by L - S readable ones.
+/// \param indices S of them, each in [0, L).
 template <int S, int L>
 NUSSELT_INLINE Pack<float, S> permute(const Pack<float, L>& p, const std::int32_t* indices) noexcept {
     static_assert(S == L || 2 * S == L, "all lanes, or half of them");

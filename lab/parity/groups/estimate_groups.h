@@ -248,7 +248,8 @@ struct SampleOutputs {
         {"shadowed, blue", Error::measure},   {"constant, red", Error::absolute},
         {"constant, green", Error::absolute}, {"constant, blue", Error::absolute}};
 
-    /// Where rounding alone gives a light without area a measure, nobody can tell whether it has a sample, and where.
+    /// A light without area may have a measure by rounding alone, and then reflects next to nothing. Nobody can tell whether it
+    /// has a sample, and where.
     static bool is_defined(std::size_t output, const Results<long double>& exact) {
         return output >= 4 || std::max({exact[4], exact[5], exact[6]}) > proof::kSmallestMeasure;
     }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_CLIP_POLYGON_GLSL
 #define NUSSELT_GEOMETRY_CLIP_POLYGON_GLSL
-// Follows include/nusselt/geometry/clip_polygon.h @ 39d26adaa4b1
+// Follows include/nusselt/geometry/clip_polygon.h @ 8ed4e7acbbe9
 /// Clipping of convex polygons to the upper hemisphere. Twin of include/nusselt/geometry/clip_polygon.h.
 
 #include "../geometry/convex_polygon.glsl"

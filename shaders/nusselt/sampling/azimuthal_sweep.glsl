@@ -136,15 +136,9 @@ void sweep_pass(inout AzimuthalSweep self, SweepEvent at) {
     float safe_slope = slope > 0.0 ? slope : 1.0;
     float x = nusselt_min(nusselt_max(way / safe_slope, 0.0), 1.0);
 
-    // The gap, as in sweep_end_gap(), by determinants instead of the difference of both points, which cancels where the
-    // chains are close to each other (as in vertex_lanes.h).
-    float upright = (self.normal.z * self.normal.z) * dot(vertex.xy, vertex.xy);
-    float level = dot(self.normal.xy, vertex.xy);
-    bool is_flat = upright >= level * level;
-    float outward = is_flat ? det(along.xy, step.xy) : difference_of_products(step.z, slope, way, along.z);
     float turn = det(closer_to_zenith(start, start + along).xy, along.xy);
-    float extent = (is_flat ? self.normal.z : level) * (outer_begins ? -turn : safe_slope);
-    self.gap = nusselt_max(self.distance * outward / (extent != 0.0 ? extent : 1.0), 0.0);
+    AzimuthOnEdge azimuth = AzimuthOnEdge(vertex.xy, along, step, way, slope);
+    self.gap = azimuth_on_edge_gap(azimuth, self.normal, self.distance, outer_begins ? -turn : safe_slope);
 
     SweepChain begun = SweepChain(at.offset, at.edge, true);
     SweepChain other = SweepChain(from + x * along, (1.0 - x) * along, outer_begins ? self.inner.begun : self.outer.begun);

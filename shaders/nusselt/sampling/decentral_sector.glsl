@@ -228,4 +228,28 @@ float decentral_sector_position(DecentralSector self, float target, float double
     return x;
 }
 
+/// The azimuth of a vertex, which belongs to the outer or the inner edges of a polygon, on an edge of the others.
+struct AzimuthOnEdge {
+    vec2 vertex; ///< its projection to the tangent plane
+    vec3 edge;   ///< from its start to its end, counterclockwise around the zenith
+    vec3 step;   ///< from that start to the vertex
+    float way;   ///< determinant of the start with the step in the tangent plane, positive: counterclockwise
+    float slope; ///< determinant of the vertex with the edge; the share of the edge up to the azimuth is way / slope
+};
+
+/// Height of the plane of the inner circle above the outer point at this azimuth, by determinants: the difference of both
+/// points cancels where the chains are close to each other.
+/// \param normal, distance of the plane of the polygon.
+/// \param divisor if the vertex belongs to the outer edges, minus the determinant of start and end of the edge in the
+///                 tangent plane; else the slope.
+float azimuth_on_edge_gap(AzimuthOnEdge self, vec3 normal, float distance, float divisor) {
+    float upright = (normal.z * normal.z) * dot(self.vertex, self.vertex);
+    float level = dot(normal.xy, self.vertex);
+    bool is_flat = upright >= level * level;
+    float outward = is_flat ? det(self.edge.xy, self.step.xy)
+                            : difference_of_products(self.step.z, self.slope, self.way, self.edge.z);
+    float extent = (is_flat ? normal.z : level) * divisor;
+    return nusselt_max(distance * outward / (extent != 0.0 ? extent : 1.0), 0.0);
+}
+
 #endif

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_solid_angle.h @ aa4d422bbc66
+// Follows include/nusselt/sampling/polygon_solid_angle.h @ 4d88496e0334
 /// Uniform sampling of the solid angle of a convex polygon, for surfaces and for volumes.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672: Sec. 5,
@@ -19,6 +19,10 @@
 const float kNusseltOpposite = kNusseltEpsilon * kNusseltEpsilon;
 /// Vertices that are not closer are normalised without scaling; nor those that are closer than the reciprocal.
 const float kNusseltNear = 1.0 / 1048576.0;
+/// Thresholds whose reasons are in include/nusselt/sampling/polygon_solid_angle.h.
+const float kNusseltNearby = 0.125;
+const float kNusseltMuchSharper = 4.0;
+const float kNusseltFlattest = 16.0;
 /// Squared sine of the angle at vertex 0 below which a triangle is a sliver.
 const float kNusseltSliver = 1.0 / 256.0;
 /// The least number whose reciprocal is finite.
@@ -174,7 +178,7 @@ struct SolidAngleTriangle {
 /// The derivation is in include/nusselt/sampling/polygon_solid_angle.h.
 struct WideCircle {
     vec3 tangent;    ///< of the circle at c, towards v, of any length
-    float sharpness; ///< small if a is almost opposite to c or b
+    float sharpness; ///< small if a is almost on one line with b, or opposite to c
 };
 
 /// \param angle half of the solid angle of the triangle (a, c, v).
@@ -215,7 +219,7 @@ float polygon_solid_angle_distance_along(PolygonSolidAngle self, vec3 wi, SolidA
     float cosine = nusselt_max(abs(dot(normal, wi)), kNusseltLeast);
     float along = self.inverse_scale * volume / cosine;
     bool known = squared > kNusseltSliver * dot(to_a, to_a) * dot(to_b, to_b);
-    bool upright = along * sqrt(squared) < 16.0 * reach * cosine;
+    bool upright = along * sqrt(squared) < kNusseltFlattest * reach * cosine;
     return known && upright ? along : kNusseltLargest;
 }
 
@@ -297,16 +301,16 @@ LightSample polygon_solid_angle_sample(PolygonSolidAngle self, vec2 u) {
         // From close by, rounding relative to the size of the light would turn the point away from the direction.
         float reach = polygon_solid_angle_reach(self);
         float along = dot(p, wi);
-        if (along < 0.125 * reach) p = along * wi;
+        if (along < kNusseltNearby * reach) p = along * wi;
 
-        // Rounding of its normal turns the circle by its reciprocal sharpness, and that of the corner by that of c + v.
+        // Rounding turns the circle by eps / sharpness, and the direction by way of the corner by eps / |c + v|.
         WideCircle circle = polygon_solid_angle_wide_circle(self, t, angle);
         // A triangle that fills much of a hemisphere has a solid angle of more than a quarter of it.
-        if (t.g0 > t.g1 && circle.sharpness * circle.sharpness > 16.0 * dot(cv, cv)) {
+        if (t.g0 > t.g1 && circle.sharpness * circle.sharpness > kNusseltMuchSharper * kNusseltMuchSharper * dot(cv, cv)) {
             float rest = nusselt_fma(u.y, inverse_squared * room, 2.0 - (u.y + u.y));
             vec3 on_circle = wide_circle_direction(circle, drop, rest, c);
             along = polygon_solid_angle_distance_along(self, on_circle, t, reach);
-            if (along < nusselt_min(circle.sharpness, 0.125) * reach) {
+            if (along < nusselt_min(circle.sharpness, kNusseltNearby) * reach) {
                 wi = on_circle;
                 p = along * wi;
             }

@@ -87,7 +87,7 @@ std::vector<double> turns(double lowest, double highest) {
     std::vector<double> turns;
     for (int i = 0; i < 4000; ++i) {
         const double height = (i % 2 == 0 ? 1 : -1) * random.log_between(lowest, highest);
-        const auto vertices = close_polygon<N>(random, random.between(0, 0.3), height);
+        const auto vertices = close_polygon<N>(random, random.between(0, 0.4), height);
         const nusselt::Vec2<float> u{static_cast<float>(random.between(0, 0.9999)),
                                      static_cast<float>(random.between(0, 0.9999))};
         const auto sample = technique<float, N>(vertices).sample(u);
@@ -103,9 +103,9 @@ TYPED_TEST(ClosePolygonsTest, DirectionsFillTheHemisphereAsInLongDouble) {
     for (const double height : {1e-5, 1e-4, 1e-3}) {
         const auto errors = turns<TypeParam::value>(height, 10 * height);
         EXPECT_LT(quantile(errors, 0.5), 1e-6) << height;
-        EXPECT_LT(quantile(errors, 0.99), 1e-5) << height;
-        // Above an edge, corners of both sides meet.
-        EXPECT_LT(quantile(errors, 1), 1e-2) << height;
+        EXPECT_LT(quantile(errors, 0.99), 2e-5) << height;
+        // Above an edge, corners of both sides meet. What is left is of the order of rounding over the height there.
+        EXPECT_LT(quantile(errors, 1), std::numeric_limits<float>::epsilon() / height) << height;
     }
 }
 

@@ -1,6 +1,10 @@
 /// Inputs that once broke a technique.
 
+#include <cstring>
 #include <initializer_list>
+#include <iterator>
+#include <new>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -215,6 +219,40 @@ TEST(RegressionTest, HemispheresKeepTheirFirstVertex) {
              {-0.551723838f, -0.896552384f, 0.827585697f}, {1.44827616f, 0.103447631f, 0.827585697f});
     expect_contract<PolygonSolidAngleKindOf<4>>(close, {0.774859369f, 0});
 }
+
+#if NUSSELT_HAS_VERTEX_LANES
+/// The bits of a technique in all lanes, made from one in memory that was filled with a byte before.
+template <int N>
+std::vector<unsigned char> bits_after(unsigned char fill, const nusselt::ConvexPolygon<float, N>& light) {
+    using Single = nusselt::PolygonProjectedSolidAngle<float, N>;
+    using Packed = nusselt::PolygonProjectedSolidAngle<nusselt::Pack<float, 4>, N>;
+    alignas(64) unsigned char single[sizeof(Single)];
+    std::memset(single, fill, sizeof single);
+    const auto* technique = new (single) Single(light);
+    alignas(64) unsigned char packed[sizeof(Packed)] = {};
+    new (packed) Packed(*technique);
+    return {std::begin(packed), std::end(packed)};
+}
+
+/// Sectors of lights that are not ordinary had what was in memory as their angle.
+TEST(RegressionTest, TechniquesDoNotKeepWhatWasInMemory) {
+    const nusselt::Vec3<float> lights[][4] = {
+        {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}},   // central
+        {{1, -1, 1}, {3, -1, 1}, {3, 1, 1}, {1, 1, 1}},     // decentral
+        {{2, -1, -1}, {2, 1, -1}, {2, 1, 1}, {2, -1, 1}},   // clipped
+        {{2, -1, 1}, {2, 1, -1}, {2, 2, 3}, {2, 0, 4}},     // clipped, five vertices
+        {{2, -1, 1}, {3, -1, 2}, {2, 0, 2}, {1, 0, 1}},     // general
+        {{1, 0, 1}, {2, 0, 1}, {2, 0, 2}, {1, 1, 1}},       // with an edge in a vertical plane
+        {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},       // the zenith is a vertex
+        {{2, -1, -1}, {2, 1, -1}, {2, 1, -3}, {2, -1, -2}}, // below the horizon
+        {{1, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}},       // on the horizon
+    };
+    for (const auto& v : lights) {
+        const Quad light = nusselt::make_polygon<4>(v, 4);
+        EXPECT_EQ(bits_after<4>(0x42, light), bits_after<4>(0xff, light));
+    }
+}
+#endif
 
 } // namespace
 } // namespace nusselt_test
