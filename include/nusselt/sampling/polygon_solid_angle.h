@@ -59,7 +59,7 @@ public:
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         // Choose a triangle of the fan in proportion to its solid angle (Sec. 5).
         const Real target = u.x * total_;
-        Triangle t;
+        Triangle t{};
         find_triangle(target, t);
 
         // Find the corner v, on the arc from a to b, for which the triangle (a, c, v) has the remaining solid angle
