@@ -72,8 +72,10 @@ public:
         }
         Real excess = max(multiply_add(t.g0, angle.cos, -t.g1 * angle.sin), Real(0));
         Real y = t.g2_a * angle.sin;
-        if (!all(excess + y > Real(kSmall))) {
-            const Real scale = reciprocal_power_of_two(max(excess, y));
+        const auto large = excess + y > Real(kSmall);
+        if (!all(large)) {
+            // Lanes do not depend on their neighbours: denormal numbers round where they are scaled.
+            const Real scale = select(large, Real(1), reciprocal_power_of_two(max(excess, y)));
             excess = scale * excess;
             y = scale * y;
         }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_CLIPPED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_CLIPPED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_solid_angle.h @ 4d88496e0334
+// Follows include/nusselt/sampling/polygon_solid_angle.h @ 85ecd419e476
 /// Uniform sampling of the solid angle of the part of a convex polygon above the horizon (polygon_solid_angle.glsl).
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr], a constant.
