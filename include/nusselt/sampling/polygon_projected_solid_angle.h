@@ -175,8 +175,10 @@ private:
         if (all(all_above)) {
             prepare(polygon, distance);
         } else {
-            // Once more to an extent of order one, since little may be left of the light.
-            const ScaledPolygon<Real, N + 1> clipped = to_unit_extent(clip_to_horizon(polygon));
+            // Once more to an extent of order one, since little may be left of the light. Lanes above the horizon keep their scale:
+            // they do not depend on their neighbours.
+            const ScaledPolygon<Real, N + 1> clipped =
+                to_unit_extent_where(!all_above, clip_to_horizon(polygon));
             inverse_scale_ = inverse_scale_ * clipped.inverse_scale;
             prepare(clipped.light, clipped.scale * distance);
         }
@@ -447,7 +449,8 @@ private:
         const Real from_inner = forms.outer_point.z + forms.gap - height;
         const Real below = from_inner * (forms.outer_point.z + forms.gap + height);
         const auto usable = (form > Real(0)) & (forms.rise > Real(0));
-        const Real decentral = forms.outer * below / select(usable, form * forms.rise, Real(1));
+        const Real decentral =
+            select(usable, forms.outer * below, Real(0)) / select(usable, form * forms.rise, Real(1));
         const Real central = forms.outer / select(form > Real(0), form, Real(1));
         return select(central_, select(radius > Real(0), central, Real(0)), decentral);
     }

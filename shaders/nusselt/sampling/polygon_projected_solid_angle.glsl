@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 209f0335e8cd
+// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 5e28a23abcdd
 /// Uniform sampling of the projected solid angle of a convex polygon: density proportional to the cosine at the
 /// surface. With a Lambertian emitter on a Lambertian surface, all noise that remains comes from shadows.
 ///
@@ -307,7 +307,7 @@ float relative_height_in_sector(bool central, DecentralSector sector, float x, v
     if (central) return radius > 0.0 ? forms.outer / (form > 0.0 ? form : 1.0) : 0.0;
     float from_inner = forms.outer_point.z + forms.gap - height;
     float below = from_inner * (forms.outer_point.z + forms.gap + height);
-    return forms.outer * below / (form > 0.0 && forms.rise > 0.0 ? form * forms.rise : 1.0);
+    return form > 0.0 && forms.rise > 0.0 ? forms.outer * below / (form * forms.rise) : 0.0;
 }
 
 /// The position of a direction.
