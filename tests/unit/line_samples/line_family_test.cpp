@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
-
-#include <limits>
 
 #include <gtest/gtest.h>
 
