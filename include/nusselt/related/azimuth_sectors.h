@@ -81,6 +81,9 @@ public:
     static constexpr int kSlots = N + 1;
     using Sector = AzimuthSector<Real>;
 
+    /// To be assigned to before it is used.
+    AzimuthSectors() = default;
+
     /// \param light in shading space, either winding [m].
     NUSSELT_HD explicit AzimuthSectors(const ConvexPolygon<Real, N>& light) noexcept
         : plane_normal_(light.normal),

@@ -14,7 +14,7 @@ NUSSELT_INLINE Vec3<Real> horizon_crossing(const Vec3<Real>& a, const Vec3<Real>
     return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), Real(0)};
 }
 
-/// For scalars: writes as many vertices as there are above the horizon.
+/// For scalars: writes as many vertices as there are above the horizon, without those that repeat their successor.
 /// \param v room for N + 1 vertices.
 /// \returns the number of vertices.
 template <int N, class Real>
@@ -23,7 +23,8 @@ NUSSELT_INLINE int clip_to_outline(const Vec3<Real>* vertex, Vec3<Real>* v) noex
     for (int j = 0; j < N; ++j) {
         const Vec3<Real>& a = vertex[j];
         const Vec3<Real>& b = vertex[j + 1 < N ? j + 1 : 0];
-        if (a.z > Real(0) && count < N + 1) v[count++] = a;
+        const bool is_repeated = a.x == b.x && a.y == b.y && a.z == b.z;
+        if (a.z > Real(0) && !is_repeated && count < N + 1) v[count++] = a;
         if ((a.z > Real(0)) != (b.z > Real(0)) && count < N + 1) v[count++] = horizon_crossing(a, b);
     }
     return count;

@@ -6,8 +6,8 @@
 /// Realistic Image Synthesis. All arcs of samples begin at vertex 0. Use PolygonSolidAngle instead.
 ///
 /// Known failures, which the tests show:
-/// - Small lights lose digits to 1 - cos(c) and to the sine of an arc that follows from its cosine: in float, samples of a
-///   light of a thousandth of its distance lie on few lines.
+/// - Small lights lose digits to 1 - cos(c) and to the sine of an arc that follows from its cosine: in float, samples of
+///   lights of a thousandth of their distance are off by a tenth of their random number in the median.
 /// - Coordinates must be of order one, and the plane of the light must not contain the shading point.
 
 #include <nusselt/core/broadcast.h>

@@ -20,6 +20,7 @@ struct SphericalTriangleArvo {
     Real cos_b, cos_c;         ///< of the lengths of the edges from a to c and to b
     Real solid_angle;          ///< 0 for triangles without area
 
+    /// Uninitialised: to be assigned to before it is used.
     SphericalTriangleArvo() = default;
 
     /// \param a_in, b_in, c_in unit vectors, in either winding.
