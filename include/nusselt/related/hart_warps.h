@@ -29,6 +29,15 @@ namespace hart {
 template <class Real>
 inline constexpr scalar_t<Real> kLeastSum = 4 * std::numeric_limits<scalar_t<Real>>::min();
 
+/// A sample of the density that is linear between values at 0 and 1, not negative, not normalised: the root in a form without
+/// cancellation. 0 where both values are 0.
+template <class Real>
+NUSSELT_INLINE Real sample_linear(const Real& at_0, const Real& at_1, const Real& u) noexcept {
+    const Real squares = multiply_add(Real(1) - u, at_0 * at_0, u * (at_1 * at_1));
+    const Real denominator = at_0 + sqrt(squares);
+    return below_one(u * (at_0 + at_1) / select(denominator > Real(0), denominator, Real(1)));
+}
+
 /// A density that is linear between its values at 0 and 1.
 template <class Real>
 class LinearWarp {
@@ -56,12 +65,7 @@ public:
         broadcast_members<Real>(*this, single);
     }
 
-    /// The root in a form without cancellation.
-    NUSSELT_INLINE Real sample(const Real& u) const noexcept {
-        const Real squares = multiply_add(Real(1) - u, at_0_ * at_0_, u * (at_1_ * at_1_));
-        const Real denominator = at_0_ + sqrt(squares);
-        return below_one((u + u) / select(denominator > Real(0), denominator, Real(1)));
-    }
+    NUSSELT_INLINE Real sample(const Real& u) const noexcept { return sample_linear(at_0_, at_1_, u); }
 
     NUSSELT_INLINE Real density(const Real& x) const noexcept {
         return multiply_add(Real(1) - x, at_0_, x * at_1_);
@@ -216,7 +220,7 @@ public:
     NUSSELT_INLINE Vec2<Real> sample(const Vec2<Real>& u) const noexcept {
         const Real y = marginal_.sample(u.y);
         const Row row(*this, y);
-        return {LinearWarp<Real>(row.first, row.last).sample(u.x), y};
+        return {sample_linear(row.first, row.last, u.x), y};
     }
 
     NUSSELT_INLINE Real density(const Vec2<Real>& x) const noexcept {

@@ -8,10 +8,12 @@
 /// is a linear or quadratic function of the random number, with the cosines, clamped to 0, of both ends and, if quadratic, of
 /// the middle as control values.
 ///
-/// Use LineProjectedSolidAngle instead: its density is the cosine. Known failures of this one: the density is not the cosine.
-/// The linear one hardly gains anything from long lights overhead, whose cosine is largest between the ends, and loses to
-/// the base where an end is close to the horizon while the middle is high. Without clipping, much of the density may lie
-/// below the horizon.
+/// Use LineProjectedSolidAngle instead: its density is the cosine. Known failures of this one:
+/// - The linear warp gains nothing from long lights overhead, whose cosine is largest between the ends. It is worse than
+///   its base where one end is on the horizon and the middle is higher than the other end.
+/// - Without clipping, much of the density may lie below the horizon.
+/// - pdf(wi) inverts the map to random numbers, which is inaccurate for lights that are seen as short as rounding errors.
+///   There it deviates from the density of the sample.
 
 #include <nusselt/related/hart_warps.h>
 #include <nusselt/sampling/line_solid_angle.h>

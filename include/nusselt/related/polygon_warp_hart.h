@@ -13,6 +13,8 @@
 ///   only other parts of the light are above the horizon, the warp is the identity.
 /// - The variance depends on which vertex is the first. Clipping changes that vertex and the order of the others, so
 ///   that the variance jumps where a vertex crosses the horizon.
+/// - Where vertex 0 is on the horizon, as often after clipping, the cosine grows with the square root of the distance
+///   in y and the density with the distance: weights grow without bound, although their variance is finite.
 /// - pdf(wi) inverts the map to random numbers, which are inaccurate next to vertex 0 and for lights seen edge-on. There
 ///   it deviates from the density of the sample.
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_RELATED_HART_WARPS_GLSL
 #define NUSSELT_RELATED_HART_WARPS_GLSL
-// Follows include/nusselt/related/hart_warps.h @ 114141aa1f93
+// Follows include/nusselt/related/hart_warps.h @ 742765009a3b
 /// Warps of uniform random numbers to polynomial densities on the unit interval and the unit square.
 ///
 /// D. Hart, M. Pharr, T. Müller, W. Lopes, M. McGuire, P. Shirley 2020, Practical Product Sampling by Fitting and
@@ -11,6 +11,14 @@
 
 /// The least sum of values whose reciprocal is finite.
 const float kNusseltLeastSum = 4.0 * kNusseltSmallestNormal;
+
+/// A sample of the density that is linear between values at 0 and 1, not negative, not normalised: the root in a form
+/// without cancellation. 0 where both values are 0.
+float hart_sample_linear(float at_0, float at_1, float u) {
+    float squares = nusselt_fma(1.0 - u, at_0 * at_0, u * (at_1 * at_1));
+    float denominator = at_0 + sqrt(squares);
+    return below_one(u * (at_0 + at_1) / (denominator > 0.0 ? denominator : 1.0));
+}
 
 /// A density that is linear between its values at 0 and 1.
 struct HartLinearWarp {
@@ -25,12 +33,7 @@ HartLinearWarp hart_linear_warp(float at_0, float at_1) {
     return HartLinearWarp(scale * at_0, scale * at_1);
 }
 
-/// The root in a form without cancellation.
-float hart_linear_warp_sample(HartLinearWarp self, float u) {
-    float squares = nusselt_fma(1.0 - u, self.at_0 * self.at_0, u * (self.at_1 * self.at_1));
-    float denominator = self.at_0 + sqrt(squares);
-    return below_one((u + u) / (denominator > 0.0 ? denominator : 1.0));
-}
+float hart_linear_warp_sample(HartLinearWarp self, float u) { return hart_sample_linear(self.at_0, self.at_1, u); }
 
 float hart_linear_warp_density(HartLinearWarp self, float x) {
     return nusselt_fma(1.0 - x, self.at_0, x * self.at_1);
@@ -132,7 +135,7 @@ vec2 hart_bilinear_warp_row(HartBilinearWarp self, float y) {
 vec2 hart_bilinear_warp_sample(HartBilinearWarp self, vec2 u) {
     float y = hart_linear_warp_sample(self.marginal, u.y);
     vec2 row = hart_bilinear_warp_row(self, y);
-    return vec2(hart_linear_warp_sample(hart_linear_warp(row.x, row.y), u.x), y);
+    return vec2(hart_sample_linear(row.x, row.y, u.x), y);
 }
 
 float hart_bilinear_warp_density(HartBilinearWarp self, vec2 x) {
