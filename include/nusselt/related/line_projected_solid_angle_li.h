@@ -18,6 +18,8 @@
 ///     random lines and numbers;
 ///   - loses its precision for short and distant lines, since it subtracts two values of the integral. If their
 ///     rounding exceeds the tolerance, all twenty steps pass without success;
+///   - returns directions that are not of unit length if the light points at the shading point, because rounding turns
+///     the direction to its closest point;
 ///   - starts from the middle of the length, far from most samples if the line is long and close;
 ///   - is dark where the square of the distance of the line overflows or underflows.
 
@@ -42,7 +44,7 @@ class LineProjectedSolidAngleLi {
 
 public:
     /// \param light in shading space [m].
-    NUSSELT_HD explicit LineProjectedSolidAngleLi(const LineSegment<Real>& light) noexcept : s_(light.s) {
+    NUSSELT_INLINE explicit LineProjectedSolidAngleLi(const LineSegment<Real>& light) noexcept : s_(light.s) {
         // The infinite line by its point that is closest to the origin.
         const Real start = dot(light.p0, s_);
         closest_ = multiply_add(-start, s_, light.p0);
@@ -82,7 +84,7 @@ public:
 
     /// \param u in [0, 1); increasing u moves from the start of the light to its end, apart from jumps of up to
     ///          twice the tolerance where the number of steps changes.
-    NUSSELT_HD LightSample<Real> sample(const Real& u) const noexcept {
+    NUSSELT_INLINE LightSample<Real> sample(const Real& u) const noexcept {
         const Real x = coordinate(u);
         Vec3<Real> wi = (Real(1) / sqrt(multiply_add(x, x, Real(1)))) * multiply_add(x, s_, t_);
         wi.z = max(wi.z, Real(0));
@@ -123,7 +125,7 @@ private:
     }
 
     /// The coordinate of a sample.
-    NUSSELT_HD Real coordinate(const Real& u) const noexcept {
+    NUSSELT_INLINE Real coordinate(const Real& u) const noexcept {
         Real low = low_, high = high_;
         Real x = Real(0.5) * (low + high);
         Mask active = total_ > Real(0);

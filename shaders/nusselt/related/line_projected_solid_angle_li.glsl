@@ -1,6 +1,6 @@
 #ifndef NUSSELT_RELATED_LINE_PROJECTED_SOLID_ANGLE_LI_GLSL
 #define NUSSELT_RELATED_LINE_PROJECTED_SOLID_ANGLE_LI_GLSL
-// Follows include/nusselt/related/line_projected_solid_angle_li.h @ 71c6ecd7f9ac
+// Follows include/nusselt/related/line_projected_solid_angle_li.h @ de8a9cee73bf
 /// A published method, to compare with: projected solid angle sampling of a line by Newton's method within a bracket.
 ///
 /// T.-M. Li, M. Aittala, F. Durand, J. Lehtinen 2018, Differentiable Monte Carlo Ray Tracing through Edge Sampling, ACM

@@ -433,6 +433,22 @@ TEST(LineProjectedSolidAngleLi, JumpsWhereTheNumberOfStepsChanges) {
     EXPECT_NEAR(repeated, 2e-5 * kCount, 2);
 }
 
+/// A line that almost points at the shading point.
+nusselt::LineSegment<float> end_on_line() {
+    return make_light<float>(LineCase{"end-on", {0.30001, 0.4, 0.5}, {0.90001, 1.2, 1.5}});
+}
+
+TEST(LineProjectedSolidAngleLi, HasWrongDirectionsToLinesThatPointAtTheShadingPoint) {
+    const nusselt::LineProjectedSolidAngle<float> ours(end_on_line());
+    const nusselt::LineProjectedSolidAngleLi<float> technique(end_on_line());
+    double worst = 0;
+    for (const float u : midpoints<LiKind, float>(20)) {
+        EXPECT_NEAR(length(ours.sample(u).wi), 1, 1e-6);
+        worst = std::max(worst, std::fabs(double{length(technique.sample(u).wi)} - 1));
+    }
+    EXPECT_GE(worst, 1e-3);
+}
+
 TEST(LineProjectedSolidAngleLi, IsDarkWhereSquaresOverflow) {
     const auto light = make_light<float>(LineCase{"huge", {-1e20, 5e19, 1e20}, {1e20, 5e19, 1e20}});
     EXPECT_GT(nusselt::LineProjectedSolidAngle<float>(light).measure(), 0);
@@ -474,7 +490,7 @@ TEST(LineRectangleUrena, WouldBeBiasedWithTheRadiusOfATube) {
 }
 
 TEST(LineRectangleUrena, LosesDigitsOfLinesThatPointAtTheShadingPoint) {
-    const auto light = make_light<float>(LineCase{"end-on", {0.30001, 0.4, 0.5}, {0.90001, 1.2, 1.5}});
+    const auto light = end_on_line();
     const double exact =
         nusselt::LineSolidAngle<double>(
             nusselt::LineSegment<double>{nusselt::broadcast<double>(light.p0),
