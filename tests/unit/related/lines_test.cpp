@@ -19,7 +19,9 @@
 #include "sampling/lit_part.h"
 
 namespace nusselt_test {
-namespace {
+
+/// The techniques under test, as rows of techniques.json would describe them.
+namespace related_lines {
 
 struct LiKind : LineKind {
     static constexpr const char* kName = "LineProjectedSolidAngleLi";
@@ -50,6 +52,12 @@ struct ProjectedGamitoKind : CylinderKind {
     using Technique = nusselt::CylinderProjectedRejectionGamito<Real>;
 };
 using Kinds = KindList<LiKind, UrenaKind, GamitoKind, ProjectedGamitoKind>;
+
+} // namespace related_lines
+
+namespace {
+
+using namespace related_lines;
 
 template <class Kind>
 constexpr bool kHasTolerance = std::is_same_v<Kind, LiKind>;
