@@ -25,10 +25,6 @@ template <int Capacity, int N>
 inline Outline<Capacity> outline_above_horizon(const ConvexPolygon<float, N>& polygon) noexcept {
     static_assert(Capacity > N, "clipping adds a vertex");
     const auto next = [](int j) { return j + 1 < N ? j + 1 : 0; };
-    const auto extent_of = [&](int j) {
-        const Vec3<float>& e = polygon.edge[j];
-        return max(max(abs(e.x), abs(e.y)), abs(e.z));
-    };
 
     // Find the vertices that stay, and the edges where the boundary goes below the horizon and comes up again. Without such
     // edges, the walk begins at vertex 0.
@@ -41,7 +37,7 @@ inline Outline<Capacity> outline_above_horizon(const ConvexPolygon<float, N>& po
         const bool next_above = polygon.vertex[next(j)].z > 0;
         const bool is_fall = above && !next_above;
         const bool is_rise = !above && next_above;
-        stays[j] = above && extent_of(j) > 0;
+        stays[j] = above && detail::extent_of(polygon.edge[j]) > 0;
         falls += is_fall ? 1 : 0;
         fall = is_fall ? j : fall;
         rise = is_rise ? j : rise;
@@ -71,13 +67,13 @@ inline Outline<Capacity> outline_above_horizon(const ConvexPolygon<float, N>& po
         const Vec3<float>&a = polygon.vertex[rise], &b = polygon.vertex[next(rise)], &e = polygon.edge[rise];
         const float share = b.z / (b.z - a.z);
         const Vec3<float> part{share * e.x, share * e.y, b.z};
-        extents = extent_of(rise);
+        extents = detail::extent_of(e);
         add(on_horizon(a, b.x - part.x, b.y - part.y), part);
     }
     const auto add_edge = [&](int j) {
         if (!stays[j]) return;
         add(polygon.vertex[j], polygon.edge[j]);
-        extents += extent_of(j);
+        extents += detail::extent_of(polygon.edge[j]);
     };
     int j = next(rise);
     for (; j != fall; j = next(j)) add_edge(j);
@@ -87,7 +83,7 @@ inline Outline<Capacity> outline_above_horizon(const ConvexPolygon<float, N>& po
         const Vec3<float>&a = polygon.vertex[j], &b = polygon.vertex[next(j)], &e = polygon.edge[j];
         const float share = a.z / (a.z - b.z);
         const Vec3<float> part{share * e.x, share * e.y, -a.z};
-        extents += extent_of(j);
+        extents += detail::extent_of(e);
         if (stays[j]) add(a, part);
         // Close the polygon along the horizon. The sum has the order of clip_to_horizon(), so that it rounds alike; that of the
         // walk would make errors next to the plane of a light 4 % larger.
