@@ -293,7 +293,8 @@ private:
         Importance::clip(line);
         h.extent = make_line_extent(line);
         const Real integral = Importance::integral(h.extent);
-        h.integral = select(h.extent.visible() & is_finite(integral), integral, Real(0));
+        const auto visible = h.extent.visible();
+        h.integral = select(visible & is_finite(integral), integral, Real(0));
         return h;
     }
 
