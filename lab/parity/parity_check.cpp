@@ -28,8 +28,19 @@ double quantile(const std::vector<double>& sorted, double share) {
     return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
-double tail_of(std::size_t errors) {
-    return std::clamp(1 - kErrorsBeyondTail / static_cast<double>(errors), 0.99, 0.999);
+/// Names and shares of the quantiles that are compared. None has fewer errors above it than the tail.
+std::vector<std::pair<const char*, double>> quantiles_of(std::size_t errors, Tail tail) {
+    const double largest_share = 1 - kErrorsBeyondTail / static_cast<double>(errors);
+    std::vector<std::pair<const char*, double>> shares;
+    if (largest_share < 0.5) return shares;
+    shares.emplace_back("median", 0.5);
+    if (largest_share >= 0.99) shares.emplace_back("99 %", 0.99);
+    shares.emplace_back("tail", std::min(largest_share, 0.999));
+    if (errors >= kErrorsForExtremes) {
+        if (tail == Tail::nearly_largest) shares.emplace_back("far tail", 0.9999);
+        if (tail == Tail::largest) shares.emplace_back("largest", 1);
+    }
+    return shares;
 }
 
 void sort(std::vector<double>& errors) {
@@ -88,13 +99,9 @@ Verdict compare(const std::string& quantity, std::vector<double> device, std::ve
     sort(device);
     sort(cpp);
     sort(floor);
-    std::vector<std::pair<const char*, double>> shares{
-        {"median", 0.5}, {"99 %", 0.99}, {"tail", tail_of(device.size())}};
-    if (device.size() >= kErrorsForExtremes) {
-        if (budget.tail == Tail::nearly_largest) shares.emplace_back("far tail", 0.9999);
-        if (budget.tail == Tail::largest) shares.emplace_back("largest", 1);
-    }
+    const auto shares = quantiles_of(device.size(), budget.tail);
     Verdict verdict;
+    if (shares.empty() && !device.empty()) verdict.vacuous.push_back(quantity + ", too few errors");
     for (const auto& [name, share] : shares) {
         const double value = quantile(device, share);
         const double reference = quantile(cpp, share);

@@ -46,6 +46,8 @@ struct Errors {
         of[static_cast<std::size_t>(quantity)].push_back(static_cast<double>(error));
     }
     void append(const Errors& other);
+    /// How many samples were judged.
+    std::size_t samples() const { return of[static_cast<std::size_t>(Quantity::first_random)].size(); }
 };
 
 /// One comparison of errors.
@@ -63,7 +65,8 @@ struct Verdict {
     std::int64_t lights = 0;           ///< how many were judged, or calls of functions
     std::vector<Compared> compared;    ///< all errors whose budget can be exceeded
     std::vector<std::string> excesses; ///< messages that name each exceeded budget and the error
-    std::vector<std::string> vacuous;  ///< quantities and quantiles whose budget no error can exceed
+    std::vector<std::string>
+        vacuous; ///< quantities and quantiles whose budget no error can exceed, or with too few errors
     double largest_ratio = 0; ///< of an error on the device to that of C++ or to the floor; the budget is 3
     std::string where;        ///< the quantity and quantile with the largest ratio
 
@@ -71,8 +74,9 @@ struct Verdict {
     void add(const std::string& lights_of_other, const Verdict& other);
 };
 
-/// The errors that are compared: always the median, the 99 % quantile and the tail, which is the 99.9 % quantile or a
-/// lower one if a class has few lights.
+/// The errors that are compared: the median, the 99 % quantile and the tail, which is the 99.9 % quantile. A quantile with
+/// fewer than 30 errors above it depends on chance. The tail of fewer than 30 000 errors is therefore a lower quantile, below
+/// 3000 it stands for the 99 % quantile, too, and fewer than 60 errors are vacuous.
 enum class Tail {
     quantiles,
     nearly_largest, ///< also the 99.99 % quantile, if a class has many lights

@@ -20,9 +20,15 @@ usage() {
 # The default is made for eight minutes on a GPU.
 lights=300000 resolution=1920x1080 frames=9 warm_up=2 repetitions=15 limit=1800
 mode=full out=
+compared= measured= # scenes; all if empty
 while [ $# -gt 0 ]; do
     case $1 in
-        --quick) mode=quick lights=20000 resolution=160x90 frames=1 warm_up=0 repetitions=1 ;;
+        --quick)
+            # A device in software spends most of its time on compiling shaders, once for each scene: fewer scenes, and a
+            # frame to warm up, so that no time contains it.
+            mode=quick lights=20000 resolution=160x90 frames=1 warm_up=1 repetitions=1
+            compared='bollards cornell-panel cornell-tube planes room soup' measured='bollards cornell-tube planes room'
+            ;;
         --smoke) mode=smoke lights=10000 resolution=48x27 frames=1 warm_up=0 repetitions=1 ;;
         --device)
             [ $# -ge 2 ] || usage
@@ -95,9 +101,13 @@ if [ "$mode" = smoke ]; then
         --techniques projected_solid_angle --json "$out/frames.json"
 else
     step parity "$lab" gpu parity --lights "$lights" --json "$out/parity.json"
-    step agreement "$lab" gpu agreement --scenes "$scenes" --json "$out/agreement.json"
+    set -- --scenes "$scenes"
+    for name in $compared; do set -- "$@" "$scenes/$name.pbrt"; done
+    step agreement "$lab" gpu agreement "$@" --json "$out/agreement.json"
     step samplers "$lab" bench gpu-samplers --repetitions "$repetitions" --json "$out/samplers.json"
-    step frames "$lab" bench gpu --scenes "$scenes" --resolution "$resolution" --frames "$frames" --warm-up "$warm_up" \
+    set -- --scenes "$scenes"
+    for name in $measured; do set -- "$@" "$scenes/$name.pbrt"; done
+    step frames "$lab" bench gpu "$@" --resolution "$resolution" --frames "$frames" --warm-up "$warm_up" \
         --json "$out/frames.json"
 fi
 

@@ -32,11 +32,25 @@ TEST(ParityBudget, LeavesOutTheLargestErrorOfFewLights) {
         for (auto& errors : device.of) std::fill(errors.end() - bad, errors.end(), 1.0);
         return excesses_of(device, errors_up_to(1e-6, count), {}).size();
     };
+    EXPECT_EQ(excesses(30, 2000), 0u);
+    EXPECT_EQ(excesses(32, 2000), kQuantities) << "no 99 % quantile";
+    EXPECT_EQ(excesses(32, 60), 2 * kQuantities) << "the tail is the median";
     EXPECT_EQ(excesses(30, 3000), 0u);
     EXPECT_EQ(excesses(32, 3000), 2 * kQuantities) << "for so few errors, the tail is the 99 % quantile";
     EXPECT_EQ(excesses(31, 10'000), kQuantities) << "only the tail";
     EXPECT_EQ(excesses(1, 29'999), 0u);
     EXPECT_EQ(excesses(1, 30'000), 2u) << "the largest error of two quantities";
+}
+
+TEST(ParityBudget, TellsOfQuantitiesWithTooFewErrors) {
+    const auto of_count = [](int count) {
+        return compare(errors_up_to(1, count), errors_up_to(1e-6, count), {});
+    };
+    EXPECT_TRUE(of_count(59).excesses.empty());
+    EXPECT_EQ(of_count(59).vacuous.size(), kQuantities);
+    EXPECT_EQ(of_count(59).vacuous.front(), "first random number, too few errors");
+    EXPECT_EQ(of_count(60).excesses.size(), 2 * kQuantities);
+    EXPECT_TRUE(of_count(60).vacuous.empty());
 }
 
 TEST(ParityBudget, IsNotBelowTheFloor) {
