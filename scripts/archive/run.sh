@@ -46,7 +46,7 @@ done
 [ -n "$out" ] || usage
 
 mkdir -p -- "$out" || exit 1
-out=$(cd -- "$out" && pwd) || exit 1
+out=$(CDPATH= cd -- "$out" >/dev/null && pwd) || exit 1
 # A file that two runs cannot both create.
 if [ -n "$(ls -A "$out")" ] || ! (set -C && : >"$out/steps.txt") 2>/dev/null; then
     echo "run.sh: '$out' has results of an earlier run, or cannot be written; name another folder" >&2
