@@ -71,7 +71,8 @@ struct AcrossLanes<4> {
     }
     NUSSELT_INLINE static P sums_before(const P& p) noexcept {
         const auto by = [&](auto bytes) {
-            return P::from_native(_mm_castsi128_ps(_mm_slli_si128(_mm_castps_si128(p.native()), bytes)));
+            constexpr int kBytes = decltype(bytes)::value;
+            return P::from_native(_mm_castsi128_ps(_mm_slli_si128(_mm_castps_si128(p.native()), kBytes)));
         };
         return by(std::integral_constant<int, 4>()) + by(std::integral_constant<int, 8>()) +
                by(std::integral_constant<int, 12>());
