@@ -91,6 +91,14 @@ step() {
     case $outcome in failed | late) tail -n 3 "$out/$name.log" | sed 's/^/           /' ;; esac
 }
 
+# with_scenes NAMES COMMAND...: adds the files of these shipped scenes to a command; none leaves the choice to it.
+with_scenes() {
+    names=$1
+    shift
+    for scene in $names; do set -- "$@" "$scenes/$scene.pbrt"; done
+    "$@"
+}
+
 step device "$lab" gpu device --json "$out/device.json"
 case $outcome in passed | stopped) ;; *) ended=1 ;; esac
 if [ "$mode" = smoke ]; then
@@ -101,14 +109,10 @@ if [ "$mode" = smoke ]; then
         --techniques projected_solid_angle --json "$out/frames.json"
 else
     step parity "$lab" gpu parity --lights "$lights" --json "$out/parity.json"
-    set -- --scenes "$scenes"
-    for name in $compared; do set -- "$@" "$scenes/$name.pbrt"; done
-    step agreement "$lab" gpu agreement "$@" --json "$out/agreement.json"
+    with_scenes "$compared" step agreement "$lab" gpu agreement --scenes "$scenes" --json "$out/agreement.json"
     step samplers "$lab" bench gpu-samplers --repetitions "$repetitions" --json "$out/samplers.json"
-    set -- --scenes "$scenes"
-    for name in $measured; do set -- "$@" "$scenes/$name.pbrt"; done
-    step frames "$lab" bench gpu "$@" --resolution "$resolution" --frames "$frames" --warm-up "$warm_up" \
-        --json "$out/frames.json"
+    with_scenes "$measured" step frames "$lab" bench gpu --scenes "$scenes" --resolution "$resolution" --frames "$frames" \
+        --warm-up "$warm_up" --json "$out/frames.json"
 fi
 
 trap '' INT TERM HUP
