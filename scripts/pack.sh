@@ -68,7 +68,8 @@ if [ "$what" = archive ]; then
     tar -C docs --exclude='*.png' --exclude='*.jpg' -cf - . | tar -C "$root/share/doc/nusselt/docs" -xf -
 else
     cp -r shaders/nusselt "$root/share/nusselt/shaders"
-    cp docs/gpu-kit.md "$root/README.md"
+    # The kit has no other pages to link to.
+    sed -E 's/\[([^]]+)\]\([a-z-]+\.md[^)]*\)/\1/g' docs/gpu-kit.md >"$root/README.md"
     cp scripts/archive/run.sh "$root/run.sh"
 fi
 cp -r scenes "$root/share/nusselt/scenes"

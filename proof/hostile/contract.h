@@ -1,6 +1,7 @@
 #pragma once
 /// The contract of a technique: it never fails, for any light and random number. Works for scalars and packs alike.
 
+#include <algorithm>
 #include <limits>
 
 #include "proof/techniques/registry.h"
@@ -83,23 +84,6 @@ private:
     }
 };
 
-template <class Real, class Light>
-mask_t<Real> is_off(const Light&, const Bounds<Real>& bounds, const Vec3<Real>& p,
-                    const Real& slack) noexcept {
-    return !bounds.contain(p, slack);
-}
-/// A point of a cylinder must be on its lateral surface or on a cap.
-template <class Real>
-mask_t<Real> is_off(const Cylinder<Real>& light, const Bounds<Real>&, const Vec3<Real>& p,
-                    const Real& slack) noexcept {
-    const Vec3<Real> offset = p - light.axis.p0;
-    const Real along = dot(offset, light.axis.s);
-    const Real beyond = max(-along, along - light.axis.length);
-    const Real outwards = length(cross(offset, light.axis.s)) - light.radius;
-    const auto on_surface = abs(max(beyond, outwards)) <= slack;
-    return !on_surface;
-}
-
 /// Width of a polygon relative to its extent, at most 1. Rounded vertices tilt the plane by the ratio of the rounding
 /// error to the width.
 template <class Real, int N>
@@ -129,9 +113,70 @@ Real warp(const ConvexPolygon<Real, N>& light) noexcept {
     return largest;
 }
 
+/// A point of a line must be in its box; that it is on the line follows from the direction that leads to it.
+template <class Real>
+mask_t<Real> is_off(const LineSegment<Real>&, const Bounds<Real>& bounds, const Vec3<Real>& p,
+                    const Real& slack, const Real&) noexcept {
+    return !bounds.contain(p, slack);
+}
+
+/// A point of a cylinder must be on its lateral surface or on a cap.
+template <class Real>
+mask_t<Real> is_off(const Cylinder<Real>& light, const Bounds<Real>&, const Vec3<Real>& p, const Real& slack,
+                    const Real&) noexcept {
+    const Vec3<Real> offset = p - light.axis.p0;
+    const Real along = dot(offset, light.axis.s);
+    const Real beyond = max(-along, along - light.axis.length);
+    const Real outwards = length(cross(offset, light.axis.s)) - light.radius;
+    const auto on_surface = abs(max(beyond, outwards)) <= slack;
+    return !on_surface;
+}
+
+/// Whether the plane of a polygon passes the shading point at more than the rounding errors of its vertices.
+/// \param rounding of hit points [m].
+template <class Real, int N>
+mask_t<Real> is_apart(const ConvexPolygon<Real, N>& light, const Real& width, const Real& rounding) noexcept {
+    return width * abs(plane_distance(light)) > rounding + Real(84) * warp(light);
+}
+
+/// The distance of the outline of a polygon from the shading point, relative to its extent.
+template <class Real, int N>
+Real relative_gap(const ConvexPolygon<Real, N>& light, const Real& extent) noexcept {
+    // Squares must not overflow.
+    const Real scale = reciprocal_power_of_two(extent);
+    Real closest = Real(1);
+    for (int j = 0; j < N; ++j) {
+        const Vec3<Real> v = scale * light.vertex[j];
+        const Vec3<Real> edge = scale * light.edge[j];
+        const Real squared = dot(edge, edge);
+        const Real along = -dot(v, edge) / select(squared > Real(0), squared, Real(1));
+        closest = min(closest, length(v + min(max(along, Real(0)), Real(1)) * edge));
+    }
+    return closest / max(scale * extent, Real(std::numeric_limits<scalar_t<Real>>::min()));
+}
+
+/// A point of a polygon must be in its box and, unless the plane contains the shading point up to rounding, in its plane.
+/// Points of lights seen edge-on leave the plane by a multiple of the error of angles over the distance of the plane and,
+/// since the azimuth changes faster along edges next to the shading point, over that of the outline.
+template <class Real, int N>
+mask_t<Real> is_off(const ConvexPolygon<Real, N>& light, const Bounds<Real>& bounds, const Vec3<Real>& p,
+                    const Real& slack, const Real& angle_error) noexcept {
+    const Real distance = plane_distance(light);
+    const Real width = relative_width(light, bounds.extent);
+    const Real sturdiness = width * (abs(distance) / bounds.extent) * relative_gap(light, bounds.extent);
+    const auto apart = is_apart(light, width, slack) & (sturdiness > Real(0));
+    const Real warped = warp(light);
+    const Real rounding = Real(84) * warped + slack;
+    const Real turned = fma(angle_error, bounds.extent, warped);
+    const Real magnified = Real(8) * turned / select(apart, sturdiness, Real(1));
+    const auto off_plane = abs(dot(light.normal, p) - distance) > rounding + magnified;
+    return (!bounds.contain(p, slack)) | (apart & off_plane);
+}
+
 /// The largest distance of a hit point from the ray along wi [m]. A tilt of the plane turns the directions to a light
 /// seen edge-on. The point where a ray meets the plane moves more at smaller angles to the plane. The smaller of the
-/// angles of wi and of the way to p counts, because rounding may have turned wi away from the plane.
+/// angles of wi and of the way to p counts, because rounding may have turned wi away from the plane. Nothing is required
+/// if the plane contains the shading point up to rounding.
 template <class Real, int N>
 Real aim_slack(const ConvexPolygon<Real, N>& light, const Vec3<Real>& wi, const Vec3<Real>& p,
                const Real& extent, const Real& slack) noexcept {
@@ -141,9 +186,8 @@ Real aim_slack(const ConvexPolygon<Real, N>& light, const Vec3<Real>& wi, const 
     const Real sturdiness =
         width * min(abs(dot(light.normal, wi)), distance / select(reach > Real(0), reach, Real(1)));
     const Real squared = sturdiness * sturdiness;
-    // Nothing is required if the plane contains the shading point up to rounding.
+    const auto apart = (squared > Real(0)) & is_apart(light, width, slack);
     const Real rounding = slack + Real(84) * warp(light);
-    const auto apart = (squared > Real(0)) & (width * distance > rounding);
     return select(apart, rounding / squared, Real(std::numeric_limits<scalar_t<Real>>::max()));
 }
 template <class Real>
@@ -220,7 +264,9 @@ void check_contract(const typename Kind::template Light<Real>& light,
     const Bounds<Real> bounds(light);
     // The rounding errors of denormal numbers are absolute.
     const Real slack = fma(Real(kTolerance), bounds.extent, Real(16 * std::numeric_limits<T>::min()));
-    report(sampled & is_off(light, bounds, p, slack), "p is off the light");
+    const Real angle_error(
+        std::max(static_cast<T>(4 * kAngleError<Kind>), std::numeric_limits<T>::epsilon()));
+    report(sampled & is_off(light, bounds, p, slack, angle_error), "p is off the light");
     // For 6e4 ordinary lights, the largest errors are 12 times the error of the angles.
     const Real turned = Real(static_cast<T>(32 * kAngleError<Kind>)) * bounds.extent;
     const Real aim = aim_slack(light, wi, p, bounds.extent, slack + turned);

@@ -8,6 +8,12 @@ self=$(readlink -f "$0")
 root=${self%/bin/*}
 program=$root/lib/programs/${self##*/}
 path=$root/lib
+case $root in
+    *:*)
+        echo "${self##*/}: the path '$root' has a colon, which separates folders of libraries; move the archive" >&2
+        exit 1
+        ;;
+esac
 
 # What the system's loader finds, with "not found" where a library or one of its versions is missing. Programs open
 # libvulkan.so.1 only when they need it; as a library to preload, it is in the list.

@@ -71,6 +71,8 @@ std::optional<std::size_t> find(const std::vector<vk::raii::PhysicalDevice>& dev
                                 const std::string& choice) {
     for (std::size_t i = 0; i < devices.size(); ++i)
         if (choice == std::to_string(i)) return i;
+    // A number is an index, not a part of a version in some name.
+    if (choice.find_first_not_of("0123456789") == std::string::npos) return std::nullopt;
     for (std::size_t i = 0; i < devices.size(); ++i)
         if (lower_case(describe(devices[i]).name).find(lower_case(choice)) != std::string::npos) return i;
     return std::nullopt;

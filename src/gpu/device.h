@@ -14,7 +14,7 @@
 namespace nusselt::gpu {
 
 struct DeviceOptions {
-    /// Index as in list_devices(), or part of a name in upper or lower case. Without it the environment variable
+    /// Index as in list_devices(), or part of a name in upper or lower case, which is more than a number. Without it the environment variable
     /// NUSSELT_DEVICE decides, likewise; without that a discrete GPU comes before an integrated one, and a
     /// software device last.
     std::optional<std::string> choice = {};

@@ -19,7 +19,8 @@ NUSSELT_NAMESPACE_BEGIN
 /// Measure: pdf is the density of wi in solid angle times the radius of the cylinder that tends to 0 [m/sr],
 /// density(wi) / measure() of the lobe. The emission of the light is radiance times radius, so that the radius cancels.
 /// Space: shading space with wo in the xz half-plane (shading_frame()); clips by itself.
-/// Edge cases: nothing of the light in the lobe, no length, or origin on the infinite line: pdf = 0, measure 0.
+/// Edge cases: nothing of the light in the lobe, no length, or origin on the infinite line up to rounding, in shading space
+/// or in cosine space: pdf = 0, measure 0.
 /// With CosineHorizon samples may lie below the surface, wi.z < 0: they count, with a contribution of zero.
 template <class Real, class Horizons = CosineHorizon>
 class LineLtc {

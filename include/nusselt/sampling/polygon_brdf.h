@@ -39,7 +39,8 @@ public:
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         const Vec3<Real> wi = lobe_.sample(u);
         const Real density = select(is_towards_light(wi), pdf(wi), Real(0));
-        return {wi, density, inverse_scale_ * hull_.point_along(wi)};
+        const Vec3<Real> p = hull_.plane.distance_along(wi) * wi;
+        return {wi, density, inverse_scale_ * hull_.box.clamped(p)};
     }
 
     /// \param wi a unit direction towards the light.

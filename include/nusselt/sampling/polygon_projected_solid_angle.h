@@ -79,7 +79,7 @@ public:
             s.wi = select(central_, s.wi, other.wi);
             s.p = select(central_, s.p, other.p);
         }
-        s.p = inverse_scale_ * hull_.clamped(s.p);
+        s.p = inverse_scale_ * hull_.box.clamped(s.p);
         s.wi = select(inverse_measure_ > Real(0), s.wi, Vec3<Real>{Real(0), Real(0), Real(1)});
         s.wi.y = mirror_ * s.wi.y;
         s.p.y = mirror_ * s.p.y;
@@ -323,7 +323,7 @@ private:
         // the horizon have less conclusive edges.
         const Real slack = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon()) * hull_.plane.farthest;
         const auto reaches_axis = (distance * polygon.normal.z >= Real(0)) &
-                                  (abs(distance) <= fma(abs(polygon.normal.z), hull_.high.z, slack));
+                                  (abs(distance) <= fma(abs(polygon.normal.z), hull_.box.high.z, slack));
         decentral = (decentral & (!touches_zenith)) | (!reaches_axis);
         central_ = !decentral;
 

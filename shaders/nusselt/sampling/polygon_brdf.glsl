@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_BRDF_GLSL
 #define NUSSELT_SAMPLING_POLYGON_BRDF_GLSL
-// Follows include/nusselt/sampling/polygon_brdf.h @ 57434443bfa9
+// Follows include/nusselt/sampling/polygon_brdf.h @ f3f3a92f4c89
 /// BRDF sampling of a convex polygon: directions by the BRDF alone, and a test whether they hit the light. Twin of
 /// include/nusselt/sampling/polygon_brdf.h.
 ///

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_LTC_GLSL
 #define NUSSELT_SAMPLING_POLYGON_LTC_GLSL
-// Follows include/nusselt/sampling/polygon_ltc.h @ 2d4c5c38d0b7
+// Follows include/nusselt/sampling/polygon_ltc.h @ beecd9863d65
 /// Sampling of a convex polygon proportional to a linearly transformed cosine. With a Lambertian emitter and a lobe
 /// that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 ///
@@ -19,9 +19,9 @@ struct PolygonLtc {
     Ltc ltc;
     PolygonProjectedSolidAngle image; ///< in cosine space
     // The part of the light that counts, in shading space and scaled to an extent of order one.
-    LightPlane plane;
     vec3 low, high;      ///< axis-aligned box
-    float lowest;        ///< bound on z of directions: 0 above the surface, else the lowest number
+    float lowest;        ///< bound on z of hit points: 0 above the surface, else the lowest number
+    float inverse_minor; ///< takes the scale of ltc_to_shading() back
     float inverse_scale; ///< a power of two
     float measure;
     float inverse_measure; ///< 0 without light
@@ -35,18 +35,16 @@ PolygonLtc polygon_ltc_prepare_image(ScaledPolygon part, Ltc ltc, PolygonProject
     self.image = image;
     self.inverse_scale = part.inverse_scale;
     self.lowest = -kNusseltLargest;
-    float farthest = 0.0; // squared
+    self.inverse_minor = 1.0 / ltc.minor;
     self.low = part.polygon.vertex[0];
     self.high = part.polygon.vertex[0];
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
         vec3 v = part.polygon.vertex[j];
-        farthest = nusselt_max(farthest, dot(v, v));
         self.low = nusselt_min(self.low, v);
         self.high = nusselt_max(self.high, v);
     }
-    self.plane = LightPlane(part.polygon.normal, plane_distance(part.polygon), sqrt(farthest));
     float in_lobe = polygon_projected_solid_angle_measure(self.image);
-    bool lit = in_lobe > 0.0 && self.plane.distance != 0.0;
+    bool lit = in_lobe > 0.0 && plane_distance(part.polygon) != 0.0;
     self.measure = lit ? (1.0 / kNusseltPi) * in_lobe : 0.0;
     self.inverse_measure = lit ? 1.0 / self.measure : 0.0;
     return self;
@@ -80,22 +78,19 @@ float polygon_ltc_pdf(PolygonLtc self, vec3 wi) {
     return is_finite(density) ? density : 0.0;
 }
 
-/// \param direction that was sampled of the image, in cosine space.
-LightSample polygon_ltc_sample_image(PolygonLtc self, vec3 direction) {
-    vec3 wi = vec3(0.0, 0.0, 1.0);
-    if (self.inverse_measure > 0.0) {
-        vec3 towards = ltc_to_shading(self.ltc, direction);
-        towards.z = nusselt_max(towards.z, self.lowest);
-        wi = nusselt_normalize(towards);
-    }
-    // Where the light is seen edge-on, rounding moves the point along wi; clamping keeps it on the light.
-    vec3 p = nusselt_min(nusselt_max(light_plane_distance_along(self.plane, wi) * wi, self.low), self.high);
+/// \param image_point that was sampled on the image, in cosine space.
+LightSample polygon_ltc_sample_image(PolygonLtc self, vec3 image_point) {
+    vec3 towards = ltc_to_shading(self.ltc, image_point);
+    towards.z = nusselt_max(towards.z, self.lowest);
+    vec3 wi = self.inverse_measure > 0.0 ? nusselt_normalize(towards) : vec3(0.0, 0.0, 1.0);
+    // Rounding shall not move the point off the light.
+    vec3 p = nusselt_min(nusselt_max(self.inverse_minor * towards, self.low), self.high);
     return LightSample(wi, polygon_ltc_pdf(self, wi), self.inverse_scale * p);
 }
 
 /// \param u in [0, 1)^2; as continuous as that of polygon_projected_solid_angle_sample().
 LightSample polygon_ltc_sample(PolygonLtc self, vec2 u) {
-    return polygon_ltc_sample_image(self, polygon_projected_solid_angle_sample(self.image, u).wi);
+    return polygon_ltc_sample_image(self, polygon_projected_solid_angle_sample(self.image, u).p);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light. See

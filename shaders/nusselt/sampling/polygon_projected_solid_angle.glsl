@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 5e28a23abcdd
+// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 313822754024
 /// Uniform sampling of the projected solid angle of a convex polygon: density proportional to the cosine at the
 /// surface. With a Lambertian emitter on a Lambertian surface, all noise that remains comes from shadows.
 ///

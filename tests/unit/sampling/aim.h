@@ -136,6 +136,19 @@ long double apparent_size(const WideLight& wide) {
     }
 }
 
+/// Whether the image of a line in the cosine space of its lobe passes the origin at twice the distance from which on
+/// techniques take it for a line through the origin. Narrow lobes bring images closer than the line itself.
+template <class T, class WideLight>
+bool image_is_apart(const WideLight&) {
+    return true;
+}
+template <class T>
+bool image_is_apart(const LineOnLobe<long double>& wide) {
+    const auto image = nusselt::to_cosine_space<long double>(wide, nusselt::Ltc<long double>(wide.lobe));
+    return carrier_distance(image) >
+           2.0L * nusselt::kSmallestDistance<T> * std::sqrt(nusselt::squared_reach(image));
+}
+
 /// Whether a random number is away from the ends of its range. There, the light may meet the horizon: the density is
 /// 0, and directions are as uncertain as for a light seen edge-on.
 template <class T>
@@ -158,7 +171,7 @@ std::string aim_violation(const Light& light, const Random& u, const nusselt::Li
     const auto wide = widened(light);
     const long double sturdy = sturdiness(wide, extent);
     // The effect of rounding is no longer proportional to it for lights that are thinner or closer to edge-on.
-    if (!(sturdy > 1e-3L) || !(apparent_size<Kind>(wide) > 1e-3L)) return "";
+    if (!(sturdy > 1e-3L) || !(apparent_size<Kind>(wide) > 1e-3L) || !image_is_apart<T>(wide)) return "";
     if (!is_inner(u)) return "";
     // A light whose heights are denormal, possibly after scaling its coordinates to order one, lies in the horizon if
     // denormals are flushed.

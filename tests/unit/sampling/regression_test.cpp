@@ -220,6 +220,33 @@ TEST(RegressionTest, HemispheresKeepTheirFirstVertex) {
     expect_contract<PolygonSolidAngleKindOf<4>>(close, {0.774859369f, 0});
 }
 
+/// Where the plane of a light almost contains the point, the direction alone does not tell where on the light its hit point
+/// is: hit points lay in the box around the light, but not in its plane.
+TEST(RegressionTest, HitPointsOfLobesStayInAPlaneNextToThePoint) {
+    using Kind = PolygonLtcKindOf<4>;
+    const Quad first = quad({-2321.857f, -4608.007f, 4660.75f}, {-5384.853f, 224.07828f, -4394.536f},
+                            {2046.3171f, 4572.515f, -4821.721f}, {2124.0242f, -3058.5879f, 5871.346f});
+    expect_contract<Kind>({first, {0.0644569f, 0.9994510f, 0.423600f, -0.0289520f, 0.00348034f, 1}},
+                          {0.121918f, 0});
+    const Quad second = quad({0x1.ac86ccp+10f, 0x1.679f5p+10f, -0x1.e7cd2cp+10f},
+                             {0x1.abcc66p+10f, -0x1.7e9194p+8f, 0x1.2b5a04p+11f},
+                             {-0x1.2c81eap+11f, -0x1.4e7488p+10f, 0x1.15c844p+10f},
+                             {-0x1.3171ap+11f, -0x1.73d016p+7f, -0x1.a27096p+10f});
+    expect_contract<Kind>(
+        {second, {0x1.585afcp-8f, 0x1.3ee8aap-6f, 0x1.010fa2p-5f, -0x1.1d95p-10f, 0x1.345e8ep-12f, 1}},
+        {0x1.800b7cp-2f, 0});
+}
+
+/// The contract must not be content with the box around a light.
+TEST(RegressionTest, ContractRejectsHitPointsBesideThePlane) {
+    using Kind = PolygonSolidAngleKindOf<4>;
+    const Quad light = quad({-1, -2, 1}, {1, -2, 1}, {1, 1, 2}, {-1, 1, 2});
+    Outputs<float, nusselt::Vec2<float>> out = outputs_of<Kind, float>(light, {0.5f, 0.5f});
+    EXPECT_EQ((violation<Kind, float>(light, out)), nullptr);
+    out.sample.p = 1.002f * out.sample.p;
+    EXPECT_STREQ((violation<Kind, float>(light, out)), "p is off the light");
+}
+
 #if NUSSELT_HAS_VERTEX_LANES
 /// The bits of a technique in all lanes, made from one in memory that was filled with a byte before.
 template <int N>
