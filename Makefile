@@ -24,7 +24,7 @@ test-full: ## the same with full effort, and with other compilers and processors
 archive: build ## the program for other x86-64 Linux systems: out/nusselt-*.tar.xz (docs/gpu-kit.md)
 	scripts/pack.sh archive
 
-gpu-kit: ## all that checks and measures a machine's GPU, without installing anything: out/nusselt-gpu-kit.tar.xz
+gpu-kit: ## an archive that checks and measures the GPU of any machine: out/nusselt-gpu-kit.tar.xz (docs/gpu-kit.md)
 	scripts/setup.sh build
 	scripts/build.sh kit_programs
 	scripts/pack.sh gpu-kit

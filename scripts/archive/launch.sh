@@ -9,8 +9,8 @@ root=${self%/bin/*}
 program=$root/lib/programs/${self##*/}
 path=$root/lib
 case $root in
-    *:*)
-        echo "${self##*/}: the path '$root' has a colon, which separates folders of libraries; move the archive" >&2
+    *[:\;]*)
+        echo "${self##*/}: the path '$root' has a colon or a semicolon, which separate folders of libraries; move the archive" >&2
         exit 1
         ;;
 esac

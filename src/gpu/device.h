@@ -14,9 +14,9 @@
 namespace nusselt::gpu {
 
 struct DeviceOptions {
-    /// Index as in list_devices(), or part of a name in upper or lower case, which is more than a number. Without it the environment variable
-    /// NUSSELT_DEVICE decides, likewise; without that a discrete GPU comes before an integrated one, and a
-    /// software device last.
+    /// Index as in list_devices(), or part of a name in upper or lower case. A number is always an index. Without it,
+    /// the environment variable NUSSELT_DEVICE decides, likewise; without that a discrete GPU comes before an integrated
+    /// one, and a software device last.
     std::optional<std::string> choice = {};
     Validation validation = Validation::off;
     /// The allocator of the driver for objects on the host, which must outlive the device. Null for its own one.

@@ -94,6 +94,12 @@ TEST_F(DevicesTest, UnknownNameIsAnErrorThatListsTheDevices) {
     EXPECT_EQ(reason->find('\n'), std::string::npos) << *reason;
 }
 
+TEST_F(DevicesTest, NumberIsAnIndexAndNoPartOfAName) {
+    // The name of llvmpipe has "256 bits" in it.
+    EXPECT_TRUE(gpu::why_no_device({.choice = "256"}));
+    EXPECT_FALSE(gpu::why_no_device({.choice = "0"}));
+}
+
 TEST_F(DevicesTest, BuffersBeyondTheLimitAreAnError) {
     const std::size_t limit = device().limits().maxStorageBufferRange;
     try {

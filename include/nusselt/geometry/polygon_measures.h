@@ -78,11 +78,11 @@ template <class Real>
 struct LightBox {
     Vec3<Real> low, high;
 
-    /// A point of the plane of the polygon moved into the box. Where the light is seen edge-on, rounding moves points along
-    /// their direction; they shall not leave the light.
+    /// The closest point of the box.
     NUSSELT_HD Vec3<Real> clamped(const Vec3<Real>& p) const noexcept { return min(max(p, low), high); }
 };
 
+/// The smallest box around a polygon.
 template <class Real, int N>
 NUSSELT_HD inline LightBox<Real> box_of(const ConvexPolygon<Real, N>& polygon) noexcept {
     LightBox<Real> box{polygon.vertex[0], polygon.vertex[0]};
@@ -100,11 +100,19 @@ NUSSELT_HD inline LightBox<Real> broadcast(const LightBox<Single>& box) noexcept
     return {broadcast<Real>(box.low), broadcast<Real>(box.high)};
 }
 
-/// The plane of a polygon with coordinates of order one and a box around it, to find where directions meet it.
+/// The plane of a polygon with coordinates of order one and a box around it: where hit points may be.
 template <class Real>
 struct PolygonHull {
     LightPlane<Real> plane;
     LightBox<Real> box;
+
+    /// A point of the polygon, of which rounding may have changed the distance from the origin, moved along the normal to
+    /// the plane and into the box. For a light seen edge-on, points of the ray that are barely off the plane are far from
+    /// where the ray meets it, and a point behind the plane would be in the shadow of the light itself.
+    NUSSELT_HD Vec3<Real> closest_point(const Vec3<Real>& p) const noexcept {
+        const Real off_plane = plane.distance - dot(plane.normal, p);
+        return box.clamped(multiply_add(off_plane, plane.normal, p));
+    }
 };
 
 /// \param distance of the plane of the polygon from the origin, see plane_distance().

@@ -3,9 +3,9 @@
 /// that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672, Sec. 4.1:
-/// projected solid angle sampling of the image of the polygon in cosine space. Deviation: points, not directions, come
-/// back to shading space, so that both agree. Where the plane of the light almost contains the shading point, the direction
-/// alone would not tell where on the light its point lies.
+/// projected solid angle sampling of the image of the polygon in cosine space. Deviation: the point on the
+/// image comes back to shading space, not its direction, and moves to the plane of the light. Where that plane almost
+/// contains the shading point, a rounded direction does not tell where on the light its point lies.
 
 #include <nusselt/core/broadcast.h>
 #include <nusselt/ltc/light_transform.h>
@@ -41,10 +41,15 @@ public:
 
     /// \param u in [0, 1)^2; as continuous as that of PolygonProjectedSolidAngle.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
-        const Vec3<Real> towards = Horizons::lifted(ltc_.to_shading(image_.sample(u).p));
+        const Vec3<Real> image_point = inverse_minor_ * Horizons::lifted(ltc_.to_shading(image_.sample(u).p));
+        const Vec3<Real> p = hull_.closest_point(image_point);
+        // The direction to the point on the image is the more accurate one. But where the lobe hardly reaches the light, the
+        // image lies next to the horizon, and rounding moves the point off the light.
+        const auto reaches = measure_ > Real(power_of_two<scalar_t<Real>>(-23));
         const Vec3<Real> up{Real(0), Real(0), Real(1)};
-        const Vec3<Real> wi = select(inverse_measure_ > Real(0), normalize(towards), up);
-        return {wi, pdf(wi), inverse_scale_ * box_.clamped(inverse_minor_ * towards)};
+        const Vec3<Real> wi =
+            select(inverse_measure_ > Real(0), normalize(select(reaches, image_point, p)), up);
+        return {wi, pdf(wi), inverse_scale_ * p};
     }
 
     /// \param wi a unit direction towards the light.
@@ -65,11 +70,11 @@ private:
     NUSSELT_HD PolygonLtc(const ScaledPolygon<Real, kVertices>& part, const Ltc<Real>& ltc) noexcept
         : ltc_(ltc),
           image_(to_cosine_space(part.light, ltc)),
-          box_(box_of(part.light)),
+          hull_(hull_of(part.light, plane_distance(part.light))),
           inverse_minor_(Real(1) / ltc.minor()),
           inverse_scale_(part.inverse_scale) {
         const auto in_lobe = image_.measure() > Real(0);
-        const auto lit = in_lobe & (plane_distance(part.light) != Real(0));
+        const auto lit = in_lobe & (hull_.plane.distance != Real(0));
         measure_ = select(lit, Real(1 / kPi<scalar_t<Real>>) * image_.measure(), Real(0));
         inverse_measure_ = select(lit, Real(1) / select(lit, measure_, Real(1)), Real(0));
     }
@@ -78,7 +83,7 @@ private:
     Image image_; ///< in cosine space
 
     // The part of the light that counts, in shading space and scaled to an extent of order one.
-    LightBox<Real> box_;
+    PolygonHull<Real> hull_;
     Real inverse_minor_; ///< takes the scale of Ltc::to_shading() back
     Real inverse_scale_; ///< a power of two
 
@@ -88,7 +93,7 @@ private:
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.ltc_, self.image_, self.box_, self.inverse_minor_, self.inverse_scale_, self.measure_,
+        visit(self.ltc_, self.image_, self.hull_, self.inverse_minor_, self.inverse_scale_, self.measure_,
               self.inverse_measure_);
     }
 };

@@ -37,4 +37,12 @@ float light_plane_distance_along(LightPlane self, vec3 wi) {
     return nusselt_min(self.distance / cosine, self.farthest);
 }
 
+/// A point of a polygon, of which rounding may have changed the distance from the origin, moved to the plane and into the
+/// axis-aligned box around the polygon.
+/// \param low, high corners of the box.
+vec3 closest_point(LightPlane self, vec3 low, vec3 high, vec3 p) {
+    float off_plane = self.distance - dot(self.normal, p);
+    return nusselt_min(nusselt_max(p + off_plane * self.normal, low), high);
+}
+
 #endif

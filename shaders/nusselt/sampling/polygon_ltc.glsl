@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_LTC_GLSL
 #define NUSSELT_SAMPLING_POLYGON_LTC_GLSL
-// Follows include/nusselt/sampling/polygon_ltc.h @ beecd9863d65
+// Follows include/nusselt/sampling/polygon_ltc.h @ 9e86ae43addb
 /// Sampling of a convex polygon proportional to a linearly transformed cosine. With a Lambertian emitter and a lobe
 /// that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 ///
@@ -19,6 +19,7 @@ struct PolygonLtc {
     Ltc ltc;
     PolygonProjectedSolidAngle image; ///< in cosine space
     // The part of the light that counts, in shading space and scaled to an extent of order one.
+    LightPlane plane;
     vec3 low, high;      ///< axis-aligned box
     float lowest;        ///< bound on z of hit points: 0 above the surface, else the lowest number
     float inverse_minor; ///< takes the scale of ltc_to_shading() back
@@ -36,15 +37,18 @@ PolygonLtc polygon_ltc_prepare_image(ScaledPolygon part, Ltc ltc, PolygonProject
     self.inverse_scale = part.inverse_scale;
     self.lowest = -kNusseltLargest;
     self.inverse_minor = 1.0 / ltc.minor;
+    float farthest = 0.0; // squared
     self.low = part.polygon.vertex[0];
     self.high = part.polygon.vertex[0];
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
         vec3 v = part.polygon.vertex[j];
+        farthest = nusselt_max(farthest, dot(v, v));
         self.low = nusselt_min(self.low, v);
         self.high = nusselt_max(self.high, v);
     }
+    self.plane = LightPlane(part.polygon.normal, plane_distance(part.polygon), sqrt(farthest));
     float in_lobe = polygon_projected_solid_angle_measure(self.image);
-    bool lit = in_lobe > 0.0 && plane_distance(part.polygon) != 0.0;
+    bool lit = in_lobe > 0.0 && self.plane.distance != 0.0;
     self.measure = lit ? (1.0 / kNusseltPi) * in_lobe : 0.0;
     self.inverse_measure = lit ? 1.0 / self.measure : 0.0;
     return self;
@@ -78,13 +82,14 @@ float polygon_ltc_pdf(PolygonLtc self, vec3 wi) {
     return is_finite(density) ? density : 0.0;
 }
 
-/// \param image_point that was sampled on the image, in cosine space.
-LightSample polygon_ltc_sample_image(PolygonLtc self, vec3 image_point) {
-    vec3 towards = ltc_to_shading(self.ltc, image_point);
-    towards.z = nusselt_max(towards.z, self.lowest);
+/// \param sampled point on the image, in cosine space.
+LightSample polygon_ltc_sample_image(PolygonLtc self, vec3 sampled) {
+    vec3 image_point = self.inverse_minor * ltc_to_shading(self.ltc, sampled);
+    image_point.z = nusselt_max(image_point.z, self.lowest);
+    vec3 p = closest_point(self.plane, self.low, self.high, image_point);
+    // Where the lobe hardly reaches the light, rounding moves the point on the image off the light.
+    vec3 towards = self.measure > kNusseltEpsilon ? image_point : p;
     vec3 wi = self.inverse_measure > 0.0 ? nusselt_normalize(towards) : vec3(0.0, 0.0, 1.0);
-    // Rounding shall not move the point off the light.
-    vec3 p = nusselt_min(nusselt_max(self.inverse_minor * towards, self.low), self.high);
     return LightSample(wi, polygon_ltc_pdf(self, wi), self.inverse_scale * p);
 }
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 313822754024
+// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 8821eae118d4
 /// Uniform sampling of the projected solid angle of a convex polygon: density proportional to the cosine at the
 /// surface. With a Lambertian emitter on a Lambertian surface, all noise that remains comes from shadows.
 ///
@@ -265,8 +265,7 @@ LightSample polygon_projected_solid_angle_sample_decentral(LightPlane plane, Dec
 
 /// Takes scaled and mirrored coordinates back to those of the light.
 LightSample polygon_projected_solid_angle_finish(PolygonProjectedSolidAngle self, LightSample s) {
-    // Where the light is seen edge-on, rounding moves the point along wi; clamping keeps it on the light.
-    s.p = self.inverse_scale * nusselt_min(nusselt_max(s.p, self.low), self.high);
+    s.p = self.inverse_scale * closest_point(self.plane, self.low, self.high, s.p);
     s.wi = self.inverse_measure > 0.0 ? s.wi : vec3(0.0, 0.0, 1.0);
     s.wi.y = self.mirror * s.wi.y;
     s.p.y = self.mirror * s.p.y;

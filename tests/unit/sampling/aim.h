@@ -136,8 +136,8 @@ long double apparent_size(const WideLight& wide) {
     }
 }
 
-/// Whether the image of a line in the cosine space of its lobe passes the origin at twice the distance from which on
-/// techniques take it for a line through the origin. Narrow lobes bring images closer than the line itself.
+/// Whether the image of a line in cosine space passes the origin clearly: at more than twice the distance below which
+/// techniques take it for a line through the origin. True for lights without a lobe.
 template <class T, class WideLight>
 bool image_is_apart(const WideLight&) {
     return true;
@@ -171,7 +171,7 @@ std::string aim_violation(const Light& light, const Random& u, const nusselt::Li
     const auto wide = widened(light);
     const long double sturdy = sturdiness(wide, extent);
     // The effect of rounding is no longer proportional to it for lights that are thinner or closer to edge-on.
-    if (!(sturdy > 1e-3L) || !(apparent_size<Kind>(wide) > 1e-3L) || !image_is_apart<T>(wide)) return "";
+    if (!(sturdy > 1e-3L) || !(apparent_size<Kind>(wide) > 1e-3L)) return "";
     if (!is_inner(u)) return "";
     // A light whose heights are denormal, possibly after scaling its coordinates to order one, lies in the horizon if
     // denormals are flushed.
@@ -179,7 +179,8 @@ std::string aim_violation(const Light& light, const Random& u, const nusselt::Li
     if (Kind::kHorizon == Horizon::clipped && !(Bounds(light).high.z >= smallest)) return "";
     // Area sampling of a closed surface gives no sample where the surface faces away.
     constexpr bool kFacesAway = kIsCylinder<Kind> && Kind::kMeasure == Measure::area;
-    if (!(sample.pdf > 0)) return kFacesAway ? "" : "no sample of a visible light";
+    if (!(sample.pdf > 0))
+        return kFacesAway || !image_is_apart<T>(wide) ? "" : "no sample of a visible light";
 
     // Rounding of the vertices tilts the plane of the light by an angle of this order. Among 6e4 lights, the largest
     // errors are 12 times that angle for directions and 8 times the rounding error for hit points that come from

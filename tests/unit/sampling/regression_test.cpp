@@ -237,6 +237,39 @@ TEST(RegressionTest, HitPointsOfLobesStayInAPlaneNextToThePoint) {
         {0x1.800b7cp-2f, 0});
 }
 
+/// Shadow rays end at 0.9999 of their length: a hit point behind the plane by more than that would be in the shadow of the
+/// light itself.
+template <class Technique>
+void expect_points_in_plane(const Quad& light, float largest_error, const Technique& technique) {
+    for (int i = 0; i < 1000; ++i) {
+        const auto sample = technique.sample({(float(i) + 0.5f) / 1000, float(i * 377 % 1000) / 1000});
+        if (!(sample.pdf > 0)) continue;
+        const long double off = nusselt::dot(nusselt::broadcast<long double>(light.normal),
+                                             nusselt::broadcast<long double>(sample.p)) -
+                                static_cast<long double>(nusselt::plane_distance(light));
+        ASSERT_LE(std::fabs(off), largest_error);
+    }
+}
+TEST(RegressionTest, HitPointsOfCloseLightsAreInTheirPlane) {
+    const nusselt::LtcCoefficients<float> lobe{0.8f, 0.6f, 1, -0.06f, 0.08f, 1};
+    for (const float height : {1e-2f, 1e-3f, 1e-4f}) {
+        // The corners of a rotated square around the point and of one beside it, at a distance of `height` in (1, 2, 2) / 3.
+        for (const float along : {0.0f, 1.5f}) {
+            const auto corner = [&](float x, float y) {
+                const float a = x + along;
+                return nusselt::Vec3<float>{(height + 2 * a + 2 * y) / 3, (2 * height - 2 * a + y) / 3,
+                                            (2 * height + a - 2 * y) / 3};
+            };
+            const nusselt::Vec3<float> v[] = {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
+            const Quad light = nusselt::make_polygon<4>(v, 4);
+            constexpr float kLargest = 32 * std::numeric_limits<float>::epsilon();
+            expect_points_in_plane(light, kLargest, nusselt::PolygonProjectedSolidAngle<float, 4>(light));
+            expect_points_in_plane(light, kLargest,
+                                   nusselt::PolygonLtc<float, 4>(light, nusselt::Ltc<float>(lobe)));
+        }
+    }
+}
+
 /// The contract must not be content with the box around a light.
 TEST(RegressionTest, ContractRejectsHitPointsBesideThePlane) {
     using Kind = PolygonSolidAngleKindOf<4>;
