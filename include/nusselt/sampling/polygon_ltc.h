@@ -3,9 +3,9 @@
 /// that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672, Sec. 4.1:
-/// projected solid angle sampling of the image of the polygon in cosine space. Deviation: the point on the
-/// image comes back to shading space, not its direction, and moves to the plane of the light. Where that plane almost
-/// contains the shading point, a rounded direction does not tell where on the light its point lies.
+/// projected solid angle sampling of the image of the polygon in cosine space. Deviation: the hit point lies
+/// where the direction meets the plane of the light in shading space. Where that plane almost contains the shading point,
+/// the point on the image comes back to shading space instead.
 
 #include <nusselt/core/broadcast.h>
 #include <nusselt/ltc/light_transform.h>
@@ -41,15 +41,21 @@ public:
 
     /// \param u in [0, 1)^2; as continuous as that of PolygonProjectedSolidAngle.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
-        const Vec3<Real> image_point = inverse_minor_ * Horizons::lifted(ltc_.to_shading(image_.sample(u).p));
-        const Vec3<Real> p = hull_.closest_point(image_point);
-        // The direction to the point on the image is the more accurate one. But where the lobe hardly reaches the light, the
-        // image lies next to the horizon, and rounding moves the point off the light.
+        const LightSample<Real> sampled = image_.sample(u);
+        const Vec3<Real> direction = Horizons::lifted(ltc_.to_shading(sampled.wi));
+        const Vec3<Real> image_point = inverse_minor_ * Horizons::lifted(ltc_.to_shading(sampled.p));
+        const Vec3<Real> moved = hull_.closest_point(image_point);
+        // Where the lobe hardly reaches the light, the image lies next to the horizon, and rounding turns directions away from
+        // the light.
         const auto reaches = measure_ > Real(power_of_two<scalar_t<Real>>(-23));
         const Vec3<Real> up{Real(0), Real(0), Real(1)};
         const Vec3<Real> wi =
-            select(inverse_measure_ > Real(0), normalize(select(reaches, image_point, p)), up);
-        return {wi, pdf(wi), inverse_scale_ * p};
+            select(inverse_measure_ > Real(0), normalize(select(reaches, direction, moved)), up);
+        // A direction tells where it meets the plane of the light, unless it is almost in the plane.
+        const auto apart =
+            abs(hull_.plane.distance) > Real(power_of_two<scalar_t<Real>>(-7)) * hull_.plane.farthest;
+        const Vec3<Real> met = hull_.box.clamped(hull_.plane.distance_along(wi) * wi);
+        return {wi, pdf(wi), inverse_scale_ * select(reaches & apart, met, moved)};
     }
 
     /// \param wi a unit direction towards the light.

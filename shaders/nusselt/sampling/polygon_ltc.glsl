@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_LTC_GLSL
 #define NUSSELT_SAMPLING_POLYGON_LTC_GLSL
-// Follows include/nusselt/sampling/polygon_ltc.h @ 9e86ae43addb
+// Follows include/nusselt/sampling/polygon_ltc.h @ 50753f413966
 /// Sampling of a convex polygon proportional to a linearly transformed cosine. With a Lambertian emitter and a lobe
 /// that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 ///
@@ -21,7 +21,7 @@ struct PolygonLtc {
     // The part of the light that counts, in shading space and scaled to an extent of order one.
     LightPlane plane;
     vec3 low, high;      ///< axis-aligned box
-    float lowest;        ///< bound on z of hit points: 0 above the surface, else the lowest number
+    float lowest;        ///< bound on z: 0 above the surface, else the lowest number
     float inverse_minor; ///< takes the scale of ltc_to_shading() back
     float inverse_scale; ///< a power of two
     float measure;
@@ -82,20 +82,26 @@ float polygon_ltc_pdf(PolygonLtc self, vec3 wi) {
     return is_finite(density) ? density : 0.0;
 }
 
-/// \param sampled point on the image, in cosine space.
-LightSample polygon_ltc_sample_image(PolygonLtc self, vec3 sampled) {
-    vec3 image_point = self.inverse_minor * ltc_to_shading(self.ltc, sampled);
+/// \param sampled of the image, in cosine space.
+LightSample polygon_ltc_sample_image(PolygonLtc self, LightSample sampled) {
+    vec3 direction = ltc_to_shading(self.ltc, sampled.wi);
+    vec3 image_point = self.inverse_minor * ltc_to_shading(self.ltc, sampled.p);
+    direction.z = nusselt_max(direction.z, self.lowest);
     image_point.z = nusselt_max(image_point.z, self.lowest);
     vec3 p = closest_point(self.plane, self.low, self.high, image_point);
-    // Where the lobe hardly reaches the light, rounding moves the point on the image off the light.
-    vec3 towards = self.measure > kNusseltEpsilon ? image_point : p;
+    // Where the lobe hardly reaches the light, rounding turns directions away from the light.
+    bool reaches = self.measure > kNusseltEpsilon;
+    vec3 towards = reaches ? direction : p;
     vec3 wi = self.inverse_measure > 0.0 ? nusselt_normalize(towards) : vec3(0.0, 0.0, 1.0);
+    // A direction tells where it meets the plane of the light, unless it is almost in the plane.
+    if (reaches && abs(self.plane.distance) > 0.0078125 * self.plane.farthest)
+        p = nusselt_min(nusselt_max(light_plane_distance_along(self.plane, wi) * wi, self.low), self.high);
     return LightSample(wi, polygon_ltc_pdf(self, wi), self.inverse_scale * p);
 }
 
 /// \param u in [0, 1)^2; as continuous as that of polygon_projected_solid_angle_sample().
 LightSample polygon_ltc_sample(PolygonLtc self, vec2 u) {
-    return polygon_ltc_sample_image(self, polygon_projected_solid_angle_sample(self.image, u).p);
+    return polygon_ltc_sample_image(self, polygon_projected_solid_angle_sample(self.image, u));
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light. See

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_LTC_BIASED_GLSL
 #define NUSSELT_SAMPLING_POLYGON_LTC_BIASED_GLSL
-// Follows include/nusselt/sampling/polygon_ltc.h @ 9e86ae43addb
+// Follows include/nusselt/sampling/polygon_ltc.h @ 50753f413966
 /// The biased variant of polygon_ltc.glsl: the image of the light in cosine space is sampled without iteration. Samples
 /// deviate from their density as those of polygon_projected_solid_angle_biased.glsl do; polygon_ltc_measure() and
 /// polygon_ltc_pdf() do not. Twin of PolygonLtcBiased in include/nusselt/sampling/polygon_ltc.h.
@@ -19,7 +19,7 @@ PolygonLtc polygon_ltc_biased_prepare(ConvexPolygon light, Ltc ltc) {
 /// \param u    in [0, 1)^2; as continuous as that of polygon_projected_solid_angle_biased_sample().
 LightSample polygon_ltc_biased_sample(PolygonLtc self, vec2 u) {
     PolygonProjectedSolidAngleBiased image = PolygonProjectedSolidAngleBiased(self.image);
-    return polygon_ltc_sample_image(self, polygon_projected_solid_angle_biased_sample(image, u).p);
+    return polygon_ltc_sample_image(self, polygon_projected_solid_angle_biased_sample(image, u));
 }
 
 #endif
