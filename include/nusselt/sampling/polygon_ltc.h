@@ -41,21 +41,24 @@ public:
 
     /// \param u in [0, 1)^2; as continuous as that of PolygonProjectedSolidAngle.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        using Scalar = scalar_t<Real>;
         const LightSample<Real> sampled = image_.sample(u);
-        const Vec3<Real> direction = Horizons::lifted(ltc_.to_shading(sampled.wi));
+        const Vec3<Real> direction = normalize(Horizons::lifted(ltc_.to_shading(sampled.wi)));
         const Vec3<Real> image_point = inverse_minor_ * Horizons::lifted(ltc_.to_shading(sampled.p));
         const Vec3<Real> moved = hull_.closest_point(image_point);
-        // Where the lobe hardly reaches the light, the image lies next to the horizon, and rounding turns directions away from
-        // the light.
-        const auto reaches = measure_ > Real(power_of_two<scalar_t<Real>>(-23));
+        // Where the lobe hardly reaches the light, the image may lie next to the horizon, and rounding turns the direction away
+        // from the light.
+        constexpr Scalar kRounding = 32 * std::numeric_limits<Scalar>::epsilon();
+        const Vec3<Real> beside = cross(direction, moved);
+        const auto agrees = dot(beside, beside) <= Real(kRounding * kRounding) * dot(moved, moved);
+        const auto sound = agrees | (measure_ > Real(power_of_two<Scalar>(-23)));
         const Vec3<Real> up{Real(0), Real(0), Real(1)};
-        const Vec3<Real> wi =
-            select(inverse_measure_ > Real(0), normalize(select(reaches, direction, moved)), up);
+        const Vec3<Real> towards = select(sound, direction, normalize(moved));
+        const Vec3<Real> wi = select(inverse_measure_ > Real(0), towards, up);
         // A direction tells where it meets the plane of the light, unless it is almost in the plane.
-        const auto apart =
-            abs(hull_.plane.distance) > Real(power_of_two<scalar_t<Real>>(-7)) * hull_.plane.farthest;
+        const auto apart = abs(hull_.plane.distance) > Real(power_of_two<Scalar>(-7)) * hull_.plane.farthest;
         const Vec3<Real> met = hull_.box.clamped(hull_.plane.distance_along(wi) * wi);
-        return {wi, pdf(wi), inverse_scale_ * select(reaches & apart, met, moved)};
+        return {wi, pdf(wi), inverse_scale_ * select(sound & apart, met, moved)};
     }
 
     /// \param wi a unit direction towards the light.
