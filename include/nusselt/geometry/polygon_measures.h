@@ -73,46 +73,28 @@ to_unit_extent_where(const mask_t<Real>& scales, const ConvexPolygon<Real, N>& p
     return unit;
 }
 
-/// The axis-aligned box around a polygon.
-template <class Real>
-struct LightBox {
-    Vec3<Real> low, high;
-
-    /// The closest point of the box.
-    NUSSELT_HD Vec3<Real> clamped(const Vec3<Real>& p) const noexcept { return min(max(p, low), high); }
-};
-
-/// The smallest box around a polygon.
-template <class Real, int N>
-NUSSELT_HD inline LightBox<Real> box_of(const ConvexPolygon<Real, N>& polygon) noexcept {
-    LightBox<Real> box{polygon.vertex[0], polygon.vertex[0]};
-    NUSSELT_UNROLL
-    for (int j = 1; j < N; ++j) {
-        box.low = min(box.low, polygon.vertex[j]);
-        box.high = max(box.high, polygon.vertex[j]);
-    }
-    return box;
-}
-
-/// The same box in all lanes.
-template <class Real, class Single>
-NUSSELT_HD inline LightBox<Real> broadcast(const LightBox<Single>& box) noexcept {
-    return {broadcast<Real>(box.low), broadcast<Real>(box.high)};
-}
-
 /// The plane of a polygon with coordinates of order one and a box around it: where hit points may be.
 template <class Real>
 struct PolygonHull {
     LightPlane<Real> plane;
-    LightBox<Real> box;
+    Vec3<Real> low, high; ///< axis-aligned box
+
+    /// The point in a unit direction that hits the polygon. In a direction that is almost in the plane, rounding may move it
+    /// anywhere in the box.
+    NUSSELT_HD Vec3<Real> point_along(const Vec3<Real>& wi) const noexcept {
+        return clamped(plane.distance_along(wi) * wi);
+    }
 
     /// A point of the polygon, of which rounding may have changed the distance from the origin, moved along the normal to
     /// the plane and into the box. For a light seen edge-on, points of the ray that are barely off the plane are far from
     /// where the ray meets it, and a point behind the plane would be in the shadow of the light itself.
     NUSSELT_HD Vec3<Real> closest_point(const Vec3<Real>& p) const noexcept {
         const Real off_plane = plane.distance - dot(plane.normal, p);
-        return box.clamped(multiply_add(off_plane, plane.normal, p));
+        return clamped(multiply_add(off_plane, plane.normal, p));
     }
+
+private:
+    NUSSELT_HD Vec3<Real> clamped(const Vec3<Real>& p) const noexcept { return min(max(p, low), high); }
 };
 
 /// \param distance of the plane of the polygon from the origin, see plane_distance().
@@ -120,15 +102,22 @@ template <class Real, int N>
 NUSSELT_HD inline PolygonHull<Real> hull_of(const ConvexPolygon<Real, N>& polygon,
                                             const Real& distance) noexcept {
     Real farthest = Real(0); // squared
+    Vec3<Real> low = polygon.vertex[0];
+    Vec3<Real> high = polygon.vertex[0];
     NUSSELT_UNROLL
-    for (int j = 0; j < N; ++j) farthest = max(farthest, dot(polygon.vertex[j], polygon.vertex[j]));
-    return {{polygon.normal, distance, sqrt(farthest)}, box_of(polygon)};
+    for (int j = 0; j < N; ++j) {
+        const Vec3<Real>& v = polygon.vertex[j];
+        farthest = max(farthest, dot(v, v));
+        low = min(low, v);
+        high = max(high, v);
+    }
+    return {{polygon.normal, distance, sqrt(farthest)}, low, high};
 }
 
 /// The same hull in all lanes.
 template <class Real, class Single>
 NUSSELT_HD inline PolygonHull<Real> broadcast(const PolygonHull<Single>& hull) noexcept {
-    return {broadcast<Real>(hull.plane), broadcast<Real>(hull.box)};
+    return {broadcast<Real>(hull.plane), broadcast<Real>(hull.low), broadcast<Real>(hull.high)};
 }
 
 /// Solid angle [sr] seen from the origin by a polygon, clipped or not, in any frame; 0 if the origin lies in

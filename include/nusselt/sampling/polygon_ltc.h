@@ -57,8 +57,7 @@ public:
         const Vec3<Real> wi = select(inverse_measure_ > Real(0), towards, up);
         // A direction tells where it meets the plane of the light, unless it is almost in the plane.
         const auto apart = abs(hull_.plane.distance) > Real(power_of_two<Scalar>(-7)) * hull_.plane.farthest;
-        const Vec3<Real> met = hull_.box.clamped(hull_.plane.distance_along(wi) * wi);
-        return {wi, pdf(wi), inverse_scale_ * select(sound & apart, met, moved)};
+        return {wi, pdf(wi), inverse_scale_ * select(sound & apart, hull_.point_along(wi), moved)};
     }
 
     /// \param wi a unit direction towards the light.

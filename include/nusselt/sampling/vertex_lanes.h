@@ -158,8 +158,8 @@ public:
         base_ = {scale * base.x, mirror_ * scale * base.y, scale * base.z};
         turn_ = P(scale * scale) * turn_size;
         const float distance = scale * distance_of();
-        hull_.box.low = {smallest_lane(vertex_.x), smallest_lane(vertex_.y), smallest_lane(vertex_.z)};
-        hull_.box.high = {largest_lane(vertex_.x), largest_lane(vertex_.y), largest_lane(vertex_.z)};
+        hull_.low = {smallest_lane(vertex_.x), smallest_lane(vertex_.y), smallest_lane(vertex_.z)};
+        hull_.high = {largest_lane(vertex_.x), largest_lane(vertex_.y), largest_lane(vertex_.z)};
         hull_.plane = {
             {normal.x, mirror_ * normal.y, normal.z}, distance, sqrt(largest_lane(dot(vertex_, vertex_)))};
 
@@ -172,9 +172,8 @@ public:
                             (across & (turn_size <= uncertain_reach * edge_reach));
         // In the central case, the plane has the height distance / normal.z on the zenith's axis. In the decentral case,
         // outer edges follow each other.
-        const bool reaches_axis =
-            (distance * normal.z >= 0) &
-            (abs(distance) <= multiply_add(abs(normal.z), hull_.box.high.z, 8 * kRounding));
+        const bool reaches_axis = (distance * normal.z >= 0) &
+                                  (abs(distance) <= multiply_add(abs(normal.z), hull_.high.z, 8 * kRounding));
         const std::uint32_t starts = outer_edges_ & ~(outer_edges_ << 1 | outer_edges_ >> (count - 1));
         const bool are_chains = starts != 0 && (starts & (starts - 1)) == 0;
         // An edge on the horizon bounds the whole disk: it can only be an outer one.
