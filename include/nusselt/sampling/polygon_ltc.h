@@ -48,10 +48,10 @@ public:
         const Vec3<Real> moved = hull_.closest_point(image_point);
         // Where the lobe hardly reaches the light, the image may lie next to the horizon, and rounding turns the direction away
         // from the light.
-        constexpr Scalar kRounding = 32 * std::numeric_limits<Scalar>::epsilon();
+        constexpr Scalar kRounding = 64 * std::numeric_limits<Scalar>::epsilon();
         const Vec3<Real> beside = cross(direction, moved);
         const auto agrees = dot(beside, beside) <= Real(kRounding * kRounding) * dot(moved, moved);
-        const auto sound = agrees | (measure_ > Real(power_of_two<Scalar>(-23)));
+        const auto sound = agrees | (measure_ > Real(std::numeric_limits<Scalar>::epsilon()));
         const Vec3<Real> up{Real(0), Real(0), Real(1)};
         const Vec3<Real> towards = select(sound, direction, normalize(moved));
         const Vec3<Real> wi = select(inverse_measure_ > Real(0), towards, up);

@@ -93,7 +93,7 @@ LightSample polygon_ltc_sample_image(PolygonLtc self, LightSample sampled) {
     // Where the lobe hardly reaches the light, the image may lie next to the horizon, and rounding turns the direction away
     // from the light.
     vec3 beside = nusselt_cross(direction, p);
-    float rounding = 32.0 * kNusseltEpsilon;
+    float rounding = 64.0 * kNusseltEpsilon;
     bool sound = dot(beside, beside) <= rounding * rounding * dot(p, p) || self.measure > kNusseltEpsilon;
     vec3 wi = sound ? direction : nusselt_normalize(p);
     if (!(self.inverse_measure > 0.0)) wi = vec3(0.0, 0.0, 1.0);
