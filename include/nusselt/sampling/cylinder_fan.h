@@ -164,8 +164,10 @@ public:
         const HalfPlane h = half_plane(azimuth_at(fma(warp_.invert(u.x), range_, low_)));
         const LinePoint<Real> point = Importance::point(h.extent, u.y);
         // The line is at distance one: the reciprocal distance of a point is the cosine of its angle.
-        const Real steepness = h.extent.line.sign * LineMap<Real>(h.extent).sine_at(point.share) /
-                               max(point.inverse_distance, Real(1 / kSteepest<Scalar>));
+        const Real mapped = h.extent.line.sign * LineMap<Real>(h.extent).sine_at(point.share) /
+                            max(point.inverse_distance, Real(1 / kSteepest<Scalar>));
+        // In a half-plane without importance the map may not exist. Any point will do, its density is 0.
+        const Real steepness = select(h.integral > Real(0), mapped, Real(0));
         const Real tangent = (h.widening * steepness - h.shear) / stretch_;
         const Vec2<Real> p = view_.first_point(h.slice, tangent);
         return p.x * view_.s + p.y * h.slice.t;

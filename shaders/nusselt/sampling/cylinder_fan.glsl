@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_CYLINDER_FAN_GLSL
 #define NUSSELT_SAMPLING_CYLINDER_FAN_GLSL
-// Follows include/nusselt/sampling/cylinder_fan.h @ 7f6fd5dbe933
+// Follows include/nusselt/sampling/cylinder_fan.h @ 29c2b9cc0d96
 /// Sampling of closed cylinders without rejection: first a half-plane of the fan around the direction of the axis, then
 /// a direction in it. What the techniques for cylinders share. Twin of include/nusselt/sampling/cylinder_fan.h;
 /// docs/techniques/cylinder.md has the derivation.
@@ -289,7 +289,9 @@ vec3 cylinder_fan_point(CylinderFan self, vec2 u) {
     CylinderHalfPlane h = cylinder_half_plane(self.image, self.importance, azimuth);
     LinePoint point = importance_point(self.importance, h.extent, u.y);
     float sine = h.extent.line.sign_of_s * line_map_sine_at(make_line_map(h.extent), point.share);
-    float steepness = sine / nusselt_max(point.inverse_distance, 1.0 / kNusseltSteepest);
+    float mapped = sine / nusselt_max(point.inverse_distance, 1.0 / kNusseltSteepest);
+    // In a half-plane without importance the map may not exist. Any point will do, its density is 0.
+    float steepness = h.integral > 0.0 ? mapped : 0.0;
     float tangent = (h.widening * steepness - h.shear) / self.image.stretch;
     vec2 p = cylinder_view_first_point(self.image.view, h.slice, tangent);
     return p.x * self.image.view.s + p.y * h.slice.t;

@@ -280,6 +280,16 @@ TEST(RegressionTest, ContractRejectsHitPointsBesideThePlane) {
     EXPECT_STREQ((violation<Kind, float>(light, out)), "p is off the light");
 }
 
+/// The last half-plane around an axis has hardly any density, and its image no importance.
+TEST(RegressionTest, HalfPlanesWithoutImportanceHaveDirections) {
+    const nusselt::Vec3<float> start{-0x1.b51e96p-122f, -0x1.d81f24p-124f, 0x1.1e4818p-123f};
+    const nusselt::Vec3<float> end{-0x1.b52822p-122f, -0x1.d75e34p-124f, 0};
+    expect_contract<CylinderLtcKind>(
+        {{nusselt::make_line(start, end), 0x1.c4c2e4p-122f},
+         {0x1.d676ep-33f, 0x1.94e31cp-9f, 0x1.629b38p-12f, -0x1.06217ep-12f, 0x1.30962ep-36f, 1}},
+        {0x1.ffffcp-1f, 0});
+}
+
 #if NUSSELT_HAS_VERTEX_LANES
 /// The bits of a technique in all lanes, made from one in memory that was filled with a byte before.
 template <int N>
