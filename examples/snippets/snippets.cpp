@@ -57,14 +57,16 @@ Colour direct_light(const Vec* corners, const Vec& point, const Vec& normal, con
     return radiance;
 }
 
-/// \param light in shading space.
-float direct_light_mis(const ConvexPolygon<float, 4>& light, float emitted, const Vec2<float>& u,
-                       const Vec2<float>& v) {
-    const Vec wo{0, 0, 1}, point{0, 0, 0};
+/// \param panel in world space.
+float direct_light_mis(const ConvexPolygon<float, 4>& panel, const Vec& point, const Vec& normal,
+                       float emitted, const Vec2<float>& u, const Vec2<float>& v) {
+    const auto frame = Frame<float>::from_normal(normal);
+    const auto light = to_shading_space(panel, point, frame);
+    const Vec wo{0, 0, 1};
     float radiance = 0;
     const PolygonSolidAngle<float, 4> technique(light);
     const auto s = technique.sample(u);
-    if (s.pdf > 0 && s.wi.z > 0 && visible(point, s.p))
+    if (s.pdf > 0 && s.wi.z > 0 && visible(point, point + frame.to_world(s.p)))
         radiance += emitted * brdf(wo, s.wi) * s.wi.z / (s.pdf + brdf_pdf(wo, s.wi));
 
     const Vec wi = sample_brdf(wo, v);
@@ -100,6 +102,21 @@ float glossy_direct_light(const ConvexPolygon<float, 4>& light, const SurfacePoi
             s.shadowed.x > 0 && visible(point.position, point.position + s.distance * s.direction);
         radiance += emitted * ((lit ? s.shadowed.x : 0) + s.constant.x);
     }
+    return radiance;
+}
+
+/// Reflected by the lobe of a glossy surface alone. \param panel, wo in world space.
+float light_in_lobe(const ConvexPolygon<float, 4>& panel, const Vec& point, const Vec& normal, const Vec& wo,
+                    float roughness, float f0, const LtcTableView& table, float emitted,
+                    const Vec2<float>& u) {
+    float radiance = 0;
+    const auto coefficients = table.lookup(roughness, dot(normal, wo), f0);
+    const Ltc<float> lobe(coefficients);
+    const auto frame = shading_frame(normal, wo); // not from_normal(): lobes point away from the eye
+    const PolygonLtc<float, 4> technique(to_shading_space(panel, point, frame), lobe);
+    const auto s = technique.sample(u);
+    if (s.pdf > 0 && visible(point, point + frame.to_world(s.p)))
+        radiance += emitted * coefficients.albedo * lobe.density(s.wi) / s.pdf;
     return radiance;
 }
 

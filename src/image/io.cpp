@@ -93,6 +93,10 @@ std::string lower_case_extension(const std::filesystem::path& path) {
 
 bool is_exr(const std::filesystem::path& path) { return lower_case_extension(path) == ".exr"; }
 bool is_png(const std::filesystem::path& path) { return lower_case_extension(path) == ".png"; }
+bool is_high_dynamic_range(const std::filesystem::path& path) {
+    const std::string extension = lower_case_extension(path);
+    return extension == ".exr" || extension == ".hdr" || extension == ".pfm";
+}
 
 void check_size(std::int64_t width, std::int64_t height) {
     const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";

@@ -18,6 +18,9 @@ namespace nusselt::image {
 /// Whether the extension is that of PNG files.
 [[nodiscard]] bool is_png(const std::filesystem::path& path);
 
+/// Whether images with this extension hold values above 1: those of `.exr`, `.hdr` and `.pfm`.
+[[nodiscard]] bool is_high_dynamic_range(const std::filesystem::path& path);
+
 /// Writes an image in the format that the extension names (upper or lower case):
 /// - `.exr`: three 32-bit float channels, bit exact; the metadata become string attributes `nusselt:<key>`.
 /// - `.png`: 8 bits with the sRGB transfer function; values are multiplied by 2^exposure and clamped to [0, 1]. NaN

@@ -79,6 +79,17 @@ TEST_F(CommandLine, BrokenLimitsExitWithThree) {
     EXPECT_EQ(broken.err, "nusselt compare: 'b.exr': mse is 0.25, above the limit of 0.24\n");
 }
 
+TEST_F(CommandLine, ComparingAPictureWithRadianceWarns) {
+    for (const char* name : {"a.exr", "a.png", "b.png"}) image::write_image(path(name), noise(20, 20));
+    const Outcome mixed = run("compare a.png a.exr");
+    EXPECT_EQ(mixed.exit_code, 0);
+    EXPECT_EQ(
+        mixed.err,
+        "nusselt compare: 'a.png' cannot hold values above 1, and 'a.exr' can; compare images of one kind\n");
+    EXPECT_EQ(run("compare b.png a.png").err, "");
+    EXPECT_EQ(run("compare a.exr a.exr").err, "");
+}
+
 TEST_F(CommandLine, TellsWhatASceneAndTheProgramContain) {
     const Outcome info = run("info '" + kScenes + "/cornell-tube.pbrt'");
     EXPECT_EQ(info.exit_code, 0) << info.err;

@@ -118,12 +118,14 @@ TEST_F(CommandLine, MessagesHaveNoWordsOfTheParser) {
 TEST_F(CommandLine, SuggestsWhatWasMeant) {
     expect_message(run("rendr a.pbrt").err, "unknown command 'rendr' (did you mean 'render'?)");
     expect_message(run("lihgts a.pbrt").err, "unknown command 'lihgts' (did you mean 'lights'?)");
-    expect_message(run("polish").err, "unknown command 'polish';");
+    expect_message(run("polish").err, "unknown command 'polish'; see 'nusselt --help'");
     expect_message(run("render --ssp 3 a.pbrt").err, "unknown option '--ssp' (did you mean '--spp'?)");
-    expect_message(run("render a.pbrt --frobnicate").err, "unknown option '--frobnicate';");
+    expect_message(run("render a.pbrt --frobnicate").err,
+                   "unknown option '--frobnicate'; see 'nusselt render --help'");
     expect_message(run("render a.pbrt b.pbrt").err, "unexpected 'b.pbrt'");
     expect_message(run("info a.pbrt 'b\nc'").err, "unexpected 'b?c'");
     expect_lab_message(run_lab("bench sampler").err, "unknown command 'sampler' (did you mean 'samplers'?)");
+    expect_lab_message(run_lab("bench samplers --frobnicate").err, "see 'nusselt-lab bench samplers --help'");
     expect_lab_message(run_lab("fuzz --sed 3").err, "unknown option '--sed' (did you mean '--seed'?)");
 }
 

@@ -49,7 +49,7 @@ TEST(Snippets, MultipleImportanceSamplingIsUnbiased) {
     double sum = 0, squares = 0;
     for (int i = 0; i < kCount; ++i) {
         const float u0 = uniform(engine), u1 = uniform(engine), v0 = uniform(engine), v1 = uniform(engine);
-        const double x = direct_light_mis(light, kEmitted, {u0, u1}, {v0, v1});
+        const double x = direct_light_mis(light, {0, 0, 0}, {0, 0, 1}, kEmitted, {u0, u1}, {v0, v1});
         sum += x;
         squares += x * x;
     }
@@ -59,10 +59,14 @@ TEST(Snippets, MultipleImportanceSamplingIsUnbiased) {
     EXPECT_LT(standard_error, 0.003 * mean);
 }
 
-TEST(Snippets, GlossyLightIsUnbiased) {
+Lobes shipped_lobes() {
     std::ifstream file(std::filesystem::path(nusselt_test::kSourceFolder) / "data/ltc-frostbite.bin",
                        std::ios::binary);
-    const Lobes lobes = load_lobes({std::istreambuf_iterator<char>(file), {}});
+    return load_lobes({std::istreambuf_iterator<char>(file), {}});
+}
+
+TEST(Snippets, GlossyLightIsUnbiased) {
+    const Lobes lobes = shipped_lobes();
     const auto light = make_polygon<4>(kCorners, 4);
     const SurfacePoint<float> point{
         {0, 0, 0}, {0, 0, 1}, normalize(Vec{-1, 0.2f, 1}), {0.3f, 0.3f, 0.3f}, {0.04f, 0.04f, 0.04f}, 0.3f};
@@ -92,6 +96,20 @@ TEST(Snippets, GlossyLightIsUnbiased) {
     const double standard_error = std::sqrt((squares / kCount - mean * mean) / kCount);
     EXPECT_NEAR(mean, expected, 4 * standard_error + 1e-5 * expected);
     EXPECT_LT(standard_error, 1e-3 * mean);
+}
+
+TEST(Snippets, LobesGiveTheClosedFormForEverySample) {
+    const Lobes lobes = shipped_lobes();
+    const auto light = make_polygon<4>(kCorners, 4);
+    const Vec point{0.1f, 0.2f, 0}, normal{0, 0, 1}, wo = normalize(Vec{-1, 0.2f, 1});
+    const auto coefficients = lobes.view.lookup(0.4f, wo.z, 0.04f);
+    const auto local = to_shading_space(light, point, shading_frame(normal, wo));
+    const float expected = kEmitted * coefficients.albedo * lobe_integral(local, Ltc<float>(coefficients));
+    EXPECT_GT(expected, 0);
+    for (const float u : {0.0f, 0.3f, 0.99f})
+        EXPECT_NEAR(
+            light_in_lobe(light, point, normal, wo, 0.4f, 0.04f, lobes.view, kEmitted, {u, 1 - u - 0.001f}),
+            expected, 1e-4f * expected);
 }
 
 TEST(Snippets, PacksAgreeWithTheClosedForm) {

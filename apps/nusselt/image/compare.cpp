@@ -52,6 +52,16 @@ void check_size(const std::filesystem::path& path, const image::Image& a, const 
         a.width, a.height, options.reference.string(), reference.width, reference.height));
 }
 
+/// Values of a picture end at 1, so its difference from an image with radiance is large wherever the radiance is larger.
+void warn_of_picture(const std::filesystem::path& path, const std::filesystem::path& reference) {
+    if (image::is_high_dynamic_range(path) == image::is_high_dynamic_range(reference)) return;
+    const auto& picture = image::is_high_dynamic_range(path) ? reference : path;
+    const auto& other = image::is_high_dynamic_range(path) ? path : reference;
+    print_message(
+        "nusselt compare: '{}' cannot hold values above 1, and '{}' can; compare images of one kind\n",
+        picture.string(), other.string());
+}
+
 /// \returns the scale of the pictures
 double write_differences(const image::Image& a, const image::Image& reference,
                          const CompareOptions& options) {
@@ -75,6 +85,7 @@ bool compare_images(const CompareOptions& options) {
     for (const std::filesystem::path& path : options.images) {
         const image::Image a = image::read_image(path);
         check_size(path, a, reference, options);
+        warn_of_picture(path, options.reference);
         compared.push_back(measure(path, a, reference, options));
         if (options.difference || options.absolute_difference) {
             scale_text = fmt::format("{:<19}{:.9g} in full colour\n", "difference scale",
