@@ -1,6 +1,10 @@
 #pragma once
 /// Namespaces and function qualifiers shared by every header of the library.
 
+#if __cplusplus < 201703L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 201703L)
+#error nusselt needs C++17: add -std=c++17 or /std:c++17
+#endif
+
 /// Functions carry NUSSELT_HD so that CUDA compiles them for host and device.
 #if defined(__clang__) && defined(__CUDA__)
 #define NUSSELT_HD __attribute__((host)) __attribute__((device))

@@ -42,22 +42,29 @@ public:
     /// \param u in [0, 1)^2; as continuous as that of PolygonProjectedSolidAngle.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         using Scalar = scalar_t<Real>;
+        constexpr Scalar kEpsilon = std::numeric_limits<Scalar>::epsilon();
         const LightSample<Real> sampled = image_.sample(u);
         const Vec3<Real> direction = normalize(Horizons::lifted(ltc_.to_shading(sampled.wi)));
-        const Vec3<Real> image_point = inverse_minor_ * Horizons::lifted(ltc_.to_shading(sampled.p));
-        const Vec3<Real> moved = hull_.closest_point(image_point);
-        // Where the lobe hardly reaches the light, the image may lie next to the horizon, and rounding turns the direction away
-        // from the light.
-        constexpr Scalar kRounding = 64 * std::numeric_limits<Scalar>::epsilon();
-        const Vec3<Real> beside = cross(direction, moved);
-        const auto agrees = dot(beside, beside) <= Real(kRounding * kRounding) * dot(moved, moved);
-        const auto sound = agrees | (measure_ > Real(std::numeric_limits<Scalar>::epsilon()));
         const Vec3<Real> up{Real(0), Real(0), Real(1)};
-        const Vec3<Real> towards = select(sound, direction, normalize(moved));
-        const Vec3<Real> wi = select(inverse_measure_ > Real(0), towards, up);
-        // A direction tells where it meets the plane of the light, unless it is almost in the plane.
+        const auto dark = inverse_measure_ == Real(0);
+        Vec3<Real> wi = select(dark, up, direction);
+        Vec3<Real> p = hull_.point_along(wi);
         const auto apart = abs(hull_.plane.distance) > Real(power_of_two<Scalar>(-7)) * hull_.plane.farthest;
-        return {wi, pdf(wi), inverse_scale_ * select(sound & apart, hull_.point_along(wi), moved)};
+        const auto reached = measure_ > Real(kEpsilon);
+        if (!all(apart & reached)) {
+            // A direction that is almost in the plane does not tell where it meets the light. The point on the image does.
+            const Vec3<Real> image_point = inverse_minor_ * Horizons::lifted(ltc_.to_shading(sampled.p));
+            const Vec3<Real> on_light = hull_.closest_point(image_point);
+            // Where the lobe hardly reaches the light, the image may lie next to the horizon, and rounding turns the
+            // direction away from the light.
+            const Vec3<Real> beside = cross(direction, on_light);
+            constexpr Scalar kRounding = 64 * kEpsilon;
+            const auto agrees = dot(beside, beside) <= Real(kRounding * kRounding) * dot(on_light, on_light);
+            const auto sound = agrees | reached;
+            wi = select(sound | dark, wi, normalize(on_light));
+            p = select(sound & apart, p, on_light);
+        }
+        return {wi, pdf(wi), inverse_scale_ * p};
     }
 
     /// \param wi a unit direction towards the light.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_LTC_GLSL
 #define NUSSELT_SAMPLING_POLYGON_LTC_GLSL
-// Follows include/nusselt/sampling/polygon_ltc.h @ 6eff91b301a8
+// Follows include/nusselt/sampling/polygon_ltc.h @ 36121ce4fbd6
 /// Sampling of a convex polygon proportional to a linearly transformed cosine. With a Lambertian emitter and a lobe
 /// that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 ///
@@ -85,21 +85,27 @@ float polygon_ltc_pdf(PolygonLtc self, vec3 wi) {
 /// \param sampled of the image, in cosine space.
 LightSample polygon_ltc_sample_image(PolygonLtc self, LightSample sampled) {
     vec3 direction = ltc_to_shading(self.ltc, sampled.wi);
-    vec3 image_point = self.inverse_minor * ltc_to_shading(self.ltc, sampled.p);
     direction.z = nusselt_max(direction.z, self.lowest);
     direction = nusselt_normalize(direction);
-    image_point.z = nusselt_max(image_point.z, self.lowest);
-    vec3 p = closest_point(self.plane, self.low, self.high, image_point);
-    // Where the lobe hardly reaches the light, the image may lie next to the horizon, and rounding turns the direction away
-    // from the light.
-    vec3 beside = nusselt_cross(direction, p);
-    float rounding = 64.0 * kNusseltEpsilon;
-    bool sound = dot(beside, beside) <= rounding * rounding * dot(p, p) || self.measure > kNusseltEpsilon;
-    vec3 wi = sound ? direction : nusselt_normalize(p);
-    if (!(self.inverse_measure > 0.0)) wi = vec3(0.0, 0.0, 1.0);
-    // A direction tells where it meets the plane of the light, unless it is almost in the plane.
-    if (sound && abs(self.plane.distance) > 0.0078125 * self.plane.farthest)
-        p = nusselt_min(nusselt_max(light_plane_distance_along(self.plane, wi) * wi, self.low), self.high);
+    bool dark = self.inverse_measure == 0.0;
+    vec3 wi = dark ? vec3(0.0, 0.0, 1.0) : direction;
+    vec3 p = nusselt_min(nusselt_max(light_plane_distance_along(self.plane, wi) * wi, self.low), self.high);
+    bool apart = abs(self.plane.distance) > 0.0078125 * self.plane.farthest;
+    bool reached = self.measure > kNusseltEpsilon;
+    if (!(apart && reached)) {
+        // A direction that is almost in the plane does not tell where it meets the light. The point on the image does.
+        vec3 image_point = self.inverse_minor * ltc_to_shading(self.ltc, sampled.p);
+        image_point.z = nusselt_max(image_point.z, self.lowest);
+        vec3 on_light = closest_point(self.plane, self.low, self.high, image_point);
+        // Where the lobe hardly reaches the light, the image may lie next to the horizon, and rounding turns the direction
+        // away from the light.
+        vec3 beside = nusselt_cross(direction, on_light);
+        float rounding = 64.0 * kNusseltEpsilon;
+        bool agrees = dot(beside, beside) <= rounding * rounding * dot(on_light, on_light);
+        bool sound = agrees || reached;
+        if (!(sound || dark)) wi = nusselt_normalize(on_light);
+        if (!(sound && apart)) p = on_light;
+    }
     return LightSample(wi, polygon_ltc_pdf(self, wi), self.inverse_scale * p);
 }
 
