@@ -13,7 +13,7 @@ status=0
 cmake --preset release -DNUSSELT_BUILD_TESTS=ON >/dev/null
 cmake --build --preset release --target fuzzers
 if [ ${#harnesses[@]} -eq 0 ]; then
-    programs=(build/fuzz/tests/fuzz/harnesses/*_fuzzer)
+    programs=(build/sanitizers/tests/fuzz/harnesses/*_fuzzer)
     programs=("${programs[@]##*/}")
     harnesses=("${programs[@]%_fuzzer}")
 fi

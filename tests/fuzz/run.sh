@@ -32,5 +32,5 @@ if [ -w /dev/shm ]; then memory=/dev/shm; else memory=${TMPDIR:-/tmp}; fi
 TMPDIR=$(mktemp -d "$memory/nusselt_fuzz_XXXXXX")
 export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT
-"build/fuzz/tests/fuzz/harnesses/${harness}_fuzzer" "${options[@]}" "$@" \
+"build/sanitizers/tests/fuzz/harnesses/${harness}_fuzzer" "${options[@]}" "$@" \
     -artifact_prefix="build/fuzz/findings/$harness-" "$found" "${corpora[@]}"
