@@ -91,7 +91,7 @@ if [ "${1:-all}" = check ]; then
     build_and_test check "$warnings_as_errors"
 else
     build_and_test release "$warnings_as_errors"
-    # The tests of fuzzing have built the modules with this compiler already. Warnings are the business of the first build.
+    # The tests of fuzzing have built the modules with this compiler already. The release build checks warnings.
     build_and_test sanitizers OFF "-DCMAKE_CXX_COMPILER=$(sed -n 's/^CLANG_CXX:.*=//p' build/release/CMakeCache.txt)"
 fi
 

@@ -24,15 +24,19 @@ mkdir -p "$work"
 cmake -D SHADERS="$shaders" -D OUTPUT="$work/flat" -P "$root/scripts/flatten-glsl.cmake"
 files=$(cd "$shaders" && find . -name '*.glsl' -printf '%P\n' | sort)
 [ -n "$files" ] || { echo "no shaders in $shaders"; exit 1; }
+defaults=$(grep -rh NUSSELT_MAX_VERTICES "$shaders/core" || true)
 for file in $files; do
-    for vertices in 3 4 7; do
+    flat=$work/flat/$(basename "$file")
+    # A flattened file has all that it includes, so it tells whether the capacity matters. The core has its default alone.
+    bounds=(4)
+    if grep NUSSELT_MAX_VERTICES "$flat" | grep -qvxF "$defaults"; then bounds=(3 4 7); fi
+    for vertices in "${bounds[@]}"; do
         for fused in 0 1; do
             options=("#define NUSSELT_MAX_VERTICES $vertices" "#define NUSSELT_FUSED_FMA $fused")
             printf '%s\n' '#version 450' '#extension GL_GOOGLE_include_directive : require' "${options[@]}" \
                 "#include \"$file\"" "#include \"$file\"" 'void main() {}' >"$work/source.comp"
             compile "$work/source.comp" "$file, $vertices vertices, fused $fused" -V -I"$shaders" -o "$work/source.spv"
         done
-        flat=$work/flat/$(basename "$file")
         { printf '%s\n' '#version 450' "#define NUSSELT_MAX_VERTICES $vertices"; cat "$flat"; echo 'void main() {}'; } \
             >"$work/flat.comp"
         compile "$work/flat.comp" "$file flattened, $vertices vertices" -V -o "$work/flat.spv"

@@ -15,7 +15,7 @@ mkdir -p "$work"
 cmake -D OUTPUT="$work/include/nusselt.h" -P "$root/scripts/amalgamate.cmake"
 printf '#include <nusselt.h>\n#include <nusselt.h>\n' >"$work/alone.cpp"
 for compiler in "$@"; do
-    flags=(-std=c++17 -O1 -march=x86-64-v2 -ffp-contract=off -I"$generated")
+    flags=(-std=c++17 -O0 -march=x86-64-v2 -ffp-contract=off -I"$generated")
     strict=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
     for isa in x86-64 x86-64-v4; do
         "$compiler" -std=c++17 -march=$isa "${strict[@]}" -I"$work/include" -fsyntax-only "$work/alone.cpp"

@@ -40,7 +40,7 @@ public:
         const Vec3<Real> wi = lobe_.sample(u);
         const Real density = select(is_towards_light(wi), pdf(wi), Real(0));
         const Vec3<Real> p = hull_.plane.distance_along(wi) * wi;
-        return {wi, density, inverse_scale_ * hull_.closest_point(p)};
+        return {wi, density, inverse_scale_ * hull_.moved_to_plane(p)};
     }
 
     /// \param wi a unit direction towards the light.

@@ -3,9 +3,10 @@
 /// that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672, Sec. 4.1:
-/// projected solid angle sampling of the image of the polygon in cosine space. Deviation: the hit point lies
-/// where the direction meets the plane of the light in shading space. Where that plane almost contains the shading point,
-/// the point on the image comes back to shading space instead.
+/// projected solid angle sampling of the image of the polygon in cosine space. Deviation: the hit point lies where the
+/// direction meets the plane of the light in shading space. Where that plane almost contains the shading point, or where
+/// hardly any of the lobe reaches the light, the point on the image comes back to shading space instead, and the direction
+/// leads to it if it would miss it by more than rounding explains.
 
 #include <nusselt/core/broadcast.h>
 #include <nusselt/ltc/light_transform.h>
@@ -54,13 +55,18 @@ public:
         if (!all(apart & reached)) {
             // A direction that is almost in the plane does not tell where it meets the light. The point on the image does.
             const Vec3<Real> image_point = inverse_minor_ * Horizons::lifted(ltc_.to_shading(sampled.p));
-            const Vec3<Real> on_light = hull_.closest_point(image_point);
-            // Where the lobe hardly reaches the light, the image may lie next to the horizon, and rounding turns the
-            // direction away from the light.
+            const Vec3<Real> on_light = hull_.moved_to_plane(image_point);
+            // Next to the horizon of the lobe, rounding turns the direction away from the light: the less of the lobe
+            // reaches the light, the more often. How far a direction may pass its point depends on its angle with the plane.
             const Vec3<Real> beside = cross(direction, on_light);
-            constexpr Scalar kRounding = 64 * kEpsilon;
-            const auto agrees = dot(beside, beside) <= Real(kRounding * kRounding) * dot(on_light, on_light);
-            const auto sound = agrees | reached;
+            const Real to_plane = dot(hull_.plane.normal, direction);
+            const Real squared_sine =
+                min(to_plane * to_plane, hull_.plane.distance * hull_.plane.distance /
+                                             max(dot(on_light, on_light), Real(kTiny<Scalar>)));
+            const Real largest = Real(48 * kEpsilon) * hull_.plane.farthest;
+            const auto agrees = (dot(direction, on_light) >= Real(0)) &
+                                (squared_sine * squared_sine * dot(beside, beside) <= largest * largest);
+            const auto sound = agrees | (reached & apart);
             wi = select(sound | dark, wi, normalize(on_light));
             p = select(sound & apart, p, on_light);
         }

@@ -79,7 +79,7 @@ public:
             s.wi = select(central_, s.wi, other.wi);
             s.p = select(central_, s.p, other.p);
         }
-        s.p = inverse_scale_ * hull_.closest_point(s.p);
+        s.p = inverse_scale_ * hull_.moved_to_plane(s.p);
         s.wi = select(inverse_measure_ > Real(0), s.wi, Vec3<Real>{Real(0), Real(0), Real(1)});
         s.wi.y = mirror_ * s.wi.y;
         s.p.y = mirror_ * s.p.y;

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_BRDF_GLSL
 #define NUSSELT_SAMPLING_POLYGON_BRDF_GLSL
-// Follows include/nusselt/sampling/polygon_brdf.h @ def14670c758
+// Follows include/nusselt/sampling/polygon_brdf.h @ fa6e4dc1853a
 /// BRDF sampling of a convex polygon: directions by the BRDF alone, and a test whether they hit the light. Twin of
 /// include/nusselt/sampling/polygon_brdf.h.
 ///
@@ -61,7 +61,7 @@ LightSample polygon_brdf_sample(PolygonBrdf self, vec2 u) {
     vec3 wi = ggx_visible_normals_sample(self.lobe, u);
     float density = polygon_brdf_is_towards_light(self, wi) ? polygon_brdf_pdf(self, wi) : 0.0;
     vec3 p = light_plane_distance_along(self.plane, wi) * wi;
-    return LightSample(wi, density, self.inverse_scale * closest_point(self.plane, self.low, self.high, p));
+    return LightSample(wi, density, self.inverse_scale * light_plane_moved_to(self.plane, self.low, self.high, p));
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_LTC_GLSL
 #define NUSSELT_SAMPLING_POLYGON_LTC_GLSL
-// Follows include/nusselt/sampling/polygon_ltc.h @ 36121ce4fbd6
+// Follows include/nusselt/sampling/polygon_ltc.h @ 170599b8f020
 /// Sampling of a convex polygon proportional to a linearly transformed cosine. With a Lambertian emitter and a lobe
 /// that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 ///
@@ -96,13 +96,17 @@ LightSample polygon_ltc_sample_image(PolygonLtc self, LightSample sampled) {
         // A direction that is almost in the plane does not tell where it meets the light. The point on the image does.
         vec3 image_point = self.inverse_minor * ltc_to_shading(self.ltc, sampled.p);
         image_point.z = nusselt_max(image_point.z, self.lowest);
-        vec3 on_light = closest_point(self.plane, self.low, self.high, image_point);
-        // Where the lobe hardly reaches the light, the image may lie next to the horizon, and rounding turns the direction
-        // away from the light.
+        vec3 on_light = light_plane_moved_to(self.plane, self.low, self.high, image_point);
+        // Next to the horizon of the lobe, rounding turns the direction away from the light: the less of the lobe reaches
+        // the light, the more often. How far a direction may pass its point depends on its angle with the plane.
         vec3 beside = nusselt_cross(direction, on_light);
-        float rounding = 64.0 * kNusseltEpsilon;
-        bool agrees = dot(beside, beside) <= rounding * rounding * dot(on_light, on_light);
-        bool sound = agrees || reached;
+        float to_plane = dot(self.plane.normal, direction);
+        float squared_sine = nusselt_min(to_plane * to_plane, self.plane.distance * self.plane.distance /
+                                                                  nusselt_max(dot(on_light, on_light), kNusseltTiny));
+        float largest = 48.0 * kNusseltEpsilon * self.plane.farthest;
+        bool agrees = dot(direction, on_light) >= 0.0 &&
+            squared_sine * squared_sine * dot(beside, beside) <= largest * largest;
+        bool sound = agrees || (reached && apart);
         if (!(sound || dark)) wi = nusselt_normalize(on_light);
         if (!(sound && apart)) p = on_light;
     }

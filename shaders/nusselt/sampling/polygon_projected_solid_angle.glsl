@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 746a039a519c
+// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ aba0d16e2212
 /// Uniform sampling of the projected solid angle of a convex polygon: density proportional to the cosine at the
 /// surface. With a Lambertian emitter on a Lambertian surface, all noise that remains comes from shadows.
 ///
@@ -265,7 +265,7 @@ LightSample polygon_projected_solid_angle_sample_decentral(LightPlane plane, Dec
 
 /// Takes scaled and mirrored coordinates back to those of the light.
 LightSample polygon_projected_solid_angle_finish(PolygonProjectedSolidAngle self, LightSample s) {
-    s.p = self.inverse_scale * closest_point(self.plane, self.low, self.high, s.p);
+    s.p = self.inverse_scale * light_plane_moved_to(self.plane, self.low, self.high, s.p);
     s.wi = self.inverse_measure > 0.0 ? s.wi : vec3(0.0, 0.0, 1.0);
     s.wi.y = self.mirror * s.wi.y;
     s.p.y = self.mirror * s.p.y;

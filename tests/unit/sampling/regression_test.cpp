@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <new>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -237,37 +238,43 @@ TEST(RegressionTest, HitPointsOfLobesStayInAPlaneNextToThePoint) {
         {0x1.800b7cp-2f, 0});
 }
 
-/// Shadow rays end at 0.9999 of their length: a hit point behind the plane by more than that would be in the shadow of the
-/// light itself.
+/// A hit point behind the plane would be in the shadow of the light itself: shadow rays end at 0.9999 of their length or so.
 template <class Technique>
-void expect_points_in_plane(const Quad& light, float largest_error, const Technique& technique) {
-    for (int i = 0; i < 1000; ++i) {
-        const auto sample = technique.sample({(float(i) + 0.5f) / 1000, float(i * 377 % 1000) / 1000});
+void expect_points_before_plane(const Quad& light, const Technique& technique) {
+    const auto normal = nusselt::broadcast<long double>(light.normal);
+    const auto distance = static_cast<long double>(nusselt::plane_distance(light));
+    int count = 0;
+    for (int i = 0; i < 200; ++i) {
+        const auto sample =
+            technique.sample({(static_cast<float>(i) + 0.5f) / 200, static_cast<float>(i * 77 % 200) / 200});
         if (!(sample.pdf > 0)) continue;
-        const long double off = nusselt::dot(nusselt::broadcast<long double>(light.normal),
-                                             nusselt::broadcast<long double>(sample.p)) -
-                                static_cast<long double>(nusselt::plane_distance(light));
-        ASSERT_LE(std::fabs(off), largest_error);
+        ++count;
+        const long double height = nusselt::dot(normal, nusselt::broadcast<long double>(sample.p));
+        ASSERT_LE(std::fabs(height - distance), 8 * std::numeric_limits<float>::epsilon());
+        ASSERT_LT(0.9999L * height / distance, 1) << distance;
     }
+    EXPECT_GT(count, 100);
 }
-TEST(RegressionTest, HitPointsOfCloseLightsAreInTheirPlane) {
+TEST(RegressionTest, HitPointsOfCloseLightsAreBeforeTheirPlane) {
     const nusselt::LtcCoefficients<float> lobe{0.8f, 0.6f, 1, -0.06f, 0.08f, 1};
-    for (const float height : {1e-2f, 1e-3f, 1e-4f}) {
-        // The corners of a rotated square around the point and of one beside it, at a distance of `height` in (1, 2, 2) / 3.
-        for (const float along : {0.0f, 1.5f}) {
-            const auto corner = [&](float x, float y) {
-                const float a = x + along;
-                return nusselt::Vec3<float>{(height + 2 * a + 2 * y) / 3, (2 * height - 2 * a + y) / 3,
-                                            (2 * height + a - 2 * y) / 3};
-            };
-            const nusselt::Vec3<float> v[] = {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
-            const Quad light = nusselt::make_polygon<4>(v, 4);
-            constexpr float kLargest = 32 * std::numeric_limits<float>::epsilon();
-            expect_points_in_plane(light, kLargest, nusselt::PolygonProjectedSolidAngle<float, 4>(light));
-            expect_points_in_plane(light, kLargest,
-                                   nusselt::PolygonLtc<float, 4>(light, nusselt::Ltc<float>(lobe)));
+    std::mt19937 engine(1);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    const auto direction = [&] {
+        return normalize(nusselt::Vec3<float>{uniform(engine), uniform(engine), uniform(engine) + 2});
+    };
+    for (const float height : {1e-2f, 1e-3f, 1e-4f})
+        for (int i = 0; i < 50; ++i) {
+            const nusselt::Vec3<float> normal = direction();
+            const nusselt::Vec3<float> side = 0.5f * normalize(cross(normal, direction()));
+            const nusselt::Vec3<float> up = cross(normal, side);
+            const auto corner = [&](float x, float y) { return height * normal + x * side + y * up; };
+            const float x = 0.9f * uniform(engine), y = 0.9f * uniform(engine);
+            const Quad light =
+                quad(corner(x - 1, y - 1), corner(x + 1, y - 1), corner(x + 1, y + 1), corner(x - 1, y + 1));
+            expect_points_before_plane(light, nusselt::PolygonProjectedSolidAngle<float, 4>(light));
+            expect_points_before_plane(light,
+                                       nusselt::PolygonLtc<float, 4>(light, nusselt::Ltc<float>(lobe)));
         }
-    }
 }
 
 /// The contract must not be content with the box around a light.
@@ -278,6 +285,25 @@ TEST(RegressionTest, ContractRejectsHitPointsBesideThePlane) {
     EXPECT_EQ((violation<Kind, float>(light, out)), nullptr);
     out.sample.p = 1.002f * out.sample.p;
     EXPECT_STREQ((violation<Kind, float>(light, out)), "p is off the light");
+}
+
+/// Next to the horizon of a lobe, the point of its image and the direction were apart by up to 0.05.
+TEST(RegressionTest, DirectionsNextToTheHorizonOfALobeLeadToTheirPoints) {
+    const Quad light = quad({0x1.13ede8p+7f, -0x1.d3aa16p+8f, 0x1.8d5a38p+8f},
+                            {-0x1.7bda2cp+7f, -0x1.20704ap+5f, 0x1.2b1feep+9f},
+                            {-0x1.bf1258p+7f, 0x1.08fa0cp+9f, -0x1.00e252p+8f},
+                            {0x1.66bb4ep+8f, -0x1.c842fcp+8f, -0x1.e9934p+7f});
+    expect_contract<PolygonLtcKindOf<4>>(
+        {light, {0x1.e6226p-1f, 0x1.5a2f66p-2f, 0x1.0a9f8ap+0f, -0x1.b46b1cp-14f, 0x1.b0a52p-13f, 1}},
+        {0x1.d4df96p-1f, 0x1.fffffap-1f});
+}
+
+TEST(RegressionTest, ContractRejectsHitPointsBesideALine) {
+    const Line light = nusselt::make_line(nusselt::Vec3<float>{-1, 0, 1}, nusselt::Vec3<float>{1, 1, 2});
+    Outputs<float, float> out = outputs_of<LineSolidAngleKind, float>(light, 0.5f);
+    EXPECT_EQ((violation<LineSolidAngleKind, float>(light, out)), nullptr);
+    out.sample.p.z *= 1.002f;
+    EXPECT_STREQ((violation<LineSolidAngleKind, float>(light, out)), "p is off the light");
 }
 
 /// The last half-plane around an axis has hardly any density, and its image no importance.
