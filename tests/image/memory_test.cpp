@@ -250,7 +250,7 @@ TEST_F(Memory, PngWithGigabytesBehindItsPixels) {
           {"chunks.png", "Too much image data"}}) {
         const PeakMemory peak;
         const std::clock_t start = std::clock(); // of the processor, whatever else runs on it
-        const std::string error = error_of([&] { (void)read_image(in_folder(name)); });
+        const std::string error = error_of([&, name = name] { (void)read_image(in_folder(name)); });
         EXPECT_NE(error.find(problem), std::string::npos) << error;
         EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 0.5) << name;
         EXPECT_LT(peak.bytes(), 2e6) << name;
