@@ -64,9 +64,9 @@ public:
                 min(to_plane * to_plane, hull_.plane.distance * hull_.plane.distance /
                                              max(dot(on_light, on_light), Real(kTiny<Scalar>)));
             const Real largest = Real(48 * kEpsilon) * hull_.plane.farthest;
-            const auto agrees = (dot(direction, on_light) >= Real(0)) &
-                                (squared_sine * squared_sine * dot(beside, beside) <= largest * largest);
-            const auto sound = agrees | (reached & apart);
+            const auto ahead = dot(direction, on_light) >= Real(0);
+            const auto close = squared_sine * squared_sine * dot(beside, beside) <= largest * largest;
+            const auto sound = (ahead & close) | (reached & apart);
             wi = select(sound | dark, wi, normalize(on_light));
             p = select(sound & apart, p, on_light);
         }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_LTC_GLSL
 #define NUSSELT_SAMPLING_POLYGON_LTC_GLSL
-// Follows include/nusselt/sampling/polygon_ltc.h @ 170599b8f020
+// Follows include/nusselt/sampling/polygon_ltc.h @ b04057dd9944
 /// Sampling of a convex polygon proportional to a linearly transformed cosine. With a Lambertian emitter and a lobe
 /// that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 ///
@@ -104,9 +104,9 @@ LightSample polygon_ltc_sample_image(PolygonLtc self, LightSample sampled) {
         float squared_sine = nusselt_min(to_plane * to_plane, self.plane.distance * self.plane.distance /
                                                                   nusselt_max(dot(on_light, on_light), kNusseltTiny));
         float largest = 48.0 * kNusseltEpsilon * self.plane.farthest;
-        bool agrees = dot(direction, on_light) >= 0.0 &&
-            squared_sine * squared_sine * dot(beside, beside) <= largest * largest;
-        bool sound = agrees || (reached && apart);
+        bool ahead = dot(direction, on_light) >= 0.0;
+        bool close = squared_sine * squared_sine * dot(beside, beside) <= largest * largest;
+        bool sound = (ahead && close) || (reached && apart);
         if (!(sound || dark)) wi = nusselt_normalize(on_light);
         if (!(sound && apart)) p = on_light;
     }

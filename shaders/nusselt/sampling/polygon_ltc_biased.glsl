@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_LTC_BIASED_GLSL
 #define NUSSELT_SAMPLING_POLYGON_LTC_BIASED_GLSL
-// Follows include/nusselt/sampling/polygon_ltc.h @ 170599b8f020
+// Follows include/nusselt/sampling/polygon_ltc.h @ b04057dd9944
 /// The biased variant of polygon_ltc.glsl: the image of the light in cosine space is sampled without iteration. Samples
 /// deviate from their density as those of polygon_projected_solid_angle_biased.glsl do; polygon_ltc_measure() and
 /// polygon_ltc_pdf() do not. Twin of PolygonLtcBiased in include/nusselt/sampling/polygon_ltc.h.
