@@ -24,10 +24,10 @@ mkdir -p "$work"
 cmake -D SHADERS="$shaders" -D OUTPUT="$work/flat" -P "$root/scripts/flatten-glsl.cmake"
 files=$(cd "$shaders" && find . -name '*.glsl' -printf '%P\n' | sort)
 [ -n "$files" ] || { echo "no shaders in $shaders"; exit 1; }
-defaults=$(grep -rh NUSSELT_MAX_VERTICES "$shaders/core" || true)
+defaults=$(grep -hs NUSSELT_MAX_VERTICES "$shaders/core/compatibility.glsl" || true)
 for file in $files; do
     flat=$work/flat/$(basename "$file")
-    # A flattened file has all that it includes, so it tells whether the capacity matters. The core has its default alone.
+    # A flattened file has all that it includes, so it tells whether the capacity matters beyond its default.
     bounds=(4)
     if grep NUSSELT_MAX_VERTICES "$flat" | grep -qvxF "$defaults"; then bounds=(3 4 7); fi
     for vertices in "${bounds[@]}"; do
