@@ -86,14 +86,11 @@ struct PolygonHull {
     }
 
     /// Moves a point of the polygon, which rounding may have put before or behind the plane, along the normal to the plane,
-    /// then into the box. It ends in front of the plane by a few roundings: behind it, a light that blocks rays would shadow
-    /// itself, since shadow rays end at 0.9999 of their length or so.
+    /// then into the box. For a light seen edge-on, points of the ray that are barely off the plane are far from where the
+    /// ray meets it, and a point behind the plane would be in the shadow of the light itself.
     NUSSELT_HD Vec3<Real> moved_to_plane(const Vec3<Real>& p) const noexcept {
-        const Vec3<Real>& n = plane.normal;
-        const Real terms = abs(n.x * p.x) + abs(n.y * p.y) + abs(n.z * p.z);
-        const Real roundings = Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * terms;
-        const Real in_front = copysign(max(abs(plane.distance) - roundings, Real(0)), plane.distance);
-        return clamped(multiply_add(in_front - dot(n, p), n, p));
+        const Real off_plane = plane.distance - dot(plane.normal, p);
+        return clamped(multiply_add(off_plane, plane.normal, p));
     }
 
 private:

@@ -38,13 +38,10 @@ float light_plane_distance_along(LightPlane self, vec3 wi) {
 }
 
 /// Moves a point of a polygon, which rounding may have put before or behind the plane, along the normal to the plane, then
-/// into the axis-aligned box around the polygon. It ends in front of the plane by a few roundings: behind it, a light that
-/// blocks rays would shadow itself.
+/// into the axis-aligned box around the polygon.
 /// \param low, high corners of the box.
 vec3 light_plane_moved_to(LightPlane self, vec3 low, vec3 high, vec3 p) {
-    float terms = dot(abs(self.normal), abs(p));
-    float in_front = nusselt_max(abs(self.distance) - 4.0 * kNusseltEpsilon * terms, 0.0);
-    float off_plane = (self.distance < 0.0 ? -in_front : in_front) - dot(self.normal, p);
+    float off_plane = self.distance - dot(self.normal, p);
     return nusselt_min(nusselt_max(p + off_plane * self.normal, low), high);
 }
 

@@ -239,8 +239,9 @@ TEST(RegressionTest, HitPointsOfLobesStayInAPlaneNextToThePoint) {
 }
 
 /// A hit point behind the plane would be in the shadow of the light itself: shadow rays end at 0.9999 of their length or so.
+/// \returns the number of samples.
 template <class Technique>
-void expect_points_before_plane(const Quad& light, const Technique& technique) {
+int expect_points_in_plane(const Quad& light, const Technique& technique) {
     const auto normal = nusselt::broadcast<long double>(light.normal);
     const auto distance = static_cast<long double>(nusselt::plane_distance(light));
     int count = 0;
@@ -250,19 +251,20 @@ void expect_points_before_plane(const Quad& light, const Technique& technique) {
         if (!(sample.pdf > 0)) continue;
         ++count;
         const long double height = nusselt::dot(normal, nusselt::broadcast<long double>(sample.p));
-        ASSERT_LE(std::fabs(height - distance), 8 * std::numeric_limits<float>::epsilon());
-        ASSERT_LT(0.9999L * height / distance, 1) << distance;
+        EXPECT_LE(std::fabs(height - distance), 8 * std::numeric_limits<float>::epsilon());
+        EXPECT_LT(0.9999L * height / distance, 1) << distance;
     }
-    EXPECT_GT(count, 100);
+    return count;
 }
-TEST(RegressionTest, HitPointsOfCloseLightsAreBeforeTheirPlane) {
+TEST(RegressionTest, HitPointsOfCloseLightsAreInTheirPlane) {
     const nusselt::LtcCoefficients<float> lobe{0.8f, 0.6f, 1, -0.06f, 0.08f, 1};
     std::mt19937 engine(1);
     std::uniform_real_distribution<float> uniform(-1, 1);
     const auto direction = [&] {
-        return normalize(nusselt::Vec3<float>{uniform(engine), uniform(engine), uniform(engine) + 2});
+        return normalize(nusselt::Vec3<float>{uniform(engine), uniform(engine), uniform(engine)});
     };
-    for (const float height : {1e-2f, 1e-3f, 1e-4f})
+    int count = 0;
+    for (const float height : {1e-2f, 1e-3f})
         for (int i = 0; i < 50; ++i) {
             const nusselt::Vec3<float> normal = direction();
             const nusselt::Vec3<float> side = 0.5f * normalize(cross(normal, direction()));
@@ -271,10 +273,11 @@ TEST(RegressionTest, HitPointsOfCloseLightsAreBeforeTheirPlane) {
             const float x = 0.9f * uniform(engine), y = 0.9f * uniform(engine);
             const Quad light =
                 quad(corner(x - 1, y - 1), corner(x + 1, y - 1), corner(x + 1, y + 1), corner(x - 1, y + 1));
-            expect_points_before_plane(light, nusselt::PolygonProjectedSolidAngle<float, 4>(light));
-            expect_points_before_plane(light,
-                                       nusselt::PolygonLtc<float, 4>(light, nusselt::Ltc<float>(lobe)));
+            count += expect_points_in_plane(light, nusselt::PolygonProjectedSolidAngle<float, 4>(light));
+            count += expect_points_in_plane(light,
+                                            nusselt::PolygonLtc<float, 4>(light, nusselt::Ltc<float>(lobe)));
         }
+    EXPECT_GT(count, 20000);
 }
 
 /// The contract must not be content with the box around a light.
