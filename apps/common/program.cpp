@@ -49,14 +49,10 @@ const CLI::App& called(const CLI::App& app) {
     return commands.empty() ? app : called(*commands.front());
 }
 
-/// The names of a program and of the command that was called: "nusselt-lab bench lines".
-std::string full_name(const Program& program, const CLI::App& app) {
-    std::string name = program.name;
-    for (const CLI::App* command = &app; !command->get_subcommands().empty();) {
-        command = command->get_subcommands().front();
-        name += " " + command->get_name();
-    }
-    return name;
+/// The name of a command behind those of its program and of the commands above it: "nusselt-lab bench lines".
+std::string full_name(const CLI::App& command) {
+    const CLI::App* const above = command.get_parent();
+    return above == nullptr ? command.get_name() : full_name(*above) + " " + command.get_name();
 }
 
 std::vector<std::string> option_names(const CLI::App& command) {
@@ -193,7 +189,7 @@ int run_program(const Program& program, int argc, char** argv) {
     app.set_version_flag("--version", program.name + " " NUSSELT_VERSION, "Print the version and exit");
     app.failure_message([&program](const CLI::App* failed, const CLI::Error& error) {
         return fmt::format("{}: {}; see '{} --help'\n", program.name,
-                           scene::message_line(usage_problem(*failed, error)), full_name(program, *failed));
+                           scene::message_line(usage_problem(*failed, error)), full_name(called(*failed)));
     });
     int exit_code = 0;
     for (const SetupCommand setup : program.commands) setup(app, exit_code);

@@ -1,24 +1,13 @@
 #include "lab/errors/image_agreement.h"
 
+#include "image/metrics.h"
 #include "render_cpu/renderer.h"
 #include "render_vulkan/renderer.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace nusselt::lab {
 
 double differing_share(const image::Image& a, const image::Image& b) {
-    double mean = 0;
-    for (const float value : b.pixels) mean += value / static_cast<double>(b.pixels.size());
-    const auto differs = [&](std::size_t i) {
-        const double difference = std::fabs(static_cast<double>(a.pixels[i]) - b.pixels[i]);
-        return !(difference <= kRelativeTolerance * std::max<double>(std::fabs(b.pixels[i]), 0.01 * mean));
-    };
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < b.pixels.size(); i += 3)
-        count += differs(i) || differs(i + 1) || differs(i + 2);
-    return static_cast<double>(count) / (static_cast<double>(b.pixels.size()) / 3);
+    return image::differing_share(a, b, kRelativeTolerance);
 }
 
 std::vector<render::RenderSettings> compared_settings() {

@@ -22,8 +22,7 @@ inline constexpr double kRelativeTolerance = 1e-3;
 /// The share of pixels along edges that may differ. Measured: up to 1.5 % on shipped scenes of 64 x 48 pixels.
 inline constexpr double kLargestDifferingShare = 0.03;
 
-/// Share of pixels with a channel that differs by more than the tolerance: of itself, or of a hundredth of the mean where
-/// it is darker than that. NaN does.
+/// image::differing_share() with kRelativeTolerance.
 double differing_share(const image::Image& a, const image::Image& b);
 
 /// How an image of the GPU differs from that of the CPU.

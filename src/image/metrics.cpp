@@ -1,5 +1,6 @@
 #include "image/metrics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -80,6 +81,21 @@ Comparison compare(const Image& a, const Image& reference) {
     result.mean_b = mean(sum_b, value_count);
     result.relative_rmse = result.rmse == 0 ? 0 : result.rmse / std::fabs(result.mean_b);
     return result;
+}
+
+double differing_share(const Image& a, const Image& reference, double tolerance) {
+    require_same_size(a, reference);
+    const double size = static_cast<double>(reference.pixels.size());
+    double mean = 0;
+    for (const float value : reference.pixels) mean += value / size;
+    const auto differs = [&](std::size_t i) {
+        const double difference = std::fabs(static_cast<double>(a.pixels[i]) - reference.pixels[i]);
+        return !(difference <= tolerance * std::max<double>(std::fabs(reference.pixels[i]), 0.01 * mean));
+    };
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < reference.pixels.size(); i += 3)
+        count += differs(i) || differs(i + 1) || differs(i + 2);
+    return static_cast<double>(count) / (size / 3);
 }
 
 } // namespace nusselt::image

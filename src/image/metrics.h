@@ -55,6 +55,11 @@ struct Comparison {
 /// \throws std::runtime_error  naming both sizes, if they differ
 [[nodiscard]] Comparison compare(const Image& a, const Image& reference);
 
+/// Share of pixels with a channel that differs from the reference by more than the tolerance: of the reference, or of a
+/// hundredth of its mean where it is darker than that. NaN does.
+/// \throws std::runtime_error  naming both sizes, if they differ
+[[nodiscard]] double differing_share(const Image& a, const Image& reference, double tolerance);
+
 /// \throws std::runtime_error  naming both sizes, if they differ
 void require_same_size(const Image& a, const Image& reference);
 

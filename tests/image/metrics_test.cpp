@@ -88,6 +88,17 @@ TEST(Metrics, RandomImagesAgainstMomentsInLongDouble) {
     EXPECT_NEAR(comparison.mrse, double(3 * mrse / Real(a.pixels.size())), 1e-11);
 }
 
+TEST(Metrics, DarkPixelsDifferRelativeToTheMean) {
+    const Image reference{2, 1, {1, 1, 1, 1e-3f, 1e-3f, 1e-3f}};
+    const auto share = [&](float bright, float dark) {
+        return differing_share({2, 1, {bright, 1, 1, 1e-3f, dark, 1e-3f}}, reference, 0.1);
+    };
+    EXPECT_EQ(share(1.09f, 1.4e-3f), 0) << "a tenth of a hundredth of the mean is 5e-4";
+    EXPECT_EQ(share(1.11f, 1.4e-3f), 0.5);
+    EXPECT_EQ(share(1.09f, 1.6e-3f), 0.5);
+    EXPECT_EQ(share(NAN, NAN), 1);
+}
+
 TEST(Metrics, OfBlackImagesAreNumbers) {
     const Image black = make_image(3, 3);
     const Comparison same = compare(black, black);

@@ -2,6 +2,8 @@
 
 #include "scenes.h"
 
+#include "image/metrics.h"
+
 #include <gtest/gtest.h>
 
 namespace nusselt::render_test {

@@ -2,6 +2,7 @@
 
 #include "line_scenes.h"
 
+#include "image/metrics.h"
 #include "render/metadata.h"
 #include "render_cpu/backend.h"
 

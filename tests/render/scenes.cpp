@@ -207,22 +207,6 @@ std::vector<std::vector<double>> render_region_means(const render_cpu::Renderer&
     return rows;
 }
 
-double differing_share(const image::Image& a, const image::Image& b, double tolerance) {
-    double sum = 0;
-    for (const float value : b.pixels) sum += value;
-    const double darkest = 0.01 * sum / static_cast<double>(b.pixels.size());
-    std::size_t count = 0;
-    for (std::size_t pixel = 0; pixel < a.pixels.size(); pixel += 3) {
-        bool differs = false;
-        for (std::size_t i = pixel; i < pixel + 3; ++i) {
-            const double size = std::max<double>({std::fabs(a.pixels[i]), std::fabs(b.pixels[i]), darkest});
-            differs |= !(std::fabs(a.pixels[i] - b.pixels[i]) <= tolerance * size);
-        }
-        count += differs ? 1 : 0;
-    }
-    return static_cast<double>(count) / static_cast<double>(a.pixels.size() / 3);
-}
-
 double t_statistic(const std::vector<double>& values, double mean) {
     const Moments m = moments(values);
     return t_of(m.mean - mean, m.squared_error, mean);

@@ -42,10 +42,6 @@ scene::Scene make_box_scene(int size);
 /// Two-dimensional cell of an image, averaged over channels and pixels.
 std::vector<double> region_means(const image::Image& image, int regions_per_axis);
 
-/// Share of pixels with a channel that differs by more than a tolerance: of the larger value, or of a hundredth of the mean
-/// of b where both are darker. NaN does.
-double differing_share(const image::Image& a, const image::Image& b, double tolerance);
-
 /// Region means of images with different seeds: one row per seed.
 std::vector<std::vector<double>> render_region_means(const render_cpu::Renderer& renderer,
                                                      render::RenderSettings settings, int seed_count,

@@ -54,12 +54,11 @@ void check_size(const std::filesystem::path& path, const image::Image& a, const 
 
 /// Values of a picture end at 1, so its difference from an image with radiance is large wherever the radiance is larger.
 void warn_of_picture(const std::filesystem::path& path, const std::filesystem::path& reference) {
-    if (image::is_high_dynamic_range(path) == image::is_high_dynamic_range(reference)) return;
-    const auto& picture = image::is_high_dynamic_range(path) ? reference : path;
-    const auto& other = image::is_high_dynamic_range(path) ? path : reference;
+    const bool has_radiance = image::is_high_dynamic_range(path);
+    if (has_radiance == image::is_high_dynamic_range(reference)) return;
     print_message(
         "nusselt compare: '{}' cannot hold values above 1, and '{}' can; compare images of one kind\n",
-        picture.string(), other.string());
+        (has_radiance ? reference : path).string(), (has_radiance ? path : reference).string());
 }
 
 /// \returns the scale of the pictures

@@ -4,9 +4,9 @@
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672, Sec. 4.1:
 /// projected solid angle sampling of the image of the polygon in cosine space. Deviation: the hit point lies where the
-/// direction meets the plane of the light in shading space. Where that plane almost contains the shading point, or where
-/// hardly any of the lobe reaches the light, the point on the image comes back to shading space instead, and the direction
-/// leads to it if it would miss it by more than rounding explains.
+/// direction meets the plane of the light in shading space. Where that plane almost contains the shading point, the point on
+/// the image comes back to shading space instead. Where a direction would miss that point by more than rounding explains,
+/// next to the horizon of the lobe or because hardly any of the lobe reaches the light, it leads to the point.
 
 #include <nusselt/core/broadcast.h>
 #include <nusselt/ltc/light_transform.h>
