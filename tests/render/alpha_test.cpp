@@ -2,6 +2,7 @@
 
 #include "scenes.h"
 
+#include "image/metrics.h"
 #include "visibility/alpha.h"
 #include "visibility/embree_scene.h"
 
