@@ -94,7 +94,10 @@ def shown(value, spec):
         return f"{value:,}".replace(",", " ")
     if value == 0 and spec[-1] in "e%":
         return "0"
-    return f"{100 * value:{spec[:-1]}} %" if spec[-1] == "%" else f"{value:{spec}}"
+    if spec[-1] != "%":
+        return f"{value:{spec}}"
+    percent = f"{100 * value:{spec[:-1]}}"
+    return f"{100 * value:.0f} %" if "e+" in percent else f"{percent} %"
 
 
 def fill_template(template, record):

@@ -17,8 +17,9 @@ std::string number(double x) { return x == 0 ? "0" : fmt::format("{:.1e}", x); }
 std::string ratio(const std::optional<double>& ratio) { return ratio ? fmt::format("{:.2g}", *ratio) : ""; }
 
 std::string share(std::int64_t part, std::int64_t whole) {
-    return part == 0 ? "0"
-                     : fmt::format("{:.2g} %", 100 * static_cast<double>(part) / static_cast<double>(whole));
+    if (part == 0) return "0";
+    const double percent = 100 * static_cast<double>(part) / static_cast<double>(whole);
+    return percent < 99 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);
 }
 
 std::string invalid(const proof::AccuracyRow& r) {

@@ -90,7 +90,8 @@ double differing_share(const Image& a, const Image& reference, double tolerance)
     for (const float value : reference.pixels) mean += value / size;
     const auto differs = [&](std::size_t i) {
         const double difference = std::fabs(static_cast<double>(a.pixels[i]) - reference.pixels[i]);
-        return !(difference <= tolerance * std::max<double>(std::fabs(reference.pixels[i]), 0.01 * mean));
+        const double limit = tolerance * std::max<double>(std::fabs(reference.pixels[i]), 0.01 * mean);
+        return !(difference <= limit) || !std::isfinite(limit);
     };
     std::size_t count = 0;
     for (std::size_t i = 0; i < reference.pixels.size(); i += 3)

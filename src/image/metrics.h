@@ -56,7 +56,7 @@ struct Comparison {
 [[nodiscard]] Comparison compare(const Image& a, const Image& reference);
 
 /// Share of pixels with a channel that differs from the reference by more than the tolerance: of the reference, or of a
-/// hundredth of its mean where it is darker than that. NaN does.
+/// hundredth of its mean where it is darker than that. Values that are not finite differ.
 /// \throws std::runtime_error  naming both sizes, if they differ
 [[nodiscard]] double differing_share(const Image& a, const Image& reference, double tolerance);
 

@@ -33,3 +33,11 @@ rejects 'sed "s/^glibc: .*/glibc: 2.17/" MANIFEST >M && mv M MANIFEST' 'MANIFEST
 rejects 'rm share/doc/nusselt/licences/libtbb*' 'no licence of libtbb'
 rejects 'cp lib/libfmt* lib/libc.so.6' 'these belong to the system'
 rm -rf "$work/broken"
+
+# Paths of libraries are separated by colons and semicolons, so none can be in the path of the archive.
+for separator in ':' ';'; do
+    mv "$root" "$root${separator}x"
+    if complaint=$("$root${separator}x/bin/nusselt" --version 2>&1); then fail "runs in a path with $separator"; fi
+    grep -qF 'move the archive' <<<"$complaint" || fail "in a path with $separator: $complaint"
+    mv "$root${separator}x" "$root"
+done

@@ -99,6 +99,15 @@ TEST(Metrics, DarkPixelsDifferRelativeToTheMean) {
     EXPECT_EQ(share(NAN, NAN), 1);
 }
 
+TEST(Metrics, NothingAgreesWithAReferenceThatIsNotFinite) {
+    const Image finite{1, 1, {1, 1, 1}};
+    for (const float value : {INFINITY, NAN}) {
+        const Image reference{1, 1, {1, 1, value}};
+        EXPECT_EQ(differing_share(finite, reference, 0.1), 1);
+        EXPECT_EQ(differing_share(reference, reference, 0.1), 1);
+    }
+}
+
 TEST(Metrics, OfBlackImagesAreNumbers) {
     const Image black = make_image(3, 3);
     const Comparison same = compare(black, black);
