@@ -20,7 +20,7 @@ BEGIN {
     below = below " include/random include/bsdf include/ltc"
     allow("include/sampling", below " include/simd")
     allow("include/line_samples", below " include/sampling")
-    allow("include/related", below " include/line_samples")
+    allow("include/related", below " include/sampling include/line_samples")
     below = below " include/sampling include/line_samples include/related"
     allow("include/estimate", below)
     allow("include/all", below " include/estimate")

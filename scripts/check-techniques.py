@@ -124,7 +124,9 @@ def table_of_techniques(rows):
 
 
 def includes(rows):
-    return "".join(f"#include <nusselt/{header}>\n" for header in sorted({row["header"] for row in rows}))
+    """Without published methods: they are there to compare with, not to use."""
+    headers = sorted({row["header"] for row in rows if not row["header"].startswith("related/")})
+    return "".join(f"#include <nusselt/{header}>\n" for header in headers)
 
 
 # The texts that follow from the registry: a file, what stands before and after the text, and the text.

@@ -77,7 +77,7 @@ TEST_F(GpuSamplers, HaveARowForEachTechniqueAndClassOfLights) {
         });
     };
     using namespace hostile;
-    expect_rows(PolygonKinds<4>(), 15, "three classes with 3 to 7 vertices");
+    expect_rows(PolygonKinds<5>(), 15, "three classes with 3 to 7 vertices");
     expect_rows(RectangleKinds(), 3, "three classes with 4 vertices");
     expect_rows(Join<PolygonOnLobeKinds<4>, LineKinds, LineOnLobeKinds, CylinderKinds, CylinderOnLobeKinds>(),
                 2, "two classes");

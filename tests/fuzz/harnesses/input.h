@@ -7,10 +7,16 @@
 #include <cstdlib>
 #include <cstring>
 #include <initializer_list>
+#include <string_view>
 
 #include "proof/hostile/contract.h"
 
 namespace nusselt::fuzz {
+
+/// The name of the suite in techniques.json.
+struct FuzzSuite {
+    static constexpr std::string_view kName = "fuzz";
+};
 
 /// Reads numbers from the bytes; zeros once they are used up.
 class Input {

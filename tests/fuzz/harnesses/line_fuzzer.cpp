@@ -9,7 +9,7 @@ template <class T>
 void check_all(Input& input) {
     const LineSegment<T> light = line<T>(input);
     const T u = input.random_number<T>();
-    hostile::LineKinds::for_each([&]<class Kind> { check<Kind, T>(light, u); });
+    hostile::TestedBy<FuzzSuite, hostile::LineKinds>::for_each([&]<class Kind> { check<Kind, T>(light, u); });
     const LtcCoefficients<T> coefficients = lobe<T>(input);
     hostile::LineOnLobeKinds::for_each([&]<class Kind> { check<Kind, T>({light, coefficients}, u); });
 }
