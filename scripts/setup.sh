@@ -42,7 +42,7 @@ if [ "$(id -u)" -ne 0 ]; then
         "As root: apt-get update && apt-get install ${missing[*]}"
     as_root=(sudo)
 fi
-echo "setup: installing ${#missing[@]} Debian packages and their dependencies: ${missing[*]}"
+echo "setup: installing ${#missing[@]} Debian packages and their dependencies (a few minutes without output): ${missing[*]}"
 "${as_root[@]}" apt-get update -qq || fail "apt-get update failed (see above); the packages cannot be installed"
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq -o Dpkg::Use-Pty=0 --no-install-recommends "${missing[@]}" >/dev/null ||

@@ -7,7 +7,7 @@
 namespace nusselt::lab {
 
 double differing_share(const image::Image& a, const image::Image& b) {
-    return image::differing_share(a, b, kRelativeTolerance);
+    return image::differing_share(a, b, kRelativeTolerance, kDarkest);
 }
 
 std::vector<render::RenderSettings> compared_settings() {

@@ -19,10 +19,13 @@ namespace nusselt::lab {
 /// along edges.
 inline constexpr double kRelativeTolerance = 1e-3;
 
+/// Values below this share of an image's mean are compared relative to it: where light grazes a surface, they are rounding.
+inline constexpr double kDarkest = 0.01;
+
 /// The share of pixels along edges that may differ. Measured: up to 1.5 % on shipped scenes of 64 x 48 pixels.
 inline constexpr double kLargestDifferingShare = 0.03;
 
-/// image::differing_share() with kRelativeTolerance.
+/// image::differing_share() with kRelativeTolerance and kDarkest.
 double differing_share(const image::Image& a, const image::Image& b);
 
 /// How an image of the GPU differs from that of the CPU.

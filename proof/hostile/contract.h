@@ -112,7 +112,7 @@ Real warp(const ConvexPolygon<Real, N>& light) noexcept {
     return largest;
 }
 
-/// A point of a line must be on the line. This and the next two do not test the box around the light.
+/// A point of a line must be on the line. The overloads of is_off() do not test the box around the light.
 template <class Real>
 mask_t<Real> is_off(const LineSegment<Real>& light, const Bounds<Real>&, const Vec3<Real>& p,
                     const Real& slack, const Real&) noexcept {
@@ -248,9 +248,9 @@ void check_contract(const typename Kind::template Light<Real>& light,
     const Real slack = fma(Real(kTolerance), bounds.extent, Real(16 * std::numeric_limits<T>::min()));
     const Real angle_error(kAngleError<Kind> > 0 ? static_cast<T>(4 * kAngleError<Kind>)
                                                  : std::numeric_limits<T>::epsilon());
-    // Where less of a lobe than the rounding unit reaches the light, the map from cosine space magnifies rounding errors: hit
+    // Where less of a lobe than the rounding unit reaches a polygon, the map from cosine space magnifies rounding errors: hit
     // points are in the box around the light only.
-    const auto reached = mask_t<Real>(Kind::kMeasure != Measure::lobe) |
+    const auto reached = mask_t<Real>(Kind::kMeasure != Measure::lobe || !kIsPolygon<Kind>) |
                          (out.measure > Real(std::numeric_limits<T>::epsilon()));
     const auto outside = !bounds.contain(p, slack);
     report(sampled & (outside | (reached & is_off(light, bounds, p, slack, angle_error))),

@@ -83,14 +83,14 @@ Comparison compare(const Image& a, const Image& reference) {
     return result;
 }
 
-double differing_share(const Image& a, const Image& reference, double tolerance) {
+double differing_share(const Image& a, const Image& reference, double tolerance, double darkest) {
     require_same_size(a, reference);
     const double size = static_cast<double>(reference.pixels.size());
     double mean = 0;
     for (const float value : reference.pixels) mean += value / size;
     const auto differs = [&](std::size_t i) {
         const double difference = std::fabs(static_cast<double>(a.pixels[i]) - reference.pixels[i]);
-        const double limit = tolerance * std::max<double>(std::fabs(reference.pixels[i]), 0.01 * mean);
+        const double limit = tolerance * std::max<double>(std::fabs(reference.pixels[i]), darkest * mean);
         return !(difference <= limit) || !std::isfinite(limit);
     };
     std::size_t count = 0;

@@ -55,10 +55,13 @@ struct Comparison {
 /// \throws std::runtime_error  naming both sizes, if they differ
 [[nodiscard]] Comparison compare(const Image& a, const Image& reference);
 
-/// Share of pixels with a channel that differs from the reference by more than the tolerance: of the reference, or of a
-/// hundredth of its mean where it is darker than that. Values that are not finite differ.
+/// Share of pixels with a channel that differs from the reference by more than a tolerance. Values that are not finite
+/// differ.
+/// \param tolerance of the value in the reference.
+/// \param darkest   where the reference is darker than this share of its mean, the tolerance is that of this share.
 /// \throws std::runtime_error  naming both sizes, if they differ
-[[nodiscard]] double differing_share(const Image& a, const Image& reference, double tolerance);
+[[nodiscard]] double differing_share(const Image& a, const Image& reference, double tolerance,
+                                     double darkest);
 
 /// \throws std::runtime_error  naming both sizes, if they differ
 void require_same_size(const Image& a, const Image& reference);

@@ -91,20 +91,21 @@ TEST(Metrics, RandomImagesAgainstMomentsInLongDouble) {
 TEST(Metrics, DarkPixelsDifferRelativeToTheMean) {
     const Image reference{2, 1, {1, 1, 1, 1e-3f, 1e-3f, 1e-3f}};
     const auto share = [&](float bright, float dark) {
-        return differing_share({2, 1, {bright, 1, 1, 1e-3f, dark, 1e-3f}}, reference, 0.1);
+        return differing_share({2, 1, {bright, 1, 1, 1e-3f, dark, 1e-3f}}, reference, 0.1, 0.01);
     };
     EXPECT_EQ(share(1.09f, 1.4e-3f), 0) << "a tenth of a hundredth of the mean is 5e-4";
     EXPECT_EQ(share(1.11f, 1.4e-3f), 0.5);
     EXPECT_EQ(share(1.09f, 1.6e-3f), 0.5);
     EXPECT_EQ(share(NAN, NAN), 1);
+    EXPECT_EQ(differing_share({2, 1, {1, 1, 1, 1e-3f, 1.2e-3f, 1e-3f}}, reference, 0.1, 0), 0.5);
 }
 
 TEST(Metrics, NothingAgreesWithAReferenceThatIsNotFinite) {
     const Image finite{1, 1, {1, 1, 1}};
     for (const float value : {INFINITY, NAN}) {
         const Image reference{1, 1, {1, 1, value}};
-        EXPECT_EQ(differing_share(finite, reference, 0.1), 1);
-        EXPECT_EQ(differing_share(reference, reference, 0.1), 1);
+        EXPECT_EQ(differing_share(finite, reference, 0.1, 0), 1);
+        EXPECT_EQ(differing_share(reference, reference, 0.1, 0), 1);
     }
 }
 

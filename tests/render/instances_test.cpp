@@ -186,11 +186,12 @@ TEST_P(Instances, LookLikeCopiesOfTheirTriangles) {
     for (const auto isa : base::kAllIsas) {
         if (!is_supported(isa)) continue;
         const image::Image expected = render(flat, isa);
-        EXPECT_LE(differing_share(render(scene, isa), expected, kTolerance), kLargestShare) << name_of(isa);
+        EXPECT_LE(differing_share(render(scene, isa), expected, kTolerance, 0), kLargestShare)
+            << name_of(isa);
         // They are in the picture at all.
         scene::Scene empty = scene;
         empty.instances.clear();
-        EXPECT_GT(differing_share(render(empty, isa), expected, kTolerance), 0.1);
+        EXPECT_GT(differing_share(render(empty, isa), expected, kTolerance, 0), 0.1);
     }
 }
 
@@ -199,7 +200,7 @@ TEST_P(Instances, TheTestTellsWrongNormals) {
     if (name != "stretched" && name != "sheared") return;
     const scene::Scene scene = make_instanced_scene(GetParam().instances, {0, 0, 0});
     const auto isa = base::choose_isa();
-    EXPECT_GT(differing_share(render(scene, isa), render(flattened(scene, linear), isa), kTolerance),
+    EXPECT_GT(differing_share(render(scene, isa), render(flattened(scene, linear), isa), kTolerance, 0),
               10 * kLargestShare);
 }
 
@@ -221,7 +222,7 @@ TEST(InstanceOffsets, CoverTheRoundingOfLargeObjectCoordinates) {
     const image::Image reference = render(at({0, 0, 0}), isa);
     const image::Image moved = render(at({4000, -6000, 8000}), isa);
     // A tenth of all pixels with offsets for the coordinates in the world.
-    EXPECT_LE(differing_share(moved, reference, 0.05), 0.01);
+    EXPECT_LE(differing_share(moved, reference, 0.05, 0), 0.01);
 }
 
 TEST(InstanceHits, NameTriangleAndInstance) {

@@ -33,12 +33,14 @@ class IsaInvariance : public testing::TestWithParam<base::Isa> {};
 
 TEST_P(IsaInvariance, HardlyAnyPixelDiffers) {
     if (!is_supported(GetParam())) GTEST_SKIP() << "this processor does not support it";
-    // A few pixels of an image differ; enough of them that chance decides nothing.
+    // A few pixels of an image differ; enough of them that chance decides nothing. Where light grazes a surface, the cosine is
+    // rounding: pixels of a hundred-thousandth of the mean differ by more than the tolerance.
+    constexpr double kDarkest = 0.01;
     const scene::Scene scene = make_box_scene(8 * kSize);
     for (const auto technique : render::kTechniques) {
         const image::Image baseline = render(scene, 2, base::Isa::sse42, technique);
         const image::Image other = render(scene, 2, GetParam(), technique);
-        EXPECT_LE(differing_share(baseline, other, 1e-4), 1e-4) << render::name_of(technique);
+        EXPECT_LE(differing_share(other, baseline, 1e-4, kDarkest), 1e-4) << render::name_of(technique);
     }
 }
 
@@ -64,7 +66,7 @@ TEST(Invariance, UnitOfLengthChangesNextToNothing) {
     for (const auto technique : render::kTechniques) {
         const image::Image reference = render(scene, 2, isa, technique);
         for (const float factor : {1e-3f, 1e3f})
-            EXPECT_LE(differing_share(reference, render(scaled(scene, factor), 2, isa, technique), 1e-3),
+            EXPECT_LE(differing_share(render(scaled(scene, factor), 2, isa, technique), reference, 1e-3, 0),
                       2e-3)
                 << render::name_of(technique) << ", " << factor;
     }

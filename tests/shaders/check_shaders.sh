@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Each file of a folder of shaders compiles alone and included twice, as GLSL 4.50 for Vulkan and, flattened, as GLSL
-# 4.50 and GLSL ES 3.00, for several capacities of polygons; so does the example in README.md.
+# 4.50 and GLSL ES 3.00, for several capacities of polygons where they matter; so does the example in README.md.
 # Usage: check_shaders.sh GLSLANG_VALIDATOR SHADERS WORK_FOLDER
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)

@@ -13,7 +13,7 @@ template <class Real>
 struct LightSample {
     Vec3<Real> wi; ///< unit direction from the shading point to the light
     Real pdf; ///< density of wi; positive and finite, or exactly 0: no sample, wi and p are then meaningless
-    Vec3<Real> p; ///< the point on the light [m], relative to the shading point; the shadow ray ends there
+    Vec3<Real> p; ///< the point on the light [m], relative to the shading point; the shadow ray leads there
 };
 
 namespace detail {

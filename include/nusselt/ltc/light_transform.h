@@ -3,7 +3,7 @@
 /// integral of the lobe over the light to that of the clamped cosine over its image.
 
 #include <nusselt/geometry/clip_line.h>
-#include <nusselt/geometry/polygon_measures.h>
+#include <nusselt/geometry/polygon_part.h>
 #include <nusselt/ltc/ltc.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -49,8 +49,8 @@ struct CosineHorizon {
     static constexpr int kVertices = N;
 
     template <class Real, int N>
-    NUSSELT_HD static ScaledPolygon<Real, N> part_of(const ConvexPolygon<Real, N>& light) noexcept {
-        return to_unit_extent(light);
+    NUSSELT_HD static PolygonPart<Real, N> part_of(const ConvexPolygon<Real, N>& light) noexcept {
+        return whole_part(light);
     }
     template <class Real>
     NUSSELT_HD static LineSegment<Real> part_of(const LineSegment<Real>& light) noexcept {
@@ -70,11 +70,8 @@ struct BothHorizons {
     static constexpr int kVertices = N + 1;
 
     template <class Real, int N>
-    NUSSELT_HD static ScaledPolygon<Real, N + 1> part_of(const ConvexPolygon<Real, N>& light) noexcept {
-        const ScaledPolygon<Real, N> whole = to_unit_extent(light);
-        // Once more to an extent of order one, since little may be left of the light.
-        const ScaledPolygon<Real, N + 1> part = to_unit_extent(clip_to_horizon(whole.light));
-        return {part.light, part.scale * whole.scale, part.inverse_scale * whole.inverse_scale};
+    NUSSELT_HD static PolygonPart<Real, N + 1> part_of(const ConvexPolygon<Real, N>& light) noexcept {
+        return part_above_horizon(light);
     }
     template <class Real>
     NUSSELT_HD static LineSegment<Real> part_of(const LineSegment<Real>& light) noexcept {

@@ -8,7 +8,8 @@
 #include <nusselt/bsdf/ggx_visible_normals.h>
 #include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
-#include <nusselt/geometry/polygon_measures.h>
+#include <nusselt/geometry/polygon_hull.h>
+#include <nusselt/geometry/polygon_part.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -26,7 +27,7 @@ class PolygonBrdf {
 public:
     /// \param light in shading space, either winding [m].
     NUSSELT_HD PolygonBrdf(const ConvexPolygon<Real, N>& light, const Lobe& lobe) noexcept
-        : PolygonBrdf(to_unit_extent(light), lobe) {}
+        : PolygonBrdf(whole_part(light), lobe) {}
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single, class SingleLobe>
@@ -50,14 +51,14 @@ public:
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept { return lobe_.invert(wi); }
 
 private:
-    NUSSELT_HD PolygonBrdf(const ScaledPolygon<Real, N>& unit, const Lobe& lobe) noexcept
+    NUSSELT_HD PolygonBrdf(const PolygonPart<Real, N>& whole, const Lobe& lobe) noexcept
         : lobe_(lobe),
-          hull_(hull_of(unit.light, plane_distance(unit.light))),
-          inverse_scale_(unit.inverse_scale),
+          hull_(hull_of(whole.polygon, whole.plane_distance)),
+          inverse_scale_(whole.inverse_scale),
           present_(select(hull_.plane.distance != Real(0), Real(1), Real(0))) {
         const Real sign = copysign(Real(1), hull_.plane.distance);
         NUSSELT_UNROLL
-        for (int j = 0; j < N; ++j) side_[j] = sign * cross(unit.light.vertex[j], unit.light.edge[j]);
+        for (int j = 0; j < N; ++j) side_[j] = sign * cross(whole.polygon.vertex[j], whole.polygon.edge[j]);
     }
 
     NUSSELT_HD mask_t<Real> is_towards_light(const Vec3<Real>& wi) const noexcept {

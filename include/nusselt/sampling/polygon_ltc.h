@@ -9,6 +9,7 @@
 /// next to the horizon of the lobe or because hardly any of the lobe reaches the light, it leads to the point.
 
 #include <nusselt/core/broadcast.h>
+#include <nusselt/geometry/polygon_hull.h>
 #include <nusselt/ltc/light_transform.h>
 #include <nusselt/sampling/polygon_projected_solid_angle.h>
 
@@ -24,6 +25,8 @@ NUSSELT_NAMESPACE_BEGIN
 /// Space: shading space with wo in the xz half-plane (shading_frame()); clips by itself.
 /// Edge cases: nothing of the light in the lobe, no area, or origin in the plane of the polygon: pdf = 0, measure 0.
 /// With CosineHorizon samples may lie below the surface, wi.z < 0: they count, with a contribution of zero.
+/// Accuracy: p is in the plane of the light. Where the distance of that plane is less than a thousandth of the light's
+/// extent, p may leave the ray along wi, by up to 1e-4 of it (at a millionth, 0.03, clipped 0.2): aim shadow rays at p.
 template <class Real, int N, class Horizons = CosineHorizon,
           class Image = PolygonProjectedSolidAngle<Real, Horizons::template kVertices<N>>>
 class PolygonLtc {
@@ -50,6 +53,7 @@ public:
         const auto dark = inverse_measure_ == Real(0);
         Vec3<Real> wi = select(dark, up, direction);
         Vec3<Real> p = hull_.point_along(wi);
+        // From this distance on, rounding of the direction moves the point by at most 128 roundings of its distance.
         const auto apart = abs(hull_.plane.distance) > Real(power_of_two<Scalar>(-7)) * hull_.plane.farthest;
         const auto reached = measure_ > Real(kEpsilon);
         if (!all(apart & reached)) {
@@ -57,7 +61,9 @@ public:
             const Vec3<Real> image_point = inverse_minor_ * Horizons::lifted(ltc_.to_shading(sampled.p));
             const Vec3<Real> on_light = hull_.moved_to_plane(image_point);
             // Next to the horizon of the lobe, rounding turns the direction away from the light: the less of the lobe
-            // reaches the light, the more often. How far a direction may pass its point depends on its angle with the plane.
+            // reaches the light, the more often. A direction may pass its point by some roundings over the squared sine of
+            // its angle with the plane: 48 of the farthest vertex are no more than 84 of the largest coordinate, which is
+            // what the project requires of hit points in general.
             const Vec3<Real> beside = cross(direction, on_light);
             const Real to_plane = dot(hull_.plane.normal, direction);
             const Real squared_sine =
@@ -88,10 +94,10 @@ public:
     NUSSELT_HD Real measure() const noexcept { return measure_; }
 
 private:
-    NUSSELT_HD PolygonLtc(const ScaledPolygon<Real, kVertices>& part, const Ltc<Real>& ltc) noexcept
+    NUSSELT_HD PolygonLtc(const PolygonPart<Real, kVertices>& part, const Ltc<Real>& ltc) noexcept
         : ltc_(ltc),
-          image_(to_cosine_space(part.light, ltc)),
-          hull_(hull_of(part.light, plane_distance(part.light))),
+          image_(to_cosine_space(part.polygon, ltc)),
+          hull_(hull_of(part.polygon, part.plane_distance)),
           inverse_minor_(Real(1) / ltc.minor()),
           inverse_scale_(part.inverse_scale) {
         const auto in_lobe = image_.measure() > Real(0);

@@ -8,9 +8,9 @@
 
 #include <nusselt/core/broadcast.h>
 #include <nusselt/core/light_sample.h>
-#include <nusselt/geometry/clip_polygon.h>
 #include <nusselt/geometry/fan_volumes.h>
 #include <nusselt/geometry/polygon_measures.h>
+#include <nusselt/geometry/polygon_part.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -186,12 +186,11 @@ public:
     NUSSELT_HD Real measure() const noexcept { return total_; }
 
 protected:
-    /// \param unit            with coordinates of order one.
-    /// \param signed_distance of its plane from the origin, see plane_distance().
-    NUSSELT_HD PolygonSolidAngle(const ScaledPolygon<Real, N>& unit, const Real& signed_distance) noexcept
-        : inverse_scale_(unit.inverse_scale) {
-        find_inverse_distances(unit.light);
-        prepare(unit.light, FanVolumes<Real, N>(unit.light, signed_distance));
+    /// \param signed_distance of the plane from the origin as the vertices of the part have it, see plane_distance().
+    NUSSELT_HD PolygonSolidAngle(const PolygonPart<Real, N>& part, const Real& signed_distance) noexcept
+        : inverse_scale_(part.inverse_scale) {
+        find_inverse_distances(part.polygon);
+        prepare(part.polygon, FanVolumes<Real, N>(part.polygon, signed_distance));
     }
 
 private:
@@ -476,7 +475,7 @@ class PolygonClippedSolidAngle : public PolygonSolidAngle<Real, N + 1> {
 public:
     /// \param light in shading space, either winding [m].
     NUSSELT_HD explicit PolygonClippedSolidAngle(const ConvexPolygon<Real, N>& light) noexcept
-        : PolygonClippedSolidAngle(to_unit_extent(light)) {}
+        : PolygonClippedSolidAngle(part_above_horizon(light)) {}
 
     /// \copydoc PolygonSolidAngle::PolygonSolidAngle(const PolygonSolidAngle<Single, N>&)
     template <class Single>
@@ -496,22 +495,11 @@ public:
     }
 
 private:
-    NUSSELT_HD explicit PolygonClippedSolidAngle(const ScaledPolygon<Real, N>& whole) noexcept
-        : PolygonClippedSolidAngle(whole, clip_to_horizon(whole.light)) {}
-
-    NUSSELT_HD PolygonClippedSolidAngle(const ScaledPolygon<Real, N>& whole,
-                                        const ConvexPolygon<Real, N + 1>& clipped) noexcept
-        : PolygonClippedSolidAngle(whole, clipped, to_unit_extent(clipped)) {}
-
-    /// \param unit clipped, scaled once more, since little may be left of the light. New vertices are not exactly on its
-    ///             plane: whether that contains the origin is a question to the whole light.
-    NUSSELT_HD PolygonClippedSolidAngle(const ScaledPolygon<Real, N>& whole,
-                                        const ConvexPolygon<Real, N + 1>& clipped,
-                                        const ScaledPolygon<Real, N + 1>& unit) noexcept
+    /// New vertices are rounded. Whether the plane contains the origin is a question to the whole light. How far away it is
+    /// goes by the vertices of the part: the errors of the terms of Eq. 13 then cancel.
+    NUSSELT_HD explicit PolygonClippedSolidAngle(const PolygonPart<Real, N + 1>& part) noexcept
         : PolygonSolidAngle<Real, N + 1>(
-              {unit.light, unit.scale, whole.inverse_scale * unit.inverse_scale},
-              select(plane_distance(whole.light) == Real(0), Real(0), plane_distance(clipped)) * unit.scale) {
-    }
+              part, select(part.plane_distance == Real(0), Real(0), plane_distance(part.polygon))) {}
 };
 
 NUSSELT_NAMESPACE_END

@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include <nusselt/geometry/polygon_hull.h>
 #include <nusselt/geometry/polygon_measures.h>
 #include <nusselt/sampling/decentral_sector.h>
 #include <nusselt/simd/across_lanes.h>

@@ -9,7 +9,7 @@
 struct LightSample {
     vec3 wi;   ///< unit direction from the shading point to the light
     float pdf; ///< density of wi; positive and finite, or exactly 0: no sample, wi and p are then meaningless
-    vec3 p;    ///< the point on the light [m], relative to the shading point; the shadow ray ends there
+    vec3 p;    ///< the point on the light [m], relative to the shading point; the shadow ray leads there
 };
 
 /// The density of wi for a point that is uniform on the area of a light: distance^2 / projected [1/sr].
@@ -35,14 +35,6 @@ float light_plane_distance_along(LightPlane self, vec3 wi) {
     float cosine = dot(self.normal, wi);
     if (!(cosine * self.distance > 0.0)) return self.farthest;
     return nusselt_min(self.distance / cosine, self.farthest);
-}
-
-/// Moves a point of a polygon, which rounding may have put before or behind the plane, along the normal to the plane, then
-/// into the axis-aligned box around the polygon.
-/// \param low, high corners of the box.
-vec3 light_plane_moved_to(LightPlane self, vec3 low, vec3 high, vec3 p) {
-    float off_plane = self.distance - dot(self.normal, p);
-    return nusselt_min(nusselt_max(p + off_plane * self.normal, low), high);
 }
 
 #endif

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_POLYGON_MEASURES_GLSL
 #define NUSSELT_GEOMETRY_POLYGON_MEASURES_GLSL
-// Follows include/nusselt/geometry/polygon_measures.h @ a2c48d2c692d
+// Follows include/nusselt/geometry/polygon_measures.h @ aec5fe04e829
 /// Closed forms for the area, solid angle and projected solid angle of convex polygons. Twin of
 /// include/nusselt/geometry/polygon_measures.h.
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LTC_LIGHT_TRANSFORM_GLSL
 #define NUSSELT_LTC_LIGHT_TRANSFORM_GLSL
-// Follows include/nusselt/ltc/light_transform.h @ 7e7483140d16
+// Follows include/nusselt/ltc/light_transform.h @ 75ce33fb768c
 /// Lights in the cosine space of a lobe. A linear map takes polygons to polygons and segments to segments, and the
 /// integral of the lobe over the light to that of the clamped cosine over its image. Twin of
 /// include/nusselt/ltc/light_transform.h.
@@ -9,7 +9,7 @@
 /// polygonal lights, Sec. 4.1); part_above_horizon() leaves that out.
 
 #include "../geometry/clip_line.glsl"
-#include "../geometry/polygon_measures.glsl"
+#include "../geometry/polygon_part.glsl"
 #include "../ltc/ltc.glsl"
 
 /// \param light in shading space, with coordinates of order one (with_unit_extent()).
@@ -37,26 +37,6 @@ LineSegment to_cosine_space(LineSegment light, Ltc ltc) {
 /// \returns 0 for the zero vector.
 float radius_ratio(vec3 moment, Ltc ltc) {
     return nusselt_length(ltc_normal_to_cosine(ltc, nusselt_normalize(moment))) / ltc.minor;
-}
-
-/// A polygon with coordinates of order one.
-struct ScaledPolygon {
-    ConvexPolygon polygon;
-    float inverse_scale; ///< a power of two: the light is polygon times this
-};
-
-ScaledPolygon to_unit_extent(ConvexPolygon light) {
-    return ScaledPolygon(with_unit_extent(light), reciprocal_power_of_two(unit_extent_scale(light)));
-}
-
-/// The part of a polygon above the surface, which can be clipped once more, in cosine space.
-/// \param light in shading space, of at most NUSSELT_MAX_VERTICES - 1 vertices.
-ScaledPolygon part_above_horizon(ConvexPolygon light) {
-    ScaledPolygon whole = to_unit_extent(light);
-    // Once more to an extent of order one, since little may be left of the light.
-    ScaledPolygon part = to_unit_extent(clip_to_horizon(whole.polygon));
-    part.inverse_scale = part.inverse_scale * whole.inverse_scale;
-    return part;
 }
 
 /// The part of a line above the surface.

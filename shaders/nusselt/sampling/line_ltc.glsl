@@ -10,8 +10,9 @@
 /// Measure: pdf is the density of wi in solid angle times the radius of the cylinder that tends to 0 [m/sr], that of
 /// the lobe over the measure. The emission of the light is radiance times radius, so that the radius cancels. Space:
 /// shading space with wo in the xz half-plane (shading_frame()); clips by itself. Edge cases: nothing of the light in
-/// the lobe, no length, or origin on the infinite line: pdf = 0, measure 0. Samples may lie below the surface, wi.z <
-/// 0: they count, with a contribution of zero. After line_clipped_ltc_prepare() none does.
+/// the lobe, no length, or origin on the infinite line up to rounding, in shading space or in cosine space: pdf = 0,
+/// measure 0. Samples may lie below the surface, wi.z < 0: they count, with a contribution of zero. After
+/// line_clipped_ltc_prepare() none does.
 
 #include "../ltc/light_transform.glsl"
 #include "../sampling/line_projected_solid_angle.glsl"

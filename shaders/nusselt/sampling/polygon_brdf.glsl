@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_BRDF_GLSL
 #define NUSSELT_SAMPLING_POLYGON_BRDF_GLSL
-// Follows include/nusselt/sampling/polygon_brdf.h @ fa6e4dc1853a
+// Follows include/nusselt/sampling/polygon_brdf.h @ 4d52dde4fbf0
 /// BRDF sampling of a convex polygon: directions by the BRDF alone, and a test whether they hit the light. Twin of
 /// include/nusselt/sampling/polygon_brdf.h.
 ///
@@ -11,13 +11,13 @@
 
 #include "../bsdf/ggx_visible_normals.glsl"
 #include "../core/light_sample.glsl"
-#include "../geometry/polygon_measures.glsl"
+#include "../geometry/polygon_hull.glsl"
+#include "../geometry/polygon_part.glsl"
 
 struct PolygonBrdf {
     GgxVisibleNormals lobe;
     // All of this is that of the light scaled to an extent of order one.
-    LightPlane plane;
-    vec3 low, high;           ///< axis-aligned box
+    PolygonHull hull;
     vec3 side[kNusseltSlots]; ///< normals of the planes through the origin and the edges, towards the light
     float inverse_scale;      ///< a power of two
     bool present;             ///< whether anything of the light can be seen
@@ -28,24 +28,18 @@ struct PolygonBrdf {
 PolygonBrdf polygon_brdf_prepare(ConvexPolygon light, GgxVisibleNormals lobe) {
     PolygonBrdf self;
     self.lobe = lobe;
-    ConvexPolygon unit = with_unit_extent(light);
-    self.plane = LightPlane(light.normal, plane_distance(unit), 0.0);
-    self.present = self.plane.distance != 0.0;
-    self.low = unit.vertex[0];
-    self.high = unit.vertex[0];
-    float orientation = copysign(1.0, self.plane.distance);
-    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
-        self.low = nusselt_min(self.low, unit.vertex[j]);
-        self.high = nusselt_max(self.high, unit.vertex[j]);
-        self.plane.farthest = nusselt_max(self.plane.farthest, nusselt_length(unit.vertex[j]));
-        self.side[j] = orientation * nusselt_cross(unit.vertex[j], unit.edge[j]);
-    }
-    self.inverse_scale = reciprocal_power_of_two(unit_extent_scale(light));
+    PolygonPart whole = whole_part(light);
+    self.hull = hull_of(whole.polygon, whole.plane_distance);
+    self.inverse_scale = whole.inverse_scale;
+    self.present = self.hull.plane.distance != 0.0;
+    float orientation = copysign(1.0, self.hull.plane.distance);
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j)
+        self.side[j] = orientation * nusselt_cross(whole.polygon.vertex[j], whole.polygon.edge[j]);
     return self;
 }
 
 bool polygon_brdf_is_towards_light(PolygonBrdf self, vec3 wi) {
-    bool inside = dot(self.plane.normal, wi) * self.plane.distance > 0.0;
+    bool inside = dot(self.hull.plane.normal, wi) * self.hull.plane.distance > 0.0;
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) inside = inside && dot(self.side[j], wi) >= 0.0;
     return inside;
 }
@@ -60,8 +54,8 @@ float polygon_brdf_pdf(PolygonBrdf self, vec3 wi) {
 LightSample polygon_brdf_sample(PolygonBrdf self, vec2 u) {
     vec3 wi = ggx_visible_normals_sample(self.lobe, u);
     float density = polygon_brdf_is_towards_light(self, wi) ? polygon_brdf_pdf(self, wi) : 0.0;
-    vec3 p = light_plane_distance_along(self.plane, wi) * wi;
-    return LightSample(wi, density, self.inverse_scale * light_plane_moved_to(self.plane, self.low, self.high, p));
+    vec3 p = light_plane_distance_along(self.hull.plane, wi) * wi;
+    return LightSample(wi, density, self.inverse_scale * polygon_hull_moved_to_plane(self.hull, p));
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.

@@ -1,25 +1,22 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_CLIPPED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_CLIPPED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_solid_angle.h @ 85ecd419e476
+// Follows include/nusselt/sampling/polygon_solid_angle.h @ fb5edaa204db
 /// Uniform sampling of the solid angle of the part of a convex polygon above the horizon (polygon_solid_angle.glsl).
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr], a constant.
 /// Space: shading space; the shading point is the origin, the normal +z.
 /// Edge cases: no part above the horizon, no area, or origin in the plane of the polygon: pdf = 0, measure 0.
 
-#include "../geometry/clip_polygon.glsl"
+#include "../geometry/polygon_part.glsl"
 #include "../sampling/polygon_solid_angle.glsl"
 
 /// \param light in shading space, either winding [m].
 PolygonSolidAngle polygon_clipped_solid_angle_prepare(ConvexPolygon light) {
-    ConvexPolygon whole = with_unit_extent(light);
-    ConvexPolygon clipped = clip_to_horizon(whole);
-    // Once more, since little may be left of the light. New vertices are not exactly on its plane: whether that contains
-    // the origin is a question to the whole light.
-    float scale = unit_extent_scale(clipped);
-    float distance = plane_distance(whole) == 0.0 ? 0.0 : plane_distance(clipped) * scale;
-    float inverse_scale = reciprocal_power_of_two(unit_extent_scale(light)) * reciprocal_power_of_two(scale);
-    return polygon_solid_angle_prepare_scaled(with_unit_extent(clipped), inverse_scale, distance);
+    PolygonPart part = part_above_horizon(light);
+    // New vertices are rounded. Whether the plane contains the origin is a question to the whole light. How far away it is
+    // goes by the vertices of the part: the errors of the terms of the solid angle then cancel.
+    float distance = part.plane_distance == 0.0 ? 0.0 : plane_distance(part.polygon);
+    return polygon_solid_angle_prepare_scaled(part.polygon, part.inverse_scale, distance);
 }
 
 /// \param u in [0, 1)^2, see polygon_solid_angle_sample().

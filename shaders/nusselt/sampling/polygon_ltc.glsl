@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_LTC_GLSL
 #define NUSSELT_SAMPLING_POLYGON_LTC_GLSL
-// Follows include/nusselt/sampling/polygon_ltc.h @ b04057dd9944
+// Follows include/nusselt/sampling/polygon_ltc.h @ 59dd6565f4ca
 /// Sampling of a convex polygon proportional to a linearly transformed cosine. With a Lambertian emitter and a lobe
 /// that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 ///
@@ -12,6 +12,7 @@
 /// the lobe, no area, or origin in the plane of the polygon: pdf = 0, measure 0. Samples may lie below the surface,
 /// wi.z < 0: they count, with a contribution of zero. After polygon_clipped_ltc_prepare() none does.
 
+#include "../geometry/polygon_hull.glsl"
 #include "../ltc/light_transform.glsl"
 #include "../sampling/polygon_projected_solid_angle.glsl"
 
@@ -19,8 +20,7 @@ struct PolygonLtc {
     Ltc ltc;
     PolygonProjectedSolidAngle image; ///< in cosine space
     // The part of the light that counts, in shading space and scaled to an extent of order one.
-    LightPlane plane;
-    vec3 low, high;      ///< axis-aligned box
+    PolygonHull hull;
     float lowest;        ///< bound on z: 0 above the surface, else the lowest number
     float inverse_minor; ///< takes the scale of ltc_to_shading() back
     float inverse_scale; ///< a power of two
@@ -30,39 +30,30 @@ struct PolygonLtc {
 
 /// \param part  the part of the light that counts.
 /// \param image of that part in cosine space.
-PolygonLtc polygon_ltc_prepare_image(ScaledPolygon part, Ltc ltc, PolygonProjectedSolidAngle image) {
+PolygonLtc polygon_ltc_prepare_image(PolygonPart part, Ltc ltc, PolygonProjectedSolidAngle image) {
     PolygonLtc self;
     self.ltc = ltc;
     self.image = image;
     self.inverse_scale = part.inverse_scale;
     self.lowest = -kNusseltLargest;
     self.inverse_minor = 1.0 / ltc.minor;
-    float farthest = 0.0; // squared
-    self.low = part.polygon.vertex[0];
-    self.high = part.polygon.vertex[0];
-    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
-        vec3 v = part.polygon.vertex[j];
-        farthest = nusselt_max(farthest, dot(v, v));
-        self.low = nusselt_min(self.low, v);
-        self.high = nusselt_max(self.high, v);
-    }
-    self.plane = LightPlane(part.polygon.normal, plane_distance(part.polygon), sqrt(farthest));
+    self.hull = hull_of(part.polygon, part.plane_distance);
     float in_lobe = polygon_projected_solid_angle_measure(self.image);
-    bool lit = in_lobe > 0.0 && self.plane.distance != 0.0;
+    bool lit = in_lobe > 0.0 && self.hull.plane.distance != 0.0;
     self.measure = lit ? (1.0 / kNusseltPi) * in_lobe : 0.0;
     self.inverse_measure = lit ? 1.0 / self.measure : 0.0;
     return self;
 }
 
 /// \param part the part of the light that counts.
-PolygonLtc polygon_ltc_prepare_part(ScaledPolygon part, Ltc ltc) {
+PolygonLtc polygon_ltc_prepare_part(PolygonPart part, Ltc ltc) {
     return polygon_ltc_prepare_image(part, ltc,
                                      polygon_projected_solid_angle_prepare(to_cosine_space(part.polygon, ltc)));
 }
 
 /// \param light in shading space, either winding [m].
 PolygonLtc polygon_ltc_prepare(ConvexPolygon light, Ltc ltc) {
-    return polygon_ltc_prepare_part(to_unit_extent(light), ltc);
+    return polygon_ltc_prepare_part(whole_part(light), ltc);
 }
 
 /// Prepares the part of a light above the surface: samples are never below it.
@@ -89,21 +80,23 @@ LightSample polygon_ltc_sample_image(PolygonLtc self, LightSample sampled) {
     direction = nusselt_normalize(direction);
     bool dark = self.inverse_measure == 0.0;
     vec3 wi = dark ? vec3(0.0, 0.0, 1.0) : direction;
-    vec3 p = nusselt_min(nusselt_max(light_plane_distance_along(self.plane, wi) * wi, self.low), self.high);
-    bool apart = abs(self.plane.distance) > 0.0078125 * self.plane.farthest;
+    vec3 p = polygon_hull_point_along(self.hull, wi);
+    // From 2^-7 on, rounding of the direction moves the point by at most 128 roundings of its distance.
+    bool apart = abs(self.hull.plane.distance) > 0.0078125 * self.hull.plane.farthest;
     bool reached = self.measure > kNusseltEpsilon;
     if (!(apart && reached)) {
         // A direction that is almost in the plane does not tell where it meets the light. The point on the image does.
         vec3 image_point = self.inverse_minor * ltc_to_shading(self.ltc, sampled.p);
         image_point.z = nusselt_max(image_point.z, self.lowest);
-        vec3 on_light = light_plane_moved_to(self.plane, self.low, self.high, image_point);
+        vec3 on_light = polygon_hull_moved_to_plane(self.hull, image_point);
         // Next to the horizon of the lobe, rounding turns the direction away from the light: the less of the lobe reaches
-        // the light, the more often. How far a direction may pass its point depends on its angle with the plane.
+        // the light, the more often. A direction may pass its point by 48 roundings of the farthest vertex over the squared
+        // sine of its angle with the plane.
         vec3 beside = nusselt_cross(direction, on_light);
-        float to_plane = dot(self.plane.normal, direction);
-        float squared_sine = nusselt_min(to_plane * to_plane, self.plane.distance * self.plane.distance /
+        float to_plane = dot(self.hull.plane.normal, direction);
+        float squared_sine = nusselt_min(to_plane * to_plane, self.hull.plane.distance * self.hull.plane.distance /
                                                                   nusselt_max(dot(on_light, on_light), kNusseltTiny));
-        float largest = 48.0 * kNusseltEpsilon * self.plane.farthest;
+        float largest = 48.0 * kNusseltEpsilon * self.hull.plane.farthest;
         bool ahead = dot(direction, on_light) >= 0.0;
         bool close = squared_sine * squared_sine * dot(beside, beside) <= largest * largest;
         bool sound = (ahead && close) || (reached && apart);

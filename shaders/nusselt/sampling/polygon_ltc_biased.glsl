@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_LTC_BIASED_GLSL
 #define NUSSELT_SAMPLING_POLYGON_LTC_BIASED_GLSL
-// Follows include/nusselt/sampling/polygon_ltc.h @ b04057dd9944
+// Follows include/nusselt/sampling/polygon_ltc.h @ 59dd6565f4ca
 /// The biased variant of polygon_ltc.glsl: the image of the light in cosine space is sampled without iteration. Samples
 /// deviate from their density as those of polygon_projected_solid_angle_biased.glsl do; polygon_ltc_measure() and
 /// polygon_ltc_pdf() do not. Twin of PolygonLtcBiased in include/nusselt/sampling/polygon_ltc.h.
@@ -10,7 +10,7 @@
 
 /// \param light in shading space, either winding [m].
 PolygonLtc polygon_ltc_biased_prepare(ConvexPolygon light, Ltc ltc) {
-    ScaledPolygon part = to_unit_extent(light);
+    PolygonPart part = whole_part(light);
     return polygon_ltc_prepare_image(
         part, ltc, polygon_projected_solid_angle_biased_prepare(to_cosine_space(part.polygon, ltc)).approximate);
 }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ aba0d16e2212
+// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 720937ac4a51
 /// Uniform sampling of the projected solid angle of a convex polygon: density proportional to the cosine at the
 /// surface. With a Lambertian emitter on a Lambertian surface, all noise that remains comes from shadows.
 ///
@@ -13,13 +13,13 @@
 
 #include "../core/light_sample.glsl"
 #include "../geometry/clip_polygon.glsl"
+#include "../geometry/polygon_hull.glsl"
 #include "../geometry/polygon_measures.glsl"
 #include "../sampling/azimuthal_sweep.glsl"
 
 /// Coordinates are scaled to an extent of order one, and mirrored.
 struct PolygonProjectedSolidAngle {
-    LightPlane plane;
-    vec3 low, high;        ///< axis-aligned box of the light above the horizon
+    PolygonHull hull;      ///< of the light above the horizon
     float mirror;          ///< -1 if y is mirrored to get the expected winding
     float inverse_scale;   ///< a power of two
     bool central;          ///< the zenith is in the polygon or on its boundary
@@ -111,7 +111,7 @@ void polygon_projected_solid_angle_prepare_central(inout PolygonProjectedSolidAn
 
 /// Each part of an azimuth between two vertices has a sector.
 void polygon_projected_solid_angle_prepare_decentral(inout PolygonProjectedSolidAngle self, ConvexPolygon polygon) {
-    AzimuthalSweep sweep = azimuthal_sweep_prepare(polygon, self.plane.distance);
+    AzimuthalSweep sweep = azimuthal_sweep_prepare(polygon, self.hull.plane.distance);
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots - 1; ++k) {
         DecentralSector sector;
         if (azimuthal_sweep_advance(sweep, k + 1, sector))
@@ -143,14 +143,8 @@ PolygonProjectedSolidAngle polygon_projected_solid_angle_begin(ConvexPolygon lig
         polygon = with_unit_extent(polygon);
         distance = scale * distance;
     }
-    float farthest = 0.0; // squared
-    self.low = polygon.vertex[0];
-    self.high = polygon.vertex[0];
+    self.hull = hull_of(polygon, distance);
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
-        vec3 v = polygon.vertex[j];
-        farthest = nusselt_max(farthest, dot(v, v));
-        self.low = nusselt_min(self.low, v);
-        self.high = nusselt_max(self.high, v);
         self.begin[j] = vec3(0.0);
         self.chord[j] = vec3(0.0);
         self.begin_gap[j] = 0.0;
@@ -158,8 +152,7 @@ PolygonProjectedSolidAngle polygon_projected_solid_angle_begin(ConvexPolygon lig
         self.angle_per_area[j] = 0.0;
         self.doubled_area[j] = 0.0;
     }
-    self.plane = LightPlane(polygon.normal, distance, sqrt(farthest));
-    self.central = is_central(polygon, distance, self.high.z);
+    self.central = is_central(polygon, distance, self.hull.high.z);
     return self;
 }
 
@@ -176,7 +169,7 @@ PolygonProjectedSolidAngle polygon_projected_solid_angle_end(PolygonProjectedSol
 PolygonProjectedSolidAngle polygon_projected_solid_angle_prepare(ConvexPolygon light) {
     ConvexPolygon polygon;
     PolygonProjectedSolidAngle self = polygon_projected_solid_angle_begin(light, polygon);
-    if (self.plane.distance != 0.0) {
+    if (self.hull.plane.distance != 0.0) {
         if (self.central) {
             polygon_projected_solid_angle_prepare_central(self, polygon);
         } else {
@@ -265,7 +258,7 @@ LightSample polygon_projected_solid_angle_sample_decentral(LightPlane plane, Dec
 
 /// Takes scaled and mirrored coordinates back to those of the light.
 LightSample polygon_projected_solid_angle_finish(PolygonProjectedSolidAngle self, LightSample s) {
-    s.p = self.inverse_scale * light_plane_moved_to(self.plane, self.low, self.high, s.p);
+    s.p = self.inverse_scale * polygon_hull_moved_to_plane(self.hull, s.p);
     s.wi = self.inverse_measure > 0.0 ? s.wi : vec3(0.0, 0.0, 1.0);
     s.wi.y = self.mirror * s.wi.y;
     s.p.y = self.mirror * s.p.y;
@@ -278,9 +271,9 @@ LightSample polygon_projected_solid_angle_sample_at(PolygonProjectedSolidAngle s
                                                     float x, float u) {
     LightSample result;
     if (self.central) {
-        result = polygon_projected_solid_angle_sample_central(self.plane, s, u);
+        result = polygon_projected_solid_angle_sample_central(self.hull.plane, s, u);
     } else {
-        result = polygon_projected_solid_angle_sample_decentral(self.plane, s.sector, x, u);
+        result = polygon_projected_solid_angle_sample_decentral(self.hull.plane, s.sector, x, u);
     }
     return polygon_projected_solid_angle_finish(self, result);
 }

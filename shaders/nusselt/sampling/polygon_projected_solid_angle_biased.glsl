@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_BIASED_GLSL
 #define NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_BIASED_GLSL
-// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ aba0d16e2212
+// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 720937ac4a51
 /// The biased variant of polygon_projected_solid_angle.glsl (Peters 2021, polygonal lights, Sec. 6.4): no iteration,
 /// fast arctangents. The density is that of exact projected solid angle sampling, which the samples follow
 /// approximately: estimates are biased accordingly. Twin of PolygonProjectedSolidAngleBiased in
@@ -25,7 +25,7 @@ void polygon_projected_solid_angle_biased_prepare_central(inout PolygonProjected
 
 void polygon_projected_solid_angle_biased_prepare_decentral(inout PolygonProjectedSolidAngle self,
                                                             ConvexPolygon polygon) {
-    AzimuthalSweep sweep = azimuthal_sweep_prepare(polygon, self.plane.distance);
+    AzimuthalSweep sweep = azimuthal_sweep_prepare(polygon, self.hull.plane.distance);
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots - 1; ++k) {
         DecentralSector sector;
         if (azimuthal_sweep_advance(sweep, k + 1, sector))
@@ -39,7 +39,7 @@ void polygon_projected_solid_angle_biased_prepare_decentral(inout PolygonProject
 PolygonProjectedSolidAngleBiased polygon_projected_solid_angle_biased_prepare(ConvexPolygon light) {
     ConvexPolygon polygon;
     PolygonProjectedSolidAngle self = polygon_projected_solid_angle_begin(light, polygon);
-    if (self.plane.distance != 0.0) {
+    if (self.hull.plane.distance != 0.0) {
         if (self.central) {
             polygon_projected_solid_angle_biased_prepare_central(self, polygon);
         } else {

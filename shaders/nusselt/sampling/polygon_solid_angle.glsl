@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_solid_angle.h @ 85ecd419e476
+// Follows include/nusselt/sampling/polygon_solid_angle.h @ fb5edaa204db
 /// Uniform sampling of the solid angle of a convex polygon, for surfaces and for volumes.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Polygonal Lights, ACM TOG 40(4), doi:10.1145/3450626.3459672: Sec. 5,

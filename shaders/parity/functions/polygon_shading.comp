@@ -13,7 +13,7 @@ void main() {
     for (uint j = 0u; j < 4u; ++j) corners[j] = input_vec3(begin + 3u * j);
     const ConvexPolygon light = make_polygon(corners, 4);
     const Ltc ltc = input_lobe(begin + 12u);
-    const ConvexPolygon image = to_cosine_space(to_unit_extent(light).polygon, ltc);
+    const ConvexPolygon image = to_cosine_space(with_unit_extent(light), ltc);
     const uint at = kOutputSize * i;
     outputs[at] = diffuse_integral(light);
     outputs[at + 1u] = lobe_integral(light, ltc);

@@ -39,10 +39,15 @@ std::vector<nusselt::Vec3<float>> close_polygon(RandomSource& random, double bes
 }
 
 template <class Real, int N>
-nusselt::PolygonSolidAngle<Real, N> technique(const std::vector<nusselt::Vec3<float>>& vertices) {
+nusselt::ConvexPolygon<Real, N> polygon(const std::vector<nusselt::Vec3<float>>& vertices) {
     nusselt::Vec3<Real> v[N];
     for (int j = 0; j < N; ++j) v[j] = nusselt::broadcast<Real>(vertices[static_cast<std::size_t>(j)]);
-    return nusselt::PolygonSolidAngle<Real, N>(nusselt::make_polygon<N>(v, N));
+    return nusselt::make_polygon<N>(v, N);
+}
+
+template <class Real, int N>
+nusselt::PolygonSolidAngle<Real, N> technique(const std::vector<nusselt::Vec3<float>>& vertices) {
+    return nusselt::PolygonSolidAngle<Real, N>(polygon<Real, N>(vertices));
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -78,6 +83,31 @@ TYPED_TEST(ClosePolygonsTest, SolidAnglesDoNotComeFromTheRoundedNormal) {
         EXPECT_LT(quantile(errors, 0.5), 2e-7) << (above ? "above" : "beside");
         EXPECT_LT(quantile(errors, 0.99), 1e-5) << (above ? "above" : "beside");
     }
+}
+
+/// The vertices on the horizon are rounded once more, and the edge between them passes the origin at about the height of
+/// the plane: errors are of the order of rounding over the height.
+TYPED_TEST(ClosePolygonsTest, ClippedSolidAnglesHaveErrorsOfRoundingOverTheHeight) {
+    constexpr int N = TypeParam::value;
+    RandomSource random(N);
+    std::vector<double> errors; // times the height
+    while (errors.size() < 2000) {
+        const double height = random.log_between(1e-5, 1e-3);
+        const auto vertices = close_polygon<N>(random, random.between(0, 0.25), height);
+        const auto is_above = [](const nusselt::Vec3<float>& v) { return v.z > 0; };
+        if (std::all_of(vertices.begin(), vertices.end(), is_above) ||
+            std::none_of(vertices.begin(), vertices.end(), is_above))
+            continue;
+        using Exact = nusselt::PolygonClippedSolidAngle<long double, N>;
+        const long double expected = Exact(polygon<long double, N>(vertices)).measure();
+        if (expected < 1e-2L) continue;
+        const float measure =
+            nusselt::PolygonClippedSolidAngle<float, N>(polygon<float, N>(vertices)).measure();
+        errors.push_back(std::fabs(static_cast<double>(measure / expected - 1)) * height);
+    }
+    constexpr double kRounding = std::numeric_limits<float>::epsilon();
+    EXPECT_LT(quantile(errors, 0.5), 0.1 * kRounding);
+    EXPECT_LT(quantile(errors, 0.99), kRounding);
 }
 
 /// How far directions of lights that fill the hemisphere are from those in long double.

@@ -238,46 +238,72 @@ TEST(RegressionTest, HitPointsOfLobesStayInAPlaneNextToThePoint) {
         {0x1.800b7cp-2f, 0});
 }
 
-/// A hit point behind the plane would be in the shadow of the light itself: shadow rays end at 0.9999 of their length or so.
-/// \returns the number of samples.
+/// Samples of a light, and how many of them would be in its own shadow: shadow rays end at 0.9999 of their length or so, so
+/// a point that is farther behind the plane is.
+struct ShadowCount {
+    int samples = 0;
+    int shadowed = 0;
+};
 template <class Technique>
-int expect_points_in_plane(const Quad& light, const Technique& technique) {
+void count_shadowed(const Quad& light, const Technique& technique, ShadowCount& count) {
     const auto normal = nusselt::broadcast<long double>(light.normal);
     const auto distance = static_cast<long double>(nusselt::plane_distance(light));
-    int count = 0;
     for (int i = 0; i < 200; ++i) {
         const auto sample =
             technique.sample({(static_cast<float>(i) + 0.5f) / 200, static_cast<float>(i * 77 % 200) / 200});
         if (!(sample.pdf > 0)) continue;
-        ++count;
+        ++count.samples;
         const long double height = nusselt::dot(normal, nusselt::broadcast<long double>(sample.p));
+        // Coordinates are at most 2, the normal and the sum of three products are rounded.
         EXPECT_LE(std::fabs(height - distance), 8 * std::numeric_limits<float>::epsilon());
-        EXPECT_LT(0.9999L * height / distance, 1) << distance;
+        count.shadowed += 0.9999L * height / distance >= 1;
     }
-    return count;
 }
-TEST(RegressionTest, HitPointsOfCloseLightsAreInTheirPlane) {
-    const nusselt::LtcCoefficients<float> lobe{0.8f, 0.6f, 1, -0.06f, 0.08f, 1};
+/// \param height over half the size of the squares.
+template <class Make>
+ShadowCount shadows_of_squares(float height, const Make& make) {
     std::mt19937 engine(1);
     std::uniform_real_distribution<float> uniform(-1, 1);
     const auto direction = [&] {
         return normalize(nusselt::Vec3<float>{uniform(engine), uniform(engine), uniform(engine)});
     };
-    int count = 0;
+    ShadowCount count;
+    for (int i = 0; i < 50; ++i) {
+        const nusselt::Vec3<float> normal = direction();
+        const nusselt::Vec3<float> side = 0.5f * normalize(cross(normal, direction()));
+        const nusselt::Vec3<float> up = cross(normal, side);
+        const auto corner = [&](float x, float y) { return height * normal + x * side + y * up; };
+        const float x = 0.9f * uniform(engine), y = 0.9f * uniform(engine);
+        const Quad light =
+            quad(corner(x - 1, y - 1), corner(x + 1, y - 1), corner(x + 1, y + 1), corner(x - 1, y + 1));
+        count_shadowed(light, make(light), count);
+    }
+    EXPECT_GT(count.samples, 4000);
+    return count;
+}
+/// \param share of the samples that may be in the light's own shadow at a height of 1e-4: rounded corners are not in one plane.
+template <class Make>
+void expect_points_in_plane(const char* name, double share, const Make& make) {
     for (const float height : {1e-2f, 1e-3f})
-        for (int i = 0; i < 50; ++i) {
-            const nusselt::Vec3<float> normal = direction();
-            const nusselt::Vec3<float> side = 0.5f * normalize(cross(normal, direction()));
-            const nusselt::Vec3<float> up = cross(normal, side);
-            const auto corner = [&](float x, float y) { return height * normal + x * side + y * up; };
-            const float x = 0.9f * uniform(engine), y = 0.9f * uniform(engine);
-            const Quad light =
-                quad(corner(x - 1, y - 1), corner(x + 1, y - 1), corner(x + 1, y + 1), corner(x - 1, y + 1));
-            count += expect_points_in_plane(light, nusselt::PolygonProjectedSolidAngle<float, 4>(light));
-            count += expect_points_in_plane(light,
-                                            nusselt::PolygonLtc<float, 4>(light, nusselt::Ltc<float>(lobe)));
-        }
-    EXPECT_GT(count, 20000);
+        EXPECT_EQ(shadows_of_squares(height, make).shadowed, 0) << name << " at " << height;
+    const ShadowCount closer = shadows_of_squares(1e-4f, make);
+    EXPECT_LT(closer.shadowed, share * closer.samples) << name;
+}
+TEST(RegressionTest, HitPointsOfCloseLightsAreInTheirPlane) {
+    using namespace nusselt;
+    const Ltc<float> lobe(LtcCoefficients<float>{0.8f, 0.6f, 1, -0.06f, 0.08f, 1});
+    using Light = const Quad&;
+    expect_points_in_plane("projected", 0.03,
+                           [](Light l) { return PolygonProjectedSolidAngle<float, 4>(l); });
+    expect_points_in_plane("biased", 0.03,
+                           [](Light l) { return PolygonProjectedSolidAngleBiased<float, 4>(l); });
+    expect_points_in_plane("lobe", 0.03, [&](Light l) { return PolygonLtc<float, 4>(l, lobe); });
+    expect_points_in_plane("clipped lobe", 0.03,
+                           [&](Light l) { return PolygonClippedLtc<float, 4>(l, lobe); });
+    expect_points_in_plane("biased lobe", 0.03, [&](Light l) { return PolygonLtcBiased<float, 4>(l, lobe); });
+    expect_points_in_plane("solid angle", 0.03, [](Light l) { return PolygonSolidAngle<float, 4>(l); });
+    // Sums of clipped vertices, which are rounded once more.
+    expect_points_in_plane("clipped", 0.2, [](Light l) { return PolygonClippedSolidAngle<float, 4>(l); });
 }
 
 /// The contract must not be content with the box around a light.
@@ -307,6 +333,19 @@ TEST(RegressionTest, ContractRejectsHitPointsBesideALine) {
     EXPECT_EQ((violation<LineSolidAngleKind, float>(light, out)), nullptr);
     out.sample.p.z *= 1.002f;
     EXPECT_STREQ((violation<LineSolidAngleKind, float>(light, out)), "p is off the light");
+}
+
+/// The measure of a line has a unit, so it does not tell how much of a lobe reaches the light.
+TEST(RegressionTest, ContractRejectsHitPointsBesideALongLineOnALobe) {
+    const float size = 1e8f;
+    const Line line =
+        nusselt::make_line(nusselt::Vec3<float>{-size, 0, size}, nusselt::Vec3<float>{size, size, 2 * size});
+    const nusselt_test::LineOnLobe<float> light{line, {0.8f, 0.6f, 1, -0.06f, 0.08f, 1}};
+    Outputs<float, float> out = outputs_of<LineLtcKind, float>(light, 0.5f);
+    EXPECT_EQ((violation<LineLtcKind, float>(light, out)), nullptr);
+    EXPECT_LT(out.measure, std::numeric_limits<float>::epsilon());
+    out.sample.p.z *= 1.002f;
+    EXPECT_STREQ((violation<LineLtcKind, float>(light, out)), "p is off the light");
 }
 
 /// The last half-plane around an axis has hardly any density, and its image no importance.
