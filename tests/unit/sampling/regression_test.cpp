@@ -302,8 +302,8 @@ TEST(RegressionTest, HitPointsOfCloseLightsAreInTheirPlane) {
                            [&](Light l) { return PolygonClippedLtc<float, 4>(l, lobe); });
     expect_points_in_plane("biased lobe", 0.03, [&](Light l) { return PolygonLtcBiased<float, 4>(l, lobe); });
     expect_points_in_plane("solid angle", 0.03, [](Light l) { return PolygonSolidAngle<float, 4>(l); });
-    // Sums of clipped vertices, which are rounded once more.
-    expect_points_in_plane("clipped", 0.2, [](Light l) { return PolygonClippedSolidAngle<float, 4>(l); });
+    // Sums of clipped vertices, which are rounded once more: 15 % with fused multiply-add, 21 % without.
+    expect_points_in_plane("clipped", 0.3, [](Light l) { return PolygonClippedSolidAngle<float, 4>(l); });
 }
 
 /// The contract must not be content with the box around a light.
