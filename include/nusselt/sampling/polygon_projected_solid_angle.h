@@ -34,8 +34,8 @@ inline constexpr int kPolygonIterations = kIsSingle<Real> ? 2 : 3;
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr], wi.z / measure().
 /// Space: shading space; the shading point is the origin, the normal +z. Clips to the horizon by itself.
 /// Edge cases: no part above the horizon, no area, or origin in the plane of the polygon: pdf = 0, measure 0.
-/// Accuracy: p is in the plane of the light. Where the distance of that plane is less than a thousandth of the light's
-/// extent, p may leave the ray along wi, by up to 1e-4 of the extent (at a millionth, 1e-2): aim shadow rays at p.
+/// Accuracy: p is in the plane of the light, but for rare points that the box around the light moves. Where that plane is
+/// close, p may leave the ray along wi, mostly by less than rounding over its relative distance: aim shadow rays at p.
 template <class Real, int N, int Iterations = kPolygonIterations<Real>, class Angles = PreciseAngles>
 class PolygonProjectedSolidAngle {
     static_assert(N <= 8, "there are sorting networks for up to nine vertices after clipping");
