@@ -259,7 +259,7 @@ void count_shadowed(const Quad& light, const Technique& technique, ShadowCount& 
         count.shadowed += 0.9999L * height / distance >= 1;
     }
 }
-/// \param height over half the size of the squares.
+/// \param height of the point above the plane; the squares have sides of length 1.
 template <class Make>
 ShadowCount shadows_of_squares(float height, const Make& make) {
     std::mt19937 engine(1);
