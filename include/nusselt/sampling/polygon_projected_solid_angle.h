@@ -324,10 +324,16 @@ private:
         // Tell the central case, where the zenith lies in the light, from the decentral one. On the zenith's axis, the
         // plane has the height distance / normal.z: some vertex is at least as high if the light is there. Strips along
         // the horizon have less conclusive edges.
+        const auto reaches_axis = [&](const Real& slack) {
+            return (distance * polygon.normal.z >= Real(0)) &
+                   (abs(distance) <= fma(abs(polygon.normal.z), hull_.high.z, slack));
+        };
         const Real slack = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon()) * hull_.plane.farthest;
-        const auto reaches_axis = (distance * polygon.normal.z >= Real(0)) &
-                                  (abs(distance) <= fma(abs(polygon.normal.z), hull_.high.z, slack));
-        decentral = (decentral & (!touches_zenith)) | (!reaches_axis);
+        decentral = decentral & (!touches_zenith);
+        auto beside_axis = !reaches_axis(slack);
+        // The corners of a warped polygon are beside its plane, maybe those on the axis.
+        if (any(beside_axis & (!decentral))) beside_axis = !reaches_axis(slack + warp(polygon, distance));
+        decentral = decentral | beside_axis;
         central_ = !decentral;
 
         // Find the sectors and their areas.
@@ -345,6 +351,15 @@ private:
         doubled_total_ = doubled_total;
         const auto lit = measure() > Real(0);
         inverse_measure_ = select(lit, Real(2) / select(lit, doubled_total_, Real(1)), Real(0));
+    }
+
+    /// The largest distance of a vertex from the plane of a polygon.
+    template <int M>
+    NUSSELT_HD static Real warp(const ConvexPolygon<Real, M>& polygon, const Real& distance) noexcept {
+        Real largest = Real(0);
+        for (const Vec3<Real>& v : polygon.vertex)
+            largest = max(largest, abs(dot(polygon.normal, v) - distance));
+        return largest;
     }
 
     /// The largest extent of a vertex along the tangent plane, as a sum of absolute values.
