@@ -76,6 +76,7 @@ step() {
     echo "$*" >"$out/$name.log"
     "$@" >>"$out/$name.log" 2>&1 &
     child=$!
+    [ -z "$ended" ] || kill "$child" # the signal came before there was a child to stop
     wait "$child"
     code=$?
     seconds=$(($(date +%s) - start))

@@ -126,7 +126,7 @@ namespace detail {
 
 NUSSELT_INLINE float round_to_float(double x) noexcept {
     auto rounded = static_cast<float>(x);
-#if defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDA_ARCH__) && defined(__SSE2__)
     // g++ 12 vectorises neighbouring calls and forgets to round what is an operand of another call: without this,
     // TriangleShadow.PacksHaveTheBitsOfScalars fails for x86-64-v2.
     __asm__("" : "+x"(rounded));

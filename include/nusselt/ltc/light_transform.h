@@ -52,6 +52,11 @@ struct CosineHorizon {
     NUSSELT_HD static PolygonPart<Real, N> part_of(const ConvexPolygon<Real, N>& light) noexcept {
         return whole_part(light);
     }
+    /// The polygon of part_of() alone, for integrals, which do not need its plane.
+    template <class Real, int N>
+    NUSSELT_HD static ConvexPolygon<Real, N> outline_of(const ConvexPolygon<Real, N>& light) noexcept {
+        return with_unit_extent(light);
+    }
     template <class Real>
     NUSSELT_HD static LineSegment<Real> part_of(const LineSegment<Real>& light) noexcept {
         return light;
@@ -72,6 +77,11 @@ struct BothHorizons {
     template <class Real, int N>
     NUSSELT_HD static PolygonPart<Real, N + 1> part_of(const ConvexPolygon<Real, N>& light) noexcept {
         return part_above_horizon(light);
+    }
+    /// \copydoc CosineHorizon::outline_of
+    template <class Real, int N>
+    NUSSELT_HD static ConvexPolygon<Real, N + 1> outline_of(const ConvexPolygon<Real, N>& light) noexcept {
+        return with_unit_extent(clip_to_horizon(with_unit_extent(light)));
     }
     template <class Real>
     NUSSELT_HD static LineSegment<Real> part_of(const LineSegment<Real>& light) noexcept {

@@ -22,7 +22,7 @@ NUSSELT_HD inline Real diffuse_integral(const ConvexPolygon<Real, N>& light) noe
 /// to itself, at three times the cost.
 template <class Horizons = CosineHorizon, class Real, int N>
 NUSSELT_HD inline Real lobe_integral(const ConvexPolygon<Real, N>& light, const Ltc<Real>& ltc) noexcept {
-    return diffuse_integral(to_cosine_space(Horizons::part_of(light).polygon, ltc));
+    return diffuse_integral(to_cosine_space(Horizons::outline_of(light), ltc));
 }
 
 NUSSELT_NAMESPACE_END

@@ -25,8 +25,8 @@ NUSSELT_NAMESPACE_BEGIN
 /// Space: shading space with wo in the xz half-plane (shading_frame()); clips by itself.
 /// Edge cases: nothing of the light in the lobe, no area, or origin in the plane of the polygon: pdf = 0, measure 0.
 /// With CosineHorizon samples may lie below the surface, wi.z < 0: they count, with a contribution of zero.
-/// Accuracy: p is in the plane of the light. Where the distance of that plane is less than a thousandth of the light's
-/// extent, p may leave the ray along wi, by up to 1e-4 of it (at a millionth, 0.03, clipped 0.2): aim shadow rays at p.
+/// Accuracy: p is in the plane of the light, but for rare points that the box around the light moves. The closer that plane
+/// and the narrower the lobe, the farther p may leave the ray along wi, in rare cases by much of the light: aim at p.
 template <class Real, int N, class Horizons = CosineHorizon,
           class Image = PolygonProjectedSolidAngle<Real, Horizons::template kVertices<N>>>
 class PolygonLtc {

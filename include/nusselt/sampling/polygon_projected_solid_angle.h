@@ -34,8 +34,8 @@ inline constexpr int kPolygonIterations = kIsSingle<Real> ? 2 : 3;
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr], wi.z / measure().
 /// Space: shading space; the shading point is the origin, the normal +z. Clips to the horizon by itself.
 /// Edge cases: no part above the horizon, no area, or origin in the plane of the polygon: pdf = 0, measure 0.
-/// Accuracy: p is in the plane of the light. Where the distance of that plane is less than a thousandth of the light's
-/// extent, p may leave the ray along wi, by up to 1e-4 of the extent (at a millionth, 1e-2): aim shadow rays at p.
+/// Accuracy: p is in the plane of the light, but for rare points that the box around the light moves. Where that plane is
+/// close, p may leave the ray along wi, mostly by less than rounding over its relative distance: aim shadow rays at p.
 template <class Real, int N, int Iterations = kPolygonIterations<Real>, class Angles = PreciseAngles>
 class PolygonProjectedSolidAngle {
     static_assert(N <= 8, "there are sorting networks for up to nine vertices after clipping");
@@ -324,10 +324,16 @@ private:
         // Tell the central case, where the zenith lies in the light, from the decentral one. On the zenith's axis, the
         // plane has the height distance / normal.z: some vertex is at least as high if the light is there. Strips along
         // the horizon have less conclusive edges.
+        const auto reaches_axis = [&](const Real& slack) {
+            return (distance * polygon.normal.z >= Real(0)) &
+                   (abs(distance) <= fma(abs(polygon.normal.z), hull_.high.z, slack));
+        };
         const Real slack = Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon()) * hull_.plane.farthest;
-        const auto reaches_axis = (distance * polygon.normal.z >= Real(0)) &
-                                  (abs(distance) <= fma(abs(polygon.normal.z), hull_.high.z, slack));
-        decentral = (decentral & (!touches_zenith)) | (!reaches_axis);
+        decentral = decentral & (!touches_zenith);
+        auto beside_axis = !reaches_axis(slack);
+        // The corners of a warped polygon are beside its plane, maybe those on the axis.
+        if (any(beside_axis & (!decentral))) beside_axis = !reaches_axis(slack + warp(polygon, distance));
+        decentral = decentral | beside_axis;
         central_ = !decentral;
 
         // Find the sectors and their areas.
@@ -345,6 +351,15 @@ private:
         doubled_total_ = doubled_total;
         const auto lit = measure() > Real(0);
         inverse_measure_ = select(lit, Real(2) / select(lit, doubled_total_, Real(1)), Real(0));
+    }
+
+    /// The largest distance of a vertex from the plane of a polygon.
+    template <int M>
+    NUSSELT_HD static Real warp(const ConvexPolygon<Real, M>& polygon, const Real& distance) noexcept {
+        Real largest = Real(0);
+        for (const Vec3<Real>& v : polygon.vertex)
+            largest = max(largest, abs(dot(polygon.normal, v) - distance));
+        return largest;
     }
 
     /// The largest extent of a vertex along the tangent plane, as a sum of absolute values.

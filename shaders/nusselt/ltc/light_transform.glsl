@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LTC_LIGHT_TRANSFORM_GLSL
 #define NUSSELT_LTC_LIGHT_TRANSFORM_GLSL
-// Follows include/nusselt/ltc/light_transform.h @ 75ce33fb768c
+// Follows include/nusselt/ltc/light_transform.h @ dc19531769d6
 /// Lights in the cosine space of a lobe. A linear map takes polygons to polygons and segments to segments, and the
 /// integral of the lobe over the light to that of the clamped cosine over its image. Twin of
 /// include/nusselt/ltc/light_transform.h.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LTC_POLYGON_SHADING_GLSL
 #define NUSSELT_LTC_POLYGON_SHADING_GLSL
-// Follows include/nusselt/ltc/polygon_shading.h @ 169716cde91c
+// Follows include/nusselt/ltc/polygon_shading.h @ 8a2465655011
 /// Analytic, unshadowed shading with polygonal lights: E. Heitz, J. Dupuy, S. Hill, D. Neubelt 2016, Real-Time
 /// Polygonal-Light Shading with Linearly Transformed Cosines, doi:10.1145/2897824.2925895, with exact clipping. Twin of
 /// include/nusselt/ltc/polygon_shading.h.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 720937ac4a51
+// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 2e90afe0e9db
 /// Uniform sampling of the projected solid angle of a convex polygon: density proportional to the cosine at the
 /// surface. With a Lambertian emitter on a Lambertian surface, all noise that remains comes from shadows.
 ///
@@ -56,11 +56,17 @@ bool is_central(ConvexPolygon polygon, float distance, float highest) {
         bool on_edge = dot(v.xy, next.xy) < 0.0 && abs(turn) <= rounding * (abs(edge.x) + abs(edge.y));
         touches_zenith = touches_zenith || at_vertex || on_edge;
     }
+    if (has_inner && !touches_zenith) return false;
     // On the zenith's axis, the plane has the height distance / normal.z: some vertex is at least as high if the light
     // is there. The edges of strips along the horizon are less conclusive.
-    bool reaches_axis = distance * polygon.normal.z >= 0.0 &&
-                        abs(distance) <= nusselt_fma(abs(polygon.normal.z), highest, 8.0 * kNusseltEpsilon);
-    return reaches_axis && (touches_zenith || !has_inner);
+    if (distance * polygon.normal.z < 0.0) return false;
+    float beyond = nusselt_fma(-abs(polygon.normal.z), highest, abs(distance)) - 8.0 * kNusseltEpsilon;
+    if (beyond <= 0.0) return true;
+    // The corners of a warped polygon are beside its plane, maybe those on the axis.
+    float warp = 0.0;
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j)
+        warp = nusselt_max(warp, abs(dot(polygon.normal, polygon.vertex[j]) - distance));
+    return beyond <= warp;
 }
 
 /// The arc of the great circle of an edge, which together with the zenith bounds a sector in the central case: Prop. 1

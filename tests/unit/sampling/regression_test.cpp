@@ -259,7 +259,7 @@ void count_shadowed(const Quad& light, const Technique& technique, ShadowCount& 
         count.shadowed += 0.9999L * height / distance >= 1;
     }
 }
-/// \param height over half the size of the squares.
+/// \param height of the point above the plane; the squares have sides of length 1.
 template <class Make>
 ShadowCount shadows_of_squares(float height, const Make& make) {
     std::mt19937 engine(1);
@@ -302,8 +302,8 @@ TEST(RegressionTest, HitPointsOfCloseLightsAreInTheirPlane) {
                            [&](Light l) { return PolygonClippedLtc<float, 4>(l, lobe); });
     expect_points_in_plane("biased lobe", 0.03, [&](Light l) { return PolygonLtcBiased<float, 4>(l, lobe); });
     expect_points_in_plane("solid angle", 0.03, [](Light l) { return PolygonSolidAngle<float, 4>(l); });
-    // Sums of clipped vertices, which are rounded once more.
-    expect_points_in_plane("clipped", 0.2, [](Light l) { return PolygonClippedSolidAngle<float, 4>(l); });
+    // Sums of clipped vertices, which are rounded once more: 15 % with fused multiply-add, 21 % without.
+    expect_points_in_plane("clipped", 0.3, [](Light l) { return PolygonClippedSolidAngle<float, 4>(l); });
 }
 
 /// The contract must not be content with the box around a light.

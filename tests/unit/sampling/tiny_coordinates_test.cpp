@@ -85,6 +85,14 @@ TEST(TinyCoordinatesTest, SolidAngleOfALineThatEndsAtTheHorizon) {
         0x1.ed65a4p-3f);
 }
 
+/// The density became infinite on its way to a number in range.
+TEST(TinyCoordinatesTest, SolidAngleOfALineOfDenormalLength) {
+    for (float length = 0x1p-126f; length > 0; length /= 2) {
+        for (float distance = 1; distance > 0x1p-100f; distance /= 2)
+            expect_contract<LineSolidAngleKind>({{0, distance, 0}, {0, 0, 1}, length}, 0.5f);
+    }
+}
+
 /// Where the density overflowed, sample() returned the largest number and pdf() 0.
 TEST(TinyCoordinatesTest, AreaOfLightsWhoseDensityOverflows) {
     for (float length = 0x1p-120f; length > 0; length /= 2) {

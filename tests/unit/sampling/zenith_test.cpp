@@ -84,6 +84,26 @@ TEST(Zenith, VerticesCloseToItKeepTheMeasure) {
         }
 }
 
+// Above the highest corner, the plane of a warped light may be higher than all of the light.
+TEST(Zenith, CornersOfWarpedLightsKeepTheMeasure) {
+    Engine engine(4);
+    for (const double warp : {1e-5, 1e-3, 1e-2})
+        for (int i = 0; i < 20000; ++i) {
+            const double azimuth = uniform(engine, 0, 2 * std::numbers::pi);
+            const Vec3<double> a{std::cos(azimuth), std::sin(azimuth), uniform(engine, -0.7, 0)};
+            const Vec3<double> b{-std::sin(azimuth), std::cos(azimuth), uniform(engine, -0.7, 0)};
+            const Vec3<double> corner{0, 0, uniform(engine, 1.5, 2)};
+            const Vec3<double> exact[4] = {corner, corner + a,
+                                           corner + a + b + Vec3<double>{0, 0, uniform(engine, -warp, warp)},
+                                           corner + b};
+            Vec3<float> vertices[4] = {};
+            std::transform(exact, exact + 4, vertices,
+                           [](const Vec3<double>& v) { return broadcast<float>(v); });
+            std::rotate(vertices, vertices + i % 4, vertices + 4);
+            ASSERT_LT(measure_error(make_polygon<4>(vertices, 4)), kTolerance) << warp << ", case " << i;
+        }
+}
+
 // The light stands on the ground on one corner and leans over the point.
 TEST(Horizon, VerticesOnItKeepTheMeasure) {
     Engine engine(3);
