@@ -18,46 +18,20 @@ public:
     /// \param polygon  clockwise as seen from the origin, beside the zenith.
     /// \param distance of the plane of the polygon from the origin: dot(polygon.normal, p) for a point p of it.
     NUSSELT_HD AzimuthalSweep(const ConvexPolygon<Real, M>& polygon, const Real& distance) noexcept
-        : base_(polygon.vertex[0]), normal_(polygon.normal), distance_(distance) {
-        // Measure the azimuth of each vertex relative to vertex 0.
+        : normal_(polygon.normal), distance_(distance) {
         Vec3<Real> offset[M];
         Azimuth azimuth[M];
-        offset[0] = {Real(0), Real(0), Real(0)};
-        azimuth[0] = {Real(0), Real(0)};
-        Real reach = Real(0); // of the sums of edges, which rounding of the offsets is proportional to
-        NUSSELT_UNROLL
-        for (int j = 1; j < M; ++j) {
-            offset[j] = offset[j - 1] + polygon.edge[j - 1];
-            reach = max(reach, abs(offset[j].x) + abs(offset[j].y));
-            azimuth[j] = azimuth_of(polygon.vertex[j], offset[j], reach);
-        }
-
-        // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. With exactly equal
-        // azimuths they do not disturb the order of the others. In both directions, for runs of such edges.
-        auto uncertain = is_close(azimuth[0], azimuth[M - 1]);
-        NUSSELT_UNROLL
-        for (int j = 1; j < M; ++j) uncertain = uncertain | is_close(azimuth[j], azimuth[j - 1]);
-        if (any(uncertain)) unite_all(azimuth);
-
-        // Associate each vertex with the edge that begins there in counterclockwise order (Sec. 3.7).
-        first_inner_ = {offset[0], offset[0], mask_t<Real>(false)};
-        NUSSELT_UNROLL
-        for (int j = 0; j < M; ++j) {
-            const int before = j > 0 ? j - 1 : M - 1;
-            const int after = j + 1 < M ? j + 1 : 0;
-            const auto is_outer = azimuth[after].angle > azimuth[j].angle;
-            const auto is_inner = azimuth[before].angle > azimuth[j].angle;
-            const Vec3<Real> backward = -polygon.edge[before];
-            // At the clockwise end of the polygon an outer and an inner edge begin at the same vertex: the inner
-            // one is kept aside.
-            const auto both = is_outer & is_inner;
-            if (any(both)) {
-                first_inner_.at = select(both, offset[j], first_inner_.at);
-                first_inner_.rest = select(both, backward, first_inner_.rest);
-                first_inner_.begun = first_inner_.begun | both;
-            }
-            event_[j] = {azimuth[j].angle, offset[j], select(is_outer, polygon.edge[j], backward),
-                         select(is_outer, Real(1), select(is_inner, Real(-1), Real(0)))};
+        const auto uncertain = find_azimuths(polygon, offset, azimuth);
+        if (!any(uncertain)) {
+            begin_edges(polygon, offset, azimuth);
+        } else {
+            // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. With exactly equal
+            // azimuths they do not disturb the order of the others. The azimuth of a vertex next to the zenith is known to
+            // some extent only if it is vertex 0, whose offset is not rounded.
+            const ConvexPolygon<Real, M> turned = turned_to_zenith(polygon, uncertain);
+            find_azimuths(turned, offset, azimuth);
+            unite_all(azimuth);
+            begin_edges(turned, offset, azimuth);
         }
 
         // Sort the vertices by their azimuth.
@@ -140,6 +114,75 @@ private:
         const Real size = (abs(base_.x) + abs(base_.y)) * reach;
         return {select(cosine < Real(0), copysign(Real(2), sine) - ratio, ratio),
                 Real(kRounding) * inverse * size};
+    }
+
+    /// Measures the azimuth of each vertex relative to vertex 0, which becomes the base.
+    /// \param offset, azimuth become those of the vertices.
+    /// \returns where two neighbours have one azimuth as far as rounding can tell.
+    NUSSELT_INLINE mask_t<Real> find_azimuths(const ConvexPolygon<Real, M>& polygon, Vec3<Real>* offset,
+                                              Azimuth* azimuth) noexcept {
+        base_ = polygon.vertex[0];
+        offset[0] = {Real(0), Real(0), Real(0)};
+        azimuth[0] = {Real(0), Real(0)};
+        Real reach = Real(0); // of the sums of edges, which rounding of the offsets is proportional to
+        NUSSELT_UNROLL
+        for (int j = 1; j < M; ++j) {
+            offset[j] = offset[j - 1] + polygon.edge[j - 1];
+            reach = max(reach, abs(offset[j].x) + abs(offset[j].y));
+            azimuth[j] = azimuth_of(polygon.vertex[j], offset[j], reach);
+        }
+        auto uncertain = is_close(azimuth[0], azimuth[M - 1]);
+        NUSSELT_UNROLL
+        for (int j = 1; j < M; ++j) uncertain = uncertain | is_close(azimuth[j], azimuth[j - 1]);
+        return uncertain;
+    }
+
+    /// The same polygon, in the lanes of `where` with the vertex that is closest to the zenith first.
+    NUSSELT_HD static ConvexPolygon<Real, M> turned_to_zenith(const ConvexPolygon<Real, M>& polygon,
+                                                              const mask_t<Real>& where) noexcept {
+        Real turns = Real(0); // by how many vertices
+        Real least = abs(polygon.vertex[0].x) + abs(polygon.vertex[0].y);
+        for (int j = 1; j < M; ++j) {
+            const Real reach = abs(polygon.vertex[j].x) + abs(polygon.vertex[j].y);
+            turns = select(where & (reach < least), Real(j), turns);
+            least = min(least, reach);
+        }
+        ConvexPolygon<Real, M> turned = polygon;
+        for (int step = 8; step > 0; step /= 2) {
+            const auto takes_step = turns >= Real(step);
+            if (!any(takes_step)) continue;
+            turns = turns - select(takes_step, Real(step), Real(0));
+            const ConvexPolygon<Real, M> before = turned;
+            for (int j = 0; j < M; ++j) {
+                turned.vertex[j] = select(takes_step, before.vertex[(j + step) % M], before.vertex[j]);
+                turned.edge[j] = select(takes_step, before.edge[(j + step) % M], before.edge[j]);
+            }
+        }
+        return turned;
+    }
+
+    /// Associates each vertex with the edge that begins there in counterclockwise order (Sec. 3.7).
+    NUSSELT_INLINE void begin_edges(const ConvexPolygon<Real, M>& polygon, const Vec3<Real>* offset,
+                                    const Azimuth* azimuth) noexcept {
+        first_inner_ = {offset[0], offset[0], mask_t<Real>(false)};
+        NUSSELT_UNROLL
+        for (int j = 0; j < M; ++j) {
+            const int before = j > 0 ? j - 1 : M - 1;
+            const int after = j + 1 < M ? j + 1 : 0;
+            const auto is_outer = azimuth[after].angle > azimuth[j].angle;
+            const auto is_inner = azimuth[before].angle > azimuth[j].angle;
+            const Vec3<Real> backward = -polygon.edge[before];
+            // At the clockwise end of the polygon an outer and an inner edge begin at the same vertex: the inner
+            // one is kept aside.
+            const auto both = is_outer & is_inner;
+            if (any(both)) {
+                first_inner_.at = select(both, offset[j], first_inner_.at);
+                first_inner_.rest = select(both, backward, first_inner_.rest);
+                first_inner_.begun = first_inner_.begun | both;
+            }
+            event_[j] = {azimuth[j].angle, offset[j], select(is_outer, polygon.edge[j], backward),
+                         select(is_outer, Real(1), select(is_inner, Real(-1), Real(0)))};
+        }
     }
 
     NUSSELT_INLINE static mask_t<Real> is_close(const Azimuth& a, const Azimuth& b) noexcept {

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_CONVEX_POLYGON_GLSL
 #define NUSSELT_GEOMETRY_CONVEX_POLYGON_GLSL
-// Follows include/nusselt/geometry/convex_polygon.h @ 05d50c8677f8
+// Follows include/nusselt/geometry/convex_polygon.h @ 5bdb6a282497
 /// Convex planar polygons. Twin of include/nusselt/geometry/convex_polygon.h.
 
 #include "../core/frame.glsl"

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_AZIMUTHAL_SWEEP_GLSL
 #define NUSSELT_SAMPLING_AZIMUTHAL_SWEEP_GLSL
-// Follows include/nusselt/sampling/azimuthal_sweep.h @ 1e12f18a3d55
+// Follows include/nusselt/sampling/azimuthal_sweep.h @ 6c5b70476ea9
 /// Cuts a polygon beside the zenith into sectors at the azimuths of its vertices, each bounded by one outer and one
 /// inner edge (Peters 2021, polygonal lights, Sec. 3.7). Twin of include/nusselt/sampling/azimuthal_sweep.h.
 
@@ -49,9 +49,55 @@ SweepAzimuth sweep_azimuth_of(vec3 base, vec3 vertex, vec3 offset, float reach) 
                         (4.0 * kNusseltEpsilon) * inverse_sum * size);
 }
 
+bool azimuths_are_close(SweepAzimuth a, SweepAzimuth b) {
+    return abs(a.angle - b.angle) <= nusselt_max(a.rounding, b.rounding);
+}
+
+/// Measures the azimuth of each vertex relative to vertex 0.
+/// \param offset, azimuth become those of the vertices.
+/// \return whether two neighbours have one azimuth as far as rounding can tell.
+bool sweep_find_azimuths(ConvexPolygon polygon, out vec3 offset[kNusseltSlots],
+                         out SweepAzimuth azimuth[kNusseltSlots]) {
+    offset[0] = vec3(0.0);
+    azimuth[0] = SweepAzimuth(0.0, 0.0);
+    float reach = 0.0; // of the sums of edges, which rounding of the offsets is proportional to
+    bool uncertain = false;
+    NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) {
+        offset[j] = offset[j - 1] + polygon.edge[j - 1];
+        reach = nusselt_max(reach, abs(offset[j].x) + abs(offset[j].y));
+        azimuth[j] = sweep_azimuth_of(polygon.vertex[0], polygon.vertex[j], offset[j], reach);
+        uncertain = uncertain || azimuths_are_close(azimuth[j], azimuth[j - 1]);
+    }
+    return uncertain || azimuths_are_close(azimuth[0], azimuth[kNusseltSlots - 1]);
+}
+
+/// The same polygon, with the vertex that is closest to the zenith first.
+ConvexPolygon turned_to_zenith(ConvexPolygon polygon) {
+    int turns = 0; // by how many vertices
+    float least = abs(polygon.vertex[0].x) + abs(polygon.vertex[0].y);
+    NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) {
+        float reach = abs(polygon.vertex[j].x) + abs(polygon.vertex[j].y);
+        turns = reach < least ? j : turns;
+        least = nusselt_min(least, reach);
+    }
+    ConvexPolygon turned = polygon;
+    NUSSELT_UNROLL for (int k = 3; k >= 0; --k) {
+        int step = 1 << k;
+        if (turns >= step) {
+            turns -= step;
+            ConvexPolygon before = turned;
+            NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
+                turned.vertex[j] = before.vertex[(j + step) % kNusseltSlots];
+                turned.edge[j] = before.edge[(j + step) % kNusseltSlots];
+            }
+        }
+    }
+    return turned;
+}
+
 /// Makes azimuths equal if they are so up to rounding: the less certain one takes over the other.
 void unite_azimuths(inout SweepAzimuth a, inout SweepAzimuth b) {
-    if (!(abs(a.angle - b.angle) <= nusselt_max(a.rounding, b.rounding))) return;
+    if (!azimuths_are_close(a, b)) return;
     if (a.rounding >= b.rounding) {
         a = b;
     } else {
@@ -77,24 +123,21 @@ vec3 closer_to_zenith(vec3 a, vec3 b) {
 /// \param distance of its plane from the origin: dot(polygon.normal, p) for a point p of it.
 AzimuthalSweep azimuthal_sweep_prepare(ConvexPolygon polygon, float distance) {
     AzimuthalSweep sweep;
-    sweep.base = polygon.vertex[0];
     sweep.normal = polygon.normal;
     sweep.distance = distance;
     vec3 offset[kNusseltSlots];
     SweepAzimuth azimuth[kNusseltSlots];
-    offset[0] = vec3(0.0);
-    azimuth[0] = SweepAzimuth(0.0, 0.0);
-    float reach = 0.0; // of the sums of edges, which rounding of the offsets is proportional to
-    NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) {
-        offset[j] = offset[j - 1] + polygon.edge[j - 1];
-        reach = nusselt_max(reach, abs(offset[j].x) + abs(offset[j].y));
-        azimuth[j] = sweep_azimuth_of(sweep.base, polygon.vertex[j], offset[j], reach);
+    if (sweep_find_azimuths(polygon, offset, azimuth)) {
+        // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. The azimuth of a vertex
+        // next to the zenith is known to some extent only if it is vertex 0, whose offset is not rounded.
+        polygon = turned_to_zenith(polygon);
+        sweep_find_azimuths(polygon, offset, azimuth);
+        // In both directions, for runs of such edges.
+        NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) unite_azimuths(azimuth[j], azimuth[j - 1]);
+        unite_azimuths(azimuth[0], azimuth[kNusseltSlots - 1]);
+        NUSSELT_UNROLL for (int j = kNusseltSlots - 1; j > 0; --j) unite_azimuths(azimuth[j - 1], azimuth[j]);
     }
-    // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. In both directions, for
-    // runs of such edges.
-    NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) unite_azimuths(azimuth[j], azimuth[j - 1]);
-    unite_azimuths(azimuth[0], azimuth[kNusseltSlots - 1]);
-    NUSSELT_UNROLL for (int j = kNusseltSlots - 1; j > 0; --j) unite_azimuths(azimuth[j - 1], azimuth[j]);
+    sweep.base = polygon.vertex[0];
 
     sweep.inner = SweepChain(vec3(0.0), vec3(0.0), false);
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {

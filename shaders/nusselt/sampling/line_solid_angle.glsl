@@ -35,7 +35,7 @@ LineSolidAngle line_solid_angle_prepare_extent(float scale, LineExtent extent) {
     float measure = 2.0 * extent.distance * line_extent_sine_extent(extent).density * scale;
     SineRatio ratio = line_extent_sine_ratio(extent);
     float density = 0.5 * ratio.denominator / (extent.distance * ratio.numerator) * self.inverse_scale;
-    // The density of a line of denormal length overflows before its measure tells.
+    // The density of a line of denormal length may overflow although the measure is in range.
     bool lit =
         measure > kNusseltSmallestNormal && measure < 1.0 / kNusseltSmallestNormal && is_finite(density);
     self.measure = lit ? measure : 0.0;

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 2e90afe0e9db
+// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ e185e7c90b02
 /// Uniform sampling of the projected solid angle of a convex polygon: density proportional to the cosine at the
 /// surface. With a Lambertian emitter on a Lambertian surface, all noise that remains comes from shadows.
 ///
