@@ -71,19 +71,20 @@ struct CylinderView {
 
     /// The half-plane in a direction, or the closest one that touches the cylinder if that one misses it.
     /// \param direction unit, in the basis m, n.
-    NUSSELT_HD CylinderSlice<Real> slice(const Vec2<Real>& direction) const noexcept {
+    /// \param margin    from outside: half-planes this close to one that touches the cylinder count as touching it. The angle
+    ///                  between both, over its tangent with m.
+    NUSSELT_HD CylinderSlice<Real> slice(const Vec2<Real>& direction, const Real& margin) const noexcept {
         CylinderSlice<Real> c;
 
         // Turn directions that miss the cylinder to the closest one that touches it. From outside, the sines of the angles
         // from both half-planes that touch it tell, here over the sine of the angle from there to m: a direction whose
-        // length is a little wrong scales them, but does not move the point where they vanish. The half-chord starts there
-        // like a square root, which would magnify rounding. Directions within rounding of that point touch the cylinder.
+        // length is a little wrong scales them, but does not move the point where they vanish.
         const Real safe_radius = select(visible, radius, Real(1));
         const Real offset = det(center, direction);
         const Real across = cotangent * abs(direction.y);
         const Real from_closer = direction.x - across;
         const Real from_farther = direction.x + across;
-        const auto crosses = from_closer > Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon());
+        const auto crosses = from_closer > margin;
         c.meets = (outside & crosses) | ((!outside) & (abs(offset) < safe_radius));
         const Vec2<Real> closest{touching.x, copysign(touching.y, offset)};
         c.azimuth = select(outside & (!crosses), closest, direction);
@@ -214,7 +215,7 @@ NUSSELT_HD inline LightHit<Real> intersect(const Cylinder<Real>& cylinder, const
     // Cut the cylinder by the half-plane of the ray.
     const auto unit = to_unit_extent(cylinder);
     const CylinderView<Real> view = make_cylinder_view(unit.light, {Real(0), Real(0), Real(0)});
-    const CylinderSlice<Real> slice = view.slice(view.azimuth_of(wi));
+    const CylinderSlice<Real> slice = view.slice(view.azimuth_of(wi), Real(0));
     const Real sine = dot(wi, view.s);
     const Real cosine = max(dot(wi, slice.t), Real(0));
 

@@ -21,16 +21,13 @@ public:
         : normal_(polygon.normal), distance_(distance) {
         Vec3<Real> offset[M];
         Azimuth azimuth[M];
-        const auto uncertain = find_azimuths(polygon, offset, azimuth);
-        if (!any(uncertain)) {
+        const auto is_vague = find_azimuths(polygon, offset, azimuth) > Real(kVague);
+        if (!any(is_vague)) {
             begin_edges(polygon, offset, azimuth);
         } else {
-            // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. With exactly equal
-            // azimuths they do not disturb the order of the others. The azimuth of a vertex next to the zenith is known to
-            // some extent only if it is vertex 0, whose offset is not rounded.
-            const ConvexPolygon<Real, M> turned = turned_to_zenith(polygon, uncertain);
+            // A vertex next to the zenith has a definite azimuth only if it is vertex 0, whose offset is not rounded.
+            const ConvexPolygon<Real, M> turned = turned_to_zenith(polygon, is_vague);
             find_azimuths(turned, offset, azimuth);
-            unite_all(azimuth);
             begin_edges(turned, offset, azimuth);
         }
 
@@ -89,6 +86,8 @@ public:
 
 private:
     static constexpr scalar_t<Real> kRounding = 4 * std::numeric_limits<scalar_t<Real>>::epsilon();
+    /// Rounding of an azimuth above which a vertex is next to the zenith: closer than a thousandth of the size in float.
+    static constexpr scalar_t<Real> kVague = power_of_two<scalar_t<Real>>(-11);
 
     /// A vertex and the edge that begins there when going counterclockwise around the zenith. Points are offsets
     /// from vertex 0, accurate relative to the size of the light.
@@ -118,23 +117,22 @@ private:
 
     /// Measures the azimuth of each vertex relative to vertex 0, which becomes the base.
     /// \param offset, azimuth become those of the vertices.
-    /// \returns where two neighbours have one azimuth as far as rounding can tell.
-    NUSSELT_INLINE mask_t<Real> find_azimuths(const ConvexPolygon<Real, M>& polygon, Vec3<Real>* offset,
-                                              Azimuth* azimuth) noexcept {
+    /// \returns the largest rounding error of an azimuth.
+    NUSSELT_INLINE Real find_azimuths(const ConvexPolygon<Real, M>& polygon, Vec3<Real>* offset,
+                                      Azimuth* azimuth) noexcept {
         base_ = polygon.vertex[0];
         offset[0] = {Real(0), Real(0), Real(0)};
         azimuth[0] = {Real(0), Real(0)};
         Real reach = Real(0); // of the sums of edges, which rounding of the offsets is proportional to
+        Real rounding = Real(0);
         NUSSELT_UNROLL
         for (int j = 1; j < M; ++j) {
             offset[j] = offset[j - 1] + polygon.edge[j - 1];
             reach = max(reach, abs(offset[j].x) + abs(offset[j].y));
             azimuth[j] = azimuth_of(polygon.vertex[j], offset[j], reach);
+            rounding = max(rounding, azimuth[j].rounding);
         }
-        auto uncertain = is_close(azimuth[0], azimuth[M - 1]);
-        NUSSELT_UNROLL
-        for (int j = 1; j < M; ++j) uncertain = uncertain | is_close(azimuth[j], azimuth[j - 1]);
-        return uncertain;
+        return rounding;
     }
 
     /// The same polygon, in the lanes of `where` with the vertex that is closest to the zenith first.
@@ -144,18 +142,20 @@ private:
         Real least = abs(polygon.vertex[0].x) + abs(polygon.vertex[0].y);
         for (int j = 1; j < M; ++j) {
             const Real reach = abs(polygon.vertex[j].x) + abs(polygon.vertex[j].y);
-            turns = select(where & (reach < least), Real(j), turns);
+            const auto is_closer = reach < least;
+            turns = select(where & is_closer, Real(j), turns);
             least = min(least, reach);
         }
         ConvexPolygon<Real, M> turned = polygon;
-        for (int step = 8; step > 0; step /= 2) {
-            const auto takes_step = turns >= Real(step);
-            if (!any(takes_step)) continue;
-            turns = turns - select(takes_step, Real(step), Real(0));
-            const ConvexPolygon<Real, M> before = turned;
+        for (int k = 0; k < M - 1; ++k) {
+            const auto turns_on = turns > Real(k);
+            if (!any(turns_on)) break;
+            const Vec3<Real> first_vertex = turned.vertex[0], first_edge = turned.edge[0];
             for (int j = 0; j < M; ++j) {
-                turned.vertex[j] = select(takes_step, before.vertex[(j + step) % M], before.vertex[j]);
-                turned.edge[j] = select(takes_step, before.edge[(j + step) % M], before.edge[j]);
+                const Vec3<Real> next_vertex = j + 1 < M ? turned.vertex[j + 1] : first_vertex;
+                const Vec3<Real> next_edge = j + 1 < M ? turned.edge[j + 1] : first_edge;
+                turned.vertex[j] = select(turns_on, next_vertex, turned.vertex[j]);
+                turned.edge[j] = select(turns_on, next_edge, turned.edge[j]);
             }
         }
         return turned;
@@ -163,7 +163,14 @@ private:
 
     /// Associates each vertex with the edge that begins there in counterclockwise order (Sec. 3.7).
     NUSSELT_INLINE void begin_edges(const ConvexPolygon<Real, M>& polygon, const Vec3<Real>* offset,
-                                    const Azimuth* azimuth) noexcept {
+                                    Azimuth* azimuth) noexcept {
+        // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. With exactly equal
+        // azimuths they do not disturb the order of the others. In both directions, for runs of such edges.
+        auto uncertain = is_close(azimuth[0], azimuth[M - 1]);
+        NUSSELT_UNROLL
+        for (int j = 1; j < M; ++j) uncertain = uncertain | is_close(azimuth[j], azimuth[j - 1]);
+        if (any(uncertain)) unite_all(azimuth);
+
         first_inner_ = {offset[0], offset[0], mask_t<Real>(false)};
         NUSSELT_UNROLL
         for (int j = 0; j < M; ++j) {

@@ -64,7 +64,8 @@ private:
         const Real measure = arc_.integral() * extent.inverse_distance() * safe.scale;
         const Real inverse = arc_.inverse_integral() * extent.distance * inverse_scale_;
         // The reciprocal of a denormal integral may overflow although the measure is in range.
-        const auto lit = has_reciprocal(measure) & has_reciprocal(arc_.integral());
+        const auto has_density = has_reciprocal(arc_.integral());
+        const auto lit = has_reciprocal(measure) & has_density;
         measure_ = select(lit, measure, Real(0));
         inverse_measure_ = select(lit, inverse, Real(0));
     }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_CYLINDER_GLSL
 #define NUSSELT_GEOMETRY_CYLINDER_GLSL
-// Follows include/nusselt/geometry/cylinder.h @ 6c7205853976
+// Follows include/nusselt/geometry/cylinder.h @ d9418414ff6e
 /// Solid cylinders, and the rectangles that half-planes through a shading point cut out of them. Twin of
 /// include/nusselt/geometry/cylinder.h.
 
@@ -94,18 +94,18 @@ CylinderView make_cylinder_view(Cylinder cylinder, vec3 up) {
 
 /// The half-plane in a direction, or the closest one that touches the cylinder if that one misses it.
 /// \param direction unit, in the basis m, n.
-CylinderSlice cylinder_view_slice(CylinderView self, vec2 direction) {
+/// \param margin    from outside: half-planes this close to one that touches the cylinder count as touching it. The angle
+///                  between both, over its tangent with m.
+CylinderSlice cylinder_view_slice(CylinderView self, vec2 direction, float margin) {
     CylinderSlice c;
     float safe_radius = self.visible ? self.radius : 1.0;
     float offset = det(self.center, direction);
     // From outside, the sines of the angles from both half-planes that touch the cylinder, over the sine of the angle from
     // there to m: a direction whose length is a little wrong scales them, but does not move the point where they vanish.
-    // The half-chord starts there like a square root, which would magnify rounding. Directions within rounding of that
-    // point touch the cylinder.
     float across = self.cotangent * abs(direction.y);
     float from_closer = direction.x - across;
     float from_farther = direction.x + across;
-    bool crosses = from_closer > 8.0 * kNusseltEpsilon;
+    bool crosses = from_closer > margin;
     c.meets = self.outside ? crosses : abs(offset) < safe_radius;
     c.azimuth = self.outside && !crosses ? vec2(self.touching.x, copysign(self.touching.y, offset)) : direction;
     c.t = c.azimuth.x * self.m + c.azimuth.y * self.n;
@@ -158,7 +158,7 @@ struct LightHit {
 LightHit intersect(Cylinder cylinder, vec3 wi) {
     float scale = scale_of(cylinder);
     CylinderView view = make_cylinder_view(scaled(cylinder, scale), vec3(0.0));
-    CylinderSlice slice = cylinder_view_slice(view, cylinder_view_azimuth_of(view, wi));
+    CylinderSlice slice = cylinder_view_slice(view, cylinder_view_azimuth_of(view, wi), 0.0);
     float sine = dot(wi, view.s);
     float cosine = nusselt_max(dot(wi, slice.t), 0.0);
     // The ray passes the strip from l = near tan(alpha) to far tan(alpha).

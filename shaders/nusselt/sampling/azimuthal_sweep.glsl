@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_AZIMUTHAL_SWEEP_GLSL
 #define NUSSELT_SAMPLING_AZIMUTHAL_SWEEP_GLSL
-// Follows include/nusselt/sampling/azimuthal_sweep.h @ 6c5b70476ea9
+// Follows include/nusselt/sampling/azimuthal_sweep.h @ e862c8f5cbcc
 /// Cuts a polygon beside the zenith into sectors at the azimuths of its vertices, each bounded by one outer and one
 /// inner edge (Peters 2021, polygonal lights, Sec. 3.7). Twin of include/nusselt/sampling/azimuthal_sweep.h.
 
@@ -38,6 +38,9 @@ struct SweepAzimuth {
     float angle, rounding;
 };
 
+/// Rounding of an azimuth above which a vertex is next to the zenith: closer than a thousandth of the size.
+const float kVagueAzimuth = 0.00048828125; // 2^-11
+
 SweepAzimuth sweep_azimuth_of(vec3 base, vec3 vertex, vec3 offset, float reach) {
     float sine = det(base.xy, offset.xy);
     float cosine = dot(base.xy, vertex.xy);
@@ -49,26 +52,22 @@ SweepAzimuth sweep_azimuth_of(vec3 base, vec3 vertex, vec3 offset, float reach) 
                         (4.0 * kNusseltEpsilon) * inverse_sum * size);
 }
 
-bool azimuths_are_close(SweepAzimuth a, SweepAzimuth b) {
-    return abs(a.angle - b.angle) <= nusselt_max(a.rounding, b.rounding);
-}
-
 /// Measures the azimuth of each vertex relative to vertex 0.
 /// \param offset, azimuth become those of the vertices.
-/// \return whether two neighbours have one azimuth as far as rounding can tell.
-bool sweep_find_azimuths(ConvexPolygon polygon, out vec3 offset[kNusseltSlots],
-                         out SweepAzimuth azimuth[kNusseltSlots]) {
+/// \return the largest rounding error of an azimuth.
+float sweep_find_azimuths(ConvexPolygon polygon, out vec3 offset[kNusseltSlots],
+                          out SweepAzimuth azimuth[kNusseltSlots]) {
     offset[0] = vec3(0.0);
     azimuth[0] = SweepAzimuth(0.0, 0.0);
     float reach = 0.0; // of the sums of edges, which rounding of the offsets is proportional to
-    bool uncertain = false;
+    float rounding = 0.0;
     NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) {
         offset[j] = offset[j - 1] + polygon.edge[j - 1];
         reach = nusselt_max(reach, abs(offset[j].x) + abs(offset[j].y));
         azimuth[j] = sweep_azimuth_of(polygon.vertex[0], polygon.vertex[j], offset[j], reach);
-        uncertain = uncertain || azimuths_are_close(azimuth[j], azimuth[j - 1]);
+        rounding = nusselt_max(rounding, azimuth[j].rounding);
     }
-    return uncertain || azimuths_are_close(azimuth[0], azimuth[kNusseltSlots - 1]);
+    return rounding;
 }
 
 /// The same polygon, with the vertex that is closest to the zenith first.
@@ -80,24 +79,21 @@ ConvexPolygon turned_to_zenith(ConvexPolygon polygon) {
         turns = reach < least ? j : turns;
         least = nusselt_min(least, reach);
     }
-    ConvexPolygon turned = polygon;
-    NUSSELT_UNROLL for (int k = 3; k >= 0; --k) {
-        int step = 1 << k;
-        if (turns >= step) {
-            turns -= step;
-            ConvexPolygon before = turned;
-            NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
-                turned.vertex[j] = before.vertex[(j + step) % kNusseltSlots];
-                turned.edge[j] = before.edge[(j + step) % kNusseltSlots];
-            }
+    for (int k = 0; k < turns; ++k) {
+        vec3 first_vertex = polygon.vertex[0], first_edge = polygon.edge[0];
+        NUSSELT_UNROLL for (int j = 0; j + 1 < kNusseltSlots; ++j) {
+            polygon.vertex[j] = polygon.vertex[j + 1];
+            polygon.edge[j] = polygon.edge[j + 1];
         }
+        polygon.vertex[kNusseltSlots - 1] = first_vertex;
+        polygon.edge[kNusseltSlots - 1] = first_edge;
     }
-    return turned;
+    return polygon;
 }
 
 /// Makes azimuths equal if they are so up to rounding: the less certain one takes over the other.
 void unite_azimuths(inout SweepAzimuth a, inout SweepAzimuth b) {
-    if (!azimuths_are_close(a, b)) return;
+    if (!(abs(a.angle - b.angle) <= nusselt_max(a.rounding, b.rounding))) return;
     if (a.rounding >= b.rounding) {
         a = b;
     } else {
@@ -127,16 +123,16 @@ AzimuthalSweep azimuthal_sweep_prepare(ConvexPolygon polygon, float distance) {
     sweep.distance = distance;
     vec3 offset[kNusseltSlots];
     SweepAzimuth azimuth[kNusseltSlots];
-    if (sweep_find_azimuths(polygon, offset, azimuth)) {
-        // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. The azimuth of a vertex
-        // next to the zenith is known to some extent only if it is vertex 0, whose offset is not rounded.
+    if (sweep_find_azimuths(polygon, offset, azimuth) > kVagueAzimuth) {
+        // A vertex next to the zenith has a definite azimuth only if it is vertex 0, whose offset is not rounded.
         polygon = turned_to_zenith(polygon);
         sweep_find_azimuths(polygon, offset, azimuth);
-        // In both directions, for runs of such edges.
-        NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) unite_azimuths(azimuth[j], azimuth[j - 1]);
-        unite_azimuths(azimuth[0], azimuth[kNusseltSlots - 1]);
-        NUSSELT_UNROLL for (int j = kNusseltSlots - 1; j > 0; --j) unite_azimuths(azimuth[j - 1], azimuth[j]);
     }
+    // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. In both directions, for
+    // runs of such edges.
+    NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) unite_azimuths(azimuth[j], azimuth[j - 1]);
+    unite_azimuths(azimuth[0], azimuth[kNusseltSlots - 1]);
+    NUSSELT_UNROLL for (int j = kNusseltSlots - 1; j > 0; --j) unite_azimuths(azimuth[j - 1], azimuth[j]);
     sweep.base = polygon.vertex[0];
 
     sweep.inner = SweepChain(vec3(0.0), vec3(0.0), false);

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_LINE_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/line_projected_solid_angle.h @ e5cc62653e5d
+// Follows include/nusselt/sampling/line_projected_solid_angle.h @ 522a927d4104
 /// Uniform sampling of the projected solid angle of a linear light: density proportional to the cosine at the surface.
 /// With a Lambertian tube on a Lambertian surface, all noise that remains comes from shadows.
 ///

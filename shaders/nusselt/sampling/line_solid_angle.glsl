@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_LINE_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/line_solid_angle.h @ 6d9129320b33
+// Follows include/nusselt/sampling/line_solid_angle.h @ 1f293b4b56e6
 /// Uniform sampling of the solid angle of a linear light, for surfaces and for volumes.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Sec. 3.1, Eq. 1. Twin
