@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_CYLINDER_FAN_GLSL
 #define NUSSELT_SAMPLING_CYLINDER_FAN_GLSL
-// Follows include/nusselt/sampling/cylinder_fan.h @ 633abf60fec3
+// Follows include/nusselt/sampling/cylinder_fan.h @ d6dffb9488ee
 /// Sampling of closed cylinders without rejection: first a half-plane of the fan around the direction of the axis, then
 /// a direction in it. What the techniques for cylinders share. Twin of include/nusselt/sampling/cylinder_fan.h;
 /// docs/techniques/cylinder.md has the derivation.
@@ -201,6 +201,7 @@ CylinderHalfPlane cylinder_half_plane(CylinderImage self, int importance, vec2 d
     CylinderView view = self.view;
     CylinderHalfPlane h;
     // Integrals start like a square root where half-planes touch the cylinder, which would magnify rounding.
+    // Twice the margin of C++: devices need not round correctly.
     h.slice = cylinder_view_slice(view, direction, 8.0 * kNusseltEpsilon);
     vec2 azimuth = h.slice.azimuth;
     vec2 image = cylinder_image_of(self, azimuth);
