@@ -140,7 +140,7 @@ mask_t<Real> is_off(const ConvexPolygon<Real, N>& light, const Bounds<Real>& bou
     const Real width = relative_width(light, bounds.extent);
     const Real rounding = plane_slack(light, slack);
     const auto apart = width * abs(distance) > rounding;
-    const Real turned = fma(angle_error, bounds.extent, warp_of(light, plane_distance(light)));
+    const Real turned = fma(angle_error, bounds.extent, warp_of(light, distance));
     const Real moved = Real(8) * turned / select(apart, abs(distance) / bounds.extent, Real(1));
     const auto off_plane = width * abs(dot(light.normal, p) - distance) > rounding + moved;
     return apart & off_plane;

@@ -71,8 +71,8 @@ struct CylinderView {
 
     /// The half-plane in a direction, or the closest one that touches the cylinder if that one misses it.
     /// \param direction unit, in the basis m, n.
-    /// \param margin    from outside: half-planes this close to one that touches the cylinder count as touching it. The angle
-    ///                  between both, over its tangent with m.
+    /// \param margin    from outside: half-planes this close to one that touches the cylinder count as touching it. The sine of
+    ///                  the angle between both, over that of the angle between the touching one and m.
     NUSSELT_HD CylinderSlice<Real> slice(const Vec2<Real>& direction, const Real& margin) const noexcept {
         CylinderSlice<Real> c;
 

@@ -15,8 +15,6 @@ inline constexpr bool kHasFma = NUSSELT_HAS_FMA;
 template <class Real>
 inline constexpr bool kIsScalar = RealTraits<Real>::kLanes == 1;
 
-using nusselt::multiply_add;
-
 /// a * b - c * d by Kahan's algorithm, as the paper wants it, if fma is an instruction. Otherwise scalars compute in double,
 /// which is as accurate, and packs do without.
 template <class Real>

@@ -110,6 +110,15 @@ float plane_distance(ConvexPolygon polygon) {
     return distance;
 }
 
+/// The largest distance of a vertex from the plane of a polygon [m].
+/// \param distance of that plane from the origin.
+float warp_of(ConvexPolygon polygon, float distance) {
+    float largest = 0.0;
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j)
+        largest = nusselt_max(largest, abs(dot(polygon.normal, polygon.vertex[j]) - distance));
+    return largest;
+}
+
 /// The polygon with the given vertices [m].
 /// \param vertices convex and coplanar, in either winding; repeated and collinear vertices are fine.
 /// \param count    how many of them there are, 3 to NUSSELT_MAX_VERTICES.

@@ -94,8 +94,8 @@ CylinderView make_cylinder_view(Cylinder cylinder, vec3 up) {
 
 /// The half-plane in a direction, or the closest one that touches the cylinder if that one misses it.
 /// \param direction unit, in the basis m, n.
-/// \param margin    from outside: half-planes this close to one that touches the cylinder count as touching it. The angle
-///                  between both, over its tangent with m.
+/// \param margin    from outside: half-planes this close to one that touches the cylinder count as touching it. The sine of
+///                  the angle between both, over that of the angle between the touching one and m.
 CylinderSlice cylinder_view_slice(CylinderView self, vec2 direction, float margin) {
     CylinderSlice c;
     float safe_radius = self.visible ? self.radius : 1.0;

@@ -63,10 +63,7 @@ bool is_central(ConvexPolygon polygon, float distance, float highest) {
     float beyond = nusselt_fma(-abs(polygon.normal.z), highest, abs(distance)) - 8.0 * kNusseltEpsilon;
     if (beyond <= 0.0) return true;
     // The corners of a warped polygon are beside its plane, maybe those on the axis.
-    float warp = 0.0;
-    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j)
-        warp = nusselt_max(warp, abs(dot(polygon.normal, polygon.vertex[j]) - distance));
-    return beyond <= warp;
+    return beyond <= warp_of(polygon, distance);
 }
 
 /// The arc of the great circle of an edge, which together with the zenith bounds a sector in the central case: Prop. 1
