@@ -103,15 +103,6 @@ Real relative_width(const ConvexPolygon<Real, N>& light, const Real& extent) noe
 template <class Kind>
 inline constexpr double kAngleError = Kind::kBiased ? 1.3e-5 : 0;
 
-/// The distance of vertices from the plane of a polygon [m], from rounding in the precision in which they were made.
-template <class Real, int N>
-Real warp(const ConvexPolygon<Real, N>& light) noexcept {
-    const Real distance = plane_distance(light);
-    Real largest = Real(0);
-    for (const Vec3<Real>& v : light.vertex) largest = max(largest, abs(dot(light.normal, v) - distance));
-    return largest;
-}
-
 /// A point of a line must be on the line. The overloads of is_off() do not test the box around the light.
 template <class Real>
 mask_t<Real> is_off(const LineSegment<Real>& light, const Bounds<Real>&, const Vec3<Real>& p,
@@ -135,7 +126,7 @@ mask_t<Real> is_off(const Cylinder<Real>& light, const Bounds<Real>&, const Vec3
 /// \param slack for hit points.
 template <class Real, int N>
 Real plane_slack(const ConvexPolygon<Real, N>& light, const Real& slack) noexcept {
-    return slack + Real(84) * warp(light);
+    return slack + Real(84) * warp_of(light, plane_distance(light));
 }
 
 /// A point of a polygon must be in its plane, which rounding tilts by its ratio to the width, unless the plane contains the
@@ -149,7 +140,7 @@ mask_t<Real> is_off(const ConvexPolygon<Real, N>& light, const Bounds<Real>& bou
     const Real width = relative_width(light, bounds.extent);
     const Real rounding = plane_slack(light, slack);
     const auto apart = width * abs(distance) > rounding;
-    const Real turned = fma(angle_error, bounds.extent, warp(light));
+    const Real turned = fma(angle_error, bounds.extent, warp_of(light, distance));
     const Real moved = Real(8) * turned / select(apart, abs(distance) / bounds.extent, Real(1));
     const auto off_plane = width * abs(dot(light.normal, p) - distance) > rounding + moved;
     return apart & off_plane;

@@ -76,7 +76,7 @@ step() {
     echo "$*" >"$out/$name.log"
     "$@" >>"$out/$name.log" 2>&1 &
     child=$!
-    [ -z "$ended" ] || kill "$child" # the signal came before there was a child to stop
+    [ -z "$ended" ] || kill "$child" 2>/dev/null # the signal came before there was a child to stop
     wait "$child"
     code=$?
     seconds=$(($(date +%s) - start))

@@ -48,6 +48,10 @@
 #define NUSSELT_ISA isa_avx512
 #elif defined(__AVX2__) && defined(__FMA__)
 #define NUSSELT_ISA isa_avx2
+#elif defined(__AVX__) && defined(__FMA__)
+#define NUSSELT_ISA isa_avx_fma
+#elif defined(__AVX__)
+#define NUSSELT_ISA isa_avx
 #elif defined(__SSE4_2__)
 #define NUSSELT_ISA isa_sse42
 #elif defined(__aarch64__) && defined(__ARM_NEON)

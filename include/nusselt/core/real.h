@@ -66,7 +66,7 @@ namespace detail {
 NUSSELT_INLINE float sqrt_instruction(float x) noexcept {
 #if defined(__clang__) || !defined(__GNUC__)
     return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(x)));
-#elif defined(__AVX2__) && defined(__FMA__)
+#elif defined(__AVX__)
     __asm__("vsqrtss %0, %0, %0" : "+x"(x));
     return x;
 #else
@@ -79,7 +79,7 @@ NUSSELT_INLINE float sqrt_instruction(float x) noexcept {
 NUSSELT_INLINE double sqrt_instruction(double x) noexcept {
 #if defined(__clang__) || !defined(__GNUC__)
     return _mm_cvtsd_f64(_mm_sqrt_sd(_mm_setzero_pd(), _mm_set_sd(x)));
-#elif defined(__AVX2__) && defined(__FMA__)
+#elif defined(__AVX__)
     __asm__("vsqrtsd %0, %0, %0" : "+x"(x));
     return x;
 #else

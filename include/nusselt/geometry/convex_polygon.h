@@ -60,8 +60,7 @@ NUSSELT_INLINE Real dot_or_zero(const Vec3<Real>& a, const Vec3<Real>& b) noexce
 }
 
 /// Least sine of the angle between the plane of a polygon and the direction to a vertex for which rounding can be
-/// ignored: it magnifies rounding errors by the reciprocal. Products that are rounded together with their sum allow
-/// twice as much.
+/// ignored: it magnifies rounding errors by the reciprocal. With fma, half of that sine suffices.
 template <class Scalar>
 inline constexpr Scalar kConclusive = Scalar(NUSSELT_HAS_FMA ? 1.0 / 256 : 1.0 / 128);
 
@@ -146,6 +145,15 @@ NUSSELT_HD inline Real plane_distance(const ConvexPolygon<Real, N>& polygon) noe
         (rounded != Real(0));
     if (!any(close)) return rounded;
     return select(close, detail::precise_plane_distance(polygon, nearest, rounded), rounded);
+}
+
+/// The largest distance of a vertex from the plane of a polygon [m].
+/// \param distance of that plane from the origin.
+template <class Real, int N>
+NUSSELT_HD inline Real warp_of(const ConvexPolygon<Real, N>& polygon, const Real& distance) noexcept {
+    Real largest = Real(0);
+    for (const Vec3<Real>& v : polygon.vertex) largest = max(largest, abs(dot(polygon.normal, v) - distance));
+    return largest;
 }
 
 /// The polygon with the given vertices [m].

@@ -64,35 +64,41 @@ struct CylinderView {
     Vec3<Real> start, end; ///< of the axis
     Real l0, l1, length;   ///< coordinates of start and end along s, and their difference
     Vec2<Real> touching;   ///< unit, from outside: the half-plane that touches on the side of n
+    Real cotangent;        ///< of its angle from m; 0 from inside
     mask_t<Real> outside;  ///< of the infinite cylinder; m then leads to its axis
     mask_t<Real>
         visible; ///< false inside, on the surface next to it, and for a cylinder without length or radius
 
     /// The half-plane in a direction, or the closest one that touches the cylinder if that one misses it.
     /// \param direction unit, in the basis m, n.
-    NUSSELT_HD CylinderSlice<Real> slice(const Vec2<Real>& direction) const noexcept {
+    /// \param margin    from outside: half-planes this close to one that touches the cylinder count as touching it. The sine of
+    ///                  the angle between both, over that of the angle between the touching one and m.
+    NUSSELT_HD CylinderSlice<Real> slice(const Vec2<Real>& direction, const Real& margin) const noexcept {
         CylinderSlice<Real> c;
 
-        // Turn directions that miss the cylinder to the closest one that touches it.
+        // Turn directions that miss the cylinder to the closest one that touches it. From outside, the sines of the angles
+        // from both half-planes that touch it tell, here over the sine of the angle from there to m: a direction whose
+        // length is a little wrong scales them, but does not move the point where they vanish.
         const Real safe_radius = select(visible, radius, Real(1));
-        const Real x = det(center, direction) / safe_radius;
-        const auto crosses = abs(x) < Real(1);
-        const auto ahead = dot(center, direction) > Real(0);
-        c.meets = crosses & ((!outside) | ahead);
-        const Vec2<Real> closest{touching.x, copysign(touching.y, x)};
-        c.azimuth = select(outside & (!c.meets), closest, direction);
+        const Real offset = det(center, direction);
+        const Real across = cotangent * abs(direction.y);
+        const Real from_closer = direction.x - across;
+        const Real from_farther = direction.x + across;
+        const auto crosses = from_closer > margin;
+        c.meets = (outside & crosses) | ((!outside) & (abs(offset) < safe_radius));
+        const Vec2<Real> closest{touching.x, copysign(touching.y, offset)};
+        c.azimuth = select(outside & (!crosses), closest, direction);
         c.t = c.azimuth.x * m + c.azimuth.y * n;
 
         // Find the middle of the strip and half its width.
-        const Real side = min(max(x, Real(-1)), Real(1));
-        c.offset = side * safe_radius;
+        c.offset = min(max(offset, -safe_radius), safe_radius);
         c.along = dot(center, c.azimuth);
         // These are sums of terms that are not negative; products may be too small to be represented.
         const Real inside_along = select(outside, Real(0), c.along / safe_radius);
         const Real inside_gap = (-gap / safe_radius) * (sum / safe_radius);
-        const Real squared =
-            select(outside, (Real(1) + side) * (Real(1) - side), fma(inside_along, inside_along, inside_gap));
-        c.half_chord = sqrt(max(squared, Real(0))) * safe_radius;
+        const Real outside_square = select(crosses, from_closer * from_farther, Real(0));
+        const Real square = select(outside, outside_square, fma(inside_along, inside_along, inside_gap));
+        c.half_chord = sqrt(max(square, Real(0))) * safe_radius;
 
         // Find where the strip starts and ends. The product of near and far is that of gap and sum: none of them comes
         // from a difference, nor does the larger one fall below the root.
@@ -167,6 +173,9 @@ NUSSELT_INLINE CylinderView<Real> make_cylinder_view(const Cylinder<Real>& cylin
     const Real safe_distance = select(v.outside, distance, Real(1));
     v.touching = {sqrt(max(v.gap, Real(0)) / safe_distance) * sqrt(v.sum / safe_distance),
                   v.radius / safe_distance};
+    const Real safe_radius = select(v.visible, v.radius, Real(1));
+    v.cotangent = min(sqrt(max(v.gap, Real(0))) * sqrt(v.sum) / safe_radius,
+                      Real(std::numeric_limits<scalar_t<Real>>::max()));
     return v;
 }
 
@@ -185,6 +194,7 @@ NUSSELT_INLINE CylinderView<Real> broadcast(const CylinderView<Single>& v) noexc
             Real(v.l1),
             Real(v.length),
             broadcast<Real>(v.touching),
+            Real(v.cotangent),
             mask_t<Real>(v.outside),
             mask_t<Real>(v.visible)};
 }
@@ -205,7 +215,7 @@ NUSSELT_HD inline LightHit<Real> intersect(const Cylinder<Real>& cylinder, const
     // Cut the cylinder by the half-plane of the ray.
     const auto unit = to_unit_extent(cylinder);
     const CylinderView<Real> view = make_cylinder_view(unit.light, {Real(0), Real(0), Real(0)});
-    const CylinderSlice<Real> slice = view.slice(view.azimuth_of(wi));
+    const CylinderSlice<Real> slice = view.slice(view.azimuth_of(wi), Real(0));
     const Real sine = dot(wi, view.s);
     const Real cosine = max(dot(wi, slice.t), Real(0));
 

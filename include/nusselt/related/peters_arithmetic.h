@@ -11,22 +11,9 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace peters {
 
-#if defined(__FMA__) || defined(__ARM_FEATURE_FMA)
-inline constexpr bool kHasFma = true;
-#else
-inline constexpr bool kHasFma = false;
-#endif
+inline constexpr bool kHasFma = NUSSELT_HAS_FMA;
 template <class Real>
 inline constexpr bool kIsScalar = RealTraits<Real>::kLanes == 1;
-
-/// a * b + c in one instruction or in two.
-template <class Real>
-NUSSELT_INLINE Real multiply_add(const Real& a, const Real& b, const Real& c) noexcept {
-    if constexpr (kHasFma)
-        return fma(a, b, c);
-    else
-        return a * b + c;
-}
 
 /// a * b - c * d by Kahan's algorithm, as the paper wants it, if fma is an instruction. Otherwise scalars compute in double,
 /// which is as accurate, and packs do without.

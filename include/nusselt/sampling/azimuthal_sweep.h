@@ -18,46 +18,17 @@ public:
     /// \param polygon  clockwise as seen from the origin, beside the zenith.
     /// \param distance of the plane of the polygon from the origin: dot(polygon.normal, p) for a point p of it.
     NUSSELT_HD AzimuthalSweep(const ConvexPolygon<Real, M>& polygon, const Real& distance) noexcept
-        : base_(polygon.vertex[0]), normal_(polygon.normal), distance_(distance) {
-        // Measure the azimuth of each vertex relative to vertex 0.
+        : normal_(polygon.normal), distance_(distance) {
         Vec3<Real> offset[M];
         Azimuth azimuth[M];
-        offset[0] = {Real(0), Real(0), Real(0)};
-        azimuth[0] = {Real(0), Real(0)};
-        Real reach = Real(0); // of the sums of edges, which rounding of the offsets is proportional to
-        NUSSELT_UNROLL
-        for (int j = 1; j < M; ++j) {
-            offset[j] = offset[j - 1] + polygon.edge[j - 1];
-            reach = max(reach, abs(offset[j].x) + abs(offset[j].y));
-            azimuth[j] = azimuth_of(polygon.vertex[j], offset[j], reach);
-        }
-
-        // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. With exactly equal
-        // azimuths they do not disturb the order of the others. In both directions, for runs of such edges.
-        auto uncertain = is_close(azimuth[0], azimuth[M - 1]);
-        NUSSELT_UNROLL
-        for (int j = 1; j < M; ++j) uncertain = uncertain | is_close(azimuth[j], azimuth[j - 1]);
-        if (any(uncertain)) unite_all(azimuth);
-
-        // Associate each vertex with the edge that begins there in counterclockwise order (Sec. 3.7).
-        first_inner_ = {offset[0], offset[0], mask_t<Real>(false)};
-        NUSSELT_UNROLL
-        for (int j = 0; j < M; ++j) {
-            const int before = j > 0 ? j - 1 : M - 1;
-            const int after = j + 1 < M ? j + 1 : 0;
-            const auto is_outer = azimuth[after].angle > azimuth[j].angle;
-            const auto is_inner = azimuth[before].angle > azimuth[j].angle;
-            const Vec3<Real> backward = -polygon.edge[before];
-            // At the clockwise end of the polygon an outer and an inner edge begin at the same vertex: the inner
-            // one is kept aside.
-            const auto both = is_outer & is_inner;
-            if (any(both)) {
-                first_inner_.at = select(both, offset[j], first_inner_.at);
-                first_inner_.rest = select(both, backward, first_inner_.rest);
-                first_inner_.begun = first_inner_.begun | both;
-            }
-            event_[j] = {azimuth[j].angle, offset[j], select(is_outer, polygon.edge[j], backward),
-                         select(is_outer, Real(1), select(is_inner, Real(-1), Real(0)))};
+        const auto is_vague = find_azimuths(polygon, offset, azimuth) > Real(kVague);
+        if (!any(is_vague)) {
+            begin_edges(polygon, offset, azimuth);
+        } else {
+            // A vertex next to the zenith has a definite azimuth only if it is vertex 0, whose offset is not rounded.
+            const ConvexPolygon<Real, M> turned = turned_to_zenith(polygon, is_vague);
+            find_azimuths(turned, offset, azimuth);
+            begin_edges(turned, offset, azimuth);
         }
 
         // Sort the vertices by their azimuth.
@@ -115,6 +86,8 @@ public:
 
 private:
     static constexpr scalar_t<Real> kRounding = 4 * std::numeric_limits<scalar_t<Real>>::epsilon();
+    /// Rounding of an azimuth above which a vertex is next to the zenith: closer than a thousandth of the size in float.
+    static constexpr scalar_t<Real> kVague = power_of_two<scalar_t<Real>>(-11);
 
     /// A vertex and the edge that begins there when going counterclockwise around the zenith. Points are offsets
     /// from vertex 0, accurate relative to the size of the light.
@@ -140,6 +113,83 @@ private:
         const Real size = (abs(base_.x) + abs(base_.y)) * reach;
         return {select(cosine < Real(0), copysign(Real(2), sine) - ratio, ratio),
                 Real(kRounding) * inverse * size};
+    }
+
+    /// Measures the azimuth of each vertex relative to vertex 0, which becomes the base.
+    /// \param offset, azimuth become those of the vertices.
+    /// \returns the largest rounding error of an azimuth.
+    NUSSELT_INLINE Real find_azimuths(const ConvexPolygon<Real, M>& polygon, Vec3<Real>* offset,
+                                      Azimuth* azimuth) noexcept {
+        base_ = polygon.vertex[0];
+        offset[0] = {Real(0), Real(0), Real(0)};
+        azimuth[0] = {Real(0), Real(0)};
+        Real reach = Real(0); // of the sums of edges, which rounding of the offsets is proportional to
+        Real rounding = Real(0);
+        NUSSELT_UNROLL
+        for (int j = 1; j < M; ++j) {
+            offset[j] = offset[j - 1] + polygon.edge[j - 1];
+            reach = max(reach, abs(offset[j].x) + abs(offset[j].y));
+            azimuth[j] = azimuth_of(polygon.vertex[j], offset[j], reach);
+            rounding = max(rounding, azimuth[j].rounding);
+        }
+        return rounding;
+    }
+
+    /// The same polygon, in the lanes of `where` with the vertex that is closest to the zenith first.
+    NUSSELT_HD static ConvexPolygon<Real, M> turned_to_zenith(const ConvexPolygon<Real, M>& polygon,
+                                                              const mask_t<Real>& where) noexcept {
+        Real turns = Real(0); // by how many vertices
+        Real least = abs(polygon.vertex[0].x) + abs(polygon.vertex[0].y);
+        for (int j = 1; j < M; ++j) {
+            const Real reach = abs(polygon.vertex[j].x) + abs(polygon.vertex[j].y);
+            const auto is_closer = reach < least;
+            turns = select(where & is_closer, Real(j), turns);
+            least = min(least, reach);
+        }
+        ConvexPolygon<Real, M> turned = polygon;
+        for (int k = 0; k < M - 1; ++k) {
+            const auto turns_on = turns > Real(k);
+            if (!any(turns_on)) break;
+            const Vec3<Real> first_vertex = turned.vertex[0], first_edge = turned.edge[0];
+            for (int j = 0; j < M; ++j) {
+                const Vec3<Real> next_vertex = j + 1 < M ? turned.vertex[j + 1] : first_vertex;
+                const Vec3<Real> next_edge = j + 1 < M ? turned.edge[j + 1] : first_edge;
+                turned.vertex[j] = select(turns_on, next_vertex, turned.vertex[j]);
+                turned.edge[j] = select(turns_on, next_edge, turned.edge[j]);
+            }
+        }
+        return turned;
+    }
+
+    /// Associates each vertex with the edge that begins there in counterclockwise order (Sec. 3.7).
+    NUSSELT_INLINE void begin_edges(const ConvexPolygon<Real, M>& polygon, const Vec3<Real>* offset,
+                                    Azimuth* azimuth) noexcept {
+        // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. With exactly equal
+        // azimuths they do not disturb the order of the others. In both directions, for runs of such edges.
+        auto uncertain = is_close(azimuth[0], azimuth[M - 1]);
+        NUSSELT_UNROLL
+        for (int j = 1; j < M; ++j) uncertain = uncertain | is_close(azimuth[j], azimuth[j - 1]);
+        if (any(uncertain)) unite_all(azimuth);
+
+        first_inner_ = {offset[0], offset[0], mask_t<Real>(false)};
+        NUSSELT_UNROLL
+        for (int j = 0; j < M; ++j) {
+            const int before = j > 0 ? j - 1 : M - 1;
+            const int after = j + 1 < M ? j + 1 : 0;
+            const auto is_outer = azimuth[after].angle > azimuth[j].angle;
+            const auto is_inner = azimuth[before].angle > azimuth[j].angle;
+            const Vec3<Real> backward = -polygon.edge[before];
+            // At the clockwise end of the polygon an outer and an inner edge begin at the same vertex: the inner
+            // one is kept aside.
+            const auto both = is_outer & is_inner;
+            if (any(both)) {
+                first_inner_.at = select(both, offset[j], first_inner_.at);
+                first_inner_.rest = select(both, backward, first_inner_.rest);
+                first_inner_.begun = first_inner_.begun | both;
+            }
+            event_[j] = {azimuth[j].angle, offset[j], select(is_outer, polygon.edge[j], backward),
+                         select(is_outer, Real(1), select(is_inner, Real(-1), Real(0)))};
+        }
     }
 
     NUSSELT_INLINE static mask_t<Real> is_close(const Azimuth& a, const Azimuth& b) noexcept {

@@ -246,7 +246,8 @@ private:
         HalfPlane h;
 
         // Cut the cylinder and map the half-plane to the space of the importance.
-        h.slice = view_.slice(direction);
+        // Integrals start like a square root where half-planes touch the cylinder, which would magnify rounding.
+        h.slice = view_.slice(direction, Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()));
         const Vec2<Real>& azimuth = h.slice.azimuth;
         const Vec2<Real> image = image_of(azimuth);
         h.widening = sqrt(dot(image, image));

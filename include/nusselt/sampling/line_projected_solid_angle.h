@@ -63,7 +63,9 @@ private:
         : arc_(extent), inverse_scale_(safe.inverse_scale) {
         const Real measure = arc_.integral() * extent.inverse_distance() * safe.scale;
         const Real inverse = arc_.inverse_integral() * extent.distance * inverse_scale_;
-        const auto lit = has_reciprocal(measure);
+        // The reciprocal of a denormal integral may overflow although the measure is in range.
+        const auto has_density = has_reciprocal(arc_.integral());
+        const auto lit = has_reciprocal(measure) & has_density;
         measure_ = select(lit, measure, Real(0));
         inverse_measure_ = select(lit, inverse, Real(0));
     }

@@ -76,8 +76,9 @@ private:
         const Real measure = Real(2) * extent.distance * extent.sine_extent().density * safe.scale;
         const Real density =
             Real(0.5) * ratio.denominator / (extent.distance * ratio.numerator) * inverse_scale_;
-        // The density of a line of denormal length overflows before its measure tells.
-        const auto lit = has_reciprocal(measure) & is_finite(density);
+        // The density of a line of denormal length may overflow although the measure is in range.
+        const auto has_density = is_finite(density);
+        const auto lit = has_reciprocal(measure) & has_density;
         measure_ = select(lit, measure, Real(0));
         pdf_ = select(lit, density, Real(0));
     }

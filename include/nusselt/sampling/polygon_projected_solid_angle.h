@@ -212,7 +212,10 @@ private:
                     return j < N ? light.edge[j] : Vec3<float>{0, 0, 0};
                 },
                 light.normal, [&] { return plane_distance(light); });
-            if (lanes.is_ordinary()) return prepare_lanes(lanes);
+            if (lanes.is_ordinary()) {
+                prepare_lanes(lanes);
+                return true;
+            }
         }
         const auto outline = outline_above_horizon<lanes_for(N + 1)>(light);
         if (outline.count < 3 || (all_above && outline.count == N)) return false;
@@ -220,7 +223,9 @@ private:
             const VertexLanes<decltype(lane_count)::value> lanes(
                 outline.count, [&](int j) { return outline.vertex[j]; },
                 [&](int j) { return outline.edge[j]; }, light.normal, [&] { return plane_distance(light); });
-            return lanes.is_ordinary() && prepare_lanes(lanes);
+            if (!lanes.is_ordinary()) return false;
+            prepare_lanes(lanes);
+            return true;
         };
         return outline.count <= 4 ? prepare_outline(std::integral_constant<int, 4>())
                                   : prepare_outline(std::integral_constant<int, lanes_for(N + 1)>());
@@ -236,7 +241,7 @@ private:
     }
 
     template <int L>
-    NUSSELT_INLINE bool prepare_lanes(const VertexLanes<L>& lanes) noexcept {
+    NUSSELT_INLINE void prepare_lanes(const VertexLanes<L>& lanes) noexcept {
         hull_ = lanes.hull();
         mirror_ = lanes.mirror();
         inverse_scale_ = lanes.inverse_scale();
@@ -246,7 +251,7 @@ private:
                                                      lanes.lanes());
             set_total(
                 sectors_.set_all_central(lanes.vertex(), lanes.edge(), edges.angle_per_area, edges.area));
-            return true;
+            return;
         }
         // Five vertices have four sectors, and nine have eight: half of the lanes suffice for them.
         constexpr int kFew = L > 4 ? L / 2 : L;
@@ -254,11 +259,10 @@ private:
         if constexpr (kMost > kFew) {
             if (lanes.count() - 1 > kFew) {
                 prepare_decentral_lanes<L>(lanes);
-                return true;
+                return;
             }
         }
         prepare_decentral_lanes<kFew>(lanes);
-        return true;
     }
 
     /// \tparam S a bound on the number of sectors.
@@ -332,7 +336,7 @@ private:
         decentral = decentral & (!touches_zenith);
         auto beside_axis = !reaches_axis(slack);
         // The corners of a warped polygon are beside its plane, maybe those on the axis.
-        if (any(beside_axis & (!decentral))) beside_axis = !reaches_axis(slack + warp(polygon, distance));
+        if (any(beside_axis & (!decentral))) beside_axis = !reaches_axis(slack + warp_of(polygon, distance));
         decentral = decentral | beside_axis;
         central_ = !decentral;
 
@@ -351,15 +355,6 @@ private:
         doubled_total_ = doubled_total;
         const auto lit = measure() > Real(0);
         inverse_measure_ = select(lit, Real(2) / select(lit, doubled_total_, Real(1)), Real(0));
-    }
-
-    /// The largest distance of a vertex from the plane of a polygon.
-    template <int M>
-    NUSSELT_HD static Real warp(const ConvexPolygon<Real, M>& polygon, const Real& distance) noexcept {
-        Real largest = Real(0);
-        for (const Vec3<Real>& v : polygon.vertex)
-            largest = max(largest, abs(dot(polygon.normal, v) - distance));
-        return largest;
     }
 
     /// The largest extent of a vertex along the tangent plane, as a sum of absolute values.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CORE_REAL_GLSL
 #define NUSSELT_CORE_REAL_GLSL
-// Follows include/nusselt/core/real.h @ d949a39e9168
+// Follows include/nusselt/core/real.h @ b951d6fe63fc
 /// Arithmetic with known rounding. Twin of include/nusselt/core/real.h; functions whose names GLSL has already are
 /// called nusselt_*. Statements about NaN hold on devices that preserve NaN (README.md).
 

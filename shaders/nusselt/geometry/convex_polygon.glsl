@@ -1,6 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_CONVEX_POLYGON_GLSL
 #define NUSSELT_GEOMETRY_CONVEX_POLYGON_GLSL
-// Follows include/nusselt/geometry/convex_polygon.h @ 05d50c8677f8
+// Follows include/nusselt/geometry/convex_polygon.h @ 5bdb6a282497
 /// Convex planar polygons. Twin of include/nusselt/geometry/convex_polygon.h.
 
 #include "../core/frame.glsl"
@@ -108,6 +108,15 @@ float plane_distance(ConvexPolygon polygon) {
     if (distance != 0.0 && abs(distance) < kNusseltConclusive * largest_component(nearest))
         distance = precise_plane_distance(polygon, nearest, distance);
     return distance;
+}
+
+/// The largest distance of a vertex from the plane of a polygon [m].
+/// \param distance of that plane from the origin.
+float warp_of(ConvexPolygon polygon, float distance) {
+    float largest = 0.0;
+    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j)
+        largest = nusselt_max(largest, abs(dot(polygon.normal, polygon.vertex[j]) - distance));
+    return largest;
 }
 
 /// The polygon with the given vertices [m].

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_GEOMETRY_CYLINDER_GLSL
 #define NUSSELT_GEOMETRY_CYLINDER_GLSL
-// Follows include/nusselt/geometry/cylinder.h @ 14b2165359d8
+// Follows include/nusselt/geometry/cylinder.h @ d9418414ff6e
 /// Solid cylinders, and the rectangles that half-planes through a shading point cut out of them. Twin of
 /// include/nusselt/geometry/cylinder.h.
 
@@ -49,6 +49,7 @@ struct CylinderView {
     vec3 start, end;      ///< of the axis
     float l0, l1, len;    ///< coordinates of start and end along s, and their difference
     vec2 touching;        ///< unit, from outside: the half-plane that touches on the side of n
+    float cotangent;      ///< of its angle from m; 0 from inside
     bool outside;         ///< of the infinite cylinder; m then leads to its axis
     bool visible;         ///< false inside, on the surface next to it, and for a cylinder without length or radius
 };
@@ -79,35 +80,44 @@ CylinderView make_cylinder_view(Cylinder cylinder, vec3 up) {
         v.n = nusselt_cross(v.s, v.m);
         v.center = vec2(distance, 0.0);
         v.touching = vec2(sqrt(v.gap / distance) * sqrt(v.sum / distance), v.radius / distance);
+        v.cotangent = nusselt_min(sqrt(v.gap) * sqrt(v.sum) / (v.visible ? v.radius : 1.0), kNusseltLargest);
     } else {
         vec3 upwards = nusselt_normalize(nusselt_cross(v.s, nusselt_cross(up, v.s)));
         v.m = upwards == vec3(0.0) ? frame_from_normal(v.s).t : upwards;
         v.n = nusselt_cross(v.s, v.m);
         v.center = vec2(dot(closest, v.m), dot(closest, v.n));
         v.touching = vec2(0.0, 1.0);
+        v.cotangent = 0.0;
     }
     return v;
 }
 
 /// The half-plane in a direction, or the closest one that touches the cylinder if that one misses it.
 /// \param direction unit, in the basis m, n.
-CylinderSlice cylinder_view_slice(CylinderView self, vec2 direction) {
+/// \param margin    from outside: half-planes this close to one that touches the cylinder count as touching it. The sine of
+///                  the angle between both, over that of the angle between the touching one and m.
+CylinderSlice cylinder_view_slice(CylinderView self, vec2 direction, float margin) {
     CylinderSlice c;
     float safe_radius = self.visible ? self.radius : 1.0;
-    float x = det(self.center, direction) / safe_radius;
-    c.meets = abs(x) < 1.0 && (!self.outside || dot(self.center, direction) > 0.0);
-    c.azimuth = self.outside && !c.meets ? vec2(self.touching.x, copysign(self.touching.y, x)) : direction;
+    float offset = det(self.center, direction);
+    // From outside, the sines of the angles from both half-planes that touch the cylinder, over the sine of the angle from
+    // there to m: a direction whose length is a little wrong scales them, but does not move the point where they vanish.
+    float across = self.cotangent * abs(direction.y);
+    float from_closer = direction.x - across;
+    float from_farther = direction.x + across;
+    bool crosses = from_closer > margin;
+    c.meets = self.outside ? crosses : abs(offset) < safe_radius;
+    c.azimuth = self.outside && !crosses ? vec2(self.touching.x, copysign(self.touching.y, offset)) : direction;
     c.t = c.azimuth.x * self.m + c.azimuth.y * self.n;
-    float side = nusselt_min(nusselt_max(x, -1.0), 1.0);
-    c.offset = side * safe_radius;
+    c.offset = nusselt_min(nusselt_max(offset, -safe_radius), safe_radius);
     float along = dot(self.center, c.azimuth); // the middle of the strip
     // Sums of terms that are not negative; products may be too small to be represented.
-    float squared = (1.0 + side) * (1.0 - side);
+    float square = crosses ? from_closer * from_farther : 0.0;
     if (!self.outside) {
         float inside_along = along / safe_radius;
-        squared = nusselt_fma(inside_along, inside_along, (-self.gap / safe_radius) * (self.sum / safe_radius));
+        square = nusselt_fma(inside_along, inside_along, (-self.gap / safe_radius) * (self.sum / safe_radius));
     }
-    c.half_chord = sqrt(nusselt_max(squared, 0.0)) * safe_radius;
+    c.half_chord = sqrt(nusselt_max(square, 0.0)) * safe_radius;
     // The product of near and far is that of gap and sum: none of them comes from a difference, nor does the larger
     // one fall below the root.
     float larger = nusselt_max(abs(along) + c.half_chord, sqrt(abs(self.gap)) * sqrt(self.sum));
@@ -148,7 +158,7 @@ struct LightHit {
 LightHit intersect(Cylinder cylinder, vec3 wi) {
     float scale = scale_of(cylinder);
     CylinderView view = make_cylinder_view(scaled(cylinder, scale), vec3(0.0));
-    CylinderSlice slice = cylinder_view_slice(view, cylinder_view_azimuth_of(view, wi));
+    CylinderSlice slice = cylinder_view_slice(view, cylinder_view_azimuth_of(view, wi), 0.0);
     float sine = dot(wi, view.s);
     float cosine = nusselt_max(dot(wi, slice.t), 0.0);
     // The ray passes the strip from l = near tan(alpha) to far tan(alpha).

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_RELATED_PETERS_ARITHMETIC_GLSL
 #define NUSSELT_RELATED_PETERS_ARITHMETIC_GLSL
-// Follows include/nusselt/related/peters_arithmetic.h @ 02021ad24161
+// Follows include/nusselt/related/peters_arithmetic.h @ a20beaa2ab81
 /// Arithmetic of the published formulas of Peters 2021, as fast as the device allows: what a user would write who does
 /// without the guarantees of core/trig.glsl and core/vec.glsl. Twin of include/nusselt/related/peters_arithmetic.h.
 

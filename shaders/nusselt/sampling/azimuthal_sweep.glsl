@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_AZIMUTHAL_SWEEP_GLSL
 #define NUSSELT_SAMPLING_AZIMUTHAL_SWEEP_GLSL
-// Follows include/nusselt/sampling/azimuthal_sweep.h @ 1e12f18a3d55
+// Follows include/nusselt/sampling/azimuthal_sweep.h @ e862c8f5cbcc
 /// Cuts a polygon beside the zenith into sectors at the azimuths of its vertices, each bounded by one outer and one
 /// inner edge (Peters 2021, polygonal lights, Sec. 3.7). Twin of include/nusselt/sampling/azimuthal_sweep.h.
 
@@ -38,6 +38,9 @@ struct SweepAzimuth {
     float angle, rounding;
 };
 
+/// Rounding of an azimuth above which a vertex is next to the zenith: closer than a thousandth of the size.
+const float kVagueAzimuth = 0.00048828125; // 2^-11
+
 SweepAzimuth sweep_azimuth_of(vec3 base, vec3 vertex, vec3 offset, float reach) {
     float sine = det(base.xy, offset.xy);
     float cosine = dot(base.xy, vertex.xy);
@@ -47,6 +50,45 @@ SweepAzimuth sweep_azimuth_of(vec3 base, vec3 vertex, vec3 offset, float reach) 
     float size = (abs(base.x) + abs(base.y)) * reach;
     return SweepAzimuth(cosine < 0.0 ? copysign(2.0, sine) - ratio : ratio,
                         (4.0 * kNusseltEpsilon) * inverse_sum * size);
+}
+
+/// Measures the azimuth of each vertex relative to vertex 0.
+/// \param offset, azimuth become those of the vertices.
+/// \return the largest rounding error of an azimuth.
+float sweep_find_azimuths(ConvexPolygon polygon, out vec3 offset[kNusseltSlots],
+                          out SweepAzimuth azimuth[kNusseltSlots]) {
+    offset[0] = vec3(0.0);
+    azimuth[0] = SweepAzimuth(0.0, 0.0);
+    float reach = 0.0; // of the sums of edges, which rounding of the offsets is proportional to
+    float rounding = 0.0;
+    NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) {
+        offset[j] = offset[j - 1] + polygon.edge[j - 1];
+        reach = nusselt_max(reach, abs(offset[j].x) + abs(offset[j].y));
+        azimuth[j] = sweep_azimuth_of(polygon.vertex[0], polygon.vertex[j], offset[j], reach);
+        rounding = nusselt_max(rounding, azimuth[j].rounding);
+    }
+    return rounding;
+}
+
+/// The same polygon, with the vertex that is closest to the zenith first.
+ConvexPolygon turned_to_zenith(ConvexPolygon polygon) {
+    int turns = 0; // by how many vertices
+    float least = abs(polygon.vertex[0].x) + abs(polygon.vertex[0].y);
+    NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) {
+        float reach = abs(polygon.vertex[j].x) + abs(polygon.vertex[j].y);
+        turns = reach < least ? j : turns;
+        least = nusselt_min(least, reach);
+    }
+    for (int k = 0; k < turns; ++k) {
+        vec3 first_vertex = polygon.vertex[0], first_edge = polygon.edge[0];
+        NUSSELT_UNROLL for (int j = 0; j + 1 < kNusseltSlots; ++j) {
+            polygon.vertex[j] = polygon.vertex[j + 1];
+            polygon.edge[j] = polygon.edge[j + 1];
+        }
+        polygon.vertex[kNusseltSlots - 1] = first_vertex;
+        polygon.edge[kNusseltSlots - 1] = first_edge;
+    }
+    return polygon;
 }
 
 /// Makes azimuths equal if they are so up to rounding: the less certain one takes over the other.
@@ -77,24 +119,21 @@ vec3 closer_to_zenith(vec3 a, vec3 b) {
 /// \param distance of its plane from the origin: dot(polygon.normal, p) for a point p of it.
 AzimuthalSweep azimuthal_sweep_prepare(ConvexPolygon polygon, float distance) {
     AzimuthalSweep sweep;
-    sweep.base = polygon.vertex[0];
     sweep.normal = polygon.normal;
     sweep.distance = distance;
     vec3 offset[kNusseltSlots];
     SweepAzimuth azimuth[kNusseltSlots];
-    offset[0] = vec3(0.0);
-    azimuth[0] = SweepAzimuth(0.0, 0.0);
-    float reach = 0.0; // of the sums of edges, which rounding of the offsets is proportional to
-    NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) {
-        offset[j] = offset[j - 1] + polygon.edge[j - 1];
-        reach = nusselt_max(reach, abs(offset[j].x) + abs(offset[j].y));
-        azimuth[j] = sweep_azimuth_of(sweep.base, polygon.vertex[j], offset[j], reach);
+    if (sweep_find_azimuths(polygon, offset, azimuth) > kVagueAzimuth) {
+        // A vertex next to the zenith has a definite azimuth only if it is vertex 0, whose offset is not rounded.
+        polygon = turned_to_zenith(polygon);
+        sweep_find_azimuths(polygon, offset, azimuth);
     }
     // Edges that have one azimuth as far as rounding can tell are neither outer nor inner ones. In both directions, for
     // runs of such edges.
     NUSSELT_UNROLL for (int j = 1; j < kNusseltSlots; ++j) unite_azimuths(azimuth[j], azimuth[j - 1]);
     unite_azimuths(azimuth[0], azimuth[kNusseltSlots - 1]);
     NUSSELT_UNROLL for (int j = kNusseltSlots - 1; j > 0; --j) unite_azimuths(azimuth[j - 1], azimuth[j]);
+    sweep.base = polygon.vertex[0];
 
     sweep.inner = SweepChain(vec3(0.0), vec3(0.0), false);
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_CYLINDER_FAN_GLSL
 #define NUSSELT_SAMPLING_CYLINDER_FAN_GLSL
-// Follows include/nusselt/sampling/cylinder_fan.h @ 29c2b9cc0d96
+// Follows include/nusselt/sampling/cylinder_fan.h @ d6dffb9488ee
 /// Sampling of closed cylinders without rejection: first a half-plane of the fan around the direction of the axis, then
 /// a direction in it. What the techniques for cylinders share. Twin of include/nusselt/sampling/cylinder_fan.h;
 /// docs/techniques/cylinder.md has the derivation.
@@ -200,7 +200,9 @@ vec3 cylinder_image_corner(CylinderImage self, vec3 t, float tangent, float heig
 CylinderHalfPlane cylinder_half_plane(CylinderImage self, int importance, vec2 direction) {
     CylinderView view = self.view;
     CylinderHalfPlane h;
-    h.slice = cylinder_view_slice(view, direction);
+    // Integrals start like a square root where half-planes touch the cylinder, which would magnify rounding.
+    // Twice the margin of C++: devices need not round correctly.
+    h.slice = cylinder_view_slice(view, direction, 8.0 * kNusseltEpsilon);
     vec2 azimuth = h.slice.azimuth;
     vec2 image = cylinder_image_of(self, azimuth);
     h.widening = sqrt(dot(image, image));

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_LINE_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/line_projected_solid_angle.h @ f25e159f23a5
+// Follows include/nusselt/sampling/line_projected_solid_angle.h @ 522a927d4104
 /// Uniform sampling of the projected solid angle of a linear light: density proportional to the cosine at the surface.
 /// With a Lambertian tube on a Lambertian surface, all noise that remains comes from shadows.
 ///
@@ -30,7 +30,9 @@ LineProjectedSolidAngle line_projected_solid_angle_prepare(LineSegment light) {
     self.arc = make_cosine_arc(clipped_extent(scaled(light, scale)));
     float measure = self.arc.integral / self.arc.distance * scale;
     float inverse_measure = cosine_arc_inverse_integral(self.arc) * self.arc.distance * self.inverse_scale;
-    bool lit = measure > kNusseltSmallestNormal && measure < 1.0 / kNusseltSmallestNormal;
+    // The reciprocal of a denormal integral may overflow although the measure is in range.
+    bool lit = measure > kNusseltSmallestNormal && measure < 1.0 / kNusseltSmallestNormal &&
+               self.arc.integral > kNusseltSmallestNormal;
     self.measure = lit ? measure : 0.0;
     self.inverse_measure = lit ? inverse_measure : 0.0;
     return self;

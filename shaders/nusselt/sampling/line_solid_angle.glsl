@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_LINE_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_LINE_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/line_solid_angle.h @ 6d9129320b33
+// Follows include/nusselt/sampling/line_solid_angle.h @ 1f293b4b56e6
 /// Uniform sampling of the solid angle of a linear light, for surfaces and for volumes.
 ///
 /// C. Peters 2021, BRDF Importance Sampling for Linear Lights, CGF 40(8), doi:10.1111/cgf.14379: Sec. 3.1, Eq. 1. Twin
@@ -35,7 +35,7 @@ LineSolidAngle line_solid_angle_prepare_extent(float scale, LineExtent extent) {
     float measure = 2.0 * extent.distance * line_extent_sine_extent(extent).density * scale;
     SineRatio ratio = line_extent_sine_ratio(extent);
     float density = 0.5 * ratio.denominator / (extent.distance * ratio.numerator) * self.inverse_scale;
-    // The density of a line of denormal length overflows before its measure tells.
+    // The density of a line of denormal length may overflow although the measure is in range.
     bool lit =
         measure > kNusseltSmallestNormal && measure < 1.0 / kNusseltSmallestNormal && is_finite(density);
     self.measure = lit ? measure : 0.0;

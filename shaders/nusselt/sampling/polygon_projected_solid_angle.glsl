@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 2e90afe0e9db
+// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ e185e7c90b02
 /// Uniform sampling of the projected solid angle of a convex polygon: density proportional to the cosine at the
 /// surface. With a Lambertian emitter on a Lambertian surface, all noise that remains comes from shadows.
 ///
@@ -63,10 +63,7 @@ bool is_central(ConvexPolygon polygon, float distance, float highest) {
     float beyond = nusselt_fma(-abs(polygon.normal.z), highest, abs(distance)) - 8.0 * kNusseltEpsilon;
     if (beyond <= 0.0) return true;
     // The corners of a warped polygon are beside its plane, maybe those on the axis.
-    float warp = 0.0;
-    NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j)
-        warp = nusselt_max(warp, abs(dot(polygon.normal, polygon.vertex[j]) - distance));
-    return beyond <= warp;
+    return beyond <= warp_of(polygon, distance);
 }
 
 /// The arc of the great circle of an edge, which together with the zenith bounds a sector in the central case: Prop. 1

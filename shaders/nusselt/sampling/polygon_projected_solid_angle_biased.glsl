@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_BIASED_GLSL
 #define NUSSELT_SAMPLING_POLYGON_PROJECTED_SOLID_ANGLE_BIASED_GLSL
-// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ 2e90afe0e9db
+// Follows include/nusselt/sampling/polygon_projected_solid_angle.h @ e185e7c90b02
 /// The biased variant of polygon_projected_solid_angle.glsl (Peters 2021, polygonal lights, Sec. 6.4): no iteration,
 /// fast arctangents. The density is that of exact projected solid angle sampling, which the samples follow
 /// approximately: estimates are biased accordingly. Twin of PolygonProjectedSolidAngleBiased in

@@ -2,7 +2,7 @@
 LightSample lidless_sample(Technique technique, vec2 u) {
     LightSample s = technique_sample(technique, u);
     CylinderView view = technique.fan.image.view;
-    CylinderSlice slice = cylinder_view_slice(view, cylinder_view_azimuth_of(view, s.wi));
+    CylinderSlice slice = cylinder_view_slice(view, cylinder_view_azimuth_of(view, s.wi), 0.0);
     s.p = technique.inverse_scale * slice.near / dot(s.wi, slice.t) * s.wi;
     return s;
 }

@@ -196,7 +196,10 @@ std::string aim_violation(const Light& light, const Random& u, const nusselt::Li
         kIsPolygon<Kind> && (Kind::kMeasure == Measure::projected_solid_angle || kHasLobe<Kind>);
     long double offset = kFactor * (kMeetsPlane ? tilt / sturdy : kEpsilon) * extent;
     // Vertices that are not in one plane leave open in which plane the point is.
-    if constexpr (kMeetsPlane) offset += kFactor * static_cast<long double>(warp(light)) / (sturdy * sturdy);
+    if constexpr (kMeetsPlane) {
+        const auto warp = nusselt::warp_of(light, nusselt::plane_distance(light));
+        offset += kFactor * static_cast<long double>(warp) / (sturdy * sturdy);
+    }
     if (!(length(cross(wi, p)) <= offset)) return "p is not in the direction wi";
     if (dot(wi, p) < -offset) return "p is behind the origin";
     return "";

@@ -3,8 +3,10 @@
 
 #include <nusselt/related/cylinder_rejection_gamito.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -256,6 +258,32 @@ TEST(CylinderIntersectionTest, AgreesWithSlabsAndQuadratics) {
         }
         EXPECT_GT(hits, 1000) << light.name;
     }
+}
+
+/// The integral over a half-plane starts like a square root where half-planes touch the cylinder. Rounding once decided how
+/// large it is there: 1 % of the densities were off by 2e-5 and more.
+TEST(CylinderSolidAngleTest, DensitiesDoNotFeelRoundingAtTheSilhouette) {
+    constexpr int kCount = 10000;
+    std::mt19937 engine(11);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    std::vector<double> errors;
+    for (int i = 0; i < kCount; ++i) {
+        const float azimuth = 6.2831853f * uniform(engine);
+        const float radius = 0.05f + 0.3f * uniform(engine), distance = radius + 0.5f + 2 * uniform(engine);
+        const float length = 0.5f + 1.5f * uniform(engine);
+        const nusselt::Vec3<float> start{distance * std::cos(azimuth), distance * std::sin(azimuth),
+                                         -length * uniform(engine)};
+        const nusselt::Cylinder<float> light{{start, {0, 0, 1}, length}, radius};
+        const nusselt::Cylinder<long double> wide = nusselt::broadcast<long double>(light);
+        const nusselt::CylinderSolidAngle<long double> exact(wide);
+        const float u = uniform(engine), v = uniform(engine);
+        const auto wi = nusselt::broadcast<float>(exact.sample({u, v}).wi);
+        const long double density = exact.pdf(nusselt::broadcast<long double>(wi));
+        errors.push_back(
+            static_cast<double>(std::fabs(nusselt::CylinderSolidAngle<float>(light).pdf(wi) / density - 1)));
+    }
+    std::nth_element(errors.begin(), errors.end() - kCount / 100, errors.end());
+    EXPECT_LT(errors[kCount - kCount / 100], 2e-6);
 }
 
 TEST(CylinderRejectionTest, EstimatesTheSolidAngleWithMisses) {

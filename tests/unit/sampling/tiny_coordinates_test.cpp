@@ -93,6 +93,18 @@ TEST(TinyCoordinatesTest, SolidAngleOfALineOfDenormalLength) {
     }
 }
 
+/// The density did not follow the measure where the reciprocal of its integral was out of range.
+TEST(TinyCoordinatesTest, ProjectedSolidAngleOfALineOfDenormalLength) {
+    for (float length = 0x1p-110f; length > 0; length /= 2) {
+        for (float scale = 1; scale > 0x1p-100f; scale /= 2) {
+            const nusselt::LineProjectedSolidAngle<float> technique({{0, scale, scale}, {1, 0, 0}, length});
+            if (technique.measure() == 0) continue;
+            const auto s = technique.sample(0.5f);
+            EXPECT_NEAR(s.pdf * technique.measure() / s.wi.z, 1, 1e-5) << length << ' ' << scale;
+        }
+    }
+}
+
 /// Where the density overflowed, sample() returned the largest number and pdf() 0.
 TEST(TinyCoordinatesTest, AreaOfLightsWhoseDensityOverflows) {
     for (float length = 0x1p-120f; length > 0; length /= 2) {
