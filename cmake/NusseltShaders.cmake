@@ -86,14 +86,17 @@ function(nusselt_shader_array variable name)
     set(${variable} k${array} PARENT_SCOPE)
 endfunction()
 
-# nusselt_add_technique_shader(target name entry file struct [PREPARE function] [QUERIES prefix] [DEFINES define...]):
-# likewise, for an entry point that runs any technique. shaders/<entry>.glsl calls the technique by the names Technique,
-# technique_prepare and so on; shaders/<file>.glsl has functions on a struct that begin with the name of the file.
-# PREPARE names that of a variant that shares the rest, QUERIES how the names of pdf, invert and measure begin in a variant
-# that shares these.
+# nusselt_add_technique_shader(target name entry file struct [FUNCTIONS prefix] [PREPARE function] [QUERIES prefix]
+# [DEFINES define...]): likewise, for an entry point that runs any technique. shaders/<entry>.glsl calls the technique by the
+# names Technique, technique_prepare and so on; shaders/<file>.glsl has functions on a struct that begin with FUNCTIONS, or
+# else with the name of the file. PREPARE names that of a variant that shares the rest, QUERIES how the names of pdf, invert
+# and measure begin in a variant that shares these.
 function(nusselt_add_technique_shader target name entry file struct)
-    cmake_parse_arguments(arg "" "PREPARE;QUERIES" "DEFINES" ${ARGN})
-    cmake_path(GET file STEM prefix)
+    cmake_parse_arguments(arg "" "FUNCTIONS;PREPARE;QUERIES" "DEFINES" ${ARGN})
+    set(prefix ${arg_FUNCTIONS})
+    if(NOT prefix)
+        cmake_path(GET file STEM prefix)
+    endif()
     if(NOT arg_PREPARE)
         set(arg_PREPARE ${prefix}_prepare)
     endif()

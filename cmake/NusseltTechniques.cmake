@@ -22,7 +22,7 @@ foreach(i RANGE ${last})
             set(nusselt_technique_${name}_${field})
         endif()
     endforeach()
-    foreach(field file struct prepare queries)
+    foreach(field file struct functions prepare queries)
         string(JSON nusselt_technique_${name}_glsl_${field} ERROR_VARIABLE absent GET "${row}" glsl ${field})
         if(absent)
             set(nusselt_technique_${name}_glsl_${field})
@@ -97,6 +97,9 @@ endfunction()
 function(nusselt_shader_arguments variable technique)
     set(row nusselt_technique_${technique})
     set(arguments nusselt/${${row}_glsl_file} ${${row}_glsl_struct})
+    if(${row}_glsl_functions)
+        list(APPEND arguments FUNCTIONS ${${row}_glsl_functions})
+    endif()
     if(${row}_glsl_prepare)
         list(APPEND arguments PREPARE ${${row}_glsl_prepare})
     endif()
@@ -159,6 +162,10 @@ function(nusselt_describe_technique name)
     if(${row}_approximates)
         set(biased true)
     endif()
+    set(is_related false)
+    if(${row}_header MATCHES "^related/")
+        set(is_related true)
+    endif()
     list(JOIN ${row}_exempt " " exempt)
     set(text "${template}struct ${kind_name} : ${base} {
     static constexpr const char* kName = \"${name}\";
@@ -166,6 +173,7 @@ function(nusselt_describe_technique name)
     static constexpr Horizon kHorizon = Horizon::${${row}_horizon};
     static constexpr bool kCyclic = ${cyclic};
     static constexpr bool kBiased = ${biased};
+    static constexpr bool kIsRelated = ${is_related};
     static constexpr const char* kPublishedName = \"${${row}_published}\";
     static constexpr const char* kCompetitorName = \"${competitor}\";
     static constexpr std::string_view kExemptions = \"${exempt}\";
@@ -213,6 +221,7 @@ foreach(name IN LISTS nusselt_techniques)
         nusselt_describe_technique(${name})
         string(APPEND kinds "${text}\n")
         if(${row}_header MATCHES "^related/polygon")
+            string(REPLACE "<N>" "<4>" member "${member}")
             list(APPEND members_related_polygon ${member})
         else()
             list(APPEND members_${light} ${member})

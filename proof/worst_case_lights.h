@@ -4,6 +4,8 @@
 
 #include <nusselt/estimate/backward_error.h>
 #include <nusselt/random/pcg.h>
+#include <nusselt/related/line_projected_solid_angle_peters.h>
+#include <nusselt/related/polygon_projected_solid_angle_peters.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>
 #include <nusselt/sampling/polygon_projected_solid_angle.h>
 
@@ -11,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace nusselt::proof {
 
@@ -131,6 +134,53 @@ struct LineCase {
     Real error(const Sampler& technique) const {
         const Real u = parameters[3];
         return backward_error(technique, u, technique.sample(u).wi);
+    }
+};
+
+/// Sectors for the published iteration, which takes two steps. Random numbers keep 1e-4 away from 0 and 1.
+/// \tparam LeastTangent of the elevation of the inner circle at both ends, in units of 1e-6.
+template <class Real, int LeastTangent>
+struct PublishedSectorCase : SectorCase<Real> {
+    using Base = SectorCase<Real>;
+
+    static PublishedSectorCase at(const std::array<Real, Base::kDimension>& coordinates) {
+        return {Base::at(coordinates)};
+    }
+
+    template <int>
+    using Technique = PolygonProjectedSolidAnglePeters<Real, 4>;
+
+    /// -infinity for cases that are left out.
+    Real error(const Technique<2>& technique) const {
+        const auto& [range, inner_begin, inner_end, outer_begin, outer_end, x] = this->parameters;
+        const Real lowest = std::fmin(inner_begin, inner_end);
+        const Real distance = std::fmin(x, 1 - x);
+        if (lowest < Real(1e-6L) * LeastTangent || distance < Real(1e-4L))
+            return -std::numeric_limits<Real>::infinity();
+        const Vec2<Real> u{x, Real(0.5)};
+        const PolygonProjectedSolidAngle<Real, 4> exact(this->light());
+        return backward_error(exact, u, technique.sample(u).wi);
+    }
+};
+
+/// Lines for the published iteration, which takes two steps.
+template <class Real>
+struct PublishedLineCase : LineCase<Real> {
+    using Base = LineCase<Real>;
+
+    static PublishedLineCase at(const std::array<Real, Base::kDimension>& coordinates) {
+        return {Base::at(coordinates)};
+    }
+
+    template <int>
+    using Technique = LineProjectedSolidAnglePeters<Real>;
+
+    /// -infinity for random numbers within 1e-5 of 0 and 1, for which there is no iteration.
+    Real error(const Technique<2>& technique) const {
+        const Real u = this->parameters[3];
+        if (std::fmin(u, 1 - u) < Real(1e-5L)) return -std::numeric_limits<Real>::infinity();
+        const LineProjectedSolidAngle<Real> exact(this->light());
+        return backward_error(exact, u, technique.sample(u).wi);
     }
 };
 

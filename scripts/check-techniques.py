@@ -28,7 +28,7 @@ SUITES = {
     "density": r"\bDensityTest/{}\d*_",
     "packs": r"\bPacksTest/{}\d*_",
     "statistics": r"\w+SamplesTest/{}\d*_",
-    "parity": r"\btechnique_{}\d*\b",
+    "parity": r"\b(?:technique|published_method)_{}\d*\b",
     "accuracy": r'"{}"',
     "fuzz": r"(?m)^\s*{}\b",
     "timing": r'"{}"',

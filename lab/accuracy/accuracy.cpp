@@ -68,7 +68,8 @@ Method<Technique, float> packed_method(base::Isa isa) {
     });
     const auto in = std::make_shared<LightColumns>();
     const auto out = std::make_shared<SampleColumns>();
-    return {"ours, packs", [packed, in, out](const std::vector<proof::Case<Technique, float>>& cases) {
+    return {Technique::Kind::kIsRelated ? "published, packs" : "ours, packs",
+            [packed, in, out](const std::vector<proof::Case<Technique, float>>& cases) {
                 const auto fill = [](auto& columns, int i, const auto& values) {
                     float components[sizeof(values) / sizeof(float)];
                     std::memcpy(components, &values, sizeof values);
@@ -97,7 +98,7 @@ std::vector<Method<Technique, Real>> methods(const typename Technique::Class& li
     std::vector<Method<Technique, Real>> all;
     if constexpr (!std::is_same_v<Plain, hostile::Absent>)
         if (Technique::fits_plain(lights)) all.push_back(scalar_method<Technique, Real, Plain>("plain"));
-    all.push_back(scalar_method<Technique, Real, Ours>("ours"));
+    all.push_back(scalar_method<Technique, Real, Ours>(Technique::Kind::kIsRelated ? "published" : "ours"));
     if constexpr (std::is_same_v<Real, float>) all.push_back(packed_method<Technique>(isa));
     if constexpr (Technique::kHasFloor)
         if (!proof::is_dark<Technique>(lights)) all.push_back(floor_method<Technique, Real>());
@@ -178,10 +179,17 @@ void add_classes(std::vector<Task>& tasks) {
                 [&lights](int count, base::Isa isa) { return measure_class<Technique>(lights, count, isa); });
 }
 
-/// Adds each technique for the classes with a bound of 4 vertices and for those with more.
-template <class... Few, class... Many>
-void add_polygons(hostile::KindList<Few...>, hostile::KindList<Many...>, std::vector<Task>& tasks) {
-    ((add_classes<proof::Judged<Few>>(tasks), add_classes<proof::Judged<Many>>(tasks)), ...);
+/// Adds each technique for the classes with a bound of 4 vertices, and for those with more if it takes them.
+template <class... Few, class Many>
+void add_polygons(hostile::KindList<Few...>, Many many, std::vector<Task>& tasks) {
+    const auto add = [&]<class Kind> {
+        add_classes<proof::Judged<Kind>>(tasks);
+        many.for_each([&]<class Other> {
+            if constexpr (std::string_view(Kind::kName) == Other::kName)
+                add_classes<proof::Judged<Other>>(tasks);
+        });
+    };
+    (add.template operator()<Few>(), ...);
 }
 
 template <class... Kinds>

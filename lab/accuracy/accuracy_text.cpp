@@ -1,7 +1,7 @@
 #include "lab/accuracy/accuracy_text.h"
 
 #include "lab/accuracy/accuracy_targets.h"
-#include "lab/figures/report_table.h"
+#include "lab/report/report.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 /// Errors of images against a reference, over all frames of a variant.
 
 #include "image/image.h"
-#include "lab/figures/experiment.h"
+#include "lab/figures/image_comparison.h"
 
 #include <cstdint>
 #include <vector>
@@ -19,7 +19,7 @@ struct RegionErrors {
 
 struct ImageErrors {
     RegionErrors frame;
-    std::vector<RegionErrors> insets;  ///< in the order of Experiment::insets
+    std::vector<RegionErrors> insets;  ///< in the order of ImageComparison::insets
     double rmse_outside_penumbrae = 0; ///< see Measure::rmse_outside_penumbrae
     std::int64_t invalid_pixels = 0;
 };

@@ -15,7 +15,7 @@ render::RenderSettings with_count(render::RenderSettings settings, int count) {
 
 SeedStatistics render_seeds(const render_cpu::Renderer& renderer, base::Isa isa,
                             render::RenderSettings settings, int seeds) {
-    std::vector<double> means, squares, seconds;
+    std::vector<double> means, squares, seconds, variances;
     SeedStatistics result;
     for (int i = 0; i < seeds; ++i, ++settings.seed) {
         render::RenderResult frame = renderer.render(settings, isa);
@@ -24,11 +24,17 @@ SeedStatistics render_seeds(const render_cpu::Renderer& renderer, base::Isa isa,
         means.resize(pixels.size());
         squares.resize(pixels.size());
         // Welford's updates: no difference of large sums.
+        double growth = 0;
         for (std::size_t k = 0; k < pixels.size(); ++k) {
             const double deviation = static_cast<double>(pixels[k]) - means[k];
             means[k] += deviation / (i + 1);
-            squares[k] += deviation * (static_cast<double>(pixels[k]) - means[k]);
+            const double square = deviation * (static_cast<double>(pixels[k]) - means[k]);
+            squares[k] += square;
+            growth += square;
         }
+        // By Helmert's transformation, what each frame but the first adds is an estimate of the variance, uncorrelated with
+        // the others.
+        if (i > 0) variances.push_back(growth / static_cast<double>(pixels.size()));
         result.mean = std::move(frame.image);
     }
     double sum = 0;
@@ -37,6 +43,9 @@ SeedStatistics render_seeds(const render_cpu::Renderer& renderer, base::Isa isa,
         sum += squares[k] / (seeds - 1);
     }
     result.variance = sum / static_cast<double>(means.size());
+    double deviations = 0;
+    for (const double v : variances) deviations += (v - result.variance) * (v - result.variance);
+    if (seeds > 2) result.variance_error = std::sqrt(deviations / (seeds - 1) / (seeds - 2));
     result.seconds = proof::median(std::move(seconds));
     return result;
 }

@@ -12,10 +12,11 @@ namespace nusselt::lab {
 
 /// Noise and time of renderings with one number of samples.
 struct CurvePoint {
-    int count = 0;       ///< points or lines per shading point and light
-    double variance = 0; ///< mean square error due to noise: mean over pixels and channels [radiance^2]
-    double seconds = 0;  ///< of the render phase, median over the seeds
-    int seeds = 0;       ///< images that were rendered
+    int count = 0;             ///< points or lines per shading point and light
+    double variance = 0;       ///< mean square error due to noise: mean over pixels and channels [radiance^2]
+    double seconds = 0;        ///< of the render phase, median over the seeds
+    int seeds = 0;             ///< images that were rendered
+    double variance_error = 0; ///< standard error of the variance
 };
 
 /// The points of a curve, from few to many samples.
@@ -27,8 +28,9 @@ render::RenderSettings with_count(render::RenderSettings settings, int count);
 /// Statistics of an image over several seeds.
 struct SeedStatistics {
     image::Image mean;
-    double variance = 0; ///< of one image, mean over pixels and channels; unbiased
-    double seconds = 0;  ///< of the render phase, median
+    double variance = 0;       ///< of one image, mean over pixels and channels; unbiased
+    double variance_error = 0; ///< its standard error; 0 for two seeds
+    double seconds = 0;        ///< of the render phase, median
 };
 
 /// Renders with seeds that follow the one of the settings.

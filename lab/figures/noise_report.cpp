@@ -1,11 +1,8 @@
 #include "lab/figures/noise_table.h"
 
-#include "base/atomic_file.h"
-#include "lab/figures/report_results.h"
+#include "lab/report/report_results.h"
 
 #include <fmt/format.h>
-
-#include <fstream>
 
 namespace nusselt::lab {
 
@@ -24,14 +21,7 @@ Table noise_table(const NoiseTableResult& result) {
     return table;
 }
 
-} // namespace
-
-std::string to_text(const NoiseTableResult& result) {
-    return fmt::format("{}: {}\n{}\n\n{}\n{}", result.table->name, result.table->source,
-                       result.table->description, to_text(noise_table(result)), to_text(result.expectations));
-}
-
-Results results_of(const NoiseTableResult& result) {
+Results numbers_of(const NoiseTableResult& result) {
     ResultTable noise = {"noise",
                          {{"surface"},
                           {"estimator"},
@@ -48,14 +38,12 @@ Results results_of(const NoiseTableResult& result) {
     return {result.table->name, {}, {std::move(noise), expectation_table(result.expectations)}};
 }
 
-void write_report(const NoiseTableResult& result, const std::filesystem::path& folder) {
-    std::filesystem::create_directories(folder);
-    const std::string html = page_head(result.table->name) +
-                             fmt::format("<p>{}. {}</p>\n", result.table->source, result.table->description) +
-                             to_html(noise_table(result)) + to_html(result.expectations);
-    base::write_atomically(folder / "index.html", [&](std::ofstream& file) { file << html; });
-    base::write_atomically(folder / "numbers.json",
-                           [&](std::ofstream& file) { file << to_json(results_of(result)); });
+} // namespace
+
+Report report_of(const NoiseTableResult& result) {
+    Report report = {"", {noise_table(result)}, result.expectations};
+    report.numbers = numbers_of(result);
+    return report;
 }
 
 } // namespace nusselt::lab

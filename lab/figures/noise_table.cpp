@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -140,7 +141,7 @@ Distribution distribution_at(const ShadingPoint& point, const NoiseEstimator& es
 
 /// The noise of all estimators on a plane seen at one angle.
 std::vector<Noise> noise_on_plane(const NoiseTable& table, const NoiseSurface& material, Real roughness,
-                                  Real degrees, const NoiseSettings& settings) {
+                                  Real degrees) {
     const Real angle = degrees * (kPi<Real> / 180);
     const Vec3<Real> albedo{material.albedo, material.albedo, material.albedo};
     const Vec3<Real> f0{material.f0, material.f0, material.f0};
@@ -150,18 +151,18 @@ std::vector<Noise> noise_on_plane(const NoiseTable& table, const NoiseSurface& m
     std::vector<Noise> noise(table.estimators.size());
     std::uint32_t number = 0;
     int highlighted = 0;
-    for (int i = 0; i < settings.points; ++i) {
-        for (int j = 0; j < settings.points; ++j) {
+    for (int i = 0; i < table.points; ++i) {
+        for (int j = 0; j < table.points; ++j) {
             // The mirrored direction to the eye leads from the middle of the highlight to that of the light.
-            const Real x = table.extent * ((i + Real(0.5)) / settings.points - Real(0.5));
-            const Real y = table.extent * ((j + Real(0.5)) / settings.points - Real(0.5));
+            const Real x = table.extent * ((i + Real(0.5)) / table.points - Real(0.5));
+            const Real y = table.extent * ((j + Real(0.5)) / table.points - Real(0.5));
             const bool in_highlight = std::max(std::fabs(x), std::fabs(y)) < kHalfSide;
             highlighted += in_highlight;
             const ShadingPoint point(light_seen_from(std::tan(angle) + x, y), surface);
-            const double mean = distribution_at(point, quiet, number++, settings.samples).mean;
+            const double mean = distribution_at(point, quiet, number++, table.samples).mean;
             for (std::size_t k = 0; k < noise.size(); ++k) {
                 const double relative =
-                    distribution_at(point, table.estimators[k], number++, settings.samples).deviation / mean;
+                    distribution_at(point, table.estimators[k], number++, table.samples).deviation / mean;
                 noise[k].on_plane += relative * relative;
                 if (in_highlight) noise[k].in_highlight += relative * relative;
                 noise[k].largest = std::max(noise[k].largest, relative);
@@ -169,7 +170,7 @@ std::vector<Noise> noise_on_plane(const NoiseTable& table, const NoiseSurface& m
         }
     }
     for (Noise& n : noise) {
-        n.on_plane = std::sqrt(n.on_plane) / settings.points;
+        n.on_plane = std::sqrt(n.on_plane) / table.points;
         n.in_highlight = std::sqrt(n.in_highlight / highlighted);
     }
     return noise;
@@ -196,7 +197,15 @@ const std::vector<NoiseTable>& all_noise_tables() {
     return tables;
 }
 
-NoiseTableResult measure_noise(const NoiseTable& table, const NoiseSettings& settings) {
+NoiseTable quick(NoiseTable table) {
+    table.points /= 2;
+    table.samples /= 4;
+    return table;
+}
+
+NoiseTableResult run_noise_table(const NoiseTable& table, const RunSettings& settings,
+                                 const ProgressText& progress) {
+    progress(fmt::format("{} estimates at each of {} points", table.samples, table.points * table.points));
     NoiseTableResult result;
     result.table = &table;
     for (const NoiseSurface& surface : table.surfaces)
@@ -208,23 +217,25 @@ NoiseTableResult measure_noise(const NoiseTable& table, const NoiseSettings& set
     const std::size_t estimators = table.estimators.size();
     const std::size_t roughnesses = table.roughnesses.size();
     const std::size_t angles = table.angles.size();
-    tbb::parallel_for(std::size_t{0}, table.surfaces.size() * roughnesses * angles, [&](std::size_t task) {
+    const auto measure = [&](std::size_t task) {
         const std::size_t s = task / (roughnesses * angles);
         const std::size_t r = task / angles % roughnesses;
         const std::size_t a = task % angles;
         const std::vector<Noise> noise =
-            noise_on_plane(table, table.surfaces[s], table.roughnesses[r], table.angles[a], settings);
+            noise_on_plane(table, table.surfaces[s], table.roughnesses[r], table.angles[a]);
         for (std::size_t e = 0; e < estimators; ++e)
             result.rows[(s * estimators + e) * roughnesses + r].noise[a] = noise[e];
+    };
+    tbb::task_arena(thread_count(settings)).execute([&] {
+        tbb::parallel_for(std::size_t{0}, table.surfaces.size() * roughnesses * angles, measure);
     });
     for (const NoiseLimit& limit : table.limits) {
         const double noise = largest_noise(result, limit);
-        result.expectations.push_back(
-            {fmt::format("{}, {} at {:g} degrees {}: {:.2f} %, at most {:g} %", limit.estimator,
-                         limit.surface, limit.angle,
-                         limit.noise == &Noise::on_plane ? "on the plane" : "in the highlight", 100 * noise,
-                         100 * limit.limit),
-             noise <= limit.limit});
+        result.expectations.push_back(checked(
+            fmt::format("{}, {} at {:g} degrees {}: {:.2f} %, at most {:g} %", limit.estimator, limit.surface,
+                        limit.angle, limit.noise == &Noise::on_plane ? "on the plane" : "in the highlight",
+                        100 * noise, 100 * limit.limit),
+            noise <= limit.limit));
     }
     return result;
 }

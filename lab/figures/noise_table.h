@@ -1,11 +1,10 @@
 #pragma once
 /// Tables of the noise of one light on a plane, computed without images.
 
-#include "lab/figures/report_table.h"
-#include "lab/results/results.h"
+#include "lab/report/report.h"
+#include "lab/report/run_settings.h"
 #include "render/settings.h"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -54,10 +53,15 @@ struct NoiseTable {
     std::vector<double> angles;      ///< between the normal and the direction to the eye [degrees]
     std::vector<NoiseEstimator> estimators;
     std::vector<NoiseLimit> limits;
-    double extent = 4; ///< side of the square of shading points [m]
+    double extent = 4;  ///< side of the square of shading points [m]
+    int points = 16;    ///< along both sides of the square, at least 4
+    int samples = 1024; ///< estimates for each shading point, at least 2
 };
 
 const std::vector<NoiseTable>& all_noise_tables();
+
+/// A quarter of the shading points, and of the estimates for each.
+NoiseTable quick(NoiseTable table);
 
 struct NoiseRow {
     const NoiseSurface* surface = nullptr;
@@ -72,21 +76,11 @@ struct NoiseTableResult {
     std::vector<ExpectationResult> expectations;
 };
 
-struct NoiseSettings {
-    int points = 16;    ///< along both sides of the square of shading points, at least 4
-    int samples = 1024; ///< estimates for each shading point, at least 2
-};
+/// Measures on as many threads as the settings have. Deterministic.
+NoiseTableResult run_noise_table(const NoiseTable& table, const RunSettings& settings,
+                                 const ProgressText& progress);
 
-/// Measures on all cores. Deterministic.
-NoiseTableResult measure_noise(const NoiseTable& table, const NoiseSettings& settings = {});
-
-/// The tables and what became of the limits, as text.
-std::string to_text(const NoiseTableResult& result);
-
-/// The numbers alone.
-Results results_of(const NoiseTableResult& result);
-
-/// Writes index.html and numbers.json into a folder, which is created.
-void write_report(const NoiseTableResult& result, const std::filesystem::path& folder);
+/// The table and numbers.
+Report report_of(const NoiseTableResult& result);
 
 } // namespace nusselt::lab

@@ -44,7 +44,7 @@ struct WorstCaseTarget {
 
 /// "lines", "lines-1": projected solid angle of lines after two steps and one. "polygons", "small-polygons":
 /// decentral sectors with a projected solid angle of at least 1e-2 and 1e-7 after two steps. "biased": the same as
-/// "polygons" after none. The biased technique also has arctangents with errors of 1e-5. Here they are exact, so that
+/// "polygons" after none. Those that begin with "published": the published iterations. The biased technique also has arctangents with errors of 1e-5. Here they are exact, so that
 /// the error is that of the method.
 const std::vector<WorstCaseTarget>& worst_case_targets();
 

@@ -122,12 +122,12 @@ std::size_t index_of(const LineConvergence& experiment, const std::string& label
 }
 
 SceneResult run_scene(const LineConvergence& experiment, const LineScene& line_scene,
-                      const scene::Scene& scene, int threads,
-                      const std::function<void(std::string_view)>& progress) {
+                      const scene::Scene& scene, int threads, const ProgressText& progress) {
     const render_cpu::Renderer renderer(scene, threads);
     const base::Isa isa = base::choose_isa();
     SceneResult result;
     result.scene = line_scene.name;
+    result.files = scene.files;
     std::vector<Converged> converged;
     const std::size_t reference = index_of(experiment, experiment.reference);
     for (const ConvergenceSeries& series : experiment.series) {
@@ -138,7 +138,8 @@ SceneResult run_scene(const LineConvergence& experiment, const LineScene& line_s
         for (const int count : series.counts) {
             seeds = seeds_for(experiment, count);
             statistics = render_seeds(renderer, isa, with_count(series.settings, count), seeds);
-            measured.curve.push_back({count, statistics.variance, statistics.seconds, seeds});
+            measured.curve.push_back(
+                {count, statistics.variance, statistics.seconds, seeds, statistics.variance_error});
         }
         measured.order = fitted_order(measured.curve, series.fit_first, series.fit_last);
         converged.push_back({std::move(statistics.mean), statistics.variance / seeds});
@@ -174,6 +175,13 @@ std::string to_text(const OrderBetween& e) {
     return text + in_all_scenes_but(e.exceptions);
 }
 
+std::string to_text(const LessNoise& e) {
+    return fmt::format("{0} of '{1}' have less noise than {0} of '{2}'", e.count, e.series, e.than) +
+           in_all_scenes_but(e.exceptions);
+}
+
+constexpr const char* kTooFewScenes = "too few scenes were rendered to allow exceptions";
+
 } // namespace
 
 const std::vector<LineConvergence>& all_line_convergences() {
@@ -183,16 +191,34 @@ const std::vector<LineConvergence>& all_line_convergences() {
     return experiments;
 }
 
+LineConvergence quick(LineConvergence experiment) {
+    constexpr int kMost = 64;
+    experiment.scenes.resize(1);
+    experiment.width = 32;
+    experiment.most_seeds = 32;
+    for (ConvergenceSeries& series : experiment.series) {
+        std::erase_if(series.counts, [](int count) { return count > kMost; });
+        series.fit_first = 4;
+        series.fit_last = kMost;
+    }
+    for (OrderBetween& e : experiment.orders) e.exceptions = 0;
+    for (LessNoise& e : experiment.less_noise) {
+        e.count = kMost;
+        e.exceptions = 0;
+    }
+    return experiment;
+}
+
 int seeds_for(const LineConvergence& experiment, int count) {
     constexpr int kSamples = 1024;
     return std::clamp(kSamples / count, experiment.seeds, std::max(experiment.seeds, experiment.most_seeds));
 }
 
 LineConvergenceResult run_line_convergence(const LineConvergence& experiment, const RunSettings& settings,
-                                           const std::function<void(std::string_view)>& progress) {
+                                           const ProgressText& progress) {
     LineConvergenceResult result;
     result.experiment = &experiment;
-    result.width = settings.width > 0 ? settings.width : experiment.width;
+    result.width = experiment.width;
     result.threads = thread_count(settings);
     result.scenes = for_each_scene<SceneResult>(experiment.scenes, settings, result.width, progress,
                                                 [&](const LineScene& line_scene, const scene::Scene& scene) {
@@ -211,24 +237,27 @@ std::vector<ExpectationResult> check_expectations(const LineConvergence& experim
     const auto says_little = [&](int exceptions) { return measured <= 2 * exceptions; };
     for (const OrderBetween& e : experiment.orders) {
         const std::size_t series = index_of(experiment, e.series);
-        if (says_little(e.exceptions)) continue;
+        if (says_little(e.exceptions)) {
+            results.push_back(not_evaluated(to_text(e), kTooFewScenes));
+            continue;
+        }
         const auto violations = std::count_if(scenes.begin(), scenes.end(), [&](const SceneResult& s) {
             return !s.is_skipped && !(s.series[series].order >= e.low && s.series[series].order <= e.high);
         });
-        results.push_back({to_text(e), violations <= e.exceptions});
+        results.push_back(checked(to_text(e), violations <= e.exceptions));
     }
     for (const LessNoise& e : experiment.less_noise) {
         const std::size_t less = index_of(experiment, e.series);
         const std::size_t more = index_of(experiment, e.than);
-        if (says_little(e.exceptions)) continue;
+        if (says_little(e.exceptions)) {
+            results.push_back(not_evaluated(to_text(e), kTooFewScenes));
+            continue;
+        }
         const auto violations = std::count_if(scenes.begin(), scenes.end(), [&](const SceneResult& s) {
             return !s.is_skipped &&
                    !(variance_at(s.series[less].curve, e.count) < variance_at(s.series[more].curve, e.count));
         });
-        results.push_back(
-            {fmt::format("{0} of '{1}' have less noise than {0} of '{2}'", e.count, e.series, e.than) +
-                 in_all_scenes_but(e.exceptions),
-             violations <= e.exceptions});
+        results.push_back(checked(to_text(e), violations <= e.exceptions));
     }
     return results;
 }

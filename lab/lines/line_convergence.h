@@ -3,15 +3,12 @@
 /// for Direct Illumination, Figures 7 to 9 and 11 to 13.
 
 #include "lab/errors/noise_curve.h"
-#include "lab/figures/report_table.h"
 #include "lab/lines/line_scenes.h"
-#include "lab/results/results.h"
+#include "lab/report/report.h"
 
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace nusselt::lab {
@@ -56,6 +53,9 @@ struct LineConvergence {
 
 const std::vector<LineConvergence>& all_line_convergences();
 
+/// The first scene alone, which is no exception to anything, in small images, with up to 64 samples.
+LineConvergence quick(LineConvergence experiment);
+
 struct SeriesResult {
     NoiseCurve curve;
     double order = 0;
@@ -66,8 +66,9 @@ struct SeriesResult {
 
 struct SceneResult {
     std::string scene;
-    bool is_skipped = false; ///< it is not there
-    double mean = 0;         ///< radiance of the reference
+    bool is_skipped = false;                  ///< it is not there
+    std::vector<std::filesystem::path> files; ///< it was read from
+    double mean = 0;                          ///< radiance of the reference
     double reference_error =
         0; ///< standard error of its pixels, root mean square, relative to the mean radiance
     std::vector<SeriesResult> series;
@@ -84,24 +85,16 @@ struct LineConvergenceResult {
 /// The number of seeds for measuring the noise of a number of samples: few samples are cheap and have heavy tails.
 int seeds_for(const LineConvergence& experiment, int count);
 
-/// \param settings as for run_experiment(); references have no meaning
 /// \throws std::runtime_error if a scene cannot be loaded
 LineConvergenceResult run_line_convergence(const LineConvergence& experiment, const RunSettings& settings,
-                                           const std::function<void(std::string_view)>& progress);
+                                           const ProgressText& progress);
 
 /// The outcomes of the expectations, over the scenes that were not skipped. Expectations whose exceptions are at least
-/// half of these scenes are left out, because they would expect next to nothing.
+/// half of these scenes are not evaluated, because they would expect next to nothing.
 std::vector<ExpectationResult> check_expectations(const LineConvergence& experiment,
                                                   const std::vector<SceneResult>& scenes);
 
-/// Tables of orders and errors.
-std::string to_text(const LineConvergenceResult& result);
-
-/// All numbers.
-Results results_of(const LineConvergenceResult& result);
-
-/// Writes index.html with plots of the error over the number of samples and over time, and numbers.json into a folder,
-/// which is created.
-void write_report(const LineConvergenceResult& result, const std::filesystem::path& folder);
+/// Tables of orders and errors, and plots of the error over the number of samples and over time.
+Report report_of(const LineConvergenceResult& result);
 
 } // namespace nusselt::lab

@@ -1,13 +1,11 @@
 #include "lab/lines/line_convergence.h"
 
-#include "base/atomic_file.h"
-#include "lab/figures/plot.h"
-#include "lab/figures/report_results.h"
+#include "lab/report/report_results.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cmath>
 
 namespace nusselt::lab {
 
@@ -70,25 +68,27 @@ std::vector<Table> tables(const LineConvergenceResult& result) {
     return all;
 }
 
+/// The squared error relative to the mean, with the interval that holds it with a probability of 95 %.
+PlotPoint point_of(double x, const CurvePoint& p, double mean) {
+    const double scale = 1 / (mean * mean);
+    const double reach = 1.96 * p.variance_error;
+    return {x, scale * p.variance, scale * std::max(p.variance - reach, 0.0), scale * (p.variance + reach)};
+}
+
+/// \param file the second part of the name of the file
 Plot error_plot(const LineConvergence& experiment, const SceneResult& scene, const std::string& x_label,
-                double (*x_of)(const CurvePoint&)) {
-    Plot plot = {scene.scene, x_label, "mean squared error / mean squared", {}};
+                const std::string& file, double (*x_of)(const CurvePoint&)) {
+    Plot plot = {scene.scene, scene.scene + "-" + file, x_label, "mean squared error / mean squared", {}};
     for (std::size_t i = 0; i < experiment.series.size(); ++i) {
         const auto light_samples = experiment.series[i].settings.light_samples;
         PlotCurve curve = {experiment.series[i].label,
                            {},
                            light_samples == render::LightSamples::lines ? Stroke::solid : Stroke::dashed};
         for (const CurvePoint& p : scene.series[i].curve)
-            curve.points.emplace_back(x_of(p), p.variance / (scene.mean * scene.mean));
+            curve.points.push_back(point_of(x_of(p), p, scene.mean));
         plot.curves.push_back(std::move(curve));
     }
     return plot;
-}
-
-/// \returns the element of a page that shows it
-std::string write_plot(const std::filesystem::path& folder, const std::string& file, const Plot& plot) {
-    base::write_atomically(folder / file, [&](std::ofstream& stream) { stream << to_svg(plot); });
-    return fmt::format("<img src=\"{}\" alt=\"{}: error over {}\">\n", file, plot.title, plot.x_label);
 }
 
 std::string setting(const LineConvergenceResult& result) {
@@ -102,16 +102,7 @@ std::string setting(const LineConvergenceResult& result) {
         result.width, result.experiment->seeds, result.threads, result.experiment->reference);
 }
 
-} // namespace
-
-std::string to_text(const LineConvergenceResult& result) {
-    std::string text = fmt::format("{}: {}\n{}\n{}\n", result.experiment->name, result.experiment->source,
-                                   result.experiment->description, setting(result));
-    for (const Table& table : tables(result)) text += "\n" + to_text(table);
-    return text + "\n" + to_text(result.expectations);
-}
-
-Results results_of(const LineConvergenceResult& result) {
+Results numbers_of(const LineConvergenceResult& result) {
     ResultTable scenes = {"scenes", {{"scene"}, {"skipped"}, {"mean"}, {"reference_error"}}};
     ResultTable all = {"series",
                        {{"scene"},
@@ -142,25 +133,28 @@ Results results_of(const LineConvergenceResult& result) {
             {std::move(scenes), std::move(all), std::move(curves), expectation_table(result.expectations)}};
 }
 
-void write_report(const LineConvergenceResult& result, const std::filesystem::path& folder) {
-    std::filesystem::create_directories(folder);
+std::vector<Plot> plots(const LineConvergenceResult& result) {
     const LineConvergence& experiment = *result.experiment;
-    std::string html = page_head(experiment.name) + fmt::format("<p>{}. {} {}</p>\n", experiment.source,
-                                                                experiment.description, setting(result));
-    for (const Table& table : tables(result)) html += to_html(table);
-    html += to_html(result.expectations);
+    std::vector<Plot> all;
     for (const SceneResult& scene : result.scenes) {
         if (scene.is_skipped) continue;
-        html += write_plot(folder, scene.scene + "-samples.svg",
-                           error_plot(experiment, scene, "points or lines per shading point",
-                                      [](const CurvePoint& p) { return static_cast<double>(p.count); }));
-        html += write_plot(folder, scene.scene + "-time.svg",
-                           error_plot(experiment, scene, "time of rendering [s]",
-                                      [](const CurvePoint& p) { return p.seconds; }));
+        all.push_back(error_plot(experiment, scene, "points or lines per shading point", "samples",
+                                 [](const CurvePoint& p) { return static_cast<double>(p.count); }));
+        all.push_back(error_plot(experiment, scene, "time of rendering [s]", "time",
+                                 [](const CurvePoint& p) { return p.seconds; }));
     }
-    base::write_atomically(folder / "index.html", [&](std::ofstream& file) { file << html; });
-    base::write_atomically(folder / "numbers.json",
-                           [&](std::ofstream& file) { file << to_json(results_of(result)); });
+    return all;
+}
+
+} // namespace
+
+Report report_of(const LineConvergenceResult& result) {
+    Report report = {setting(result), tables(result), result.expectations};
+    report.plots = plots(result);
+    report.numbers = numbers_of(result);
+    for (const SceneResult& scene : result.scenes)
+        report.inputs.insert(report.inputs.end(), scene.files.begin(), scene.files.end());
+    return report;
 }
 
 } // namespace nusselt::lab

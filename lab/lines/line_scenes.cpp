@@ -1,7 +1,6 @@
 #include "lab/lines/line_scenes.h"
 
 #include "render/film.h"
-#include "render_cpu/renderer.h"
 #include "scene/import/importers.h"
 #include "scene/rig/rig_json.h"
 
@@ -24,10 +23,6 @@ std::vector<LineScene> scenes_with(const std::string& rig, const std::string& sp
 
 } // namespace
 
-int thread_count(const RunSettings& settings) {
-    return settings.threads > 0 ? settings.threads : render_cpu::default_thread_count();
-}
-
 std::vector<LineScene> scenes_with_large_lights() { return scenes_with("", "sponza/sponza.pbrt"); }
 
 std::vector<LineScene> scenes_with_small_lights() {
@@ -43,8 +38,11 @@ std::optional<scene::Scene> load_line_scene(const LineScene& line_scene, const R
         folder = published;
     }
     scene::Scene scene = scene::load_scene(folder / line_scene.file);
-    if (!line_scene.rig.empty())
-        scene::apply_rig(scene::read_rig(settings.scenes / "rigs" / line_scene.rig), scene);
+    if (!line_scene.rig.empty()) {
+        const std::filesystem::path rig = settings.scenes / "rigs" / line_scene.rig;
+        scene::apply_rig(scene::read_rig(rig), scene);
+        scene.files.push_back(rig);
+    }
     if (width > 0) {
         const double height = static_cast<double>(scene.film.height) * width / scene.film.width;
         render::resize_film(scene, width, std::max(1, static_cast<int>(std::lround(height))));

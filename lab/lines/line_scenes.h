@@ -1,13 +1,11 @@
 #pragma once
 /// Scenes that line samples are measured in.
 
-#include "lab/figures/run.h"
+#include "lab/report/run_settings.h"
 #include "scene/model/scene.h"
 
-#include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace nusselt::lab {
@@ -36,9 +34,6 @@ std::vector<LineScene> scenes_with_small_lights();
 std::optional<scene::Scene> load_line_scene(const LineScene& line_scene, const RunSettings& settings,
                                             int width);
 
-/// The number of threads in the settings, or one per hardware thread.
-int thread_count(const RunSettings& settings);
-
 /// Loads one scene after the other.
 /// \tparam Result  has `scene`, for the name, and `is_skipped`, for scenes that are not there
 /// \param progress called with what is skipped
@@ -46,8 +41,7 @@ int thread_count(const RunSettings& settings);
 /// \throws std::runtime_error if one cannot be loaded
 template <class Result, class Run>
 std::vector<Result> for_each_scene(const std::vector<LineScene>& scenes, const RunSettings& settings,
-                                   int width, const std::function<void(std::string_view)>& progress,
-                                   const Run& run) {
+                                   int width, const ProgressText& progress, const Run& run) {
     std::vector<Result> results;
     for (const LineScene& line_scene : scenes) {
         if (const auto scene = load_line_scene(line_scene, settings, width)) {

@@ -3,15 +3,12 @@
 /// Dutre 2016, Line Sampling for Direct Illumination, Figure 5 and Table 1.
 
 #include "image/planes.h"
-#include "lab/figures/report_table.h"
 #include "lab/lines/line_scenes.h"
-#include "lab/results/results.h"
+#include "lab/report/report.h"
 #include "render_cpu/renderer.h"
 
 #include <filesystem>
-#include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace nusselt::lab {
@@ -42,9 +39,13 @@ struct LineVisibility {
 
 const std::vector<LineVisibility>& all_line_visibilities();
 
+/// Small images and few lines.
+LineVisibility quick(LineVisibility experiment);
+
 struct LineVisibilityScene {
     std::string scene;
-    bool is_skipped = false; ///< it is not there
+    bool is_skipped = false;                  ///< it is not there
+    std::vector<std::filesystem::path> files; ///< it was read from
     image::Image image;
     image::Plane parts; ///< visible ones of each line, means over pixels
     render::RenderStatistics statistics;
@@ -58,23 +59,15 @@ struct LineVisibilityResult {
     std::vector<ExpectationResult> expectations;
 };
 
-/// \param settings as for run_experiment(); references have no meaning
 /// \throws std::runtime_error if a scene cannot be loaded
 LineVisibilityResult run_line_visibility(const LineVisibility& experiment, const RunSettings& settings,
-                                         const std::function<void(std::string_view)>& progress);
+                                         const ProgressText& progress);
 
-/// The outcomes of the expectations, without those on scenes that were skipped.
+/// The outcomes of the expectations. Those about scenes that were skipped are not evaluated.
 std::vector<ExpectationResult> check_expectations(const LineVisibility& experiment,
                                                   const std::vector<LineVisibilityScene>& scenes);
 
-/// The tables.
-std::string to_text(const LineVisibilityResult& result);
-
-/// All numbers.
-Results results_of(const LineVisibilityResult& result);
-
-/// Writes index.html with the tables, the images and the parts in false colours, and numbers.json into a folder, which is
-/// created.
-void write_report(const LineVisibilityResult& result, const std::filesystem::path& folder);
+/// The tables, the images, and the parts in false colours.
+Report report_of(const LineVisibilityResult& result);
 
 } // namespace nusselt::lab

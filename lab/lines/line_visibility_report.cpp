@@ -1,14 +1,11 @@
 #include "lab/lines/line_visibility.h"
 
-#include "base/atomic_file.h"
 #include "image/difference.h"
-#include "image/io.h"
-#include "lab/figures/report_results.h"
+#include "lab/report/report_results.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 namespace nusselt::lab {
 
@@ -16,6 +13,14 @@ namespace {
 
 double largest(const image::Plane& plane) {
     return *std::max_element(plane.values.begin(), plane.values.end());
+}
+
+/// Of all scenes, at least 1.
+double largest_parts(const LineVisibilityResult& result) {
+    double parts = 1;
+    for (const LineVisibilityScene& scene : result.scenes)
+        if (!scene.is_skipped) parts = std::max(parts, largest(scene.parts));
+    return parts;
 }
 
 /// Counts and rates in millions, as in the paper.
@@ -62,20 +67,7 @@ std::string setting(const LineVisibilityResult& result) {
                        result.width, result.experiment->lines);
 }
 
-std::string figure(const std::string& caption, const std::string& file) {
-    return fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>\n", file,
-                       caption);
-}
-
-} // namespace
-
-std::string to_text(const LineVisibilityResult& result) {
-    return fmt::format("{}: {}\n{}\n{}\n\n{}\n{}\n{}", result.experiment->name, result.experiment->source,
-                       result.experiment->description, setting(result), to_text(work_table(result)),
-                       to_text(line_table(result)), to_text(result.expectations));
-}
-
-Results results_of(const LineVisibilityResult& result) {
+Results numbers_of(const LineVisibilityResult& result) {
     ResultTable scenes = {"scenes",
                           {{"scene"},
                            {"render_seconds", "s"},
@@ -106,31 +98,31 @@ Results results_of(const LineVisibilityResult& result) {
             {std::move(scenes), std::move(skipped), expectation_table(result.expectations)}};
 }
 
-void write_report(const LineVisibilityResult& result, const std::filesystem::path& folder) {
-    std::filesystem::create_directories(folder);
-    const LineVisibility& experiment = *result.experiment;
-    std::string html =
-        page_head(experiment.name) +
-        fmt::format("<p>{}. {} {}</p>\n", experiment.source, experiment.description, setting(result)) +
-        to_html(work_table(result)) + to_html(line_table(result)) + to_html(result.expectations);
-    double scale = 1;
-    for (const LineVisibilityScene& scene : result.scenes)
-        if (!scene.is_skipped) scale = std::max(scale, largest(scene.parts));
-    html += fmt::format("<p>Visible parts per line from 0 (black) to {:.1f} (light yellow).</p>\n", scale);
+/// Images, and the visible parts per line in false colours on one scale.
+std::vector<ReportImage> images(const LineVisibilityResult& result) {
+    const double scale = largest_parts(result);
+    std::vector<ReportImage> all;
     for (const LineVisibilityScene& scene : result.scenes) {
         if (scene.is_skipped) continue;
         image::Plane shares = scene.parts;
         for (double& value : shares.values) value /= scale;
-        std::string name = scene.scene;
-        name.erase(std::remove(name.begin(), name.end(), ','), name.end());
-        std::replace(name.begin(), name.end(), ' ', '-');
-        image::write_image(folder / (name + ".png"), scene.image);
-        image::write_image(folder / (name + "-parts.png"), image::error_map_image(shares));
-        html += figure(scene.scene, name + ".png") + figure(scene.scene + ", parts", name + "-parts.png");
+        all.push_back({scene.scene, ImageRole::reference, scene.image});
+        all.push_back({fmt::format("{}, visible parts per line from 0 (black) to {:.1f} (light yellow)",
+                                   scene.scene, scale),
+                       ImageRole::picture, image::error_map_image(shares)});
     }
-    base::write_atomically(folder / "index.html", [&](std::ofstream& file) { file << html; });
-    base::write_atomically(folder / "numbers.json",
-                           [&](std::ofstream& file) { file << to_json(results_of(result)); });
+    return all;
+}
+
+} // namespace
+
+Report report_of(const LineVisibilityResult& result) {
+    Report report = {setting(result), {work_table(result), line_table(result)}, result.expectations};
+    report.images = images(result);
+    report.numbers = numbers_of(result);
+    for (const LineVisibilityScene& scene : result.scenes)
+        report.inputs.insert(report.inputs.end(), scene.files.begin(), scene.files.end());
+    return report;
 }
 
 } // namespace nusselt::lab

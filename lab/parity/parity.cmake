@@ -7,7 +7,6 @@ add_library(nusselt_lab_parity STATIC
     parity/groups/random_numbers.cpp
     parity/parity.cpp
     parity/parity_check.cpp
-    parity/related_parity.cpp
     parity/shader_runner.cpp
     parity/techniques.cpp
     parity/twin_shader.cpp
@@ -19,17 +18,21 @@ target_link_libraries(nusselt_lab_parity
 # Tests take the shaders of the comparisons, too.
 target_include_directories(nusselt_lab_parity PUBLIC ${CMAKE_CURRENT_BINARY_DIR})
 
-# Adds a row to the table of twins. `name` is the name of a technique, or of the published method that it replaces.
+# Adds a row to the table of twins of a target. `name` is the name of a technique, or of the published method that it replaces.
 # nusselt_add_technique_shader() describes the other arguments.
 set(includes)
 set(rows)
-function(add_twin name technique bound variant entry)
+function(add_twin target name technique bound variant entry)
     cmake_parse_arguments(arg "" "" "DEFINES" ${ARGN})
+    set(fused 0)
+    if(variant STREQUAL fused)
+        set(fused 1)
+    endif()
     nusselt_vertex_defines(vertices ${technique} ${bound})
     nusselt_snake_case(shader ${name})
     set(shader twin_${shader}_${bound}_${variant})
-    nusselt_add_technique_shader(nusselt_lab_parity ${shader} parity/${entry} ${arg_UNPARSED_ARGUMENTS}
-        DEFINES ${arg_DEFINES} ${vertices})
+    nusselt_add_technique_shader(${target} ${shader} parity/${entry} ${arg_UNPARSED_ARGUMENTS}
+        DEFINES NUSSELT_FUSED_FMA=${fused} ${arg_DEFINES} ${vertices})
     nusselt_shader_array(array ${shader})
     list(APPEND includes "#include \"shaders/${shader}.h\"\n")
     list(APPEND rows "    {\"${name}\", ${bound}, Variant::${variant}, shaders::${array}},\n")
@@ -46,40 +49,28 @@ foreach(light line line_on_lobe cylinder cylinder_on_lobe)
 endforeach()
 foreach(name IN LISTS nusselt_techniques)
     set(row nusselt_technique_${name})
-    if(parity IN_LIST ${row}_exempt)
+    # tests/parity has the published methods, which nobody runs elsewhere.
+    if(parity IN_LIST ${row}_exempt OR ${row}_header MATCHES "^related/")
         continue()
     endif()
     nusselt_geometry_of(light ${name})
     nusselt_shader_arguments(arguments ${name})
     set(bounds ${bounds_of_${${row}_light}})
-    if(${row}_header MATCHES "^related/polygon")
-        set(bounds 4)
-    endif()
     if(${row}_clips_twice)
         list(TRANSFORM bounds REPLACE 8 7)
     endif()
     foreach(bound IN LISTS bounds)
-        add_twin(${name} ${name} ${bound} split ${light} ${arguments} DEFINES NUSSELT_FUSED_FMA=0)
-        add_twin(${name} ${name} ${bound} fused ${light} ${arguments} DEFINES NUSSELT_FUSED_FMA=1)
+        foreach(variant split fused)
+            add_twin(nusselt_lab_parity ${name} ${name} ${bound} ${variant} ${light} ${arguments})
+        endforeach()
     endforeach()
-    # Published methods have no invert().
-    if(${row}_published)
-        nusselt_snake_case(file ${${row}_published})
-        set(arguments related_${light} nusselt/related/${file} ${${row}_published})
-        set(bound 2)
-        if(light STREQUAL polygon)
-            set(bound 4)
-        endif()
-        add_twin(${${row}_published} ${name} ${bound} split ${arguments} DEFINES NUSSELT_FUSED_FMA=0)
-        add_twin(${${row}_published} ${name} ${bound} fused ${arguments} DEFINES NUSSELT_FUSED_FMA=1)
-    endif()
 endforeach()
 
 # The variant whose loops are not marked with [[unroll]].
 nusselt_shader_arguments(arguments PolygonProjectedSolidAngle)
 foreach(bound 4 8)
-    add_twin(PolygonProjectedSolidAngle PolygonProjectedSolidAngle ${bound} rolled polygon ${arguments}
-        DEFINES NUSSELT_FUSED_FMA=0 NUSSELT_UNROLL=)
+    add_twin(nusselt_lab_parity PolygonProjectedSolidAngle PolygonProjectedSolidAngle ${bound} rolled polygon
+        ${arguments} DEFINES NUSSELT_UNROLL=)
 endforeach()
 
 list(JOIN includes "" includes)

@@ -34,9 +34,11 @@ std::vector<VariantVerdict> judge_contract(const gpu::Device& device, const Pari
 void add_technique_cases(std::vector<ParityCase>& cases) {
     using Kinds = hostile::TestedBy<ParitySuite, hostile::KindsWithBounds<4, 8>>;
     Kinds().for_each([&]<class Kind> {
-        using Pair = TechniquePair<Kind>;
-        cases.push_back({"technique", name_of_pair<Pair>(), judge_technique<Pair>});
-        cases.push_back({"hostile lights", name_of_pair<Pair>(), judge_contract<Pair>});
+        if constexpr (!Kind::kIsRelated) {
+            using Pair = TechniquePair<Kind>;
+            cases.push_back({"technique", name_of_pair<Pair>(), judge_technique<Pair>});
+            cases.push_back({"hostile lights", name_of_pair<Pair>(), judge_contract<Pair>});
+        }
     });
 }
 

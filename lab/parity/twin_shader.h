@@ -19,7 +19,7 @@ struct TwinShader {
     std::span<const std::uint32_t> spirv;
 };
 
-/// \param technique class name, of a technique or of the published method that it replaces
+/// \param technique class name
 /// \throws std::logic_error if there is no such shader
 std::span<const std::uint32_t> twin_shader(std::string_view technique, int vertex_bound, Variant variant);
 

@@ -1,5 +1,6 @@
 #include "lab/timing/sampler_timing.h"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <utility>
@@ -15,6 +16,8 @@ namespace {
 std::vector<TimedTechnique> techniques_for(base::Isa isa) {
     return base::dispatch(isa, []<base::Isa chosen> { return timed_techniques<chosen>(); });
 }
+
+const std::string kBaseline = "Baseline";
 
 using Times = std::vector<double>; ///< per light or sample [ns], including the baseline
 
@@ -47,13 +50,14 @@ std::optional<double> cost(const Times& times, const Times& baseline) {
     return quantile(times, 0.5) - quantile(baseline, 0.5);
 }
 
+std::optional<double> spread(const Times& times) {
+    if (times.empty()) return std::nullopt;
+    return (quantile(times, 0.75) - quantile(times, 0.25)) / 2;
+}
+
 std::optional<double> ratio(const std::optional<double>& a, const std::optional<double>& b) {
     if (a && b && *a > 0 && *b > 0) return *a / *b;
     return std::nullopt;
-}
-
-std::string name_of_code(int lanes) {
-    return lanes == 1 ? "scalar" : "packs of " + std::to_string(lanes) + ", per lane";
 }
 
 /// The class of lights of a row with 4 vertices, for one with another number of them.
@@ -64,14 +68,23 @@ std::string with_four_vertices(const std::string& configuration) {
 
 } // namespace
 
+std::string name_of_code(int lanes) {
+    return lanes == 1 ? "scalar" : "packs of " + std::to_string(lanes) + ", per lane";
+}
+
 std::vector<SamplerTiming> time_samplers(const SamplerTimingSettings& settings) {
     const base::Isa isa = base::choose_isa(settings.isa);
     const std::vector<TimedTechnique> techniques = techniques_for(isa);
     const std::vector<TimedConfiguration> all_configurations = timed_configurations();
+    const std::vector<std::string>& wanted = settings.techniques;
+    const auto is_wanted = [&](const std::string& name) {
+        return wanted.empty() || name == kBaseline ||
+               std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+    };
     std::vector<Series> series;
     for (const TimedConfiguration& c : all_configurations)
         for (const TimedTechnique& t : techniques)
-            if (t.kind == c.kind && t.vertex_count == c.vertex_count)
+            if (t.kind == c.kind && t.vertex_count == c.vertex_count && is_wanted(t.name))
                 series.push_back({&t, &c, {}, {}, {}, {}});
 
     const auto lights = std::make_unique<TimedLights>();
@@ -88,7 +101,7 @@ std::vector<SamplerTiming> time_samplers(const SamplerTimingSettings& settings) 
     std::vector<SamplerTiming> rows;
     std::map<int, const Series*> baseline; // by number of lanes; precedes its techniques
     for (const Series& s : series) {
-        if (s.technique->name == std::string("Baseline")) {
+        if (s.technique->name == kBaseline) {
             baseline[s.technique->lanes] = &s;
             continue;
         }
@@ -101,6 +114,8 @@ std::vector<SamplerTiming> time_samplers(const SamplerTimingSettings& settings) 
         row.prepare_ns = cost(s.prepare, b.prepare);
         row.world_ns = cost(s.world, b.world);
         row.sample_ns = cost(s.sample, b.sample);
+        row.prepare_spread_ns = spread(s.prepare);
+        row.sample_spread_ns = spread(s.sample);
         row.direction_ns = cost(s.direction, b.direction);
         rows.push_back(row);
     }

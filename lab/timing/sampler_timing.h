@@ -18,6 +18,8 @@ struct SamplerTiming {
     std::string isa; ///< instruction set the code was compiled for
     /// Per light or sample [ns], medians.
     std::optional<double> prepare_ns, sample_ns;
+    /// Half of the interquartile range of these times [ns].
+    std::optional<double> prepare_spread_ns, sample_spread_ns;
     std::optional<double> direction_ns; ///< a sample without density and hit point
     std::optional<double> transform_ns; ///< to shading space
     std::optional<double> world_ns;     ///< transform and prepare together
@@ -31,9 +33,13 @@ struct SamplerTiming {
     std::optional<double> prepare_growth, sample_growth;
 };
 
+/// The code of the rows of packs with this many lanes, or of scalars.
+std::string name_of_code(int lanes);
+
 struct SamplerTimingSettings {
     int repetitions = 31;           ///< repetitions of the interleaved series; odd numbers give exact medians
     std::optional<std::string> isa; ///< as base::choose_isa()
+    std::vector<std::string> techniques = {}; ///< class names; empty: all
 };
 
 /// Times all techniques as scalars and packs in turn, so that a drift of the clock rate affects all alike. Without ratios.

@@ -47,8 +47,9 @@ struct WithLobe : Technique {
 
 /// The defaults that rows of the registry override.
 struct AnyKind {
-    static constexpr bool kCyclic = false; ///< u.x = 0 and u.x = 1 coincide if the pole is in the light
-    static constexpr bool kBiased = false; ///< samples deviate from their density by design
+    static constexpr bool kCyclic = false;    ///< u.x = 0 and u.x = 1 coincide if the pole is in the light
+    static constexpr bool kBiased = false;    ///< samples deviate from their density by design
+    static constexpr bool kIsRelated = false; ///< a published method, there to compare with
     static constexpr std::string_view kExemptions = ""; ///< suites of tests that leave the technique out
 
     /// Converts a light from a generator to one that the technique takes.

@@ -11,6 +11,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace nusselt::image {
 
@@ -49,6 +50,8 @@ Image decode_pfm(std::istream& stream);
 
 /// \param scale  factor before the transfer function
 void encode_png(std::ostream& stream, const Image& image, double scale);
+/// \param codes  three bytes per pixel, stored as they are
+void encode_png_codes(std::ostream& stream, int width, int height, const std::vector<unsigned char>& codes);
 /// PNG, JPG or TGA, whichever the contents are. Of the file, it keeps a few rows in memory.
 Image decode_srgb(std::istream& stream);
 

@@ -106,17 +106,24 @@ TEST_F(CommandLine, TellsWhatASceneAndTheProgramContain) {
 }
 
 TEST_F(CommandLine, ReproduceWritesAPage) {
-    const Outcome reproduce =
-        run_lab("reproduce line-diffuse --width 48 --reference-spp 64 --scenes '" + kScenes + "' -o pages");
+    const std::string command = "reproduce line-diffuse --quick --scenes '" + kScenes + "' -o pages";
+    const Outcome reproduce = run_lab(command);
     EXPECT_EQ(reproduce.exit_code, 0) << reproduce.out << reproduce.err;
-    EXPECT_NE(read("pages/index.html").find("line-diffuse/index.html"), std::string::npos);
-    EXPECT_NE(read("pages/line-diffuse/index.html").find("reference.png"), std::string::npos);
+    EXPECT_NE(read("pages/index.html").find("line-diffuse"), std::string::npos);
+    for (const char* file : {"reference.exr", "reference.png", "area.exr", "projected_solid_angle.png"})
+        EXPECT_GT(std::filesystem::file_size(path("pages/line-diffuse/" + std::string(file))), 100u) << file;
     const auto json = nlohmann::json::parse(read("pages/line-diffuse/numbers.json"));
     EXPECT_EQ(json.at("bench"), "line-diffuse");
     const auto errors = nusselt_test::records(json, "errors");
     ASSERT_FALSE(errors.empty());
     EXPECT_EQ(errors[0].at("region"), "image");
     EXPECT_GT(errors[0].at("rmse"), 0.0);
+
+    // A second run only says that nothing has changed.
+    const Outcome again = run_lab(command);
+    EXPECT_EQ(again.exit_code, 0);
+    EXPECT_EQ(again.out, "\npages/index.html\n");
+    EXPECT_NE(again.err.find("nothing has changed"), std::string::npos) << again.err;
 }
 
 TEST_F(CommandLine, EveryBenchWritesOneFormat) {

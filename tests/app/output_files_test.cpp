@@ -87,7 +87,7 @@ TEST_F(OutputFiles, ReproduceChecksItsFolderBeforeItRenders) {
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_EQ(outcome.out, "");
     expect_lab_message(outcome.err, "cannot create the folder '/dev/null/x'");
-    expect_lab_message(outcome.err, "--output");
+    expect_lab_message(outcome.err, "--out");
 
     // Also the folder of each experiment.
     std::filesystem::create_directory(path("out"));
@@ -98,10 +98,13 @@ TEST_F(OutputFiles, ReproduceChecksItsFolderBeforeItRenders) {
         EXPECT_EQ(late.out, "") << name;
         expect_lab_message(late.err, "cannot create the folder 'out/" + std::string(name) + "'");
     }
-    std::filesystem::create_directories(path("out/wall/index.html"));
-    const Outcome page = run_lab("reproduce wall --scenes '" + kScenes + "' -o out");
-    EXPECT_EQ(page.out, "");
-    expect_lab_message(page.err, "cannot write 'out/wall/index.html'");
+    for (const char* file : {"out/wall/numbers.json", "out/index.html"}) {
+        std::filesystem::create_directories(path(file));
+        const Outcome page = run_lab("reproduce wall --scenes '" + kScenes + "' -o out");
+        EXPECT_EQ(page.out, "");
+        expect_lab_message(page.err, "cannot write '" + std::string(file) + "'");
+        std::filesystem::remove(path(file));
+    }
 }
 
 /// A limit on the size of files lets the large image fail once everything is rendered.

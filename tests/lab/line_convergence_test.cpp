@@ -1,4 +1,3 @@
-#include "base/temporary_folder.h"
 #include "common/source_folder.h"
 #include "lab/lines/line_convergence.h"
 
@@ -9,8 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 namespace nusselt::lab {
@@ -18,27 +15,6 @@ namespace nusselt::lab {
 namespace {
 
 const std::filesystem::path kScenes = std::filesystem::path(nusselt_test::kSourceFolder) / "scenes";
-
-/// The experiment without slow counts and scenes. The first scene is no exception to anything.
-LineConvergence small(const LineConvergence& full) {
-    LineConvergence experiment = full;
-    experiment.scenes.resize(1);
-    experiment.width = 32;
-    experiment.most_seeds = 32;
-    for (ConvergenceSeries& series : experiment.series) {
-        const auto is_long = [](int n) { return n > 64; };
-        series.counts.erase(std::remove_if(series.counts.begin(), series.counts.end(), is_long),
-                            series.counts.end());
-        series.fit_first = 4;
-        series.fit_last = 64;
-    }
-    for (OrderBetween& e : experiment.orders) e.exceptions = 0;
-    for (LessNoise& e : experiment.less_noise) {
-        e.count = 64;
-        e.exceptions = 0;
-    }
-    return experiment;
-}
 
 LineConvergenceResult run(const LineConvergence& experiment) {
     RunSettings settings;
@@ -73,11 +49,11 @@ TEST(LineConvergence, NamesAreUniqueAndExpectationsReferToSeries) {
 
 TEST(LineConvergence, ExpectationsHoldInSmallImages) {
     for (const LineConvergence& full : all_line_convergences()) {
-        const LineConvergence experiment = small(full);
+        const LineConvergence experiment = quick(full);
         const LineConvergenceResult result = run(experiment);
         ASSERT_EQ(result.scenes.size(), 1u);
         EXPECT_GT(result.scenes[0].mean, 0);
-        for (const ExpectationResult& e : result.expectations) EXPECT_TRUE(e.holds) << e.text;
+        for (const ExpectationResult& e : result.expectations) EXPECT_EQ(e.verdict, Verdict::holds) << e.text;
         // Matt surfaces: closed forms are exact.
         for (std::size_t i = 0; i < experiment.series.size(); ++i)
             EXPECT_NEAR(result.scenes[0].series[i].bias, 0, 5e-3) << experiment.series[i].label;
@@ -86,7 +62,7 @@ TEST(LineConvergence, ExpectationsHoldInSmallImages) {
 
 // Points posing as lines have the order of points, lines posing as points that of lines.
 TEST(LineConvergence, ExpectationsFailForImpostors) {
-    LineConvergence mutant = small(all_line_convergences()[0]);
+    LineConvergence mutant = quick(all_line_convergences()[0]);
     const auto settings_of = [&](const std::string& label) -> render::RenderSettings& {
         return std::find_if(mutant.series.begin(), mutant.series.end(),
                             [&](const ConvergenceSeries& s) { return s.label == label; })
@@ -102,7 +78,7 @@ TEST(LineConvergence, ExpectationsFailForImpostors) {
         one.less_noise.clear();
         const LineConvergenceResult result = run(one);
         ASSERT_EQ(result.expectations.size(), 1u) << series;
-        EXPECT_FALSE(result.expectations[0].holds) << result.expectations[0].text;
+        EXPECT_EQ(result.expectations[0].verdict, Verdict::fails) << result.expectations[0].text;
     }
 }
 
@@ -122,13 +98,13 @@ TEST(LineConvergence, CountsExceptionsAndLeavesOutSkippedScenes) {
     skipped.is_skipped = true;
     std::vector<SceneResult> scenes = {scene_of_order(experiment, -1.2), scene_of_order(experiment, -0.7),
                                        scene_of_order(experiment, -1.1), skipped};
-    EXPECT_TRUE(check_expectations(experiment, scenes)[0].holds);
+    EXPECT_EQ(check_expectations(experiment, scenes)[0].verdict, Verdict::holds);
     scenes[0] = scene_of_order(experiment, std::nan(""));
-    EXPECT_FALSE(check_expectations(experiment, scenes)[0].holds);
+    EXPECT_EQ(check_expectations(experiment, scenes)[0].verdict, Verdict::fails);
     // Two scenes with an exception are not conclusive.
     scenes.pop_back();
     scenes[1].is_skipped = true;
-    EXPECT_TRUE(check_expectations(experiment, scenes).empty());
+    EXPECT_EQ(check_expectations(experiment, scenes)[0].verdict, Verdict::not_evaluated);
     experiment.orders[0].series = "no such series";
     EXPECT_THROW(check_expectations(experiment, scenes), std::logic_error);
 }
@@ -141,7 +117,7 @@ TEST(LineConvergence, FewSamplesGetMoreSeeds) {
 }
 
 TEST(LineReport, HasPlotsTablesAndAllNumbers) {
-    LineConvergence experiment = small(all_line_convergences()[0]);
+    LineConvergence experiment = quick(all_line_convergences()[0]);
     experiment.reference = experiment.series[1].label;
     experiment.scenes.push_back({"elsewhere", "nowhere.pbrt", "", SceneOrigin::published});
     experiment.series.resize(2);
@@ -153,18 +129,21 @@ TEST(LineReport, HasPlotsTablesAndAllNumbers) {
     const LineConvergenceResult result = run(experiment);
     if (published != nullptr) ::setenv("NUSSELT_SCENES", before.c_str(), 1);
     EXPECT_TRUE(result.scenes[1].is_skipped);
-    EXPECT_NE(to_text(result).find("skipped"), std::string::npos);
+    EXPECT_NE(to_text(report_of(result)).find("skipped"), std::string::npos);
 
-    const nusselt::base::TemporaryFolder folder;
-    write_report(result, folder.path());
-    std::ifstream page(folder / "index.html");
-    const std::string html{std::istreambuf_iterator<char>(page), {}};
-    for (const char* plot : {"grid-planes-samples.svg", "grid-planes-time.svg"}) {
-        EXPECT_NE(html.find(plot), std::string::npos);
-        EXPECT_GT(std::filesystem::file_size(folder / plot), 1000u);
+    const Report report = report_of(result);
+    ASSERT_EQ(report.plots.size(), 2u);
+    EXPECT_EQ(report.plots[0].file, "grid-planes-samples");
+    EXPECT_EQ(report.plots[1].file, "grid-planes-time");
+    for (const Plot& plot : report.plots) {
+        ASSERT_EQ(plot.curves.size(), 2u);
+        for (const PlotPoint& p : plot.curves[0].points) {
+            EXPECT_LT(p.low, p.y);
+            EXPECT_GT(p.high, p.y);
+            EXPECT_LT(p.high, 2 * p.y);
+        }
     }
-    std::ifstream file(folder / "numbers.json");
-    const auto numbers = nlohmann::json::parse(file);
+    const auto numbers = nlohmann::json::parse(to_json(report.numbers));
     const auto scenes = nusselt_test::records(numbers, "scenes");
     EXPECT_EQ(scenes[1]["skipped"], true);
     EXPECT_GT(scenes[0]["reference_error"], 0);

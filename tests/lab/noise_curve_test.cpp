@@ -1,7 +1,7 @@
 #include "common/source_folder.h"
 #include "lab/errors/noise_curve.h"
 
-#include "lab/figures/plot.h"
+#include "lab/report/plot.h"
 #include "render/film.h"
 #include "scene/import/importers.h"
 
@@ -90,6 +90,26 @@ TEST_F(RenderSeeds, MeasuresTheNoiseOfIndependentSamples) {
     EXPECT_NEAR(fitted_order(curve, 4, 64), -0.5, 0.04);
 }
 
+// The standard error describes how much the variances of other seeds differ.
+TEST_F(RenderSeeds, StandardErrorsOfTheVarianceAreThoseOfOtherSeeds) {
+    const render_cpu::Renderer renderer(scene_, 2);
+    constexpr int kGroups = 32;
+    constexpr int kSeeds = 8;
+    std::vector<double> variances;
+    double squared_errors = 0;
+    for (int i = 0; i < kGroups; ++i) {
+        settings_.seed = static_cast<std::uint32_t>(i * kSeeds);
+        const SeedStatistics s = render_seeds(renderer, base::choose_isa(), settings_, kSeeds);
+        variances.push_back(s.variance);
+        squared_errors += s.variance_error * s.variance_error / kGroups;
+    }
+    double mean = 0, square = 0;
+    for (const double v : variances) mean += v / kGroups;
+    for (const double v : variances) square += (v - mean) * (v - mean) / (kGroups - 1);
+    EXPECT_GT(squared_errors, 0.4 * square);
+    EXPECT_LT(squared_errors, 2.5 * square);
+}
+
 // The mutant: one seed for all images would make noise vanish.
 TEST_F(RenderSeeds, SeedsDiffer) {
     const render_cpu::Renderer renderer(scene_, 2);
@@ -109,12 +129,15 @@ TEST_F(RenderSeeds, SeedsDiffer) {
     EXPECT_NEAR(s.variance, sum / static_cast<double>(first.pixels.size()), 1e-6 * s.variance);
 }
 
+PlotPoint point(double x, double y) { return {x, y, y, y}; }
+
 TEST(Plot, DrawsEachCurveAndLeavesOutWhatHasNoLogarithm) {
-    const Plot plot = {
-        "a < b",
-        "x",
-        "y",
-        {{"one", {{1, 1}, {10, 0.1}, {100, 0}}}, {"two", {{1, 2}, {100, 0.02}}, Stroke::dashed}}};
+    const Plot plot = {"a < b",
+                       "file",
+                       "x",
+                       "y",
+                       {{"one", {point(1, 1), point(10, 0.1), point(100, 0)}},
+                        {"two", {point(1, 2), point(100, 0.02)}, Stroke::dashed}}};
     const std::string svg = to_svg(plot);
     EXPECT_NE(svg.find("a &lt; b"), std::string::npos);
     EXPECT_NE(svg.find(">one<"), std::string::npos);
@@ -137,7 +160,7 @@ TEST(Plot, DrawsEachCurveAndLeavesOutWhatHasNoLogarithm) {
 }
 
 TEST(Plot, OfNothingIsAFrame) {
-    const std::string svg = to_svg({"", "x", "y", {{"empty", {}}}});
+    const std::string svg = to_svg({"", "file", "x", "y", {{"empty", {}}}});
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     EXPECT_NE(svg.find("</svg>"), std::string::npos);
 }

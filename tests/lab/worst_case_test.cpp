@@ -37,7 +37,10 @@ constexpr Known kKnown[] = {{"lines", 9.287e-7L},
                             {"lines-1", 4.657e-4L},
                             {"polygons", 1.97e-5L},
                             {"small-polygons", 7.289e-5L},
-                            {"biased", 0.27176L}};
+                            {"biased", 0.27176L},
+                            {"published-lines", 1.5761e-5L},
+                            {"published-polygons", 1.8117e-5L},
+                            {"published-small-polygons", 6.734e-5L}};
 
 TEST(WorstCase, ShortSearchesComeCloseToTheKnownMaximaAndStayBelowTheBounds) {
     for (const Known& known : kKnown) {

@@ -54,6 +54,11 @@ TEST(GpuSamplerRows, CompareSamplesWithDensityAndPoint) {
 
 class GpuSamplers : public GpuTest {};
 
+/// The name of the suite in techniques.json.
+struct GpuTimingSuite {
+    static constexpr std::string_view kName = "gpu_timing";
+};
+
 TEST_F(GpuSamplers, HaveARowForEachTechniqueAndClassOfLights) {
     const auto table = lab::time_gpu_samplers({.repetitions = 1});
     EXPECT_EQ(table.device.name, device().description().name);
@@ -78,8 +83,10 @@ TEST_F(GpuSamplers, HaveARowForEachTechniqueAndClassOfLights) {
     };
     using namespace hostile;
     expect_rows(PolygonKinds<5>(), 15, "three classes with 3 to 7 vertices");
-    expect_rows(RectangleKinds(), 3, "three classes with 4 vertices");
-    expect_rows(Join<PolygonOnLobeKinds<4>, LineKinds, LineOnLobeKinds, CylinderKinds, CylinderOnLobeKinds>(),
+    expect_rows(TestedBy<GpuTimingSuite, RelatedPolygonKinds, RectangleKinds>(), 3,
+                "three classes with 4 vertices");
+    expect_rows(TestedBy<GpuTimingSuite, PolygonOnLobeKinds<4>, LineKinds, LineOnLobeKinds, CylinderKinds,
+                         CylinderOnLobeKinds>(),
                 2, "two classes");
 }
 

@@ -3,6 +3,7 @@
 #include "common/effort.h"
 #include "gpu_test.h"
 #include "lab/parity/parity.h"
+#include "related_parity.h"
 
 #include <fmt/core.h>
 
@@ -46,6 +47,7 @@ std::string name_of_test(const testing::TestParamInfo<ParityCase>& info) {
     return name;
 }
 INSTANTIATE_TEST_SUITE_P(All, Parity, testing::ValuesIn(parity_cases()), name_of_test);
+INSTANTIATE_TEST_SUITE_P(Related, Parity, testing::ValuesIn(related_cases()), name_of_test);
 
 } // namespace
 

@@ -1,20 +1,21 @@
 #include "reproduce.h"
 #include "apps/common/help.h"
 #include "apps/common/print_message.h"
+#include "apps/common/progress.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 
-#include "base/atomic_file.h"
-#include "lab/figures/noise_table.h"
-#include "lab/figures/run.h"
-#include "lab/lines/line_convergence.h"
-#include "lab/lines/line_visibility.h"
+#include "base/stopwatch.h"
+#include "base/words.h"
+#include "lab/report/report_folder.h"
+#include "render_cpu/renderer.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/chrono.h>
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <fstream>
+#include <ctime>
 #include <memory>
 #include <stdexcept>
 
@@ -22,84 +23,86 @@ namespace nusselt::app {
 
 namespace {
 
+using lab::Effort;
 using lab::Experiment;
-using lab::LineConvergence;
-using lab::LineVisibility;
-using lab::NoiseTable;
-
-/// The fields that all kinds of experiments share.
-struct Heading {
-    std::string name;
-    std::string source;
-    std::string description;
-};
-
-std::vector<Heading> all_headings() {
-    std::vector<Heading> headings;
-    for (const Experiment& e : lab::all_experiments()) headings.push_back({e.name, e.source, e.description});
-    for (const NoiseTable& t : lab::all_noise_tables()) headings.push_back({t.name, t.source, t.description});
-    for (const LineConvergence& c : lab::all_line_convergences())
-        headings.push_back({c.name, c.source, c.description});
-    for (const LineVisibility& v : lab::all_line_visibilities())
-        headings.push_back({v.name, v.source, v.description});
-    return headings;
-}
+using lab::Verdict;
 
 void print_list() {
-    for (const Heading& h : all_headings())
-        fmt::print("{:<18}{}\n{:<18}{}\n", h.name, h.source, "", h.description);
+    for (const Experiment& e : lab::all_experiments())
+        fmt::print("{:<18}{}\n{:<18}{}\n", e.name, e.source, "", e.description);
 }
 
-bool is_chosen(const ReproduceOptions& options, const std::string& name) {
-    const std::vector<std::string>& names = options.experiments;
-    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+std::vector<Experiment> chosen(const std::vector<std::string>& names) {
+    std::vector<Experiment> experiments;
+    for (const Experiment& e : lab::all_experiments())
+        if (names.empty() || std::find(names.begin(), names.end(), e.name) != names.end())
+            experiments.push_back(e);
+    return experiments;
 }
 
-/// Prints and writes the result of one experiment. \returns whether all expectations hold
-template <class Result>
-bool report(const Result& result, const std::filesystem::path& folder) {
-    fmt::print("\n{}", lab::to_text(result));
-    lab::write_report(result, folder);
-    return std::all_of(result.expectations.begin(), result.expectations.end(),
-                       [](const lab::ExpectationResult& e) { return e.holds; });
+std::string now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+std::string command_for(const Experiment& experiment, const ReproduceOptions& options) {
+    std::string command = "nusselt-lab reproduce " + experiment.name;
+    if (options.effort == Effort::full) command += " --full";
+    if (options.scenes != "scenes") command += " --scenes " + base::shell_word(options.scenes.string());
+    if (options.threads) command += fmt::format(" --threads {}", *options.threads);
+    return command;
 }
 
-/// Finds out before hours of work whether the pages can be written.
-void prepare_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-        throw std::runtime_error("cannot create the folder '" + folder.string() + "' (" + error.message() +
-                                 "); choose another one with --output");
-    base::check_writable(folder / "index.html");
-}
+/// The steps of all experiments on standard error, with a bar on a terminal.
+class Steps {
+public:
+    explicit Steps(std::size_t experiments) : count_(experiments) {}
 
-void prepare_folders(const ReproduceOptions& options) {
-    prepare_folder(options.output);
-    for (const Heading& h : all_headings())
-        if (is_chosen(options, h.name)) prepare_folder(options.output / h.name);
-}
+    void begin(const Experiment& experiment) {
+        name_ = experiment.name;
+        ++number_;
+    }
+    void print(std::string_view step) {
+        bar_.finish();
+        print_message("[{}/{}] {}: {}\n", number_, count_, name_, step);
+        bar_.update(static_cast<double>(number_ - 1) / static_cast<double>(count_));
+    }
+    void finish() { bar_.finish(); }
 
-void write_index(const ReproduceOptions& options) {
-    base::write_atomically(options.output / "index.html", [&](std::ofstream& file) {
-        file << "<!DOCTYPE html>\n<meta charset=\"utf-8\"><title>Nusselt: experiments</title>\n<ul>\n";
-        for (const Heading& h : all_headings())
-            if (is_chosen(options, h.name))
-                file << fmt::format("<li><a href=\"{0}/index.html\">{0}</a>: {1}\n", h.name, h.source);
-        file << "</ul>\n";
-    });
+private:
+    std::size_t count_;
+    std::size_t number_ = 0;
+    std::string name_;
+    Progress bar_;
+};
+
+Verdict run(const Experiment& experiment, const ReproduceOptions& options, const lab::RunSettings& settings,
+            const lab::ReportFolder& folder, Steps& steps) {
+    if (const auto kept = folder.kept(experiment, options.effort)) {
+        steps.print("nothing has changed since " + kept->date);
+        return kept->verdict;
+    }
+    lab::RunRecord record = {command_for(experiment, options), options.effort, now()};
+    const base::Stopwatch stopwatch;
+    const lab::Report report = experiment.run(settings, [&](std::string_view step) { steps.print(step); });
+    record.seconds = stopwatch.seconds();
+    steps.finish();
+    fmt::print("\n{}: {}\n{}\n{}", experiment.name, experiment.source, experiment.description,
+               lab::to_text(report));
+    folder.write(experiment, report, record);
+    return verdict_of(report.expectations);
 }
 
 } // namespace
 
 void setup_reproduce(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<ReproduceOptions>();
-    CLI::App* command =
-        app.add_subcommand("reproduce", "Render the comparisons of the papers and check their claims. Prints "
-                                        "a table and writes a page with all images for each experiment. "
-                                        "Exits with 1 if an expectation fails.");
+    CLI::App* command = app.add_subcommand(
+        "reproduce",
+        "Measure the figures, tables and statements of the papers and check what they claim. Prints tables "
+        "and writes "
+        "a page with all numbers and images, index.html. Later runs into the same folder add to the page, "
+        "and measure "
+        "only what has changed. Exits with 1 if an expectation fails, with 3 if one could not be evaluated.");
     std::vector<std::string> names;
-    for (const Heading& h : all_headings()) names.push_back(h.name);
+    for (const Experiment& e : lab::all_experiments()) names.push_back(e.name);
     command->add_option("EXPERIMENT", options->experiments, "Names of experiments, see --list")
         ->transform(to_one_of(names))
         ->default_str("all");
@@ -110,16 +113,16 @@ void setup_reproduce(CLI::App& app, int& exit_code) {
             throw CLI::Success();
         },
         "List the experiments and exit");
-    command->add_option("--scenes", options->scenes, "Folder with the shipped scenes")->type_name("FOLDER");
+    CLI::Option* const full = command->add_flag_callback(
+        "--full", [options] { options->effort = Effort::full; },
+        "Images and sample counts as the papers have them; takes hours");
     command
-        ->add_option("--reference-spp", options->reference_samples,
-                     "Samples per pixel and light of references")
-        ->transform(to_whole_number(1, render::kMaxSamples))
-        ->default_str("set by each experiment");
-    command->add_option("--width", options->width, "Width of the images in pixels")
-        ->transform(to_whole_number(1, 16384))
-        ->default_str("set by each scene");
-    command->add_option("-o,--output", options->output, "Folder for the pages, created if missing")
+        ->add_flag_callback(
+            "--quick", [options] { options->effort = Effort::quick; },
+            "Small images and few samples; takes minutes (the default)")
+        ->excludes(full);
+    command->add_option("--scenes", options->scenes, "Folder with the shipped scenes")->type_name("FOLDER");
+    command->add_option("-o,--out", options->output, "Folder for the page, created if missing")
         ->type_name("FOLDER")
         ->group(kOutputGroup);
     add_threads_option(*command, options->threads);
@@ -131,31 +134,25 @@ int run_reproduce(const ReproduceOptions& options) {
         throw std::runtime_error(
             "missing folder '" + options.scenes.string() +
             "'; run in the repository, or name the folder of the shipped scenes with --scenes");
-    prepare_folders(options);
-    lab::RunSettings settings;
-    settings.scenes = options.scenes;
-    settings.reference_samples = options.reference_samples;
-    settings.width = options.width;
-    settings.threads = render_cpu::checked_thread_count(options.threads);
-    bool all_hold = true;
-    const auto run_all = [&](const auto& all, const auto& run) {
-        for (const auto& experiment : all) {
-            if (!is_chosen(options, experiment.name)) continue;
-            const auto result = run(experiment, settings, [&](std::string_view step) {
-                print_message("{}: {}\n", experiment.name, step);
-            });
-            all_hold = report(result, options.output / experiment.name) && all_hold;
-        }
+    const std::vector<Experiment> experiments = chosen(options.experiments);
+    const lab::ReportFolder folder(options.output);
+    for (const Experiment& e : experiments) folder.check_writable(e);
+    const lab::RunSettings settings = {options.scenes, options.effort,
+                                       render_cpu::checked_thread_count(options.threads)};
+    std::vector<Verdict> verdicts;
+    Steps steps(experiments.size());
+    for (const Experiment& e : experiments) {
+        steps.begin(e);
+        verdicts.push_back(run(e, options, settings, folder, steps));
+        // After each one, so that there is a page to look at while the others run.
+        folder.write_page(lab::all_experiments());
+    }
+    fmt::print("\n{}\n", folder.write_page(lab::all_experiments()).string());
+    const auto any = [&](Verdict verdict) {
+        return std::find(verdicts.begin(), verdicts.end(), verdict) != verdicts.end();
     };
-    run_all(lab::all_experiments(), lab::run_experiment);
-    run_all(lab::all_line_convergences(), lab::run_line_convergence);
-    run_all(lab::all_line_visibilities(), lab::run_line_visibility);
-    for (const NoiseTable& table : lab::all_noise_tables())
-        if (is_chosen(options, table.name))
-            all_hold = report(lab::measure_noise(table), options.output / table.name) && all_hold;
-    write_index(options);
-    fmt::print("\n{}\n", (options.output / "index.html").string());
-    return all_hold ? 0 : 1;
+    if (any(Verdict::fails)) return 1;
+    return any(Verdict::not_evaluated) ? kNotEvaluated : 0;
 }
 
 } // namespace nusselt::app

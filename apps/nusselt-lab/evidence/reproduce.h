@@ -1,5 +1,7 @@
 #pragma once
-/// `nusselt-lab reproduce`: the comparisons of the papers.
+/// `nusselt-lab reproduce`: the figures, tables and statements of the papers.
+
+#include "lab/report/run_settings.h"
 
 #include <filesystem>
 #include <optional>
@@ -16,17 +18,19 @@ struct ReproduceOptions {
     std::vector<std::string> experiments; ///< empty: all
     std::filesystem::path output = "out/reproduce";
     std::filesystem::path scenes = "scenes";
-    int reference_samples = 0; ///< 0: as the experiments define
-    int width = 0;             ///< of the images in pixels; 0: as the scenes define
+    lab::Effort effort = lab::Effort::quick;
     std::optional<int> threads;
 };
+
+/// Exit code if no expectation fails, but some could not be evaluated.
+inline constexpr int kNotEvaluated = 3;
 
 /// Adds the subcommand. Its callback stores the result of run_reproduce() in exit_code, which must live until the
 /// command line was parsed.
 void setup_reproduce(CLI::App& app, int& exit_code);
 
-/// Runs experiments, prints their tables and writes a page for each.
-/// \returns 0, or 1 if an expectation does not hold
+/// Runs experiments unless their reports are up to date, prints their tables and writes the page.
+/// \returns 0, 1 if an expectation does not hold, or kNotEvaluated
 int run_reproduce(const ReproduceOptions& options);
 
 } // namespace nusselt::app

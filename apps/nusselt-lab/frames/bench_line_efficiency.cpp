@@ -7,8 +7,8 @@
 #include "apps/nusselt-lab/bench/bench_output.h"
 #include "bench_frames.h"
 
-#include "lab/figures/report_results.h"
 #include "lab/lines/line_efficiency.h"
+#include "lab/report/report_results.h"
 #include "scene/import/importers.h"
 
 #include <CLI/CLI.hpp>

@@ -34,7 +34,7 @@ void print_table(const std::vector<lab::SamplerTiming>& rows) {
         "sample, world and once. grows: x over that of 4 vertices. instructions: prepare / sample, and "
         "x.\n\n");
     constexpr const char* kFormat =
-        "{:<34}{:<34}{:<28}{:>9}{:>9}{:>9}{:>9}{:>9}{:>15}{:>7}{:>7}{:>15}{:>15}{:>15}\n";
+        "{:<37}{:<34}{:<28}{:>9}{:>9}{:>9}{:>9}{:>9}{:>15}{:>7}{:>7}{:>15}{:>15}{:>15}\n";
     fmt::print(kFormat, "technique", "lights", "code", "prepare", "sample", "without", "world", "once", "x",
                "world", "once", "grows", "instructions", "x");
     for (const auto& row : rows)
@@ -56,6 +56,8 @@ lab::ResultTable table_of(const std::vector<lab::SamplerTiming>& rows) {
     using Row = lab::SamplerTiming;
     const NumberColumn columns[] = {{{"prepare_ns", "ns"}, &Row::prepare_ns},
                                     {{"sample_ns", "ns"}, &Row::sample_ns},
+                                    {{"prepare_spread_ns", "ns"}, &Row::prepare_spread_ns},
+                                    {{"sample_spread_ns", "ns"}, &Row::sample_spread_ns},
                                     {{"direction_ns", "ns"}, &Row::direction_ns},
                                     {{"transform_ns", "ns"}, &Row::transform_ns},
                                     {{"world_ns", "ns"}, &Row::world_ns},

@@ -267,6 +267,26 @@ struct PngWriter {
     png_infop info = nullptr;
 };
 
+/// \param fill_row  called with the number of each row from the top, and with its 3 * width bytes to fill
+template <class FillRow>
+void write_png(std::ostream& stream, int width, int height, const FillRow& fill_row) {
+    PngWriter writer(stream);
+    writer.call([&] {
+        writer.info = png_create_info_struct(writer.png);
+        png_set_write_fn(writer.png, &writer, PngWriter::write_bytes, nullptr);
+        png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(width),
+                     static_cast<png_uint_32>(height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                     PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        png_write_info(writer.png, writer.info);
+    });
+    std::vector<png_byte> row(3 * static_cast<std::size_t>(width));
+    for (int y = 0; y < height; ++y) {
+        fill_row(static_cast<std::size_t>(y), row);
+        writer.call([&] { png_write_row(writer.png, row.data()); });
+    }
+    writer.call([&] { png_write_end(writer.png, nullptr); });
+}
+
 } // namespace
 
 CodedHeader read_png_header(std::istream& file) { return PngReader(file).header(); }
@@ -274,25 +294,18 @@ CodedHeader read_png_header(std::istream& file) { return PngReader(file).header(
 void decode_png(std::istream& file, CodeRows& rows) { PngReader(file).read_rows(rows); }
 
 void encode_png(std::ostream& stream, const Image& image, double scale) {
-    PngWriter writer(stream);
-    writer.call([&] {
-        writer.info = png_create_info_struct(writer.png);
-        png_set_write_fn(writer.png, &writer, PngWriter::write_bytes, nullptr);
-        png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width),
-                     static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                     PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-        png_write_info(writer.png, writer.info);
+    write_png(stream, image.width, image.height, [&](std::size_t y, std::vector<png_byte>& row) {
+        const float* const pixels = &image.pixels[y * row.size()];
+        std::transform(pixels, pixels + row.size(), row.begin(), [scale](float value) {
+            return static_cast<png_byte>(std::lround(255 * display_code(scale * double(value))));
+        });
     });
-    std::vector<png_byte> row(3 * static_cast<std::size_t>(image.width));
-    for (auto pixels = image.pixels.begin(); pixels != image.pixels.end();
-         pixels += static_cast<std::ptrdiff_t>(row.size())) {
-        std::transform(
-            pixels, pixels + static_cast<std::ptrdiff_t>(row.size()), row.begin(), [scale](float value) {
-                return static_cast<png_byte>(std::lround(255 * display_code(scale * double(value))));
-            });
-        writer.call([&] { png_write_row(writer.png, row.data()); });
-    }
-    writer.call([&] { png_write_end(writer.png, nullptr); });
+}
+
+void encode_png_codes(std::ostream& stream, int width, int height, const std::vector<unsigned char>& codes) {
+    write_png(stream, width, height, [&](std::size_t y, std::vector<png_byte>& row) {
+        std::copy_n(&codes[y * row.size()], row.size(), row.begin());
+    });
 }
 
 } // namespace nusselt::image

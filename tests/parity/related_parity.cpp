@@ -1,10 +1,11 @@
-// Parity of published methods, on lights for which they are made. On other lights, their errors are arbitrary in C++,
-// too.
+#include "related_parity.h"
 
-#include "lab/parity/parity.h"
 #include "lab/parity/technique_parity.h"
+#include "proof/tube_lights.h"
+#include "related_twins.h"
 
 #include <set>
+#include <stdexcept>
 
 namespace nusselt::parity {
 
@@ -13,7 +14,7 @@ namespace {
 /// The published method that a technique replaces. Its twin has no invert(). The one for PolygonProjectedSolidAngle
 /// follows chains of edges in C++ but sorts in GLSL. The order of sums may differ, so only errors can be compared.
 template <class AnyKind>
-struct RelatedPair {
+struct ReplacedPair {
     using Kind = AnyKind;
     using Traits = proof::Judged<Kind>;
     static constexpr const char* kName = Kind::kPublishedName;
@@ -31,26 +32,44 @@ struct RelatedPair {
 };
 
 template <class Pair>
+std::span<const std::uint32_t> related_shader(Variant variant) {
+    for (const TwinShader& shader : kRelatedTwinShaders)
+        if (shader.technique == std::string_view(Pair::kName) && shader.variant == variant)
+            return shader.spirv;
+    throw std::logic_error("no such twin of " + std::string(Pair::kName));
+}
+
+template <class Pair>
 std::vector<VariantVerdict> judge_ordinary_lights(const gpu::Device& device, const ParityEffort& effort) {
-    const std::set<std::string> ordinary{"decentral", "central", "ordinary"};
+    std::set<std::string> ordinary{"decentral", "central", "ordinary"};
+    for (const proof::TubeLight& tube : proof::tube_lights()) ordinary.insert(tube.name);
     const auto is_judged = [&](const auto& lights) { return ordinary.count(lights.name) > 0; };
     const std::vector<Variant> variants = variants_for(device);
-    const auto verdicts =
-        judge_twins<Pair>(device, shaders_of<Pair>(variants), effort.lights / 10, is_judged);
+    std::vector<std::span<const std::uint32_t>> shaders;
+    for (const Variant variant : variants) shaders.push_back(related_shader<Pair>(variant));
+    const auto verdicts = judge_twins<Pair>(device, shaders, effort.lights / 10, is_judged);
     std::vector<VariantVerdict> results;
     for (std::size_t k = 0; k < variants.size(); ++k) results.push_back({variants[k], verdicts[k]});
     return results;
 }
 
+template <class Pair>
+ParityCase case_of() {
+    return {"published method", name_of_pair<Pair>(), judge_ordinary_lights<Pair>};
+}
+
 } // namespace
 
-void add_related_cases(std::vector<ParityCase>& cases) {
-    using Kinds = hostile::Join<hostile::PolygonKinds<4>, hostile::LineKinds>;
+std::vector<ParityCase> related_cases() {
+    std::vector<ParityCase> cases;
+    using Kinds = hostile::Join<hostile::PolygonKinds<4>, hostile::LineKinds, hostile::CylinderKinds>;
     Kinds().for_each([&]<class Kind> {
         if constexpr (!std::is_same_v<typename Kind::template Published<float>, hostile::Absent>)
-            cases.push_back({"published method", name_of_pair<RelatedPair<Kind>>(),
-                             judge_ordinary_lights<RelatedPair<Kind>>});
+            cases.push_back(case_of<ReplacedPair<Kind>>());
+        if constexpr (Kind::kIsRelated && !hostile::kIsExempt<Kind, ParitySuite>)
+            cases.push_back(case_of<TechniquePair<Kind>>());
     });
+    return cases;
 }
 
 } // namespace nusselt::parity

@@ -1,4 +1,4 @@
-#include "lab/figures/plot.h"
+#include "lab/report/plot.h"
 
 #include <fmt/format.h>
 
@@ -23,8 +23,8 @@ constexpr double kRow = 18;
 constexpr std::array kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9",
                                 "#e69f00", "#000000", "#999933", "#882255", "#332288"};
 
-bool is_drawable(const std::pair<double, double>& p) {
-    return p.first > 0 && p.second > 0 && std::isfinite(p.first) && std::isfinite(p.second);
+bool is_drawable(const PlotPoint& p) {
+    return p.x > 0 && p.y > 0 && std::isfinite(p.x) && std::isfinite(p.y);
 }
 
 /// A logarithmic axis: which numbers it shows and where, from 0 to 1.
@@ -99,10 +99,10 @@ std::string stroke_of(const PlotCurve& curve, std::size_t index) {
 std::string to_svg(const Plot& plot) {
     Axis x_axis, y_axis;
     for (const PlotCurve& curve : plot.curves)
-        for (const auto& p : curve.points)
+        for (const PlotPoint& p : curve.points)
             if (is_drawable(p)) {
-                x_axis.include(p.first);
-                y_axis.include(p.second);
+                x_axis.include(p.x);
+                y_axis.include(p.y);
             }
     x_axis = with_margin(x_axis);
     y_axis = with_margin(y_axis);
@@ -138,8 +138,8 @@ std::string to_svg(const Plot& plot) {
     for (std::size_t i = 0; i < plot.curves.size(); ++i) {
         const std::string stroke = stroke_of(plot.curves[i], i);
         std::string path;
-        for (const auto& p : plot.curves[i].points)
-            if (is_drawable(p)) path += fmt::format(" {:.1f},{:.1f}", x_of(p.first), y_of(p.second));
+        for (const PlotPoint& p : plot.curves[i].points)
+            if (is_drawable(p)) path += fmt::format(" {:.1f},{:.1f}", x_of(p.x), y_of(p.y));
         svg += fmt::format("<polyline points=\"{}\" fill=\"none\" {}/>\n", path, stroke);
         const double y = kTop + 10 + kRow * static_cast<double>(i);
         svg += line_between(right + 12, y, right + 40, y, stroke);

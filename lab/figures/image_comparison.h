@@ -1,6 +1,7 @@
 #pragma once
-/// Figures and tables of the papers as data: what to render with which settings, and what is expected.
+/// Comparisons of rendered images as data: what to render with which settings, and what is expected.
 
+#include "lab/report/report.h"
 #include "render/settings.h"
 
 #include <string>
@@ -14,12 +15,9 @@ namespace nusselt::lab {
 struct Variant {
     std::string label;
     render::RenderSettings settings;
-};
-
-/// A part of the image that is also measured by itself, in shares of its width and height from the top left.
-struct Inset {
-    std::string name;
-    double left, top, right, bottom;
+    /// A technique of techniques.json that the renderer does not offer: the image is that of TechniqueImages, and of the
+    /// settings, only the seed counts. Empty: the renderer's image.
+    std::string technique = {};
 };
 
 /// The error that is measured against the reference.
@@ -67,7 +65,15 @@ struct Unbiased {
 
 using Expectation = std::variant<AtMost, AtMostTimes, Falling, Unbiased>;
 
-struct Experiment {
+/// A number that a paper states, which is the metric of a variant here.
+struct Stated {
+    std::string item;     ///< id of an item of lab/report/published.json
+    std::string quantity; ///< as the item names it
+    Metric metric;
+    std::string variant;
+};
+
+struct ImageComparison {
     std::string name;        ///< on the command line
     std::string source;      ///< paper and figure
     std::string description; ///< one sentence
@@ -75,14 +81,19 @@ struct Experiment {
     render::RenderSettings reference;
     std::vector<Variant> variants;
     std::vector<Expectation> expectations;
-    std::vector<Inset> insets = {};
+    std::vector<Inset> insets = {}; ///< each is measured by itself, too
     /// The number of images of each variant, each with its own seed; errors are root mean squares over them.
     int frames = 1;
     int reference_frames = 1; ///< number of images whose mean is the reference
+    int width = 0;            ///< of the images in pixels; 0: as the scene defines
+    std::vector<Stated> stated = {};
 };
 
-/// All experiments, in the order of the papers.
-const std::vector<Experiment>& all_experiments();
+/// All comparisons, in the order of the papers.
+const std::vector<ImageComparison>& all_image_comparisons();
+
+/// Small images with few frames, and references with few samples.
+ImageComparison quick(ImageComparison comparison);
 
 std::string to_text(const Metric& metric);
 std::string to_text(const Expectation& expectation);

@@ -2,12 +2,11 @@
 /// Parts of reports as result tables.
 
 #include "lab/errors/noise_curve.h"
-#include "lab/figures/report_table.h"
-#include "lab/results/results.h"
+#include "lab/report/report.h"
 
 namespace nusselt::lab {
 
-/// Whether each expectation holds.
+/// Whether each expectation holds, or null with a reason.
 ResultTable expectation_table(const std::vector<ExpectationResult>& expectations);
 
 /// Columns that name a curve, and those that append_curve() fills.

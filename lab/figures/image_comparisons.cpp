@@ -1,10 +1,11 @@
-#include "lab/figures/experiment.h"
+#include "lab/figures/image_comparison.h"
 
-#include "lab/lines/line_registry.h"
+#include "lab/lines/line_comparisons.h"
 
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <utility>
 
@@ -49,6 +50,11 @@ std::vector<Variant> one_sample_each(std::initializer_list<Technique> techniques
     return variants;
 }
 
+/// Published methods that only the laboratory renders, one sample per pixel.
+void append_published(std::initializer_list<const char*> techniques, std::vector<Variant>& variants) {
+    for (const char* const technique : techniques) variants.push_back({technique, {}, technique});
+}
+
 /// Two rays per pixel: projected solid angle sampling alone, and with linearly transformed cosines by these heuristics.
 std::vector<Variant> two_rays_each(std::initializer_list<Mis> heuristics) {
     std::vector<Variant> variants = {
@@ -73,39 +79,79 @@ std::vector<std::string> labels_of(const std::vector<Variant>& variants) {
     return labels;
 }
 
-Experiment line_diffuse() {
+ImageComparison line_diffuse() {
     const std::vector<std::string> order = {"area", "solid_angle", "clipped_solid_angle",
                                             "projected_solid_angle"};
-    return {"line-diffuse",
-            "Peters 2021, linear lights, Fig. 6",
-            "A Lambertian Cornell box under a tube just below the ceiling, one sample per pixel.",
-            "cornell-tube.pbrt",
-            reference(),
-            one_sample_each({Technique::area, Technique::solid_angle, Technique::clipped_solid_angle,
-                             Technique::projected_solid_angle}),
-            {AtMost{{Measure::rmse_outside_penumbrae}, "projected_solid_angle", 1e-4},
-             Falling{{Measure::rmse_outside_penumbrae}, order}, Falling{{Measure::rmse}, order}}};
+    const Metric outside = {Measure::rmse_outside_penumbrae};
+    ImageComparison comparison = {
+        "line-diffuse",
+        "Peters 2021, linear lights, Fig. 6",
+        "A Lambertian Cornell box under a tube just below the ceiling, one sample per pixel.",
+        "cornell-tube.pbrt",
+        reference(),
+        one_sample_each({Technique::area, Technique::solid_angle, Technique::clipped_solid_angle,
+                         Technique::projected_solid_angle}),
+        {AtMost{outside, "projected_solid_angle", 1e-4}, Falling{outside, order},
+         Falling{{Measure::rmse}, order},
+         // The linear warp deteriorates the ceiling, the quadratic one helps everywhere.
+         Falling{outside, {"clipped_solid_angle", "LineClippedQuadraticWarpHart", "projected_solid_angle"}},
+         AtMost{outside, "LineProjectedSolidAngleLi", 1e-3}}};
+    append_published(
+        {"LineClippedLinearWarpHart", "LineClippedQuadraticWarpHart", "LineProjectedSolidAngleLi"},
+        comparison.variants);
+    return comparison;
 }
 
-Experiment polygon_diffuse() {
+ImageComparison polygon_diffuse() {
     const std::vector<std::string> order = {"area", "solid_angle", "clipped_solid_angle",
                                             "projected_solid_angle"};
-    return {"polygon-diffuse",
-            "Peters 2021, polygonal lights, Fig. 12",
-            "A Cornell box of roughness one with a panel stretching through it, one sample per pixel.",
-            "cornell-panel.pbrt",
-            reference(),
-            one_sample_each({Technique::area, Technique::solid_angle, Technique::clipped_solid_angle,
-                             Technique::projected_solid_angle, Technique::projected_solid_angle_biased}),
-            {Falling{{Measure::rmse_outside_penumbrae}, order}, Falling{{Measure::rmse}, order}}};
+    const Metric outside = {Measure::rmse_outside_penumbrae};
+    ImageComparison comparison = {
+        "polygon-diffuse",
+        "Peters 2021, polygonal lights, Fig. 12",
+        "A Cornell box of roughness one with a panel stretching through it, one sample per pixel.",
+        "cornell-panel.pbrt",
+        reference(),
+        one_sample_each({Technique::area, Technique::solid_angle, Technique::clipped_solid_angle,
+                         Technique::projected_solid_angle, Technique::projected_solid_angle_biased}),
+        {Falling{outside, order}, Falling{{Measure::rmse}, order},
+         Falling{outside,
+                 {"solid_angle", "PolygonBilinearWarpHart", "PolygonBiquadraticWarpHart",
+                  "projected_solid_angle"}},
+         Falling{outside,
+                 {"clipped_solid_angle", "PolygonClippedBilinearWarpHart", "projected_solid_angle"}}}};
+    append_published({"RectangleSolidAngle", "PolygonSolidAngleArvo", "PolygonBilinearWarpHart",
+                      "PolygonClippedBilinearWarpHart", "PolygonBiquadraticWarpHart",
+                      "PolygonProjectedSolidAngleArvo", "PolygonProjectedSolidAngleBisection",
+                      "PolygonSubdivisionUrena"},
+                     comparison.variants);
+    comparison.frames = 8;
+    return comparison;
 }
 
-Experiment planes_image() {
+/// Arvo's method cannot take edges that are parallel to normals.
+ImageComparison tilted_polygon() {
+    ImageComparison comparison = {
+        "polygon-tilted",
+        "Peters 2021, polygonal lights, Fig. 12",
+        "The same box with the panel turned by one degree around each axis, one sample per pixel.",
+        "cornell-panel-tilted.pbrt",
+        reference(),
+        one_sample_each({Technique::projected_solid_angle}),
+        {Falling{{Measure::rmse_outside_penumbrae},
+                 {"PolygonProjectedSolidAngleArvo", "projected_solid_angle"}}}};
+    append_published({"PolygonProjectedSolidAngleArvo", "PolygonProjectedSolidAngleBisection"},
+                     comparison.variants);
+    comparison.frames = 8;
+    return comparison;
+}
+
+ImageComparison planes_image() {
     std::vector<Variant> variants =
         two_rays_each({Mis::balance, Mis::clamped_optimal, Mis::weighted_balance});
     variants.push_back(
         {"ltc_analytic", noise_measurement(Technique::ltc_analytic, 1, SampleOrder::independent)});
-    Experiment experiment = {
+    ImageComparison experiment = {
         "planes-image",
         "Peters 2021, polygonal lights, Fig. 14",
         "Three planes of roughness 0.2, 0.4, 0.6 under a square light, two samples per pixel.",
@@ -120,8 +166,8 @@ Experiment planes_image() {
     return experiment;
 }
 
-Experiment wall() {
-    Experiment experiment = {
+ImageComparison wall() {
+    ImageComparison experiment = {
         "wall",
         "Peters 2021, polygonal lights, Fig. 10",
         "A blue diffuse and a white glossy plane beside a light that a wall hides in part, two rays per "
@@ -158,7 +204,7 @@ Experiment wall() {
     return experiment;
 }
 
-Experiment biased() {
+ImageComparison biased() {
     constexpr int kSamples = 4096;
     Variant exact = {"projected_solid_angle", both(Mis::clamped_optimal, kSamples, SampleOrder::sobol)};
     Variant fast = {"projected_solid_angle_biased", exact.settings};
@@ -176,7 +222,7 @@ Experiment biased() {
         {{"plane", 0, 0.47, 1, 1}}};
 }
 
-Experiment tube() {
+ImageComparison tube() {
     return {"tube",
             "Peters 2021, linear lights, Fig. 1",
             "A long tube over a pavement with bollards and a puddle, two rays per pixel.",
@@ -188,14 +234,23 @@ Experiment tube() {
 
 } // namespace
 
-const std::vector<Experiment>& all_experiments() {
-    static const std::vector<Experiment> experiments = [] {
-        std::vector<Experiment> all = {line_diffuse(),    tube(),         wall(),
-                                       polygon_diffuse(), planes_image(), biased()};
-        for (Experiment& experiment : line_experiments()) all.push_back(std::move(experiment));
+const std::vector<ImageComparison>& all_image_comparisons() {
+    static const std::vector<ImageComparison> experiments = [] {
+        std::vector<ImageComparison> all = {line_diffuse(),   tube(),         wall(),  polygon_diffuse(),
+                                            tilted_polygon(), planes_image(), biased()};
+        for (ImageComparison& experiment : line_comparisons()) all.push_back(std::move(experiment));
         return all;
     }();
     return experiments;
+}
+
+ImageComparison quick(ImageComparison comparison) {
+    comparison.width = 192;
+    const bool has_frames = comparison.reference_frames > 1;
+    comparison.reference.samples = std::min(comparison.reference.samples, has_frames ? 32 : 256);
+    comparison.frames = std::min(comparison.frames, 16);
+    comparison.reference_frames = std::min(comparison.reference_frames, 16);
+    return comparison;
 }
 
 std::string to_text(const Metric& metric) {

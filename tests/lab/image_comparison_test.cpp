@@ -1,14 +1,10 @@
-#include "base/temporary_folder.h"
 #include "common/source_folder.h"
-#include "lab/figures/run.h"
+#include "lab/figures/run_image_comparison.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <variant>
 
@@ -18,27 +14,22 @@ namespace {
 
 const std::filesystem::path kScenes = std::filesystem::path(nusselt_test::kSourceFolder) / "scenes";
 
-const Experiment& experiment(const std::string& name) {
-    const auto& all = all_experiments();
-    return *std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return e.name == name; });
+const ImageComparison& comparison(const std::string& name) {
+    const auto& all = all_image_comparisons();
+    return *std::find_if(all.begin(), all.end(), [&](const ImageComparison& e) { return e.name == name; });
 }
 
-/// Small images, to be quick. References that are means of several frames have fewer samples in each.
-RunSettings small_run(const Experiment& e) {
+/// Small images, to be quick.
+ImageComparisonResult run(const ImageComparison& full) {
+    ImageComparison comparison = quick(full);
+    comparison.width = 64;
     RunSettings settings;
     settings.scenes = kScenes;
-    settings.width = 64;
-    settings.reference_samples = e.reference_frames > 1 ? 32 : 256;
-    return settings;
+    return run_image_comparison(comparison, settings, [](std::string_view) {});
 }
 
-ExperimentResult run(const Experiment& e) {
-    return run_experiment(e, small_run(e), [](std::string_view) {});
-}
-
-bool all_hold(const ExperimentResult& result) {
-    return std::all_of(result.expectations.begin(), result.expectations.end(),
-                       [](const ExpectationResult& e) { return e.holds; });
+bool all_hold(const ImageComparisonResult& result) {
+    return verdict_of(result.expectations) == Verdict::holds;
 }
 
 // The variants and the metric of an expectation.
@@ -58,7 +49,7 @@ std::string inset_of(const Unbiased& /*whole images*/) { return ""; }
 
 TEST(Registry, NamesAreUniqueScenesExistAndExpectationsReferToVariants) {
     std::set<std::string> names;
-    for (const Experiment& e : all_experiments()) {
+    for (const ImageComparison& e : all_image_comparisons()) {
         EXPECT_TRUE(names.insert(e.name).second) << e.name;
         EXPECT_TRUE(std::filesystem::exists(kScenes / e.scene)) << e.scene;
         EXPECT_FALSE(e.expectations.empty()) << e.name;
@@ -78,44 +69,44 @@ TEST(Registry, NamesAreUniqueScenesExistAndExpectationsReferToVariants) {
 }
 
 TEST(Run, ExpectationsHoldInSmallImages) {
-    for (const Experiment& e : all_experiments()) {
-        const ExperimentResult result = run(e);
+    for (const ImageComparison& e : all_image_comparisons()) {
+        const ImageComparisonResult result = run(e);
         EXPECT_EQ(result.reference.width, 64);
         for (const VariantResult& v : result.variants) EXPECT_EQ(v.errors.invalid_pixels, 0) << v.label;
         for (const ExpectationResult& expectation : result.expectations)
-            EXPECT_TRUE(expectation.holds) << e.name << ": " << expectation.text;
+            EXPECT_EQ(expectation.verdict, Verdict::holds) << e.name << ": " << expectation.text;
     }
 }
 
 TEST(Run, FindsPenumbrae) {
     for (const char* name : {"line-diffuse", "polygon-diffuse", "tube"}) {
-        const double share = run(experiment(name)).share_outside_penumbrae;
+        const double share = run(comparison(name)).share_outside_penumbrae;
         EXPECT_GT(share, 0.5) << name;
         EXPECT_LT(share, 0.99) << name;
     }
-    EXPECT_EQ(run(experiment("planes-image")).share_outside_penumbrae, 1);
+    EXPECT_EQ(run(comparison("planes-image")).share_outside_penumbrae, 1);
 }
 
 // Shading without shadows is not the mean of anything with shadows.
 TEST(Run, NoticesAWrongMean) {
-    Experiment mutant = experiment("wall");
+    ImageComparison mutant = comparison("wall");
     Variant wrong = mutant.variants[0];
     wrong.label = "ltc_analytic";
     wrong.settings.technique = render::Technique::ltc_analytic;
     mutant.variants = {mutant.variants[0], wrong};
     mutant.expectations = {Unbiased{{mutant.variants[0].label}}, Unbiased{{wrong.label}}};
-    const ExperimentResult result = run(mutant);
-    EXPECT_TRUE(result.expectations[0].holds);
-    EXPECT_FALSE(result.expectations[1].holds);
+    const ImageComparisonResult result = run(mutant);
+    EXPECT_EQ(result.expectations[0].verdict, Verdict::holds);
+    EXPECT_EQ(result.expectations[1].verdict, Verdict::fails);
 }
 
 // Solid angle sampling posing as projected solid angle sampling must be noticed.
 TEST(Run, ExpectationsFailForAnImpostor) {
-    Experiment mutant = experiment("line-diffuse");
+    ImageComparison mutant = comparison("line-diffuse");
     for (Variant& v : mutant.variants) v.settings.technique = render::Technique::solid_angle;
-    const ExperimentResult result = run(mutant);
+    const ImageComparisonResult result = run(mutant);
     for (const ExpectationResult& expectation : result.expectations)
-        EXPECT_FALSE(expectation.holds) << expectation.text;
+        EXPECT_EQ(expectation.verdict, Verdict::fails) << expectation.text;
 }
 
 // Shading without shadows posing as the biased variant, and noise posing as analytic shading.
@@ -125,20 +116,20 @@ TEST(Run, LimitsOfErrorsFailForImpostors) {
     const Variant impostors[] = {{"projected_solid_angle_biased", unshadowed}, {"ltc_analytic", {}}};
     const char* const names[] = {"biased", "planes-image"};
     for (int i = 0; i < 2; ++i) {
-        Experiment mutant = experiment(names[i]);
+        ImageComparison mutant = comparison(names[i]);
         mutant.variants = {impostors[i]};
         auto& expectations = mutant.expectations;
         const auto is_no_limit = [](const Expectation& e) { return !std::holds_alternative<AtMost>(e); };
         expectations.erase(std::remove_if(expectations.begin(), expectations.end(), is_no_limit),
                            expectations.end());
-        const ExperimentResult result = run(mutant);
+        const ImageComparisonResult result = run(mutant);
         ASSERT_EQ(result.expectations.size(), 1u) << names[i];
-        EXPECT_FALSE(result.expectations[0].holds) << result.expectations[0].text;
+        EXPECT_EQ(result.expectations[0].verdict, Verdict::fails) << result.expectations[0].text;
     }
 }
 
 TEST(Run, NamesTheMissingScene) {
-    Experiment lost = experiment("line-diffuse");
+    ImageComparison lost = comparison("line-diffuse");
     lost.scene = "no-such-scene.pbrt";
     try {
         run(lost);
@@ -149,20 +140,24 @@ TEST(Run, NamesTheMissingScene) {
 }
 
 TEST(Report, HasATableRowAndAnImagePerVariant) {
-    const ExperimentResult result = run(experiment("line-diffuse"));
+    const ImageComparisonResult result = run(comparison("line-diffuse"));
     EXPECT_TRUE(all_hold(result));
-    const nusselt::base::TemporaryFolder parent;
-    const std::filesystem::path folder = parent / "page";
-    write_report(result, folder);
-    std::ifstream stream(folder / "index.html");
-    const std::string html{std::istreambuf_iterator<char>(stream), {}};
-    for (const VariantResult& v : result.variants) {
-        EXPECT_NE(html.find("<td>" + v.label + "<td>"), std::string::npos) << v.label;
-        EXPECT_NE(html.find("src=\"" + v.label + ".png\""), std::string::npos) << v.label;
-        for (const char* suffix : {".png", ".exr", "-difference.png"})
-            EXPECT_GT(std::filesystem::file_size(folder / (v.label + suffix)), 100u) << v.label << suffix;
+    const Report report = report_of(result);
+    ASSERT_EQ(report.images.size(), result.variants.size() + 1);
+    EXPECT_EQ(report.images[0].role, ImageRole::reference);
+    for (std::size_t i = 0; i < result.variants.size(); ++i) {
+        const ReportImage& image = report.images[i + 1];
+        EXPECT_EQ(report.tables[0][i + 1][0], result.variants[i].label);
+        EXPECT_EQ(image.label, result.variants[i].label);
+        EXPECT_EQ(image.role, ImageRole::variant);
+        EXPECT_EQ(image.metrics[0].first, "RMSE");
+        EXPECT_GT(image.metrics[0].second, 0);
+        EXPECT_EQ(image.metrics[1].first, "FLIP");
+        EXPECT_GT(image.metrics[1].second, 0);
+        EXPECT_LT(image.metrics[1].second, 1);
     }
-    EXPECT_EQ(html.find("does not hold"), std::string::npos);
+    ASSERT_FALSE(report.inputs.empty());
+    EXPECT_EQ(report.inputs[0].filename(), "cornell-tube.pbrt");
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "lab/lines/line_registry.h"
+#include "lab/lines/line_comparisons.h"
 
 namespace nusselt::lab {
 
@@ -32,9 +32,9 @@ Variant lines(const std::string& label, LineOrientation orientation, LineOffsets
     return {label, settings};
 }
 
-Experiment under_a_triangle(const std::string& name, const std::string& figure,
-                            const std::string& description) {
-    Experiment experiment;
+ImageComparison under_a_triangle(const std::string& name, const std::string& figure,
+                                 const std::string& description) {
+    ImageComparison experiment;
     experiment.name = name;
     experiment.source = "Billen and Dutre 2016, " + figure;
     experiment.description = description;
@@ -49,8 +49,8 @@ Experiment under_a_triangle(const std::string& name, const std::string& figure,
 const Inset kAlong = {"shadow edge along fixed lines", 0.67, 0.63, 0.8, 0.73};
 const Inset kAcross = {"shadow edge across fixed lines", 0.78, 0.57, 0.87, 0.65};
 
-Experiment orientation() {
-    Experiment experiment = under_a_triangle(
+ImageComparison orientation() {
+    ImageComparison experiment = under_a_triangle(
         "lines-orientation", "Fig. 2",
         "A glossy ring and a metal shelf under a triangular light: 16 lines, stratified, in one fixed "
         "direction, each in a random one, or in parallel in a random one for each shading point.");
@@ -65,10 +65,11 @@ Experiment orientation() {
     return experiment;
 }
 
-Experiment offsets() {
-    Experiment experiment = under_a_triangle("lines-offsets", "Fig. 3",
-                                             "The same scene with 16 parallel lines per light, whose offsets "
-                                             "are uniform or as likely as lines are long.");
+ImageComparison offsets() {
+    ImageComparison experiment =
+        under_a_triangle("lines-offsets", "Fig. 3",
+                         "The same scene with 16 parallel lines per light, whose offsets "
+                         "are uniform or as likely as lines are long.");
     experiment.variants = {lines("uniform", LineOrientation::parallel, LineOffsets::uniform),
                            lines("length", LineOrientation::parallel, LineOffsets::length)};
     // Without stratification, the lengths of lines make the difference.
@@ -86,6 +87,6 @@ Experiment offsets() {
 
 } // namespace
 
-std::vector<Experiment> line_experiments() { return {orientation(), offsets()}; }
+std::vector<ImageComparison> line_comparisons() { return {orientation(), offsets()}; }
 
 } // namespace nusselt::lab

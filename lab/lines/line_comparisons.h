@@ -2,12 +2,12 @@
 /// Experiments with line samples that render one scene: N. Billen and P. Dutre 2016, Line Sampling for Direct Illumination,
 /// Figures 2 and 3.
 
-#include "lab/figures/experiment.h"
+#include "lab/figures/image_comparison.h"
 
 #include <vector>
 
 namespace nusselt::lab {
 
-std::vector<Experiment> line_experiments();
+std::vector<ImageComparison> line_comparisons();
 
 } // namespace nusselt::lab

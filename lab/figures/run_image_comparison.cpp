@@ -1,5 +1,7 @@
-#include "lab/figures/run.h"
+#include "lab/figures/run_image_comparison.h"
 
+#include "base/stopwatch.h"
+#include "lab/figures/technique_image.h"
 #include "render/film.h"
 #include "render_cpu/renderer.h"
 #include "scene/import/importers.h"
@@ -52,52 +54,36 @@ std::vector<bool> outside_penumbrae(const render_cpu::Renderer& renderer, base::
     return mask;
 }
 
-const VariantResult& variant_of(const ExperimentResult& result, const std::string& label) {
+const VariantResult& variant_of(const ImageComparisonResult& result, const std::string& label) {
     const auto found = std::find_if(result.variants.begin(), result.variants.end(),
                                     [&](const VariantResult& v) { return v.label == label; });
     if (found == result.variants.end())
-        throw std::logic_error("experiment " + result.experiment->name + " has an expectation about " +
-                               label + ", which it does not render");
+        throw std::logic_error("comparison " + result.comparison.name + " has an expectation about " + label +
+                               ", which it does not render");
     return *found;
 }
 
-const RegionErrors& errors_in(const ExperimentResult& result, const ImageErrors& errors,
+const RegionErrors& errors_in(const ImageComparisonResult& result, const ImageErrors& errors,
                               const std::string& inset) {
     if (inset.empty()) return errors.frame;
-    const std::vector<Inset>& insets = result.experiment->insets;
+    const std::vector<Inset>& insets = result.comparison.insets;
     for (std::size_t i = 0; i < insets.size(); ++i)
         if (insets[i].name == inset) return errors.insets[i];
-    throw std::logic_error("experiment " + result.experiment->name + " has no inset " + inset);
+    throw std::logic_error("comparison " + result.comparison.name + " has no inset " + inset);
 }
 
-double measured(const ExperimentResult& result, const std::string& variant, const Metric& metric) {
-    const ImageErrors& errors = variant_of(result, variant).errors;
-    const RegionErrors& region = errors_in(result, errors, metric.inset);
-    switch (metric.measure) {
-    case Measure::rmse:
-        return region.rmse;
-    case Measure::rmse_clamped:
-        return region.rmse_clamped;
-    case Measure::relative_rmse:
-        return region.relative_rmse;
-    case Measure::rmse_outside_penumbrae:
-        break;
-    }
-    return errors.rmse_outside_penumbrae;
-}
-
-bool holds(const ExperimentResult& result, const AtMost& expected) {
+bool holds(const ImageComparisonResult& result, const AtMost& expected) {
     return measured(result, expected.variant, expected.metric) <= expected.limit;
 }
 
-bool holds(const ExperimentResult& result, const AtMostTimes& expected) {
+bool holds(const ImageComparisonResult& result, const AtMostTimes& expected) {
     const double value = measured(result, expected.variant, expected.metric);
     return std::all_of(expected.others.begin(), expected.others.end(), [&](const std::string& other) {
         return value <= expected.factor * measured(result, other, expected.metric);
     });
 }
 
-bool holds(const ExperimentResult& result, const Falling& expected) {
+bool holds(const ImageComparisonResult& result, const Falling& expected) {
     for (std::size_t i = 1; i < expected.variants.size(); ++i)
         if (!(measured(result, expected.variants[i], expected.metric) <
               measured(result, expected.variants[i - 1], expected.metric)))
@@ -105,11 +91,11 @@ bool holds(const ExperimentResult& result, const Falling& expected) {
     return true;
 }
 
-bool holds(const ExperimentResult& result, const Unbiased& expected) {
+bool holds(const ImageComparisonResult& result, const Unbiased& expected) {
     return std::all_of(expected.variants.begin(), expected.variants.end(), [&](const std::string& label) {
         const VariantResult& variant = variant_of(result, label);
         if (!variant.bias)
-            throw std::logic_error("experiment " + result.experiment->name +
+            throw std::logic_error("comparison " + result.comparison.name +
                                    " needs several frames to detect bias");
         return variant.bias->passes();
     });
@@ -143,63 +129,107 @@ Reference render_reference(const render_cpu::Renderer& renderer, base::Isa isa,
     return reference;
 }
 
-VariantResult render_variant(const render_cpu::Renderer& renderer, base::Isa isa, const Variant& variant,
-                             const Experiment& experiment, const Reference& reference,
+/// An image and the time of its render phase [s].
+struct TimedImage {
+    image::Image image;
+    double seconds;
+};
+
+/// Renders variants.
+class VariantRenderer {
+public:
+    VariantRenderer(const scene::Scene& scene, const render_cpu::Renderer& renderer, base::Isa isa)
+        : scene_(scene), renderer_(renderer), isa_(isa) {}
+
+    TimedImage render(const Variant& variant, std::uint32_t seed) {
+        if (variant.technique.empty()) {
+            render::RenderSettings settings = variant.settings;
+            settings.seed = seed;
+            render::RenderResult result = renderer_.render(settings, isa_);
+            return {std::move(result.image), result.statistics.render_seconds};
+        }
+        if (!techniques_) techniques_.emplace(scene_, renderer_);
+        const base::Stopwatch stopwatch;
+        image::Image image = techniques_->render(variant.technique, seed);
+        return {std::move(image), stopwatch.seconds()};
+    }
+
+private:
+    const scene::Scene& scene_;
+    const render_cpu::Renderer& renderer_;
+    base::Isa isa_;
+    std::optional<TechniqueImages> techniques_; ///< once they are needed
+};
+
+VariantResult render_variant(VariantRenderer& renderer, const Variant& variant,
+                             const ImageComparison& comparison, const Reference& reference,
                              const std::vector<bool>& outside) {
-    ImageErrorSums errors(reference.image, outside, experiment.insets);
+    ImageErrorSums errors(reference.image, outside, comparison.insets);
     BiasStatistics statistics;
     VariantResult result;
     result.label = variant.label;
-    render::RenderSettings settings = variant.settings;
-    for (int i = 0; i < experiment.frames; ++i) {
-        settings.seed = seed_of_frame(i, false);
-        render::RenderResult rendered = renderer.render(settings, isa);
+    for (int i = 0; i < comparison.frames; ++i) {
+        TimedImage rendered = renderer.render(variant, seed_of_frame(i, false));
         errors.add(rendered.image);
         statistics.add(rendered.image);
-        result.seconds += rendered.statistics.render_seconds / experiment.frames;
+        result.seconds += rendered.seconds / comparison.frames;
         if (i == 0) result.image = std::move(rendered.image);
     }
     result.errors = errors.errors();
-    if (experiment.frames > 1 && experiment.reference_frames > 1)
+    if (comparison.frames > 1 && comparison.reference_frames > 1)
         result.bias = statistics.compare(reference.statistics);
     return result;
 }
 
 } // namespace
 
-ExperimentResult run_experiment(const Experiment& experiment, const RunSettings& settings,
-                                const std::function<void(std::string_view)>& progress) {
-    scene::Scene scene = scene::load_scene(settings.scenes / experiment.scene);
-    if (settings.width > 0) {
-        const double height = static_cast<double>(scene.film.height) * settings.width / scene.film.width;
-        render::resize_film(scene, settings.width, std::max(1, static_cast<int>(std::lround(height))));
+double measured(const ImageComparisonResult& result, const std::string& variant, const Metric& metric) {
+    const ImageErrors& errors = variant_of(result, variant).errors;
+    const RegionErrors& region = errors_in(result, errors, metric.inset);
+    switch (metric.measure) {
+    case Measure::rmse:
+        return region.rmse;
+    case Measure::rmse_clamped:
+        return region.rmse_clamped;
+    case Measure::relative_rmse:
+        return region.relative_rmse;
+    case Measure::rmse_outside_penumbrae:
+        break;
     }
-    const int threads = settings.threads > 0 ? settings.threads : render_cpu::default_thread_count();
-    const render_cpu::Renderer renderer(scene, threads);
+    return errors.rmse_outside_penumbrae;
+}
+
+ImageComparisonResult run_image_comparison(const ImageComparison& comparison, const RunSettings& settings,
+                                           const ProgressText& progress) {
+    scene::Scene scene = scene::load_scene(settings.scenes / comparison.scene);
+    if (comparison.width > 0) {
+        const double height = static_cast<double>(scene.film.height) * comparison.width / scene.film.width;
+        render::resize_film(scene, comparison.width, std::max(1, static_cast<int>(std::lround(height))));
+    }
+    const render_cpu::Renderer renderer(scene, thread_count(settings));
     const base::Isa isa = base::choose_isa();
 
-    ExperimentResult result;
-    result.experiment = &experiment;
-    result.reference_settings = experiment.reference;
-    if (settings.reference_samples > 0) result.reference_settings.samples = settings.reference_samples;
+    ImageComparisonResult result;
+    result.comparison = comparison;
+    result.files = scene.files;
     progress(fmt::format("reference, {} samples per pixel",
-                         experiment.reference_frames * result.reference_settings.samples));
-    Reference reference =
-        render_reference(renderer, isa, result.reference_settings, experiment.reference_frames);
+                         comparison.reference_frames * comparison.reference.samples));
+    Reference reference = render_reference(renderer, isa, comparison.reference, comparison.reference_frames);
     result.mean = mean_radiance(reference.image);
     progress("penumbrae");
-    const std::vector<bool> mask = outside_penumbrae(renderer, isa, result.reference_settings);
+    const std::vector<bool> mask = outside_penumbrae(renderer, isa, comparison.reference);
     result.share_outside_penumbrae =
         static_cast<double>(std::count(mask.begin(), mask.end(), true)) / static_cast<double>(mask.size());
 
-    for (const Variant& variant : experiment.variants) {
+    VariantRenderer variants(scene, renderer, isa);
+    for (const Variant& variant : comparison.variants) {
         progress(variant.label);
-        result.variants.push_back(render_variant(renderer, isa, variant, experiment, reference, mask));
+        result.variants.push_back(render_variant(variants, variant, comparison, reference, mask));
     }
     result.reference = std::move(reference.image);
-    for (const Expectation& expectation : experiment.expectations) {
+    for (const Expectation& expectation : comparison.expectations) {
         const bool held = std::visit([&](const auto& e) { return holds(result, e); }, expectation);
-        result.expectations.push_back({to_text(expectation), held});
+        result.expectations.push_back(checked(to_text(expectation), held));
     }
     return result;
 }

@@ -1,0 +1,220 @@
+#include "lab/figures/technique_image.h"
+
+#include "proof/techniques/registry.h"
+
+#include <nusselt/bsdf/frostbite.h>
+#include <nusselt/line_samples/triangle_shadow.h>
+#include <nusselt/ltc/ltc.h>
+#include <nusselt/random/light_random.h>
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+namespace nusselt::lab {
+
+namespace {
+
+using Vector = Vec3<float>;
+using Quad = ConvexPolygon<float, 4>;
+using Line = LineSegment<float>;
+
+/// Fills the ray of lane 0.
+void put_ray(const Vector& origin, const Vector& direction, float t_far, visibility::RayPacket<4>& rays) {
+    const float o[] = {origin.x, origin.y, origin.z};
+    const float d[] = {direction.x, direction.y, direction.z};
+    for (int k = 0; k < 3; ++k) {
+        rays.origin[k][0] = o[k];
+        rays.direction[k][0] = d[k];
+    }
+    rays.t_far[0] = t_far;
+}
+
+// Where shadow rays start, as in src/render_cpu/kernel/surface.h, which belongs to units for one instruction set.
+constexpr float kOffsetPerRadius = 1e-5f;
+constexpr float kOffsetPerCoordinate = 1e-6f;
+
+Vector vector(const scene::Float3& v) { return {v.x, v.y, v.z}; }
+
+/// A light of the scene in the form that techniques take, in world space.
+Quad shape_of(const scene::PolygonLight& light) {
+    Vector vertices[4];
+    for (std::size_t i = 0; i < 4; ++i) vertices[i] = vector(light.vertices[i]);
+    return make_polygon<4>(vertices, 4);
+}
+Line shape_of(const scene::LineLight& light) { return make_line(vector(light.start), vector(light.end)); }
+
+/// The emission towards a point, per density of the technique.
+Vector emission(const scene::PolygonLight& light, const Vector& point) {
+    const Quad shape = shape_of(light);
+    const bool is_in_front = dot(shape.normal, point - shape.vertex[0]) > 0;
+    return light.two_sided || is_in_front ? vector(light.radiance) : Vector{0, 0, 0};
+}
+Vector emission(const scene::LineLight& light, const Vector& /*point*/) {
+    return light.radius * vector(light.radiance);
+}
+
+template <class List, class Visit>
+void for_each_kind(const std::string& name, const Visit& visit) {
+    bool is_found = false;
+    List::for_each([&]<class Kind> {
+        if (name != Kind::kName) return;
+        is_found = true;
+        visit.template operator()<Kind>();
+    });
+    if (!is_found) throw std::invalid_argument("no technique of this name takes the light: " + name);
+}
+
+template <class Light>
+struct KindsOf;
+template <>
+struct KindsOf<scene::PolygonLight> {
+    using Type = hostile::Join<hostile::PolygonKinds<4>, hostile::RectangleKinds>;
+};
+template <>
+struct KindsOf<scene::LineLight> {
+    using Type = hostile::LineKinds;
+};
+
+} // namespace
+
+/// The surface in a pixel, or the light where the camera sees it.
+struct TechniqueImages::Pixel {
+    bool is_surface = false;
+    Vector radiance = {0, 0, 0}; ///< of the light, or black
+    Vector position = {0, 0, 0};
+    Vector normal = {0, 0, 0}; ///< on the side of the eye
+    Frame<float> frame = {};
+    Vector wo = {0, 0, 0}; ///< in shading space
+    const scene::Material* material = nullptr;
+
+    Vector reflected(const Vector& wi) const {
+        if (!(wi.z > 0)) return {0, 0, 0};
+        const Vector albedo = vector(material->diffuse);
+        if (material->model == scene::BrdfModel::lambert) return (wi.z / kPi<float>)*albedo;
+        return wi.z * Frostbite<float>(wo, albedo, vector(material->f0), material->roughness).eval(wi);
+    }
+};
+
+bool has_one_light(const scene::Scene& scene) {
+    if (scene.lights.size() != 1 || !scene.textures.empty() || !scene.instances.empty()) return false;
+    const auto& polygons = scene.lights.of<scene::PolygonLight>();
+    const auto& lines = scene.lights.of<scene::LineLight>();
+    return polygons.empty() ? lines[0].model == scene::TubeModel::linear : polygons[0].vertices.size() == 4;
+}
+
+TechniqueImages::TechniqueImages(const scene::Scene& scene, const render_cpu::Renderer& renderer)
+    : scene_(scene), tracer_(renderer.visibility().tracer()) {
+    if (!has_one_light(scene))
+        throw std::invalid_argument(
+            "images by any technique need a scene with a quadrilateral or a linear light alone");
+    const visibility::PacketTracer<4>& tracer = tracer_;
+    const auto width = static_cast<std::size_t>(scene.film.width);
+    const auto height = static_cast<std::size_t>(scene.film.height);
+    pixels_.resize(width * height);
+    const scene::Camera& camera = scene.camera;
+    tbb::parallel_for(std::size_t{0}, pixels_.size(), [&](std::size_t i) {
+        const float x = static_cast<float>(i % width) + 0.5f;
+        const float y = static_cast<float>(i / width) + 0.5f;
+        const Vector origin =
+            vector(camera.origin) + x * vector(camera.origin_right) + y * vector(camera.origin_down);
+        const Vector direction = vector(camera.corner) + x * vector(camera.right) + y * vector(camera.down);
+        visibility::RayPacket<4> rays = {};
+        visibility::HitPacket<4> hits = {};
+        put_ray(origin, direction, std::numeric_limits<float>::infinity(), rays);
+        tracer.intersect(tracer_.context, 1, rays, hits);
+        Pixel& pixel = pixels_[i];
+        if (hits.triangle[0] < 0) {
+            if (hits.light[0] >= 0) pixel.radiance = vector(scene.lights.of<scene::LineLight>()[0].radiance);
+            return;
+        }
+        const auto triangle = static_cast<std::size_t>(hits.triangle[0]);
+        const auto corner = [&](std::size_t k) {
+            return vector(scene.positions[scene.triangles[triangle].vertex[k]]);
+        };
+        pixel.position =
+            corner(0) + hits.u[0] * (corner(1) - corner(0)) + hits.v[0] * (corner(2) - corner(0));
+        if (scene.triangle_light[triangle] >= 0) {
+            pixel.radiance = emission(scene.lights.of<scene::PolygonLight>()[0], origin);
+            return;
+        }
+        const Vector normal = normalize(cross(corner(1) - corner(0), corner(2) - corner(0)));
+        const Vector wo = -normalize(direction);
+        pixel.is_surface = true;
+        pixel.normal = dot(normal, wo) < 0 ? -normal : normal;
+        pixel.frame = shading_frame(pixel.normal, wo);
+        pixel.wo = pixel.frame.to_local(wo);
+        pixel.material = &scene.materials[scene.triangle_material[triangle]];
+    });
+}
+
+TechniqueImages::~TechniqueImages() = default;
+
+image::Image TechniqueImages::render(const std::string& technique, std::uint32_t seed) const {
+    image::Image image = image::make_image(scene_.film.width, scene_.film.height);
+    const visibility::PacketTracer<4>& tracer = tracer_;
+    const auto width = static_cast<std::size_t>(image.width);
+
+    // The same rays as those of the renderer.
+    const auto is_visible = [&](const Pixel& pixel, const Vector& to_light) {
+        const Vector& p = pixel.position;
+        const float coordinate = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        const float distance =
+            kOffsetPerRadius * static_cast<float>(scene_.radius) + kOffsetPerCoordinate * coordinate;
+        const Vector offset = distance * pixel.normal;
+        visibility::RayPacket<4> rays = {};
+        put_ray(p + offset, to_light - offset, kShadowEnd<float>, rays);
+        return tracer.occluded(tracer_.context, 1, rays) == 0;
+    };
+
+    const auto render_with = [&]<class Kind, class Light>(const Light& light) {
+        const auto shape = shape_of(light);
+        tbb::parallel_for(std::size_t{0}, pixels_.size(), [&](std::size_t i) {
+            const Pixel& pixel = pixels_[i];
+            Vector radiance = pixel.radiance;
+            if (pixel.is_surface) {
+                const Vec2<float> u =
+                    light_random<float>(Sampler::independent, seed, static_cast<std::uint32_t>(i % width),
+                                        static_cast<std::uint32_t>(i / width), 0, 1, 0);
+                const auto local = to_shading_space(shape, pixel.position, pixel.frame);
+                const typename Kind::template Technique<float> sampler(Kind::from(local));
+                const LightSample<float> s = [&] {
+                    if constexpr (hostile::kTakesPairs<Kind>)
+                        return sampler.sample(u);
+                    else
+                        return sampler.sample(u.x);
+                }();
+                const bool is_finite = std::isfinite(dot(s.wi, s.wi) + s.pdf);
+                if (!is_finite) {
+                    const float nan = std::numeric_limits<float>::quiet_NaN();
+                    radiance = {nan, nan, nan};
+                } else if (s.pdf > 0) {
+                    const Vector emitted = emission(light, pixel.position);
+                    const Vector reflected = pixel.reflected(s.wi);
+                    if (reflected.x + reflected.y + reflected.z > 0 &&
+                        is_visible(pixel, pixel.frame.to_world(s.p)))
+                        radiance = (1 / s.pdf) * (reflected * emitted);
+                }
+            }
+            const float* const channels = &radiance.x;
+            std::copy_n(channels, 3, &image.pixels[3 * i]);
+        });
+    };
+    const auto render_light = [&]<class Light>(const Light& light) {
+        for_each_kind<typename KindsOf<Light>::Type>(
+            technique, [&]<class Kind> { render_with.template operator()<Kind>(light); });
+    };
+    const auto& polygons = scene_.lights.of<scene::PolygonLight>();
+    if (polygons.empty())
+        render_light(scene_.lights.of<scene::LineLight>()[0]);
+    else
+        render_light(polygons[0]);
+    return image;
+}
+
+} // namespace nusselt::lab

@@ -1,0 +1,42 @@
+#include "lab/report/experiment.h"
+
+#include "lab/figures/noise_table.h"
+#include "lab/figures/run_image_comparison.h"
+#include "lab/fuzzing/worst_case_experiment.h"
+#include "lab/lines/line_convergence.h"
+#include "lab/lines/line_visibility.h"
+#include "lab/timing/cost_experiments.h"
+
+namespace nusselt::lab {
+
+namespace {
+
+/// Experiments of one kind. A kind has a name, a source and a description, and these functions for it: quick() reduces
+/// the effort, `run` measures, and report_of() reports what that returns.
+template <class Kind, class Run>
+void add(const std::vector<Kind>& kinds, const Run& run, std::vector<Experiment>& experiments) {
+    for (const Kind& kind : kinds)
+        experiments.push_back({kind.name, kind.source, kind.description,
+                               [&kind, run](const RunSettings& settings, const ProgressText& progress) {
+                                   const Kind chosen = settings.effort == Effort::quick ? quick(kind) : kind;
+                                   return report_of(run(chosen, settings, progress));
+                               }});
+}
+
+} // namespace
+
+const std::vector<Experiment>& all_experiments() {
+    static const std::vector<Experiment> experiments = [] {
+        std::vector<Experiment> all;
+        add(all_image_comparisons(), run_image_comparison, all);
+        add(all_noise_tables(), run_noise_table, all);
+        add(all_worst_case_studies(), run_worst_case_study, all);
+        add(all_cost_tables(), run_cost_table, all);
+        add(all_line_convergences(), run_line_convergence, all);
+        add(all_line_visibilities(), run_line_visibility, all);
+        return all;
+    }();
+    return experiments;
+}
+
+} // namespace nusselt::lab

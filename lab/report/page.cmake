@@ -1,0 +1,18 @@
+# The files of the page as string literals of a generated header.
+
+set(files published.json page/page.html page/page.css)
+file(GLOB scripts RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/report CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/report/page/*.js)
+list(SORT scripts)
+foreach(file IN LISTS files scripts)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/report/${file})
+endforeach()
+file(READ report/published.json published)
+file(READ report/page/page.html page)
+file(READ report/page/page.css style)
+set(script)
+foreach(file IN LISTS scripts)
+    file(READ report/${file} text)
+    string(APPEND script "${text}")
+endforeach()
+configure_file(report/page_resources.h.in ${CMAKE_CURRENT_BINARY_DIR}/report/page_resources.h @ONLY)
+target_include_directories(nusselt_lab PRIVATE ${CMAKE_CURRENT_BINARY_DIR})

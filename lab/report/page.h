@@ -1,0 +1,33 @@
+#pragma once
+/// The page of `nusselt-lab reproduce`: one file that opens from disk, with all images and numbers in it. The browser builds
+/// it from JSON (lab/report/page/).
+
+#include "lab/report/experiment.h"
+
+#include <string>
+#include <vector>
+
+namespace nusselt::lab {
+
+/// When and how a report came to be.
+struct RunRecord {
+    std::string command; ///< that runs the experiment again
+    Effort effort = Effort::full;
+    std::string date;   ///< of the beginning, ISO 8601 in UTC
+    double seconds = 0; ///< of wall time
+};
+
+/// The part of the page about one experiment, as an object of JSON.
+std::string page_section(const Experiment& experiment, const Report& report, const RunRecord& record);
+
+/// The page.
+/// \param sections of page_section()
+/// \param not_run  names of the experiments without a section
+std::string page_of(const std::vector<std::string>& sections, const std::vector<std::string>& not_run);
+
+/// A PNG of twice the height of an image: mantissas above, the exponents that the channels of a pixel share below. A channel
+/// is (mantissa + 0.5) * 2^(exponent - 136), and 0 where the exponent is 0. Exponents of 255 are pixels that are NaN or
+/// infinite. Negative values become 0.
+std::string rgbe_stacked_png(const image::Image& image);
+
+} // namespace nusselt::lab

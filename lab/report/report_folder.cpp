@@ -1,0 +1,138 @@
+#include "lab/report/report_folder.h"
+
+#include "base/atomic_file.h"
+#include "base/isa.h"
+#include "image/io.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace nusselt::lab {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kStateFile = "state.json";
+constexpr const char* kSectionFile = "section.json";
+constexpr const char* kNumbersFile = "numbers.json";
+
+/// Tells contents apart that differ by chance, not by malice (FNV-1a). Empty for files that cannot be read.
+std::string fingerprint(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return "";
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    std::array<char, 1 << 16> block;
+    while (file) {
+        file.read(block.data(), block.size());
+        for (std::streamsize i = 0; i < file.gcount(); ++i)
+            hash = (hash ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) * 0x100000001b3u;
+    }
+    return fmt::format("{:016x}", hash);
+}
+
+/// Everything but files on which an experiment depends.
+std::string key_of(const std::string& program, Effort effort) {
+    const char* const published = std::getenv("NUSSELT_SCENES");
+    return fmt::format("{} {} {} {}", program, effort == Effort::quick ? "quick" : "full",
+                       base::name_of(base::choose_isa()), published == nullptr ? "" : published);
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    base::write_atomically(path, [&](std::ofstream& file) { file << text; });
+}
+
+} // namespace
+
+std::string file_stem(const std::string& label) {
+    std::string stem;
+    for (const char c : label) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_')
+            stem += c;
+        else if (!stem.empty() && stem.back() != '-')
+            stem += '-';
+    }
+    return stem;
+}
+
+ReportFolder::ReportFolder(std::filesystem::path folder)
+    : folder_(std::move(folder)), program_(fingerprint("/proc/self/exe")) {
+    std::error_code error;
+    std::filesystem::create_directories(folder_, error);
+    if (error)
+        throw std::runtime_error("cannot create the folder '" + folder_.string() + "' (" + error.message() +
+                                 "); choose another one with --out");
+}
+
+void ReportFolder::check_writable(const Experiment& experiment) const {
+    const std::filesystem::path folder = folder_ / experiment.name;
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw std::runtime_error("cannot create the folder '" + folder.string() + "' (" + error.message() +
+                                 "); choose another one with --out");
+    base::check_writable(folder / kNumbersFile);
+    base::check_writable(folder_ / "index.html");
+}
+
+std::optional<KeptReport> ReportFolder::kept(const Experiment& experiment, Effort effort) const {
+    const std::filesystem::path folder = folder_ / experiment.name;
+    std::ifstream file(folder / kStateFile);
+    try {
+        const Json state = Json::parse(file);
+        if (program_.empty() || state.at("key") != key_of(program_, effort)) return std::nullopt;
+        if (!std::filesystem::exists(folder / kSectionFile)) return std::nullopt;
+        for (const auto& [path, hash] : state.at("inputs").items())
+            if (fingerprint(path) != hash) return std::nullopt;
+        return KeptReport{state.at("date"), state.at("verdict").get<Verdict>()};
+    } catch (const Json::exception&) {
+        return std::nullopt; // nothing there, or damaged
+    }
+}
+
+void ReportFolder::write(const Experiment& experiment, const Report& report, const RunRecord& record) const {
+    const std::filesystem::path folder = folder_ / experiment.name;
+    std::filesystem::create_directories(folder);
+    std::filesystem::remove(folder / kStateFile);
+    for (const ReportImage& image : report.images) {
+        const std::string stem = file_stem(image.label);
+        image::write_image(folder / (stem + ".png"), image.image);
+        if (image.role != ImageRole::picture) image::write_image(folder / (stem + ".exr"), image.image);
+    }
+    for (const Plot& plot : report.plots) write_text(folder / (plot.file + ".svg"), to_svg(plot));
+    write_text(folder / kNumbersFile, to_json(report.numbers));
+    write_text(folder / kSectionFile, page_section(experiment, report, record));
+    Json inputs = Json::object();
+    for (const std::filesystem::path& path : report.inputs)
+        inputs[std::filesystem::absolute(path).string()] = fingerprint(path);
+    const Json state = {{"key", key_of(program_, record.effort)},
+                        {"date", record.date},
+                        {"verdict", verdict_of(report.expectations)},
+                        {"inputs", std::move(inputs)}};
+    // Last: an interrupted run leaves no state, and the experiment runs again.
+    write_text(folder / kStateFile, state.dump(1));
+}
+
+std::filesystem::path ReportFolder::write_page(const std::vector<Experiment>& experiments) const {
+    std::vector<std::string> sections, not_run;
+    for (const Experiment& experiment : experiments) {
+        std::ifstream file(folder_ / experiment.name / kSectionFile);
+        if (file)
+            sections.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+        else
+            not_run.push_back(experiment.name);
+    }
+    const std::filesystem::path path = folder_ / "index.html";
+    write_text(path, page_of(sections, not_run));
+    return path;
+}
+
+} // namespace nusselt::lab
