@@ -24,7 +24,7 @@ class Figure {
         this.node = element("figure", { "data-image": image.index },
             element("div", { class: "picture" }, this.canvas, this.marks), this.failure,
             this.insets.length ? element("div", { class: "insets" }, this.insets.map(inset => inset.node)) : null,
-            element("figcaption", {}, element("strong", {}, image.label), image.isReference ? " (reference)" : null,
+            element("figcaption", {}, element("strong", {}, image.name),
                 metricsNode(image.description.metrics), this.scale));
         this.isNear = false;
         watchScreen(this.node, () => this.show(true), () => this.show(false));
@@ -53,6 +53,7 @@ class Figure {
         this.failure.hidden = image.failure === null;
         this.failure.textContent = `The image cannot be shown: ${image.failure}`;
         set.paint(this.canvas, image);
+        this.canvas.style.imageRendering = this.node.clientWidth >= image.width ? "pixelated" : "auto";
         for (const inset of this.insets) inset.update(this.canvas);
         this.scale.hidden = !(set.showsErrors && image.hasErrors());
         if (!this.scale.hidden) this.scale.textContent = `Errors from −${formatNumber(image.errorScale(), 3)} (blue) to ` +

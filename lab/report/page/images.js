@@ -12,6 +12,8 @@ class StoredImage {
         this.width = description.width;
         this.height = description.height;
         this.isReference = description.role === "reference";
+        /// The label, and the role where the label does not say it.
+        this.name = this.isReference && !/reference/i.test(this.label) ? `${this.label} (reference)` : this.label;
         this.reference = null;  // a StoredImage; null also where there is none of the same size
         this.pixels = null;     // null while they are not decoded
         this.failure = null;    // why they cannot be

@@ -23,7 +23,7 @@ class Frame {
         this.marks = this.set.insets.map((inset, i) => element("div",
             { class: "mark", style: `--color: ${insetColor(i)}`, title: inset.name }));
         this.cross = element("div", { class: "cross", hidden: true });
-        this.names = images.map(image => element("span", { class: "name" }, image.label));
+        this.names = images.map(image => element("span", { class: "name" }, image.name));
         this.divider = element("div", { class: "divider", role: "slider", tabindex: 0, "aria-label": "Divider of the wipe",
             "aria-valuemin": 0, "aria-valuemax": 100, "aria-orientation": "horizontal" });
         this.failure = element("p", { class: "failure", hidden: true });
@@ -45,7 +45,8 @@ class Frame {
         this.canvases.forEach((canvas, i) => {
             set.paint(canvas, images[i]);
             place(canvas, set, this.size(), images[i], { left: 0, top: 0, right: 1, bottom: 1 });
-            canvas.style.imageRendering = canvas.clientWidth >= images[i].width ? "pixelated" : "auto";
+            // Enlarged pixels are squares; reduced images are filtered.
+            canvas.style.imageRendering = this.size().width * set.zoom >= images[i].width ? "pixelated" : "auto";
             canvas.hidden = set.mode === "flip" && images.length === 2 && i !== Number(set.showsRight);
         });
         this.names.forEach((name, i) => { name.hidden = this.canvases[i].hidden; });
@@ -56,7 +57,7 @@ class Frame {
         this.marks.forEach((mark, i) => place(mark, set, this.size(), images[0], set.insets[i]));
         this.cross.hidden = set.pointer === null;
         if (set.pointer) this.placeCross();
-        const failed = images.filter(image => image.failure);
+        const failed = images.filter((image, i) => image.failure && !this.canvases[i].hidden);
         this.failure.hidden = failed.length === 0;
         this.failure.textContent = failed.map(image => `${image.label} cannot be shown: ${image.failure}`).join(". ");
     }
@@ -187,7 +188,7 @@ function pixelRow(image, place, showsErrors) {
     const index = y * image.width + x;
     const cells = [...image.pixels.subarray(3 * index, 3 * index + 3)];
     if (showsErrors) cells.push(image.hasErrors() ? image.signedErrors()[index] : null);
-    return element("tr", { "data-image": image.index }, element("th", { scope: "row" }, image.label),
+    return element("tr", { "data-image": image.index }, element("th", { scope: "row" }, image.name),
         cells.map(value => element("td", {}, Number.isNaN(value) ? "not finite" : formatNumber(value))));
 }
 

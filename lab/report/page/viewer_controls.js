@@ -3,7 +3,7 @@
 class ViewerControls {
     constructor(set, title, viewer) {
         this.set = set;
-        const names = set.images.map(image => [image.index, image.isReference ? `${image.label} (reference)` : image.label]);
+        const names = set.images.map(image => [image.index, image.name]);
         this.mode = choice("Compare by", makeAnchor("mode", title), kModes, mode => set.set({ mode }));
         this.content = choice("Show", makeAnchor("content", title), [["color", "Colours"], ["error", "Errors"]],
             value => set.set({ showsErrors: value === "error" }));
@@ -75,7 +75,7 @@ class ViewerControls {
 class ScaleRow {
     constructor(set, image) {
         // The slider has stops relative to the percentile.
-        this.slider = slider(`Errors of ${image.label}`, { min: -8, max: 8, step: 0.125 },
+        this.slider = slider(`Scale of ${image.label}`, { min: -8, max: 8, step: 0.125 },
             stops => { image.scale = image.errorPercentile() * 2 ** stops; set.changed(); }, { class: "error-scale" });
         this.bar = element("span", { class: "error-bar" });
         this.note = element("span", { class: "note" });
@@ -95,7 +95,7 @@ class ScaleRow {
         const scale = image.errorScale();
         const percentile = image.errorPercentile();
         this.slider.show(Math.log2(scale / percentile), `±${formatNumber(scale, 3)}`);
-        this.bar.textContent = `−${formatNumber(scale, 3)} too dark · 0 · too bright +${formatNumber(scale, 3)}`;
-        this.note.textContent = `99 % of the errors are below ${formatNumber(percentile, 3)}`;
+        this.bar.textContent = `−${formatNumber(scale, 3)} dark · 0 · bright +${formatNumber(scale, 3)}`;
+        this.note.textContent = `99 % of errors are below ${formatNumber(percentile, 3)}`;
     }
 }
