@@ -219,7 +219,7 @@ class PageTest:
     def test_metrics(self):
         texts = [" ".join(node.text.split()) for node in self.browser.find_all(".metrics", self.noise)]
         self.assertEqual("RMSE 0.9307 FLIP 0.1490", texts[0])
-        self.assertEqual("RMSE 0.7270 FLIP – relative rmse 0.02853", texts[2])
+        self.assertEqual("RMSE 0.7270 FLIP – relative RMSE 0.02853", texts[2])
 
     def test_copies_the_command(self):
         self.browser.click(self.browser.find(".copy", self.noise))

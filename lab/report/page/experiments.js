@@ -19,7 +19,8 @@ function experimentNode(experiment, report) {
         imagesNode(experiment),
         experiment.plots.length ? element("section", {}, element("h4", {}, "Plots"),
             element("div", { class: "plots" }, experiment.plots.map(plotNode))) : null,
-        experiment.tables.length ? element("section", {}, element("h4", {}, "Tables"), experiment.tables.map(tableNode)) : null);
+        experiment.tables.length
+            ? element("section", {}, element("h4", {}, "Tables"), experiment.tables.map(tableNode)) : null);
 }
 
 /// Links to the items of papers that the experiment serves.
@@ -56,5 +57,6 @@ function notRunNode(report) {
     if (report.not_run.length === 0) return null;
     return element("section", { id: "not-run" }, element("h2", {}, "Not run"),
         element("dl", { class: "not-run" }, report.not_run.map(skipped =>
-            element("div", { id: skipped.anchor }, element("dt", {}, skipped.name), element("dd", {}, skipped.reason ?? "no reason is given")))));
+            element("div", { id: skipped.anchor }, element("dt", {}, skipped.name),
+                element("dd", {}, skipped.reason ?? "no reason is given")))));
 }

@@ -7,14 +7,17 @@ function insetColor(index) {
     return kInsetColors[index % kInsetColors.length];
 }
 
-const kMetricNames = { rmse: "RMSE", flip: "FLIP", mse: "MSE", mape: "MAPE", smape: "SMAPE", psnr: "PSNR" };
+/// The usual spelling, as in relative RMSE.
+function metricName(name) {
+    return name.replaceAll("_", " ").replace(/\b(rmse|flip|mse|mape|smape|psnr)\b/g, word => word.toUpperCase());
+}
 
 class Figure {
     constructor(set, image) {
         this.set = set;
         this.image = image;
-        this.canvas = element("canvas", { width: 1, height: 1, role: "img", "aria-label": image.label, "data-image": image.index,
-            style: `aspect-ratio: ${image.width} / ${image.height}` });
+        this.canvas = element("canvas", { width: 1, height: 1, role: "img", "aria-label": image.label,
+            "data-image": image.index, style: `aspect-ratio: ${image.width} / ${image.height}` });
         this.marks = set.insets.map((inset, i) => element("div", { class: "mark", title: inset.name,
             style: `--color: ${insetColor(i)}; left: ${100 * inset.left}%; top: ${100 * inset.top}%; ` +
                 `width: ${100 * (inset.right - inset.left)}%; height: ${100 * (inset.bottom - inset.top)}%` }));
@@ -101,7 +104,7 @@ function metricsNode(metrics) {
     const names = Object.keys(metrics ?? {});
     if (names.length === 0) return null;
     return element("dl", { class: "metrics" }, names.map(name => element("div", {},
-        element("dt", {}, kMetricNames[name] ?? name.replaceAll("_", " ")), element("dd", {}, valueNode(metrics[name])))));
+        element("dt", {}, metricName(name)), element("dd", {}, valueNode(metrics[name])))));
 }
 
 function imagesNode(experiment) {

@@ -1,7 +1,8 @@
 // The papers and what became of each of their figures, tables and statements.
 
 function papersNode(report) {
-    return element("section", { id: "papers" }, element("h2", {}, "Papers"), report.papers.map(paper => paperNode(paper, report)));
+    return element("section", { id: "papers" }, element("h2", {}, "Papers"),
+        report.papers.map(paper => paperNode(paper, report)));
 }
 
 function paperNode(paper, report) {
@@ -9,8 +10,9 @@ function paperNode(paper, report) {
     return element("section", { class: "paper", id: paper.anchor },
         element("h3", {}, paper.title ?? paper.key), element("p", { class: "source" }, source),
         element("table", { class: "items" },
-            element("thead", {}, element("tr", {}, ["Item", "What it shows", "Status", "Published and measured", "Experiments"]
-                .map(text => element("th", { scope: "col" }, text)))),
+            element("thead", {}, element("tr", {},
+                ["Item", "What it shows", "Status", "Published and measured", "Experiments"]
+                    .map(text => element("th", { scope: "col" }, text)))),
             element("tbody", {}, paper.items.map(item => itemRow(item, report)))));
 }
 
@@ -48,7 +50,7 @@ function comparisonRow(row, item) {
 /// Experiments of an item with what became of their expectations; those that did not run, too.
 function linksNode(item, report) {
     const names = item.by ?? [];
-    if (names.length === 0) return element("span", { class: "note" }, "none");
+    if (names.length === 0) return element("span", { class: "note" }, "no experiment");
     return element("ul", {}, names.map(name => {
         const experiment = report.experiments.find(e => e.name === name);
         const skipped = report.not_run.find(e => e.name === name);

@@ -1,6 +1,6 @@
 // Plots of series, drawn as SVG.
 
-const kPlot = { width: 640, height: 400, left: 76, right: 16, top: 14, bottom: 52 };
+const kPlot = { width: 640, height: 400, left: 92, right: 16, top: 14, bottom: 52 };
 const kMarkers = [
     "M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z", "M-3.6 -3.6h7.2v7.2h-7.2z", "M0 -4.8L4.6 3.4H-4.6z", "M0 -5L4.6 0L0 5L-4.6 0z",
     "M0 4.8L4.6 -3.4H-4.6z",
@@ -78,8 +78,10 @@ function runsOf(count, isShown) {
 function bandNode(series, index, x, y, at) {
     const { low, high } = series;
     if (!low || !high) return null;
-    const runs = runsOf(series.x.length, i => x.shows(series.x[i]) && y.shows(high[i]) && (y.shows(low[i]) || y.isLog && low[i] <= 0));
     // A logarithmic axis has no place for 0: the band goes to its end.
+    const isBelow = value => typeof value === "number" && y.isLog && value <= 0;
+    const runs = runsOf(series.x.length,
+        i => x.shows(series.x[i]) && y.shows(high[i]) && (y.shows(low[i]) || isBelow(low[i])));
     const lowAt = i => at.y(y.shows(low[i]) ? low[i] : y.low);
     const path = run => "M" + [...run.map(i => `${at.x(series.x[i])} ${at.y(high[i])}`),
         ...[...run].reverse().map(i => `${at.x(series.x[i])} ${lowAt(i)}`)].join("L") + "Z";

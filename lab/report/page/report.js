@@ -41,7 +41,8 @@ function readReport(text) {
         paper.anchor = makeAnchor("paper", paper.key);
         for (const item of paper.items) {
             item.anchor = makeAnchor("item", item.id);
-            item.experiments = report.experiments.filter(experiment => list(item, "by", `item ${item.id}`).includes(experiment.name));
+            const names = list(item, "by", `item ${item.id}`);
+            item.experiments = report.experiments.filter(experiment => names.includes(experiment.name));
             item.status = statusOf(item);
         }
     }

@@ -20,8 +20,8 @@ function countsNode(title, parts) {
     return element("section", { class: "count" }, element("h3", {}, title),
         element("div", { class: "bar", "aria-hidden": "true" }, parts.filter(part => part.count > 0).map(part =>
             element("span", { class: part.kind, style: `flex-grow: ${part.count}` }))),
-        element("dl", {}, parts.map(part => element("div", { class: part.kind, "data-count": part.kind, title: part.meaning },
-            element("dt", {}, part.name), element("dd", {}, String(part.count))))));
+        element("dl", {}, parts.map(part => element("div",
+            { class: part.kind, "data-count": part.kind, title: part.meaning }, element("dt", {}, part.name), element("dd", {}, String(part.count))))));
 }
 
 function distinct(texts) {
@@ -36,7 +36,8 @@ function originNode(report) {
     const fact = (one, values) => values.length ? element("div", {}, element("dt", {}, values.length === 1 ? one : `${one}s`),
         element("dd", {}, values.map(value => element("p", {}, value)))) : null;
     return element("dl", { class: "origin" }, fact("Machine", machines), fact("Version", versions),
-        report.experiments.length ? fact("Time", [`${formatSeconds(seconds)} for ${plural(report.experiments.length, "experiment")}`]) : null,
+        report.experiments.length
+            ? fact("Time", [`${formatSeconds(seconds)} for ${plural(report.experiments.length, "experiment")}`]) : null,
         report.not_run.length ? element("div", {}, element("dt", {}, "Not run"), element("dd", {},
             element("a", { href: "#not-run" }, plural(report.not_run.length, "experiment")))) : null);
 }

@@ -29,7 +29,8 @@ class Frame {
         this.failure = element("p", { class: "failure", hidden: true });
         this.node = element("div", { class: "frame", tabindex: 0, role: "group",
             "aria-label": `Image: ${images.map(image => image.label).join(", ")}. Keys are listed below.` },
-            this.canvases, this.marks, this.cross, this.divider, element("div", { class: "names", "aria-live": "polite" }, this.names), this.failure);
+            this.canvases, this.marks, this.cross, this.divider,
+            element("div", { class: "names", "aria-live": "polite" }, this.names), this.failure);
         listenToFrame(this);
     }
 
@@ -109,7 +110,7 @@ class Viewer {
         this.values = element("div", { class: "values" });
         this.node = element("div", { class: "viewer", role: "group", "aria-label": `Compare images of ${title}`,
             keydown: event => onViewerKey(this, event) },
-            this.controls.node, this.stage, this.values, keysNode());
+            this.controls.node, this.stage, this.controls.scales, this.values, keysNode());
         set.listeners.push(() => this.update());
         new ResizeObserver(() => set.changed()).observe(this.stage);
         watchScreen(this.node, () => { this.isNear = true; set.changed(); }, () => { this.isNear = false; set.changed(); });
@@ -169,7 +170,8 @@ class Viewer {
     showValues() {
         const { pointer, showsErrors } = this.set;
         if (!pointer) {
-            this.values.replaceChildren(element("p", {}, "Point at the image, or use Shift and the arrow keys, to read pixels."));
+            this.values.replaceChildren(
+                element("p", {}, "Point at the image, or use Shift and the arrow keys, to read pixels."));
             return;
         }
         const { x, y } = this.set.images[this.set.left].pixelAt(pointer);

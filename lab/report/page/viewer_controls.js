@@ -15,6 +15,7 @@ class ViewerControls {
         this.exposure = slider("Exposure", { min: -kLargestExposure, max: kLargestExposure, step: 0.25 },
             stops => set.set({ exposure: stops }), { class: "exposure" });
         this.zoomText = element("output", { class: "zoom-text" });
+        // Below the image, which must not move as errors are shown.
         this.scales = element("div", { class: "scales" });
         this.scaleRows = new Map();
         this.viewer = viewer;
@@ -26,8 +27,7 @@ class ViewerControls {
                 ? element("div", { class: "row" }, this.left.node, this.right.node, this.swap, this.flip) : null,
             element("div", { class: "row" }, this.exposure.node,
                 button("0", { class: "exposure-reset", "aria-label": "Exposure 0" }, () => set.set({ exposure: 0 })),
-                this.zoomNode()),
-            this.scales);
+                this.zoomNode()));
     }
 
     zoomNode() {
