@@ -130,8 +130,14 @@ class PageTest:
             self.assertTrue(any(sample.HOSTILE in text for text in texts), f"{selector}: {texts}")
 
     def test_nothing_is_wider_than_the_screen(self):
-        self.assertEqual(self.width, self.browser.script("return innerWidth"))
-        self.assertTrue(self.browser.script("return document.documentElement.scrollWidth <= document.body.clientWidth"))
+        self.choose_mode("error")
+        self.compare("area", "projected solid angle")
+        for mode in ("flip", "wipe", "pair", "all"):
+            self.choose_mode(mode)
+            self.canvases()
+            self.assertEqual(self.width, self.browser.script("return innerWidth"))
+            self.assertTrue(
+                self.browser.script("return document.documentElement.scrollWidth <= document.body.clientWidth"), mode)
 
     def test_controls_have_names(self):
         nameless = self.browser.script("""
@@ -461,7 +467,7 @@ class PageTest:
         self.assertEqual(["area", "not finite", "not finite", "not finite"], self.readout()[0])
         self.assertIn("Pixel 7, 6", self.control(".pixels caption").text)
         self.browser.press(self.control(".frame"), "e")
-        self.assertEqual("–", self.readout()[0][4])
+        self.assertEqual("not finite", self.readout()[0][4])
         self.browser.press(self.control(".frame"), Keys.SHIFT, Keys.ARROW_DOWN)
         self.assertAlmostEqual(errors("area")[96 * 7 + 7], float(self.readout()[0][4]), delta=1e-3)
 
