@@ -113,8 +113,8 @@ Json json_of(const Table& table) {
 
 Json machine() {
     return {{"processor", base::processor_name()},
-            {"threads", std::thread::hardware_concurrency()},
-            {"instruction set", std::string(base::name_of(base::choose_isa()))}};
+            {"cores", std::thread::hardware_concurrency()},
+            {"instruction_set", std::string(base::name_of(base::choose_isa()))}};
 }
 
 /// Inside of a script element, "</" and "<!--" would have a meaning. JSON may write "<" as an escape.

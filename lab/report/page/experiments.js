@@ -12,6 +12,7 @@ function experimentNode(experiment, report) {
             "aria-label": `Link to ${experiment.name}` }, "#")),
         element("p", { class: "source" }, experiment.source ?? "", backLinks(experiment, report)),
         paragraphs(experiment.description),
+        paragraphs(experiment.setting),
         experiment.command ? copyable(experiment.command, "command") : null,
         provenanceNode(experiment),
         experiment.expectations.length ? element("section", {}, element("h4", {}, "Expectations"),

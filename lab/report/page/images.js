@@ -75,10 +75,10 @@ function clamp(value, low, high) {
     return Math.max(low, Math.min(high, value));
 }
 
-/// A variant belongs to the reference of its size before it, or to the first one after it.
+/// Pictures in false colours, of the role "picture", belong to none. A variant belongs to the reference of its size before it, or to the first one after it.
 function findReferences(images) {
     for (const image of images) {
-        if (image.isReference) continue;
+        if (image.isReference || image.description.role === "picture") continue;
         const fits = images.filter(other => other.isReference && other.width === image.width &&
             other.height === image.height);
         image.reference = fits.filter(other => other.index < image.index).pop() ?? fits[0] ?? null;
