@@ -3,6 +3,8 @@
 #include <nusselt/geometry/clip_polygon.h>
 #include <nusselt/random/pcg.h>
 #include <nusselt/random/unit_interval.h>
+#include <nusselt/related/polygon_projected_solid_angle_arvo.h>
+#include <nusselt/related/polygon_solid_angle_arvo.h>
 #include <nusselt/sampling/line_area.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>
 #include <nusselt/sampling/line_solid_angle.h>
@@ -27,7 +29,7 @@ using Polygon = ConvexPolygon<double, 4>;
 using Line = LineSegment<double>;
 
 constexpr double kColumn = 232, kRow = 226, kHeader = 30, kDisk = 100, kSquare = 150;
-constexpr int kGridCells = 8;
+constexpr int kGridCells = 12; // as in Fig. 13 of Peters 2021
 constexpr int kStepsPerCell = 10;
 constexpr int kPoints = 256;
 constexpr int kLineCells = 16;
@@ -324,6 +326,8 @@ constexpr Map kMaps[] = {
     {"PolygonClippedSolidAngle", draw_polygons<PolygonClippedSolidAngle<double, 4>>},
     {"PolygonProjectedSolidAngle", draw_polygons<PolygonProjectedSolidAngle<double, 4>>},
     {"PolygonProjectedSolidAngleBiased", draw_polygons<PolygonProjectedSolidAngleBiased<double, 4>>},
+    {"PolygonSolidAngleArvo", draw_polygons<PolygonSolidAngleArvo<double, 4>>},
+    {"PolygonProjectedSolidAngleArvo", draw_polygons<PolygonProjectedSolidAngleArvo<double, 4>>},
     {"LineArea", draw_lines<LineArea<double>>},
     {"LineSolidAngle", draw_lines<LineSolidAngle<double>>},
     {"LineClippedSolidAngle", draw_lines<LineClippedSolidAngle<double>>},

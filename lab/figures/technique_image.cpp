@@ -59,15 +59,27 @@ Vector emission(const scene::LineLight& light, const Vector& /*point*/) {
     return light.radius * vector(light.radiance);
 }
 
+/// Calls visit.operator()<Kind, Technique>() for the technique of a name, or for the published formulas of that name.
 template <class List, class Visit>
-void for_each_kind(const std::string& name, const Visit& visit) {
+void visit_technique(const std::string& name, const Visit& visit) {
     bool is_found = false;
     List::for_each([&]<class Kind> {
-        if (name != Kind::kName) return;
-        is_found = true;
-        visit.template operator()<Kind>();
+        using Published = typename Kind::template Published<float>;
+        if (name == Kind::kName) {
+            is_found = true;
+            visit.template operator()<Kind, typename Kind::template Technique<float>>();
+        } else if constexpr (!std::is_same_v<Published, hostile::Absent>) {
+            if (name != Kind::kPublishedName) return;
+            is_found = true;
+            visit.template operator()<Kind, Published>();
+        }
     });
     if (!is_found) throw std::invalid_argument("no technique of this name takes the light: " + name);
+}
+
+void put(const Vector& radiance, std::size_t pixel, image::Image& image) {
+    const float channels[] = {radiance.x, radiance.y, radiance.z};
+    std::copy_n(channels, 3, &image.pixels[3 * pixel]);
 }
 
 template <class Light>
@@ -155,11 +167,40 @@ TechniqueImages::TechniqueImages(const scene::Scene& scene, const render_cpu::Re
 
 TechniqueImages::~TechniqueImages() = default;
 
+Vec2<float> TechniqueImages::random_numbers(std::size_t i, std::uint32_t seed) const {
+    const auto width = static_cast<std::size_t>(scene_.film.width);
+    return light_random<float>(Sampler::independent, seed, static_cast<std::uint32_t>(i % width),
+                               static_cast<std::uint32_t>(i / width), 0, 1, 0);
+}
+
+template <class Visit>
+void TechniqueImages::visit_samples(const std::string& technique, std::uint32_t seed,
+                                    const Visit& visit) const {
+    const auto sample_light = [&]<class Light>(const Light& light) {
+        const auto world = shape_of(light);
+        visit_technique<typename KindsOf<Light>::Type>(technique, [&]<class Kind, class Technique> {
+            tbb::parallel_for(std::size_t{0}, pixels_.size(), [&](std::size_t i) {
+                if (!pixels_[i].is_surface) return;
+                const auto shape = Kind::from(to_shading_space(world, pixels_[i].position, pixels_[i].frame));
+                const Technique sampler(shape);
+                const Vec2<float> u = random_numbers(i, seed);
+                if constexpr (hostile::kTakesPairs<Kind>)
+                    visit(i, light, shape, sampler.sample(u), Kind());
+                else
+                    visit(i, light, shape, sampler.sample(u.x), Kind());
+            });
+        });
+    };
+    const auto& polygons = scene_.lights.of<scene::PolygonLight>();
+    if (polygons.empty())
+        sample_light(scene_.lights.of<scene::LineLight>()[0]);
+    else
+        sample_light(polygons[0]);
+}
+
 image::Image TechniqueImages::render(const std::string& technique, std::uint32_t seed) const {
     image::Image image = image::make_image(scene_.film.width, scene_.film.height);
     const visibility::PacketTracer<4>& tracer = tracer_;
-    const auto width = static_cast<std::size_t>(image.width);
-
     // The same rays as those of the renderer.
     const auto is_visible = [&](const Pixel& pixel, const Vector& to_light) {
         const Vector& p = pixel.position;
@@ -172,49 +213,48 @@ image::Image TechniqueImages::render(const std::string& technique, std::uint32_t
         return tracer.occluded(tracer_.context, 1, rays) == 0;
     };
 
-    const auto render_with = [&]<class Kind, class Light>(const Light& light) {
-        const auto shape = shape_of(light);
-        tbb::parallel_for(std::size_t{0}, pixels_.size(), [&](std::size_t i) {
-            const Pixel& pixel = pixels_[i];
-            Vector radiance = pixel.radiance;
-            if (pixel.is_surface) {
-                const Vec2<float> u =
-                    light_random<float>(Sampler::independent, seed, static_cast<std::uint32_t>(i % width),
-                                        static_cast<std::uint32_t>(i / width), 0, 1, 0);
-                const auto local = to_shading_space(shape, pixel.position, pixel.frame);
-                const typename Kind::template Technique<float> sampler(Kind::from(local));
-                const LightSample<float> s = [&] {
-                    if constexpr (hostile::kTakesPairs<Kind>)
-                        return sampler.sample(u);
-                    else
-                        return sampler.sample(u.x);
-                }();
-                const bool is_finite = std::isfinite(dot(s.wi, s.wi) + s.pdf);
-                if (!is_finite) {
-                    const float nan = std::numeric_limits<float>::quiet_NaN();
-                    radiance = {nan, nan, nan};
-                } else if (s.pdf > 0) {
-                    const Vector emitted = emission(light, pixel.position);
-                    const Vector reflected = pixel.reflected(s.wi);
-                    if (reflected.x + reflected.y + reflected.z > 0 &&
-                        is_visible(pixel, pixel.frame.to_world(s.p)))
-                        radiance = (1 / s.pdf) * (reflected * emitted);
-                }
-            }
-            const float* const channels = &radiance.x;
-            std::copy_n(channels, 3, &image.pixels[3 * i]);
-        });
-    };
-    const auto render_light = [&]<class Light>(const Light& light) {
-        for_each_kind<typename KindsOf<Light>::Type>(
-            technique, [&]<class Kind> { render_with.template operator()<Kind>(light); });
-    };
-    const auto& polygons = scene_.lights.of<scene::PolygonLight>();
-    if (polygons.empty())
-        render_light(scene_.lights.of<scene::LineLight>()[0]);
-    else
-        render_light(polygons[0]);
+    visit_samples(technique, seed,
+                  [&](std::size_t i, const auto& light, const auto&, const auto& sample, const auto&) {
+                      const Pixel& pixel = pixels_[i];
+                      Vector radiance = {0, 0, 0};
+                      if (!std::isfinite(dot(sample.wi, sample.wi) + sample.pdf)) {
+                          const float nan = std::numeric_limits<float>::quiet_NaN();
+                          radiance = {nan, nan, nan};
+                      } else if (sample.pdf > 0) {
+                          const Vector reflected = pixel.reflected(sample.wi);
+                          if (reflected.x + reflected.y + reflected.z > 0 &&
+                              is_visible(pixel, pixel.frame.to_world(sample.p)))
+                              radiance = (1 / sample.pdf) * (reflected * emission(light, pixel.position));
+                      }
+                      put(radiance, i, image);
+                  });
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        if (!pixels_[i].is_surface) put(pixels_[i].radiance, i, image);
     return image;
+}
+
+PixelErrors TechniqueImages::backward_errors(const std::string& technique, std::uint32_t seed) const {
+    using Exact = long double;
+    const image::Plane zero = {scene_.film.width, scene_.film.height, std::vector<double>(pixels_.size())};
+    PixelErrors errors = {zero, zero};
+    visit_samples(technique, seed,
+                  [&]<class Kind>(std::size_t i, const auto&, const auto& shape, const auto& sample, Kind) {
+                      const typename Kind::template Reference<Exact> exact(broadcast<Exact>(shape));
+                      const Exact measure = exact.measure();
+                      if (!(measure > 0) || !(sample.pdf > 0)) return;
+                      const Vec2<Exact> u = broadcast<Exact>(random_numbers(i, seed));
+                      const Vec3<Exact> wi = normalize(broadcast<Exact>(sample.wi));
+                      Exact error = 0;
+                      if constexpr (hostile::kTakesPairs<Kind>)
+                          error = std::fabs(exact.invert(wi).x - u.x);
+                      else
+                          error = std::fabs(exact.invert(wi) - u.x);
+                      // If the zenith is in the light, 0 and 1 are the same azimuth.
+                      if (Kind::kCyclic) error = std::min(error, 1 - error);
+                      errors.backward.values[i] = static_cast<double>(error);
+                      errors.area.values[i] = static_cast<double>(error * measure);
+                  });
+    return errors;
 }
 
 } // namespace nusselt::lab

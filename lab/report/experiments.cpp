@@ -1,5 +1,8 @@
 #include "lab/report/experiment.h"
 
+#include "lab/accuracy/accuracy_experiment.h"
+#include "lab/figures/error_images.h"
+#include "lab/figures/map_experiment.h"
 #include "lab/figures/noise_table.h"
 #include "lab/figures/run_image_comparison.h"
 #include "lab/fuzzing/worst_case_experiment.h"
@@ -30,6 +33,9 @@ const std::vector<Experiment>& all_experiments() {
         std::vector<Experiment> all;
         add(all_image_comparisons(), run_image_comparison, all);
         add(all_noise_tables(), run_noise_table, all);
+        add(all_error_images(), run_error_images, all);
+        add(all_map_sets(), run_map_set, all);
+        add(all_accuracy_studies(), run_accuracy_study, all);
         add(all_worst_case_studies(), run_worst_case_study, all);
         add(all_cost_tables(), run_cost_table, all);
         add(all_line_convergences(), run_line_convergence, all);

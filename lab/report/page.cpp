@@ -4,7 +4,7 @@
 #include "base/machine.h"
 #include "image/codecs.h"
 #include "image/metrics.h"
-#include "report/page_resources.h"
+#include "page_resources.h"
 
 #include <nlohmann/json.hpp>
 
@@ -175,6 +175,8 @@ std::string page_section(const Experiment& experiment, const Report& report, con
                           {"right", inset.right},
                           {"bottom", inset.bottom}});
     for (const Plot& plot : report.plots) plots.push_back(json_of(plot));
+    for (const Drawing& drawing : report.drawings)
+        plots.push_back({{"title", drawing.title}, {"svg", drawing.svg}});
     for (const Measured& m : report.measured)
         measured.push_back({{"item", m.item}, {"quantity", m.quantity}, {"value", m.value}});
     return text_of({{"name", experiment.name},

@@ -55,6 +55,13 @@ struct ReportImage {
     std::vector<std::pair<std::string, double>> metrics = {}; ///< by name, such as "RMSE"
 };
 
+/// A picture that a program draws.
+struct Drawing {
+    std::string title;
+    std::string file; ///< without extension
+    std::string svg;
+};
+
 /// A number that a paper states, measured here.
 struct Measured {
     std::string item;     ///< id of an item of published.json
@@ -69,6 +76,7 @@ struct Report {
     std::vector<ReportImage> images = {};
     std::vector<Inset> insets = {};
     std::vector<Plot> plots = {};
+    std::vector<Drawing> drawings = {};
     std::vector<Measured> measured = {};
     Results numbers = {};
     std::vector<std::filesystem::path> inputs =

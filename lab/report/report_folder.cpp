@@ -108,6 +108,7 @@ void ReportFolder::write(const Experiment& experiment, const Report& report, con
         if (image.role != ImageRole::picture) image::write_image(folder / (stem + ".exr"), image.image);
     }
     for (const Plot& plot : report.plots) write_text(folder / (plot.file + ".svg"), to_svg(plot));
+    for (const Drawing& drawing : report.drawings) write_text(folder / (drawing.file + ".svg"), drawing.svg);
     write_text(folder / kNumbersFile, to_json(report.numbers));
     write_text(folder / kSectionFile, page_section(experiment, report, record));
     Json inputs = Json::object();

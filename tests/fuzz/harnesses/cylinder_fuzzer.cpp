@@ -11,7 +11,8 @@ void check_all(Input& input) {
     const Cylinder<T> light{axis, std::fabs(input.coordinate<T>())};
     const T x = input.random_number<T>();
     const Vec2<T> u{x, input.random_number<T>()};
-    hostile::TestedBy<FuzzSuite, hostile::CylinderKinds>::for_each([&]<class Kind> { check<Kind, T>(light, u); });
+    hostile::TestedBy<FuzzSuite, hostile::CylinderKinds>::for_each(
+        [&]<class Kind> { check<Kind, T>(light, u); });
     const LtcCoefficients<T> coefficients = lobe<T>(input);
     hostile::CylinderOnLobeKinds::for_each([&]<class Kind> { check<Kind, T>({light, coefficients}, u); });
 }

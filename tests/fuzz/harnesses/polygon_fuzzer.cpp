@@ -10,7 +10,8 @@ void check_all(Input& input) {
     const ConvexPolygon<T, N> light = polygon<N, T>(input);
     const T x = input.random_number<T>();
     const Vec2<T> u{x, input.random_number<T>()};
-    hostile::TestedBy<FuzzSuite, hostile::PolygonKinds<N>>::for_each([&]<class Kind> { check<Kind, T>(light, u); });
+    hostile::TestedBy<FuzzSuite, hostile::PolygonKinds<N>>::for_each(
+        [&]<class Kind> { check<Kind, T>(light, u); });
     if constexpr (N == 4)
         hostile::RectangleKinds::for_each([&]<class Kind> { check<Kind, T>(Kind::from(light), u); });
     const LtcCoefficients<T> coefficients = lobe<T>(input);
