@@ -20,7 +20,7 @@ import sys
 import tempfile
 
 from image_statistics import (all_of, efficiency, mean, mean_squared_error, median_and_spread, samples_of_equal_time)
-from pbrt_scene import matte, one_sided, read_scene, resized
+from pbrt_scene import aside, matte, one_sided, read_scene, resized
 from renderers import Cycles, Failure, Nusselt
 from results import to_json
 
@@ -57,10 +57,10 @@ class Case:
 
 
 def cases():
-    return [Case("panel", "scenes/cornell-panel.pbrt", (256, 256), (matte,), LAMBERT, 8),
-            Case("panel-below", "scenes/cornell-panel.pbrt", (256, 256), (matte, one_sided),
+    return [Case("panel", "scenes/cornell-panel.pbrt", (256, 256), (aside, matte), LAMBERT, 8),
+            Case("panel-below", "scenes/cornell-panel.pbrt", (256, 256), (aside, matte, one_sided),
                  (*LAMBERT, "--lights", HERE / "one-sided.json"), 8),
-            Case("tube", "scenes/cornell-tube.pbrt", (256, 256), (matte,), LAMBERT, 300),
+            Case("tube", "scenes/cornell-tube.pbrt", (256, 256), (aside, matte), LAMBERT, 300),
             Case("metal-planes", "lab/peers/metal-planes.pbrt", (320, 240), (), BOTH),
             Case("room-matte", "scenes/room.pbrt", (320, 180), (matte,), LAMBERT),
             Case("room", "scenes/room.pbrt", (320, 180), (), BOTH)]

@@ -9,34 +9,33 @@ Depth to the file). For each rendering, the program prints a line "rendering: {.
 Only direct light, only at pixel centres, and without anything that trades noise for bias.
 """
 import json
-import math
 import pathlib
 import sys
 import time
 
 import bpy
-from mathutils import Matrix, Vector
+from mathutils import Matrix
 
-TUBE_SIDES = 12  # a tube as a mesh has this many
-OCCLUDER_OFFSET = 1e-4  # [m]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))  # Blender does not
+
+from cycles_geometry import camera_axes, lamp_of, occluder_of, reversed_side, tube_mesh  # noqa: E402
 
 
-def set_up_film(scene, film, camera):
-    right, down, corner = (Vector(camera[name]) for name in ("right", "down", "corner"))
-    forward = corner + 0.5 * right + 0.5 * down
-    x, y, z = right.normalized(), -down.normalized(), -forward.normalized()
-    # What a perspective camera of Blender cannot do, such as mirrored or sheared images, must not pass.
-    if (x.cross(y) - z).length > 1e-5 or abs(right.length / film[0] - down.length / film[1]) > 1e-6 * right.length:
-        raise ValueError("Blender has no such camera")
-    data = bpy.data.cameras.new("camera")
-    data.sensor_fit = "HORIZONTAL"
-    data.angle = 2 * math.atan(0.5 * right.length / forward.length)
-    data.clip_start, data.clip_end = 1e-3, 1e4
-    thing = bpy.data.objects.new("camera", data)
-    axes = Matrix((x, y, z)).transposed().to_4x4()
-    thing.matrix_world = Matrix.Translation(camera["origin"]) @ axes
+def place(scene, data, center, axes):
+    """An object with this position and these axes."""
+    thing = bpy.data.objects.new(data.name, data)
+    thing.matrix_world = Matrix.Translation(center) @ Matrix(axes).transposed().to_4x4()
     scene.collection.objects.link(thing)
-    scene.camera = thing
+    return thing
+
+
+def set_up_camera(scene, film, camera):
+    axes, angle = camera_axes(film, camera)
+    data = bpy.data.cameras.new("camera")
+    data.sensor_fit, data.angle = "HORIZONTAL", angle
+    data.clip_start, data.clip_end = 1e-3, 1e4
+    scene.camera = place(scene, data, camera["origin"], axes)
     scene.render.resolution_x, scene.render.resolution_y = film
     scene.render.resolution_percentage = 100
 
@@ -100,40 +99,12 @@ def add_mesh(scene, name, positions, polygons, material):
 
 
 def add_lamp(scene, polygon, radiance, mis):
-    """An area light. It is a rectangle that shines along its -z axis."""
-    a, b, c, d = (Vector(v) for v in polygon)
-    if (a - b + c - d).length > 1e-6 or abs((b - a).dot(d - a)) > 1e-6:
-        raise ValueError("Blender's area lights are rectangles")
-    x, y = b - a, d - a
-    lamp = bpy.data.lights.new("lamp", "AREA")
-    lamp.shape, lamp.size, lamp.size_y = "RECTANGLE", x.length, y.length
-    # A lamp of power E has the radiance E / (4 A), as tests of constant light show.
-    lamp.energy = 4 * x.length * y.length * max(radiance)
-    lamp.color = [value / max(radiance) for value in radiance]
-    lamp.cycles.use_multiple_importance_sampling = mis
-    thing = bpy.data.objects.new("lamp", lamp)
-    # The side from which vertices appear counter-clockwise emits: x cross y points there, and so does -z.
-    axes = Matrix((x.normalized(), -y.normalized(), -x.cross(y).normalized())).transposed().to_4x4()
-    thing.matrix_world = Matrix.Translation((a + c) / 2) @ axes
-    scene.collection.objects.link(thing)
-
-
-def tube_mesh(tube, caps):
-    """A prism with the lateral area of the cylinder, and thus the same projected area in the mean over all directions
-    from which it is seen."""
-    begin, end = Vector(tube["begin"]), Vector(tube["end"])
-    axis = (end - begin).normalized()
-    x = axis.orthogonal().normalized()
-    y = axis.cross(x)
-    half_angle = math.pi / TUBE_SIDES
-    radius = tube["radius"] * half_angle / math.sin(half_angle)
-    ring = [radius * (math.cos(2 * half_angle * i) * x + math.sin(2 * half_angle * i) * y) for i in range(TUBE_SIDES)]
-    positions = [begin + v for v in ring] + [end + v for v in ring]
-    following = [(i + 1) % TUBE_SIDES for i in range(TUBE_SIDES)]
-    polygons = [[i, j, TUBE_SIDES + j, TUBE_SIDES + i] for i, j in enumerate(following)]
-    if caps:
-        polygons += [[*range(TUBE_SIDES - 1, -1, -1)], [*range(TUBE_SIDES, 2 * TUBE_SIDES)]]
-    return positions, polygons
+    lamp = lamp_of(polygon, radiance)
+    data = bpy.data.lights.new("lamp", "AREA")
+    data.shape, data.size, data.size_y = "RECTANGLE", lamp["width"], lamp["height"]
+    data.energy, data.color = lamp["power"], lamp["color"]
+    data.cycles.use_multiple_importance_sampling = mis
+    place(scene, data, lamp["center"], lamp["axes"])
 
 
 def add_light(scene, light, lamps, mis, alone):
@@ -149,20 +120,18 @@ def add_light(scene, light, lamps, mis, alone):
         return
     add_lamp(scene, polygon, radiance, mis)
     if light["two_sided"]:
-        add_lamp(scene, polygon[:1] + polygon[:0:-1], radiance, mis)
+        add_lamp(scene, reversed_side(polygon), radiance, mis)
     elif not alone:
         # Area lights hide nothing, but ours hide the light of others.
-        a, b, _, d = (Vector(v) for v in polygon)
-        offset = -OCCLUDER_OFFSET * (b - a).cross(d - a).normalized()
         black = surface({"name": "black", "diffuse": [0, 0, 0], "f0": None})
-        add_mesh(scene, "occluder", [Vector(v) + offset for v in polygon], [[0, 1, 2, 3]], black)
+        add_mesh(scene, "occluder", occluder_of(polygon), [[0, 1, 2, 3]], black)
 
 
 def build(description, lamps, mis):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.world = None
-    set_up_film(scene, description["film"], description["camera"])
+    set_up_camera(scene, description["film"], description["camera"])
     materials = [surface(m) for m in description["materials"]]
     for i, mesh in enumerate(description["meshes"]):
         add_mesh(scene, f"mesh {i}", mesh["positions"], mesh["triangles"], materials[mesh["material"]])
@@ -179,8 +148,8 @@ def settings(scene, roulette, threads):
     cycles = scene.cycles
     cycles.device = "CPU"
     cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_auto_tile = False
-    # The narrowest filter: all rays of a pixel go through its centre.
-    cycles.pixel_filter_type, cycles.filter_width = "BOX", 0.01
+    # All rays of a pixel go through its centre, up to 1/200 of its side. A box would be a pixel wide, whatever the width.
+    cycles.pixel_filter_type, cycles.filter_width = "BLACKMAN_HARRIS", 0.01
     cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = 0
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
     cycles.blur_glossy = 0

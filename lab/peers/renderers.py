@@ -45,18 +45,19 @@ class Nusselt:
         run([self.program, "convert", image, file, *(["--layer", layer] if layer else [])])
         return read_pfm(file)
 
-    def command(self, case, samples, seed, resolution, more):
+    def command(self, case, samples, seed, more):
         """All camera rays go through pixel centres, so that light sampling is the only source of noise."""
+        view = self.work / f"{case.slug}-camera.json"
+        view.write_text(json.dumps({"version": 1, "film": case.scene["film"], "camera": case.scene["camera"]}))
         return [self.program, "render", case.file, *case.options, "--spp", samples, "--seed", seed, "--pixel-center",
-                "--resolution", resolution, "-q", *more]
+                "--camera", view, "-q", *more]
 
     def render(self, case, samples, seed):
         """The image, and its times: "cpu" without what a tiny image takes, "wall" without reading and writing."""
         image, report = self.work / f"{case.slug}-nusselt.exr", self.work / "nusselt.json"
-        size = "x".join(map(str, case.size))
         more = ["--threads", 1, "--json", report, "-o", image]
-        _, tiny = run(self.command(case, 1, seed, TINY, more))
-        _, cpu = run(self.command(case, samples, seed, size, more))
+        _, tiny = run(self.command(case, 1, seed, ["--resolution", TINY, *more]))
+        _, cpu = run(self.command(case, samples, seed, more))
         numbers = json.loads(report.read_text())
         return self.layer(image, "picture"), {"cpu": cpu - tiny, "wall": numbers["seconds"]["render"],
                                               "isa": numbers["isa"]}
@@ -64,8 +65,7 @@ class Nusselt:
     def reference(self, case, samples, seed):
         """An image and the mask of the pixels in which it shows surfaces that do not emit."""
         image = self.work / f"{case.slug}-nusselt-reference.exr"
-        size = "x".join(map(str, case.size))
-        run(self.command(case, samples, seed, size, ["-o", image, "--layers", "emission,depth"]))
+        run(self.command(case, samples, seed, ["-o", image, "--layers", "emission,depth"]))
         covered = (pixel[0] == 1 for pixel in self.layer(image, "coverage", "coverage").pixels())
         dark = (not any(pixel) for pixel in self.layer(image, "emission", "emission").pixels())
         return self.layer(image, "picture"), all_of(covered, dark)
