@@ -19,10 +19,13 @@ import shutil
 import sys
 import tempfile
 
-from image_statistics import (all_of, efficiency, mean, mean_squared_error, median_and_spread, samples_of_equal_time)
-from pbrt_scene import aside, matte, one_sided, read_scene, resized
-from renderers import Cycles, Failure, Nusselt
-from results import to_json
+sys.dont_write_bytecode = True  # nothing new in the folder of the sources
+
+from image_statistics import (all_of, efficiency, mean, mean_squared_error, median_and_spread,  # noqa: E402
+                              samples_of_equal_time)
+from pbrt_scene import aside, matte, one_sided, read_scene, resized  # noqa: E402
+from renderers import Cycles, Failure, Nusselt  # noqa: E402
+from results import to_json  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -88,8 +91,8 @@ RENDERINGS = ("renderings", ["scene", "renderer", "samples", ("cpu_seconds", "s"
 RATIOS = ("ratios", ["scene", "samples", "time_ratio", "error_ratio", "efficiency_ratio", "lowest_ratio",
                      "highest_ratio", "target", "meets_target", "equal_time_samples", "equal_time_error_ratio",
                      "equal_time_time_ratio"])
-REFERENCES = ("references", ["scene", "reference_samples", "pixels", "nusselt_mean", "cycles_mean", "mean_ratio", "means_agree",
-                             "relative_difference", "lamps", "mis", "roulette"])
+REFERENCES = ("references", ["scene", "reference_samples", "pixels", "nusselt_mean", "cycles_mean", "mean_ratio",
+                             "means_agree", "relative_difference", "lamps", "mis", "roulette"])
 NOT_RUN = ("not_run", ["scene", "reason"])
 
 
@@ -221,8 +224,9 @@ def main(arguments):
 
     print(text_of(tables))
     if options.json:
-        command = shlex.join([os.path.relpath(__file__, ROOT)] + [f"--{n.replace('_', '-')}={getattr(options, n)}" for n in (
-            "samples", "reference_samples", "repetitions")])
+        chosen = [f"--{name.replace('_', '-')}={getattr(options, name)}"
+                  for name in ("samples", "reference_samples", "repetitions")]
+        command = shlex.join([os.path.relpath(__file__, ROOT), *chosen])
         options.json.write_text(to_json("peers", command, version, settings, [
             (name, columns, tables[name]) for name, columns in (RENDERINGS, RATIOS, REFERENCES, NOT_RUN)]))
     return 1 if any(reason != "not selected" for _, reason in tables["not_run"]) else 0

@@ -53,8 +53,8 @@ def occluder_of(polygon):
 
 
 def tube_mesh(tube, caps):
-    """Positions and polygons of a prism with the lateral area of the cylinder. In the mean over all directions from which
-    it is seen, it has the same projected area, too. All sides face outwards."""
+    """Positions and polygons of a prism with the lateral area of the cylinder. In the mean over all directions from
+    which it is seen, it has the same projected area, too. All sides face outwards."""
     begin, end = tube["begin"], tube["end"]
     z = unit(add(end, begin, -1))
     smallest = min(range(3), key=lambda i: abs(z[i]))

@@ -148,7 +148,7 @@ def settings(scene, roulette, threads):
     cycles = scene.cycles
     cycles.device = "CPU"
     cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_auto_tile = False
-    # All rays of a pixel go through its centre, up to 1/200 of its side. A box would be a pixel wide, whatever the width.
+    # All rays of a pixel go through its centre, up to 1/200 of its side. A box would be as wide as a pixel in any case.
     cycles.pixel_filter_type, cycles.filter_width = "BLACKMAN_HARRIS", 0.01
     cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = 0
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0

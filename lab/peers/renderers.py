@@ -108,7 +108,7 @@ class Cycles:
 
 
 def times_of(output, count):
-    """The times of each rendering from the output of Blender, which says how long it rendered before the script does."""
+    """The times of each rendering from the output of Blender, in which its own time precedes those of the script."""
     found, render_wall = [], None
     for match in RENDERED.finditer(output):
         if match.group(1):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of lab/peers without any peer: scenes as peers get them, statistics, results, and what happens without Blender."""
+"""Tests of lab/peers without any peer: scenes as peers get them, statistics, results, and the skip without Blender."""
 import contextlib
 import io
 import json
@@ -116,6 +116,14 @@ class Scenes(Case):
         self.assertEqual(light, {"radiance": [120, 112, 100], "finite": False,
                                  "tube": {"begin": [0.1, 1.96, -0.98], "end": [0.1, 1.96, 0.9], "radius": 0.01}})
 
+    def test_a_camera_beside_the_axis_keeps_its_direction(self):
+        scene = pbrt_scene.read_scene(ROOT / "scenes/cornell-panel.pbrt")
+        camera = pbrt_scene.aside(scene)["camera"]
+        self.assertEqual(camera["corner"], scene["camera"]["corner"])
+        # Less than a pixel of 256 even at the distance of the front edge, and no edge of the room stays on the axis.
+        x, y, z = geometry.add(camera["origin"], scene["camera"]["origin"], -1)
+        self.assertTrue(0 < x < 0.6 * 3.6 / 256 and 0 < y < x and z == 0)
+
     def test_changes_of_scenes(self):
         scene = pbrt_scene.read_scene(ROOT / "scenes/cornell-panel.pbrt")
         dull = pbrt_scene.matte(scene)
@@ -128,14 +136,15 @@ class Scenes(Case):
             pbrt_scene.resized(scene, 64, 65)
 
     def test_anything_beyond_the_subset_is_an_error(self):
-        head = 'Film "rgb" "integer xresolution" 8 "integer yresolution" 8\nCamera "perspective" "float fov" 40\nWorldBegin\n'
+        head = ('Film "rgb" "integer xresolution" 8 "integer yresolution" 8\n'
+                'Camera "perspective" "float fov" 40\nWorldBegin\n')
+        matte = 'MakeNamedMaterial "a" "string type" "diffuse" "rgb reflectance" [ 1 1 1 ]'
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "scene.pbrt")
             for text, message in [('Shape "sphere" "float radius" 1', "P"),
                                   ('LightSource "infinite"', "LightSource"),
                                   ('MakeNamedMaterial "a" "string type" "hair"', "hair"),
-                                  ('MakeNamedMaterial "a" "string type" "diffuse" "rgb reflectance" [ 1 1 1 ] "float sigma" 1',
-                                   "sigma"),
+                                  (matte + ' "float sigma" 1', "sigma"),
                                   ('NamedMaterial "b"', "b"),
                                   ('Shape "polygon" "point3 P" [ 0 0 0 1 1 ]', "three numbers")]:
                 file.write_text(head + text)
@@ -270,14 +279,18 @@ class Driver(Case):
         with contextlib.redirect_stderr(io.StringIO()):
             found = compare.measure(case, nusselt, cycles, options)
         self.assertEqual(nusselt.seeds, [1, 1, 2, 2, 3, 3])
-        return {name: [dict(zip((c if isinstance(c, str) else c[0] for c in columns), row, strict=True))
-                       for row in found[name]] for name, columns in (compare.RENDERINGS, compare.RATIOS, compare.REFERENCES)}
+        tables = {}
+        for name, columns in (compare.RENDERINGS, compare.RATIOS, compare.REFERENCES):
+            names = [column if isinstance(column, str) else column[0] for column in columns]
+            tables[name] = [dict(zip(names, row, strict=True)) for row in found[name]]
+        return tables
 
     def test_ratios_of_constructed_renderers(self):
         found = self.measured(1.0)
         ratios, = found["ratios"]
         for name, expected in [("time_ratio", 4), ("error_ratio", 16), ("efficiency_ratio", 64), ("lowest_ratio", 64),
-                               ("highest_ratio", 64), ("equal_time_samples", 64), ("equal_time_time_ratio", 1)]:
+                               ("highest_ratio", 64), ("equal_time_samples", 64), ("equal_time_time_ratio", 1),
+                               ("equal_time_error_ratio", 16)]:
             self.assertAlmostEqual(ratios[name], expected, msg=name)
         self.assertTrue(ratios["meets_target"])
         reference, = found["references"]
@@ -311,7 +324,8 @@ class Driver(Case):
     def test_times_from_the_output_of_blender(self):
         output = ('x] Render time (without synchronization): 0.5\nrendering: {"cpu": 2}\n'
                   'rendering: {"cpu": 3}\n')
-        self.assertEqual(renderers.times_of(output, 2), [{"cpu": 2, "render_wall": 0.5}, {"cpu": 3, "render_wall": None}])
+        expected = [{"cpu": 2, "render_wall": 0.5}, {"cpu": 3, "render_wall": None}]
+        self.assertEqual(renderers.times_of(output, 2), expected)
         self.assertRaises(renderers.Failure, renderers.times_of, output, 3)
 
     def test_renderers_that_fail_are_an_error(self):
