@@ -4,6 +4,7 @@
 Usage: lab/peers/compare.py [--json FILE] [--scenes NAME,...] [--repetitions N] [--samples N] [--reference-samples N]
                             [--nusselt PROGRAM] [--blender PROGRAM] [--work FOLDER]
 
+The file has ratios, single numbers and what was not run. With --scenes, rows of other scenes in it remain.
 Exits with 77 if there is no Blender (Debian: apt-get install --no-install-recommends blender).
 
 Each renderer is compared with a converged image of its own, because tubes are a mesh in Cycles and because the BRDFs of
@@ -25,7 +26,7 @@ from image_statistics import (all_of, efficiency, mean, mean_squared_error, medi
                               samples_of_equal_time)
 from pbrt_scene import aside, matte, one_sided, read_scene, resized  # noqa: E402
 from renderers import Cycles, Failure, Nusselt  # noqa: E402
-from results import to_json  # noqa: E402
+from results import rows_of_other_scenes, to_json  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -94,6 +95,7 @@ RATIOS = ("ratios", ["scene", "samples", "time_ratio", "error_ratio", "efficienc
 REFERENCES = ("references", ["scene", "reference_samples", "pixels", "nusselt_mean", "cycles_mean", "mean_ratio",
                              "means_agree", "relative_difference", "lamps", "mis", "roulette"])
 NOT_RUN = ("not_run", ["scene", "reason"])
+TABLES = (RENDERINGS, RATIOS, REFERENCES, NOT_RUN)
 
 
 def log(*words):
@@ -206,31 +208,51 @@ def main(arguments):
         work = options.work or pathlib.Path(temporary)
         work.mkdir(parents=True, exist_ok=True)
         nusselt = Nusselt(options.nusselt, work)
-        cycles = Cycles(options.blender, work, nusselt)
-        settings = {"repetitions": options.repetitions, "cycles": cycles.version(), "threads_of_renderers": 1}
-        tables = {name: [] for name, _ in (RENDERINGS, RATIOS, REFERENCES, NOT_RUN)}
-        tables["not_run"] = [[name, "not selected"] for name in known if name not in names]
-        for name in names:
-            try:
-                found = measure(known[name], nusselt, cycles, options)
-            except (Failure, OSError, ValueError) as error:
-                log(f"{name}: {error}")
-                tables["not_run"].append([name, str(error).split("\n")[0]])
-                continue
+        return compare(options, known, names, nusselt, Cycles(options.blender, work, nusselt))
+
+
+def compare(options, known, names, nusselt, cycles):
+    """Measures the named scenes, and writes the file after each of them, because all of them take long."""
+    settings = {"repetitions": options.repetitions, "cycles": cycles.version(), "threads_of_renderers": 1}
+    tables = {name: [] for name, _ in TABLES}
+    if options.json and options.scenes and options.json.exists():
+        tables.update(rows_of_other_scenes(options.json, names, settings))
+    measured = {row[0] for row in tables["ratios"]}
+    not_run = {name: "not reached" if name in names else "not selected" for name in known if name not in measured}
+    version, failed = nusselt.version(), False
+    for name in names:
+        try:
+            found = measure(known[name], nusselt, cycles, options)
             settings["isa"] = found.pop("isa")
             for table, rows in found.items():
                 tables[table] += rows
-        version = nusselt.version()
-
+            del not_run[name]
+        except (Failure, OSError, ValueError) as error:
+            log(f"{name}: {error}")
+            not_run[name] = str(error).split("\n")[0]
+            failed = True
+        tables["not_run"] = [*not_run.items()]
+        if options.json:
+            options.json.write_text(to_json("peers", command_of(options), version, settings, [
+                (table, columns, in_order(tables[table], known)) for table, columns in TABLES]))
     print(text_of(tables))
-    if options.json:
-        chosen = [f"--{name.replace('_', '-')}={getattr(options, name)}"
-                  for name in ("samples", "reference_samples", "repetitions")]
-        command = shlex.join([os.path.relpath(__file__, ROOT), *chosen])
-        options.json.write_text(to_json("peers", command, version, settings, [
-            (name, columns, tables[name]) for name, columns in (RENDERINGS, RATIOS, REFERENCES, NOT_RUN)]))
-    return 1 if any(reason != "not selected" for _, reason in tables["not_run"]) else 0
+    return 1 if failed else 0
+
+
+def in_order(rows, scenes):
+    """The order of the list of scenes, whichever ran last. Sorting keeps that of the rows of a scene."""
+    order = [*scenes]
+    return sorted(rows, key=lambda row: order.index(row[0]))
+
+
+def command_of(options):
+    chosen = [f"--{name.replace('_', '-')}={getattr(options, name)}"
+              for name in ("samples", "reference_samples", "repetitions")]
+    return shlex.join([os.path.relpath(__file__, ROOT), *chosen])
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except ValueError as error:
+        sys.exit(str(error))

@@ -278,8 +278,8 @@ def one_sided(scene):
 
 
 def aside(scene):
-    """The scene seen from a few millimetres beside. If the camera is on the axis of a room, edges of the room pass through
-    the centres of pixels, and chance decides which surface a ray hits."""
+    """The scene seen from a few millimetres beside. If the camera is on the axis of a room, edges of the room pass
+    through the centres of pixels, and chance decides which surface a ray hits."""
     offset = (0.0061, 0.0047, 0)
     camera = scene["camera"]
     return {**scene, "camera": {**camera, "origin": [x + d for x, d in zip(camera["origin"], offset)]}}

@@ -19,6 +19,15 @@ def rounded(value):
     return value
 
 
+def rows_of_other_scenes(file, scenes, settings):
+    """The rows of each table of a file, without those of the given scenes. Scenes are in the first column."""
+    document = json.loads(file.read_text())
+    for name, value in settings.items():
+        if document["settings"].get(name) != value:
+            raise ValueError(f"{file}: {name} is not {value}; its rows and new ones do not belong together")
+    return {table["name"]: [row for row in table["rows"] if row[0] not in scenes] for table in document["tables"]}
+
+
 def line_of(value):
     return json.dumps(value, ensure_ascii=False)
 

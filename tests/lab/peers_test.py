@@ -253,6 +253,10 @@ class ConstructedRenderer:
         return self.image(self.value + self.error), {"cpu": self.time * samples, "wall": 1, "isa": "none"}
 
 
+    def version(self):
+        return "constructed"
+
+
 class ConstructedNusselt(ConstructedRenderer):
     def render(self, case, samples, seed):
         return self.result(samples, seed)
@@ -302,6 +306,30 @@ class Driver(Case):
     def test_means_that_differ_are_reported(self):
         self.assertFalse(self.measured(1.02)["references"][0]["means_agree"])
         self.assertTrue(self.measured(1.009)["references"][0]["means_agree"])
+
+    def test_files_keep_rows_of_other_scenes_and_say_what_was_not_run(self):
+        known = {case.slug: case for case in compare.cases()}
+        good, broken = ConstructedCycles(1.0, 0.5, 2), ConstructedCycles(math.nan, 0.5, 2)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "peers.json")
+
+            def tables(cycles, *more):
+                options = compare.options_of(["--json", str(file), *more])
+                names = options.scenes.split(",") if options.scenes else [*known]
+                with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+                    status = compare.compare(options, known, names, ConstructedNusselt(1.0, 0.125, 0.5), cycles)
+                found = {table["name"]: table["rows"] for table in json.loads(file.read_text())["tables"]}
+                return status, [row[0] for row in found["ratios"]], dict(found["not_run"])
+
+            rest = dict.fromkeys(["panel", "panel-below", "metal-planes", "room-matte"], "not selected")
+            self.assertEqual(tables(good, "--scenes", "room,tube"), (0, ["tube", "room"], rest))
+            failed = {**rest, "panel": "the mean of an image is not finite"}
+            self.assertEqual(tables(broken, "--scenes", "panel"), (1, ["tube", "room"], failed))
+            del failed["panel"]
+            self.assertEqual(tables(good, "--scenes", "panel"), (0, ["panel", "tube", "room"], failed))
+            with self.assertRaisesRegex(ValueError, "repetitions"):
+                tables(good, "--scenes", "tube", "--repetitions", "2")
+            self.assertEqual(tables(good), (0, [*known], {}))
 
     def test_missed_targets_are_reported(self):
         case = next(case for case in compare.cases() if case.slug == "panel")
