@@ -22,7 +22,7 @@ import tempfile
 
 sys.dont_write_bytecode = True  # nothing new in the folder of the sources
 
-from image_statistics import (all_of, efficiency, mean, mean_squared_error, median_and_spread,  # noqa: E402
+from image_statistics import (all_of, efficiency, mean, mean_squared_errors, median_and_spread,  # noqa: E402
                               samples_of_equal_time)
 from pbrt_scene import aside, matte, one_sided, read_scene, resized  # noqa: E402
 from renderers import Cycles, Failure, Nusselt  # noqa: E402
@@ -74,24 +74,30 @@ class Series:
     """Errors and times of the repetitions of one renderer with one number of samples."""
 
     def __init__(self, samples):
-        self.samples, self.errors, self.times, self.walls = samples, [], [], []
+        self.samples, self.errors, self.relative_errors, self.times, self.walls = samples, [], [], [], []
 
-    def add(self, error, times):
-        self.errors.append(error)
+    def add(self, errors, times):
+        self.errors.append(errors[0])
+        self.relative_errors.append(errors[1])
         self.times.append(times["cpu"])
         self.walls.append(times["wall"])
 
     def row(self, scene, renderer, reference_mean):
         (time, time_spread), (error, error_spread) = map(median_and_spread, (self.times, self.errors))
-        return [scene, renderer, self.samples, time, time_spread, median_and_spread(self.walls)[0], error, error_spread,
-                error**0.5 / reference_mean, efficiency(error, time)]
+        return [scene, renderer, self.samples, time, time_spread, middle(self.walls), error, error_spread,
+                error**0.5 / reference_mean, efficiency(error, time), middle(self.relative_errors)]
+
+
+def middle(values):
+    return median_and_spread(values)[0]
 
 
 RENDERINGS = ("renderings", ["scene", "renderer", "samples", ("cpu_seconds", "s"), "cpu_spread", ("wall_seconds", "s"),
-                             "mse", "mse_spread", "relative_rmse", "efficiency"])
+                             "mse", "mse_spread", "relative_rmse", "efficiency", "rel_mse"])
 RATIOS = ("ratios", ["scene", "samples", "time_ratio", "error_ratio", "efficiency_ratio", "lowest_ratio",
                      "highest_ratio", "target", "meets_target", "equal_time_samples", "equal_time_error_ratio",
-                     "equal_time_time_ratio"])
+                     "equal_time_time_ratio", "rel_mse_ratio", "rel_mse_efficiency_ratio",
+                     "equal_time_rel_mse_ratio"])
 REFERENCES = ("references", ["scene", "reference_samples", "pixels", "nusselt_mean", "cycles_mean", "mean_ratio",
                              "means_agree", "relative_difference", "lamps", "mis", "roulette"])
 NOT_RUN = ("not_run", ["scene", "reason"])
@@ -107,7 +113,7 @@ def best_settings(case, cycles, reference, mask, samples):
     def trial(lamps, mis, roulette):
         settings = {"lamps": lamps, "mis": mis, "roulette": roulette}
         image, times = cycles.render(case, settings, samples, TRIAL_SEED)
-        found = efficiency(mean_squared_error(image, reference, mask), times["cpu"])
+        found = efficiency(mean_squared_errors(image, reference, mask)[0], times["cpu"])
         log(f"  trial {settings}: efficiency {found:.4g}")
         return found, settings
 
@@ -126,7 +132,7 @@ def measure(case, nusselt, cycles, options):
     theirs, their_mask = cycles.reference(case, converged, options.reference_samples, REFERENCE_SEED)
     mask = all_of(our_mask, their_mask)
     means = mean(ours, mask), mean(theirs, mask)
-    difference = mean_squared_error(theirs, ours, mask)**0.5 / means[0]
+    difference = mean_squared_errors(theirs, ours, mask)[0]**0.5 / means[0]
     log(f"  means {means[0]:.6g} and {means[1]:.6g}, difference {difference:.3g}")
     settings = best_settings(case, cycles, theirs, mask, options.samples)
 
@@ -136,13 +142,13 @@ def measure(case, nusselt, cycles, options):
     for repetition in range(options.repetitions):
         seed = FIRST_SEED + repetition
         image, times = cycles.render(case, settings, options.samples, seed)
-        series[1].add(mean_squared_error(image, theirs, mask), times)
+        series[1].add(mean_squared_errors(image, theirs, mask), times)
         image, times = nusselt.render(case, options.samples, seed)
-        series[0].add(mean_squared_error(image, ours, mask), times)
+        series[0].add(mean_squared_errors(image, ours, mask), times)
         isa = times["isa"]
         longer = longer or Series(samples_of_equal_time(options.samples, series[0].times[0], series[1].times[0]))
         image, times = nusselt.render(case, longer.samples, seed)
-        longer.add(mean_squared_error(image, ours, mask), times)
+        longer.add(mean_squared_errors(image, ours, mask), times)
         log(f"  repetition {repetition + 1}: {series[0].times[-1]:.3g} s and {series[1].times[-1]:.3g} s")
 
     rows = [series[0].row(case.slug, "nusselt", means[0]), series[1].row(case.slug, "cycles", means[1]),
@@ -155,16 +161,15 @@ def measure(case, nusselt, cycles, options):
 
 def ratios_of(case, ours, theirs, longer):
     """How many times more time and squared error Cycles has. The range is that of single repetitions."""
-    def middle(values):
-        return median_and_spread(values)[0]
-
     time = middle(theirs.times) / middle(ours.times)
     error = middle(theirs.errors) / middle(ours.errors)
+    relative = middle(theirs.relative_errors) / middle(ours.relative_errors)
     single = [t[0] * t[1] / (o[0] * o[1]) for t, o in zip(zip(theirs.times, theirs.errors),
                                                          zip(ours.times, ours.errors), strict=True)]
     return [case.slug, ours.samples, time, error, time * error, min(single), max(single), case.target,
             None if case.target is None else time * error >= case.target, longer.samples,
-            middle(theirs.errors) / middle(longer.errors), middle(theirs.times) / middle(longer.times)]
+            middle(theirs.errors) / middle(longer.errors), middle(theirs.times) / middle(longer.times), relative,
+            time * relative, middle(theirs.relative_errors) / middle(longer.relative_errors)]
 
 
 def text_of(tables):

@@ -7,6 +7,9 @@ import statistics
 import sys
 
 
+RELATIVE_EPSILON = 0.01  # as in `nusselt compare`
+
+
 class Image:
     """Rows of pixels, each with one or three channels, in the order of the PFM file."""
 
@@ -58,13 +61,17 @@ def mean(image, mask):
     return finite(math.fsum(values) / len(values), "the mean of an image")
 
 
-def mean_squared_error(image, reference, mask):
+def mean_squared_errors(image, reference, mask):
+    """The mean squared error, and the relative one of docs/images.md (`rel_mse`), in which dark pixels count as much as
+    bright ones."""
     if (image.width, image.height, image.channels) != (reference.width, reference.height, reference.channels):
         raise ValueError("image and reference differ in size")
-    squares = [(a - b)**2 for a, b in zip(kept(image, mask), kept(reference, mask))]
-    if not squares:
+    values = [*kept(reference, mask)]
+    if not values:
         raise ValueError("no pixel is left")
-    return finite(math.fsum(squares) / len(squares), "an error")
+    squares = [(a - b)**2 for a, b in zip(kept(image, mask), values)]
+    relative = (square / (b * b + RELATIVE_EPSILON) for square, b in zip(squares, values))
+    return tuple(finite(math.fsum(terms) / len(values), "an error") for terms in (squares, relative))
 
 
 def median_and_spread(values):

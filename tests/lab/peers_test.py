@@ -192,9 +192,10 @@ class Statistics(Case):
 
     def test_errors_leave_masked_pixels_out(self):
         reference, image = self.image(1, 1, 1, 2, 2, 2, 90, 90, 90), self.image(1, 1, 2, 2, 4, 2, 0, 0, 0)
-        self.assertAlmostEqual(statistics.mean_squared_error(image, reference, bytes([1, 1, 0])), 5 / 6)
-        self.assertAlmostEqual(statistics.mean_squared_error(image, reference, bytes([0, 1, 0])), 4 / 3)
-        self.assertGreater(statistics.mean_squared_error(image, reference, bytes([1, 1, 1])), 2000)
+        errors = statistics.mean_squared_errors(image, reference, bytes([1, 1, 0]))
+        self.assertClose(errors, [5 / 6, (1 / 1.01 + 4 / 4.01) / 6])
+        self.assertClose(statistics.mean_squared_errors(image, reference, bytes([0, 1, 0])), [4 / 3, 4 / 4.01 / 3])
+        self.assertGreater(statistics.mean_squared_errors(image, reference, bytes([1, 1, 1]))[0], 2000)
         self.assertAlmostEqual(statistics.mean(image, bytes([1, 1, 0])), 2)
         self.assertEqual(statistics.all_of(bytes([1, 1, 0]), [True, False, True]), bytes([1, 0, 0]))
 
@@ -202,11 +203,11 @@ class Statistics(Case):
         image = self.image(1, 1, 1, math.nan, 1, 1)
         self.assertEqual(statistics.mean(image, bytes([1, 0])), 1)
         for call in [lambda: statistics.mean(image, bytes([1, 1])),
-                     lambda: statistics.mean_squared_error(image, image, bytes([1, 1])),
+                     lambda: statistics.mean_squared_errors(image, image, bytes([1, 1])),
                      lambda: statistics.mean(image, bytes([0, 0])),
-                     lambda: statistics.mean_squared_error(image, image, bytes([0, 0])),
+                     lambda: statistics.mean_squared_errors(image, image, bytes([0, 0])),
                      lambda: statistics.mean(image, bytes([1])),
-                     lambda: statistics.mean_squared_error(image, self.image(1, 1, 1), bytes([1])),
+                     lambda: statistics.mean_squared_errors(image, self.image(1, 1, 1), bytes([1])),
                      lambda: statistics.all_of(bytes([1]), bytes([1, 1])),
                      lambda: statistics.Image(2, 2, [1, 2, 3])]:
             self.assertRaises(ValueError, call)
@@ -335,9 +336,11 @@ class Driver(Case):
         case = next(case for case in compare.cases() if case.slug == "panel")
         ours, theirs = compare.Series(16), compare.Series(16)
         for _ in range(2):
-            ours.add(1, {"cpu": 1, "wall": 1})
-            theirs.add(2, {"cpu": 3.9, "wall": 1})
+            ours.add((1, 1), {"cpu": 1, "wall": 1})
+            theirs.add((2, 3), {"cpu": 3.9, "wall": 1})
         columns = compare.RATIOS[1]
+        relative = compare.ratios_of(case, ours, theirs, ours)[columns.index("rel_mse_efficiency_ratio")]
+        self.assertAlmostEqual(relative, 3 * 3.9)
         self.assertIs(compare.ratios_of(case, ours, theirs, ours)[columns.index("meets_target")], False)
         theirs.errors = [2.1, 2.1]
         self.assertIs(compare.ratios_of(case, ours, theirs, ours)[columns.index("meets_target")], True)
