@@ -1,6 +1,8 @@
 #include "base/temporary_folder.h"
+#include "common/source_folder.h"
 #include "image/io.h"
 #include "image/srgb.h"
+#include "lab/figures/image_comparison.h"
 #include "lab/report/report_folder.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace nusselt::lab {
@@ -41,6 +44,31 @@ TEST(Report, ExperimentsHaveUniqueNamesThatArePartsOfPaths) {
         EXPECT_FALSE(e.source.empty());
         EXPECT_FALSE(e.description.empty());
     }
+}
+
+// Whoever renames or drops an experiment sees which figures lose it.
+TEST(Report, EveryExperimentShowsAnItemOfThePapersAndTheOtherWayAround) {
+    std::ifstream file(std::filesystem::path(nusselt_test::kSourceFolder) / "lab/report/published.json");
+    std::set<std::string> named;
+    std::map<std::string, std::set<std::string>> quantities;
+    for (const auto& paper : nlohmann::json::parse(file).at("papers"))
+        for (const auto& item : paper.at("items")) {
+            for (const std::string name : item.at("by")) named.insert(name);
+            for (const auto& number : item.at("published"))
+                quantities[item.at("id")].insert(number.at("quantity"));
+        }
+    std::set<std::string> experiments;
+    for (const Experiment& e : all_experiments()) {
+        experiments.insert(e.name);
+        EXPECT_EQ(named.count(e.name), 1u) << e.name << " shows nothing";
+    }
+    // Other commands have several words, such as "bench gpu".
+    for (const std::string& name : named)
+        EXPECT_TRUE(experiments.count(name) > 0 || name.find(' ') != std::string::npos || name == "fit-ltc")
+            << name;
+    for (const ImageComparison& comparison : all_image_comparisons())
+        for (const Stated& s : comparison.stated)
+            EXPECT_EQ(quantities[s.item].count(s.quantity), 1u) << s.quantity;
 }
 
 TEST(Report, FileStemsHaveNoSpecialCharacters) {
