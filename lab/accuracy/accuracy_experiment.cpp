@@ -76,11 +76,14 @@ std::vector<ExpectationResult> check(const AccuracyStudyResult& result) {
     const auto error = [&](const char* technique, const char* method, const char* lights) {
         return row_of(result, technique, method, lights).backward;
     };
-    const double arvo = error("PolygonProjectedSolidAngleArvo", "published", "decentral").max;
+    double arvo = 0;
+    for (const char* const lights : {"decentral", "central", "crossing the horizon"})
+        arvo = std::max(arvo, error("PolygonProjectedSolidAngleArvo", "published", lights).max);
     const double bisection = error("PolygonProjectedSolidAngleBisection", "published", "decentral").p99;
     const double no_step = error("PolygonProjectedSolidAngleBiased", "ours", "decentral").p99;
     const double arvo_small = error("PolygonSolidAngleArvo", "published", "square of 1 cm at 40 m").p99;
     const double small = error("PolygonProjectedSolidAngle", "ours", "square of 1 cm at 40 m").p99;
+    const double floor = error("PolygonProjectedSolidAngle", "floor", "square of 1 cm at 40 m").p99;
     std::int64_t invalid = 0;
     for (const AccuracyRow& row : result.table.rows)
         if (row.method.rfind("ours", 0) == 0) invalid += row.nan + row.infinite + row.negative;
@@ -97,7 +100,10 @@ std::vector<ExpectationResult> check(const AccuracyStudyResult& result) {
                             "below {:.2g} only",
                             arvo_small),
                 arvo_small > 0.01),
-        checked(fmt::format("projected solid angle sampling does not: below {:.2g}", small), small < 1e-5),
+        checked(fmt::format("projected solid angle sampling does not: below {:.2g}, where rounded directions "
+                            "leave {:.2g}",
+                            small, floor),
+                small < 3 * floor),
         checked("none of our results is NaN, infinite or negative", invalid == 0)};
 }
 

@@ -70,12 +70,20 @@ Table table_of(const ErrorImagesResult& result) {
 }
 
 std::vector<ExpectationResult> check(const ErrorImagesResult& result) {
-    const double ours = share_above(result.errors.back().area, kSmallArea);
-    return {checked(
-        fmt::format("the error times the measure is below {:g} almost everywhere: above in {:.2f} % of the "
+    const PixelErrors& ours = result.errors.back();
+    const double large = share_above(ours.backward, kLargeError);
+    std::vector<ExpectationResult> all = {checked(
+        fmt::format("our backward errors are above {:g} in {:.3f} % of the pixels with light, at most 0.01 %",
+                    kLargeError, 100 * large),
+        large <= 1e-4)};
+    if (result.experiment.quantity.empty()) return all;
+    const double area = share_above(ours.area, kSmallArea);
+    all.push_back(checked(
+        fmt::format("times the measure, they are below {:g} almost everywhere: above in {:.2f} % of the "
                     "pixels with light",
-                    kSmallArea, 100 * ours),
-        ours < 0.01)};
+                    kSmallArea, 100 * area),
+        area < 0.01));
+    return all;
 }
 
 Results numbers_of(const ErrorImagesResult& result) {
@@ -104,7 +112,7 @@ const std::vector<ErrorImages>& all_error_images() {
         {"line-errors",
          "Peters 2021, linear lights, Fig. 4",
          "Backward errors of samples in single precision, in the box with half a tube.",
-         "cornell-half-tube.pbrt",
+         "evidence/cornell-half-tube.pbrt",
          {"LineProjectedSolidAngleLi", "LineProjectedSolidAnglePeters", "LineProjectedSolidAngle"},
          "lines-fig-4",
          ""}};

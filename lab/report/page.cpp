@@ -4,7 +4,7 @@
 #include "base/machine.h"
 #include "image/codecs.h"
 #include "image/metrics.h"
-#include "page_resources.h"
+#include "lab/report/page_resources.h"
 
 #include <nlohmann/json.hpp>
 
