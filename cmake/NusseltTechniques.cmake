@@ -28,6 +28,11 @@ foreach(i RANGE ${last})
             set(nusselt_technique_${name}_glsl_${field})
         endif()
     endforeach()
+    # Whether it is a published method, there to compare with.
+    set(nusselt_technique_${name}_is_related false)
+    if(nusselt_technique_${name}_header MATCHES "^related/")
+        set(nusselt_technique_${name}_is_related true)
+    endif()
     # The suites that leave the technique out. The reasons are for readers and for scripts/check-techniques.py.
     set(nusselt_technique_${name}_exempt)
     string(JSON exemptions ERROR_VARIABLE absent LENGTH "${row}" exempt)
@@ -162,10 +167,6 @@ function(nusselt_describe_technique name)
     if(${row}_approximates)
         set(biased true)
     endif()
-    set(is_related false)
-    if(${row}_header MATCHES "^related/")
-        set(is_related true)
-    endif()
     list(JOIN ${row}_exempt " " exempt)
     set(text "${template}struct ${kind_name} : ${base} {
     static constexpr const char* kName = \"${name}\";
@@ -173,7 +174,7 @@ function(nusselt_describe_technique name)
     static constexpr Horizon kHorizon = Horizon::${${row}_horizon};
     static constexpr bool kCyclic = ${cyclic};
     static constexpr bool kBiased = ${biased};
-    static constexpr bool kIsRelated = ${is_related};
+    static constexpr bool kIsRelated = ${${row}_is_related};
     static constexpr const char* kPublishedName = \"${${row}_published}\";
     static constexpr const char* kCompetitorName = \"${competitor}\";
     static constexpr std::string_view kExemptions = \"${exempt}\";
@@ -213,14 +214,14 @@ foreach(name IN LISTS nusselt_techniques)
     endif()
     set(row nusselt_technique_${name})
     # Published methods are there to compare with, not to use.
-    if(NOT ${row}_header MATCHES "^related/")
+    if(NOT ${row}_is_related)
         string(APPEND rows "    {\"${name}\", \"${light}\", \"${${row}_density}\", \"${${row}_source}\", \"${${row}_header}\", \"${${row}_renders}\"},\n")
     endif()
     # No light of the proofs comes with a BRDF.
     if(NOT light STREQUAL "polygon_on_brdf")
         nusselt_describe_technique(${name})
         string(APPEND kinds "${text}\n")
-        if(${row}_header MATCHES "^related/polygon")
+        if(${row}_is_related AND light STREQUAL polygon)
             string(REPLACE "<N>" "<4>" member "${member}")
             list(APPEND members_related_polygon ${member})
         else()

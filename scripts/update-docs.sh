@@ -46,9 +46,9 @@ measure_lines() {
         return 1
     }
     rm -rf "$reports"
-    # The exit code for broken expectations is that of an error too; missing reports stop the copies.
+    # 1: an expectation does not hold; 3: one could not be evaluated. The numbers are what they are.
     "$program" reproduce lines-orientation lines-offsets lines-pieces lines-large lines-small lines-visibility \
-        -o "$reports" || echo "an expectation does not hold, or an error occurred" >&2
+        --full -o "$reports" || case $? in 1 | 3) echo "not all expectations hold" >&2 ;; *) return 1 ;; esac
     for name in lines-orientation lines-offsets lines-pieces lines-large lines-small lines-visibility; do
         cp "$reports/$name/numbers.json" "docs/data/$name.json"
     done

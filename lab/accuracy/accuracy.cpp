@@ -23,6 +23,14 @@ struct Method {
     std::function<std::vector<proof::Outcome>(const std::vector<proof::Case<Technique, Real>>&)> run;
 };
 
+/// What the rows of a technique are called: those of other authors' methods are not ours.
+template <class Technique>
+constexpr const char* kWhose = Technique::Kind::kIsRelated ? "published" : "ours";
+template <class Technique>
+constexpr const char* kWhosePacks = Technique::Kind::kIsRelated ? "published, packs" : "ours, packs";
+template <class Technique>
+constexpr const char* kWhoseTwoSteps = Technique::Kind::kIsRelated ? "published, 2 steps" : "ours, 2 steps";
+
 template <class Real>
 constexpr const char* kScalarName = "float";
 template <>
@@ -68,7 +76,7 @@ Method<Technique, float> packed_method(base::Isa isa) {
     });
     const auto in = std::make_shared<LightColumns>();
     const auto out = std::make_shared<SampleColumns>();
-    return {Technique::Kind::kIsRelated ? "published, packs" : "ours, packs",
+    return {kWhosePacks<Technique>,
             [packed, in, out](const std::vector<proof::Case<Technique, float>>& cases) {
                 const auto fill = [](auto& columns, int i, const auto& values) {
                     float components[sizeof(values) / sizeof(float)];
@@ -98,9 +106,9 @@ std::vector<Method<Technique, Real>> methods(const typename Technique::Class& li
     std::vector<Method<Technique, Real>> all;
     if constexpr (!std::is_same_v<Plain, hostile::Absent>)
         if (Technique::fits_plain(lights)) all.push_back(scalar_method<Technique, Real, Plain>("plain"));
-    all.push_back(scalar_method<Technique, Real, Ours>(Technique::Kind::kIsRelated ? "published" : "ours"));
+    all.push_back(scalar_method<Technique, Real, Ours>(kWhose<Technique>));
     if constexpr (std::is_same_v<Real, float>) all.push_back(packed_method<Technique>(isa));
-    if constexpr (Technique::kHasFloor)
+    if constexpr (Technique::kHasFloor && !Technique::Kind::kIsRelated)
         if (!proof::is_dark<Technique>(lights)) all.push_back(floor_method<Technique, Real>());
     return all;
 }
@@ -108,8 +116,9 @@ std::vector<Method<Technique, Real>> methods(const typename Technique::Class& li
 /// In the number type of the reference, only the error of the iteration remains.
 template <class Technique>
 std::vector<Method<Technique, proof::Exact>> exact_methods() {
-    return {scalar_method<Technique, proof::Exact, typename Technique::TwoSteps>("ours, 2 steps"),
-            scalar_method<Technique, proof::Exact, typename Technique::template Ours<proof::Exact>>("ours")};
+    return {scalar_method<Technique, proof::Exact, typename Technique::TwoSteps>(kWhoseTwoSteps<Technique>),
+            scalar_method<Technique, proof::Exact, typename Technique::template Ours<proof::Exact>>(
+                kWhose<Technique>)};
 }
 
 template <class Technique, class Real>

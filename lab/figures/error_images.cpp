@@ -18,10 +18,10 @@ constexpr double kSmallArea = 1e-7;
 constexpr double kLargeError = 1e-3;
 
 /// Errors of pixels with light, sorted.
-std::vector<double> positive(const image::Plane& plane) {
+std::vector<double> lit(const image::Plane& plane) {
     std::vector<double> values;
     for (const double v : plane.values)
-        if (v > 0) values.push_back(v);
+        if (v != PixelErrors::kDark) values.push_back(v);
     std::sort(values.begin(), values.end());
     return values;
 }
@@ -31,9 +31,9 @@ double quantile(const std::vector<double>& sorted, double share) {
     return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
-/// Of pixels with an error.
+/// Of pixels with light.
 double share_above(const image::Plane& plane, double limit) {
-    const std::vector<double> values = positive(plane);
+    const std::vector<double> values = lit(plane);
     const auto above = std::count_if(values.begin(), values.end(), [&](double v) { return v > limit; });
     return values.empty() ? 0 : static_cast<double>(above) / static_cast<double>(values.size());
 }
@@ -58,7 +58,7 @@ Table table_of(const ErrorImagesResult& result) {
                     fmt::format("above {:g}", kLargeError), fmt::format("area above {:g}", kSmallArea)}};
     for (std::size_t i = 0; i < result.errors.size(); ++i) {
         const PixelErrors& errors = result.errors[i];
-        const std::vector<double> sorted = positive(errors.backward);
+        const std::vector<double> sorted = lit(errors.backward);
         table.push_back({result.experiment.techniques[i], fmt::format("{:.1e}", quantile(sorted, 0.5)),
                          fmt::format("{:.1e}", quantile(sorted, 0.99)),
                          fmt::format("{:.1e}", quantile(sorted, 0.999)),
@@ -90,7 +90,7 @@ Results numbers_of(const ErrorImagesResult& result) {
     ResultTable table = {"errors",
                          {{"technique"}, {"median"}, {"p99"}, {"largest"}, {"above"}, {"area_above"}}};
     for (std::size_t i = 0; i < result.errors.size(); ++i) {
-        const std::vector<double> sorted = positive(result.errors[i].backward);
+        const std::vector<double> sorted = lit(result.errors[i].backward);
         table.rows.push_back({result.experiment.techniques[i], quantile(sorted, 0.5), quantile(sorted, 0.99),
                               quantile(sorted, 1), share_above(result.errors[i].backward, kLargeError),
                               share_above(result.errors[i].area, kSmallArea)});
@@ -156,7 +156,7 @@ Report report_of(const ErrorImagesResult& result) {
                  ImageRole::picture, logarithmic(result.errors[i].*scale.plane, scale.low, scale.high)});
     if (!result.experiment.quantity.empty())
         report.measured.push_back({result.experiment.item, result.experiment.quantity,
-                                   quantile(positive(result.errors.back().area), 0.99)});
+                                   quantile(lit(result.errors.back().area), 0.99)});
     report.numbers = numbers_of(result);
     report.inputs = result.files;
     return report;

@@ -65,14 +65,6 @@ struct Unbiased {
 
 using Expectation = std::variant<AtMost, AtMostTimes, Falling, Unbiased>;
 
-/// A number that a paper states, which is the metric of a variant here.
-struct Stated {
-    std::string item;     ///< id of an item of lab/report/published.json
-    std::string quantity; ///< as the item names it
-    Metric metric;
-    std::string variant;
-};
-
 struct ImageComparison {
     std::string name;        ///< on the command line
     std::string source;      ///< paper and figure
@@ -86,7 +78,6 @@ struct ImageComparison {
     int frames = 1;
     int reference_frames = 1; ///< number of images whose mean is the reference
     int width = 0;            ///< of the images in pixels; 0: as the scene defines
-    std::vector<Stated> stated = {};
 };
 
 /// All comparisons, in the order of the papers.

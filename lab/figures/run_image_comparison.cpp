@@ -1,6 +1,5 @@
 #include "lab/figures/run_image_comparison.h"
 
-#include "base/stopwatch.h"
 #include "lab/figures/technique_image.h"
 #include "render/film.h"
 #include "render_cpu/renderer.h"
@@ -72,6 +71,22 @@ const RegionErrors& errors_in(const ImageComparisonResult& result, const ImageEr
     throw std::logic_error("comparison " + result.comparison.name + " has no inset " + inset);
 }
 
+double measured(const ImageComparisonResult& result, const std::string& variant, const Metric& metric) {
+    const ImageErrors& errors = variant_of(result, variant).errors;
+    const RegionErrors& region = errors_in(result, errors, metric.inset);
+    switch (metric.measure) {
+    case Measure::rmse:
+        return region.rmse;
+    case Measure::rmse_clamped:
+        return region.rmse_clamped;
+    case Measure::relative_rmse:
+        return region.relative_rmse;
+    case Measure::rmse_outside_penumbrae:
+        break;
+    }
+    return errors.rmse_outside_penumbrae;
+}
+
 bool holds(const ImageComparisonResult& result, const AtMost& expected) {
     return measured(result, expected.variant, expected.metric) <= expected.limit;
 }
@@ -129,10 +144,10 @@ Reference render_reference(const render_cpu::Renderer& renderer, base::Isa isa,
     return reference;
 }
 
-/// An image and the time of its render phase [s].
+/// An image and the time of its render phase [s], where that counts.
 struct TimedImage {
     image::Image image;
-    double seconds;
+    std::optional<double> seconds;
 };
 
 /// Renders variants.
@@ -149,9 +164,7 @@ public:
             return {std::move(result.image), result.statistics.render_seconds};
         }
         if (!techniques_) techniques_.emplace(scene_, renderer_);
-        const base::Stopwatch stopwatch;
-        image::Image image = techniques_->render(variant.technique, seed);
-        return {std::move(image), stopwatch.seconds()};
+        return {techniques_->render(variant.technique, seed), {}};
     }
 
 private:
@@ -172,7 +185,8 @@ VariantResult render_variant(VariantRenderer& renderer, const Variant& variant,
         TimedImage rendered = renderer.render(variant, seed_of_frame(i, false));
         errors.add(rendered.image);
         statistics.add(rendered.image);
-        result.seconds += rendered.seconds / comparison.frames;
+        if (rendered.seconds)
+            result.seconds = result.seconds.value_or(0) + *rendered.seconds / comparison.frames;
         if (i == 0) result.image = std::move(rendered.image);
     }
     result.errors = errors.errors();
@@ -182,22 +196,6 @@ VariantResult render_variant(VariantRenderer& renderer, const Variant& variant,
 }
 
 } // namespace
-
-double measured(const ImageComparisonResult& result, const std::string& variant, const Metric& metric) {
-    const ImageErrors& errors = variant_of(result, variant).errors;
-    const RegionErrors& region = errors_in(result, errors, metric.inset);
-    switch (metric.measure) {
-    case Measure::rmse:
-        return region.rmse;
-    case Measure::rmse_clamped:
-        return region.rmse_clamped;
-    case Measure::relative_rmse:
-        return region.relative_rmse;
-    case Measure::rmse_outside_penumbrae:
-        break;
-    }
-    return errors.rmse_outside_penumbrae;
-}
 
 ImageComparisonResult run_image_comparison(const ImageComparison& comparison, const RunSettings& settings,
                                            const ProgressText& progress) {

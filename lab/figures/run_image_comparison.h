@@ -18,7 +18,8 @@ namespace nusselt::lab {
 struct VariantResult {
     std::string label;
     image::Image image; ///< the first frame
-    double seconds = 0; ///< of the render phase of a frame
+    /// Of the render phase of a frame. The images of the laboratory are not made to be fast.
+    std::optional<double> seconds;
     ImageErrors errors;
     std::optional<BiasTest> bias; ///< if there are several frames of it and of the reference
 };
@@ -36,10 +37,6 @@ struct ImageComparisonResult {
 /// \throws std::runtime_error if the scene cannot be loaded
 ImageComparisonResult run_image_comparison(const ImageComparison& comparison, const RunSettings& settings,
                                            const ProgressText& progress);
-
-/// The metric of a variant.
-/// \throws std::logic_error if the comparison has no such variant or inset
-double measured(const ImageComparisonResult& result, const std::string& variant, const Metric& metric);
 
 /// Tables, images with their errors, and numbers.
 Report report_of(const ImageComparisonResult& result);

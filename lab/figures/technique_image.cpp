@@ -41,6 +41,9 @@ constexpr float kOffsetPerCoordinate = 1e-6f;
 
 Vector vector(const scene::Float3& v) { return {v.x, v.y, v.z}; }
 
+/// Lights with less above the horizon are dark, as in the accuracy tables.
+constexpr long double kSmallestMeasure = 1e-12L;
+
 /// A light of the scene in the form that techniques take, in world space.
 Quad shape_of(const scene::PolygonLight& light) {
     Vector vertices[4];
@@ -49,7 +52,7 @@ Quad shape_of(const scene::PolygonLight& light) {
 }
 Line shape_of(const scene::LineLight& light) { return make_line(vector(light.start), vector(light.end)); }
 
-/// The emission towards a point, per density of the technique.
+/// The emission towards a point, in the unit of a density: radiance, or radiance times the radius of a linear light.
 Vector emission(const scene::PolygonLight& light, const Vector& point) {
     const Quad shape = shape_of(light);
     const bool is_in_front = dot(shape.normal, point - shape.vertex[0]) > 0;
@@ -235,13 +238,14 @@ image::Image TechniqueImages::render(const std::string& technique, std::uint32_t
 
 PixelErrors TechniqueImages::backward_errors(const std::string& technique, std::uint32_t seed) const {
     using Exact = long double;
-    const image::Plane zero = {scene_.film.width, scene_.film.height, std::vector<double>(pixels_.size())};
-    PixelErrors errors = {zero, zero};
+    const image::Plane dark = {scene_.film.width, scene_.film.height,
+                               std::vector<double>(pixels_.size(), PixelErrors::kDark)};
+    PixelErrors errors = {dark, dark};
     visit_samples(technique, seed,
                   [&]<class Kind>(std::size_t i, const auto&, const auto& shape, const auto& sample, Kind) {
                       const typename Kind::template Reference<Exact> exact(broadcast<Exact>(shape));
                       const Exact measure = exact.measure();
-                      if (!(measure > 0) || !(sample.pdf > 0)) return;
+                      if (!(measure > kSmallestMeasure)) return;
                       const Vec2<Exact> u = broadcast<Exact>(random_numbers(i, seed));
                       const Vec3<Exact> wi = normalize(broadcast<Exact>(sample.wi));
                       Exact error = 0;
@@ -251,6 +255,8 @@ PixelErrors TechniqueImages::backward_errors(const std::string& technique, std::
                           error = std::fabs(exact.invert(wi) - u.x);
                       // If the zenith is in the light, 0 and 1 are the same azimuth.
                       if (Kind::kCyclic) error = std::min(error, 1 - error);
+                      // Nothing explains a result that is NaN or no sample at all.
+                      if (!(sample.pdf > 0) || !(error <= 1)) error = 1;
                       errors.backward.values[i] = static_cast<double>(error);
                       errors.area.values[i] = static_cast<double>(error * measure);
                   });

@@ -16,7 +16,10 @@ namespace nusselt::lab {
 
 /// The errors of one sample in each pixel, from left to right and top to bottom.
 struct PixelErrors {
-    image::Plane backward; ///< 0 where there is no surface or no light above its horizon
+    /// Stands for pixels without a surface, or with no light above its horizon.
+    static constexpr double kDark = -1;
+
+    image::Plane backward; ///< 1 where a result is NaN or there is no sample
     image::Plane area;     ///< times the measure of the light: the error of the area up to the sample [sr]
 };
 

@@ -44,8 +44,8 @@ struct WorstCaseTarget {
 
 /// "lines", "lines-1": projected solid angle of lines after two steps and one. "polygons", "small-polygons":
 /// decentral sectors with a projected solid angle of at least 1e-2 and 1e-7 after two steps. "biased": the same as
-/// "polygons" after none. Those that begin with "published": the published iterations. The biased technique also has arctangents with errors of 1e-5. Here they are exact, so that
-/// the error is that of the method.
+/// "polygons" after none. The biased technique also has arctangents with errors of 1e-5. Here they are exact, so that the
+/// error is that of the method. "published-lines" and so on: the same after two steps of the published iterations.
 const std::vector<WorstCaseTarget>& worst_case_targets();
 
 /// \throws std::invalid_argument if there is no target of that name

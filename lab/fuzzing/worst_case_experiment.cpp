@@ -130,10 +130,12 @@ std::vector<ExpectationResult> check(const WorstCaseStudyResult& result) {
                                           p.target, 100 * kTolerance, p.error),
                               std::fabs(ratio - 1) <= kTolerance));
     }
-    for (const WorstCaseSearch& search : result.searches)
+    for (const WorstCaseSearch& search : result.searches) {
+        if (search.target().name.rfind("published", 0) == 0) continue; // see above
         all.push_back(checked(fmt::format("the worst case of {} is at most {:.3g}", search.target().name,
                                           static_cast<double>(search.target().bound)),
                               search.worst().error <= search.target().bound));
+    }
     all.push_back(checked("our iteration for lines has a smaller worst case than the published one",
                           error_of(result, "lines") < error_of(result, "published-lines")));
     all.push_back(checked("the published iteration diverges where circles meet at the horizon (error above "

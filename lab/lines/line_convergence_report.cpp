@@ -130,7 +130,7 @@ Results numbers_of(const LineConvergenceResult& result) {
              {"threads", result.threads},
              {"seeds", result.experiment->seeds},
              {"reference", result.experiment->reference}},
-            {std::move(scenes), std::move(all), std::move(curves), expectation_table(result.expectations)}};
+            {std::move(scenes), std::move(all), std::move(curves)}};
 }
 
 std::vector<Plot> plots(const LineConvergenceResult& result) {

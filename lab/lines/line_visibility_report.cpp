@@ -95,7 +95,7 @@ Results numbers_of(const LineVisibilityResult& result) {
     }
     return {result.experiment->name,
             {{"width", result.width}, {"lines", result.experiment->lines}},
-            {std::move(scenes), std::move(skipped), expectation_table(result.expectations)}};
+            {std::move(scenes), std::move(skipped)}};
 }
 
 /// Images, and the visible parts per line in false colours on one scale.

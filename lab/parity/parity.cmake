@@ -50,7 +50,7 @@ endforeach()
 foreach(name IN LISTS nusselt_techniques)
     set(row nusselt_technique_${name})
     # tests/parity has the published methods, which nobody runs elsewhere.
-    if(parity IN_LIST ${row}_exempt OR ${row}_header MATCHES "^related/")
+    if(parity IN_LIST ${row}_exempt OR ${row}_is_related)
         continue()
     endif()
     nusselt_geometry_of(light ${name})

@@ -2,7 +2,9 @@
 
 #include "base/atomic_file.h"
 #include "base/isa.h"
+#include "base/machine.h"
 #include "image/io.h"
+#include "lab/report/report_results.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -40,10 +42,16 @@ std::string fingerprint(const std::filesystem::path& path) {
 }
 
 /// Everything but files on which an experiment depends.
-std::string key_of(const std::string& program, Effort effort) {
+std::string key_of(const std::string& program, const RunSettings& settings) {
     const char* const published = std::getenv("NUSSELT_SCENES");
-    return fmt::format("{} {} {} {}", program, effort == Effort::quick ? "quick" : "full",
-                       base::name_of(base::choose_isa()), published == nullptr ? "" : published);
+    const Json key = {program,
+                      settings.effort == Effort::quick ? "quick" : "full",
+                      base::name_of(base::choose_isa()),
+                      base::processor_name(),
+                      thread_count(settings),
+                      std::filesystem::absolute(settings.scenes).string(),
+                      published == nullptr ? "" : published};
+    return key.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
@@ -83,12 +91,17 @@ void ReportFolder::check_writable(const Experiment& experiment) const {
     base::check_writable(folder_ / "index.html");
 }
 
-std::optional<KeptReport> ReportFolder::kept(const Experiment& experiment, Effort effort) const {
+std::optional<KeptReport> ReportFolder::kept(const Experiment& experiment,
+                                             const RunSettings& settings) const {
     const std::filesystem::path folder = folder_ / experiment.name;
     std::ifstream file(folder / kStateFile);
     try {
         const Json state = Json::parse(file);
-        if (program_.empty() || state.at("key") != key_of(program_, effort)) return std::nullopt;
+        RunSettings full = settings;
+        full.effort = Effort::full;
+        const std::string key = state.at("key");
+        if (program_.empty() || (key != key_of(program_, settings) && key != key_of(program_, full)))
+            return std::nullopt;
         if (!std::filesystem::exists(folder / kSectionFile)) return std::nullopt;
         for (const auto& [path, hash] : state.at("inputs").items())
             if (fingerprint(path) != hash) return std::nullopt;
@@ -98,7 +111,8 @@ std::optional<KeptReport> ReportFolder::kept(const Experiment& experiment, Effor
     }
 }
 
-void ReportFolder::write(const Experiment& experiment, const Report& report, const RunRecord& record) const {
+void ReportFolder::write(const Experiment& experiment, const Report& report, const RunSettings& settings,
+                         const RunRecord& record) const {
     const std::filesystem::path folder = folder_ / experiment.name;
     std::filesystem::create_directories(folder);
     std::filesystem::remove(folder / kStateFile);
@@ -109,12 +123,14 @@ void ReportFolder::write(const Experiment& experiment, const Report& report, con
     }
     for (const Plot& plot : report.plots) write_text(folder / (plot.file + ".svg"), to_svg(plot));
     for (const Drawing& drawing : report.drawings) write_text(folder / (drawing.file + ".svg"), drawing.svg);
-    write_text(folder / kNumbersFile, to_json(report.numbers));
+    Results numbers = report.numbers;
+    numbers.tables.push_back(expectation_table(report.expectations));
+    write_text(folder / kNumbersFile, to_json(numbers));
     write_text(folder / kSectionFile, page_section(experiment, report, record));
     Json inputs = Json::object();
     for (const std::filesystem::path& path : report.inputs)
         inputs[std::filesystem::absolute(path).string()] = fingerprint(path);
-    const Json state = {{"key", key_of(program_, record.effort)},
+    const Json state = {{"key", key_of(program_, settings)},
                         {"date", record.date},
                         {"verdict", verdict_of(report.expectations)},
                         {"inputs", std::move(inputs)}};

@@ -1,6 +1,6 @@
 #pragma once
 /// The folder into which `nusselt-lab reproduce` writes. It keeps what was run before: runs add up to one page, and an
-/// experiment runs again only if the program, its settings or one of its files has changed.
+/// experiment runs again only if the program, its settings, the machine or one of its files has changed.
 
 #include "lab/report/page.h"
 
@@ -26,12 +26,14 @@ public:
     /// \throws std::runtime_error
     void check_writable(const Experiment& experiment) const;
 
-    /// The report of an earlier run that would have the same numbers today, up to times.
-    std::optional<KeptReport> kept(const Experiment& experiment, Effort effort) const;
+    /// The report of an earlier run that would have the same numbers today, up to times. One with full effort counts as a
+    /// quick one, too.
+    std::optional<KeptReport> kept(const Experiment& experiment, const RunSettings& settings) const;
 
     /// Writes numbers.json, images as EXR and PNG, plots as SVG and the section of the page into the folder of the
     /// experiment. \throws std::runtime_error
-    void write(const Experiment& experiment, const Report& report, const RunRecord& record) const;
+    void write(const Experiment& experiment, const Report& report, const RunSettings& settings,
+               const RunRecord& record) const;
 
     /// Writes index.html with all experiments that the folder has. \returns its path. \throws std::runtime_error
     std::filesystem::path write_page(const std::vector<Experiment>& experiments) const;

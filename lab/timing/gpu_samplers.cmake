@@ -39,7 +39,7 @@ macro(add_timed_light light vertex_count)
             continue()
         endif()
         # Published methods for polygons are compared at four vertices.
-        if(${row}_header MATCHES "^related/" AND NOT ${vertex_count} MATCHES "^[24]$")
+        if(${row}_is_related AND NOT ${vertex_count} MATCHES "^[24]$")
             continue()
         endif()
         if(NOT has_baseline)

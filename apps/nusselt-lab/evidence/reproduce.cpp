@@ -73,20 +73,34 @@ private:
     Progress bar_;
 };
 
+/// An experiment that fails, such as for a scene that is not there, does not end the others.
+lab::Report run_or_explain(const Experiment& experiment, const lab::RunSettings& settings, Steps& steps) {
+    try {
+        return experiment.run(settings, [&](std::string_view step) { steps.print(step); });
+    } catch (const std::runtime_error& error) {
+        steps.finish();
+        print_message("nusselt-lab: error: {}\n", error.what());
+        lab::Report report;
+        report.expectations = {lab::not_evaluated("all expectations", error.what())};
+        report.numbers.bench = experiment.name;
+        return report;
+    }
+}
+
 Verdict run(const Experiment& experiment, const ReproduceOptions& options, const lab::RunSettings& settings,
             const lab::ReportFolder& folder, Steps& steps) {
-    if (const auto kept = folder.kept(experiment, options.effort)) {
+    if (const auto kept = folder.kept(experiment, settings)) {
         steps.print("nothing has changed since " + kept->date);
         return kept->verdict;
     }
     lab::RunRecord record = {command_for(experiment, options), options.effort, now()};
     const base::Stopwatch stopwatch;
-    const lab::Report report = experiment.run(settings, [&](std::string_view step) { steps.print(step); });
+    const lab::Report report = run_or_explain(experiment, settings, steps);
     record.seconds = stopwatch.seconds();
     steps.finish();
     fmt::print("\n{}: {}\n{}\n{}", experiment.name, experiment.source, experiment.description,
                lab::to_text(report));
-    folder.write(experiment, report, record);
+    folder.write(experiment, report, settings, record);
     return verdict_of(report.expectations);
 }
 
@@ -97,9 +111,9 @@ void setup_reproduce(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand(
         "reproduce",
         "Measure the figures, tables and statements of the papers and check what they claim. Prints tables "
-        "and writes "
-        "a page with all numbers and images, index.html. Later runs into the same folder add to the page, "
-        "and measure "
+        "and writes a "
+        "page with all numbers and images, index.html. Later runs into the same folder add to the page, and "
+        "measure "
         "only what has changed. Exits with 1 if an expectation fails, with 3 if one could not be evaluated.");
     std::vector<std::string> names;
     for (const Experiment& e : lab::all_experiments()) names.push_back(e.name);

@@ -23,7 +23,8 @@ function itemRow(item, report) {
         element("th", { scope: "row" }, element("strong", {}, item.item), element("span", { class: "kind" }, item.kind ?? "")),
         element("td", {}, item.shows ?? ""),
         element("td", {}, element("span", { class: `badge ${item.status}`, title: meaning }, status),
-            reason ? element("p", { class: "note" }, reason) : null),
+            reason ? element("p", { class: "note" }, reason) : null,
+            item.lacks ? element("p", { class: "note" }, `Lacks: ${item.lacks}`) : null),
         element("td", { class: "compared" }, comparisonNode(item)),
         element("td", { class: "links" }, linksNode(item, report)));
 }

@@ -1,0 +1,148 @@
+// The experiments that render no comparison: each holds with little effort, and notices what is wrong.
+
+#include "common/source_folder.h"
+#include "lab/accuracy/accuracy_experiment.h"
+#include "lab/figures/error_images.h"
+#include "lab/figures/map_experiment.h"
+#include "lab/fuzzing/worst_case_experiment.h"
+#include "lab/timing/cost_experiments.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace nusselt::lab {
+
+namespace {
+
+void ignore(std::string_view) {}
+
+RunSettings settings() {
+    RunSettings result;
+    result.scenes = std::filesystem::path(nusselt_test::kSourceFolder) / "scenes";
+    return result;
+}
+
+/// The page shows a number beside the published one if the list of the papers has both names.
+void expect_names_of_published_numbers(const Report& report) {
+    std::ifstream file(std::filesystem::path(nusselt_test::kSourceFolder) / "lab/report/published.json");
+    const auto published = nlohmann::json::parse(file);
+    std::set<std::pair<std::string, std::string>> names;
+    for (const auto& paper : published.at("papers"))
+        for (const auto& item : paper.at("items"))
+            for (const auto& number : item.at("published"))
+                names.emplace(item.at("id"), number.at("quantity"));
+    for (const Measured& m : report.measured)
+        EXPECT_EQ(names.count({m.item, m.quantity}), 1u) << m.item << ": " << m.quantity;
+}
+
+void expect_all_hold(const Report& report) {
+    EXPECT_FALSE(report.expectations.empty());
+    expect_names_of_published_numbers(report);
+    for (const ExpectationResult& e : report.expectations) EXPECT_EQ(e.verdict, Verdict::holds) << e.text;
+}
+
+int failures(const Report& report) {
+    return static_cast<int>(std::count_if(report.expectations.begin(), report.expectations.end(),
+                                          [](const auto& e) { return e.verdict == Verdict::fails; }));
+}
+
+TEST(WorstCaseStudy, FindsThePublishedWorstCasesAndNoticesDivergence) {
+    WorstCaseStudy study = quick(all_worst_case_studies()[0]);
+    study.cases = 2000;
+    WorstCaseStudyResult result = run_worst_case_study(study, settings(), ignore);
+    expect_all_hold(report_of(result));
+    result.divergent_ours = 1e-3L;
+    EXPECT_EQ(failures(report_of(result)), 1);
+}
+
+TEST(ErrorImages, ShowErrorsOfPublishedMethodsOnly) {
+    for (ErrorImages experiment : all_error_images()) {
+        experiment.width = 96;
+        const ErrorImagesResult result = run_error_images(experiment, settings(), ignore);
+        const Report report = report_of(result);
+        expect_all_hold(report);
+        EXPECT_EQ(report.images.size(), 1 + 2 * experiment.techniques.size());
+        EXPECT_GT(report.inputs.size(), 1u) << "the scene and what it includes";
+    }
+}
+
+// A published method that poses as ours.
+TEST(ErrorImages, FailForAnImpostor) {
+    ErrorImages mutant = all_error_images()[0];
+    mutant.width = 96;
+    std::reverse(mutant.techniques.begin(), mutant.techniques.end());
+    EXPECT_EQ(failures(report_of(run_error_images(mutant, settings(), ignore))), 2);
+    mutant.techniques = {"LineArea"};
+    EXPECT_THROW(run_error_images(mutant, settings(), ignore), std::invalid_argument);
+}
+
+TEST(AccuracyStudy, HoldsAndNoticesAnInvalidResult) {
+    AccuracyStudy study = all_accuracy_studies()[0];
+    study.count = 300;
+    AccuracyStudyResult result = run_accuracy_study(study, settings(), ignore);
+    expect_all_hold(report_of(result));
+    for (auto& row : result.table.rows)
+        if (row.method == "ours") row.nan = 1;
+    EXPECT_EQ(failures(report_of(result)), 1);
+}
+
+/// Costs that the code does not decide.
+CostTableResult with_costs(const CostTable& table, double published) {
+    CostTableResult result = {table, "avx2", {}};
+    for (const std::string& technique : table.techniques)
+        for (const std::string& lights : table.lights)
+            for (const int lanes : {1, 8}) {
+                SamplerTiming row;
+                row.technique = technique;
+                row.configuration = lights;
+                row.code = name_of_code(lanes);
+                const bool is_costly = technique.find("Arvo") != std::string::npos ||
+                                       technique.rfind("Li") == technique.size() - 2 ||
+                                       technique.find("Biased") != std::string::npos ||
+                                       technique.find("Biquadratic") != std::string::npos ||
+                                       technique == "LineClippedSolidAngle";
+                row.prepare_ns = row.sample_ns = is_costly ? published : 10;
+                row.prepare_spread_ns = row.sample_spread_ns = 1;
+                result.rows.push_back(row);
+            }
+    return result;
+}
+
+TEST(CostTable, ChecksThatPublishedMethodsCostMore) {
+    for (const CostTable& table : all_cost_tables()) {
+        expect_all_hold(report_of(with_costs(table, 25)));
+        EXPECT_GT(failures(report_of(with_costs(table, 5))), 3) << table.name;
+        const Report report = report_of(with_costs(table, 25));
+        for (const Measured& m : report.measured) EXPECT_NEAR(m.value, 2.5, 1e-9) << m.quantity;
+    }
+}
+
+TEST(CostTable, HasACostForEachTechniqueAndClassOfLights) {
+    CostTable table = all_cost_tables()[1];
+    table.repetitions = 1;
+    const CostTableResult result = run_cost_table(table, settings(), ignore);
+    const Report report = report_of(result);
+    ASSERT_EQ(report.tables.size(), 3u);
+    for (std::size_t i = 1; i < 3; ++i) EXPECT_EQ(report.tables[i].size(), 1 + table.techniques.size());
+}
+
+TEST(MapSet, DrawsEachTechnique) {
+    MapSet set = all_map_sets()[0];
+    const Report report = report_of(run_map_set(set, settings(), ignore));
+    ASSERT_EQ(report.drawings.size(), set.techniques.size());
+    for (const Drawing& drawing : report.drawings)
+        EXPECT_NE(drawing.svg.find("</svg>"), std::string::npos) << drawing.title;
+    set.techniques = {"NoSuchTechnique"};
+    EXPECT_THROW(run_map_set(set, settings(), ignore), std::runtime_error);
+}
+
+} // namespace
+
+} // namespace nusselt::lab
