@@ -13,6 +13,8 @@ match($0, /:[0-9a-f]+ [WwVvu] /) {
     object = substr($0, 1, RSTART - 1)
     name = substr($0, RSTART + RLENGTH)
     if (name ~ /(^|[^a-zA-Z0-9_])isa_[a-z0-9]+::/ || name ~ /^DW\.ref\./) next
+    # nm does not demangle names of some thousand letters, which lists of techniques have.
+    if (name ~ /^_ZN7nusselt[0-9]+isa_/) next
     print object ": weak symbol outside the namespace of its instruction set: " name
     failed = 1
 }
