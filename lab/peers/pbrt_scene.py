@@ -140,7 +140,9 @@ class Reader:
             elif directive == "WorldBegin":
                 self.begin_world()
             elif directive == "Include":
-                self.read(self.root / value())
+                name = value()
+                beside = file.parent / name  # as in src/scene/import: else relative to the main file
+                self.read(beside if beside.exists() else self.root / name)
             elif directive == "NamedMaterial":
                 name = value()
                 self.material = [m["name"] for m in self.scene["materials"]].index(name)

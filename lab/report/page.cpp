@@ -197,16 +197,20 @@ std::string page_section(const Experiment& experiment, const Report& report, con
                     {"measured", std::move(measured)}});
 }
 
-std::string page_of(const std::vector<std::string>& sections, const std::vector<std::string>& not_run) {
+bool is_section(const std::string& text) {
+    const Json json = Json::parse(text, nullptr, false);
+    return json.is_object() && json.contains("name") && json.at("name").is_string();
+}
+
+std::string page_of(const std::vector<std::string>& sections, const std::vector<NotRun>& not_run) {
     Json missing = Json::array();
-    for (const std::string& name : not_run)
-        missing.push_back({{"name", name}, {"reason", "not run into this folder"}});
+    for (const NotRun& one : not_run) missing.push_back({{"name", one.name}, {"reason", one.reason}});
     std::string data = "{\"title\": \"Nusselt: the evidence\",\n\"papers\": " +
                        text_of(Json::parse(kPublishedJson).at("papers")) +
                        ",\n\"not_run\": " + text_of(missing) + ",\n\"experiments\": [";
     const char* separator = "\n";
     for (const std::string& section : sections) {
-        data += separator + section;
+        data += separator + text_of(Json::parse(section));
         separator = ",\n";
     }
     data += "\n]}";

@@ -20,10 +20,18 @@ struct RunRecord {
 /// The part of the page about one experiment, as an object of JSON.
 std::string page_section(const Experiment& experiment, const Report& report, const RunRecord& record);
 
+/// Why an experiment is not in the page.
+struct NotRun {
+    std::string name;
+    std::string reason;
+};
+
+/// Whether a text can be a section of the page.
+bool is_section(const std::string& text);
+
 /// The page.
-/// \param sections of page_section()
-/// \param not_run  names of the experiments without a section
-std::string page_of(const std::vector<std::string>& sections, const std::vector<std::string>& not_run);
+/// \param sections of page_section(), see is_section()
+std::string page_of(const std::vector<std::string>& sections, const std::vector<NotRun>& not_run);
 
 /// A PNG of twice the height of an image: mantissas above, the exponents that the channels of a pixel share below. A channel
 /// is (mantissa + 0.5) * 2^(exponent - 136), and 0 where the exponent is 0. Exponents of 255 are pixels that are NaN or

@@ -54,6 +54,13 @@ std::string key_of(const std::string& program, const RunSettings& settings) {
     return key.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// Empty if the file cannot be read.
+std::string contents(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file || std::filesystem::is_directory(path)) return "";
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
 void write_text(const std::filesystem::path& path, const std::string& text) {
     base::write_atomically(path, [&](std::ofstream& file) { file << text; });
 }
@@ -102,7 +109,7 @@ std::optional<KeptReport> ReportFolder::kept(const Experiment& experiment,
         const std::string key = state.at("key");
         if (program_.empty() || (key != key_of(program_, settings) && key != key_of(program_, full)))
             return std::nullopt;
-        if (!std::filesystem::exists(folder / kSectionFile)) return std::nullopt;
+        if (!is_section(contents(folder / kSectionFile))) return std::nullopt;
         for (const auto& [path, hash] : state.at("inputs").items())
             if (fingerprint(path) != hash) return std::nullopt;
         return KeptReport{state.at("date"), state.at("verdict").get<Verdict>()};
@@ -135,17 +142,21 @@ void ReportFolder::write(const Experiment& experiment, const Report& report, con
                         {"verdict", verdict_of(report.expectations)},
                         {"inputs", std::move(inputs)}};
     // Last: an interrupted run leaves no state, and the experiment runs again.
-    write_text(folder / kStateFile, state.dump(1));
+    write_text(folder / kStateFile, state.dump(1, ' ', false, Json::error_handler_t::replace));
 }
 
 std::filesystem::path ReportFolder::write_page(const std::vector<Experiment>& experiments) const {
-    std::vector<std::string> sections, not_run;
+    std::vector<std::string> sections;
+    std::vector<NotRun> not_run;
     for (const Experiment& experiment : experiments) {
-        std::ifstream file(folder_ / experiment.name / kSectionFile);
-        if (file)
-            sections.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+        const std::filesystem::path file = folder_ / experiment.name / kSectionFile;
+        std::string section = contents(file);
+        if (is_section(section))
+            sections.push_back(std::move(section));
         else
-            not_run.push_back(experiment.name);
+            not_run.push_back({experiment.name, section.empty()
+                                                    ? "not run into this folder"
+                                                    : file.string() + " is damaged; run it again"});
     }
     const std::filesystem::path path = folder_ / "index.html";
     write_text(path, page_of(sections, not_run));

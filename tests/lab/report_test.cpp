@@ -175,6 +175,14 @@ TEST(ReportFolder, ForgetsReportsOfOtherInputsAndDamagedOnes) {
         EXPECT_TRUE(forgot()) << state;
     }
     write();
+    for (const char* section : {"", "{", "[]", "null", "{\"name\": 1}"}) {
+        write();
+        std::ofstream(sample.out / "sample/section.json") << section;
+        EXPECT_TRUE(forgot()) << section;
+        const std::string page = contents(folder.write_page({sample.experiment}));
+        EXPECT_NE(page.find("\"not_run\": [{\"name\":\"sample\""), std::string::npos) << section;
+    }
+    write();
     std::filesystem::remove(sample.out / "sample/section.json");
     EXPECT_TRUE(forgot());
 }

@@ -5,6 +5,7 @@
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 
+#include "base/isa.h"
 #include "base/stopwatch.h"
 #include "base/words.h"
 #include "lab/report/report_folder.h"
@@ -73,35 +74,45 @@ private:
     Progress bar_;
 };
 
-/// An experiment that fails, such as for a scene that is not there, does not end the others.
-lab::Report run_or_explain(const Experiment& experiment, const lab::RunSettings& settings, Steps& steps) {
-    try {
-        return experiment.run(settings, [&](std::string_view step) { steps.print(step); });
-    } catch (const std::runtime_error& error) {
-        steps.finish();
-        print_message("nusselt-lab: error: {}\n", error.what());
-        lab::Report report;
-        report.expectations = {lab::not_evaluated("all expectations", error.what())};
-        report.numbers.bench = experiment.name;
-        return report;
+const char* text_of(Verdict verdict) {
+    switch (verdict) {
+    case Verdict::holds:
+        return "";
+    case Verdict::fails:
+        return "; AN EXPECTATION DOES NOT HOLD";
+    case Verdict::not_evaluated:
+        break;
     }
+    return "; AN EXPECTATION WAS NOT EVALUATED";
 }
 
 Verdict run(const Experiment& experiment, const ReproduceOptions& options, const lab::RunSettings& settings,
             const lab::ReportFolder& folder, Steps& steps) {
     if (const auto kept = folder.kept(experiment, settings)) {
-        steps.print("nothing has changed since " + kept->date);
+        steps.print("nothing has changed since " + kept->date + text_of(kept->verdict));
         return kept->verdict;
     }
     lab::RunRecord record = {command_for(experiment, options), options.effort, now()};
     const base::Stopwatch stopwatch;
-    const lab::Report report = run_or_explain(experiment, settings, steps);
+    const lab::Report report = experiment.run(settings, [&](std::string_view step) { steps.print(step); });
     record.seconds = stopwatch.seconds();
     steps.finish();
+    folder.write(experiment, report, settings, record);
     fmt::print("\n{}: {}\n{}\n{}", experiment.name, experiment.source, experiment.description,
                lab::to_text(report));
-    folder.write(experiment, report, settings, record);
     return verdict_of(report.expectations);
+}
+
+/// An experiment that cannot be run, such as for a damaged scene, fails. It ends neither the others nor an earlier result.
+Verdict run_or_fail(const Experiment& experiment, const ReproduceOptions& options,
+                    const lab::RunSettings& settings, const lab::ReportFolder& folder, Steps& steps) {
+    try {
+        return run(experiment, options, settings, folder, steps);
+    } catch (const std::runtime_error& error) {
+        steps.finish();
+        print_message("nusselt-lab: error: {}: {}\n", experiment.name, error.what());
+        return Verdict::fails;
+    }
 }
 
 } // namespace
@@ -148,6 +159,7 @@ int run_reproduce(const ReproduceOptions& options) {
         throw std::runtime_error(
             "missing folder '" + options.scenes.string() +
             "'; run in the repository, or name the folder of the shipped scenes with --scenes");
+    static_cast<void>(base::choose_isa()); // reports a wrong one before anything is measured
     const std::vector<Experiment> experiments = chosen(options.experiments);
     const lab::ReportFolder folder(options.output);
     for (const Experiment& e : experiments) folder.check_writable(e);
@@ -157,7 +169,7 @@ int run_reproduce(const ReproduceOptions& options) {
     Steps steps(experiments.size());
     for (const Experiment& e : experiments) {
         steps.begin(e);
-        verdicts.push_back(run(e, options, settings, folder, steps));
+        verdicts.push_back(run_or_fail(e, options, settings, folder, steps));
         // After each one, so that there is a page to look at while the others run.
         folder.write_page(lab::all_experiments());
     }
