@@ -127,10 +127,7 @@ ErrorImages quick(ErrorImages experiment) {
 ErrorImagesResult run_error_images(const ErrorImages& experiment, const RunSettings& settings,
                                    const ProgressText& progress) {
     scene::Scene scene = scene::load_scene(settings.scenes / experiment.scene);
-    if (experiment.width > 0) {
-        const double height = static_cast<double>(scene.film.height) * experiment.width / scene.film.width;
-        render::resize_film(scene, experiment.width, std::max(1, static_cast<int>(std::lround(height))));
-    }
+    if (experiment.width > 0) render::resize_film_to_width(scene, experiment.width);
     const render_cpu::Renderer renderer(scene, thread_count(settings));
     const TechniqueImages images(scene, renderer);
     ErrorImagesResult result = {experiment, images.render(experiment.techniques.back(), 0), {}, scene.files};

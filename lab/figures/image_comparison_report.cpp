@@ -1,7 +1,6 @@
 #include "lab/figures/run_image_comparison.h"
 
 #include "image/flip.h"
-#include "lab/report/report_results.h"
 
 #include <fmt/format.h>
 
@@ -76,8 +75,7 @@ Results numbers_of(const ImageComparisonResult& result) {
 std::string setting(const ImageComparisonResult& result) {
     const ImageComparison& comparison = result.comparison;
     return fmt::format("Reference: {} samples per pixel; mean radiance {:.4g}; {:.1f} % of the pixels lie "
-                       "outside penumbrae. "
-                       "{}",
+                       "outside penumbrae. {}",
                        comparison.reference_frames * comparison.reference.samples, result.mean,
                        100 * result.share_outside_penumbrae,
                        comparison.frames > 1

@@ -1,7 +1,5 @@
 #include "lab/figures/noise_table.h"
 
-#include "lab/report/report_results.h"
-
 #include <fmt/format.h>
 
 namespace nusselt::lab {

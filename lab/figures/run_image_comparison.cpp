@@ -8,7 +8,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <utility>
@@ -200,10 +199,7 @@ VariantResult render_variant(VariantRenderer& renderer, const Variant& variant,
 ImageComparisonResult run_image_comparison(const ImageComparison& comparison, const RunSettings& settings,
                                            const ProgressText& progress) {
     scene::Scene scene = scene::load_scene(settings.scenes / comparison.scene);
-    if (comparison.width > 0) {
-        const double height = static_cast<double>(scene.film.height) * comparison.width / scene.film.width;
-        render::resize_film(scene, comparison.width, std::max(1, static_cast<int>(std::lround(height))));
-    }
+    if (comparison.width > 0) render::resize_film_to_width(scene, comparison.width);
     const render_cpu::Renderer renderer(scene, thread_count(settings));
     const base::Isa isa = base::choose_isa();
 

@@ -3,6 +3,7 @@
 #include "proof/techniques/registry.h"
 
 #include <nusselt/bsdf/frostbite.h>
+#include <nusselt/estimate/backward_error.h>
 #include <nusselt/line_samples/triangle_shadow.h>
 #include <nusselt/ltc/ltc.h>
 #include <nusselt/random/light_random.h>
@@ -250,9 +251,9 @@ PixelErrors TechniqueImages::backward_errors(const std::string& technique, std::
                       const Vec3<Exact> wi = normalize(broadcast<Exact>(sample.wi));
                       Exact error = 0;
                       if constexpr (hostile::kTakesPairs<Kind>)
-                          error = std::fabs(exact.invert(wi).x - u.x);
+                          error = backward_error(exact, u, wi);
                       else
-                          error = std::fabs(exact.invert(wi) - u.x);
+                          error = backward_error(exact, u.x, wi);
                       // If the zenith is in the light, 0 and 1 are the same azimuth.
                       if (Kind::kCyclic) error = std::min(error, 1 - error);
                       // Nothing explains a result that is NaN or no sample at all.

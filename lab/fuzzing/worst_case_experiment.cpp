@@ -217,8 +217,7 @@ Report report_of(const WorstCaseStudyResult& result) {
     Report report;
     report.setting =
         "Backward errors are changes of the random number that explain a sample. The distribution of the "
-        "papers' "
-        "random cases is unknown, and percentiles depend on it: they are not those of the papers.";
+        "papers' random cases is unknown, and percentiles depend on it: they are not those of the papers.";
     report.tables = {worst_table(result), typical_table(result),
                      convergence_table("sectors", result.sector_convergence),
                      convergence_table("lines", result.line_convergence)};

@@ -1,6 +1,6 @@
 #include "lab/lines/line_convergence.h"
 
-#include "lab/report/report_results.h"
+#include "lab/errors/curve_table.h"
 
 #include <fmt/format.h>
 
@@ -93,12 +93,10 @@ Plot error_plot(const LineConvergence& experiment, const SceneResult& scene, con
 
 std::string setting(const LineConvergenceResult& result) {
     return fmt::format(
-        "Images are {} pixels wide, camera rays go through their centres. Errors are standard "
-        "deviations over {} seeds or more, "
-        "so that no reference is needed; times are medians over them, of {} threads. The "
-        "order is the slope of the "
-        "standard deviation over N in logarithmic axes, a least squares fit. Biases are against "
-        "'{}', the mean over all seeds with the most samples.",
+        "Images are {} pixels wide, camera rays go through their centres. Errors are standard deviations "
+        "over {} seeds or more, so that no reference is needed; times are medians over them, of {} threads. "
+        "The order is the slope of the standard deviation over N in logarithmic axes, a least squares fit. "
+        "Biases are against '{}', the mean over all seeds with the most samples.",
         result.width, result.experiment->seeds, result.threads, result.experiment->reference);
 }
 

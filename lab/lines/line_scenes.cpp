@@ -4,8 +4,6 @@
 #include "scene/import/importers.h"
 #include "scene/rig/rig_json.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 
 namespace nusselt::lab {
@@ -43,10 +41,7 @@ std::optional<scene::Scene> load_line_scene(const LineScene& line_scene, const R
         scene::apply_rig(scene::read_rig(rig), scene);
         scene.files.push_back(rig);
     }
-    if (width > 0) {
-        const double height = static_cast<double>(scene.film.height) * width / scene.film.width;
-        render::resize_film(scene, width, std::max(1, static_cast<int>(std::lround(height))));
-    }
+    if (width > 0) render::resize_film_to_width(scene, width);
     return scene;
 }
 

@@ -1,7 +1,6 @@
 #include "lab/lines/line_visibility.h"
 
 #include "image/difference.h"
-#include "lab/report/report_results.h"
 
 #include <fmt/format.h>
 

@@ -161,7 +161,8 @@ std::string rgbe_stacked_png(const image::Image& image) {
     return stream.str();
 }
 
-std::string page_section(const Experiment& experiment, const Report& report, const RunRecord& record) {
+std::string page_section(const Experiment& experiment, const Report& report, Effort effort,
+                         const RunRecord& record) {
     Json tables = Json::array(), expectations = Json::array(), images = Json::array(), insets = Json::array(),
          plots = Json::array(), measured = Json::array();
     for (const Table& table : report.tables) tables.push_back(json_of(table));
@@ -183,7 +184,7 @@ std::string page_section(const Experiment& experiment, const Report& report, con
                     {"source", experiment.source},
                     {"description", experiment.description},
                     {"setting", report.setting},
-                    {"effort", record.effort == Effort::quick ? "quick" : "full"},
+                    {"effort", effort == Effort::quick ? "quick" : "full"},
                     {"command", record.command},
                     {"version", NUSSELT_VERSION},
                     {"machine", machine()},
@@ -197,9 +198,10 @@ std::string page_section(const Experiment& experiment, const Report& report, con
                     {"measured", std::move(measured)}});
 }
 
-bool is_section(const std::string& text) {
+std::string checked_section(const std::string& text) {
     const Json json = Json::parse(text, nullptr, false);
-    return json.is_object() && json.contains("name") && json.at("name").is_string();
+    const bool is_section = json.is_object() && json.contains("name") && json.at("name").is_string();
+    return is_section ? text_of(json) : "";
 }
 
 std::string page_of(const std::vector<std::string>& sections, const std::vector<NotRun>& not_run) {
@@ -210,7 +212,7 @@ std::string page_of(const std::vector<std::string>& sections, const std::vector<
                        ",\n\"not_run\": " + text_of(missing) + ",\n\"experiments\": [";
     const char* separator = "\n";
     for (const std::string& section : sections) {
-        data += separator + text_of(Json::parse(section));
+        data += separator + section;
         separator = ",\n";
     }
     data += "\n]}";

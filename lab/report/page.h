@@ -12,13 +12,13 @@ namespace nusselt::lab {
 /// When and how a report came to be.
 struct RunRecord {
     std::string command; ///< that runs the experiment again
-    Effort effort = Effort::full;
-    std::string date;   ///< of the beginning, ISO 8601 in UTC
-    double seconds = 0; ///< of wall time
+    std::string date;    ///< of the beginning, ISO 8601 in UTC
+    double seconds = 0;  ///< of wall time
 };
 
 /// The part of the page about one experiment, as an object of JSON.
-std::string page_section(const Experiment& experiment, const Report& report, const RunRecord& record);
+std::string page_section(const Experiment& experiment, const Report& report, Effort effort,
+                         const RunRecord& record);
 
 /// Why an experiment is not in the page.
 struct NotRun {
@@ -26,11 +26,11 @@ struct NotRun {
     std::string reason;
 };
 
-/// Whether a text can be a section of the page.
-bool is_section(const std::string& text);
+/// A section as page_section() writes it, from the text of a file. Empty if the text is none.
+std::string checked_section(const std::string& text);
 
 /// The page.
-/// \param sections of page_section(), see is_section()
+/// \param sections of page_section() or checked_section()
 std::string page_of(const std::vector<std::string>& sections, const std::vector<NotRun>& not_run);
 
 /// A PNG of twice the height of an image: mantissas above, the exponents that the channels of a pixel share below. A channel

@@ -4,7 +4,6 @@
 #include "base/isa.h"
 #include "base/machine.h"
 #include "image/io.h"
-#include "lab/report/report_results.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -54,6 +53,24 @@ std::string key_of(const std::string& program, const RunSettings& settings) {
     return key.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+void create_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw std::runtime_error("cannot create the folder '" + folder.string() + "' (" + error.message() +
+                                 "); choose another one with --out");
+}
+
+/// Whether each expectation holds, or null with a reason.
+ResultTable expectation_table(const std::vector<ExpectationResult>& expectations) {
+    ResultTable table = {"expectations", {{"expectation"}, {"holds"}, {"reason"}}};
+    for (const ExpectationResult& e : expectations)
+        table.rows.push_back(
+            {e.text, e.verdict == Verdict::not_evaluated ? Cell(nullptr) : Cell(e.verdict == Verdict::holds),
+             e.reason});
+    return table;
+}
+
 /// Empty if the file cannot be read.
 std::string contents(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -80,20 +97,12 @@ std::string file_stem(const std::string& label) {
 
 ReportFolder::ReportFolder(std::filesystem::path folder)
     : folder_(std::move(folder)), program_(fingerprint("/proc/self/exe")) {
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    if (error)
-        throw std::runtime_error("cannot create the folder '" + folder_.string() + "' (" + error.message() +
-                                 "); choose another one with --out");
+    create_folder(folder_);
 }
 
 void ReportFolder::check_writable(const Experiment& experiment) const {
     const std::filesystem::path folder = folder_ / experiment.name;
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-        throw std::runtime_error("cannot create the folder '" + folder.string() + "' (" + error.message() +
-                                 "); choose another one with --out");
+    create_folder(folder);
     base::check_writable(folder / kNumbersFile);
     base::check_writable(folder_ / "index.html");
 }
@@ -109,7 +118,7 @@ std::optional<KeptReport> ReportFolder::kept(const Experiment& experiment,
         const std::string key = state.at("key");
         if (program_.empty() || (key != key_of(program_, settings) && key != key_of(program_, full)))
             return std::nullopt;
-        if (!is_section(contents(folder / kSectionFile))) return std::nullopt;
+        if (checked_section(contents(folder / kSectionFile)).empty()) return std::nullopt;
         for (const auto& [path, hash] : state.at("inputs").items())
             if (fingerprint(path) != hash) return std::nullopt;
         return KeptReport{state.at("date"), state.at("verdict").get<Verdict>()};
@@ -133,7 +142,7 @@ void ReportFolder::write(const Experiment& experiment, const Report& report, con
     Results numbers = report.numbers;
     numbers.tables.push_back(expectation_table(report.expectations));
     write_text(folder / kNumbersFile, to_json(numbers));
-    write_text(folder / kSectionFile, page_section(experiment, report, record));
+    write_text(folder / kSectionFile, page_section(experiment, report, settings.effort, record));
     Json inputs = Json::object();
     for (const std::filesystem::path& path : report.inputs)
         inputs[std::filesystem::absolute(path).string()] = fingerprint(path);
@@ -150,13 +159,13 @@ std::filesystem::path ReportFolder::write_page(const std::vector<Experiment>& ex
     std::vector<NotRun> not_run;
     for (const Experiment& experiment : experiments) {
         const std::filesystem::path file = folder_ / experiment.name / kSectionFile;
-        std::string section = contents(file);
-        if (is_section(section))
+        const std::string text = contents(file);
+        std::string section = checked_section(text);
+        if (!section.empty())
             sections.push_back(std::move(section));
         else
-            not_run.push_back({experiment.name, section.empty()
-                                                    ? "not run into this folder"
-                                                    : file.string() + " is damaged; run it again"});
+            not_run.push_back({experiment.name, text.empty() ? "not run into this folder"
+                                                             : file.string() + " is damaged; run it again"});
     }
     const std::filesystem::path path = folder_ / "index.html";
     write_text(path, page_of(sections, not_run));

@@ -10,6 +10,23 @@
 
 namespace nusselt::lab {
 
+/// What the columns "128 samples" and "128 lights" of the papers measure.
+enum class Cost {
+    sample, ///< one more sample of a prepared light
+    light,  ///< a light that is prepared for one sample
+};
+
+/// A ratio that a paper states: the cost of one technique over that of another.
+struct CostRatio {
+    std::string item;     ///< id of an item of lab/report/published.json
+    std::string quantity; ///< as the item names it
+    double published;
+    Cost cost;
+    std::string technique;
+    std::string other;
+    std::string lights;
+};
+
 /// A table of costs.
 struct CostTable {
     std::string name; ///< on the command line
@@ -17,6 +34,7 @@ struct CostTable {
     std::string description;             ///< one sentence
     std::vector<std::string> techniques; ///< class names, in the order of the paper
     std::vector<std::string> lights;     ///< SamplerTiming::configuration
+    std::vector<CostRatio> ratios;
     int repetitions = 61;
 };
 

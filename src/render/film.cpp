@@ -63,4 +63,9 @@ void resize_film(scene::Scene& scene, int width, int height) {
     scene.film.height = height;
 }
 
+void resize_film_to_width(scene::Scene& scene, int width) {
+    const double height = static_cast<double>(scene.film.height) * width / scene.film.width;
+    resize_film(scene, width, std::max(1, static_cast<int>(std::lround(height))));
+}
+
 } // namespace nusselt::render

@@ -14,4 +14,7 @@ scene::PixelBounds rendered_pixels(const scene::Film& film);
 /// \throws std::invalid_argument unless both lie between 1 and scene::kMaxFilmSize
 void resize_film(scene::Scene& scene, int width, int height);
 
+/// Likewise, with the height that keeps the shape of the film up to rounding.
+void resize_film_to_width(scene::Scene& scene, int width);
+
 } // namespace nusselt::render

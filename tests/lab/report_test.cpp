@@ -113,7 +113,7 @@ struct Sample {
     std::filesystem::path input = folder / "scene.txt";
     std::filesystem::path out = folder / "out";
     Experiment experiment = {"sample", "A paper", "</script><b>", {}};
-    RunRecord record = {"nusselt-lab reproduce sample", Effort::quick, "2001-02-03T04:05:06Z", 1};
+    RunRecord record = {"nusselt-lab reproduce sample", "2001-02-03T04:05:06Z", 1};
     RunSettings settings = {"scenes", Effort::quick, 1};
 
     Sample() { std::ofstream(input) << "one"; }

@@ -92,7 +92,7 @@ Verdict run(const Experiment& experiment, const ReproduceOptions& options, const
         steps.print("nothing has changed since " + kept->date + text_of(kept->verdict));
         return kept->verdict;
     }
-    lab::RunRecord record = {command_for(experiment, options), options.effort, now()};
+    lab::RunRecord record = {command_for(experiment, options), now()};
     const base::Stopwatch stopwatch;
     const lab::Report report = experiment.run(settings, [&](std::string_view step) { steps.print(step); });
     record.seconds = stopwatch.seconds();
@@ -122,10 +122,9 @@ void setup_reproduce(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand(
         "reproduce",
         "Measure the figures, tables and statements of the papers and check what they claim. Prints tables "
-        "and writes a "
-        "page with all numbers and images, index.html. Later runs into the same folder add to the page, and "
-        "measure "
-        "only what has changed. Exits with 1 if an expectation fails, with 3 if one could not be evaluated.");
+        "and writes a page with all numbers and images, index.html. Later runs into the same folder add to "
+        "the page, and measure only what has changed. Exits with 1 if an expectation fails, with 3 if one "
+        "could not be evaluated.");
     std::vector<std::string> names;
     for (const Experiment& e : lab::all_experiments()) names.push_back(e.name);
     command->add_option("EXPERIMENT", options->experiments, "Names of experiments, see --list")
@@ -166,14 +165,15 @@ int run_reproduce(const ReproduceOptions& options) {
     const lab::RunSettings settings = {options.scenes, options.effort,
                                        render_cpu::checked_thread_count(options.threads)};
     std::vector<Verdict> verdicts;
+    std::filesystem::path page;
     Steps steps(experiments.size());
     for (const Experiment& e : experiments) {
         steps.begin(e);
         verdicts.push_back(run_or_fail(e, options, settings, folder, steps));
         // After each one, so that there is a page to look at while the others run.
-        folder.write_page(lab::all_experiments());
+        page = folder.write_page(lab::all_experiments());
     }
-    fmt::print("\n{}\n", folder.write_page(lab::all_experiments()).string());
+    fmt::print("\n{}\n", page.string());
     const auto any = [&](Verdict verdict) {
         return std::find(verdicts.begin(), verdicts.end(), verdict) != verdicts.end();
     };

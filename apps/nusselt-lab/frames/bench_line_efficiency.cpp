@@ -7,8 +7,8 @@
 #include "apps/nusselt-lab/bench/bench_output.h"
 #include "bench_frames.h"
 
+#include "lab/errors/curve_table.h"
 #include "lab/lines/line_efficiency.h"
-#include "lab/report/report_results.h"
 #include "scene/import/importers.h"
 
 #include <CLI/CLI.hpp>
@@ -147,14 +147,11 @@ void setup_bench_line_efficiency(CLI::App& bench, int& exit_code) {
     CLI::App* command = bench.add_subcommand(
         "line-efficiency",
         "Time that line samples need to reach the error of point samples. Measures standard deviations over "
-        "seeds, and "
-        "times, of stratified point samples (projected solid angle), of line samples, and of the choice "
-        "between both "
-        "for each shading point (--many-occluders points), interleaved. Times to equal errors are "
-        "interpolated; * means "
-        "that the largest number of lines was not enough, so the time does not count. Images should have "
-        "10^4 pixels or "
-        "more: five rounds of two seeds give the standard deviation of a single pixel to a third.");
+        "seeds, and times, of stratified point samples (projected solid angle), of line samples, and of the "
+        "choice between both for each shading point (--many-occluders points), interleaved. Times to equal "
+        "errors are interpolated; * means that the largest number of lines was not enough, so the time does "
+        "not count. Images should have 10^4 pixels or more: five rounds of two seeds give the standard "
+        "deviation of a single pixel to a third.");
     add_scene_argument(*command, options->scene);
     command
         ->add_option(

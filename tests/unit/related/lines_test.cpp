@@ -20,44 +20,13 @@
 
 namespace nusselt_test {
 
-/// The techniques under test, as rows of techniques.json would describe them.
-namespace related_lines {
-
-struct LiKind : LineKind {
-    static constexpr const char* kName = "LineProjectedSolidAngleLi";
-    static constexpr Measure kMeasure = Measure::projected_solid_angle;
-    static constexpr Horizon kHorizon = Horizon::clipped;
-    template <class Real>
-    using Technique = nusselt::LineProjectedSolidAngleLi<Real>;
-};
-struct UrenaKind : LineKind {
-    static constexpr const char* kName = "LineRectangleUrena";
-    static constexpr Measure kMeasure = Measure::solid_angle;
-    static constexpr Horizon kHorizon = Horizon::ignored;
-    template <class Real>
-    using Technique = nusselt::LineRectangleUrena<Real>;
-};
-struct GamitoKind : CylinderKind {
-    static constexpr const char* kName = "CylinderRejectionGamito";
-    static constexpr Measure kMeasure = Measure::solid_angle;
-    static constexpr Horizon kHorizon = Horizon::ignored;
-    template <class Real>
-    using Technique = nusselt::CylinderRejectionGamito<Real>;
-};
-struct ProjectedGamitoKind : CylinderKind {
-    static constexpr const char* kName = "CylinderProjectedRejectionGamito";
-    static constexpr Measure kMeasure = Measure::projected_solid_angle;
-    static constexpr Horizon kHorizon = Horizon::clipped;
-    template <class Real>
-    using Technique = nusselt::CylinderProjectedRejectionGamito<Real>;
-};
-using Kinds = KindList<LiKind, UrenaKind, GamitoKind, ProjectedGamitoKind>;
-
-} // namespace related_lines
-
 namespace {
 
-using namespace related_lines;
+using LiKind = LineProjectedSolidAngleLiKind;
+using UrenaKind = LineRectangleUrenaKind;
+using GamitoKind = CylinderRejectionGamitoKind;
+using ProjectedGamitoKind = CylinderProjectedRejectionGamitoKind;
+using Kinds = KindList<LiKind, UrenaKind, GamitoKind, ProjectedGamitoKind>;
 
 template <class Kind>
 constexpr bool kHasTolerance = std::is_same_v<Kind, LiKind>;

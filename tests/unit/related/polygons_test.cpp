@@ -241,8 +241,8 @@ void expect_packs_like_scalars() {
             const auto pu = packs.invert(ps.wi);
             const auto s = scalar.sample(x);
             const auto su = scalar.invert(s.wi);
-            const auto gap = get_lane(ps.wi, lane) - s.wi;
-            const auto p_gap = get_lane(ps.p, lane) - s.p;
+            const auto gap = get_lane<T, Vec3<T>>(ps.wi, lane) - s.wi;
+            const auto p_gap = get_lane<T, Vec3<T>>(ps.p, lane) - s.p;
             of_lights.add(packs.measure().lane(lane) / scalar.measure() - 1);
             of_samples.add(length(gap));
             of_samples.add(length(p_gap));
@@ -251,8 +251,8 @@ void expect_packs_like_scalars() {
             of_samples.add(std::max(std::fabs(pu.x.lane(lane) - su.x), std::fabs(pu.y.lane(lane) - su.y)));
         };
         for (std::size_t i = 0; i < singles.size(); i += Lanes) {
-            const typename Kind::template Technique<Real> packs(packed<Lanes>(&singles[i]));
-            const auto packed_u = packed<Lanes>(&u[i]);
+            const typename Kind::template Technique<Real> packs(packed<Lanes, T>(&singles[i]));
+            const auto packed_u = packed<Lanes, T>(&u[i]);
             const typename Kind::template Technique<T> first(singles[i]);
             const typename Kind::template Technique<Real> of_first(first);
             for (int lane = 0; lane < Lanes; ++lane) {
@@ -289,7 +289,7 @@ TYPED_TEST(PublishedPolygonsTest, LightsBelowTheHorizonAreDark) {
         EXPECT_EQ(technique.pdf(s.wi), 0);
     }
     if constexpr (std::is_same_v<T, float>) {
-        const typename Kind::template Technique<Pack<T, 4>> packs(packed<4>(lights.data()));
+        const typename Kind::template Technique<Pack<T, 4>> packs(packed<4, T>(lights.data()));
         EXPECT_EQ(packs.measure().lane(3), 0);
         EXPECT_EQ(packs.sample({Pack<T, 4>(0.5f), Pack<T, 4>(0.5f)}).pdf.lane(3), 0);
     }

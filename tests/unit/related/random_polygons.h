@@ -11,6 +11,7 @@
 #include <nusselt/simd/pack.h>
 
 #include "lab/timing/scalar/lights.h"
+#include "sampling/techniques.h"
 
 namespace nusselt_test {
 
@@ -37,39 +38,11 @@ std::vector<nusselt::ConvexPolygon<T, N>> random_polygons(const nusselt::lab::Li
     return lights;
 }
 
-template <class T, int Lanes>
-void set_lane(nusselt::Vec3<nusselt::Pack<T, Lanes>>& packed, int lane, const nusselt::Vec3<T>& v) {
-    packed.x.set_lane(lane, v.x);
-    packed.y.set_lane(lane, v.y);
-    packed.z.set_lane(lane, v.z);
-}
-template <class T, int Lanes>
-nusselt::Vec3<T> get_lane(const nusselt::Vec3<nusselt::Pack<T, Lanes>>& packed, int lane) {
-    return {packed.x.lane(lane), packed.y.lane(lane), packed.z.lane(lane)};
-}
-
-/// Lights in the lanes of a pack.
-template <int Lanes, class T, int N>
-nusselt::ConvexPolygon<nusselt::Pack<T, Lanes>, N> packed(const nusselt::ConvexPolygon<T, N>* lights) {
-    using Real = nusselt::Pack<T, Lanes>;
-    auto result = nusselt::broadcast<Real>(lights[0]);
-    for (int lane = 1; lane < Lanes; ++lane) {
-        for (int j = 0; j < N; ++j) {
-            set_lane(result.vertex[j], lane, lights[lane].vertex[j]);
-            set_lane(result.edge[j], lane, lights[lane].edge[j]);
-        }
-        set_lane(result.normal, lane, lights[lane].normal);
-    }
-    return result;
-}
-/// Random numbers in the lanes of a pack.
-template <int Lanes, class T>
-nusselt::Vec2<nusselt::Pack<T, Lanes>> packed(const nusselt::Vec2<T>* u) {
-    auto result = nusselt::broadcast<nusselt::Pack<T, Lanes>>(u[0]);
-    for (int lane = 1; lane < Lanes; ++lane) {
-        result.x.set_lane(lane, u[lane].x);
-        result.y.set_lane(lane, u[lane].y);
-    }
+/// The values of an array in the lanes of the packs of a struct, of a polygon or of random numbers.
+template <int Lanes, class T, class Single>
+auto packed(const Single* values) {
+    auto result = nusselt::broadcast<nusselt::Pack<T, Lanes>>(values[0]);
+    for (int lane = 1; lane < Lanes; ++lane) set_lane<T>(result, lane, values[lane]);
     return result;
 }
 

@@ -3,6 +3,7 @@
 #include <nusselt/simd/pack.h>
 
 #include "lab/timing/scalar/lights.h"
+#include "sampling/techniques.h"
 #include "warp_checks.h"
 
 #include <gtest/gtest.h>
@@ -15,6 +16,9 @@
 namespace nusselt::warp_test {
 
 namespace {
+
+using nusselt_test::get_lane;
+using nusselt_test::set_lane;
 
 template <class T>
 constexpr T kEpsilon = std::numeric_limits<T>::epsilon();
@@ -85,28 +89,6 @@ TYPED_TEST(WarpHartTest, InvertReturnsTheRandomNumbers) {
     }
 }
 
-/// Copies a struct of floats to one lane of a struct of packs, or back. A pack lies in memory as an array of its lanes.
-template <class Packed, class Single>
-void set_lane(Packed& packed, int lane, const Single& single) {
-    constexpr std::size_t kSize = sizeof(float), kStride = sizeof(Packed) / sizeof(Single) * kSize;
-    auto* to = reinterpret_cast<unsigned char*>(&packed) + static_cast<std::size_t>(lane) * kSize;
-    const auto* from = reinterpret_cast<const unsigned char*>(&single);
-    for (std::size_t i = 0; i < sizeof(Single) / kSize; ++i)
-        std::memcpy(to + i * kStride, from + i * kSize, kSize);
-}
-/// \copydoc set_lane
-template <class Single, class Packed>
-Single get_lane(const Packed& packed, int lane) {
-    constexpr std::size_t kSize = sizeof(float), kStride = sizeof(Packed) / sizeof(Single) * kSize;
-    Single single;
-    auto* to = reinterpret_cast<unsigned char*>(&single);
-    const auto* from =
-        reinterpret_cast<const unsigned char*>(&packed) + static_cast<std::size_t>(lane) * kSize;
-    for (std::size_t i = 0; i < sizeof(Single) / kSize; ++i)
-        std::memcpy(to + i * kSize, from + i * kStride, kSize);
-    return single;
-}
-
 /// All that a technique returns.
 template <class Kind, class Real>
 struct Outputs {
@@ -152,8 +134,8 @@ TYPED_TEST(WarpHartTest, PacksComputeWhatScalarsCompute) {
                 Kind::template make<float>(Corners(corners.begin(), corners.begin() + Kind::kRandomCorners)));
             const float x = uniform(generator), y = uniform(generator);
             u.push_back(random_numbers<Kind, float>(x, y));
-            set_lane(lights, lane, light.back());
-            set_lane(us, lane, u.back());
+            set_lane<float>(lights, lane, light.back());
+            set_lane<float>(us, lane, u.back());
         }
         const typename Kind::template Technique<Real> packs(lights);
         const typename Kind::template Technique<float> single(light[0]);
@@ -163,10 +145,10 @@ TYPED_TEST(WarpHartTest, PacksComputeWhatScalarsCompute) {
         for (int lane = 0; lane < kLanes; ++lane) {
             const auto i = static_cast<std::size_t>(lane);
             const typename Kind::template Technique<float> scalar(light[i]);
-            EXPECT_TRUE(
-                same_numbers(get_lane<Scalars>(of_lights, lane), outputs_of<Kind, float>(scalar, u[i])));
-            EXPECT_TRUE(
-                same_numbers(get_lane<Scalars>(of_copies, lane), outputs_of<Kind, float>(single, u[i])));
+            EXPECT_TRUE(same_numbers(get_lane<float, Scalars>(of_lights, lane),
+                                     outputs_of<Kind, float>(scalar, u[i])));
+            EXPECT_TRUE(same_numbers(get_lane<float, Scalars>(of_copies, lane),
+                                     outputs_of<Kind, float>(single, u[i])));
         }
     }
 }

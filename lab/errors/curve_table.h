@@ -1,13 +1,12 @@
 #pragma once
-/// Parts of reports as result tables.
+/// Curves of noise as result tables.
 
 #include "lab/errors/noise_curve.h"
-#include "lab/report/report.h"
+#include "lab/results/results.h"
+
+#include <vector>
 
 namespace nusselt::lab {
-
-/// Whether each expectation holds, or null with a reason.
-ResultTable expectation_table(const std::vector<ExpectationResult>& expectations);
 
 /// Columns that name a curve, and those that append_curve() fills.
 std::vector<Column> curve_columns(std::vector<Column> names);

@@ -1,17 +1,8 @@
-#include "lab/report/report_results.h"
+#include "lab/errors/curve_table.h"
 
 #include <cmath>
 
 namespace nusselt::lab {
-
-ResultTable expectation_table(const std::vector<ExpectationResult>& expectations) {
-    ResultTable table = {"expectations", {{"expectation"}, {"holds"}, {"reason"}}};
-    for (const ExpectationResult& e : expectations)
-        table.rows.push_back(
-            {e.text, e.verdict == Verdict::not_evaluated ? Cell(nullptr) : Cell(e.verdict == Verdict::holds),
-             e.reason});
-    return table;
-}
 
 std::vector<Column> curve_columns(std::vector<Column> names) {
     names.insert(names.end(),
