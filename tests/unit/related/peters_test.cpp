@@ -8,6 +8,7 @@
 #include <nusselt/related/polygon_solid_angle_peters.h>
 
 #include "lab/timing/scalar/lights.h"
+#include "sampling/techniques.h"
 
 #include <gtest/gtest.h>
 
@@ -23,29 +24,8 @@ namespace nusselt {
 namespace {
 
 using lab::LightClass;
-
-template <class Real>
-void set_lane(Vec3<Real>& v, int lane, const Vec3<float>& value) {
-    v.x.set_lane(lane, value.x);
-    v.y.set_lane(lane, value.y);
-    v.z.set_lane(lane, value.z);
-}
-
-template <class Real, int N>
-void set_lane(ConvexPolygon<Real, N>& polygon, int lane, const ConvexPolygon<float, N>& value) {
-    for (int j = 0; j < N; ++j) {
-        set_lane(polygon.vertex[j], lane, value.vertex[j]);
-        set_lane(polygon.edge[j], lane, value.edge[j]);
-    }
-    set_lane(polygon.normal, lane, value.normal);
-}
-
-template <class Real>
-void set_lane(LineSegment<Real>& line, int lane, const LineSegment<float>& value) {
-    set_lane(line.p0, lane, value.p0);
-    set_lane(line.s, lane, value.s);
-    line.length.set_lane(lane, value.length);
-}
+using nusselt_test::get_lane;
+using nusselt_test::set_lane;
 
 /// A light of a class, as a technique takes it.
 template <class Light>
@@ -90,9 +70,8 @@ void expect_agreement(const LightClass& lights, double tolerance) {
         for (int lane = 0; lane < kLanes; ++lane) {
             light.push_back(Maker<Light>::make(lights, generator));
             u.push_back({uniform(generator), uniform(generator)});
-            set_lane(packed, lane, light.back());
-            packed_u.x.set_lane(lane, u.back().x);
-            packed_u.y.set_lane(lane, u.back().y);
+            set_lane<float>(packed, lane, light.back());
+            set_lane<float>(packed_u, lane, u.back());
         }
         const Published<Real> packs(packed);
         const LightSample<Real> samples = draw(packs, packed_u);
@@ -100,8 +79,8 @@ void expect_agreement(const LightClass& lights, double tolerance) {
             const auto i = static_cast<std::size_t>(lane);
             const Published<float> scalar(light[i]);
             const LightSample<float> sample = draw(scalar, u[i]);
-            const Vec3<float> wi{samples.wi.x.lane(lane), samples.wi.y.lane(lane), samples.wi.z.lane(lane)};
-            const Vec3<float> p{samples.p.x.lane(lane), samples.p.y.lane(lane), samples.p.z.lane(lane)};
+            const auto wi = get_lane<float, Vec3<float>>(samples.wi, lane);
+            const auto p = get_lane<float, Vec3<float>>(samples.p, lane);
             EXPECT_NEAR(packs.measure().lane(lane) / scalar.measure(), 1, tolerance) << lights.name;
             EXPECT_NEAR(samples.pdf.lane(lane) / sample.pdf, 1, tolerance) << lights.name;
             EXPECT_LE(distance_of(wi, sample.wi), tolerance) << lights.name;
