@@ -1,5 +1,6 @@
 #include "apps/common/program.h"
 #include "apps/nusselt-lab/bench/bench.h"
+#include "apps/nusselt-lab/evidence/blue_noise.h"
 #include "apps/nusselt-lab/evidence/fit_ltc.h"
 #include "apps/nusselt-lab/evidence/fuzz.h"
 #include "apps/nusselt-lab/evidence/map.h"
@@ -18,6 +19,6 @@ int main(int argc, char** argv) {
          "`nusselt-lab COMMAND --help` explains a command.\n"
          "Exit codes: 0 success, 1 error or broken expectation, 2 wrong usage; 130 stopped by Ctrl-C,\n"
          "143 by SIGTERM, 129 by SIGHUP, 152 by SIGXCPU, 138 by SIGUSR1.",
-         {setup_reproduce, setup_bench, setup_gpu, setup_map, setup_fuzz, setup_fit_ltc}},
+         {setup_reproduce, setup_bench, setup_gpu, setup_map, setup_fuzz, setup_fit_ltc, setup_blue_noise}},
         argc, argv);
 }

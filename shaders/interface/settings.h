@@ -49,7 +49,9 @@ const int kSamplerIndependent = 0;
 const int kSamplerSobol = 1;
 const int kSamplerJittered = 2;
 const int kSamplerStratified = 3;
-const int kSamplerCount = 4;
+const int kSamplerZSobol = 4;
+const int kSamplerBlueNoise = 5;
+const int kSamplerCount = 6;
 
 const int kBrdfMaterial = 0;
 const int kBrdfLambert = 1;

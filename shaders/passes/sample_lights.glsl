@@ -21,7 +21,12 @@ struct SameNumbers {
     int sobol[kSamplerSobol == kNusseltSamplerSobol ? 1 : 0];
     int jittered[kSamplerJittered == kNusseltSamplerJittered ? 1 : 0];
     int stratified[kSamplerStratified == kNusseltSamplerStratified ? 1 : 0];
+    int z_sobol[kSamplerZSobol == kNusseltSamplerZSobol ? 1 : 0];
+    int blue_noise[kSamplerBlueNoise == kNusseltSamplerBlueNoise ? 1 : 0];
 };
+
+/// Those of data/blue-noise.bin.
+layout(set = 0, binding = kFirstBindingAfterLights + 4, std430) readonly buffer BlueNoise { uint blue_noise_words[]; };
 
 /// Occluders count up to this fraction of the distance to the light, as nusselt::kShadowEnd.
 const float kShadowEnd = 0.9999;
@@ -108,11 +113,19 @@ DirectLightSample combine(TechniquePair techniques, Reflection reflection, int t
         s, mis_estimate(kMis, technique, frame.visibility_estimate, techniques.estimator.techniques, at));
 }
 
+uint blue_noise_at(uint index) { return blue_noise_rank(blue_noise_words[index / 2u], index); }
+
 /// \param index of the sample in this frame
 vec2 random_for_light(ivec2 pixel, uint index, uint light, int pair) {
-    return light_random(kSampler, frame.seed, uint(scene.x_begin + pixel.x), uint(scene.y_begin + pixel.y),
-                        frame.number * frame.light_samples + index, frame.count * frame.light_samples, light,
-                        uint(pair));
+    uint x = uint(scene.x_begin + pixel.x);
+    uint y = uint(scene.y_begin + pixel.y);
+    uvec2 ranks = uvec2(0u);
+    if (kSampler == kSamplerBlueNoise) {
+        uvec2 at = light_blue_noise_indices(frame.seed, x, y, light, uint(pair));
+        ranks = uvec2(blue_noise_at(at.x), blue_noise_at(at.y));
+    }
+    return light_random(kSampler, frame.seed, x, y, frame.number * frame.light_samples + index,
+                        frame.count * frame.light_samples, light, uint(pair), ranks);
 }
 
 #include "passes/lights/line_samples.glsl"

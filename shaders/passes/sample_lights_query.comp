@@ -7,9 +7,9 @@
 #include "interface/query.h"
 #include "passes/alpha.glsl"
 
-layout(set = 0, binding = kFirstBindingAfterLights + 4, std430) readonly buffer QueryInstances { QueryInstance query_instances[]; };
-layout(set = 0, binding = kFirstBindingAfterLights + 5, std430) readonly buffer QueryPartials { uint query_partial_triangles[]; };
-layout(set = 0, binding = kFirstBindingAfterLights + 6) uniform accelerationStructureEXT query_scene;
+layout(set = 0, binding = kFirstBindingAfterLights + 5, std430) readonly buffer QueryInstances { QueryInstance query_instances[]; };
+layout(set = 0, binding = kFirstBindingAfterLights + 6, std430) readonly buffer QueryPartials { uint query_partial_triangles[]; };
+layout(set = 0, binding = kFirstBindingAfterLights + 7) uniform accelerationStructureEXT query_scene;
 
 #include "passes/trace_query.glsl"
 #include "passes/sample_lights.glsl"

@@ -87,7 +87,9 @@ enum class SampleOrder : std::uint32_t {
     independent = interface::kSamplerIndependent,
     sobol = interface::kSamplerSobol,
     jittered = interface::kSamplerJittered,
-    stratified = interface::kSamplerStratified
+    stratified = interface::kSamplerStratified,
+    z_sobol = interface::kSamplerZSobol,
+    blue_noise = interface::kSamplerBlueNoise,
 };
 
 template <>
@@ -96,6 +98,8 @@ inline constexpr auto kNames<SampleOrder> = std::to_array<Named<SampleOrder>>({
     {SampleOrder::sobol, "sobol"},
     {SampleOrder::jittered, "jittered"},
     {SampleOrder::stratified, "stratified"},
+    {SampleOrder::z_sobol, "z_sobol"},
+    {SampleOrder::blue_noise, "blue_noise"},
 });
 inline constexpr auto kSampleOrders = values_of(kNames<SampleOrder>);
 static_assert(kSampleOrders.size() == interface::kSamplerCount);

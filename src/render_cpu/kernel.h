@@ -161,6 +161,7 @@ struct RenderJob {
     Mis mis;
     float visibility_estimate;
     SampleOrder sample_order;
+    const unsigned char* blue_noise; ///< the bytes of a BlueNoiseView
     PixelPosition pixel_position;
     std::uint32_t seed;
     std::uint32_t camera_rays;       ///< per pixel

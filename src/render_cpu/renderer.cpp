@@ -9,6 +9,7 @@
 #include "render_cpu/begun_tile.h"
 #include "render_cpu/frame_targets.h"
 
+#include "tables/blue_noise.h"
 #include "tables/ltc_table.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -242,6 +243,7 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.mis = settings.mis;
     job.visibility_estimate = settings.visibility_estimate;
     job.sample_order = settings.sample_order;
+    job.blue_noise = tables::blue_noise().bytes;
     job.pixel_position = settings.pixel_position;
     job.seed = settings.seed;
     job.camera_rays = static_cast<std::uint32_t>(camera_ray_count(settings));

@@ -1,6 +1,7 @@
 #include "render_vulkan/device_scene.h"
 
 #include "render_vulkan/record_values.h"
+#include "tables/blue_noise.h"
 #include "tables/ltc_table.h"
 
 #include <algorithm>
@@ -38,6 +39,7 @@ DeviceScene::DeviceScene(const gpu::Device& device, const scene::Scene& scene, S
       buffers_(device, records),
       textures_(device, scene.textures, textures),
       ltc_table_(upload(device, std::span(tables::frostbite_ltc_table().entries), "lobes")),
+      blue_noise_(upload(device, std::span(tables::blue_noise().bytes, BlueNoiseView::kBytes), "blue noise")),
       shadows_(device, scene, shadow_rays) {}
 
 void DeviceScene::set_view(const scene::Camera& camera, const scene::Film& film) {

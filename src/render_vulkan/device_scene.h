@@ -34,6 +34,7 @@ public:
     const SceneBuffers& buffers() const { return buffers_; }
     const SceneTextures& textures() const { return textures_; }
     const gpu::Buffer& ltc_table() const { return ltc_table_; } ///< decoded
+    const gpu::Buffer& blue_noise() const { return blue_noise_; }
     const ShadowScene& shadows() const { return shadows_; }
 
 private:
@@ -51,6 +52,7 @@ private:
     SceneBuffers buffers_;
     SceneTextures textures_;
     gpu::Buffer ltc_table_;
+    gpu::Buffer blue_noise_;
     ShadowScene shadows_;
 };
 

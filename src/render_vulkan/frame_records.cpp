@@ -17,6 +17,10 @@ Sampler sampler_of(render::SampleOrder order) {
         return Sampler::jittered;
     case render::SampleOrder::stratified:
         return Sampler::stratified;
+    case render::SampleOrder::z_sobol:
+        return Sampler::z_sobol;
+    case render::SampleOrder::blue_noise:
+        return Sampler::blue_noise;
     case render::SampleOrder::sobol:
         break;
     }

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t kWorkGroupSide = 8;
 static_assert(kRowsTogether == kWorkGroupSide);
 /// Storage buffers of all shading passes; those for shadow rays follow.
-constexpr std::uint32_t kShadingBuffers = interface::kFirstBindingAfterLights + 4;
+constexpr std::uint32_t kShadingBuffers = interface::kFirstBindingAfterLights + 5;
 
 std::uint32_t groups_for(std::uint32_t pixels) { return (pixels - 1) / kWorkGroupSide + 1; }
 
@@ -83,7 +83,8 @@ ShadingPass::ShadingPass(const DeviceScene& scene, const std::vector<std::uint32
                                                &data.instances,  &data.materials, &textures.records(),
                                                &textures.words()};
     for (const gpu::Buffer& array : data.lights) buffers.push_back(&array);
-    buffers.insert(buffers.end(), {&scene.ltc_table(), &pixels.numbers, &pixels.sums, &pixels.work});
+    buffers.insert(buffers.end(),
+                   {&scene.ltc_table(), &pixels.numbers, &pixels.sums, &pixels.work, &scene.blue_noise()});
     if (!is_analytic(constants)) {
         for (const gpu::Buffer* buffer : shadows.buffers()) buffers.push_back(buffer);
         if (shadows.structure() != nullptr) pipeline_.bind(*shadows.structure());

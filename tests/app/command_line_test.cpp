@@ -377,6 +377,23 @@ TEST_F(CommandLine, FitGoesOnWhereItStoppedAndWritesTheSameTable) {
     }
 }
 
+TEST_F(CommandLine, BlueNoiseIsAFunctionOfItsOptions) {
+    const auto bytes_for = [&](const char* options) {
+        const Outcome outcome = run_lab(std::string("blue-noise -o noise.bin ") + options);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(outcome.out, "");
+        return read("noise.bin");
+    };
+    const std::string shipped = bytes_for("");
+    EXPECT_EQ(shipped.size(), 65536u);
+    EXPECT_EQ(bytes_for("--sigma 1.5 --seed 0"), shipped);
+    EXPECT_NE(bytes_for("--sigma 1.9"), shipped);
+    EXPECT_NE(bytes_for("--seed 1"), shipped);
+    const Outcome wrong = run_lab("blue-noise -o no/such/folder/noise.bin");
+    EXPECT_EQ(wrong.exit_code, 1);
+    expect_lab_message(wrong.err, "error: ");
+}
+
 TEST_F(CommandLine, FitFindsOutEarlyThatItCannotWrite) {
     // The whole table would take minutes.
     const Outcome wrong = run_lab("fit-ltc -o no/such/folder/table");

@@ -16,7 +16,7 @@ namespace {
 
 /// Users of the renderer get no commands of the laboratory, and the other way round.
 TEST_F(CommandLine, ProgramsKeepToTheirOwnCommands) {
-    for (const char* command : {"bench", "fuzz", "map", "reproduce", "fit-ltc"}) {
+    for (const char* command : {"bench", "fuzz", "map", "reproduce", "fit-ltc", "blue-noise"}) {
         const Outcome outcome = run(command);
         EXPECT_EQ(outcome.exit_code, 2) << command;
         expect_message(outcome.err, std::string("unknown command '") + command + "'");
@@ -62,7 +62,9 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo) {
                                   "fit-ltc -o a --size abc",
                                   "fit-ltc -o a --size 4x3",
                                   "fit-ltc -o a --size 1x2x3",
-                                  "fit-ltc -o a --size 4x3x257"}) {
+                                  "fit-ltc -o a --size 4x3x257",
+                                  "blue-noise -o a --sigma 0",
+                                  "blue-noise -o a --seed -1"}) {
         const Outcome wrong = run_lab(arguments);
         EXPECT_EQ(wrong.exit_code, 2) << arguments;
         expect_lab_message(wrong.err, "--help");

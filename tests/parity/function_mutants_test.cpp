@@ -76,7 +76,9 @@ TEST_F(RandomMutant, QuotientsOffByARoundingAreFound) {
     EXPECT_EQ(wrong[static_cast<std::size_t>(Sampler::sobol)], 0);
     EXPECT_GT(wrong[static_cast<std::size_t>(Sampler::jittered)], 0);
     EXPECT_GT(wrong[static_cast<std::size_t>(Sampler::stratified)], 0);
-    EXPECT_EQ(wrong[4], 0) << "camera rays need no quotients";
+    EXPECT_EQ(wrong[static_cast<std::size_t>(Sampler::z_sobol)], 0);
+    EXPECT_GT(wrong[static_cast<std::size_t>(Sampler::blue_noise)], 0);
+    EXPECT_EQ(wrong[kSamplers], 0) << "camera rays need no quotients";
 }
 
 } // namespace

@@ -55,8 +55,8 @@ TEST(Settings, RefuseNumbersThatAreNoValue) {
     settings.mis = static_cast<Mis>(interface::kMisCount);
     EXPECT_EQ(refusal(settings), "unknown heuristic of multiple importance sampling: number 7");
     settings = {};
-    settings.sample_order = static_cast<SampleOrder>(4);
-    EXPECT_EQ(refusal(settings), "unknown sampler: number 4");
+    settings.sample_order = static_cast<SampleOrder>(interface::kSamplerCount);
+    EXPECT_EQ(refusal(settings), "unknown sampler: number 6");
     settings = {};
     settings.brdf = static_cast<BrdfChoice>(2);
     EXPECT_EQ(refusal(settings), "unknown BRDF: number 2");

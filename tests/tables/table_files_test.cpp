@@ -1,6 +1,7 @@
 // Files of LTC tables, the tables in data/ and the one that is compiled in.
 
 #include "common/source_folder.h"
+#include "tables/blue_noise.h"
 #include "tables/engine_table.h"
 #include "tables/ltc_table.h"
 
@@ -98,6 +99,12 @@ TEST(LtcTableFile, TheCompiledTableIsTheShippedOne) {
     EXPECT_EQ(compiled.roughnesses, 64);
     EXPECT_EQ(compiled.inclinations, 64);
     EXPECT_EQ(compiled.f0s, 51);
+}
+
+TEST(BlueNoiseFile, TheCompiledOneIsTheShippedOne) {
+    const std::string file =
+        bytes_of((std::filesystem::path(nusselt_test::kSourceFolder) / "data" / "blue-noise.bin").string());
+    EXPECT_EQ(file, std::string(reinterpret_cast<const char*>(blue_noise().bytes), BlueNoiseView::kBytes));
 }
 
 TEST(LtcTableFile, TheSidecarIsOfThisFile) {

@@ -126,7 +126,8 @@ void add_sampling_options(CLI::App& command, RenderOptions& options) {
             "How samples are distributed: independent; sobol, Owen-scrambled Sobol' points; jittered, "
             "equidistant points with one random shift, also known as uniform jittered sampling (best for "
             "linear lights); stratified, multi-jittered points with as many strata in each dimension as "
-            "samples (best for line samples)")
+            "samples (best for line samples); z_sobol, Sobol' points for which errors of neighbouring pixels "
+            "cancel; blue_noise, jittered points with shifts that differ between neighbouring pixels")
         ->transform(to_one_of(names_of(render::kSampleOrders)))
         ->group(kSamplingGroup);
     command

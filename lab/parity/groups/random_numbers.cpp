@@ -1,10 +1,12 @@
 #include "lab/parity/groups/random_numbers.h"
 #include "lab/parity/parity.h"
 #include "lab/parity/shader_runner.h"
+#include "lab/parity/table_words.h"
 #include "proof/hostile/lights.h"
 #include "shaders/light_random_fused.h"
 #include "shaders/light_random_split.h"
 #include "shaders/random.h"
+#include "tables/blue_noise.h"
 
 #include <nusselt/random/light_random.h>
 #include <nusselt/random/pcg.h>
@@ -32,7 +34,7 @@ Call draw_call(std::size_t i) {
     const auto word = [&](double limit) { return static_cast<std::uint32_t>(random.uniform() * limit); };
     // Common numbers of samples, arbitrary ones, and the largest.
     const std::uint32_t counts[] = {1u << word(7), 1 + word(1024), 1 + word(0x1p22), 1u << 22};
-    Call call{static_cast<Sampler>(random.index(4)),
+    Call call{static_cast<Sampler>(random.index(kSamplers)),
               word(0x1p32),
               word(0x1p14),
               word(0x1p14),
@@ -106,8 +108,9 @@ std::vector<VariantVerdict> judge_light_random(const gpu::Device& device, const 
 
 } // namespace
 
-std::array<int, 5> different_random_numbers(const gpu::Device& device, std::span<const std::uint32_t> shader,
-                                            std::size_t calls) {
+std::array<int, kSamplers + 1> different_random_numbers(const gpu::Device& device,
+                                                        std::span<const std::uint32_t> shader,
+                                                        std::size_t calls) {
     std::vector<float> inputs;
     for (std::size_t i = 0; i < calls; ++i) {
         const Call c = draw_call(i);
@@ -115,17 +118,17 @@ std::array<int, 5> different_random_numbers(const gpu::Device& device, std::span
                                          c.sample_count, c.light, c.pair})
             inputs.push_back(std::bit_cast<float>(word));
     }
-    const auto results = ShaderRunner(device, shader, 8).run(inputs);
-    std::array<int, 5> differences{};
+    const auto results = ShaderRunner(device, shader, 8, blue_noise_words()).run(inputs);
+    std::array<int, kSamplers + 1> differences{};
     for (std::size_t i = 0; i < calls; ++i) {
         const Call c = draw_call(i);
-        const auto of_light =
-            light_random(c.sampler, c.seed, c.x, c.y, c.sample, c.sample_count, c.light, c.pair);
+        const auto of_light = light_random(c.sampler, c.seed, c.x, c.y, c.sample, c.sample_count, c.light,
+                                           c.pair, tables::blue_noise());
         const auto of_camera = camera_random(c.sampler, c.seed, c.x, c.y, c.sample);
         const auto& result = results[i];
         differences[static_cast<std::size_t>(c.sampler)] +=
             (result[0] != of_light.x) + (result[1] != of_light.y);
-        differences[4] += (result[2] != of_camera.x) + (result[3] != of_camera.y);
+        differences[kSamplers] += (result[2] != of_camera.x) + (result[3] != of_camera.y);
     }
     return differences;
 }

@@ -9,8 +9,11 @@
 
 namespace nusselt::parity {
 
+/// Values of nusselt::Sampler.
+inline constexpr int kSamplers = 6;
+
 /// How many numbers of a shader differ from those of C++, for each sampler and, in the last entry, for camera rays.
-std::array<int, 5> different_random_numbers(const gpu::Device& device, std::span<const std::uint32_t> shader,
-                                            std::size_t calls);
+std::array<int, kSamplers + 1>
+different_random_numbers(const gpu::Device& device, std::span<const std::uint32_t> shader, std::size_t calls);
 
 } // namespace nusselt::parity

@@ -36,6 +36,10 @@ inline Sampler sampler_of(render::SampleOrder order) noexcept {
         return Sampler::jittered;
     case render::SampleOrder::stratified:
         return Sampler::stratified;
+    case render::SampleOrder::z_sobol:
+        return Sampler::z_sobol;
+    case render::SampleOrder::blue_noise:
+        return Sampler::blue_noise;
     case render::SampleOrder::sobol:
         break;
     }
@@ -62,7 +66,7 @@ inline Vec2<Real> random_for_light(const render_cpu::RenderJob& job, const Pixel
     float x[kLanes];
     float y[kLanes];
     light_random_lanes(sampler_of(job.sample_order), job.seed, block.x, block.y, samples.number, count, light,
-                       pair, x, y);
+                       pair, x, y, {job.blue_noise});
     return {Real::load(x), Real::load(y)};
 }
 
@@ -78,7 +82,8 @@ inline Vec2<Real> random_for_lines(const render_cpu::RenderJob& job, const Pixel
     // Aligned blocks of Sobol' points whose size is a power of two are as evenly distributed as the whole sequence;
     // other numbers of lines are so only over all camera rays. Other samplers cover the light with the given number
     // of samples, so each shading point gets a separate set of numbers.
-    const bool is_sequence = sampler == Sampler::sobol || sampler == Sampler::independent;
+    const bool is_sequence =
+        sampler == Sampler::sobol || sampler == Sampler::z_sobol || sampler == Sampler::independent;
     const std::uint32_t before = is_sequence ? camera_ray * per_point : 0;
     std::uint32_t x[kLanes];
     std::uint32_t y[kLanes];
@@ -92,7 +97,7 @@ inline Vec2<Real> random_for_lines(const render_cpu::RenderJob& job, const Pixel
     float u_x[kLanes];
     float u_y[kLanes];
     light_random_lanes(sampler, job.seed, x, y, number, is_sequence ? job.camera_rays * per_point : per_point,
-                       light, is_sequence ? pair : pair + 2 * camera_ray, u_x, u_y);
+                       light, is_sequence ? pair : pair + 2 * camera_ray, u_x, u_y, {job.blue_noise});
     return {Real::load(u_x), Real::load(u_y)};
 }
 
