@@ -8,6 +8,7 @@
 #include "scene/import/importers.h"
 #include "scenes.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <tuple>
 #include <vector>
@@ -103,27 +104,30 @@ TEST_F(Agreement, OfEveryHeuristic_Strategy_AndSampler) {
     // All kinds of lights share what is tested, and drivers take the longer for each.
     scene.lights.of<scene::LineLight>().clear();
     VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
+    // Each entry takes a driver ten seconds, so that orders of samples and heuristics share entries.
     std::vector<render::RenderSettings> all;
-    for (const render::Mis mis : render::kMisHeuristics) {
-        render::RenderSettings& settings = all.emplace_back(centred(2));
+    for (std::size_t i = 0; i < std::max(render::kMisHeuristics.size(), render::kSampleOrders.size()); ++i) {
+        render::RenderSettings& settings = all.emplace_back(centred(6));
         settings.strategies = Strategies::diffuse_ltc;
-        settings.mis = mis;
+        settings.mis = render::kMisHeuristics[i % render::kMisHeuristics.size()];
+        settings.sample_order = render::kSampleOrders[i % render::kSampleOrders.size()];
         settings.visibility_estimate = 0.8f;
+        settings.seed = 7;
     }
-    for (const auto& [technique, strategies, mis] :
-         {std::tuple(Technique::projected_solid_angle_biased, Strategies::diffuse_ltc, render::Mis::balance),
-          std::tuple(Technique::projected_solid_angle, Strategies::diffuse_ggx, render::Mis::balance),
-          std::tuple(Technique::solid_angle, Strategies::diffuse_ggx_bounded, render::Mis::power)}) {
+    for (const auto& [technique, strategies, mis, brdf] :
+         {std::tuple(Technique::projected_solid_angle_biased, Strategies::diffuse_ltc, render::Mis::balance,
+                     render::BrdfChoice::material),
+          std::tuple(Technique::projected_solid_angle, Strategies::diffuse_ggx, render::Mis::balance,
+                     render::BrdfChoice::material),
+          std::tuple(Technique::solid_angle, Strategies::diffuse_ggx_bounded, render::Mis::power,
+                     render::BrdfChoice::material),
+          std::tuple(Technique::projected_solid_angle, Strategies::diffuse, render::Mis::balance,
+                     render::BrdfChoice::lambert)}) {
         render::RenderSettings& settings = all.emplace_back(centred(2));
         settings.technique = technique;
         settings.strategies = strategies;
         settings.mis = mis;
-    }
-    for (const render::SampleOrder order : render::kSampleOrders) {
-        render::RenderSettings& settings = all.emplace_back(centred(6));
-        settings.sample_order = order;
-        settings.brdf = render::BrdfChoice::lambert;
-        settings.seed = 7;
+        settings.brdf = brdf;
     }
     for (const render::RenderSettings& settings : all) {
         SCOPED_TRACE(testing::Message()
