@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 """Checks lab/report/published.json, the list of what the papers show, and the tables of docs/reproduce.md that follow from it.
 
-Usage: scripts/published.py [--update] [--root FOLDER]
+Usage: scripts/published.py [--update] [--root FOLDER] [--program NUSSELT_LAB]
 
 Each item is shown by experiments of `nusselt-lab reproduce` or by other commands (`by`), does not apply (`not_applicable`)
-or is missing (`missing`), for a reason. Exits with 1 and a line for each problem. --update writes the tables.
+or is missing (`missing`), for a reason. Exits with 1 and a line for each problem. --update writes the tables. The program
+knows which experiments and commands there are; by default, it is that of the build in build/release. Without it, the names
+in `by` are not checked, which a line on standard error says.
 """
 import argparse
 import json
 import pathlib
 import re
+import shutil
+import subprocess
 import sys
 
 KINDS = {"figure", "table", "statement"}
@@ -36,6 +40,17 @@ def check_items(papers):
         for number in item["published"]:
             if number.get("value") is None:
                 yield f"{item['id']}: '{number.get('quantity')}' has no value"
+
+
+def check_names(papers, program):
+    listed = subprocess.run([program, "reproduce", "--list"], capture_output=True, text=True, check=True).stdout
+    known = {line.split()[0] for line in listed.splitlines() if line[:1].strip()}
+    for name in sorted({name for item in items_of(papers) for name in item["by"]} - known):
+        help_text = subprocess.run([program, *name.split(), "--help"], capture_output=True, text=True).stdout
+        # Words that are no command leave the help of the command before them.
+        if not re.search(rf"^Usage: nusselt-lab {re.escape(name)}(?! COMMAND)( |$)", help_text, re.MULTILINE):
+            yield from (f"{item['id']}: there is neither an experiment nor a command '{name}'"
+                        for item in items_of(papers) if name in item["by"])
 
 
 def row(item):
@@ -72,9 +87,17 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--update", action="store_true")
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
+    parser.add_argument("--program")
     arguments = parser.parse_args()
     papers = json.loads((arguments.root / "lab/report/published.json").read_text())["papers"]
     problems = list(check_items(papers)) + list(check_page(papers, arguments.root / "docs/reproduce.md", arguments.update))
+    program = shutil.which(arguments.program or arguments.root / "build/release/apps/nusselt-lab/nusselt-lab")
+    if program:
+        problems += check_names(papers, program)
+    elif arguments.program:
+        problems.append(f"there is no program {arguments.program}")
+    else:
+        print("published: no nusselt-lab is built, so that the names in `by` are not checked", file=sys.stderr)
     print("\n".join(problems), end="\n" if problems else "")
     return 1 if problems else 0
 

@@ -50,10 +50,10 @@ measure_lines() {
     "$program" reproduce lines-orientation lines-offsets lines-pieces lines-large lines-small lines-visibility \
         --full -o "$reports" || case $? in 1 | 3) echo "not all expectations hold" >&2 ;; *) return 1 ;; esac
     for name in lines-orientation lines-offsets lines-pieces lines-large lines-small lines-visibility; do
-        cp "$reports/$name/numbers.json" "docs/data/$name.json"
+        cp "$reports/$name/full/numbers.json" "docs/data/$name.json"
     done
     for plot in docs/images/lines-large-*.svg; do
-        cp "$reports/lines-large/${plot#docs/images/lines-large-}" "$plot"
+        cp "$reports/lines-large/full/${plot#docs/images/lines-large-}" "$plot"
     done
 }
 

@@ -2,7 +2,7 @@
 """Compares our renderer with Blender's Cycles: error and time of direct light, with one thread each.
 
 Usage: lab/peers/compare.py [--json FILE] [--scenes NAME,...] [--repetitions N] [--samples N] [--reference-samples N]
-                            [--nusselt PROGRAM] [--blender PROGRAM] [--work FOLDER]
+                            [--shrink N] [--nusselt PROGRAM] [--blender PROGRAM] [--work FOLDER]
 
 The file has ratios, single numbers and what was not run. With --scenes, rows of other scenes in it remain.
 Exits with 77 if there is no Blender (Debian: apt-get install --no-install-recommends blender).
@@ -24,7 +24,7 @@ sys.dont_write_bytecode = True  # nothing new in the folder of the sources
 
 from image_statistics import (all_of, efficiency, mean, mean_squared_errors, median_and_spread,  # noqa: E402
                               samples_of_equal_time)
-from pbrt_scene import aside, matte, one_sided, read_scene, resized  # noqa: E402
+from pbrt_scene import aside, files_of, matte, one_sided, read_scene, resized  # noqa: E402
 from renderers import Cycles, Failure, Nusselt  # noqa: E402
 from results import rows_of_other_scenes, to_json  # noqa: E402
 
@@ -60,14 +60,18 @@ class Case:
         return [("area", True), ("area", False), ("mesh", True)] if polygons else [("mesh", True)]
 
 
-def cases():
-    return [Case("panel", "scenes/cornell-panel.pbrt", (256, 256), (aside, matte), LAMBERT, 8),
-            Case("panel-below", "scenes/cornell-panel.pbrt", (256, 256), (aside, matte, one_sided),
+def cases(shrink=1):
+    """All scenes, with width and height divided by a number."""
+    def case(slug, path, width, height, *others):
+        return Case(slug, path, (width // shrink, height // shrink), *others)
+
+    return [case("panel", "scenes/cornell-panel.pbrt", 256, 256, (aside, matte), LAMBERT, 8),
+            case("panel-below", "scenes/cornell-panel.pbrt", 256, 256, (aside, matte, one_sided),
                  (*LAMBERT, "--lights", HERE / "one-sided.json"), 8),
-            Case("tube", "scenes/cornell-tube.pbrt", (256, 256), (aside, matte), LAMBERT, 300),
-            Case("metal-planes", "lab/peers/metal-planes.pbrt", (320, 240), (), BOTH),
-            Case("room-matte", "scenes/room.pbrt", (320, 180), (matte,), LAMBERT),
-            Case("room", "scenes/room.pbrt", (320, 180), (), BOTH)]
+            case("tube", "scenes/cornell-tube.pbrt", 256, 256, (aside, matte), LAMBERT, 300),
+            case("metal-planes", "lab/peers/metal-planes.pbrt", 320, 240, (), BOTH),
+            case("room-matte", "scenes/room.pbrt", 320, 180, (matte,), LAMBERT),
+            case("room", "scenes/room.pbrt", 320, 180, (), BOTH)]
 
 
 class Series:
@@ -100,8 +104,9 @@ RATIOS = ("ratios", ["scene", "samples", "time_ratio", "error_ratio", "efficienc
                      "equal_time_rel_mse_ratio"])
 REFERENCES = ("references", ["scene", "reference_samples", "pixels", "nusselt_mean", "cycles_mean", "mean_ratio",
                              "means_agree", "relative_difference", "lamps", "mis", "roulette"])
+FILES = ("files", ["scene", "file"])  # that scenes were read from
 NOT_RUN = ("not_run", ["scene", "reason"])
-TABLES = (RENDERINGS, RATIOS, REFERENCES, NOT_RUN)
+TABLES = (RENDERINGS, RATIOS, REFERENCES, FILES, NOT_RUN)
 
 
 def log(*words):
@@ -109,19 +114,14 @@ def log(*words):
 
 
 def best_settings(case, cycles, reference, mask, samples):
-    """The shape of the lights with which Cycles is most efficient, and then roulette or none, whichever is better."""
-    def trial(lamps, mis, roulette):
-        settings = {"lamps": lamps, "mis": mis, "roulette": roulette}
-        image, times = cycles.render(case, settings, samples, TRIAL_SEED)
-        found = efficiency(mean_squared_errors(image, reference, mask)[0], times["cpu"])
-        log(f"  trial {settings}: efficiency {found:.4g}")
-        return found, settings
-
-    def better(trials):
-        return max(trials, key=lambda pair: pair[0])
-
-    best = better([trial(*shape, 0) for shape in case.shapes_of_lights()])
-    return better([best, trial(best[1]["lamps"], best[1]["mis"], ROULETTE)])[1]
+    """The shape of the lights with which Cycles is most efficient, with roulette or without."""
+    several = [{"lamps": lamps, "mis": mis, "roulette": roulette}
+               for lamps, mis in case.shapes_of_lights() for roulette in (0, ROULETTE)]
+    found = [efficiency(mean_squared_errors(image, reference, mask)[0], times["cpu"])
+             for image, times in cycles.renders(case, several, samples, TRIAL_SEED)]
+    for settings, value in zip(several, found):
+        log(f"  trial {settings}: efficiency {value:.4g}")
+    return several[found.index(max(found))]
 
 
 def measure(case, nusselt, cycles, options):
@@ -141,7 +141,7 @@ def measure(case, nusselt, cycles, options):
     isa = None
     for repetition in range(options.repetitions):
         seed = FIRST_SEED + repetition
-        image, times = cycles.render(case, settings, options.samples, seed)
+        (image, times), = cycles.renders(case, [settings], options.samples, seed)
         series[1].add(mean_squared_errors(image, theirs, mask), times)
         image, times = nusselt.render(case, options.samples, seed)
         series[0].add(mean_squared_errors(image, ours, mask), times)
@@ -154,6 +154,7 @@ def measure(case, nusselt, cycles, options):
     rows = [series[0].row(case.slug, "nusselt", means[0]), series[1].row(case.slug, "cycles", means[1]),
             longer.row(case.slug, "nusselt, equal time", means[0])]
     return {"renderings": rows, "isa": isa,
+            "files": [[case.slug, os.path.relpath(file, ROOT)] for file in files_of(case.file)],
             "ratios": [ratios_of(case, *series, longer)],
             "references": [[case.slug, options.reference_samples, sum(mask), *means, means[1] / means[0],
                             abs(means[1] / means[0] - 1) <= MEANS_AGREE, difference, *settings.values()]]}
@@ -184,25 +185,46 @@ def text_of(tables):
     return "\n".join(lines)
 
 
+def whole_number(smallest):
+    def convert(text):
+        value = int(text)
+        if value < smallest:
+            raise ValueError
+        return value
+
+    convert.__name__ = f"number (at least {smallest})"  # argparse names it in its message
+    return convert
+
+
 def options_of(arguments):
+    """Checks all options before anything is rendered."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--json", type=pathlib.Path)
     parser.add_argument("--scenes", help=f"default: all of {', '.join(case.slug for case in cases())}")
-    parser.add_argument("--repetitions", type=int, default=5)
-    parser.add_argument("--samples", type=int, default=16)
-    parser.add_argument("--reference-samples", type=int, default=1024)
+    parser.add_argument("--repetitions", type=whole_number(1), default=5)
+    parser.add_argument("--samples", type=whole_number(2), default=16)
+    parser.add_argument("--reference-samples", type=whole_number(1), default=1024)
+    parser.add_argument("--shrink", type=int, choices=(1, 2, 4), default=1, help="divides the size of images")
     parser.add_argument("--nusselt", default=str(ROOT / "build/release/apps/nusselt/nusselt"))
     parser.add_argument("--blender", default="blender")
     parser.add_argument("--work", type=pathlib.Path, help="keeps all images in this folder")
-    return parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
+    names = options.scenes.split(",") if options.scenes else []
+    if unknown := set(names) - {case.slug for case in cases()}:
+        parser.error(f"no scene {', '.join(sorted(unknown))}")
+    if len(set(names)) < len(names):
+        parser.error("a scene is named twice")
+    if options.json and not os.access(options.json if options.json.exists() else options.json.parent, os.W_OK):
+        parser.error(f"cannot write {options.json}")
+    if options.work and options.work.exists() and not options.work.is_dir():
+        parser.error(f"{options.work} is no folder")
+    return options
 
 
 def main(arguments):
     options = options_of(arguments)
-    known = {case.slug: case for case in cases()}
+    known = {case.slug: case for case in cases(options.shrink)}
     names = options.scenes.split(",") if options.scenes else [*known]
-    if unknown := set(names) - set(known):
-        sys.exit(f"no scene {', '.join(sorted(unknown))}")
     if not shutil.which(options.blender):
         print(f"skipped: no program {options.blender}; nothing was compared")
         return SKIPPED
@@ -218,7 +240,7 @@ def main(arguments):
 
 def compare(options, known, names, nusselt, cycles):
     """Measures the named scenes, and writes the file after each of them, because all of them take long."""
-    settings = {"repetitions": options.repetitions, "cycles": cycles.version(), "threads_of_renderers": 1}
+    settings = {"repetitions": options.repetitions, "shrink": options.shrink, "cycles": cycles.version(), "threads_of_renderers": 1}
     tables = {name: [] for name, _ in TABLES}
     if options.json and options.scenes and options.json.exists():
         tables.update(rows_of_other_scenes(options.json, names, settings))
@@ -252,7 +274,7 @@ def in_order(rows, scenes):
 
 def command_of(options):
     chosen = [f"--{name.replace('_', '-')}={getattr(options, name)}"
-              for name in ("samples", "reference_samples", "repetitions")]
+              for name in ("samples", "reference_samples", "repetitions", "shrink")]
     return shlex.join([os.path.relpath(__file__, ROOT), *chosen])
 
 

@@ -2,9 +2,10 @@
 
     blender --background --factory-startup --python cycles_render.py -- JOB.json
 
-The job has the scene (as `pbrt_scene.py` describes it), lamps ("area", "mesh", see `add_light`), roulette, mis, threads
-and renderings: a list of dictionaries with samples, seed, output (an EXR file, or null), and passes (true adds Emit and
-Depth to the file). For each rendering, the program prints a line "rendering: {...}" with its times in seconds.
+The job has the scene (as `pbrt_scene.py` describes it), threads, and variants: a list of dictionaries with lamps ("area",
+"mesh", see `add_light`), mis, roulette, and renderings: a list of dictionaries with samples, seed, output (an EXR file, or
+null), and passes (true adds Emit and Depth to the file). For each rendering, the program prints a line "rendering: {...}"
+with its times in seconds.
 
 Only direct light, only at pixel centres, and without anything that trades noise for bias.
 """
@@ -173,10 +174,11 @@ def render(scene, samples, seed, output, passes):
 
 def main(file):
     job = json.loads(pathlib.Path(file).read_text())
-    scene = build(job["scene"], job["lamps"], job["mis"])
-    settings(scene, job["roulette"], job["threads"])
-    for rendering in job["renderings"]:
-        render(scene, **rendering)
+    for variant in job["variants"]:
+        scene = build(job["scene"], variant["lamps"], variant["mis"])
+        settings(scene, variant["roulette"], job["threads"])
+        for rendering in variant["renderings"]:
+            render(scene, **rendering)
 
 
 try:

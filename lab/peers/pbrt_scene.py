@@ -100,11 +100,13 @@ class Reader:
         self.saved = []
         self.fov = None
         self.root = file.parent
+        self.files = []
         self.read(file)
         if not self.scene["camera"]:
             raise ValueError(f"{file}: no WorldBegin")
 
     def read(self, file):
+        self.files.append(file)
         tokens = [*tokens_of(file), ("word", "")]
         position = 0
 
@@ -266,6 +268,11 @@ class Parameters:
 
 def read_scene(file):
     return Reader(pathlib.Path(file)).scene
+
+
+def files_of(file):
+    """The files that the scene was read from, each once."""
+    return [*dict.fromkeys(Reader(pathlib.Path(file)).files)]
 
 
 def matte(scene):

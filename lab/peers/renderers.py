@@ -54,7 +54,7 @@ class Nusselt:
 
     def render(self, case, samples, seed):
         """The image, and its times: "cpu" without what a tiny image takes, "wall" without reading and writing."""
-        image, report = self.work / f"{case.slug}-nusselt.exr", self.work / "nusselt.json"
+        image, report = self.work / f"{case.slug}-nusselt-{samples}.exr", self.work / "nusselt.json"
         more = ["--threads", 1, "--json", report, "-o", image]
         _, tiny = run(self.command(case, 1, seed, ["--resolution", TINY, *more]))
         _, cpu = run(self.command(case, samples, seed, more))
@@ -80,28 +80,31 @@ class Cycles:
     def version(self):
         return run([self.program, "--version"])[0].split("\n")[0].removeprefix("Blender").strip()
 
-    def run(self, case, settings, threads, renderings):
-        """The times that the script reports for each rendering."""
+    def run(self, case, threads, variants):
+        """The times that the script reports for each rendering. Variants are pairs of settings and renderings."""
         job = self.work / f"{case.slug}-cycles.json"
-        job.write_text(json.dumps({"scene": case.scene, **settings, "threads": threads, "renderings": renderings}))
+        described = [{**settings, "renderings": renderings} for settings, renderings in variants]
+        job.write_text(json.dumps({"scene": case.scene, "threads": threads, "variants": described}))
         output, _ = run([self.program, "--background", "--factory-startup", "--debug-cycles", "--python",
                          HERE / "cycles_render.py", "--", job])
-        return times_of(output, len(renderings))
+        return times_of(output, sum(len(renderings) for _, renderings in variants))
 
-    def render(self, case, settings, samples, seed):
-        """The image, and its times: "cpu" and "wall" without synchronisation, which a rendering of one sample shows."""
-        image = self.work / f"{case.slug}-cycles.exr"
+    def renders(self, case, several, samples, seed):
+        """The image for each of several settings, all by one process, and its times: "cpu" and "wall" without
+        synchronisation, which a rendering of one sample shows."""
         one = {"samples": 1, "seed": seed, "output": None, "passes": False}
-        # The first rendering of a process also loads what all others share.
-        _, single, times = self.run(case, settings, 1,
-                                    [one, one, {**one, "samples": samples, "output": str(image)}])
-        return self.nusselt.layer(image, "picture"), {
-            "cpu": time_per_samples(times["cpu"], samples, single["cpu"]), "wall": times["render_wall"]}
+        images = [self.work / f"{case.slug}-cycles-{i}.exr" for i in range(len(several))]
+        # The first rendering of a scene also loads what all others share.
+        times = iter(self.run(case, 1, [(settings, [one, one, {**one, "samples": samples, "output": str(image)}])
+                                        for settings, image in zip(several, images)]))
+        return [(self.nusselt.layer(image, "picture"), {
+            "cpu": time_per_samples(whole["cpu"], samples, single["cpu"]), "wall": whole["render_wall"]})
+                for image, (_, single, whole) in zip(images, zip(times, times, times), strict=True)]
 
     def reference(self, case, settings, samples, seed):
         image = self.work / f"{case.slug}-cycles-reference.exr"
-        self.run(case, settings, os.cpu_count(),
-                 [{"samples": samples, "seed": seed, "output": str(image), "passes": True}])
+        self.run(case, os.cpu_count(),
+                 [(settings, [{"samples": samples, "seed": seed, "output": str(image), "passes": True}])])
         covered = (pixel[0] < FARTHEST for pixel in self.nusselt.layer(image, "depth", "ViewLayer.Depth").pixels())
         dark = (not any(pixel) for pixel in self.nusselt.layer(image, "emission", "ViewLayer.Emit").pixels())
         return self.nusselt.layer(image, "picture", "ViewLayer.Combined"), all_of(covered, dark)

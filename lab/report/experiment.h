@@ -17,6 +17,8 @@ struct Experiment {
     std::string description; ///< one sentence
     /// \throws std::runtime_error if a scene cannot be loaded
     std::function<Report(const RunSettings& settings, const ProgressText& progress)> run;
+    /// What this machine lacks to run it, such as another renderer, and how to get it; empty if nothing.
+    std::function<std::string()> obstacle = [] { return std::string(); };
 };
 
 /// All experiments, in the order of the papers. A new kind of experiment is one more row in experiments.cpp.

@@ -8,14 +8,21 @@
 #include "lab/fuzzing/worst_case_experiment.h"
 #include "lab/lines/line_convergence.h"
 #include "lab/lines/line_visibility.h"
+#include "lab/peers/peer_comparison.h"
 #include "lab/timing/cost_experiments.h"
 
 namespace nusselt::lab {
 
 namespace {
 
+/// Kinds that need nothing but this program and files of the repository have no function of their own.
+template <class Kind>
+std::string obstacle(const Kind& /*any*/) {
+    return "";
+}
+
 /// Experiments of one kind. A kind has a name, a source and a description, and these functions for it: quick() reduces
-/// the effort, `run` measures, and report_of() reports what that returns.
+/// the effort, `run` measures, and report_of() reports what that returns. obstacle() may say what the machine lacks.
 template <class Kind, class Run>
 void add(const std::vector<Kind>& kinds, const Run& run, std::vector<Experiment>& experiments) {
     for (const Kind& kind : kinds)
@@ -23,7 +30,8 @@ void add(const std::vector<Kind>& kinds, const Run& run, std::vector<Experiment>
                                [&kind, run](const RunSettings& settings, const ProgressText& progress) {
                                    const Kind chosen = settings.effort == Effort::quick ? quick(kind) : kind;
                                    return report_of(run(chosen, settings, progress));
-                               }});
+                               },
+                               [&kind] { return obstacle(kind); }});
 }
 
 } // namespace
@@ -40,6 +48,7 @@ const std::vector<Experiment>& all_experiments() {
         add(all_cost_tables(), run_cost_table, all);
         add(all_line_convergences(), run_line_convergence, all);
         add(all_line_visibilities(), run_line_visibility, all);
+        add(all_peer_comparisons(), run_peer_comparison, all);
         return all;
     }();
     return experiments;

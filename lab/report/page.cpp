@@ -204,6 +204,19 @@ std::string checked_section(const std::string& text) {
     return is_section ? text_of(json) : "";
 }
 
+std::string section_of_both(const std::string& full, const std::string& quick) {
+    if (checked_section(full).empty()) return checked_section(quick);
+    if (checked_section(quick).empty()) return checked_section(full);
+    Json section = Json::parse(full);
+    const Json later = Json::parse(quick);
+    // Dates are in UTC and of one form, so that their order is that of their texts.
+    if (later.value("date", "") > section.value("date", ""))
+        section["later"] = {{"date", later.value("date", "")},
+                            {"version", later.value("version", "")},
+                            {"expectations", later.value("expectations", Json::array())}};
+    return text_of(section);
+}
+
 std::string page_of(const std::vector<std::string>& sections, const std::vector<NotRun>& not_run) {
     Json missing = Json::array();
     for (const NotRun& one : not_run) missing.push_back({{"name", one.name}, {"reason", one.reason}});

@@ -29,6 +29,10 @@ struct NotRun {
 /// A section as page_section() writes it, from the text of a file. Empty if the text is none.
 std::string checked_section(const std::string& text);
 
+/// The section of an experiment with a full and a quick report: the full one, with the expectations of the quick one if
+/// that came later. Where only one text is a section, that one; where none is, empty.
+std::string section_of_both(const std::string& full, const std::string& quick);
+
 /// The page.
 /// \param sections of page_section() or checked_section()
 std::string page_of(const std::vector<std::string>& sections, const std::vector<NotRun>& not_run);

@@ -40,11 +40,10 @@ std::string fingerprint(const std::filesystem::path& path) {
     return fmt::format("{:016x}", hash);
 }
 
-/// Everything but files on which an experiment depends.
+/// Everything but the effort and files on which an experiment depends.
 std::string key_of(const std::string& program, const RunSettings& settings) {
     const char* const published = std::getenv("NUSSELT_SCENES");
     const Json key = {program,
-                      settings.effort == Effort::quick ? "quick" : "full",
                       base::name_of(base::choose_isa()),
                       base::processor_name(),
                       thread_count(settings),
@@ -100,8 +99,12 @@ ReportFolder::ReportFolder(std::filesystem::path folder)
     create_folder(folder_);
 }
 
-void ReportFolder::check_writable(const Experiment& experiment) const {
-    const std::filesystem::path folder = folder_ / experiment.name;
+std::filesystem::path ReportFolder::folder_of(const Experiment& experiment, Effort effort) const {
+    return folder_ / experiment.name / (effort == Effort::quick ? "quick" : "full");
+}
+
+void ReportFolder::check_writable(const Experiment& experiment, Effort effort) const {
+    const std::filesystem::path folder = folder_of(experiment, effort);
     create_folder(folder);
     base::check_writable(folder / kNumbersFile);
     base::check_writable(folder_ / "index.html");
@@ -109,15 +112,19 @@ void ReportFolder::check_writable(const Experiment& experiment) const {
 
 std::optional<KeptReport> ReportFolder::kept(const Experiment& experiment,
                                              const RunSettings& settings) const {
-    const std::filesystem::path folder = folder_ / experiment.name;
+    if (program_.empty()) return std::nullopt;
+    const std::string key = key_of(program_, settings);
+    const auto full = kept_in(folder_of(experiment, Effort::full), key);
+    return full || settings.effort == Effort::full ? full
+                                                   : kept_in(folder_of(experiment, Effort::quick), key);
+}
+
+std::optional<KeptReport> ReportFolder::kept_in(const std::filesystem::path& folder,
+                                                const std::string& key) const {
     std::ifstream file(folder / kStateFile);
     try {
         const Json state = Json::parse(file);
-        RunSettings full = settings;
-        full.effort = Effort::full;
-        const std::string key = state.at("key");
-        if (program_.empty() || (key != key_of(program_, settings) && key != key_of(program_, full)))
-            return std::nullopt;
+        if (state.at("key") != key) return std::nullopt;
         if (checked_section(contents(folder / kSectionFile)).empty()) return std::nullopt;
         for (const auto& [path, hash] : state.at("inputs").items())
             if (fingerprint(path) != hash) return std::nullopt;
@@ -129,7 +136,7 @@ std::optional<KeptReport> ReportFolder::kept(const Experiment& experiment,
 
 void ReportFolder::write(const Experiment& experiment, const Report& report, const RunSettings& settings,
                          const RunRecord& record) const {
-    const std::filesystem::path folder = folder_ / experiment.name;
+    const std::filesystem::path folder = folder_of(experiment, settings.effort);
     std::filesystem::create_directories(folder);
     std::filesystem::remove(folder / kStateFile);
     for (const ReportImage& image : report.images) {
@@ -158,14 +165,18 @@ std::filesystem::path ReportFolder::write_page(const std::vector<Experiment>& ex
     std::vector<std::string> sections;
     std::vector<NotRun> not_run;
     for (const Experiment& experiment : experiments) {
-        const std::filesystem::path file = folder_ / experiment.name / kSectionFile;
-        const std::string text = contents(file);
-        std::string section = checked_section(text);
+        const std::string full = contents(folder_of(experiment, Effort::full) / kSectionFile);
+        const std::string quick = contents(folder_of(experiment, Effort::quick) / kSectionFile);
+        std::string section = section_of_both(full, quick);
         if (!section.empty())
             sections.push_back(std::move(section));
+        else if (!full.empty() || !quick.empty())
+            not_run.push_back(
+                {experiment.name, (folder_ / experiment.name).string() + " is damaged; run it again"});
+        else if (const std::string obstacle = experiment.obstacle(); !obstacle.empty())
+            not_run.push_back({experiment.name, obstacle});
         else
-            not_run.push_back({experiment.name, text.empty() ? "not run into this folder"
-                                                             : file.string() + " is damaged; run it again"});
+            not_run.push_back({experiment.name, "not run into this folder"});
     }
     const std::filesystem::path path = folder_ / "index.html";
     write_text(path, page_of(sections, not_run));

@@ -111,8 +111,9 @@ TEST_F(CommandLine, ReproduceWritesAPage) {
     EXPECT_EQ(reproduce.exit_code, 0) << reproduce.out << reproduce.err;
     EXPECT_NE(read("pages/index.html").find("line-diffuse"), std::string::npos);
     for (const char* file : {"reference.exr", "reference.png", "area.exr", "projected_solid_angle.png"})
-        EXPECT_GT(std::filesystem::file_size(path("pages/line-diffuse/" + std::string(file))), 100u) << file;
-    const auto json = nlohmann::json::parse(read("pages/line-diffuse/numbers.json"));
+        EXPECT_GT(std::filesystem::file_size(path("pages/line-diffuse/quick/" + std::string(file))), 100u)
+            << file;
+    const auto json = nlohmann::json::parse(read("pages/line-diffuse/quick/numbers.json"));
     EXPECT_EQ(json.at("bench"), "line-diffuse");
     const auto errors = nusselt_test::records(json, "errors");
     ASSERT_FALSE(errors.empty());
@@ -124,6 +125,15 @@ TEST_F(CommandLine, ReproduceWritesAPage) {
     EXPECT_EQ(again.exit_code, 0);
     EXPECT_EQ(again.out, "\npages/index.html\n");
     EXPECT_NE(again.err.find("nothing has changed"), std::string::npos) << again.err;
+}
+
+TEST_F(CommandLine, ReproduceSaysWhichRendererIsMissing) {
+    const Outcome outcome =
+        run_lab("reproduce peers-panel --scenes '" + kScenes + "' -o pages", "PATH=/nowhere");
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err; // as it was asked for
+    EXPECT_NE(outcome.err.find("peers-panel: not run: Blender is missing"), std::string::npos) << outcome.err;
+    EXPECT_NE(read("pages/index.html").find("{\"name\":\"peers-panel\",\"reason\":\"Blender is missing"),
+              std::string::npos);
 }
 
 TEST_F(CommandLine, EveryBenchWritesOneFormat) {

@@ -96,9 +96,9 @@ TEST_F(OutputFiles, ReproduceChecksItsFolderBeforeItRenders) {
         const Outcome late = run_lab("reproduce " + std::string(name) + " --scenes '" + kScenes + "' -o out");
         EXPECT_EQ(late.exit_code, 1) << name;
         EXPECT_EQ(late.out, "") << name;
-        expect_lab_message(late.err, "cannot create the folder 'out/" + std::string(name) + "'");
+        expect_lab_message(late.err, "cannot create the folder 'out/" + std::string(name) + "/quick'");
     }
-    for (const char* file : {"out/wall/numbers.json", "out/index.html"}) {
+    for (const char* file : {"out/wall/quick/numbers.json", "out/index.html"}) {
         std::filesystem::create_directories(path(file));
         const Outcome page = run_lab("reproduce wall --scenes '" + kScenes + "' -o out");
         EXPECT_EQ(page.out, "");

@@ -267,7 +267,10 @@ class ConstructedNusselt(ConstructedRenderer):
 
 
 class ConstructedCycles(ConstructedRenderer):
-    def render(self, case, settings, samples, seed):
+    def renders(self, case, several, samples, seed):
+        return [self.one(settings, samples, seed) for settings in several]
+
+    def one(self, settings, samples, seed):
         image, times = self.result(samples, seed)
         slowdown = 1 if settings["lamps"] == "mesh" and settings["roulette"] == 0 else 3
         return image, {**times, "cpu": slowdown * times["cpu"]}
@@ -344,6 +347,26 @@ class Driver(Case):
         self.assertIs(compare.ratios_of(case, ours, theirs, ours)[columns.index("meets_target")], False)
         theirs.errors = [2.1, 2.1]
         self.assertIs(compare.ratios_of(case, ours, theirs, ours)[columns.index("meets_target")], True)
+
+    def test_options_are_checked_before_anything_is_rendered(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "file")
+            file.write_text("")
+            for wrong, message in [(["--repetitions", "0"], "repetitions"), (["--samples", "1"], "at least 2"),
+                                   (["--samples", "many"], "samples"), (["--reference-samples", "-1"], "at least 1"),
+                                   (["--shrink", "3"], "shrink"), (["--scenes", "panel,no-such"], "no scene no-such"),
+                                   (["--scenes", "tube,tube"], "twice"), (["--work", str(file)], "no folder"),
+                                   (["--json", f"{folder}/missing/peers.json"], "cannot write")]:
+                errors = io.StringIO()
+                with self.assertRaises(SystemExit) as caught, contextlib.redirect_stderr(errors):
+                    compare.main([*wrong, "--blender", "no-such-blender"])
+                self.assertEqual(caught.exception.code, 2, wrong)
+                self.assertIn(message, errors.getvalue())
+
+    def test_files_of_a_scene(self):
+        files = pbrt_scene.files_of(ROOT / "scenes/cornell-panel.pbrt")
+        self.assertEqual([file.relative_to(ROOT).as_posix() for file in files],
+                         ["scenes/cornell-panel.pbrt", "scenes/shapes/cornell-box.pbrt", "scenes/shapes/box.pbrt"])
 
     def test_without_blender_there_is_a_visible_skip(self):
         output = io.StringIO()

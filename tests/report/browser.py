@@ -35,7 +35,7 @@ return [...context.getImageData(0, 0, width, height).data];
 """
 
 # Listeners run in the next frame, and what they do is visible in the one after it.
-SETTLE = "requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(arguments[0])));"
+SETTLE = "requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(arguments[arguments.length - 1])));"
 
 SCREEN_PIXELS = """
 const [data, places, done] = arguments;
@@ -53,20 +53,25 @@ image.src = "data:image/png;base64," + data;
 
 
 class Browser:
-    def __init__(self, width, height, is_mobile):
+    """One for all screens: to start it takes seconds."""
+
+    def __init__(self):
         chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
         if not chromium or not driver:
             unavailable("chromium or chromium-driver is missing")
         options = webdriver.ChromeOptions()
         options.binary_location = chromium
         for argument in ("--headless=new", "--disable-gpu", "--disable-dev-shm-usage", "--force-color-profile=srgb",
-                         f"--window-size={width},{height}"):
+                         "--disable-frame-rate-limit", "--disable-gpu-vsync"):  # nobody watches: no need to wait for frames
             options.add_argument(argument)
         if os.geteuid() == 0:  # where the sandbox does not start
             options.add_argument("--no-sandbox")
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        options.page_load_strategy = "eager"  # open() waits for what the page says about itself
         self.driver = webdriver.Chrome(service=Service(driver), options=options)
         self.driver.set_script_timeout(30)
+
+    def use_screen(self, width, height, is_mobile):
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                                     {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": is_mobile})
 
@@ -78,7 +83,6 @@ class Browser:
 
     def open(self, file):
         """Loads the page and returns its state."""
-        self.driver.get("about:blank")
         self.driver.get(f"file://{file}")
         self.wait_for("return document.documentElement.dataset.state !== 'loading'")
         return self.script("return document.documentElement.dataset.state")
@@ -103,10 +107,17 @@ class Browser:
     def find_all(self, selector, within=None):
         return (within or self.driver).find_elements(By.CSS_SELECTOR, selector)
 
+    def change(self, text, *arguments):
+        """A script, and the frames that show what it changed."""
+        self.driver.execute_async_script(f"{text};{SETTLE}", *arguments)
+
+    def actions(self):
+        """Of the pointer and the keyboard. The pointer jumps."""
+        return ActionChains(self.driver, duration=0)
+
     def show(self, node):
         """Scrolls a node into the middle of the screen."""
-        self.script("arguments[0].scrollIntoView({ block: 'center', behavior: 'instant' })", node)
-        self.settle()
+        self.change("arguments[0].scrollIntoView({ block: 'center', behavior: 'instant' })", node)
 
     def click(self, node):
         self.show(node)
@@ -116,7 +127,7 @@ class Browser:
     def press(self, node, *keys):
         """Types keys; those that follow Shift are pressed with it."""
         self.script("arguments[0].focus({ preventScroll: true })", node)
-        actions = ActionChains(self.driver)
+        actions = self.actions()
         for key in keys:
             if key == Keys.SHIFT:
                 actions.key_down(key)
@@ -126,16 +137,14 @@ class Browser:
         self.settle()
 
     def slide(self, node, value):
-        self.script("arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event('input', { bubbles: true }))",
+        self.change("arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event('input', { bubbles: true }))",
                     node, value)
-        self.settle()
 
     def choose(self, node, text):
         """Takes an entry of a drop-down list."""
-        self.script("""const list = arguments[0];
-            list.selectedIndex = [...list.options].findIndex(option => option.textContent === arguments[1]);
+        self.change("""const [list, text] = arguments;
+            list.selectedIndex = [...list.options].findIndex(option => option.textContent === text);
             list.dispatchEvent(new Event('change', { bubbles: true }))""", node, text)
-        self.settle()
 
     def painted(self, canvas):
         """Waits until a canvas shows its image."""

@@ -177,8 +177,19 @@ def hostile_experiment():
                {"title": "no drawing", "svg": "<p>"}])
 
 
+def calm_experiments():
+    """One whose expectations hold, and one of which a later quick run found otherwise."""
+    holds = [{"text": "the mean is that of the reference", "state": "holds"}]
+    later = {"date": "2026-11-21T10:20:30Z", "version": "1.5.0",
+             "expectations": [{"text": "the mean is that of the reference", "state": "fails"}]}
+    return [experiment("calm", expectations=holds), experiment("late", effort="full", expectations=holds, later=later)]
+
+
 def report():
     items = [
+        {"id": "a-figure-1", "item": "Figure 1", "shows": "a mean", "kind": "figure", "published": [], "by": ["calm"]},
+        {"id": "a-figure-2", "item": "Figure 2", "shows": "a mean elsewhere", "kind": "figure", "published": [], "by": ["calm"],
+         "scene": "own", "why": "The scene is lost."},
         {"id": "a-figure-3", "item": "Figure 3", "shows": "noise of three techniques at equal sample counts", "kind": "figure",
          "published": [{"quantity": "RMSE of area", "value": 0.9}, {"quantity": "time", "value": 0.0125, "unit": "µs"},
                        {"quantity": "rank", "value": "first"}], "by": ["noise", "slow"], "scene": "paper"},
@@ -189,6 +200,9 @@ def report():
          "published": [], "by": [], "not_applicable": "Lights have no textures here."},
         {"id": "a-figure-9", "item": "Figure 9", "shows": "animated lights", "kind": "figure", "by": [],
          "missing": "There is no experiment with motion yet."},
+        {"id": "a-figure-4", "item": "Figure 4", "shows": "a mean of today", "kind": "figure", "published": [], "by": ["late"]},
+        {"id": "a-section-6", "item": "Section 6", "shows": "a mean and more", "kind": "statement", "published": [],
+         "by": ["calm"], "lacks": "Nobody measures more."},
         {"id": "a-figure-10", "item": "Figure 10", "shows": "a large scene", "kind": "figure", "published": [], "by": ["slow"]},
     ]
     hostile = [{"id": HOSTILE, "item": HOSTILE, "shows": HOSTILE, "kind": "statement", "by": [HOSTILE], "scene": "own",
@@ -197,7 +211,7 @@ def report():
             "papers": [{"key": "example2020", "title": "Sampling of lights by an example", "authors": "A. Author and B. Author",
                         "year": 2020, "venue": "Journal of Examples", "items": items},
                        {"key": HOSTILE, "title": HOSTILE, "authors": HOSTILE, "year": 2021, "venue": HOSTILE, "items": hostile}],
-            "experiments": [noise_experiment(), hostile_experiment()],
+            "experiments": [noise_experiment(), hostile_experiment(), *calm_experiments()],
             "not_run": [{"name": "slow", "reason": "It needs --effort full."}, {"name": HOSTILE, "reason": HOSTILE}]}
 
 

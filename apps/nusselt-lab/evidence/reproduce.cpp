@@ -88,6 +88,11 @@ const char* text_of(Verdict verdict) {
 
 Verdict run(const Experiment& experiment, const ReproduceOptions& options, const lab::RunSettings& settings,
             const lab::ReportFolder& folder, Steps& steps) {
+    if (const std::string obstacle = experiment.obstacle(); !obstacle.empty()) {
+        steps.print("not run: " + obstacle);
+        // Whoever asks for everything means everything that this machine can do.
+        return options.experiments.empty() ? Verdict::holds : Verdict::not_evaluated;
+    }
     if (const auto kept = folder.kept(experiment, settings)) {
         steps.print("nothing has changed since " + kept->date + text_of(kept->verdict));
         return kept->verdict;
@@ -123,8 +128,9 @@ void setup_reproduce(CLI::App& app, int& exit_code) {
         "reproduce",
         "Measure the figures, tables and statements of the papers and check what they claim. Prints tables "
         "and writes a page with all numbers and images, index.html. Later runs into the same folder add to "
-        "the page, and measure only what has changed. Exits with 1 if an expectation fails, with 3 if one "
-        "could not be evaluated.");
+        "the page, and measure only what has changed. Without names, experiments that need another program "
+        "are left out where it is missing. Exits with 1 if an expectation fails, with 3 if one could not be "
+        "evaluated.");
     std::vector<std::string> names;
     for (const Experiment& e : lab::all_experiments()) names.push_back(e.name);
     command->add_option("EXPERIMENT", options->experiments, "Names of experiments, see --list")
@@ -161,7 +167,7 @@ int run_reproduce(const ReproduceOptions& options) {
     static_cast<void>(base::choose_isa()); // reports a wrong one before anything is measured
     const std::vector<Experiment> experiments = chosen(options.experiments);
     const lab::ReportFolder folder(options.output);
-    for (const Experiment& e : experiments) folder.check_writable(e);
+    for (const Experiment& e : experiments) folder.check_writable(e, options.effort);
     const lab::RunSettings settings = {options.scenes, options.effort,
                                        render_cpu::checked_thread_count(options.threads)};
     std::vector<Verdict> verdicts;

@@ -17,11 +17,19 @@ function experimentNode(experiment, report) {
         provenanceNode(experiment),
         experiment.expectations.length ? element("section", {}, element("h4", {}, "Expectations"),
             element("ul", { class: "expectations" }, experiment.expectations.map(expectationNode))) : null,
+        experiment.later ? laterNode(experiment.later) : null,
         imagesNode(experiment),
         experiment.plots.length ? element("section", {}, element("h4", {}, "Plots"),
             element("div", { class: "plots" }, experiment.plots.map(plotNode))) : null,
         experiment.tables.length
             ? element("section", {}, element("h4", {}, "Tables"), experiment.tables.map(tableNode)) : null);
+}
+
+/// What a quick run found after the full one, whose numbers the section has.
+function laterNode({ date, version, expectations }) {
+    return element("section", { class: "later" },
+        element("h4", {}, `A later quick run, ${formatDate(date)}, version ${version}`),
+        element("ul", { class: "expectations" }, expectations.map(expectationNode)));
 }
 
 /// Links to the items of papers that the experiment serves.

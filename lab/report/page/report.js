@@ -4,6 +4,7 @@
 const kStatuses = [
     ["reproduced", "reproduced", "measured here with the scene of the paper"],
     ["own", "own scene", "measured here with a scene of our own"],
+    ["partly", "partly", "measured here, but it lacks something, or an expectation does not hold or could not be evaluated"],
     ["not-applicable", "not applicable", "does not concern this library"],
     ["missing", "missing", "nobody has done it yet"],
     ["not-run", "not run", "has an experiment, which is not part of this report"],
@@ -49,11 +50,18 @@ function readReport(text) {
     return report;
 }
 
+/// Expectations of an experiment, and of a quick run of it that came later.
+function allExpectations(experiment) {
+    return [...experiment.expectations, ...(experiment.later?.expectations ?? [])];
+}
+
 /// A reason why an item is missing or not applicable counts more than experiments that name it.
 function statusOf(item) {
     if (item.not_applicable) return "not-applicable";
     if (item.missing || !item.by?.length) return "missing";
     if (item.experiments.length === 0) return "not-run";
+    if (item.lacks || item.experiments.flatMap(allExpectations).some(expectation => stateOf(expectation) !== "holds"))
+        return "partly";
     return item.scene === "own" ? "own" : "reproduced";
 }
 
@@ -65,8 +73,7 @@ function stateOf(expectation) {
 /// How many of the experiments' expectations have each state.
 function countStates(experiments) {
     const counts = { holds: 0, fails: 0, not_evaluated: 0 };
-    for (const { expectations } of experiments)
-        for (const expectation of expectations) ++counts[stateOf(expectation)];
+    for (const expectation of experiments.flatMap(allExpectations)) ++counts[stateOf(expectation)];
     return counts;
 }
 
