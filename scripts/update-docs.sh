@@ -66,6 +66,7 @@ lines) measure_lines ;;
     draw_pictures
     "$program" bench accuracy --json docs/data/accuracy.json >/dev/null
     "$program" bench samplers --compilers --repetitions 61 --json docs/data/samplers.json >/dev/null
+    "$program" bench instructions --isa avx2 --json docs/data/instructions.json >/dev/null
     ;;
 *)
     sed -n '3,11s/^# //p' "$0" >&2

@@ -205,7 +205,7 @@ GpuSamplerTable time_gpu_samplers(const GpuSamplerSettings& settings) {
                      {timed->shader->technique, c.name, {}, {}, timed->shader->directions}});
 
     const auto upload = [&](const TimedConfiguration& c) {
-        make_timed_lights(c, *lights);
+        make_timed_lights(c, 1, *lights);
         columns.write<float>(columns_of(c, *lights));
     };
     for (int repetition = 0; repetition < settings.repetitions; ++repetition) {

@@ -7,17 +7,19 @@
 
 #include "base/isa.h"
 #include "base/stopwatch.h"
+#include "lab/timing/sampler_loops.h"
 #include "lab/timing/sampler_timing_lights.h"
 
 namespace nusselt::lab {
 
 namespace {
 
-std::vector<TimedTechnique> techniques_for(base::Isa isa) {
-    return base::dispatch(isa, []<base::Isa chosen> { return timed_techniques<chosen>(); });
-}
-
 const std::string kBaseline = "Baseline";
+
+/// Of one light, as in the papers.
+constexpr int kSamples = 128;
+/// Groups of lights of which many samples are taken.
+constexpr int kSampledGroups = 16;
 
 using Times = std::vector<double>; ///< per light or sample [ns], including the baseline
 
@@ -25,23 +27,41 @@ using Times = std::vector<double>; ///< per light or sample [ns], including the 
 struct Series {
     const TimedTechnique* technique;
     const TimedConfiguration* configuration;
-    Times prepare, world, sample, direction;
+    Times prepare, world, once, sample, direction;
 };
 
-double nanoseconds_per_light(float (*run)()) {
-    // Runs are repeated because the resolution of the clock would matter for short ones.
-    constexpr int kRepetitions = 4;
-    static volatile float sink;
-    sink = run(); // brings code and data into caches
+template <class Run>
+double nanoseconds(int count, const Run& run) {
     const base::Stopwatch stopwatch;
-    for (int i = 0; i < kRepetitions; ++i) sink = run();
-    const double seconds = stopwatch.seconds();
-    (void)sink;
-    return 1e9 * seconds / (kRepetitions * kTimedLights);
+    run();
+    return 1e9 * stopwatch.seconds() / count;
 }
 
-void measure(float (*run)(), Times& times) {
-    if (run != nullptr) times.push_back(nanoseconds_per_light(run));
+/// Times a loop over the second half of the lights. The first one brings code and tables into caches, but does not teach
+/// the branches.
+void measure(SamplerLoops& loops, void (SamplerLoops::*loop)(int, int), int groups, int lanes, Times& times) {
+    const int half = groups / 2;
+    (loops.*loop)(0, half);
+    times.push_back(nanoseconds(half * lanes, [&] { (loops.*loop)(half, groups); }));
+}
+
+/// Times many samples of each of the first groups of lights.
+void measure_samples(SamplerLoops& loops, void (*function)(const void*, const void*, int), int count,
+                     int lanes, Times& times) {
+    loops.keep(count);
+    loops.draw(function, count, 1);
+    times.push_back(nanoseconds(count * kSamples * lanes, [&] { loops.draw(function, count, kSamples); }));
+}
+
+void measure(Series& s, LoadedLights& lights) {
+    const TimedTechnique& t = *s.technique;
+    const int sampled = std::min(kSampledGroups, lights.groups);
+    SamplerLoops loops(t, lights, sampled);
+    measure(loops, &SamplerLoops::prepare, lights.groups, t.lanes, s.prepare);
+    measure(loops, &SamplerLoops::once, lights.groups, t.lanes, s.once);
+    if (t.transform) measure(loops, &SamplerLoops::prepare_from_world, lights.groups, t.lanes, s.world);
+    measure_samples(loops, t.sample, sampled, t.lanes, s.sample);
+    if (t.direction) measure_samples(loops, t.direction, sampled, t.lanes, s.direction);
 }
 
 /// The median without that of the baseline.
@@ -66,7 +86,35 @@ std::string with_four_vertices(const std::string& configuration) {
     return comma == std::string::npos ? "" : configuration.substr(0, comma) + ", 4 vertices";
 }
 
+/// The series that the settings ask for; those of one class of lights stand together.
+std::vector<Series> series_of(const SamplerTimingSettings& settings,
+                              const std::vector<TimedTechnique>& techniques,
+                              const std::vector<TimedConfiguration>& configurations) {
+    const auto is_in = [](const std::vector<std::string>& wanted, const std::string& name) {
+        return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+    };
+    std::vector<Series> series;
+    for (const TimedConfiguration& c : configurations) {
+        if (!is_in(settings.configurations, c.name)) continue;
+        for (const TimedTechnique& t : techniques)
+            if (t.kind == c.kind && t.vertex_count == c.vertex_count &&
+                (t.name == kBaseline || is_in(settings.techniques, t.name)))
+                series.push_back({&t, &c, {}, {}, {}, {}, {}});
+    }
+    return series;
+}
+
 } // namespace
+
+std::vector<TimedTechnique> timed_techniques_for(base::Isa isa) {
+    std::vector<TimedTechnique> result;
+    const auto add = [&](const TimedTechniques& techniques) {
+        result.insert(result.end(), techniques.begin, techniques.begin + techniques.count);
+    };
+    add(base::dispatch(isa, []<base::Isa chosen> { return timed_techniques<chosen>(); }));
+    if (isa == base::Isa::avx2) add(timed_techniques_with_other_bounds());
+    return result;
+}
 
 std::string name_of_code(int lanes) {
     return lanes == 1 ? "scalar" : "packs of " + std::to_string(lanes) + ", per lane";
@@ -74,29 +122,26 @@ std::string name_of_code(int lanes) {
 
 std::vector<SamplerTiming> time_samplers(const SamplerTimingSettings& settings) {
     const base::Isa isa = base::choose_isa(settings.isa);
-    const std::vector<TimedTechnique> techniques = techniques_for(isa);
-    const std::vector<TimedConfiguration> all_configurations = timed_configurations();
-    const std::vector<std::string>& wanted = settings.techniques;
-    const auto is_wanted = [&](const std::string& name) {
-        return wanted.empty() || name == kBaseline ||
-               std::find(wanted.begin(), wanted.end(), name) != wanted.end();
-    };
-    std::vector<Series> series;
-    for (const TimedConfiguration& c : all_configurations)
-        for (const TimedTechnique& t : techniques)
-            if (t.kind == c.kind && t.vertex_count == c.vertex_count && is_wanted(t.name))
-                series.push_back({&t, &c, {}, {}, {}, {}});
+    const std::vector<TimedTechnique> techniques = timed_techniques_for(isa);
+    const std::vector<TimedConfiguration> configurations = timed_configurations();
+    std::vector<Series> series = series_of(settings, techniques, configurations);
 
     const auto lights = std::make_unique<TimedLights>();
-    for (int repetition = 0; repetition < settings.repetitions; ++repetition)
+    for (int repetition = 0; repetition < settings.repetitions; ++repetition) {
+        const TimedConfiguration* made = nullptr;
+        std::map<const TimedLightType*, LoadedLights> loaded;
         for (Series& s : series) {
-            make_timed_lights(*s.configuration, *lights);
-            s.technique->load(*lights);
-            measure(s.technique->prepare, s.prepare);
-            measure(s.technique->prepare_from_world, s.world);
-            measure(s.technique->sample, s.sample);
-            measure(s.technique->direction, s.direction);
+            if (s.configuration != made) {
+                made = s.configuration;
+                make_timed_lights(*made, static_cast<unsigned>(repetition + 1), *lights);
+                loaded.clear();
+            }
+            const TimedLightType* const type = s.technique->light_type;
+            if (loaded.count(type) == 0)
+                loaded.emplace(type, LoadedLights(*lights, *type, s.technique->lanes));
+            measure(s, loaded.at(type));
         }
+    }
 
     std::vector<SamplerTiming> rows;
     std::map<int, const Series*> baseline; // by number of lanes; precedes its techniques
@@ -113,8 +158,10 @@ std::vector<SamplerTiming> time_samplers(const SamplerTimingSettings& settings) 
         row.isa = name_of(isa);
         row.prepare_ns = cost(s.prepare, b.prepare);
         row.world_ns = cost(s.world, b.world);
+        row.once_ns = cost(s.once, b.once);
         row.sample_ns = cost(s.sample, b.sample);
         row.prepare_spread_ns = spread(s.prepare);
+        row.once_spread_ns = spread(s.once);
         row.sample_spread_ns = spread(s.sample);
         row.direction_ns = cost(s.direction, b.direction);
         rows.push_back(row);

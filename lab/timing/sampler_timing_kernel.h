@@ -3,7 +3,7 @@
 
 #include "base/isa.h"
 
-#include <vector>
+#include <cstddef>
 
 namespace nusselt::lab {
 
@@ -37,24 +37,46 @@ constexpr bool has_lobe(LightKind kind) {
            kind == LightKind::cylinder_on_lobe;
 }
 
+/// Groups of lights in the type that techniques take: as many in a group as a pack has lanes. All functions fill or read
+/// arrays of kTimedLights / lanes elements with the given sizes, aligned to a cache line.
+struct TimedLightType {
+    std::size_t light_size, place_size, random_size; ///< of an element [bytes]
+    void (*load)(const TimedLights&, void* lights);
+    void (*load_random)(const TimedLights&, void* random);
+    /// Also where lights in world space are seen from. Null for lights on lobes.
+    void (*load_places)(const TimedLights&, void* places);
+};
+
+/// A technique as functions on memory. Each compiles on its own, so that a technique costs its compiler no more than it
+/// must; the loops over lights are in sampler_timing.cpp. Calls cost the baseline the same.
 struct TimedTechnique {
     const char* name;
     LightKind kind;
     int lanes;
     int vertex_count; ///< the bound on the number of vertices; 2 for lines and cylinders
-    /// Converts the lights to the type of the technique. Must be called first.
-    void (*load)(const TimedLights&);
-    /// Prepares every light. Like the other functions, it returns a number that depends on the results.
-    float (*prepare)();
-    /// Transforms every light to shading space and prepares it. Null for techniques without a competitor.
-    float (*prepare_from_world)();
-    /// Takes a sample of each prepared light. Each lane has a different light.
-    float (*sample)();
+    const TimedLightType* light_type;
+    std::size_t size; ///< [bytes]
+    /// Constructs the technique for a group of lights.
+    void (*prepare)(const void* light, void* technique);
+    /// Takes `count` samples, each with the next random number.
+    void (*sample)(const void* technique, const void* random, int count);
     /// Like sample(), but without density and point. Null for techniques that have no such function.
-    float (*direction)();
+    void (*direction)(const void* technique, const void* random, int count);
+    /// Transforms a group of lights to shading space. Null for techniques without a competitor.
+    void (*transform)(const void* place, void* light);
 };
 
+struct TimedTechniques {
+    const TimedTechnique* begin;
+    int count;
+};
+
+/// All techniques, polygons having four vertices. Baselines precede the techniques with the same kind of light, lanes and
+/// number of vertices.
 template <base::Isa>
-std::vector<TimedTechnique> timed_techniques();
+TimedTechniques timed_techniques();
+
+/// Techniques for polygons with 3, 5, 6 and 7 vertices. They need AVX2.
+TimedTechniques timed_techniques_with_other_bounds();
 
 } // namespace nusselt::lab

@@ -26,8 +26,8 @@ std::vector<TimedConfiguration> timed_configurations() {
     return result;
 }
 
-void make_timed_lights(const TimedConfiguration& c, TimedLights& lights) {
-    std::mt19937 generator(1);
+void make_timed_lights(const TimedConfiguration& c, unsigned seed, TimedLights& lights) {
+    std::mt19937 generator(seed);
     std::uniform_real_distribution<float> uniform(0.0f, 0.9999f);
     const auto put = [](float(&columns)[3][kTimedLights], int i, const Vec3<double>& v) {
         columns[0][i] = static_cast<float>(v.x);

@@ -21,7 +21,8 @@ struct TimedConfiguration {
 std::vector<TimedConfiguration> timed_configurations();
 
 /// Random lights of a class. The radius of cylinders is an eighth of their length. All lights are on the same glossy lobe.
-void make_timed_lights(const TimedConfiguration& c, TimedLights& lights);
+/// \param seed other lights for each.
+void make_timed_lights(const TimedConfiguration& c, unsigned seed, TimedLights& lights);
 
 /// The value below which the given share of the values lies.
 double quantile(std::vector<double> values, double share);

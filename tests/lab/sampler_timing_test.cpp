@@ -1,3 +1,4 @@
+#include "base/isa.h"
 #include "lab/timing/child_process.h"
 #include "lab/timing/sampler_timing.h"
 #include "lab/timing/sampler_timing_lights.h"
@@ -25,37 +26,60 @@ const SamplerTiming* find(const std::vector<SamplerTiming>& rows, const std::str
 }
 
 TEST(SamplerTiming, HasARowForEachTechniqueInScalarAndPackCode) {
-    const auto rows = time_samplers({3, "sse42"});
+    SamplerTimingSettings settings;
+    settings.repetitions = 3;
+    settings.isa = "sse42";
+    const auto rows = time_samplers(settings);
     using namespace hostile;
     KindsWithBounds<4>::for_each([&]<class Kind> {
-        for (const char* code : {"scalar", "packs of 4, per lane"})
+        for (const char* code : {"scalar", "packs of 4, per lane"}) {
             EXPECT_NE(find(rows, Kind::kName, code), nullptr) << Kind::kName << ", " << code;
-        if (std::is_same_v<typename Kind::template Published<float>, Absent>) return;
-        for (const char* code : {"scalar", "packs of 4, per lane", "packs of 8, per lane"})
+            if (std::is_same_v<typename Kind::template Published<float>, Absent>) continue;
             for (const char* technique : {Kind::kName, Kind::kPublishedName}) {
                 const SamplerTiming* const row = find(rows, technique, code);
                 ASSERT_NE(row, nullptr) << technique << ", " << code;
                 EXPECT_TRUE(row->world_ns) << technique << ", " << code;
                 EXPECT_EQ(row->direction_ns.has_value(), technique == Kind::kPublishedName) << technique;
             }
-        if (!kIsPolygon<Kind>) return;
-        for (const int n : {3, 5, 6, 7})
-            for (const char* technique : {Kind::kName, Kind::kPublishedName})
-                EXPECT_NE(find(rows, technique, "packs of 4, per lane",
-                               "crossing the horizon, " + std::to_string(n) + " vertices"),
-                          nullptr)
-                    << technique << ", " << n;
+        }
     });
     for (const SamplerTiming& r : rows) {
-        ASSERT_TRUE(r.prepare_ns && r.sample_ns) << r.technique;
-        EXPECT_TRUE(std::isfinite(*r.prepare_ns) && std::isfinite(*r.sample_ns)) << r.technique;
+        ASSERT_TRUE(r.prepare_ns && r.once_ns && r.sample_ns) << r.technique;
+        EXPECT_TRUE(std::isfinite(*r.prepare_ns) && std::isfinite(*r.once_ns) && std::isfinite(*r.sample_ns))
+            << r.technique;
         EXPECT_EQ(r.isa, "sse42");
     }
 }
 
+TEST(SamplerTiming, HasEachNumberOfVerticesAndTwoRegistersInFlight) {
+    if (!base::is_supported(base::Isa::avx2)) GTEST_SKIP() << "this processor lacks AVX2";
+    SamplerTimingSettings settings;
+    settings.repetitions = 1;
+    settings.isa = "avx2";
+    settings.configurations = {"above the horizon"};
+    for (const int n : {3, 4, 5, 6, 7})
+        settings.configurations.push_back("decentral, " + std::to_string(n) + " vertices");
+    const auto rows = time_samplers(settings);
+    using namespace hostile;
+    PolygonKinds<4>::for_each([&]<class Kind> {
+        for (const int n : {3, 4, 5, 6, 7})
+            for (const char* code : {"scalar", "packs of 8, per lane"})
+                EXPECT_NE(find(rows, Kind::kName, code, "decentral, " + std::to_string(n) + " vertices"),
+                          nullptr)
+                    << Kind::kName << ", " << n << ", " << code;
+    });
+    for (const char* technique : {"PolygonSolidAngle", "PolygonSolidAnglePeters", "LineProjectedSolidAngle"})
+        EXPECT_NE(find(rows, technique, "packs of 16, per lane"), nullptr) << technique;
+    EXPECT_EQ(find(rows, "PolygonSolidAngle", "scalar", "central, 4 vertices"), nullptr) << "nobody asked";
+}
+
 // The iteration of the decentral case cannot be cheaper than a few multiplications.
 TEST(SamplerTiming, TellsAnExpensiveTechniqueFromACheapOne) {
-    const auto rows = time_samplers({15, "sse42"});
+    SamplerTimingSettings settings;
+    settings.repetitions = 15;
+    settings.isa = "sse42";
+    settings.configurations = {"decentral, 4 vertices"};
+    const auto rows = time_samplers(settings);
     for (const char* code : {"scalar", "packs of 4, per lane"}) {
         const auto cost = [&](const char* technique) {
             return *find(rows, technique, code, "decentral, 4 vertices")->prepare_ns;

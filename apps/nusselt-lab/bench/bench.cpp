@@ -8,6 +8,7 @@
 #include "apps/nusselt-lab/frames/bench_strategies.h"
 #include "apps/nusselt-lab/samplers/bench_accuracy.h"
 #include "apps/nusselt-lab/samplers/bench_gpu_samplers.h"
+#include "apps/nusselt-lab/samplers/bench_instructions.h"
 #include "apps/nusselt-lab/samplers/bench_phong_lines.h"
 #include "apps/nusselt-lab/samplers/bench_samplers.h"
 #include "apps/nusselt-lab/samplers/bench_shadows.h"
@@ -28,6 +29,7 @@ void setup_bench(CLI::App& app, int& exit_code) {
     setup_bench_lines(*command, exit_code);
     setup_bench_line_efficiency(*command, exit_code);
     setup_bench_samplers(*command, exit_code);
+    setup_bench_instructions(*command, exit_code);
     setup_bench_gpu_samplers(*command, exit_code);
     setup_bench_gpu_frames(*command, exit_code);
     setup_bench_accuracy(*command, exit_code);
