@@ -42,6 +42,7 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo) {
         expect_message(wrong.err, "--help");
     }
     for (const char* arguments : {"bench samplers --isa mmx",
+                                  "bench instructions --isa mmx",
                                   "reproduce no-such-experiment",
                                   "bench worst-case --target spheres",
                                   "bench worst-case --time 0",
