@@ -20,8 +20,8 @@ const int kLightKinds = 2;
 
 // Specialisation constants: whether a scene has lights of a shape. Those that it has not need no code.
 const int kPolygonsConstant = kFirstLightConstant;
-const int kLinesConstant = kFirstLightConstant + 1;
-const int kTubesConstant = kFirstLightConstant + 2;
+const int kLinesConstant = kFirstLightConstant + 1; ///< and strips
+const int kTubesConstant = kFirstLightConstant + 2; ///< solid or open
 const int kConstantCount = kFirstLightConstant + 3;
 
 // Bindings of set 0, after those of shaders/passes/scene.glsl.
@@ -37,12 +37,19 @@ struct PolygonLightRecord {
     uint is_two_sided;
 };
 
+// Values of LineLightRecord::model, those of scene::TubeModel.
+const uint kLinearTube = 0;
+const uint kSolidTube = 1;
+const uint kOpenTube = 2;
+const uint kStrip = 3;
+
 struct LineLightRecord {
     float begin[3];
     float direction[3];
     float len; ///< `length` is a function of GLSL
     float radius;
-    uint is_solid; ///< 1 for a cylinder, 0 for a linear light
+    uint model;
+    float normal[3]; ///< of strips
     float radiance[3];
 };
 

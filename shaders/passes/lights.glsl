@@ -8,7 +8,7 @@
 
 /// A row has the number of the kind in interface/lights.h and two functions:
 ///
-///     vec3 emission(uint index, vec3 direction): the radiance that a ray sees of a light of this kind;
+///     vec3 emission(uint index, Ray ray): the radiance that a ray sees of a light of this kind;
 ///     void add_lights(inout reflected): adds what a surface reflects of all lights of this kind; each pass has its own.
 #define LIGHT_KINDS(ROW) \
     ROW(kPolygonKind, polygon_emission, add_polygons) \
@@ -22,9 +22,9 @@ struct AllKinds {
 };
 
 /// Radiance that a ray sees of a light. \param number among all lights of the scene
-vec3 light_emission(uint number, vec3 direction) {
+vec3 light_emission(uint number, Ray ray) {
 #define EMISSION_OF_ROW(kind, emission, add_lights) \
-    if (is_of_kind(kind, number)) return emission(number - scene.lights[kind].first, direction);
+    if (is_of_kind(kind, number)) return emission(number - scene.lights[kind].first, ray);
     LIGHT_KINDS(EMISSION_OF_ROW)
 #undef EMISSION_OF_ROW
     return vec3(0.0);
@@ -37,7 +37,7 @@ vec3 light_emission(uint number, vec3 direction) {
 /// Radiance that a camera sees of lights themselves.
 vec3 emission_of(DrawnTriangle drawn, Ray ray) {
     int number = triangles[drawn.triangle].light;
-    return number < 0 ? vec3(0.0) : light_emission(uint(number), ray.direction);
+    return number < 0 ? vec3(0.0) : light_emission(uint(number), ray);
 }
 
 #endif

@@ -74,7 +74,7 @@ struct LightCode {
     /// The shape of a light, an index into LightSet::add.
     std::int32_t (*shape_of)(const LightSet& lights, std::int32_t index) noexcept;
     /// The radiance along a ray that meets the light.
-    scene::Float3 (*emission)(const LightSet& lights, std::int32_t index,
+    scene::Float3 (*emission)(const LightSet& lights, std::int32_t index, const scene::Float3& origin,
                               const scene::Float3& direction) noexcept;
 };
 

@@ -106,12 +106,14 @@ TEST(HostileScenes, DegenerateLights) {
     add_polygon_light(scene,
                       {Float3{0, -0.5f, -1}, Float3{0, 0.5f, -1}, Float3{0, 0.5f, 1}, Float3{0, -0.5f, 1}},
                       radiance, true, 1);
-    for (const scene::TubeModel model : {scene::TubeModel::linear, scene::TubeModel::solid}) {
-        add_line_light(scene, "point", {0, p, p, 0.01f, radiance, model});
-        add_line_light(scene, "no radius", {0, p, {1, 0, 1}, 0, radiance, model});
-        add_line_light(scene, "on the floor", {0, {-1, -1, 0}, {1, 1, 0}, 0.01f, radiance, model});
+    for (const scene::TubeModel model : {scene::TubeModel::linear, scene::TubeModel::solid,
+                                         scene::TubeModel::open, scene::TubeModel::strip}) {
+        const Float3 normal{0, 1, 0};
+        add_line_light(scene, "point", {0, p, p, 0.01f, radiance, model, normal});
+        add_line_light(scene, "no radius", {0, p, {1, 0, 1}, 0, radiance, model, normal});
+        add_line_light(scene, "on the floor", {0, {-1, -1, 0}, {1, 1, 0}, 0.01f, radiance, model, {0, 0, 1}});
         add_line_light(scene, "through the floor",
-                       {0, {0.3f, 0.2f, -1}, {0.3f, 0.2f, 1}, 0.01f, radiance, model});
+                       {0, {0.3f, 0.2f, -1}, {0.3f, 0.2f, 1}, 0.01f, radiance, model, normal});
     }
     expect_sane_images(scene);
 }

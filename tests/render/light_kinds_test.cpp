@@ -166,7 +166,8 @@ TEST_F(LightKinds, EmitWhatTheirRowSays) {
     // A row whose emission is wrong: no other code may answer for it.
     std::vector<render_cpu::LightKernel> wrong = kernels_;
     for (render_cpu::LightCode& code : wrong.back().code)
-        code.emission = [](const render_cpu::LightSet&, std::int32_t, const scene::Float3&) noexcept {
+        code.emission = [](const render_cpu::LightSet&, std::int32_t, const scene::Float3&,
+                           const scene::Float3&) noexcept {
             return scene::Float3{7, 7, 7};
         };
     const scene::Scene scene = make_scene_that_sees_disc();
@@ -235,11 +236,15 @@ TEST(LightRows, FulfilTheContract) {
         EXPECT_EQ(row_defects(scene::PolygonLight{
                       .vertices = corners, .radiance = {1, 2, 3}, .two_sided = two_sided}),
                   none);
-    for (const auto model : {scene::TubeModel::linear, scene::TubeModel::solid})
-        EXPECT_EQ(
-            row_defects(scene::LineLight{
-                .start = {1, 2, 3}, .end = {2, 2, 3}, .radius = 0.1f, .radiance = {1, 2, 3}, .model = model}),
-            none);
+    for (const auto model :
+         {scene::TubeModel::linear, scene::TubeModel::solid, scene::TubeModel::open, scene::TubeModel::strip})
+        EXPECT_EQ(row_defects(scene::LineLight{.start = {1, 2, 3},
+                                               .end = {2, 2, 3},
+                                               .radius = 0.1f,
+                                               .radiance = {1, 2, 3},
+                                               .model = model,
+                                               .normal = {0, 0.6f, 0.8f}}),
+                  none);
 }
 
 TEST(LightRows, WithAFaultAreNoticed) {

@@ -77,6 +77,14 @@ TEST(LightRecords, HaveWhatShadersReadOfEachKind) {
     scene.lights.of<scene::LineLight>() = {line, line, line};
     EXPECT_EQ(shapes_of(scene), (std::vector<int>{interface::kPolygonsConstant, interface::kLinesConstant}));
     scene.lights.of<scene::LineLight>()[1].model = scene::TubeModel::solid;
+    const auto shapes_with = [&](scene::TubeModel model) {
+        scene::Scene other = render_test::make_floor(4);
+        other.lights.of<scene::LineLight>() = {line};
+        other.lights.of<scene::LineLight>()[0].model = model;
+        return shapes_of(other);
+    };
+    EXPECT_EQ(shapes_with(scene::TubeModel::strip), std::vector<int>{interface::kLinesConstant});
+    EXPECT_EQ(shapes_with(scene::TubeModel::open), std::vector<int>{interface::kTubesConstant});
     scene.lights.of<scene::PolygonLight>().resize(1);
     EXPECT_EQ(shapes_of(scene), (std::vector<int>{interface::kPolygonsConstant, interface::kLinesConstant,
                                                   interface::kTubesConstant}));

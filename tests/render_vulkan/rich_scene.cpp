@@ -98,6 +98,19 @@ scene::Scene make_rich_scene(int width, int height) {
                                  .radius = 0.01f,
                                  .radiance = {30, 20, 10},
                                  .model = scene::TubeModel::linear});
+    render_test::add_line_light(scene, "open tube",
+                                {.start = {0.2f, -0.6f, 1.4f},
+                                 .end = {0.3f, -0.5f, 1.7f},
+                                 .radius = 0.12f,
+                                 .radiance = {4, 6, 4},
+                                 .model = scene::TubeModel::open});
+    render_test::add_line_light(scene, "strip",
+                                {.start = {-0.5f, 1.5f, 1},
+                                 .end = {0.5f, 1.5f, 1},
+                                 .radius = 0.03f,
+                                 .radiance = {20, 10, 30},
+                                 .model = scene::TubeModel::strip,
+                                 .normal = {0, 0.8f, 0.6f}});
 
     // A pyramid with normals, about the origin of its own coordinates.
     scene.objects.push_back({"pyramid", static_cast<std::uint32_t>(scene.triangles.size()), 0});

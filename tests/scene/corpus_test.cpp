@@ -110,8 +110,8 @@ Numbers power(const Scene& scene) {
         const double extent = length(to_double(light.end) - to_double(light.start));
         const double radius = light.radius;
         const double caps = light.model == TubeModel::solid ? 2 * std::numbers::pi * radius * radius : 0;
-        sum = sum + (std::numbers::pi * (2 * std::numbers::pi * radius * extent + caps)) *
-                        to_double(light.radiance);
+        const double around = light.model == TubeModel::strip ? 4 : 2 * std::numbers::pi;
+        sum = sum + (std::numbers::pi * (around * radius * extent + caps)) * to_double(light.radiance);
     }
     return {sum.x, sum.y, sum.z};
 }

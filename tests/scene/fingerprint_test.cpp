@@ -51,6 +51,7 @@ const std::function<void(Scene&)> kChanges[] = {
     },
     [](Scene& s) { s.lights.of<LineLight>()[0].radius = 0.2f; },
     [](Scene& s) { s.lights.of<LineLight>()[0].model = TubeModel::linear; },
+    [](Scene& s) { s.lights.of<LineLight>()[0].normal.z = 1; },
     [](Scene& s) { s.camera.origin_right.x = 1; },
     [](Scene& s) { s.camera.corner.z = 2; },
     [](Scene& s) { s.film.width = 641; },

@@ -100,6 +100,8 @@ void add_light_facts(const Scene& scene, std::map<std::string, std::string>& fac
         facts["tube " + index] = text(light.start) + text(light.end) + text(light.radius);
         facts["tube radiance " + index] = text(light.radiance);
         facts["solid " + index] = light.model == TubeModel::solid ? "1" : "0";
+        facts["open " + index] = light.model == TubeModel::open ? "1" : "0";
+        facts["strip " + index] = light.model == TubeModel::strip ? text(light.normal) : "0";
     }
 }
 

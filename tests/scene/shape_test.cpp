@@ -221,6 +221,41 @@ TEST_F(Shapes, FiniteLine) {
     EXPECT_EQ(scene.lights.of<LineLight>().at(0).radius, 0.5f);
 }
 
+TEST_F(Shapes, LineWithDarkCaps) {
+    const std::string line = "AreaLightSource \"diffuse\" \"rgb L\" [5 6 7]\n"
+                             "Shape \"line\" \"point3 P\" [0 0 0 1 0 0] \"float radius\" 0.5 ";
+    const auto model = [&](const std::string& parameters) {
+        const Scene scene = shapes(line + parameters);
+        EXPECT_TRUE(scene.warnings.empty());
+        return scene.lights.of<LineLight>().at(0).model;
+    };
+    EXPECT_EQ(model("\"string caps\" \"bright\""), TubeModel::solid);
+    EXPECT_EQ(model("\"string caps\" \"dark\""), TubeModel::open);
+    EXPECT_EQ(model("\"bool finite\" false \"string caps\" \"dark\""), TubeModel::linear);
+    const auto message = [&](const std::string& parameters) { return error(line + parameters); };
+    EXPECT_EQ(message("\"string caps\" \"black\""),
+              "scene.pbrt:2: shape \"line\": caps must be \"bright\" or \"dark\", found \"black\"");
+    EXPECT_EQ(message("\"bool finite\" false \"string caps\" \"bright\""),
+              "scene.pbrt:2: shape \"line\": a tube with \"bool finite\" false has no caps");
+}
+
+TEST_F(Shapes, LineWithNormal) {
+    const std::string line = "AreaLightSource \"diffuse\" \"rgb L\" [5 6 7]\n"
+                             "Shape \"line\" \"point3 P\" [0 0 0 1 0 0] ";
+    const Scene scene =
+        shapes("Rotate 90 0 0 1 Scale 2 2 2\n" + line + "\"normal N\" [4 0 3] \"float width\" 0.5");
+    EXPECT_TRUE(scene.warnings.empty());
+    const LineLight& strip = scene.lights.of<LineLight>().at(0);
+    EXPECT_EQ(strip.model, TubeModel::strip);
+    expect_near(strip.end, {0, 2, 0}, 1e-6f);
+    expect_near(strip.normal, {0, 0, 1}, 1e-6f);
+    EXPECT_NEAR(strip.radius, 0.5, 1e-6);
+    EXPECT_EQ(error(line + "\"normal N\" [0 0 3] \"float radius\" 0.5"),
+              "scene.pbrt:2: shape \"line\": width must be positive, found 0");
+    EXPECT_EQ(error(line + "\"normal N\" [1 0 0] \"float width\" 0.5"),
+              "scene.pbrt:2: shape \"line\": the normal N must not be parallel to the line");
+}
+
 TEST_F(Shapes, Cylinder) {
     const Scene scene = shapes(
         "AttributeBegin Translate 1 0 0 Rotate 90 0 1 0 Scale 2 2 3 AreaLightSource \"diffuse\" \"rgb L\" "

@@ -2,11 +2,11 @@
 /// Analytic, unshadowed shading with linear lights, and tubes and strips approximated by them.
 ///
 /// E. Heitz, S. Hill 2017, Linear-Light Shading with Linearly Transformed Cosines, GPU Zen. Deviations: integrals by end
-/// points (clip_line.h) instead of antiderivatives; the factor of strips, since the printed one (Eq. 1.35) vanishes
-/// where the strip faces the point.
+/// points (clip_line.h) instead of antiderivatives; the factor of strips (strip.h).
 ///
 /// Integrals of normalised lobes: times the albedo of the lobe and the radiance of the light they are radiance.
 
+#include <nusselt/geometry/strip.h>
 #include <nusselt/ltc/light_transform.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -76,8 +76,7 @@ NUSSELT_HD inline Real caps_integral(const LineSegment<Real>& light, const Real&
 template <class Real>
 NUSSELT_HD inline Real strip_integral(const LineSegment<Real>& light, const Vec3<Real>& normal,
                                       const Real& width, const Real& line_integral) noexcept {
-    const Vec3<Real> to_line = cross(light.s, normalize(cross(light.p0, light.s)));
-    return tube_integral(line_integral * abs(dot(to_line, normal)), Real(0.5) * width);
+    return tube_integral(line_integral * strip_facing(light, normal), Real(0.5) * width);
 }
 
 NUSSELT_NAMESPACE_END

@@ -154,9 +154,10 @@ struct LineShading {
                                           {"lobe_integral", Error::measure},
                                           {"clipped_lobe_integral", Error::measure},
                                           {"tube_integral", Error::measure},
-                                          {"tube_integral with caps", Error::measure},
+                                          {"tube_integral with clipped caps", Error::measure},
                                           {"caps_integral", Error::measure},
                                           {"strip_integral", Error::measure},
+                                          {"diffuse_caps_integral", Error::measure},
                                           {"image, s.x", Error::absolute},
                                           {"image, s.y", Error::absolute},
                                           {"image, s.z", Error::absolute},
@@ -178,16 +179,20 @@ struct LineShading {
         const Real radius = rest[3];
         const Real integral = lobe_integral(light, ltc);
         const Real caps = caps_integral(light, radius, [&](const Vec3<Real>& wi) { return ltc.density(wi); });
+        const Real zero(0);
+        const auto above = [&](const Vec3<Real>& wi) { return wi.z > zero ? ltc.density(wi) : zero; };
+        const auto cosine = [&](const Vec3<Real>& wi) { return max(wi.z, zero) / kPi<Real>; };
         const auto image = to_cosine_space(to_unit_extent(light).light, ltc);
         Results<Real> results{diffuse_integral(light),
                               integral,
                               lobe_integral<BothHorizons>(light, ltc),
                               tube_integral(integral, radius),
-                              tube_integral(integral, radius, caps),
+                              tube_integral(integral, radius, caps_integral(light, radius, above)),
                               caps,
-                              strip_integral(light, get<Real>(rest), radius, integral)};
-        put(results, 7, image.s);
-        results[10] = image.length;
+                              strip_integral(light, get<Real>(rest), radius, integral),
+                              caps_integral(light, radius, cosine)};
+        put(results, 8, image.s);
+        results[11] = image.length;
         return results;
     }
 };

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LTC_LINE_SHADING_GLSL
 #define NUSSELT_LTC_LINE_SHADING_GLSL
-// Follows include/nusselt/ltc/line_shading.h @ 57cba8bb0c6d
+// Follows include/nusselt/ltc/line_shading.h @ 42ce420c9fb4
 /// Analytic, unshadowed shading with linear lights, and tubes and strips approximated by them.
 ///
 /// E. Heitz, S. Hill 2017, Linear-Light Shading with Linearly Transformed Cosines, GPU Zen. Twin of
@@ -8,6 +8,7 @@
 ///
 /// Integrals of normalised lobes: times the albedo of the lobe and the radiance of the light they are radiance.
 
+#include "../geometry/strip.glsl"
 #include "../ltc/light_transform.glsl"
 
 /// Integral of the Lambertian lobe over the part of a linear light above the surface, per radius [1/m].
@@ -47,14 +48,19 @@ float tube_integral(float line_integral, float radius, float caps) {
 }
 
 /// The integral over a small disk, over pi.
-/// \param p      its centre.
-/// \param inward unit normal of the side that does not shine.
-float small_disk_integral(vec3 p, vec3 inward, float radius, Ltc ltc) {
+/// \param p       its centre.
+/// \param inward  unit normal of the side that does not shine.
+/// \param density of the lobe in the direction of the centre; any value if the centre is the origin.
+float small_disk_integral(vec3 p, vec3 inward, float radius, float density) {
     float distance = nusselt_length(p);
-    if (!(distance > 0.0)) return 0.0;
-    vec3 wi = nusselt_normalize(p);
     float ratio = radius / distance;
-    return ltc_density(ltc, wi) * nusselt_max(dot(wi, inward), 0.0) * ratio * ratio;
+    return distance > 0.0 ? density * nusselt_max(dot(nusselt_normalize(p), inward), 0.0) * ratio * ratio : 0.0;
+}
+
+/// \param densities of a lobe in the directions of both ends.
+float caps_integral_of_densities(LineSegment light, float radius, vec2 densities) {
+    return kNusseltPi * (small_disk_integral(light.p0, light.s, radius, densities.x) +
+                         small_disk_integral(end_of(light), -light.s, radius, densities.y));
 }
 
 /// The end caps of a tube as small disks, for tube_integral(). Heitz and Hill advise against it by default: bright
@@ -62,8 +68,23 @@ float small_disk_integral(vec3 p, vec3 inward, float radius, Ltc ltc) {
 /// \param light  the axis, in shading space [m].
 /// \param radius [m]
 float caps_integral(LineSegment light, float radius, Ltc ltc) {
-    return kNusseltPi * (small_disk_integral(light.p0, light.s, radius, ltc) +
-                         small_disk_integral(end_of(light), -light.s, radius, ltc));
+    vec3 w0 = nusselt_normalize(light.p0);
+    vec3 w1 = nusselt_normalize(end_of(light));
+    return caps_integral_of_densities(light, radius, vec2(ltc_density(ltc, w0), ltc_density(ltc, w1)));
+}
+
+/// The same for ends above the surface only.
+float clipped_caps_integral(LineSegment light, float radius, Ltc ltc) {
+    vec3 w0 = nusselt_normalize(light.p0);
+    vec3 w1 = nusselt_normalize(end_of(light));
+    vec2 densities = vec2(w0.z > 0.0 ? ltc_density(ltc, w0) : 0.0, w1.z > 0.0 ? ltc_density(ltc, w1) : 0.0);
+    return caps_integral_of_densities(light, radius, densities);
+}
+
+/// The same for the Lambertian lobe.
+float diffuse_caps_integral(LineSegment light, float radius) {
+    vec2 heights = vec2(nusselt_normalize(light.p0).z, nusselt_normalize(end_of(light)).z);
+    return caps_integral_of_densities(light, radius, (1.0 / kNusseltPi) * max(heights, vec2(0.0)));
 }
 
 /// A narrow strip instead of a thin tube: it looks the thinner the more it turns its edge to the point.
@@ -73,8 +94,7 @@ float caps_integral(LineSegment light, float radius, Ltc ltc) {
 /// \param line_integral of a lobe over the line, per radius [1/m].
 /// \returns integral of the lobe over the strip, in [0, 1]. The error is of the order of width over distance.
 float strip_integral(LineSegment light, vec3 normal, float width, float line_integral) {
-    vec3 to_line = nusselt_cross(light.s, nusselt_normalize(nusselt_cross(light.p0, light.s)));
-    return tube_integral(line_integral * abs(dot(to_line, normal)), 0.5 * width);
+    return tube_integral(line_integral * strip_facing(light, normal), 0.5 * width);
 }
 
 #endif

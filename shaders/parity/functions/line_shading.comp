@@ -20,9 +20,10 @@ void main() {
     outputs[at + 1u] = integral;
     outputs[at + 2u] = clipped_lobe_integral(light, ltc);
     outputs[at + 3u] = tube_integral(integral, radius);
-    outputs[at + 4u] = tube_integral(integral, radius, caps);
+    outputs[at + 4u] = tube_integral(integral, radius, clipped_caps_integral(light, radius, ltc));
     outputs[at + 5u] = caps;
     outputs[at + 6u] = strip_integral(light, input_vec3(rest), radius, integral);
-    write_vec3(at + 7u, image.s);
-    outputs[at + 10u] = image.len;
+    outputs[at + 7u] = diffuse_caps_integral(light, radius);
+    write_vec3(at + 8u, image.s);
+    outputs[at + 11u] = image.len;
 }

@@ -1,6 +1,7 @@
 /// Adds samples of one light. A file includes this one for each shape of light, with the types
 ///
-///     LOCAL_LIGHT: a light as a shading point sees it, with the members `shape` and `role`;
+///     LOCAL_LIGHT: a light as a shading point sees it, with the members `shape` and `role`, and a function is_dark(light, wi):
+///         whether wi meets a part of it that does not shine, where samples count like those in shadow;
 ///     TECHNIQUES: see techniques.glsl.
 
 void add_light(inout Estimate estimate, LOCAL_LIGHT light) {
@@ -21,6 +22,7 @@ void add_light(inout Estimate estimate, LOCAL_LIGHT light) {
                 result = combine(pair, estimate.reflection, draw.technique, s, techniques_pdf(techniques, s.wi));
             else
                 result = reflect_sample(estimate.reflection, s);
+            if (is_dark(light, result.wi)) result.shadowed = vec3(0.0);
             add_sample(estimate, result);
         }
     }

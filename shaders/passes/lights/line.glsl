@@ -1,44 +1,66 @@
 #ifndef NUSSELT_PASSES_LIGHTS_LINE_GLSL
 #define NUSSELT_PASSES_LIGHTS_LINE_GLSL
-/// Linear lights and tubes as a shading point and a camera see them, as in src/render_cpu/kernel/lights/line.cpp.
+/// Linear lights, strips and tubes as a shading point and a camera see them, as in src/render_cpu/kernel/lights/line.cpp.
 
-#include "nusselt/geometry/cylinder.glsl"
-#include "nusselt/geometry/line_segment.glsl"
+#include "nusselt/geometry/cylinder_caps.glsl"
+#include "nusselt/geometry/strip.glsl"
 #include "passes/lights/light_role.glsl"
 
-layout(constant_id = kLinesConstant) const bool kHasLines = true; ///< linear lights without extent
+layout(constant_id = kLinesConstant) const bool kHasLines = true; ///< linear lights and strips, without extent
 layout(constant_id = kTubesConstant) const bool kHasTubes = true;
 
 layout(set = 0, binding = kLineLightsBinding, std430) readonly buffer LineLights { LineLightRecord line_lights[]; };
 
 struct LocalLine {
     LineSegment shape; ///< in shading space; for tubes the axis
-    bool is_solid;     ///< a tube, not a linear light
-    float radius;      ///< for tubes
+    uint model;
+    float radius; ///< for tubes
     LightRole role;
 };
 
 struct LocalTube {
     Cylinder shape; ///< in shading space
+    bool is_open;   ///< with dark caps
     LightRole role;
 };
 
-LocalTube tube_of(LocalLine light) { return LocalTube(Cylinder(light.shape, light.radius), light.role); }
+bool is_tube(LocalLine light) { return light.model == kSolidTube || light.model == kOpenTube; }
+
+LocalTube tube_of(LocalLine light) {
+    return LocalTube(Cylinder(light.shape, light.radius), light.model == kOpenTube, light.role);
+}
+
+// Whether a direction meets a part of the light that does not shine.
+bool is_dark(LocalLine light, vec3 wi) { return false; }
+bool is_dark(LocalTube light, vec3 wi) { return light.is_open && meets_cap(light.shape, wi); }
 
 /// \param index among the lines and tubes
 LocalLine local_line(Surface surface, uint index) {
     LineLightRecord record = line_lights[index];
     LineSegment world = LineSegment(to_vec(record.begin), to_vec(record.direction), record.len);
-    LineSegment local = to_shading_space(world, surface.position, surface.shading);
-    bool is_solid = record.is_solid != 0u;
-    float highest = nusselt_max(local.p0.z, local.p0.z + local.len * local.s.z);
-    if (is_solid) highest += record.radius * sqrt(nusselt_max(1.0 - local.s.z * local.s.z, 0.0));
+    LocalLine light;
+    light.shape = to_shading_space(world, surface.position, surface.shading);
+    light.model = record.model;
+    light.radius = record.radius;
+    vec3 s = light.shape.s;
+    float highest = nusselt_max(light.shape.p0.z, light.shape.p0.z + light.shape.len * s.z);
     vec3 emission = to_vec(record.radiance);
-    if (!is_solid) emission = record.radius * emission;
-    return LocalLine(local, is_solid, record.radius, LightRole(!(highest <= 0.0), emission, light_number(kLineKind, index)));
+    if (is_tube(light))
+        highest += record.radius * sqrt(nusselt_max(1.0 - s.z * s.z, 0.0));
+    else
+        emission = record.radius * emission;
+    if (light.model == kStrip)
+        emission *= strip_facing(light.shape, frame_to_local(surface.shading, to_vec(record.normal)));
+    light.role = LightRole(!(highest <= 0.0), emission, light_number(kLineKind, index));
+    return light;
 }
 
 /// The radiance along a ray that meets the light.
-vec3 line_emission(uint index, vec3 direction) { return to_vec(line_lights[index].radiance); }
+vec3 line_emission(uint index, Ray ray) {
+    LineLightRecord record = line_lights[index];
+    LineSegment axis = LineSegment(to_vec(record.begin) - ray.origin, to_vec(record.direction), record.len);
+    bool is_dark = record.model == kOpenTube && meets_cap(Cylinder(axis, record.radius), ray.direction);
+    return is_dark ? vec3(0.0) : to_vec(record.radiance);
+}
 
 #endif

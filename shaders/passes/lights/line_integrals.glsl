@@ -1,6 +1,6 @@
 #ifndef NUSSELT_PASSES_LIGHTS_LINE_INTEGRALS_GLSL
 #define NUSSELT_PASSES_LIGHTS_LINE_INTEGRALS_GLSL
-/// Integrates over all linear lights and tubes.
+/// Integrates over all linear lights, strips and tubes.
 
 #include "nusselt/ltc/line_shading.glsl"
 #include "passes/lights/line.glsl"
@@ -11,8 +11,14 @@ void add_lines(inout Reflected reflected) {
         if (!light.role.is_lit) continue;
         vec2 integrals =
             vec2(diffuse_integral(light.shape), clipped_lobe_integral(light.shape, reflected.glossy.lobe));
-        if (kHasTubes && light.is_solid)
-            integrals = vec2(tube_integral(integrals.x, light.radius), tube_integral(integrals.y, light.radius));
+        if (kHasTubes && is_tube(light)) {
+            vec2 caps = vec2(0.0);
+            if (light.model == kSolidTube)
+                caps = vec2(diffuse_caps_integral(light.shape, light.radius),
+                            clipped_caps_integral(light.shape, light.radius, reflected.glossy.lobe));
+            integrals = vec2(tube_integral(integrals.x, light.radius, caps.x),
+                             tube_integral(integrals.y, light.radius, caps.y));
+        }
         add_light(reflected, light.role, integrals);
     }
 }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_PASSES_LIGHTS_LINE_SAMPLES_GLSL
 #define NUSSELT_PASSES_LIGHTS_LINE_SAMPLES_GLSL
-/// Techniques for linear lights and tubes, and the loop that samples these lights.
+/// Techniques for linear lights, strips and tubes, and the loop that samples these lights.
 
 #include "nusselt/sampling/cylinder_area.glsl"
 #include "nusselt/sampling/cylinder_ltc.glsl"
@@ -114,7 +114,7 @@ vec2 techniques_integrals(TubeTechniques self) {
 void add_lines(inout Estimate estimate) {
     for (uint i = first_index(kLineKind); (kHasLines || kHasTubes) && i < end_index(kLineKind); ++i) {
         LocalLine light = local_line(estimate.surface, i);
-        if (kHasTubes && light.is_solid)
+        if (kHasTubes && is_tube(light))
             add_light(estimate, tube_of(light));
         else if (kHasLines)
             add_light(estimate, light);

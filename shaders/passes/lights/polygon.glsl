@@ -21,6 +21,9 @@ struct LocalPolygon {
     LightRole role;
 };
 
+/// Whether a direction meets a part of the light that does not shine.
+bool is_dark(LocalPolygon light, vec3 wi) { return false; }
+
 vec3 polygon_corner(uint number) {
     uint at = 3u * number;
     return vec3(polygon_corners[at], polygon_corners[at + 1u], polygon_corners[at + 2u]);
@@ -51,9 +54,9 @@ LocalPolygon local_polygon(Surface surface, uint index) {
 }
 
 /// The radiance along a ray that meets the light.
-vec3 polygon_emission(uint index, vec3 direction) {
+vec3 polygon_emission(uint index, Ray ray) {
     bool is_seen =
-        polygon_lights[index].is_two_sided != 0u || dot(to_vec(polygon_lights[index].normal), direction) < 0.0;
+        polygon_lights[index].is_two_sided != 0u || dot(to_vec(polygon_lights[index].normal), ray.direction) < 0.0;
     return is_seen ? to_vec(polygon_lights[index].radiance) : vec3(0.0);
 }
 

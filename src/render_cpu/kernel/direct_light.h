@@ -48,7 +48,7 @@ Vector emitted_and_direct_light(const CameraPacket& packet, const Rays& rays,
         on_triangle |= static_cast<std::uint32_t>(hits.triangle[i] >= 0) << i;
         on_light |= static_cast<std::uint32_t>(hits.light[i] >= 0) << i;
     }
-    const Vector emitted = emission(packet.job.scene, hits, rays.direction);
+    const Vector emitted = emission(packet.job.scene, hits, rays);
     if (packet.layers != nullptr) {
         packet.layers->add_hits(hits, LaneMask::from_bits(on_triangle | on_light), rays.direction);
         packet.layers->add_emission(hits, emitted);

@@ -2,6 +2,7 @@
 /// Lights that rays hit as surfaces.
 
 #include "render_cpu/kernel.h"
+#include "render_cpu/kernel/camera_packet.h"
 #include "render_cpu/kernel/lanes.h"
 
 NUSSELT_NAMESPACE_BEGIN
@@ -24,7 +25,7 @@ inline std::int32_t light_of_hit(const render_cpu::KernelScene& scene,
 
 /// The radiance that rays receive from the lights they hit.
 inline Vector emission(const render_cpu::KernelScene& scene, const visibility::HitPacket<kLanes>& hits,
-                       const Vector& direction) noexcept {
+                       const Rays& rays) noexcept {
     Indices light;
     bool any_light = false;
     for (int i = 0; i < kLanes; ++i) {
@@ -33,12 +34,13 @@ inline Vector emission(const render_cpu::KernelScene& scene, const visibility::H
     }
     Lanes result{};
     if (!any_light) return load(result);
-    const Lanes d = store(direction);
+    const Lanes o = store(rays.origin);
+    const Lanes d = store(rays.direction);
     for (int i = 0; i < kLanes; ++i) {
         if (light.lane[i] < 0) continue;
         const render_cpu::LightSet& lights = set_of(scene, light.lane[i]);
-        const scene::Float3 emitted =
-            lights.code.emission(lights, light.lane[i] - lights.first, {d.x[i], d.y[i], d.z[i]});
+        const scene::Float3 emitted = lights.code.emission(
+            lights, light.lane[i] - lights.first, {o.x[i], o.y[i], o.z[i]}, {d.x[i], d.y[i], d.z[i]});
         result.x[i] = emitted.x;
         result.y[i] = emitted.y;
         result.z[i] = emitted.z;

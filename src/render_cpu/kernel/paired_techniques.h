@@ -51,18 +51,19 @@ void add_by_pair(render_cpu::LitPacket& packet, const render_cpu::LightSet& ligh
     const DirectLight<Real, typename Light::Shape, SurfaceBrdf, Pair> estimator(light.shape, surface);
     if (job.mis == render::Mis::one_sample) {
         reflected.add(light, [&](std::uint32_t number, SampleSum& sum) {
-            reflected.add_sample(light.lit, estimator.sample_one(reflected.random(light, number, kPointPair)),
-                                 sum);
+            reflected.add_sample(light.shape, light.lit,
+                                 estimator.sample_one(reflected.random(light, number, kPointPair)), sum);
         });
         return;
     }
     const ChosenHeuristic heuristic{job.mis, Real(job.visibility_estimate)};
     reflected.add(light, [&](std::uint32_t number, SampleSum& sum) {
+        reflected.add_sample(light.shape, light.lit,
+                             estimator.sample_diffuse(heuristic, reflected.random(light, number, kPointPair)),
+                             sum);
         reflected.add_sample(
-            light.lit, estimator.sample_diffuse(heuristic, reflected.random(light, number, kPointPair)), sum);
-        reflected.add_sample(
-            glossy, estimator.sample_specular(heuristic, reflected.random(light, number, kSpecularPointPair)),
-            sum);
+            light.shape, glossy,
+            estimator.sample_specular(heuristic, reflected.random(light, number, kSpecularPointPair)), sum);
     });
 }
 

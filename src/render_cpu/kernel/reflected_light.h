@@ -25,9 +25,19 @@ template <class Shape>
 struct LocalLight {
     Shape shape;          ///< in shading space, per lane
     LaneMask lit;         ///< points that it may light
-    Vec3<float> emission; ///< radiance; for thin lines, radiance times radius
+    Vector emission;      ///< radiance; for thin lines, radiance times radius
     std::uint32_t number; ///< among all lights of the scene
 };
+
+/// The lanes in which a direction meets a part of the light that does not shine. A shape with such parts tells by a member
+/// `is_dark`. Samples there count like those in shadow.
+template <class Shape>
+LaneMask is_dark(const Shape& shape, const Vector& wi) noexcept {
+    if constexpr (requires { shape.is_dark(wi); })
+        return shape.is_dark(wi);
+    else
+        return LaneMask(false);
+}
 
 /// The sum of the samples of one light.
 struct SampleSum {
@@ -96,7 +106,7 @@ public:
             if (i % kSamplesBetweenChecks == kSamplesBetweenChecks - 1 && stop_.is_urgent()) return;
             sample(first + i, sum);
         }
-        const float scale = 1.0f / static_cast<float>(samples_per_light_);
+        const Real scale(1.0f / static_cast<float>(samples_per_light_));
         add_for(light, light.lit, scale * light.emission, {sum.all.sum, sum.diffuse.sum});
     }
 
@@ -139,6 +149,20 @@ public:
 
     /// Traces shadow rays for a sample and adds its contribution.
     /// \param drawn lanes that have a sample
+    template <class Shape>
+    void add_sample(const Shape& shape, LaneMask drawn, DirectLightSample<Real> sample,
+                    SampleSum& sum) noexcept {
+        const Vector zero{Real(0), Real(0), Real(0)};
+        sample.shadowed = select(is_dark(shape, sample.wi), zero, sample.shadowed);
+        add_sample(drawn, sample, sum);
+    }
+
+    const Vector& radiance() const noexcept { return radiance_; }
+
+private:
+    /// About a millisecond.
+    static constexpr std::uint32_t kSamplesBetweenChecks = 1024;
+
     void add_sample(LaneMask drawn, const DirectLightSample<Real>& sample, SampleSum& sum) noexcept {
         const auto is_zero = [](const Vector& v) {
             return (v.x == Real(0)) & (v.y == Real(0)) & (v.z == Real(0));
@@ -156,20 +180,14 @@ public:
         sum.diffuse.add(shares.of_sample * lit + shares.of_constant * constant);
     }
 
-    const Vector& radiance() const noexcept { return radiance_; }
-
-private:
-    /// About a millisecond.
-    static constexpr std::uint32_t kSamplesBetweenChecks = 1024;
-
     template <class Shape>
-    void add_for(const LocalLight<Shape>& light, LaneMask lit, const Vec3<float>& emission,
+    void add_for(const LocalLight<Shape>& light, LaneMask lit, const Vector& emission,
                  const Reflected& reflected) noexcept {
         const Vector zero{Real(0), Real(0), Real(0)};
-        const Vector radiance = select(lit, broadcast<Real>(emission) * reflected.all, zero);
+        const Vector radiance = select(lit, emission * reflected.all, zero);
         radiance_ = radiance_ + radiance;
         if (layers_ == nullptr) return;
-        const Vector diffuse = select(lit, broadcast<Real>(emission) * reflected.diffuse, zero);
+        const Vector diffuse = select(lit, emission * reflected.diffuse, zero);
         layers_->add_light(light.number, {radiance, diffuse});
     }
 

@@ -16,7 +16,7 @@ void add_samples(ReflectedLight& reflected, const LocalLight<Shape>& light,
                  const Technique& technique) noexcept {
     reflected.add(light, [&](std::uint32_t number, SampleSum& sum) {
         const Vec2<Real> u = reflected.random(light, number, kPointPair);
-        reflected.add_sample(light.lit, reflect(reflected.surface(), draw(technique, u)), sum);
+        reflected.add_sample(light.shape, light.lit, reflect(reflected.surface(), draw(technique, u)), sum);
     });
 }
 

@@ -17,6 +17,7 @@ LineRecord make_record(const scene::LineLight& light) {
             line.length,
             light.radius,
             light.model,
+            light.normal,
             light.radiance,
             scene::to_float3(light.radius * to_vec(light.radiance))};
 }

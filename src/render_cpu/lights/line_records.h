@@ -14,6 +14,7 @@ struct LineRecord {
     float length;
     float radius;
     scene::TubeModel model;
+    scene::Float3 normal; ///< of strips
     scene::Float3 radiance;
     scene::Float3 radiance_times_radius;
 };

@@ -8,6 +8,20 @@
 
 namespace nusselt::render_vulkan {
 
+namespace {
+
+using scene::TubeModel;
+
+constexpr bool is_number_of(TubeModel model, std::uint32_t number) {
+    return static_cast<std::uint32_t>(model) == number;
+}
+static_assert(is_number_of(TubeModel::linear, interface::kLinearTube) &&
+              is_number_of(TubeModel::solid, interface::kSolidTube) &&
+              is_number_of(TubeModel::open, interface::kOpenTube) &&
+              is_number_of(TubeModel::strip, interface::kStrip));
+
+} // namespace
+
 bool write_lines(const scene::LightList& list, LightRecords& records) {
     const auto* const lines = dynamic_cast<const scene::LightsOf<scene::LineLight>*>(&list);
     if (lines == nullptr) return false;
@@ -19,9 +33,10 @@ bool write_lines(const scene::LightList& list, LightRecords& records) {
         copy(scene::to_float3(line.s), record.direction);
         record.len = line.length;
         record.radius = light.radius;
-        const bool is_solid = light.model == scene::TubeModel::solid;
-        record.is_solid = is_solid ? 1 : 0;
-        records.has_shape_of(is_solid ? interface::kTubesConstant : interface::kLinesConstant) = true;
+        record.model = static_cast<std::uint32_t>(light.model);
+        const bool is_cylinder = light.model == TubeModel::solid || light.model == TubeModel::open;
+        records.has_shape_of(is_cylinder ? interface::kTubesConstant : interface::kLinesConstant) = true;
+        copy(light.normal, record.normal);
         copy(light.radiance, record.radiance);
     }
     records.array_at(interface::kLineLightsBinding) = make_light_array("linear lights", lights);

@@ -56,13 +56,14 @@ struct Cylinder {
     Location radius_origin; ///< where the radius is given
 };
 
-/// A tubular light, which is no surface: cameras see it, but it casts no shadows.
+/// A tubular light or a strip, which is no surface: cameras see it, but it casts no shadows.
 struct Tube {
     Float3 start = {0, 0, 0};
     Float3 end = {0, 0, 0};
-    double radius = 0; ///< positive
+    double radius = 0; ///< positive; of strips, half the width
     TubeModel model = TubeModel::solid;
-    Location radius_origin; ///< where the radius is given
+    Float3 normal = {0, 0, 0}; ///< of strips, not along the line
+    Location radius_origin;    ///< where the radius or width is given
 };
 
 using Geometry = std::variant<Mesh, MeshFile, BilinearPatches, Sphere, Disk, Cylinder, Tube>;

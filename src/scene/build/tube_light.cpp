@@ -32,6 +32,12 @@ LineLight light_of(const Tube& tube, const Transform& world_from_object) {
     light.start = to_float(transform_point(world_from_object, to_double(tube.start)));
     light.end = to_float(transform_point(world_from_object, to_double(tube.end)));
     light.radius = static_cast<float>(tube.radius * scale);
+    if (tube.model == TubeModel::strip) {
+        const Double3 axis = to_double(tube.end) - to_double(tube.start);
+        const Double3 across = cross(to_double(tube.normal), axis);
+        light.normal = to_float(normalized(
+            cross(transform_vector(world_from_object, axis), transform_vector(world_from_object, across))));
+    }
     return light;
 }
 
@@ -50,10 +56,13 @@ void check(const ShapeDescription& shape, const LineLight& light, const Location
         throw SceneError(shape.origin, subject + "the end points must be finite and within 1e15 m");
     if (!(light.radius > 0) || !is_valid_coordinate({light.radius, 0, 0}))
         throw SceneError(radius_origin,
-                         subject + "radius must be positive and at most 1e15 m after the transform, found " +
+                         subject + (light.model == TubeModel::strip ? "half the width" : "radius") +
+                             " must be positive and at most 1e15 m after the transform, found " +
                              to_text(light.radius));
     if (!(length(to_double(light.end) - to_double(light.start)) > 0))
         throw SceneError(shape.origin, subject + "the end points must differ");
+    if (light.model == TubeModel::strip && !(length(to_double(light.normal)) > 0))
+        throw SceneError(shape.origin, subject + "the normal N must not be parallel to the line");
 }
 
 } // namespace

@@ -91,16 +91,40 @@ Lights read_panel(const JsonNode& node) {
                        to_float(center - x + y)});
 }
 
+LineLight read_line(const JsonNode& node) {
+    LineLight line;
+    line.start = read_point(node.at("begin"));
+    line.end = read_point(node.at("end"));
+    if (!(length(to_double(line.end) - to_double(line.start)) > 0)) node.fail("begin and end must differ");
+    return line;
+}
+
 Lights read_tube(const JsonNode& node) {
-    node.check_fields({"begin", "end", "radius", "finite"});
-    LineLight tube;
-    tube.start = read_point(node.at("begin"));
-    tube.end = read_point(node.at("end"));
+    node.check_fields({"begin", "end", "radius", "finite", "caps"});
+    LineLight tube = read_line(node);
     tube.radius = read_length(node.at("radius"));
-    if (!(length(to_double(tube.end) - to_double(tube.start)) > 0)) node.fail("begin and end must differ");
     if (const auto finite = node.find("finite"))
         tube.model = finite->boolean() ? TubeModel::solid : TubeModel::linear;
+    if (const auto caps = node.find("caps")) {
+        const std::string kind = caps->text();
+        if (kind != "bright" && kind != "dark") caps->fail_type("\"bright\" or \"dark\"");
+        if (tube.model == TubeModel::linear) caps->fail("needs a tube with \"finite\": true");
+        if (kind == "dark") tube.model = TubeModel::open;
+    }
     return only(tube);
+}
+
+Lights read_strip(const JsonNode& node) {
+    node.check_fields({"begin", "end", "normal", "width"});
+    LineLight strip = read_line(node);
+    strip.model = TubeModel::strip;
+    strip.radius = 0.5f * read_length(node.at("width"));
+    const JsonNode normal = node.at("normal");
+    const Double3 axis = normalized(to_double(strip.end) - to_double(strip.start));
+    const Double3 across = cross(axis, read_direction(normal));
+    if (!(length(across) > 0)) normal.fail("must not be parallel to the strip");
+    strip.normal = to_float(normalized(cross(across, axis)));
+    return only(strip);
 }
 
 Rotation read_rotation(const JsonNode& node) {
@@ -158,7 +182,8 @@ struct ShapeField {
     Lights (*read)(const JsonNode& node);
 };
 
-constexpr ShapeField kShapeFields[] = {{"polygon", read_polygon}, {"panel", read_panel}, {"tube", read_tube}};
+constexpr ShapeField kShapeFields[] = {
+    {"polygon", read_polygon}, {"panel", read_panel}, {"tube", read_tube}, {"strip", read_strip}};
 
 std::vector<std::string_view> shape_field_names() {
     std::vector<std::string_view> names;

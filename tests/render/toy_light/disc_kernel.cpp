@@ -54,7 +54,7 @@ struct Disc {
         const auto is_behind = dot(normal, to_center) >= Real(0);
         return {{surface.frame.to_local(to_center), surface.frame.to_local(normal), Real(record.radius)},
                 reflected.lanes() & !is_behind,
-                to_vec(record.radiance),
+                broadcast<Real>(to_vec(record.radiance)),
                 static_cast<std::uint32_t>(lights.first + index)};
     }
 
@@ -71,7 +71,7 @@ void choose(const render_cpu::RenderJob& job, render_cpu::AddLight (&add)[render
 std::int32_t shape_of(const render_cpu::LightSet& /*lights*/, std::int32_t /*index*/) noexcept { return 0; }
 
 scene::Float3 emission(const render_cpu::LightSet& lights, std::int32_t index,
-                       const scene::Float3& direction) noexcept {
+                       const scene::Float3& /*origin*/, const scene::Float3& direction) noexcept {
     const scene::DiscLight& light = disc_record(lights, index);
     return dot(to_vec(light.normal), to_vec(direction)) < 0 ? light.radiance : scene::Float3{0, 0, 0};
 }

@@ -1,9 +1,10 @@
-// Linear lights and tubes.
+// Linear lights, strips and tubes.
 
 #include "render_cpu/kernel/point_samples.h"
 #include "render_cpu/lights/line_records.h"
 
-#include <nusselt/geometry/cylinder.h>
+#include <nusselt/geometry/cylinder_caps.h>
+#include <nusselt/geometry/strip.h>
 #include <nusselt/ltc/line_shading.h>
 #include <nusselt/sampling/cylinder_area.h>
 #include <nusselt/sampling/cylinder_projected_solid_angle.h>
@@ -27,7 +28,7 @@ LineSegment<Real> local_axis(const ReflectedLight& reflected, const render_cpu::
     return to_shading_space(world, reflected.surface().position, reflected.surface().frame);
 }
 
-/// Tubes in the limit of a vanishing radius.
+/// Tubes and strips in the limit of a vanishing width.
 struct LinearLight {
     using Shape = LineSegment<Real>;
 
@@ -36,8 +37,13 @@ struct LinearLight {
         const render_cpu::LineRecord& record = line_record(lights, index);
         const Shape local = local_axis(reflected, record);
         const Real end = local.p0.z + local.length * local.s.z;
-        return {local, reflected.lanes() & !(max(local.p0.z, end) <= Real(0)),
-                to_vec(record.radiance_times_radius), static_cast<std::uint32_t>(lights.first + index)};
+        Vector emission = broadcast<Real>(to_vec(record.radiance_times_radius));
+        if (record.model == scene::TubeModel::strip) {
+            const Vector normal = reflected.surface().frame.to_local(broadcast<Real>(to_vec(record.normal)));
+            emission = strip_facing(local, normal) * emission;
+        }
+        return {local, reflected.lanes() & !(max(local.p0.z, end) <= Real(0)), emission,
+                static_cast<std::uint32_t>(lights.first + index)};
     }
 
     static auto technique(TechniqueTag<Technique::area>, const Shape& shape) noexcept {
@@ -62,9 +68,27 @@ struct LinearLight {
     }
 };
 
-/// Tubes as closed cylinders.
+/// A closed cylinder. Its caps are bright if it is solid, and dark if it is open.
+struct Tube : Cylinder<Real> {
+    scene::TubeModel model;
+
+    LaneMask is_dark(const Vector& wi) const noexcept {
+        return model == scene::TubeModel::open ? meets_cap(*this, wi) : LaneMask(false);
+    }
+
+    /// The integral over the tube as Heitz and Hill approximate it: its caps are small disks.
+    /// \param along_axis integral of a lobe over the axis, per radius
+    /// \param density    of the lobe
+    template <class Density>
+    Real integral(const Real& along_axis, const Density& density) const noexcept {
+        if (model == scene::TubeModel::open) return tube_integral(along_axis, radius);
+        return tube_integral(along_axis, radius, caps_integral(axis, radius, density));
+    }
+};
+
+/// Tubes of a finite radius.
 struct TubeLight {
-    using Shape = Cylinder<Real>;
+    using Shape = Tube;
 
     static LocalLight<Shape> local(const ReflectedLight& reflected, const render_cpu::LightSet& lights,
                                    std::int32_t index) noexcept {
@@ -72,9 +96,9 @@ struct TubeLight {
         const LineSegment<Real> l = local_axis(reflected, record);
         const Real slope = sqrt(max(Real(1) - l.s.z * l.s.z, Real(0)));
         const Real highest = max(l.p0.z, l.p0.z + l.length * l.s.z) + Real(record.radius) * slope;
-        return {{l, Real(record.radius)},
+        return {{{l, Real(record.radius)}, record.model},
                 reflected.lanes() & !(highest <= Real(0)),
-                to_vec(record.radiance),
+                broadcast<Real>(to_vec(record.radiance)),
                 static_cast<std::uint32_t>(lights.first + index)};
     }
 
@@ -96,8 +120,12 @@ struct TubeLight {
     }
 
     static LobeIntegrals integrals(const Shape& shape, const Ltc<Real>& lobe) noexcept {
-        return {tube_integral(diffuse_integral(shape.axis), shape.radius),
-                tube_integral(lobe_integral<BothHorizons>(shape.axis, lobe), shape.radius)};
+        const auto cosine = [](const Vector& wi) { return Real(1 / kPi<float>) * max(wi.z, Real(0)); };
+        const auto density = [&](const Vector& wi) {
+            return select(wi.z > Real(0), lobe.density(wi), Real(0));
+        };
+        return {shape.integral(diffuse_integral(shape.axis), cosine),
+                shape.integral(lobe_integral<BothHorizons>(shape.axis, lobe), density)};
     }
 };
 
@@ -107,12 +135,17 @@ void choose(const render_cpu::RenderJob& job, render_cpu::AddLight (&add)[render
 }
 
 std::int32_t shape_of(const render_cpu::LightSet& lights, std::int32_t index) noexcept {
-    return line_record(lights, index).model == scene::TubeModel::linear ? 0 : 1;
+    const scene::TubeModel model = line_record(lights, index).model;
+    return model == scene::TubeModel::linear || model == scene::TubeModel::strip ? 0 : 1;
 }
 
-scene::Float3 emission(const render_cpu::LightSet& lights, std::int32_t index,
-                       const scene::Float3& /*direction*/) noexcept {
-    return line_record(lights, index).radiance;
+scene::Float3 emission(const render_cpu::LightSet& lights, std::int32_t index, const scene::Float3& origin,
+                       const scene::Float3& direction) noexcept {
+    const render_cpu::LineRecord& record = line_record(lights, index);
+    if (record.model != scene::TubeModel::open) return record.radiance;
+    const Cylinder<float> tube{
+        {to_vec(record.begin) - to_vec(origin), to_vec(record.direction), record.length}, record.radius};
+    return meets_cap(tube, to_vec(direction)) ? scene::Float3{0, 0, 0} : record.radiance;
 }
 
 } // namespace

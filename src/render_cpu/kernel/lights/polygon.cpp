@@ -15,7 +15,7 @@ std::int32_t shape_of(const render_cpu::LightSet& lights, std::int32_t index) no
 }
 
 scene::Float3 emission(const render_cpu::LightSet& lights, std::int32_t index,
-                       const scene::Float3& direction) noexcept {
+                       const scene::Float3& /*origin*/, const scene::Float3& direction) noexcept {
     const render_cpu::PolygonRecord& light = polygon_record(lights, index);
     const bool is_seen = light.two_sided != 0 || dot(to_vec(light.normal), to_vec(direction)) < 0;
     return is_seen ? light.radiance : scene::Float3{0, 0, 0};

@@ -54,7 +54,7 @@ struct PolygonLight {
         Real highest = local.vertex[0].z;
         for (int j = 1; j < N; ++j) highest = max(highest, local.vertex[j].z);
         lit &= !(highest <= Real(0));
-        return {local, lit, to_vec(record.radiance), static_cast<std::uint32_t>(number)};
+        return {local, lit, broadcast<Real>(to_vec(record.radiance)), static_cast<std::uint32_t>(number)};
     }
 
     static auto technique(TechniqueTag<Technique::area>, const Shape& shape) noexcept {

@@ -4,12 +4,28 @@ namespace nusselt::scene {
 
 namespace {
 
-double read_radius(ShapeDirective& shape, double fallback) {
-    const double radius = shape.parameters.real("radius", fallback);
-    if (!(radius > 0))
-        throw SceneError(shape.parameters.location_of("radius"),
-                         "shape \"" + shape.type + "\": radius must be positive, found " + to_text(radius));
-    return radius;
+double read_length(ShapeDirective& shape, const std::string& name, double fallback) {
+    const double value = shape.parameters.real(name, fallback);
+    if (!(value > 0))
+        throw SceneError(shape.parameters.location_of(name), "shape \"" + shape.type + "\": " + name +
+                                                                 " must be positive, found " +
+                                                                 to_text(value));
+    return value;
+}
+
+double read_radius(ShapeDirective& shape, double fallback) { return read_length(shape, "radius", fallback); }
+
+TubeModel read_tube_model(ParameterList& parameters) {
+    const bool is_finite = parameters.boolean("finite", true);
+    const std::string caps = parameters.string("caps", is_finite ? "bright" : "dark");
+    if (caps != "bright" && caps != "dark")
+        throw SceneError(parameters.location_of("caps"),
+                         "shape \"line\": caps must be \"bright\" or \"dark\", found \"" + caps + "\"");
+    if (!is_finite && caps == "bright")
+        throw SceneError(parameters.location_of("caps"),
+                         "shape \"line\": a tube with \"bool finite\" false has no caps");
+    if (!is_finite) return TubeModel::linear;
+    return caps == "bright" ? TubeModel::solid : TubeModel::open;
 }
 
 } // namespace
@@ -61,8 +77,15 @@ Geometry read_line(ShapeDirective& shape, Warnings&) {
     Tube tube;
     tube.start = ends[0];
     tube.end = ends[1];
-    tube.model = parameters.boolean("finite", true) ? TubeModel::solid : TubeModel::linear;
-    tube.radius = read_radius(shape, 0);
+    if (const auto normal = parameters.point("N")) {
+        tube.model = TubeModel::strip;
+        tube.normal = *normal;
+        tube.radius = 0.5 * read_length(shape, "width", 0);
+        tube.radius_origin = parameters.location_of("width");
+        return tube;
+    }
+    tube.model = read_tube_model(parameters);
+    tube.radius = read_length(shape, "radius", 0);
     tube.radius_origin = parameters.location_of("radius");
     return tube;
 }

@@ -29,10 +29,27 @@ double corner_radius() {
 
 double axis_length(const LineLight& light) { return length(to_double(light.end) - to_double(light.start)); }
 
+/// Of a strip: from its middle line to its edge.
+Double3 across(const LineLight& light) {
+    const Double3 axis = to_double(light.end) - to_double(light.start);
+    return (light.radius / length(axis)) * cross(to_double(light.normal), axis);
+}
+
+void add_rectangle(const LineLight& light, LightMesh& mesh) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const Double3 side = across(light);
+    for (const Double3& corner : {to_double(light.start) - side, to_double(light.end) - side,
+                                  to_double(light.end) + side, to_double(light.start) + side})
+        mesh.positions.push_back(to_float(corner));
+    mesh.triangles.push_back({{first, first + 1, first + 2}});
+    mesh.triangles.push_back({{first, first + 2, first + 3}});
+}
+
 } // namespace
 
 double lateral_area(const LineLight& light) {
-    return 2 * std::numbers::pi * static_cast<double>(light.radius) * axis_length(light);
+    const double around = light.model == TubeModel::strip ? 4 : 2 * std::numbers::pi;
+    return around * static_cast<double>(light.radius) * axis_length(light);
 }
 
 double area(const LineLight& light) {
@@ -51,8 +68,8 @@ void Kind::add_to(const LineLight& light, Bounds& bounds) {
 
 // A new member does not compile until it is listed here.
 void Kind::hash(const LineLight& light, ContentHash& hash) {
-    const auto& [emitter, start, end, radius, radiance, model] = light;
-    hash.add(emitter, start, end, radius, radiance, model);
+    const auto& [emitter, start, end, radius, radiance, model, normal] = light;
+    hash.add(emitter, start, end, radius, radiance, model, normal);
 }
 
 double Kind::emitting_area(const LineLight& light) { return area(light); }
@@ -63,24 +80,31 @@ void Kind::add_moment(const LineLight& light, Moment& moment) {
 
 bool Kind::is_valid(const LineLight& light) {
     return is_valid_coordinate(light.start) && is_valid_coordinate(light.end) && light.radius > 0 &&
-           is_valid_coordinate({light.radius, 0, 0}) && axis_length(light) > 0;
+           is_valid_coordinate({light.radius, 0, 0}) && axis_length(light) > 0 &&
+           (light.model != TubeModel::strip || length(across(light)) > 0);
 }
 
 /// Radii grow with the cube root of the determinant.
 void Kind::transform(LineLight& light, const Transform& transform) {
+    if (light.model == TubeModel::strip) {
+        const Double3 axis = transform_vector(transform, to_double(light.end) - to_double(light.start));
+        light.normal = to_float(normalized(cross(axis, transform_vector(transform, across(light)))));
+    }
     light.start = to_float(transform_point(transform, to_double(light.start)));
     light.end = to_float(transform_point(transform, to_double(light.end)));
     light.radius = static_cast<float>(light.radius * std::cbrt(linear_determinant(transform)));
 }
 
 bool Kind::same_shape(const LineLight& a, const LineLight& b) {
-    return a.start == b.start && a.end == b.end && a.radius == b.radius && a.model == b.model;
+    return a.start == b.start && a.end == b.end && a.radius == b.radius && a.model == b.model &&
+           a.normal == b.normal;
 }
 
 const bool* Kind::two_sided(const LineLight& /*light*/) { return nullptr; }
 
-/// A closed cylinder.
+/// A rectangle or a closed cylinder.
 void Kind::add_mesh(const LineLight& light, LightMesh& mesh) {
+    if (light.model == TubeModel::strip) return add_rectangle(light, mesh);
     const auto to_vec = [](const Float3& v) { return Vec3<double>{v.x, v.y, v.z}; };
     const auto add = [&](const Vec3<double>& p) { mesh.positions.push_back(to_float({p.x, p.y, p.z})); };
     const Vec3<double> begin = to_vec(light.start);
@@ -128,6 +152,20 @@ double Kind::hit(const LineLight& light, const SightRay& ray) {
     return distance <= std::max<double>(light.radius, ray.tolerance_at(t)) ? t : kMiss;
 }
 
+namespace {
+
+std::string width_text(const LineLight& light) {
+    return light.model == TubeModel::strip ? "width " + report_text(2 * light.radius)
+                                           : "radius " + report_text(light.radius);
+}
+
+std::string model_fields(TubeModel model) {
+    if (model == TubeModel::linear) return "\"finite\": false";
+    return std::string("\"finite\": true") + (model == TubeModel::open ? ", \"caps\": \"dark\"" : "");
+}
+
+} // namespace
+
 std::string Kind::describe(std::span<const LineLight> lights) {
     double sum = 0;
     double extent = 0;
@@ -137,14 +175,18 @@ std::string Kind::describe(std::span<const LineLight> lights) {
     }
     const LineLight& first = lights.front();
     return (lights.size() > 1 ? std::to_string(lights.size()) + " lines, " : "") + "length " +
-           report_text(extent) + " m, radius " + report_text(first.radius) + " m, radiance " +
-           report_text(first.radiance) + " W/(sr m^2), " + power_text(sum, first.radiance);
+           report_text(extent) + " m, " + width_text(first) + " m, radiance " + report_text(first.radiance) +
+           " W/(sr m^2), " + power_text(sum, first.radiance);
 }
 
 std::string Kind::rig_field(const LineLight& light) {
-    return "\"tube\": {\"begin\": " + triple_text(light.start) + ", \"end\": " + triple_text(light.end) +
-           ", \"radius\": " + number_text(light.radius) +
-           ", \"finite\": " + (light.model == TubeModel::solid ? "true" : "false") + "}";
+    const std::string ends =
+        "{\"begin\": " + triple_text(light.start) + ", \"end\": " + triple_text(light.end);
+    if (light.model == TubeModel::strip)
+        return "\"strip\": " + ends + ", \"normal\": " + triple_text(light.normal) +
+               ", \"width\": " + number_text(2 * light.radius) + "}";
+    return "\"tube\": " + ends + ", \"radius\": " + number_text(light.radius) + ", " +
+           model_fields(light.model) + "}";
 }
 
 } // namespace nusselt::scene

@@ -1,5 +1,5 @@
 #pragma once
-/// Linear lights and tubes.
+/// Linear lights, tubes and strips.
 
 #include "scene/model/lights/light_list.h"
 
@@ -9,19 +9,22 @@ namespace nusselt::scene {
 enum class TubeModel : std::uint32_t {
     linear, ///< that of a linear light with brightness radiance * radius [W/(sr m)]: the limit of a small radius
     solid, ///< that of a closed cylinder, which shines outwards from its lateral surface and its caps
+    open,  ///< that of a cylinder with black caps, which shines outwards from its lateral surface only
+    strip, ///< that of a rectangle with two bright sides, in the limit of a small width: a line with a normal
 };
 
-/// A tube. Cameras see it as a cylinder of this radius; it casts no shadows.
+/// A tube or a strip. Cameras see it as a cylinder of this radius, or as a rectangle; it casts no shadows.
 struct LineLight {
     std::uint32_t emitter = 0; ///< index into Scene::emitters
     Float3 start = {0, 0, 0};
     Float3 end = {0, 0, 0};
-    float radius = 0;
+    float radius = 0; ///< [m]; of strips, half the width
     Float3 radiance = {0, 0, 0};
     TubeModel model = TubeModel::solid;
+    Float3 normal = {0, 0, 0}; ///< of strips: unit, perpendicular to the line
 };
 
-/// The area of the lateral surface [m^2].
+/// The area of the lateral surface, or of both sides of a strip [m^2].
 double lateral_area(const LineLight& light);
 /// The area of all that emits: the lateral surface, and the caps of solid tubes [m^2].
 double area(const LineLight& light);
