@@ -3,7 +3,9 @@
 
 #include "lab/report/report.h"
 #include "render/settings.h"
+#include "scene/model/lights/line_light.h"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -18,6 +20,8 @@ struct Variant {
     /// A technique of techniques.json that the renderer does not offer: the image is that of TechniqueImages, and of the
     /// settings, only the seed counts. Empty: the renderer's image.
     std::string technique = {};
+    /// The model of all tubes in this image. Empty: as the scene defines, like in the reference.
+    std::optional<scene::TubeModel> tubes = {};
 };
 
 /// The error that is measured against the reference.
@@ -25,6 +29,7 @@ enum class Measure {
     rmse,                   ///< root mean square error [radiance]
     rmse_clamped,           ///< of images with all values above 1 replaced by 1, as on a screen
     relative_rmse,          ///< relative to the mean radiance of the reference
+    bias,                   ///< of the mean radiance, without sign, relative to that of the reference
     rmse_outside_penumbrae, ///< over pixels whose lights are all hidden entirely or not at all, relative to
                             ///< the mean radiance of the reference; of whole images only
 };

@@ -1,6 +1,7 @@
 #include "lab/figures/image_comparison.h"
 
 #include "lab/lines/line_comparisons.h"
+#include "lab/tubes/tube_comparisons.h"
 
 #include <fmt/core.h>
 #include <fmt/format.h>
@@ -271,6 +272,7 @@ const std::vector<ImageComparison>& all_image_comparisons() {
             planes_image(),
             biased()};
         for (ImageComparison& experiment : line_comparisons()) all.push_back(std::move(experiment));
+        for (ImageComparison& experiment : tube_comparisons()) all.push_back(std::move(experiment));
         return all;
     }();
     return experiments;
@@ -294,6 +296,8 @@ std::string to_text(const Metric& metric) {
         return "RMSE clamped at 1" + where;
     case Measure::relative_rmse:
         return "RMSE / mean" + where;
+    case Measure::bias:
+        return "bias / mean" + where;
     case Measure::rmse_outside_penumbrae:
         break;
     }

@@ -8,7 +8,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <variant>
@@ -80,6 +83,8 @@ double measured(const ImageComparisonResult& result, const std::string& variant,
         return region.rmse_clamped;
     case Measure::relative_rmse:
         return region.relative_rmse;
+    case Measure::bias:
+        return std::fabs(region.relative_bias);
     case Measure::rmse_outside_penumbrae:
         break;
     }
@@ -149,17 +154,26 @@ struct TimedImage {
     std::optional<double> seconds;
 };
 
+/// A scene that a variant changes.
+struct OtherScene {
+    OtherScene(scene::Scene changed, int threads) : scene(std::move(changed)), renderer(scene, threads) {}
+
+    scene::Scene scene;
+    render_cpu::Renderer renderer;
+};
+
 /// Renders variants.
 class VariantRenderer {
 public:
-    VariantRenderer(const scene::Scene& scene, const render_cpu::Renderer& renderer, base::Isa isa)
-        : scene_(scene), renderer_(renderer), isa_(isa) {}
+    VariantRenderer(const scene::Scene& scene, const render_cpu::Renderer& renderer, base::Isa isa,
+                    int threads)
+        : scene_(scene), renderer_(renderer), isa_(isa), threads_(threads) {}
 
     TimedImage render(const Variant& variant, std::uint32_t seed) {
         if (variant.technique.empty()) {
             render::RenderSettings settings = variant.settings;
             settings.seed = seed;
-            render::RenderResult result = renderer_.render(settings, isa_);
+            render::RenderResult result = renderer_of(variant).render(settings, isa_);
             return {std::move(result.image), result.statistics.render_seconds};
         }
         if (!techniques_) techniques_.emplace(scene_, renderer_);
@@ -167,9 +181,24 @@ public:
     }
 
 private:
+    /// A scene with other tubes has a renderer of its own.
+    const render_cpu::Renderer& renderer_of(const Variant& variant) {
+        if (!variant.tubes) return renderer_;
+        auto& other = others_[*variant.tubes];
+        if (other == nullptr) {
+            scene::Scene changed = scene_;
+            for (scene::LineLight& light : changed.lights.of<scene::LineLight>())
+                light.model = *variant.tubes;
+            other = std::make_unique<OtherScene>(std::move(changed), threads_);
+        }
+        return other->renderer;
+    }
+
     const scene::Scene& scene_;
     const render_cpu::Renderer& renderer_;
     base::Isa isa_;
+    int threads_;
+    std::map<scene::TubeModel, std::unique_ptr<OtherScene>> others_;
     std::optional<TechniqueImages> techniques_; ///< once they are needed
 };
 
@@ -215,7 +244,7 @@ ImageComparisonResult run_image_comparison(const ImageComparison& comparison, co
     result.share_outside_penumbrae =
         static_cast<double>(std::count(mask.begin(), mask.end(), true)) / static_cast<double>(mask.size());
 
-    VariantRenderer variants(scene, renderer, isa);
+    VariantRenderer variants(scene, renderer, isa, thread_count(settings));
     for (const Variant& variant : comparison.variants) {
         progress(variant.label);
         result.variants.push_back(render_variant(variants, variant, comparison, reference, mask));

@@ -10,6 +10,8 @@
 #include "lab/lines/line_visibility.h"
 #include "lab/peers/peer_comparison.h"
 #include "lab/timing/cost_experiments.h"
+#include "lab/tubes/light_costs.h"
+#include "lab/tubes/light_grid.h"
 
 namespace nusselt::lab {
 
@@ -48,6 +50,8 @@ const std::vector<Experiment>& all_experiments() {
         add(all_cost_tables(), run_cost_table, all);
         add(all_line_convergences(), run_line_convergence, all);
         add(all_line_visibilities(), run_line_visibility, all);
+        add(all_light_grids(), run_light_grid, all);
+        add(all_light_costs(), run_light_costs, all);
         add(all_peer_comparisons(), run_peer_comparison, all);
         return all;
     }();
