@@ -254,7 +254,8 @@ TEST(IesProfile, FarFieldTestRejectsWrongLights) {
                   return flat_radiance(profile, area, {w.y, -w.x, w.z});
               }),
               9);
-    // A constant radiance times the profile, which is narrower by a cosine: all but the uplight, which a flat light cannot show.
+    // A constant radiance times the profile, which is narrower by a cosine: all but the uplight, which a flat light
+    // cannot show.
     EXPECT_EQ(rejected([](const IntensityProfile& profile, double area, const Double3& w) {
                   return flat_radiance(profile, area, w) * w.z;
               }),

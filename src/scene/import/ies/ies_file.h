@@ -1,6 +1,6 @@
 #pragma once
-/// Reads IES files: photometric data of luminaires in the format LM-63 of the Illuminating Engineering Society, in its
-/// versions of 1986, 1991, 1995, 2002 and 2019.
+/// Reads IES files: photometric data of luminaires in the format LM-63 of the Illuminating Engineering Society, in
+/// its versions of 1986, 1991, 1995, 2002 and 2019.
 
 #include "scene/import/ies/luminous_opening.h"
 #include "scene/input/diagnostics.h"
@@ -25,8 +25,8 @@ enum class PhotometricType {
     a  ///< planes at h contain an axis across the beam: headlights
 };
 
-/// Which mirror images the angles of a file stand for. For types A and B, vertical angles that begin with 0 are mirrored in
-/// the plane of 90 degrees of type C, horizontal ones in that of 0 degrees.
+/// Which mirror images the angles of a file stand for. For types A and B, vertical angles that begin with 0 are
+/// mirrored in the plane of 90 degrees of type C, horizontal ones in that of 0 degrees.
 enum class ProfileSymmetry {
     none,
     rotational,
@@ -35,8 +35,8 @@ enum class ProfileSymmetry {
     quadrants ///< mirrored in both
 };
 
-/// How the flux of a lamp depends on its position. It is read and reported but does not change any intensity: it matters for
-/// luminaires that are turned, and lights are turned only after their profile is read.
+/// How the flux of a lamp depends on its position. It is read and reported but does not change any intensity: it
+/// matters for luminaires that are turned, and lights are turned only after their profile is read.
 struct IesTilt {
     std::filesystem::path file;          ///< that has it, empty if the IES file includes it
     int lamp_geometry = 1;               ///< 1 to 3
@@ -60,9 +60,8 @@ struct IesFile {
     std::vector<double> candelas;             ///< at [horizontal * vertical.size() + vertical], not negative
 };
 
-/// Reads a file, which may be compressed, and that of its TILT.
-/// Throws std::runtime_error if it cannot be read, SceneError of scene/input/diagnostics.h ("file:line: message") if it
-/// contradicts the format.
+/// Reads a file, which may be compressed, and that of its TILT. Throws std::runtime_error if it cannot be read,
+/// SceneError of scene/input/diagnostics.h ("file:line: message") if it contradicts the format.
 IesFile read_ies(const std::filesystem::path& path);
 
 /// The same for its contents.

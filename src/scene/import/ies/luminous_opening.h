@@ -29,8 +29,8 @@ struct LuminousOpening {
     double area_from_below() const;
 };
 
-/// The opening for the three sizes of a file. The signs follow the table of the file's version; since that of 2002, discs
-/// have two negative sizes instead of one, and either way is accepted where it has one meaning.
+/// The opening for the three sizes of a file. The signs follow the table of the file's version; since that of 2002,
+/// discs have two negative sizes instead of one, and either way is accepted where it has one meaning.
 /// \param version  year
 /// \param metres   per unit of the sizes
 /// \returns nothing if no shape has such signs

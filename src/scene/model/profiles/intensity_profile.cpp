@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-bool is_increasing(const std::vector<double>& angles) {
+[[maybe_unused]] bool is_increasing(const std::vector<double>& angles) {
     return std::adjacent_find(angles.begin(), angles.end(), std::greater_equal<>()) == angles.end();
 }
 
@@ -82,7 +82,8 @@ double IntensityProfile::intensity_at(double vertical, double horizontal) const 
     return lerp(lerp(at(j, i), at(j, i + 1), s), lerp(at(k, i), at(k, i + 1), s), t);
 }
 
-/// The integral of J times a weight. `moment` returns the antiderivatives of the weight, and of the angle times the weight.
+/// The integral of J times a weight. `moment` returns the antiderivatives of the weight, and of the angle times the
+/// weight.
 template <class Moment>
 double IntensityProfile::integral(double begin, double end, const Moment& moment) const {
     double sum = 0;
