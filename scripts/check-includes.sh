@@ -39,10 +39,11 @@ BEGIN {
     allow("src/scene/rig", "src/scene/input src/scene/model src/scene/colour")
     below = "src/scene/input src/scene/model src/scene/colour src/scene/build"
     allow("src/scene/import/ply", below)
+    allow("src/scene/import/ies", below " src/scene/import")
     allow("src/scene/import/pbrt", below " src/scene/import/ply")
     # The table of importers.
     allow("src/scene/import", below " src/base src/scene/import/pbrt")
-    scene = "src/scene/input src/scene/model src/scene/rig src/scene/import"
+    scene = "src/scene/input src/scene/model src/scene/rig src/scene/import src/scene/import/ies"
     allow("src/visibility", "library src/scene/model src/interface")
     allow("src/tables", "library")
     allow("src/fit", "library src/base src/image")

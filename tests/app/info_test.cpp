@@ -81,6 +81,32 @@ TEST_F(Info, MaterialsNameTheirTextures) {
     expect_line(text, "  mapped" + diffuse + ", normals grey.pfm");
 }
 
+TEST_F(Info, PrintsIesProfiles) {
+    std::ofstream(path("lamp.IES")) << "IESNA:LM-63-2002\n[MANUFAC] Lamps\x1b[2J\nTILT=NONE\n"
+                                       "1 -1 2 3 1 1 1 -1 -1 0\n0.5 1 100\n0 90 180\n0\n100 100 100\n";
+    const Outcome outcome = run("info lamp.IES");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string& text = outcome.out;
+    expect_line(text, "format       IES profile, LM-63 of 2002");
+    expect_line(text, "MANUFAC      Lamps?[2J");
+    expect_line(text, "photometry   type C, rotationally symmetric");
+    expect_line(text, "angles       3 vertical (0 to 180), 1 horizontal (0 to 0) degrees");
+    expect_line(text, "lamps        1, absolute photometry");
+    // 4 pi times 100 cd
+    expect_line(text, "flux         1256.64 lm, 50 % down and 50 % up");
+    expect_line(text, "intensity    up to 100 cd, at vertical 0, horizontal 0 degrees");
+    expect_line(text, "beam angle   360 degrees in the plane of 0, 360 in that of 90");
+    // A foot is 0.3048 m, and 100 cd / (179 lm/W pi/4 (0.3048 m)^2) is 7.656.
+    expect_line(text, "opening      disc or ellipse, length 0.3048, width 0.3048, height 0 m");
+    expect_line(text, "flat light   loses 50.5 % of the flux; 0.07297 m^2, straight down 7.656 W/(sr m^2)");
+    EXPECT_EQ(run("info lamp.IES --lights a.json").exit_code, 2);
+    std::ofstream(path("lamp.IES")) << "IESNA:LM-63-2002\n";
+    const Outcome broken = run("info lamp.IES");
+    EXPECT_EQ(broken.exit_code, 1);
+    EXPECT_NE(broken.err.find("lamp.IES: not an IES file: no line begins with TILT="), std::string::npos)
+        << broken.err;
+}
+
 } // namespace
 
 } // namespace nusselt

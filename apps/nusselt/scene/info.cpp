@@ -1,8 +1,10 @@
 #include "info.h"
 #include "apps/common/render_setup.h"
 #include "lights.h"
+#include "profile_info.h"
 
 #include "base/stopwatch.h"
+#include "scene/import/ies/ies_file.h"
 #include "scene/model/bounds.h"
 #include "scene/model/lights/light_report.h"
 #include "scene/model/scene_size.h"
@@ -130,13 +132,21 @@ void print_film(const scene::Film& film) {
 
 void setup_info(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<InfoOptions>();
-    CLI::App* const command = app.add_subcommand("info", "Print what a scene file contains.");
-    add_scene_argument(*command, options->scene);
+    CLI::App* const command =
+        app.add_subcommand("info", "Print what a scene file or an IES profile contains.");
+    command
+        ->add_option("SCENE", options->scene,
+                     "Scene file in pbrt syntax, version 3 or 4, or IES profile of a luminaire (.ies)")
+        ->required();
     add_rigs_option(*command, options->rigs);
     command->callback([options, &exit_code] { exit_code = run_info(*options); });
 }
 
 int run_info(const InfoOptions& options) {
+    if (scene::is_ies_file(options.scene)) {
+        if (!options.rigs.empty()) throw CLI::ValidationError("--lights", "changes scenes, not IES profiles");
+        return run_profile_info(options.scene);
+    }
     const base::Stopwatch stopwatch;
     const scene::Scene scene = load_scene(options.scene, options.rigs);
     const double seconds = stopwatch.seconds();

@@ -1,5 +1,5 @@
 #pragma once
-/// `nusselt info SCENE`: what the importer makes of a scene file.
+/// `nusselt info SCENE`: what the importer makes of a scene file, or of an IES profile.
 
 #include <CLI/CLI.hpp>
 
@@ -18,7 +18,8 @@ struct InfoOptions {
 void setup_info(CLI::App& app, int& exit_code);
 
 /// Prints geometry, materials, textures, lights, camera, film, warnings and the time for loading to standard
-/// output.
+/// output; for IES profiles, what run_profile_info() prints.
+/// \throws CLI::ValidationError for rigs with a profile
 /// \returns 0
 int run_info(const InfoOptions& options);
 

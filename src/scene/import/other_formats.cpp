@@ -15,7 +15,8 @@ enum class Remedy {
     get_pbrt_version,
     refer_as_mesh,
     refer_as_texture,
-    refer_as_rig
+    refer_as_rig,
+    print
 };
 
 struct OtherFormat {
@@ -40,6 +41,7 @@ constexpr OtherFormat kOtherFormats[] = {
     {"an EXR image", ".exr ", "\x76\x2F\x31\x01", Remedy::refer_as_texture},
     {"an image", ".bmp .hdr .pfm .tga ", "", Remedy::refer_as_texture},
     {"a JSON file", ".json ", "", Remedy::refer_as_rig},
+    {"an IES profile", ".ies ", "IES", Remedy::print},
     {"an XML file", "", "<?xml", Remedy::get_pbrt_version},
 };
 
@@ -75,6 +77,8 @@ std::string to_text(Remedy remedy, const std::filesystem::path& path) {
         return reference("Shape \"plymesh\"");
     case Remedy::refer_as_texture:
         return reference("Texture \"picture\" \"spectrum\" \"imagemap\"");
+    case Remedy::print:
+        return "print what it contains with `nusselt info " + base::shell_word(path.string()) + '`';
     case Remedy::refer_as_rig:
         break;
     }

@@ -1,0 +1,52 @@
+#pragma once
+/// The numbers of an IES file.
+
+#include "scene/input/diagnostics.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nusselt::scene {
+
+/// Reads numbers that are separated by blanks, commas and line ends. Messages name what was expected, and its line.
+class IesNumbers {
+public:
+    /// \param source  must outlive this
+    /// \param text    a part of the file
+    /// \param line    of the file, where the text begins
+    IesNumbers(const SourceFile& source, std::string_view text, int line)
+        : source_(&source), rest_(text), line_(line), line_of_last_(line) {}
+
+    /// Throws SceneError if the next word is missing or is not a finite number.
+    double number(std::string_view what);
+    /// The same for a number above zero.
+    double positive(std::string_view what);
+    /// A whole number, which may be written "3.0". Throws SceneError also if it is not in [least, most].
+    std::size_t whole(std::string_view what, std::size_t least, std::size_t most);
+    /// Reads `count` numbers.
+    /// \param what  one of them, for messages: "vertical angle 3 of 19"
+    std::vector<double> list(std::string_view what, std::size_t count);
+    /// The same for angles [degrees]. Throws SceneError if they do not increase or are not in [least, most].
+    std::vector<double> increasing(std::string_view what, std::size_t count, double least, double most);
+
+    /// Throws SceneError if the rest of the file has no room for `count` numbers. Memory may then be taken for them.
+    void check_room(std::uint64_t count) const;
+    /// Throws SceneError if there is more in the file than blanks.
+    void expect_end();
+
+    /// Throws SceneError at the last number that was read.
+    [[noreturn]] void fail(const std::string& message) const;
+
+private:
+    std::string_view word();
+
+    const SourceFile* source_;
+    std::string_view rest_;
+    int line_;
+    int line_of_last_;
+};
+
+} // namespace nusselt::scene
