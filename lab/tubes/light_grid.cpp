@@ -128,7 +128,7 @@ const std::vector<LightGrid>& all_light_grids() {
 
 LightGrid quick(LightGrid grid) {
     grid.width = 64;
-    grid.samples = 32;
+    grid.samples = 64;
     return grid;
 }
 
