@@ -80,6 +80,10 @@ double measured(const ImageComparisonResult& result, const std::string& variant,
         return region.rmse_clamped;
     case Measure::relative_rmse:
         return region.relative_rmse;
+    case Measure::rmse_in_penumbrae:
+        return errors.rmse_in_penumbrae;
+    case Measure::rmse_blurred:
+        return errors.rmse_blurred;
     case Measure::rmse_outside_penumbrae:
         break;
     }
@@ -176,7 +180,7 @@ private:
 VariantResult render_variant(VariantRenderer& renderer, const Variant& variant,
                              const ImageComparison& comparison, const Reference& reference,
                              const std::vector<bool>& outside) {
-    ImageErrorSums errors(reference.image, outside, comparison.insets);
+    ImageErrorSums errors(reference.image, outside, comparison.insets, comparison.blur);
     BiasStatistics statistics;
     VariantResult result;
     result.label = variant.label;
