@@ -274,8 +274,7 @@ ImageComparison tube_samplers() {
         {},
         {AtMostTimes{{Measure::rmse_in_penumbrae}, "jittered", 0.8, {"independent"}},
          AtMostTimes{{Measure::rmse_in_penumbrae}, "blue_noise", 1.1, {"jittered"}},
-         AtMostTimes{{Measure::rmse_blurred}, "blue_noise", 0.8, {"jittered"}},
-         AtMostTimes{{Measure::rmse_blurred}, "z_sobol", 0.8, {"independent"}}}};
+         AtMostTimes{{Measure::rmse_blurred}, "blue_noise", 0.8, {"jittered"}}}};
     for (const SampleOrder order :
          {SampleOrder::independent, SampleOrder::jittered, SampleOrder::blue_noise, SampleOrder::z_sobol})
         comparison.variants.push_back({std::string(name_of(order)), both(Mis::clamped_optimal, 3, order)});
