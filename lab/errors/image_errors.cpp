@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdlib>
 
 namespace nusselt::lab {
 
@@ -13,7 +15,45 @@ bool contains(const Inset& inset, double x, double y) {
     return x >= inset.left && x < inset.right && y >= inset.top && y < inset.bottom;
 }
 
+/// Weights of the pixels at distances of 0, 1, ... from the middle.
+std::vector<double> gaussian_weights(double deviation) {
+    std::vector<double> weights;
+    for (int i = 0; i <= static_cast<int>(std::ceil(3 * deviation)); ++i)
+        weights.push_back(std::exp(-0.5 * i * i / (deviation * deviation)));
+    return weights;
+}
+
+/// Blurs along one axis.
+/// \param length of the axis, with `stride` numbers from one pixel to the next.
+void blur_line(const float* from, float* to, int length, std::ptrdiff_t stride,
+               const std::vector<double>& weights) {
+    const int radius = static_cast<int>(weights.size()) - 1;
+    for (int i = 0; i < length; ++i) {
+        double sum = 0, weight = 0;
+        for (int k = std::max(i - radius, 0); k <= std::min(i + radius, length - 1); ++k) {
+            const double here = weights[static_cast<std::size_t>(std::abs(k - i))];
+            sum += here * static_cast<double>(from[k * stride]);
+            weight += here;
+        }
+        to[i * stride] = static_cast<float>(sum / weight);
+    }
+}
+
 } // namespace
+
+image::Image blurred(const image::Image& image, double deviation) {
+    const std::vector<double> weights = gaussian_weights(deviation);
+    image::Image rows = image;
+    image::Image result = image;
+    const std::ptrdiff_t row = 3 * static_cast<std::ptrdiff_t>(image.width);
+    for (int c = 0; c < 3; ++c) {
+        for (int y = 0; y < image.height; ++y)
+            blur_line(&image.pixels[0] + y * row + c, &rows.pixels[0] + y * row + c, image.width, 3, weights);
+        for (int x = 0; x < image.width; ++x)
+            blur_line(&rows.pixels[0] + 3 * x + c, &result.pixels[0] + 3 * x + c, image.height, row, weights);
+    }
+    return result;
+}
 
 double mean_square_difference(const image::Image& a, const image::Image& b) {
     double sum = 0;
@@ -48,10 +88,12 @@ RegionErrors ImageErrorSums::Sums::errors() const {
 }
 
 ImageErrorSums::ImageErrorSums(const image::Image& reference, const std::vector<bool>& outside_penumbrae,
-                               const std::vector<Inset>& insets)
+                               const std::vector<Inset>& insets, double blur)
     : reference_(reference),
       outside_penumbrae_(outside_penumbrae),
       insets_(insets),
+      blur_(blur),
+      blurred_reference_(blur > 0 ? blurred(reference, blur) : image::Image()),
       in_insets_(insets.size()) {}
 
 void ImageErrorSums::add(const image::Image& frame) {
@@ -76,19 +118,24 @@ void ImageErrorSums::add(const image::Image& frame) {
                 sums.reference += static_cast<double>(expected[c]);
             }
             frame_.add(sums);
-            if (outside_penumbrae_[pixel]) outside_.add(sums);
+            (outside_penumbrae_[pixel] ? outside_ : inside_).add(sums);
             for (std::size_t i = 0; i < insets_.size(); ++i)
                 if (contains(insets_[i], (x + 0.5) / frame.width, (y + 0.5) / frame.height))
                     in_insets_[i].add(sums);
         }
     }
+    if (blur_ > 0) blurred_squares_ += mean_square_difference(blurred(frame, blur_), blurred_reference_);
+    ++frames_;
 }
 
 ImageErrors ImageErrorSums::errors() const {
     ImageErrors errors;
     errors.frame = frame_.errors();
     for (const Sums& inset : in_insets_) errors.insets.push_back(inset.errors());
-    errors.rmse_outside_penumbrae = outside_.errors().rmse / mean_radiance(reference_);
+    const double mean = mean_radiance(reference_);
+    errors.rmse_outside_penumbrae = outside_.errors().rmse / mean;
+    errors.rmse_in_penumbrae = inside_.errors().rmse / mean;
+    errors.rmse_blurred = blur_ > 0 ? std::sqrt(blurred_squares_ / frames_) / mean : std::nan("");
     errors.invalid_pixels = invalid_pixels_;
     return errors;
 }

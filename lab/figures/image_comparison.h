@@ -32,6 +32,9 @@ enum class Measure {
     bias,                   ///< of the mean radiance, without sign, relative to that of the reference
     rmse_outside_penumbrae, ///< over pixels whose lights are all hidden entirely or not at all, relative to
                             ///< the mean radiance of the reference; of whole images only
+    rmse_in_penumbrae,      ///< the same over all other pixels
+    rmse_blurred, ///< of images after the blur of the comparison, relative to the mean radiance of the
+                  ///< reference; of whole images only
 };
 
 struct Metric {
@@ -83,6 +86,9 @@ struct ImageComparison {
     int frames = 1;
     int reference_frames = 1; ///< number of images whose mean is the reference
     int width = 0;            ///< of the images in pixels; 0: as the scene defines
+    /// Standard deviation of a Gaussian [pixels]: images are shown after a blur as well, which leaves low frequencies of
+    /// their errors. 0: they are not.
+    double blur = 0;
 };
 
 /// All comparisons, in the order of the papers.

@@ -9,15 +9,25 @@ namespace nusselt::lab {
 namespace {
 
 Table error_table(const ImageComparisonResult& result) {
-    Table table = {{"technique", "RMSE", "clamped at 1", "outside penumbrae / mean", "bias / mean",
-                    "invalid pixels", "seconds"}};
+    Table table = {{"technique", "RMSE", "clamped at 1", "outside penumbrae / mean", "in penumbrae / mean",
+                    "bias / mean", "invalid pixels", "seconds"}};
     for (const VariantResult& v : result.variants)
         table.push_back({v.label, fmt::format("{:.4g}", v.errors.frame.rmse),
                          fmt::format("{:.4g}", v.errors.frame.rmse_clamped),
                          fmt::format("{:.3g}", v.errors.rmse_outside_penumbrae),
+                         fmt::format("{:.3g}", v.errors.rmse_in_penumbrae),
                          fmt::format("{:+.1e}", v.errors.frame.relative_bias),
                          fmt::format("{}", v.errors.invalid_pixels),
                          v.seconds ? fmt::format("{:.3f}", *v.seconds) : "-"});
+    return table;
+}
+
+Table blur_table(const ImageComparisonResult& result) {
+    Table table = {
+        {fmt::format("after a blur with a standard deviation of {:g} pixels", result.comparison.blur),
+         "RMSE / mean"}};
+    for (const VariantResult& v : result.variants)
+        table.push_back({v.label, fmt::format("{:.3g}", v.errors.rmse_blurred)});
     return table;
 }
 
@@ -46,6 +56,7 @@ Table bias_table(const ImageComparisonResult& result) {
 std::vector<Table> tables(const ImageComparisonResult& result) {
     std::vector<Table> all = {error_table(result)};
     if (!result.comparison.insets.empty()) all.push_back(inset_table(result));
+    if (result.comparison.blur > 0) all.push_back(blur_table(result));
     if (!result.variants.empty() && result.variants[0].bias) all.push_back(bias_table(result));
     return all;
 }
@@ -55,7 +66,12 @@ Results numbers_of(const ImageComparisonResult& result) {
         "errors",
         {{"variant"}, {"region"}, {"rmse"}, {"rmse_clamped"}, {"relative_rmse"}, {"relative_bias"}}};
     ResultTable variants = {"variants",
-                            {{"variant"}, {"rmse_outside_penumbrae"}, {"invalid_pixels"}, {"seconds", "s"}}};
+                            {{"variant"},
+                             {"rmse_outside_penumbrae"},
+                             {"rmse_in_penumbrae"},
+                             {"rmse_blurred"},
+                             {"invalid_pixels"},
+                             {"seconds", "s"}}};
     for (const VariantResult& v : result.variants) {
         const auto append = [&](const std::string& region, const RegionErrors& e) {
             errors.rows.push_back(
@@ -64,8 +80,9 @@ Results numbers_of(const ImageComparisonResult& result) {
         append("image", v.errors.frame);
         for (std::size_t i = 0; i < v.errors.insets.size(); ++i)
             append(result.comparison.insets[i].name, v.errors.insets[i]);
-        variants.rows.push_back(
-            {v.label, v.errors.rmse_outside_penumbrae, v.errors.invalid_pixels, cell_of(v.seconds)});
+        variants.rows.push_back({v.label, v.errors.rmse_outside_penumbrae, v.errors.rmse_in_penumbrae,
+                                 result.comparison.blur > 0 ? Cell(v.errors.rmse_blurred) : Cell(nullptr),
+                                 v.errors.invalid_pixels, cell_of(v.seconds)});
     }
     return {result.comparison.name,
             {{"mean", result.mean}, {"share_outside_penumbrae", result.share_outside_penumbrae}},
@@ -83,7 +100,7 @@ std::string setting(const ImageComparisonResult& result) {
                            : std::string("Errors are those of one frame."));
 }
 
-/// The reference and all variants. FLIP is that of the frame that is shown.
+/// The reference and all variants, and the same after the blur if there is one. FLIP is that of the frame that is shown.
 std::vector<ReportImage> images(const ImageComparisonResult& result) {
     std::vector<ReportImage> all = {{"reference", ImageRole::reference, result.reference}};
     for (const VariantResult& v : result.variants) {
@@ -91,6 +108,15 @@ std::vector<ReportImage> images(const ImageComparisonResult& result) {
             image::mean_of_valid(image::flip(v.image, result.reference), v.image, result.reference);
         all.push_back(
             {v.label, ImageRole::variant, v.image, {{"RMSE", v.errors.frame.rmse}, {"FLIP", flip}}});
+    }
+    const double blur = result.comparison.blur;
+    if (blur > 0) {
+        all.push_back({"reference, blurred", ImageRole::reference, blurred(result.reference, blur)});
+        for (const VariantResult& v : result.variants)
+            all.push_back({v.label + ", blurred",
+                           ImageRole::variant,
+                           blurred(v.image, blur),
+                           {{"RMSE / mean", v.errors.rmse_blurred}}});
     }
     return all;
 }

@@ -211,7 +211,8 @@ ImageComparison wall() {
                          {"highlight, lit", 0.285, 0.48, 0.36, 0.55}};
     const Inset penumbrae[] = {{"diffuse penumbra", 0.82, 0.20, 0.98, 0.50},
                                {"highlight penumbra", 0.27, 0.70, 0.37, 0.90}};
-    experiment.insets = {lit[0], lit[1], penumbrae[0], penumbrae[1]};
+    const Inset boundary = {"boundary of the highlight", 0.36, 0.52, 0.42, 0.72};
+    experiment.insets = {lit[0], lit[1], penumbrae[0], penumbrae[1], boundary};
     experiment.frames = 64;
     experiment.reference_frames = 32;
     // Where all of the light is visible, the balance heuristic's half of the estimate leaves half of its noise.
@@ -221,6 +222,11 @@ ImageComparison wall() {
     for (const Inset& inset : penumbrae)
         experiment.expectations.push_back(AtMostTimes{
             {Measure::rmse, inset.name}, "clamped_optimal", 1.25, {"balance", "weighted_balance"}});
+    // Samples of visible normals that miss the light make the boundary rough.
+    experiment.expectations.push_back(AtMostTimes{{Measure::rmse, boundary.name},
+                                                  "clamped_optimal",
+                                                  0.5,
+                                                  {"solid_angle + GGX", "projected_solid_angle + GGX"}});
     experiment.expectations.push_back(AtMostTimes{{Measure::rmse_clamped}, "clamped_optimal", 1, two_rays});
     experiment.expectations.push_back(AtMostTimes{{Measure::rmse}, "weighted_balance", 1, two_rays});
     experiment.expectations.push_back(Unbiased{labels_of(experiment.variants)});
@@ -253,7 +259,29 @@ ImageComparison tube(const std::string& name, const std::string& scene, const st
             scene,
             both(Mis::clamped_optimal, 1024, SampleOrder::sobol),
             two_rays_each({Mis::balance, Mis::weighted_balance, Mis::clamped_optimal}),
-            {AtMostTimes{{Measure::rmse}, "clamped_optimal", 1.0 / 3, {"projected_solid_angle"}}}};
+            {AtMostTimes{{Measure::rmse}, "clamped_optimal", 1.0 / 3, {"projected_solid_angle"}},
+             AtMostTimes{{Measure::rmse_outside_penumbrae}, "clamped_optimal", 0.75, {"balance"}}}};
+}
+
+/// Three samples of each technique.
+ImageComparison tube_samplers() {
+    ImageComparison comparison = {
+        "tube-samplers",
+        "Peters 2021, linear lights, Fig. 7",
+        "The same tube, three samples of each technique per pixel: independent, jittered and for screen "
+        "space.",
+        "evidence/bollards-line.pbrt",
+        both(Mis::clamped_optimal, 1024, SampleOrder::sobol),
+        {},
+        {AtMostTimes{{Measure::rmse_in_penumbrae}, "jittered", 0.8, {"independent"}},
+         AtMostTimes{{Measure::rmse_in_penumbrae}, "blue_noise", 1.1, {"jittered"}},
+         AtMostTimes{{Measure::rmse_blurred}, "blue_noise", 0.8, {"jittered"}}}};
+    for (const SampleOrder order :
+         {SampleOrder::independent, SampleOrder::jittered, SampleOrder::blue_noise, SampleOrder::z_sobol})
+        comparison.variants.push_back({std::string(name_of(order)), both(Mis::clamped_optimal, 3, order)});
+    comparison.frames = 4;
+    comparison.blur = 2;
+    return comparison;
 }
 
 } // namespace
@@ -264,6 +292,7 @@ const std::vector<ImageComparison>& all_image_comparisons() {
             line_diffuse(),
             tube("linear-tube", "evidence/bollards-line.pbrt", "the limit of a thin cylinder"),
             tube("tube", "bollards.pbrt", "a closed cylinder"),
+            tube_samplers(),
             wall(),
             polygon_diffuse(),
             tilted_polygon(),
@@ -298,6 +327,10 @@ std::string to_text(const Metric& metric) {
         return "RMSE / mean" + where;
     case Measure::bias:
         return "bias / mean" + where;
+    case Measure::rmse_in_penumbrae:
+        return "RMSE in penumbrae / mean";
+    case Measure::rmse_blurred:
+        return "RMSE after a blur / mean";
     case Measure::rmse_outside_penumbrae:
         break;
     }

@@ -85,6 +85,10 @@ double measured(const ImageComparisonResult& result, const std::string& variant,
         return region.relative_rmse;
     case Measure::bias:
         return std::fabs(region.relative_bias);
+    case Measure::rmse_in_penumbrae:
+        return errors.rmse_in_penumbrae;
+    case Measure::rmse_blurred:
+        return errors.rmse_blurred;
     case Measure::rmse_outside_penumbrae:
         break;
     }
@@ -205,7 +209,7 @@ private:
 VariantResult render_variant(VariantRenderer& renderer, const Variant& variant,
                              const ImageComparison& comparison, const Reference& reference,
                              const std::vector<bool>& outside) {
-    ImageErrorSums errors(reference.image, outside, comparison.insets);
+    ImageErrorSums errors(reference.image, outside, comparison.insets, comparison.blur);
     BiasStatistics statistics;
     VariantResult result;
     result.label = variant.label;

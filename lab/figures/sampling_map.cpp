@@ -1,5 +1,7 @@
 #include "lab/figures/sampling_map.h"
 
+#include "lab/figures/picture.h"
+
 #include <nusselt/geometry/clip_polygon.h>
 #include <nusselt/random/pcg.h>
 #include <nusselt/random/unit_interval.h>
@@ -60,61 +62,6 @@ std::vector<LineView> line_views() {
             {"across the horizon", make_line(Direction{0.9, -1.0, -0.5}, Direction{0.2, 0.9, 1.0})}};
 }
 
-/// Blends from the first colour to the second as u goes from 0 to 1.
-std::string colour(double u) {
-    const auto mix = [&](double a, double b) { return static_cast<int>(std::lround(a + u * (b - a))); };
-    return fmt::format("#{:02x}{:02x}{:02x}", mix(0x1f, 0xe0), mix(0x5f, 0x7a), mix(0xb4, 0x10));
-}
-
-/// One digit after the point, and no minus sign in front of a zero.
-std::string number(double x) { return fmt::format("{:.1f}", std::round(10 * x) / 10 + 0.0); }
-
-class Picture {
-public:
-    Picture(double width, double height)
-        : text_(fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
-                            "height=\"{1}\" font-family=\"sans-serif\" font-size=\"13\">\n"
-                            "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-                            width, height)) {}
-
-    void path(const std::vector<Point>& points, bool closed, std::string_view style) {
-        if (points.size() < 2) return;
-        text_ += "<path d=\"";
-        for (std::size_t i = 0; i < points.size(); ++i)
-            text_ += fmt::format("{}{} {}",
-                                 i == 0   ? "M"
-                                 : i == 1 ? "L"
-                                          : " ",
-                                 number(points[i].x), number(points[i].y));
-        text_ += fmt::format("{}\" {}/>\n", closed ? "Z" : "", style);
-    }
-    void circle(const Point& centre, double radius, std::string_view style) {
-        text_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" {}/>\n", number(centre.x),
-                             number(centre.y), number(radius), style);
-    }
-    /// Dots: lines of no length with round caps.
-    void dots(const std::vector<Point>& centres, std::string_view fill) {
-        if (centres.empty()) return;
-        text_ += "<path d=\"";
-        for (const Point& p : centres) text_ += fmt::format("M{} {}h0", number(p.x), number(p.y));
-        text_ += fmt::format("\" stroke=\"{}\" stroke-width=\"4.2\" stroke-linecap=\"round\"/>\n", fill);
-    }
-    void label(const Point& at, std::string_view text) {
-        text_ += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" fill=\"#222222\">{}</text>\n",
-                             number(at.x), number(at.y), text);
-    }
-    std::string finished() { return text_ + "</svg>\n"; }
-
-private:
-    std::string text_;
-};
-
-constexpr const char* kOutline =
-    "fill=\"none\" stroke=\"#222222\" stroke-width=\"1.4\" stroke-linejoin=\"round\"";
-constexpr const char* kHorizon = "fill=\"#f2f2f2\" stroke=\"#888888\" stroke-width=\"1\"";
-constexpr const char* kConstantX = "fill=\"none\" stroke=\"#1f5fb4\" stroke-width=\"0.9\"";
-constexpr const char* kConstantY = "fill=\"none\" stroke=\"#c25e00\" stroke-width=\"0.9\"";
-
 /// A place in the picture where a hemisphere is drawn as a disk.
 struct Disk {
     Point centre;
@@ -140,6 +87,38 @@ void draw_outline(Picture& picture, const Disk& disk, const Polygon& light) {
     picture.path(points, true, kOutline);
 }
 
+// What techniques construct is drawn behind their maps.
+
+void draw_no_construction(Picture&, const Disk&, const Polygon&) {}
+
+/// The ellipses to which the great circles of edges are projected, and rays from the zenith through the vertices, which bound
+/// the sectors.
+void draw_sectors(Picture& picture, const Disk& disk, const Polygon& light) {
+    constexpr int kSteps = 120;
+    const ConvexPolygon<double, 5> upper = clip_to_horizon(light);
+    for (int j = 0; j < 5; ++j) {
+        if (!(length(upper.edge[j]) > 0)) continue;
+        const Direction a = normalize(upper.vertex[j]);
+        const Direction b = normalize(cross(cross(a, upper.edge[j]), a));
+        std::vector<Point> ellipse;
+        for (int i = 0; i < kSteps; ++i) {
+            const double angle = 2 * kPi<double> * i / kSteps;
+            ellipse.push_back(disk.at(std::cos(angle) * a + std::sin(angle) * b));
+        }
+        picture.path(ellipse, true, kConstruction);
+        const Direction azimuth = normalize(Direction{a.x, a.y, 0});
+        picture.path({disk.centre, disk.at(azimuth)}, false, kConstruction);
+    }
+}
+
+/// The vertex from which all triangles and all arcs of samples start.
+void draw_first_vertex(Picture& picture, const Disk& disk, const Polygon& light) {
+    const Direction w = normalize(light.vertex[0]);
+    if (w.z >= 0) picture.circle(disk.at(w), 5, kOutline);
+}
+
+using DrawConstruction = void (*)(Picture& picture, const Disk& disk, const Polygon& light);
+
 /// Dots in as many colours as there are columns of the grid.
 /// \param place where in the picture the point with given random numbers is; nothing if it is not in it.
 template <class Place>
@@ -148,7 +127,7 @@ void draw_dots(Picture& picture, const std::vector<Point>& random_numbers, const
     for (const Point& u : random_numbers)
         if (const std::optional<Point> p = place(u))
             columns[static_cast<int>(u.x * kGridCells)].push_back(*p);
-    for (int i = 0; i < kGridCells; ++i) picture.dots(columns[i], colour((i + 0.5) / kGridCells));
+    for (int i = 0; i < kGridCells; ++i) picture.dots(columns[i], blended_colour((i + 0.5) / kGridCells));
 }
 
 double clamped(double u) { return below_one(u); }
@@ -203,7 +182,7 @@ std::string share_text(int below, int count) {
     return fmt::format("{} % of samples below the horizon", (200 * below + count) / (2 * count));
 }
 
-template <class Technique>
+template <class Technique, DrawConstruction draw_construction = draw_no_construction>
 std::string draw_polygons() {
     const auto views = polygon_views();
     const std::vector<Point> points = blue_noise_points(kPoints);
@@ -215,6 +194,7 @@ std::string draw_polygons() {
         const Disk noise = disk_at(static_cast<int>(v) + 1, 1);
         picture.label({grid.centre.x, 18}, views[v].title);
         draw_horizon(picture, grid);
+        draw_construction(picture, grid, views[v].light);
         for (int i = 0; i <= kGridCells; ++i) {
             const double fixed = clamped(static_cast<double>(i) / kGridCells);
             draw_curve(
@@ -232,6 +212,7 @@ std::string draw_polygons() {
         }
         draw_outline(picture, grid, views[v].light);
         draw_horizon(picture, noise);
+        draw_construction(picture, noise, views[v].light);
         int below = 0;
         draw_dots(picture, points, [&](const Point& u) -> std::optional<Point> {
             const Direction w = technique.sample(u).wi;
@@ -285,7 +266,7 @@ void draw_line(Picture& picture, const Disk& disk, const Line& light) {
         left.insert(left.end(), right.rbegin(), right.rend());
         picture.path(left, true,
                      fmt::format("fill=\"{}\" stroke=\"#222222\" stroke-width=\"0.8\"",
-                                 colour((cell + 0.5) / kLineCells)));
+                                 blended_colour((cell + 0.5) / kLineCells)));
     }
     if (below > 0) picture.label({disk.centre.x, disk.centre.y + kDisk + 16}, share_text(below, kSteps));
 }
@@ -302,7 +283,7 @@ std::string draw_lines() {
                       square.at({0.42, end})},
                      true,
                      fmt::format("fill=\"{}\" stroke=\"#222222\" stroke-width=\"0.8\"",
-                                 colour((cell + 0.5) / kLineCells)));
+                                 blended_colour((cell + 0.5) / kLineCells)));
     }
     picture.label(square.at({0.32, 0.47}), "u");
     picture.label({kColumn / 2, 18}, "random number");
@@ -322,12 +303,14 @@ struct Map {
 
 constexpr Map kMaps[] = {
     {"PolygonArea", draw_polygons<PolygonArea<double, 4>>},
-    {"PolygonSolidAngle", draw_polygons<PolygonSolidAngle<double, 4>>},
-    {"PolygonClippedSolidAngle", draw_polygons<PolygonClippedSolidAngle<double, 4>>},
-    {"PolygonProjectedSolidAngle", draw_polygons<PolygonProjectedSolidAngle<double, 4>>},
-    {"PolygonProjectedSolidAngleBiased", draw_polygons<PolygonProjectedSolidAngleBiased<double, 4>>},
-    {"PolygonSolidAngleArvo", draw_polygons<PolygonSolidAngleArvo<double, 4>>},
-    {"PolygonProjectedSolidAngleArvo", draw_polygons<PolygonProjectedSolidAngleArvo<double, 4>>},
+    {"PolygonSolidAngle", draw_polygons<PolygonSolidAngle<double, 4>, draw_first_vertex>},
+    {"PolygonClippedSolidAngle", draw_polygons<PolygonClippedSolidAngle<double, 4>, draw_first_vertex>},
+    {"PolygonProjectedSolidAngle", draw_polygons<PolygonProjectedSolidAngle<double, 4>, draw_sectors>},
+    {"PolygonProjectedSolidAngleBiased",
+     draw_polygons<PolygonProjectedSolidAngleBiased<double, 4>, draw_sectors>},
+    {"PolygonSolidAngleArvo", draw_polygons<PolygonSolidAngleArvo<double, 4>, draw_first_vertex>},
+    {"PolygonProjectedSolidAngleArvo",
+     draw_polygons<PolygonProjectedSolidAngleArvo<double, 4>, draw_sectors>},
     {"LineArea", draw_lines<LineArea<double>>},
     {"LineSolidAngle", draw_lines<LineSolidAngle<double>>},
     {"LineClippedSolidAngle", draw_lines<LineClippedSolidAngle<double>>},

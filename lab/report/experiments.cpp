@@ -9,6 +9,7 @@
 #include "lab/lines/line_convergence.h"
 #include "lab/lines/line_visibility.h"
 #include "lab/peers/peer_comparison.h"
+#include "lab/statements/statement_set.h"
 #include "lab/timing/cost_experiments.h"
 #include "lab/tubes/light_costs.h"
 #include "lab/tubes/light_grid.h"
@@ -47,6 +48,7 @@ const std::vector<Experiment>& all_experiments() {
         add(all_map_sets(), run_map_set, all);
         add(all_accuracy_studies(), run_accuracy_study, all);
         add(all_worst_case_studies(), run_worst_case_study, all);
+        add(all_statement_sets(), run_statement_set, all);
         add(all_cost_tables(), run_cost_table, all);
         add(all_line_convergences(), run_line_convergence, all);
         add(all_line_visibilities(), run_line_visibility, all);

@@ -77,6 +77,17 @@ TEST(SamplingMap, SamplesBelowTheHorizonAreToldAndNotDrawn) {
     EXPECT_EQ(occurrences(draw_sampling_map("LineClippedSolidAngle"), "below the horizon"), 0u);
 }
 
+// Each of the four edges above the horizon has an ellipse and a ray, in two panels of three lights.
+TEST(SamplingMap, SectorsAreDrawnForTechniquesThatHaveThem) {
+    EXPECT_EQ(occurrences(draw_sampling_map("PolygonProjectedSolidAngle"), "stroke-dasharray"),
+              2u * 4 * 2 * 3);
+    EXPECT_EQ(occurrences(draw_sampling_map("PolygonSolidAngle"), "stroke-dasharray"), 0u);
+    // The first vertex of the light across the horizon is below it.
+    EXPECT_EQ(occurrences(draw_sampling_map("PolygonSolidAngle"), "<circle") -
+                  occurrences(draw_sampling_map("PolygonArea"), "<circle"),
+              4u);
+}
+
 TEST(SamplingMap, UnknownTechniquesAreNamed) {
     try {
         draw_sampling_map("PolygonVolume");

@@ -6,12 +6,17 @@
 #include "lab/figures/map_experiment.h"
 #include "lab/fuzzing/worst_case_experiment.h"
 #include "lab/report/published_values.h"
+#include "lab/statements/sector_iterations.h"
+#include "lab/statements/statement_set.h"
 #include "lab/timing/cost_experiments.h"
+
+#include <nusselt/related/polygon_projected_solid_angle_peters.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -92,6 +97,61 @@ TEST(AccuracyStudy, HoldsAndNoticesAnInvalidResult) {
     for (auto& row : result.table.rows)
         if (row.method == "ours") row.nan = 1;
     EXPECT_EQ(failures(report_of(result)), 1);
+}
+
+std::set<std::string> items_shown_by(const std::string& experiment) {
+    std::ifstream file(std::filesystem::path(nusselt_test::kSourceFolder) / "lab/report/published.json");
+    const auto published = nlohmann::json::parse(file);
+    std::set<std::string> items;
+    for (const auto& paper : published.at("papers"))
+        for (const auto& item : paper.at("items"))
+            for (const auto& name : item.at("by"))
+                if (name == experiment) items.insert(item.at("id"));
+    return items;
+}
+
+TEST(StatementSets, HoldAndMeasureTheItemsThatNameThem) {
+    for (const StatementSet& set : all_statement_sets()) {
+        const StatementSetResult result = run_statement_set(quick(set), settings(), ignore);
+        expect_all_hold(report_of(result));
+        std::set<std::string> measured;
+        for (const Finding& f : result.findings.all) measured.insert(f.item);
+        EXPECT_EQ(measured, items_shown_by(set.name)) << set.name;
+    }
+}
+
+TEST(StatementSets, FailOutsideOfTheRangeAndForNaN) {
+    EXPECT_TRUE(holds(at_most("", "", 1, 1)));
+    EXPECT_TRUE(holds(at_least("", "", 1, 1)));
+    EXPECT_FALSE(holds(at_most("", "", 1.01, 1)));
+    EXPECT_FALSE(holds(at_least("", "", 0.99, 1)));
+    EXPECT_FALSE(holds(between("", "", 3.2, 2.9, 3.1)));
+    EXPECT_FALSE(holds(at_most("", "", std::nan(""), 1)));
+    const Findings findings = {{at_most("", "", 2, 1), at_most("", "", 1, 1)}};
+    EXPECT_EQ(failures(report_of(StatementSetResult{{}, findings})), 1);
+}
+
+/// The simple form of the iteration beside that of the technique. Two steps leave differences at rounding, one does not.
+TEST(SectorIterations, TangentsAreThoseOfThePublishedIteration) {
+    using Real = long double;
+    for (const Real sweep : {0.3L, 1.5L, 2.9L}) {
+        const Vec2<Real> inner{1.5L, 2}, outer{0.4L, 0.7L};
+        const auto sector = TwoEllipses<Real>::between(sweep, inner, outer);
+        const Real x = std::cos(sweep), y = std::sin(sweep);
+        const Vec3<Real> corners[] = {{1, 0, outer.x}, {x, y, outer.y}, {x, y, inner.y}, {1, 0, inner.x}};
+        const PolygonProjectedSolidAnglePeters<Real, 4> published(make_polygon<4>(corners, 4));
+        EXPECT_NEAR(static_cast<double>(sector.area() / published.measure()), 1, 1e-14);
+        for (const Real share : {0.1L, 0.45L, 0.8L}) {
+            const Vec3<Real> wi = published.direction({share, 0.5L});
+            const Real one_step = sector.tangent_step(sector.start_with_quads(2, share), share);
+            const Real two_steps = sector.tangent_step(one_step, share);
+            const auto expected = static_cast<double>(std::atan2(wi.y, wi.x));
+            EXPECT_NEAR(static_cast<double>(two_steps), expected, 1e-13);
+            if (sweep > 2) EXPECT_GT(std::fabs(static_cast<double>(one_step) - expected), 1e-8);
+            EXPECT_NEAR(static_cast<double>(sector.share_to(sector.exact_azimuth(share))),
+                        static_cast<double>(share), 1e-15);
+        }
+    }
 }
 
 /// Costs that the code does not decide: those of the published methods, and 10 for ours.
