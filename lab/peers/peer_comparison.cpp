@@ -155,10 +155,8 @@ std::vector<ExpectationResult> expectations_of(const PeerComparison& comparison,
 
 std::string setting(const PeerComparison& comparison, const Numbers& numbers) {
     return fmt::format("One thread each; processor times, medians of {} repetitions. Pixels that show "
-                       "emitters are left out of errors. "
-                       "Each renderer is compared with a converged image of its own, of {} samples; the mean "
-                       "of that of Cycles is "
-                       "{:.4f} times ours. Blender {}.",
+                       "emitters are left out of errors. Each renderer is compared with a converged image of "
+                       "its own, of {} samples; the mean of that of Cycles is {:.4f} times ours. Blender {}.",
                        comparison.repetitions, comparison.reference_samples,
                        numbers.of_scene("references", "mean_ratio"), numbers.setting("cycles"));
 }

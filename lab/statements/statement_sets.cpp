@@ -11,8 +11,7 @@ const std::vector<StatementSet>& all_statement_sets() {
         {"iterations",
          "Peters 2021, polygonal lights, Fig. 5 and 8, Sec. 3.5 and 3.8; linear lights, Sec. 3.3",
          "Starts with quads and with Arvo's polynomial, and orders of convergence of Newton's method and of "
-         "the "
-         "published iterations.",
+         "the published iterations.",
          measure_iterations},
         {"inverse-distribution", "Peters 2021, linear lights, Fig. 3",
          "The inverse of the distribution of lines, for five directions of the normal.",
@@ -22,8 +21,7 @@ const std::vector<StatementSet>& all_statement_sets() {
          measure_lobe_samples},
         {"heuristics", "Peters 2021, polygonal lights and linear lights, Sec. 4.2",
          "Two samples where the BRDF is a sum of two lobes, and where it has no diffuse component, with "
-         "several "
-         "smallest diffuse albedos.",
+         "several smallest diffuse albedos.",
          measure_heuristics},
         {"first-vertex", "Peters 2021, polygonal lights, Sec. 6.2",
          "Noise of warped solid angle sampling over the first vertex of a light, and where clipping begins.",

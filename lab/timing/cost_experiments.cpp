@@ -424,12 +424,10 @@ CostTableResult run_cost_table(const CostTable& table, const RunSettings& /*one 
 Report report_of(const CostTableResult& result) {
     Report report;
     report.setting = fmt::format("Medians of {} interleaved repetitions ± half the interquartile range, with "
-                                 "new lights in each, on one "
-                                 "thread, without a baseline; packs: per lane. The papers measure shaders: a "
-                                 "graphics processor runs as "
-                                 "packs do. In brackets, published milliseconds for a frame, all multiplied "
-                                 "by one number, such that they "
-                                 "equal ours in the geometric mean.",
+                                 "new lights in each, on one thread, without a baseline; packs: per lane. "
+                                 "The papers measure shaders: a graphics processor runs as packs do. In "
+                                 "brackets, published milliseconds for a frame, all multiplied by one "
+                                 "number, such that they equal ours in the geometric mean.",
                                  result.table.repetitions);
     report.tables = {comparison_table(result), ratio_table(result)};
     for (const CostCode& code : result.codes)

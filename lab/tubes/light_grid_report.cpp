@@ -237,10 +237,9 @@ Results numbers_of(const LightGridResult& result) {
 Report report_of(const LightGridResult& result) {
     Report report;
     report.setting = fmt::format("References take {} samples per pixel of the {}. 'line' is sampled as well, "
-                                 "so that its error is that of the "
-                                 "line alone; 'analytic' also has that of the fitted lobes. Images are "
-                                 "mosaics: the width of the light grows to "
-                                 "the right, the roughness downwards.",
+                                 "so that its error is that of the line alone; 'analytic' also has that of "
+                                 "the fitted lobes. Images are mosaics: the width of the light grows to the "
+                                 "right, the roughness downwards.",
                                  result.grid.samples,
                                  is_cylinder(result) ? "lateral surface of the cylinder" : "rectangle");
     report.tables = {error_table(result)};
