@@ -29,8 +29,10 @@ using lab::Experiment;
 using lab::Verdict;
 
 void print_list() {
+    std::size_t width = 0;
+    for (const Experiment& e : lab::all_experiments()) width = std::max(width, e.name.size() + 2);
     for (const Experiment& e : lab::all_experiments())
-        fmt::print("{:<18}{}\n{:<18}{}\n", e.name, e.source, "", e.description);
+        fmt::print("{:<{}}{}\n{:<{}}{}\n", e.name, width, e.source, "", width, e.description);
 }
 
 std::vector<Experiment> chosen(const std::vector<std::string>& names) {
