@@ -147,7 +147,9 @@ TEST(SectorIterations, TangentsAreThoseOfThePublishedIteration) {
             const Real two_steps = sector.tangent_step(one_step, share);
             const auto expected = static_cast<double>(std::atan2(wi.y, wi.x));
             EXPECT_NEAR(static_cast<double>(two_steps), expected, 1e-13);
-            if (sweep > 2) EXPECT_GT(std::fabs(static_cast<double>(one_step) - expected), 1e-8);
+            if (sweep > 2) {
+                EXPECT_GT(std::fabs(static_cast<double>(one_step) - expected), 1e-8);
+            }
             EXPECT_NEAR(static_cast<double>(sector.share_to(sector.exact_azimuth(share))),
                         static_cast<double>(share), 1e-15);
         }
