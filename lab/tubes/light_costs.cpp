@@ -1,7 +1,6 @@
 #include "lab/tubes/light_costs.h"
 
 #include "base/isa.h"
-#include "lab/timing/sampler_timing_lights.h"
 #include "lab/tubes/rectangle.h"
 #include "render/film.h"
 #include "render_cpu/renderer.h"
@@ -9,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 #include <stdexcept>
 #include <utility>
@@ -47,6 +47,11 @@ scene::Scene with_quads(const scene::Scene& scene, int count) {
         quads.lights.of<scene::PolygonLight>().push_back(rectangle_of(strip));
     quads.lights.of<LineLight>().clear();
     return quads;
+}
+
+double quantile(std::vector<double> values, double share) {
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
 }
 
 /// A scene and its times.
