@@ -101,7 +101,7 @@ TEST_F(CommandLine, TellsWhatASceneAndTheProgramContain) {
         EXPECT_NE(techniques.out.find(name), std::string::npos) << name;
     const Outcome list = run_lab("reproduce --list");
     EXPECT_EQ(list.exit_code, 0);
-    for (const char* name : {"\nline-diffuse  ", "\ninverse-distribution  "})
+    for (const char* name : {"line-diffuse  ", "inverse-distribution  "})
         EXPECT_NE(list.out.find(name), std::string::npos) << list.out;
 }
 

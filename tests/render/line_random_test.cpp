@@ -1,6 +1,7 @@
 /// Random numbers of lines: those of one camera ray, or for one purpose, do not come back for another one.
 
 #include "render_cpu/kernel/random.h"
+#include "tables/blue_noise.h"
 
 #include <gtest/gtest.h>
 
@@ -29,6 +30,7 @@ class LineRandom : public testing::TestWithParam<SampleOrder> {};
 TEST_P(LineRandom, NumbersComeOnce) {
     render_cpu::RenderJob job{};
     job.sample_order = GetParam();
+    job.blue_noise = tables::blue_noise().bytes;
     job.lines.count = 16;
     job.camera_rays = 4;
     const kernel::PixelBlock block = make_block();
