@@ -10,10 +10,6 @@ endif()
 if(NOT GLSLANG_VALIDATOR)
     list(APPEND missing_gpu_packages glslang-tools)
 endif()
-find_program(GZIP gzip)
-if(NOT GZIP)
-    list(APPEND missing_gpu_packages gzip)
-endif()
 if(missing_gpu_packages)
     set(NUSSELT_BUILD_GPU OFF)
     list(JOIN missing_gpu_packages " " missing_gpu_packages)
@@ -22,13 +18,13 @@ else()
     set(NUSSELT_BUILD_GPU ON)
 endif()
 
-# nusselt_add_shader(target name source [COMPRESSED] [ENVIRONMENT environment] [DEFINES define...]): compiles a source for
-# vulkan1.1 or another environment of glslang and makes `#include "shaders/<name>.h"` available to the sources of the
-# target. The header has the array k<Name>, with name in PascalCase: the words of the SPIR-V, or the bytes of a gzip file
-# of them if it is COMPRESSED. A relative source is one of the current source directory; shaders include others relative
-# to shaders/.
+# nusselt_add_shader(target name source [ENVIRONMENT environment] [DEFINES define...]): compiles a source for vulkan1.1 or
+# another environment of glslang and makes `#include "shaders/<name>.h"` available to the sources of the target. The header
+# has the array k<Name>, with name in PascalCase: the words of the SPIR-V. They are not compressed: xz finds what variants of
+# a shader share, which makes archives smaller. A relative source is one of the current source directory; shaders include
+# others relative to shaders/.
 function(nusselt_add_shader target name source)
-    cmake_parse_arguments(arg "COMPRESSED" "ENVIRONMENT" "DEFINES" ${ARGN})
+    cmake_parse_arguments(arg "" "ENVIRONMENT" "DEFINES" ${ARGN})
     if(NOT arg_ENVIRONMENT)
         set(arg_ENVIRONMENT vulkan1.1)
     endif()
@@ -37,31 +33,20 @@ function(nusselt_add_shader target name source)
     nusselt_shader_array(array ${name})
     set(spirv ${folder}/${name}.spv)
     set(header ${folder}/${name}.h)
-    set(embedded ${spirv})
-    set(outputs ${spirv} ${header})
-    set(type std::uint32_t)
-    set(compress)
-    if(arg_COMPRESSED)
-        set(embedded ${spirv}.gz)
-        list(APPEND outputs ${embedded})
-        set(type "unsigned char")
-        set(compress COMMAND ${GZIP} --no-name --force --keep ${spirv})
-    endif()
     set(symbol ${target}_shader_${name})
     list(TRANSFORM arg_DEFINES PREPEND -D)
     file(MAKE_DIRECTORY ${folder})
     # ninja expects that the depfile names the first output; otherwise it compiles the shader in each build.
-    add_custom_command(OUTPUT ${outputs}
+    add_custom_command(OUTPUT ${spirv} ${header}
         COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env ${arg_ENVIRONMENT} -g0 -I${PROJECT_SOURCE_DIR}/shaders ${arg_DEFINES}
             --depfile ${spirv}.d -o ${spirv} ${source}
-        ${compress}
-        COMMAND ${CMAKE_COMMAND} -D INPUT=${embedded} -D OUTPUT=${header} -D ARRAY=${array} -D SYMBOL=${symbol} -D TYPE=${type}
+        COMMAND ${CMAKE_COMMAND} -D INPUT=${spirv} -D OUTPUT=${header} -D ARRAY=${array} -D SYMBOL=${symbol}
             -P ${PROJECT_SOURCE_DIR}/cmake/embedded_shader.cmake
         DEPENDS ${source} ${PROJECT_SOURCE_DIR}/cmake/embedded_shader.cmake
         DEPFILE ${spirv}.d
         COMMENT "Compiling shader ${name}"
         VERBATIM)
-    nusselt_embed(${target} ${symbol} ${embedded})
+    nusselt_embed(${target} ${symbol} ${spirv})
     target_sources(${target} PRIVATE ${header})
     target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 endfunction()

@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace nusselt::render_vulkan {
 
@@ -32,7 +31,7 @@ struct ShaderVariant {
 struct ShadingShader {
     ShadingPassKind pass;
     ShaderVariant variant;
-    std::span<const unsigned char> gzip; ///< compressed SPIR-V: the variants together have 11 MB
+    std::span<const std::uint32_t> words; ///< SPIR-V
 };
 
 /// All passes in all variants.
@@ -40,6 +39,6 @@ std::span<const ShadingShader> shading_shaders();
 
 /// The words of the SPIR-V.
 /// \throws std::logic_error if the pass is not compiled for the variant
-std::vector<std::uint32_t> shading_shader(ShadingPassKind pass, const ShaderVariant& variant);
+std::span<const std::uint32_t> shading_shader(ShadingPassKind pass, const ShaderVariant& variant);
 
 } // namespace nusselt::render_vulkan

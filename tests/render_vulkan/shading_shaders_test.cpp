@@ -26,7 +26,8 @@ TEST(ShadingShaders, AreCompiledOnceForAllVariants) {
                     const render_vulkan::ShaderVariant variant{slots, fused, textures};
                     const auto words = render_vulkan::shading_shader(pass, variant);
                     EXPECT_EQ(words.front(), 0x07230203u) << "not SPIR-V";
-                    EXPECT_TRUE(all_words.insert(words).second) << "two variants have the same shader";
+                    EXPECT_TRUE(all_words.emplace(words.begin(), words.end()).second)
+                        << "two variants have the same shader";
                 }
     EXPECT_THROW(static_cast<void>(render_vulkan::shading_shader(ShadingPassKind::integrate_lights,
                                                                  {5, true, TextureAccess::images})),
