@@ -7,6 +7,7 @@
 #include "lab/figures/run_image_comparison.h"
 #include "lab/fuzzing/worst_case_experiment.h"
 #include "lab/lines/line_convergence.h"
+#include "lab/lines/line_growth.h"
 #include "lab/lines/line_visibility.h"
 #include "lab/timing/cost_experiments.h"
 
@@ -40,6 +41,7 @@ const std::vector<Experiment>& all_experiments() {
         add(all_cost_tables(), run_cost_table, all);
         add(all_line_convergences(), run_line_convergence, all);
         add(all_line_visibilities(), run_line_visibility, all);
+        add(all_line_growths(), run_line_growth, all);
         return all;
     }();
     return experiments;
