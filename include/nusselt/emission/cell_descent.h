@@ -67,12 +67,12 @@ NUSSELT_HD inline TexelChoice<T> ascend(const PyramidShape& shape, TexelChoice<T
                                         const PartsOf& parts_of) noexcept {
     choice.probability = T(1);
     for (int level = 1; level < shape.levels; ++level) {
-        const int columns = shape.width_of(level - 1) / shape.width_of(level);
-        const int rows = shape.height_of(level - 1) / shape.height_of(level);
-        const int i = choice.i % columns;
-        const int j = choice.j % rows;
-        choice.i /= columns;
-        choice.j /= rows;
+        const int columns = shape.columns_of(level);
+        const int rows = shape.rows_of(level);
+        const int i = choice.i & (columns - 1);
+        const int j = choice.j & (rows - 1);
+        choice.i >>= columns - 1;
+        choice.j >>= rows - 1;
         const ElementParts<T> parts = parts_of(level, choice.i, choice.j);
         const T left = parts.column(0), right = parts.column(1);
         choice.u.x = unite_of_two(left, right, i, choice.u.x);
@@ -88,8 +88,8 @@ template <class T>
 NUSSELT_HD inline ElementParts<T> emitting_parts(const TexturePyramid<T>& pyramid, int level, int i,
                                                  int j) noexcept {
     const PyramidShape& shape = pyramid.shape;
-    const int columns = shape.width_of(level - 1) / shape.width_of(level);
-    const int rows = shape.height_of(level - 1) / shape.height_of(level);
+    const int columns = shape.columns_of(level);
+    const int rows = shape.rows_of(level);
     const T* first = pyramid.weight + shape.index(level - 1, columns * i, rows * j);
     const T* second = first + (rows == 2 ? shape.width_of(level - 1) : 0);
     ElementParts<T> parts{columns, rows, {first[0], first[columns - 1], second[0], second[columns - 1]}};
@@ -119,9 +119,11 @@ struct DescentByRadiance {
     template <class T>
     NUSSELT_HD static TexelChoice<T> choose(const TexturePyramid<T>& pyramid, const TexturePlane<T>&,
                                             int column, int row, const Vec2<T>& u) noexcept {
-        return detail::descend(pyramid.shape, column, row, u, [&](int level, int i, int j) {
+        TexelChoice<T> choice = detail::descend(pyramid.shape, column, row, u, [&](int level, int i, int j) {
             return detail::emitting_parts(pyramid, level, i, j);
         });
+        choice.probability = probability_in(pyramid, column, row, choice.i, choice.j);
+        return choice;
     }
     template <class T>
     NUSSELT_HD static T probability(const TexturePyramid<T>& pyramid, const TexturePlane<T>&, int i,
@@ -129,8 +131,7 @@ struct DescentByRadiance {
         const PyramidShape& shape = pyramid.shape;
         const int columns = shape.width_of(0) / shape.cells;
         const int rows = shape.height_of(0) / shape.cells;
-        const T cell = pyramid.at(shape.levels - 1, i / columns, j / rows);
-        return cell > T(0) ? pyramid.at(0, i, j) / (cell * static_cast<T>(columns * rows)) : T(0);
+        return probability_in(pyramid, i / columns, j / rows, i, j);
     }
     /// \param choice with the texel, and with the random numbers inside of it.
     template <class T>
@@ -140,6 +141,17 @@ struct DescentByRadiance {
                    pyramid.shape, choice,
                    [&](int level, int i, int j) { return detail::emitting_parts(pyramid, level, i, j); })
             .u;
+    }
+
+private:
+    template <class T>
+    NUSSELT_HD static T probability_in(const TexturePyramid<T>& pyramid, int column, int row, int i,
+                                       int j) noexcept {
+        const PyramidShape& shape = pyramid.shape;
+        const T cell = pyramid.at(shape.levels - 1, column, row);
+        const auto texels = static_cast<T>(shape.width_of(0) * shape.height_of(0));
+        const T per_cell = texels * (T(1) / static_cast<T>(shape.cells * shape.cells));
+        return cell > T(0) ? pyramid.at(0, i, j) / (cell * per_cell) : T(0);
     }
 };
 
@@ -187,8 +199,8 @@ private:
         // Positions in half parts: nine corners, then four centres. Where there is one part only, the others weigh nothing.
         const T step_x = width / static_cast<T>(2 * parts.columns);
         const T step_y = height / static_cast<T>(2 * parts.rows);
-        constexpr T kX[16] = {0, 2, 4, 0, 2, 4, 0, 2, 4, 1, 3, 1, 3, 0, 0, 0};
-        constexpr T kY[16] = {0, 0, 0, 2, 2, 2, 4, 4, 4, 1, 1, 3, 3, 0, 0, 0};
+        static constexpr T kX[16] = {0, 2, 4, 0, 2, 4, 0, 2, 4, 1, 3, 1, 3, 0, 0, 0};
+        static constexpr T kY[16] = {0, 0, 0, 2, 2, 2, 4, 4, 4, 1, 1, 3, 3, 0, 0, 0};
         T cosine[16];
         for (int k = 0; k < 16; k += Lanes::kCount) {
             using L = typename Lanes::Type;

@@ -39,9 +39,11 @@ struct CellLanes {
     }
     /// first, first + 1, ...
     NUSSELT_INLINE static Type count_from(int first) noexcept {
-        constexpr T kSteps[8] = {0, 1, 2, 3, 4, 5, 6, 7};
         return Type(static_cast<T>(first)) + load(kSteps);
     }
+
+private:
+    static constexpr T kSteps[8] = {0, 1, 2, 3, 4, 5, 6, 7};
 };
 
 /// A line in shading space that the terms of Lambert's formula are taken along. Positions on it are distances [m].
@@ -54,6 +56,15 @@ struct TermLine {
 
     /// Uninitialised: to be assigned to before it is used.
     TermLine() = default;
+
+    NUSSELT_INLINE TermLine(const Real& cosine_of_plane, const Real& inverse_distance,
+                            const Real& foot_position, const Real& interval_low,
+                            const Real& interval_high) noexcept
+        : cosine(cosine_of_plane),
+          inverse(inverse_distance),
+          foot(foot_position),
+          low(interval_low),
+          high(interval_high) {}
 
     /// \param q         position 0.
     /// \param direction unit.
@@ -86,13 +97,7 @@ struct TermLine {
 
 template <class Real, class Single>
 NUSSELT_INLINE TermLine<Real> broadcast(const TermLine<Single>& line) noexcept {
-    TermLine<Real> result;
-    result.cosine = Real(line.cosine);
-    result.inverse = Real(line.inverse);
-    result.foot = Real(line.foot);
-    result.low = Real(line.low);
-    result.high = Real(line.high);
-    return result;
+    return {Real(line.cosine), Real(line.inverse), Real(line.foot), Real(line.low), Real(line.high)};
 }
 
 /// The line along which the horizon cuts a lattice. It closes the cells that it cuts.
@@ -222,29 +227,25 @@ public:
     /// Distance of the plane of the light from the origin [m], with the sign of plane_distance(); 0 if nothing can be seen.
     NUSSELT_HD T signed_distance() const noexcept { return signed_distance_; }
 
-    /// Calls visit(cell, angles) for all cells, some neighbours of a row at a time, in the order of rows. `cell` is the
-    /// index of the first one and `angles` the projected solid angles [sr] of the parts above the horizon and inside of the
-    /// light. They are never zero where the light is: at least as large as their rounding errors.
-    template <class Visit>
-    NUSSELT_INLINE void for_each(const Visit& visit) const noexcept {
-        if (signed_distance_ == T(0) || !(highest_ > T(0))) {
-            for (int cell = 0; cell < n * n; cell += kLanes) visit(cell, L(T(0)));
-            return;
-        }
+    /// Projected solid angles [sr] of the parts of all cells that are above the horizon and inside of the light. They are
+    /// never zero where the light is: at least as large as their rounding errors.
+    /// \param angle n * n of them, in the order of cells.
+    NUSSELT_HD void find_angles(T* angle) const noexcept {
         const Vec3<T> centre = plane_.point_at({T(0.5), T(0.5)});
         const T size = length_x_ + length_y_;
-        if (size * size < kFar * kFar * dot(centre, centre))
-            for_each_far(visit);
+        if (signed_distance_ == T(0) || !(highest_ > T(0)))
+            for (int cell = 0; cell < n * n; cell += kLanes) Lanes::store(angle + cell, L(T(0)));
+        else if (size * size < kFar * kFar * dot(centre, centre))
+            find_far_angles(angle);
         else
-            for_each_near(visit);
+            find_near_angles(angle);
     }
 
 private:
     static constexpr T line(int i) noexcept { return TexturedLight<T, n>::line(i); }
 
     /// The cosine at the centre, and the mean height over the corners and the centre for cells that the horizon cuts.
-    template <class Visit>
-    NUSSELT_INLINE void for_each_far(const Visit& visit) const noexcept {
+    NUSSELT_HD void find_far_angles(T* angle) const noexcept {
         const T step = T(1) / T(n);
         const T rise_x = T(0.5) * step * plane_.side_x.z;
         const T rise_y = T(0.5) * step * plane_.side_y.z;
@@ -267,57 +268,37 @@ private:
                 const L height = L(T(2) / T(3)) * max(p.z, L(T(0))) + L(T(1) / T(12)) * corners;
                 const int cell = row * n + column;
                 const L cover = Lanes::load(light_.cover + cell);
-                visit(cell, (L(area) * cover) * (height / squared) / squared);
+                Lanes::store(angle + cell, (L(area) * cover) * (height / squared) / squared);
             }
         }
     }
 
-    template <class Visit>
-    NUSSELT_INLINE void for_each_near(const Visit& visit) const noexcept {
+    NUSSELT_HD void find_near_angles(T* angle) const noexcept {
         T outline_terms[n * n];
         const bool has_pieces = light_.pieces > 0;
         if (has_pieces) add_outline(outline_terms);
 
-        // Prepare the lines along columns, those of a row of cells as lanes, and the last one, whose sides are lanes.
-        const L direction_x = L(direction_y_.x), direction_y = L(direction_y_.y),
-                direction_z = L(direction_y_.z);
-        constexpr int kPacks = n / kLanes;
-        const auto column_lines = [&](int first) {
-            const L x = L(T(1) / T(n)) * Lanes::count_from(first);
-            const auto at = [&](const T& corner, const T& side) {
-                return multiply_add(x, L(side), L(corner));
-            };
-            T low[kLanes], high[kLanes];
-            for (int i = 0; i < kLanes; ++i) {
-                low[i] = light_.column_line[first + i].low;
-                high[i] = light_.column_line[first + i].high;
-            }
-            return detail::TermLine<L>({at(plane_.corner.x, plane_.side_x.x),
-                                        at(plane_.corner.y, plane_.side_x.y),
-                                        at(plane_.corner.z, plane_.side_x.z)},
-                                       {direction_x, direction_y, direction_z},
-                                       L(length_y_) * Lanes::load(low), L(length_y_) * Lanes::load(high));
-        };
-        T last[n];
-        const Line last_line(plane_.corner + plane_.side_x, direction_y_,
-                             length_y_ * light_.column_line[n].low, length_y_ * light_.column_line[n].high);
-        sides_along(last_line, length_y_, last);
+        // Prepare all lines of the lattice as lanes.
+        const Lines columns(plane_.corner, plane_.side_x, direction_y_, length_y_, light_.column_line);
+        const Lines rows(plane_.corner, plane_.side_y, direction_x_, length_x_, light_.row_line);
 
         const bool cut = !(lowest_ >= T(0));
         detail::LatticeHorizon<T, n> horizon{};
         if (cut) horizon = detail::LatticeHorizon<T, n>(plane_, light_.outline);
         T below[n], above[n]; // terms of the sides of a row of cells
-        sides_along(row_line(0), length_x_, below);
+        sides_along(rows.line(0), length_x_, below);
+        T last[n];
+        sides_along(columns.line(n), length_y_, last);
         T between[n][n + 1]; // terms of the sides between columns
-        for (int k = 0; k < kPacks; ++k) {
-            const detail::TermLine<L> lines = column_lines(k * kLanes);
+        for (int column = 0; column < n; column += kLanes) {
+            const detail::TermLine<L> lines = columns.lanes(column);
             for (int row = 0; row < n; ++row)
-                Lanes::store(between[row] + k * kLanes,
+                Lanes::store(between[row] + column,
                              lines.term(L(length_y_ * line(row)), L(length_y_ * line(row + 1))));
         }
         for (int row = 0; row < n; ++row) {
             between[row][n] = last[row];
-            sides_along(row_line(row + 1), length_x_, above);
+            sides_along(rows.line(row + 1), length_x_, above);
             for (int column = 0; column < n; column += kLanes) {
                 const L left = Lanes::load(between[row] + column);
                 const L right = Lanes::load(between[row] + column + 1);
@@ -328,9 +309,9 @@ private:
                 if (cut) sum = horizon.completed(sum, column, row);
                 constexpr T kRounding = 8 * std::numeric_limits<T>::epsilon();
                 const L least = L(kRounding) * ((abs(left) + abs(right)) + (abs(bottom) + abs(top)));
-                L angle = L(T(0.5)) * max(copysign(L(T(1)), L(signed_distance_)) * sum, least);
-                if (cut) angle = select(horizon.reaches_above(column, row), angle, L(T(0)));
-                visit(row * n + column, angle);
+                L half = L(T(0.5)) * max(copysign(L(T(1)), L(signed_distance_)) * sum, least);
+                if (cut) half = select(horizon.reaches_above(column, row), half, L(T(0)));
+                Lanes::store(angle + row * n + column, half);
             }
             for (int column = 0; column < n; column += kLanes)
                 Lanes::store(below + column, Lanes::load(above + column));
@@ -341,7 +322,7 @@ private:
     NUSSELT_HD void add_outline(T (&terms)[n * n]) const noexcept {
         for (T& term : terms) term = T(0);
         int edge = -1;
-        Line along = row_line(0);
+        Line along{};
         T edge_length = T(0);
         for (int k = 0; k < light_.pieces; ++k) {
             const OutlinePiece<T>& piece = light_.piece[k];
@@ -356,14 +337,57 @@ private:
         }
     }
 
-    NUSSELT_INLINE Line row_line(int row) const noexcept {
-        return Line(multiply_add(line(row), plane_.side_y, plane_.corner), direction_x_,
-                    length_x_ * light_.row_line[row].low, length_x_ * light_.row_line[row].high);
-    }
+    /// The n + 1 lines of one direction.
+    class Lines {
+    public:
+        /// \param step      from the first to the last line.
+        /// \param direction unit.
+        /// \param length    of a side of the texture along the lines.
+        NUSSELT_HD Lines(const Vec3<T>& corner, const Vec3<T>& step, const Vec3<T>& direction,
+                         const T& length, const LatticeChord<T> (&chord)[n + 1]) noexcept {
+            const Vec3<L> along{L(direction.x), L(direction.y), L(direction.z)};
+            for (int i = 0; i < n; i += kLanes) {
+                const L x = L(T(1) / T(n)) * Lanes::count_from(i);
+                const auto at = [&](const T& from, const T& to) { return multiply_add(x, L(to), L(from)); };
+                T low[kLanes], high[kLanes];
+                for (int k = 0; k < kLanes; ++k) {
+                    low[k] = chord[i + k].low;
+                    high[k] = chord[i + k].high;
+                }
+                const detail::TermLine<L> lines(
+                    {at(corner.x, step.x), at(corner.y, step.y), at(corner.z, step.z)}, along,
+                    L(length) * Lanes::load(low), L(length) * Lanes::load(high));
+                Lanes::store(cosine_ + i, lines.cosine);
+                Lanes::store(inverse_ + i, lines.inverse);
+                Lanes::store(foot_ + i, lines.foot);
+                Lanes::store(low_ + i, lines.low);
+                Lanes::store(high_ + i, lines.high);
+            }
+            const Line last(corner + step, direction, length * chord[n].low, length * chord[n].high);
+            cosine_[n] = last.cosine;
+            inverse_[n] = last.inverse;
+            foot_[n] = last.foot;
+            low_[n] = last.low;
+            high_[n] = last.high;
+        }
+
+        /// Line i in all lanes.
+        NUSSELT_INLINE detail::TermLine<L> line(int i) const noexcept {
+            return {L(cosine_[i]), L(inverse_[i]), L(foot_[i]), L(low_[i]), L(high_[i])};
+        }
+        /// Lines from i on, one per lane.
+        NUSSELT_INLINE detail::TermLine<L> lanes(int i) const noexcept {
+            return {Lanes::load(cosine_ + i), Lanes::load(inverse_ + i), Lanes::load(foot_ + i),
+                    Lanes::load(low_ + i), Lanes::load(high_ + i)};
+        }
+
+    private:
+        T cosine_[n + 1], inverse_[n + 1], foot_[n + 1], low_[n + 1], high_[n + 1];
+    };
 
     /// Terms of the n sides of cells on a line.
-    NUSSELT_INLINE static void sides_along(const Line& scalar, const T& length, T (&terms)[n]) noexcept {
-        const auto lanes = detail::broadcast<L>(scalar);
+    NUSSELT_INLINE static void sides_along(const detail::TermLine<L>& lanes, const T& length,
+                                           T (&terms)[n]) noexcept {
         const T step = length / T(n);
         for (int i = 0; i < n; i += kLanes)
             Lanes::store(terms + i,

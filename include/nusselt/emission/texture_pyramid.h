@@ -36,6 +36,14 @@ struct PyramidShape {
     NUSSELT_HD int width_of(int level) const noexcept { return halved(width_log2, level); }
     /// Rows of a grid.
     NUSSELT_HD int height_of(int level) const noexcept { return halved(height_log2, level); }
+    /// Columns of the grid before that make one column of a grid: 1 or 2.
+    NUSSELT_HD int columns_of(int level) const noexcept {
+        return width_of(level - 1) > width_of(level) ? 2 : 1;
+    }
+    /// Rows of the grid before that make one row of a grid: 1 or 2.
+    NUSSELT_HD int rows_of(int level) const noexcept {
+        return height_of(level - 1) > height_of(level) ? 2 : 1;
+    }
     NUSSELT_HD int index(int level, int i, int j) const noexcept {
         return offset[level] + j * width_of(level) + i;
     }
@@ -61,8 +69,8 @@ struct TexturePyramid {
 template <class T>
 NUSSELT_HD inline void fill_pyramid(const PyramidShape& shape, T* weight) noexcept {
     for (int level = 1; level < shape.levels; ++level) {
-        const int columns = shape.width_of(level - 1) / shape.width_of(level);
-        const int rows = shape.height_of(level - 1) / shape.height_of(level);
+        const int columns = shape.columns_of(level);
+        const int rows = shape.rows_of(level);
         const T share = T(1) / static_cast<T>(columns * rows);
         for (int j = 0; j < shape.height_of(level); ++j) {
             for (int i = 0; i < shape.width_of(level); ++i) {

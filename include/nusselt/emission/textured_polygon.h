@@ -24,6 +24,7 @@ struct TexturedSample : LightSample<Real> {
 template <class T>
 struct ProjectedCells {
     static constexpr T kUnit = 1; ///< measure of a cell over its projected solid angle
+    static constexpr bool kImageIsLight = true;
 
     NUSSELT_HD TexturePlane<T> image_of(const TexturePlane<T>& plane) const noexcept { return plane; }
     template <int N>
@@ -39,6 +40,7 @@ struct ProjectedCells {
 template <class T>
 struct LobeCells {
     static constexpr T kUnit = 1 / kPi<T>; ///< \copydoc ProjectedCells::kUnit
+    static constexpr bool kImageIsLight = false;
     Ltc<T> ltc;
 
     NUSSELT_HD TexturePlane<T> image_of(const TexturePlane<T>& plane) const noexcept {
@@ -87,13 +89,17 @@ public:
                   plane.normal};
         image_ = measure_.image_of(plane_);
         image_area_ = image_.area();
+        area_ = Measure::kImageIsLight ? image_area_ : plane_.area();
 
         // Add up the weights of cells along columns.
         using Lanes = detail::CellLanes<T>;
         using L = typename Lanes::Type;
         const CellLattice<T, n> lattice(image_, light);
+        T angles[Light::kCells];
+        lattice.find_angles(angles);
         Vec3<L> expected{L(T(0)), L(T(0)), L(T(0))};
-        lattice.for_each([&](int cell, const L& angle) {
+        for (int cell = 0; cell < Light::kCells; cell += Lanes::kCount) {
+            const L angle = Lanes::load(angles + cell);
             const L weight = Lanes::load(light.weight + cell) * angle;
             const L before = cell >= n ? Lanes::load(sum_ + cell - n) : L(T(0));
             Lanes::store(sum_ + cell, before + weight);
@@ -101,13 +107,16 @@ public:
             expected.x = multiply_add(mean(0), angle, expected.x);
             expected.y = multiply_add(mean(1), angle, expected.y);
             expected.z = multiply_add(mean(2), angle, expected.z);
-        });
+        }
+        distance_ =
+            abs(Measure::kImageIsLight ? lattice.signed_distance()
+                                       : plane_distance(rectangle_in<T>(plane_, {T(0), T(0)}, {T(1), T(1)})));
         T total = T(0);
         for (int i = 0; i < n; ++i) {
             total += sum_[(n - 1) * n + i];
             column_sum_[i] = total;
         }
-        const bool lit = total > T(0) && is_finite(total) && image_area_ > T(0);
+        const bool lit = total > T(0) && is_finite(total) && image_area_ > T(0) && distance_ > T(0);
         total_ = lit ? total : T(0);
         unshadowed_ = {sum_of(expected.x), sum_of(expected.y), sum_of(expected.z)};
     }
@@ -120,8 +129,9 @@ public:
             return with_technique(cell, [&](const auto& technique) -> TexturedSample<T> {
                 const LightSample<T> s = technique.sample(cell.u);
                 const TextureCoordinates<T> coordinates(plane_);
-                return {{s.wi, cell.probability * s.pdf, inverse_scale_ * s.p},
-                        clamped(coordinates(s.p), cell.low, cell.high)};
+                const Vec2<T> at = clamped(coordinates(s.p), cell.low, cell.high);
+                // The same point up to rounding, but in the plane in any case.
+                return {{s.wi, cell.probability * s.pdf, inverse_scale_ * plane_.point_at(at)}, at};
             });
         }
         const TexelChoice<T> texel = Descent::choose(light_->pyramid, image_, cell.column, cell.row, cell.u);
@@ -298,8 +308,8 @@ private:
 
         using Lanes = detail::CellLanes<T>;
         using L = typename Lanes::Type;
-        constexpr T kX[8] = {0, 0, 1, 1, T(0.5), T(0.5), T(0.5), T(0.5)};
-        constexpr T kY[8] = {0, 1, 0, 1, T(0.5), T(0.5), T(0.5), T(0.5)};
+        static constexpr T kX[8] = {0, 0, 1, 1, T(0.5), T(0.5), T(0.5), T(0.5)};
+        static constexpr T kY[8] = {0, 1, 0, 1, T(0.5), T(0.5), T(0.5), T(0.5)};
         T value[8];
         for (int k = 0; k < 8; k += Lanes::kCount) {
             const L x = multiply_add(Lanes::load(kX + k), L(T(1) / T(n)), L(cell.low.x));
@@ -309,12 +319,12 @@ private:
         const T corners = (value[0] + value[1]) + (value[2] + value[3]);
         const T mean = T(2) / T(3) * value[4] + T(1) / T(12) * corners;
         const T inverse = mean > T(0) ? T(1) / mean : T(0);
-        T squares = T(0);
+        T spread = T(0);
         for (int k = 0; k < 5; ++k) {
-            const T ratio = value[k] * inverse;
-            squares += T(k < 4 ? 1 : 8) / T(12) * ratio * ratio;
+            const T deviation = value[k] * inverse - T(1);
+            spread += T(k < 4 ? 1 : 8) / T(12) * deviation * deviation;
         }
-        return !(variation > squares - T(1)) || !(mean > T(0));
+        return !(variation > spread) || !(mean > T(0));
     }
 
     /// f(technique) with the technique for the part of a cell inside of the outline.
@@ -328,16 +338,13 @@ private:
         return f(measure_.technique_for(polygon_in<8>(plane_, part.corner, part.count < 8 ? part.count : 8)));
     }
 
-    NUSSELT_HD T distance() const noexcept {
-        return plane_distance(rectangle_in<T>(plane_, {T(0), T(0)}, {T(1), T(1)}));
-    }
-
     /// Texture coordinates of the point in a direction.
     NUSSELT_HD Vec2<T> hit(const Vec3<T>& wi) const noexcept {
         T farthest = T(0);
         for (const T x : {T(0), T(1)})
             for (const T y : {T(0), T(1)}) farthest = max(farthest, length(plane_.point_at({x, y})));
-        const LightPlane<T> plane{plane_.normal, distance(), farthest};
+        const T sign = copysign(T(1), dot(plane_.normal, wi));
+        const LightPlane<T> plane{plane_.normal, sign * distance_, farthest};
         return TextureCoordinates<T>(plane_)(plane.distance_along(wi) * wi);
     }
 
@@ -359,9 +366,8 @@ private:
     NUSSELT_HD T texel_density(const T& probability, const T& size, const Vec3<T>& wi,
                                const Vec3<T>& p) const noexcept {
         if (!(probability > T(0)) || !(size > T(0)) || !measure_.counts(wi)) return T(0);
-        const T distance_to_point = length(p);
-        const T cosine = abs(distance()) / max(distance_to_point, kTiny<T>);
-        const T projected = size / probability * plane_.area() * cosine;
+        const T distance_to_point = dot(wi, p);
+        const T projected = size / probability * (area_ * distance_ / max(distance_to_point, kTiny<T>));
         return detail::area_density(distance_to_point, projected);
     }
 
@@ -370,6 +376,8 @@ private:
     TexturePlane<T> plane_; ///< scaled to coordinates of order one
     TexturePlane<T> image_; ///< in the space where the measure is the projected solid angle
     T image_area_;
+    T area_;               ///< of the texture
+    T distance_;           ///< of its plane
     T inverse_scale_;      ///< a power of two
     T sum_[Light::kCells]; ///< of weights of a column, up to each row
     T column_sum_[n];      ///< of columns

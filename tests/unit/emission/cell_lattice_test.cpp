@@ -26,10 +26,7 @@ const SquareTexture<double>& white() {
 template <class T, int n>
 std::vector<T> angles_of(const Plane<T>& plane, const nusselt::TexturedLight<T, n>& light) {
     std::vector<T> result(n * n);
-    using Lanes = nusselt::detail::CellLanes<T>;
-    CellLattice<T, n>(plane, light).for_each([&](int cell, const auto& angles) {
-        Lanes::store(result.data() + cell, angles);
-    });
+    CellLattice<T, n>(plane, light).find_angles(result.data());
     return result;
 }
 
