@@ -89,9 +89,11 @@ struct TermLine {
     NUSSELT_INLINE Real term(const Real& begin, const Real& end) const noexcept {
         const Real a = min(max(begin, low), high);
         const Real b = min(max(end, low), high);
-        const Real tangent = (a - foot) * inverse;
-        return cosine *
-               atan2_positive((b - a) * inverse, multiply_add(tangent, (b - foot) * inverse, Real(1)));
+        const Real y = (b - a) * inverse;
+        const Real x = multiply_add((a - foot) * inverse, (b - foot) * inverse, Real(1));
+        // Most sides are seen under less than half of a right angle, for which less work suffices.
+        if (all(y < x)) return cosine * atan_up_to_one(y / x);
+        return cosine * atan2_positive(y, x);
     }
 };
 

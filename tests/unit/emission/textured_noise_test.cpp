@@ -159,6 +159,26 @@ TEST(TexturedNoise, AtDistanceOne) {
              {"spikes", {0.1, 0.16, 0.15}}});
 }
 
+/// Close, cells are smooth and the noise of the texture inside of them remains.
+TEST(TexturedNoise, AtAQuarterOfTheSize) {
+    measure(0.25, 200,
+            {{"constant", {1e-3, 1e-3, 1e-3}},
+             {"gradient", {0.035, 0.07, 0.07}},
+             {"television", {0.35, 0.6, 0.4}},
+             {"stained glass", {0.35, 0.6, 0.5}},
+             {"spikes", {0.5, 0.7, 0.6}}});
+}
+
+/// Far, the cosine hardly varies.
+TEST(TexturedNoise, AtTenSizes) {
+    measure(10, 200,
+            {{"constant", {1e-3, 1e-3, 1e-3}},
+             {"gradient", {0.01, 0.02, 0.01}},
+             {"television", {0.01, 0.02, 0.01}},
+             {"stained glass", {0.01, 0.02, 0.01}},
+             {"spikes", {0.015, 0.02, 0.02}}});
+}
+
 /// Lobes of a half width of 0.15 that point somewhere on the light, at about its size from it.
 TEST(TexturedNoise, OfGlossySurfaces) {
     constexpr int kSamples = 1000;
@@ -190,7 +210,7 @@ TEST(TexturedNoise, OfGlossySurfaces) {
         }
     }
     const std::map<std::string, double> budgets = {
-        {"constant", 1e-3}, {"gradient", 0.03}, {"television", 0.2}, {"stained glass", 0.2}, {"spikes", 0.2}};
+        {"constant", 1e-3}, {"gradient", 0.04}, {"television", 0.2}, {"stained glass", 0.2}, {"spikes", 0.2}};
     for (std::size_t k = 0; k < textures.size(); ++k) {
         report(1, textures[k].name, "16 x 16, lobe", rows[k]);
         EXPECT_LE(rows[k].noise(), budgets.at(textures[k].name)) << textures[k].name;
