@@ -187,9 +187,9 @@ private:
     T height_;                 ///< of the corner (0, 0)
     Vec2<T> slope_;            ///< rise along the sides of the texture
     T to_lowest_, to_highest_; ///< rise in a cell
-    Vec2<T> begin_,
-        inverse_; ///< position 0 of the line, and reciprocals of its direction, in texture coordinates
-    T length_;    ///< of a step [m]
+    // In texture coordinates: position 0 of the line, and the reciprocals of its direction.
+    Vec2<T> begin_, inverse_;
+    T length_; ///< of a step [m]
     TermLine<L> line_;
 };
 
