@@ -71,7 +71,7 @@ struct NamedTexture {
 };
 
 /// What lights show, from smooth to hardly lit at all: values between 0 and 1, but for the spikes.
-inline std::vector<NamedTexture> named_textures() {
+inline std::vector<NamedTexture> make_named_textures() {
     constexpr int kSize = 256;
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -83,6 +83,9 @@ inline std::vector<NamedTexture> named_textures() {
     struct Disk {
         double x, y, radius, value;
     };
+    const auto squared_distance = [](const Disk& disk, int i, int j) {
+        return (i - disk.x) * (i - disk.x) + (j - disk.y) * (j - disk.y);
+    };
     std::vector<Disk> disks;
     for (int k = 0; k < 1500; ++k) {
         const double radius = std::min(0.0133 / std::sqrt(uniform(random) + 1e-3), 0.4);
@@ -91,7 +94,7 @@ inline std::vector<NamedTexture> named_textures() {
     }
     list.push_back({"television", {kSize, [&](int i, int j) {
                                        for (auto disk = disks.rbegin(); disk != disks.rend(); ++disk)
-                                           if (std::hypot(i - disk->x, j - disk->y) < disk->radius)
+                                           if (squared_distance(*disk, i, j) < disk->radius * disk->radius)
                                                return disk->value;
                                        return 0.3;
                                    }}});
@@ -105,7 +108,7 @@ inline std::vector<NamedTexture> named_textures() {
     const auto glass = [&](int i, int j) {
         double nearest = 1e9, second = 1e9, value = 0;
         for (const Disk& pane : panes) {
-            const double distance = std::hypot(i - pane.x, j - pane.y);
+            const double distance = squared_distance(pane, i, j);
             if (distance < nearest) {
                 second = nearest;
                 nearest = distance;
@@ -114,7 +117,7 @@ inline std::vector<NamedTexture> named_textures() {
                 second = std::min(second, distance);
             }
         }
-        return second - nearest < 3 ? 0 : value;
+        return std::sqrt(second) - std::sqrt(nearest) < 3 ? 0 : value;
     };
     list.push_back({"stained glass", {kSize, glass}});
 
@@ -125,10 +128,15 @@ inline std::vector<NamedTexture> named_textures() {
     }
     list.push_back({"spikes", {kSize, [&](int i, int j) {
                                    for (const Disk& spike : spikes)
-                                       if (std::hypot(i - spike.x, j - spike.y) < spike.radius)
+                                       if (squared_distance(spike, i, j) < spike.radius * spike.radius)
                                            return spike.value;
                                    return static_cast<double>(glass(i, j));
                                }}});
+    return list;
+}
+
+inline const std::vector<NamedTexture>& named_textures() {
+    static const std::vector<NamedTexture> list = make_named_textures();
     return list;
 }
 
