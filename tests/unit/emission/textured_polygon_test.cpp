@@ -112,8 +112,11 @@ void for_each_light(const Function& f) {
 /// Where the horizon or the outline cuts texels, quadrature has an error of the order of a texel. Samples that end below the
 /// horizon have no density: what is missing is their share.
 TYPED_TEST(TexturedPolygonTest, DensityIntegratesToOne) {
+    int count = 0;
     for_each_light<TypeParam::n>(
-        [](const SquareTexture<double>&, const Plane<double>& plane, const auto& light, bool is_cut) {
+        [&](const SquareTexture<double>&, const Plane<double>& plane, const auto& light, bool is_cut) {
+            // Two of five, which are other planes for each outline.
+            if (count++ % 5 >= 2) return;
             const auto technique = TypeParam::technique(plane, light);
             if (!(technique.measure() > 0)) return;
             constexpr int kSteps = 128;
@@ -340,8 +343,8 @@ void expect_contract_on_hostile_lights(int count) {
 }
 
 TYPED_TEST(TexturedPolygonTest, KeepsTheContractOnHostileLights) {
-    expect_contract_on_hostile_lights<float, TypeParam>(20000);
-    expect_contract_on_hostile_lights<double, TypeParam>(2000);
+    expect_contract_on_hostile_lights<float, TypeParam>(8000);
+    expect_contract_on_hostile_lights<double, TypeParam>(1000);
 }
 
 TEST(TexturedPolygon, LongDoubleKeepsTheContract) {
