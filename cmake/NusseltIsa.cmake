@@ -6,10 +6,9 @@ set(nusselt_level_avx2 x86-64-v3)
 set(nusselt_level_avx512 x86-64-v4)
 
 # nusselt_add_isa_units(name [ONLY isa] source...): object libraries <name>_sse42, <name>_avx2 and <name>_avx512, or one of
-# them. Sources see the
-# instruction set as NUSSELT_UNIT_ISA, the name of a member of base::Isa. They throw nothing: if they could, clang would add
-# handlers that the linker shares between instruction sets. The global property NUSSELT_ISA_UNITS lists all these libraries
-# for checks.weak_symbols.
+# them. Sources see the instruction set as NUSSELT_UNIT_ISA, the name of a member of base::Isa. They throw nothing: if they
+# could, clang would add handlers that the linker shares between instruction sets. The global property NUSSELT_ISA_UNITS
+# lists all these libraries for checks.weak_symbols.
 function(nusselt_add_isa_units name)
     cmake_parse_arguments(arg "" "ONLY" "" ${ARGN})
     set(isas ${nusselt_isas})

@@ -1,6 +1,7 @@
 #include "lab/figures/error_images.h"
 
 #include "image/difference.h"
+#include "proof/quantile.h"
 #include "render/film.h"
 #include "scene/import/importers.h"
 
@@ -24,11 +25,6 @@ std::vector<double> lit(const image::Plane& plane) {
         if (v != PixelErrors::kDark) values.push_back(v);
     std::sort(values.begin(), values.end());
     return values;
-}
-
-double quantile(const std::vector<double>& sorted, double share) {
-    if (sorted.empty()) return 0;
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
 /// Of pixels with light.
@@ -59,10 +55,11 @@ Table table_of(const ErrorImagesResult& result) {
     for (std::size_t i = 0; i < result.errors.size(); ++i) {
         const PixelErrors& errors = result.errors[i];
         const std::vector<double> sorted = lit(errors.backward);
-        table.push_back({result.experiment.techniques[i], fmt::format("{:.1e}", quantile(sorted, 0.5)),
-                         fmt::format("{:.1e}", quantile(sorted, 0.99)),
-                         fmt::format("{:.1e}", quantile(sorted, 0.999)),
-                         fmt::format("{:.1e}", quantile(sorted, 1)),
+        table.push_back({result.experiment.techniques[i],
+                         fmt::format("{:.1e}", proof::quantile_of_sorted(sorted, 0.5)),
+                         fmt::format("{:.1e}", proof::quantile_of_sorted(sorted, 0.99)),
+                         fmt::format("{:.1e}", proof::quantile_of_sorted(sorted, 0.999)),
+                         fmt::format("{:.1e}", proof::quantile_of_sorted(sorted, 1)),
                          fmt::format("{:.3f} %", 100 * share_above(errors.backward, kLargeError)),
                          fmt::format("{:.3f} %", 100 * share_above(errors.area, kSmallArea))});
     }
@@ -91,8 +88,9 @@ Results numbers_of(const ErrorImagesResult& result) {
                          {{"technique"}, {"median"}, {"p99"}, {"largest"}, {"above"}, {"area_above"}}};
     for (std::size_t i = 0; i < result.errors.size(); ++i) {
         const std::vector<double> sorted = lit(result.errors[i].backward);
-        table.rows.push_back({result.experiment.techniques[i], quantile(sorted, 0.5), quantile(sorted, 0.99),
-                              quantile(sorted, 1), share_above(result.errors[i].backward, kLargeError),
+        table.rows.push_back({result.experiment.techniques[i], proof::quantile_of_sorted(sorted, 0.5),
+                              proof::quantile_of_sorted(sorted, 0.99), proof::quantile_of_sorted(sorted, 1),
+                              share_above(result.errors[i].backward, kLargeError),
                               share_above(result.errors[i].area, kSmallArea)});
     }
     return {result.experiment.name, {{"above", kLargeError}, {"area_above", kSmallArea}}, {std::move(table)}};
@@ -153,7 +151,7 @@ Report report_of(const ErrorImagesResult& result) {
                  ImageRole::picture, logarithmic(result.errors[i].*scale.plane, scale.low, scale.high)});
     if (!result.experiment.quantity.empty())
         report.measured.push_back({result.experiment.item, result.experiment.quantity,
-                                   quantile(lit(result.errors.back().area), 0.99)});
+                                   proof::quantile_of_sorted(lit(result.errors.back().area), 0.99)});
     report.numbers = numbers_of(result);
     report.inputs = result.files;
     return report;

@@ -13,7 +13,7 @@
 #include <numbers>
 
 #include "base/stopwatch.h"
-#include "lab/timing/sampler_timing_lights.h"
+#include "proof/median.h"
 
 namespace nusselt::lab {
 
@@ -111,7 +111,7 @@ double measure_tube_time_ratio(const proof::TubeLight& light, int repetitions) {
         const double ours = time_samples<CylinderProjectedSolidAngle<float>>(lights);
         ratios.push_back(ours / time_samples<CylinderRejectionGamito<float>>(lights));
     }
-    return quantile(std::move(ratios), 0.5);
+    return proof::median(std::move(ratios));
 }
 
 } // namespace nusselt::lab

@@ -1,5 +1,7 @@
 #include "lab/parity/parity_check.h"
 
+#include "proof/quantile.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -22,11 +24,6 @@ constexpr std::size_t kErrorsForExtremes = 30'000;
 
 /// The smallest error that can be asked of a float: half the spacing of floats below one.
 constexpr double kRounding = std::numeric_limits<float>::epsilon() / 4;
-
-double quantile(const std::vector<double>& sorted, double share) {
-    if (sorted.empty()) return 0;
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-}
 
 /// Names and shares of the quantiles that are compared. None has fewer errors above it than the tail.
 std::vector<std::pair<const char*, double>> quantiles_of(std::size_t errors, Tail tail) {
@@ -103,9 +100,9 @@ Verdict compare(const std::string& quantity, std::vector<double> device, std::ve
     Verdict verdict;
     if (shares.empty() && !device.empty()) verdict.vacuous.push_back(quantity + ", too few errors");
     for (const auto& [name, share] : shares) {
-        const double value = quantile(device, share);
-        const double reference = quantile(cpp, share);
-        const double least = quantile(floor, share);
+        const double value = proof::quantile_of_sorted(device, share);
+        const double reference = proof::quantile_of_sorted(cpp, share);
+        const double least = proof::quantile_of_sorted(floor, share);
         const double unit = std::max({reference, least, kRounding});
         const double ratio = value / unit;
         Compared row{.quantity = quantity, .quantile = name, .device = value, .cpp = reference};

@@ -61,11 +61,12 @@ double share_of_samples_below(const PolygonLtc<double, 4>& technique, int count)
 struct Share {
     double sum = 0, largest = 0;
     int count = 0;
-    void add(double share) {
-        sum += share;
-        largest = std::max(largest, share);
-        ++count;
+    void add(const Share& other) {
+        sum += other.sum;
+        largest = std::max(largest, other.largest);
+        count += other.count;
     }
+    void add(double share) { add({share, share, 1}); }
     double mean() const { return sum / count; }
 };
 
@@ -76,7 +77,7 @@ Findings measure_lobe_samples(Effort effort) {
     const int step = effort == Effort::quick ? 3 : 1;
     const LtcTableView table = tables::frostbite_ltc_table().view();
     const auto at = [](int i, int count) { return static_cast<double>(i) / (count - 1); };
-    Share of_lobes, of_walls, at_grazing;
+    Share of_lobes, of_walls;
     Table by_angle = {
         {"below the surface: mean / largest share [%]", "of whole lobes", "of samples of a wall"}};
     for (int i = 0; i < table.inclinations; i += step) {
@@ -91,12 +92,8 @@ Findings measure_lobe_samples(Effort effort) {
                 const PolygonLtc<double, 4> technique(wall_opposite_to(cos_o), ltc);
                 if (technique.measure() > 0.01) walls_here.add(share_of_samples_below(technique, grid));
             }
-        of_lobes.sum += lobes_here.sum, of_lobes.count += lobes_here.count;
-        of_lobes.largest = std::max(of_lobes.largest, lobes_here.largest);
-        if (walls_here.count > 0) {
-            of_walls.sum += walls_here.sum, of_walls.count += walls_here.count;
-            of_walls.largest = std::max(of_walls.largest, walls_here.largest);
-        }
+        of_lobes.add(lobes_here);
+        of_walls.add(walls_here);
         const auto text = [](const Share& share) {
             return share.count == 0 ? std::string("-")
                                     : fmt::format("{:.2f} / {:.1f}", 100 * share.mean(), 100 * share.largest);

@@ -40,10 +40,12 @@ Limit limit_of(const char* item, std::string name, double expected_order, const 
     return limit;
 }
 
+Line slanted_line() { return make_line(Direction{-0.5, 0.2, 1}, Direction{0.75, 0.4, 1.25}); }
+
 std::vector<Limit> measure(Effort effort) {
     const int around = effort == Effort::quick ? 300 : 600;
     const int along = 2 * around;
-    const Line tube = make_line(Direction{-0.5, 0.2, 1}, Direction{0.75, 0.4, 1.25});
+    const Line tube = slanted_line();
     // One end shows its cap to the origin, the other one its back.
     const Line upright = make_line(Direction{-0.3, 0.2, 1}, Direction{-0.75, 0.4, 3});
     const Ltc<double> ltc(tables::frostbite_ltc_table().view().lookup(0.7, 0.8, 0.04));
@@ -94,7 +96,7 @@ double printed_solid_angle(const Line& light) {
 Findings measure_thin_lights(Effort effort) {
     const std::vector<Limit> limits = measure(effort);
     Findings findings;
-    const Line line = make_line(Direction{-0.5, 0.2, 1}, Direction{0.75, 0.4, 1.25});
+    const Line line = slanted_line();
     findings.all.push_back(
         at_most(limits[0].item, "closed form of the limit, relative deviation of LineSolidAngle",
                 std::fabs(LineSolidAngle<double>(line).measure() / printed_solid_angle(line) - 1), 1e-12));

@@ -12,6 +12,8 @@
 #include "gpu/fused_fma.h"
 #include "lab/timing/llvmpipe_threads.h"
 #include "lab/timing/sampler_timing_lights.h"
+#include "proof/median.h"
+#include "proof/quantile.h"
 #include "shaders/gpu_samplers_table.h"
 
 namespace nusselt::lab {
@@ -132,10 +134,6 @@ struct Running {
     GpuSamplerSeries series;
 };
 
-double half_interquartile_range(const std::vector<double>& values) {
-    return (quantile(values, 0.75) - quantile(values, 0.25)) / 2;
-}
-
 std::optional<double> ratio(double time, double other) {
     if (time > 0 && other > 0) return time / other;
     return std::nullopt;
@@ -163,15 +161,15 @@ std::vector<GpuSamplerTiming> rows_of(const std::vector<GpuSamplerSeries>& serie
             continue;
         }
         assert(baseline != nullptr && baseline->configuration == s.configuration);
-        const double light = quantile(s.light_ns, 0.5), sample = quantile(s.sample_ns, 0.5);
+        const double light = proof::median(s.light_ns), sample = proof::median(s.sample_ns);
         GpuSamplerTiming row;
         row.technique = s.technique;
         row.configuration = s.configuration;
         row.directions = s.directions;
-        row.light_ns = light - quantile(baseline->light_ns, 0.5);
-        row.sample_ns = sample - quantile(baseline->sample_ns, 0.5);
-        row.light_spread = half_interquartile_range(s.light_ns) / light;
-        row.sample_spread = half_interquartile_range(s.sample_ns) / sample;
+        row.light_ns = light - proof::median(baseline->light_ns);
+        row.sample_ns = sample - proof::median(baseline->sample_ns);
+        row.light_spread = proof::half_interquartile_range(s.light_ns) / light;
+        row.sample_spread = proof::half_interquartile_range(s.sample_ns) / sample;
         rows.push_back(row);
     }
     add_ratios(rows);

@@ -9,6 +9,8 @@
 #include "base/stopwatch.h"
 #include "lab/timing/sampler_loops.h"
 #include "lab/timing/sampler_timing_lights.h"
+#include "proof/median.h"
+#include "proof/quantile.h"
 
 namespace nusselt::lab {
 
@@ -67,12 +69,12 @@ void measure(Series& s, LoadedLights& lights) {
 /// The median without that of the baseline.
 std::optional<double> cost(const Times& times, const Times& baseline) {
     if (times.empty()) return std::nullopt;
-    return quantile(times, 0.5) - quantile(baseline, 0.5);
+    return proof::median(times) - proof::median(baseline);
 }
 
 std::optional<double> spread(const Times& times) {
     if (times.empty()) return std::nullopt;
-    return (quantile(times, 0.75) - quantile(times, 0.25)) / 2;
+    return proof::half_interquartile_range(times);
 }
 
 std::optional<double> ratio(const std::optional<double>& a, const std::optional<double>& b) {

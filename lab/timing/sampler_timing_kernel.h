@@ -48,7 +48,7 @@ struct TimedLightType {
 };
 
 /// A technique as functions on memory. Each compiles on its own, so that a technique costs its compiler no more than it
-/// must; the loops over lights are in sampler_timing.cpp. Calls cost the baseline the same.
+/// must; the loops over lights are in sampler_loops.cpp. Calls cost the baseline the same.
 struct TimedTechnique {
     const char* name;
     LightKind kind;

@@ -55,13 +55,6 @@ void make_timed_lights(const TimedConfiguration& c, unsigned seed, TimedLights& 
     }
 }
 
-double quantile(std::vector<double> values, double share) {
-    const auto place =
-        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-}
-
 std::string competitor_of(const std::string& technique) {
     std::string competitor;
     hostile::KindsWithBounds<4>::for_each([&]<class Kind> {

@@ -24,9 +24,6 @@ std::vector<TimedConfiguration> timed_configurations();
 /// \param seed other lights for each.
 void make_timed_lights(const TimedConfiguration& c, unsigned seed, TimedLights& lights);
 
-/// The value below which the given share of the values lies.
-double quantile(std::vector<double> values, double share);
-
 /// The class with which a technique competes: the one that follows the published formulas, or that of the technique that
 /// it approximates. Empty if neither exists.
 std::string competitor_of(const std::string& technique);

@@ -2,13 +2,15 @@
 
 #include "base/isa.h"
 #include "lab/tubes/rectangle.h"
+#include "lab/tubes/tube_settings.h"
+#include "proof/median.h"
+#include "proof/quantile.h"
 #include "render/film.h"
 #include "render_cpu/renderer.h"
 #include "scene/import/importers.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <deque>
 #include <stdexcept>
 #include <utility>
@@ -49,11 +51,6 @@ scene::Scene with_quads(const scene::Scene& scene, int count) {
     return quads;
 }
 
-double quantile(std::vector<double> values, double share) {
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
-}
-
 /// A scene and its times.
 struct Timed {
     Timed(const char* name, scene::Scene lights)
@@ -61,10 +58,7 @@ struct Timed {
 
     /// Time of the shading, for each light and pixel [ns].
     double render(int lights) const {
-        render::RenderSettings settings;
-        settings.technique = render::Technique::ltc_analytic;
-        settings.pixel_position = render::PixelPosition::center;
-        const render::RenderResult result = renderer.render(settings, base::choose_isa());
+        const render::RenderResult result = renderer.render(analytic_tubes(), base::choose_isa());
         const double pixels = static_cast<double>(result.image.width) * result.image.height;
         return 1e9 * result.statistics.shading_seconds / (pixels * lights);
     }
@@ -116,9 +110,9 @@ LightCostsResult run_light_costs(const LightCosts& costs, const RunSettings& set
         std::vector<double> ratios;
         for (std::size_t i = 0; i < timed.times.size(); ++i)
             ratios.push_back(timed.times[i] / all.back().times[i]);
-        result.lights.push_back({timed.light, quantile(timed.times, 0.5),
-                                 0.5 * (quantile(timed.times, 0.75) - quantile(timed.times, 0.25)),
-                                 quantile(std::move(ratios), 0.5)});
+        result.lights.push_back({timed.light, proof::median(timed.times),
+                                 proof::half_interquartile_range(timed.times),
+                                 proof::median(std::move(ratios))});
     }
     return result;
 }

@@ -2,6 +2,7 @@
 
 #include "lab/errors/image_errors.h"
 #include "lab/tubes/rectangle.h"
+#include "lab/tubes/tube_settings.h"
 #include "render/film.h"
 #include "render_cpu/renderer.h"
 #include "scene/import/importers.h"
@@ -26,23 +27,6 @@ const std::vector<float> kRoughnesses = {0.2f, 0.4f, 0.7f};
 
 /// Radiance times radius of all lights [W/(sr m)].
 constexpr float kBrightness = 0.04f;
-
-RenderSettings sampled(int samples) {
-    RenderSettings settings;
-    settings.strategies = render::Strategies::diffuse_ltc;
-    settings.mis = render::Mis::weighted_balance;
-    settings.sample_order = render::SampleOrder::sobol;
-    settings.samples = samples;
-    settings.pixel_position = render::PixelPosition::center;
-    return settings;
-}
-
-RenderSettings analytic() {
-    RenderSettings settings = sampled(1);
-    settings.strategies = render::Strategies::diffuse;
-    settings.technique = render::Technique::ltc_analytic;
-    return settings;
-}
 
 /// The only light of the scene.
 LineLight& light_of(scene::Scene& scene) {
@@ -90,11 +74,11 @@ public:
             cell.images.push_back(image_of(scene, settings));
             cell.errors.push_back({0, largest_radiance(cell.images.back()) / radiance});
         };
-        add(line, sampled(grid_.samples));
-        add(truth, analytic());
-        if (is_cylinder) add(line, analytic());
+        add(line, sampled_tubes(grid_.samples));
+        add(truth, analytic_tubes());
+        if (is_cylinder) add(line, analytic_tubes());
         if (!is_cylinder) make_rectangle(truth);
-        cell.reference = image_of(truth, sampled(grid_.samples));
+        cell.reference = image_of(truth, sampled_tubes(grid_.samples));
         cell.largest = largest_radiance(cell.reference) / radiance;
         for (std::size_t i = 0; i < cell.images.size(); ++i)
             cell.errors[i].rmse = std::sqrt(mean_square_difference(cell.images[i], cell.reference)) /

@@ -1,38 +1,19 @@
 #include "lab/tubes/tube_comparisons.h"
 
+#include "lab/tubes/tube_settings.h"
+
 namespace nusselt::lab {
 
 namespace {
 
-using render::RenderSettings;
-using render::Technique;
 using scene::TubeModel;
 
-/// Cylinders and lines as they are.
-RenderSettings sampled(int samples) {
-    RenderSettings settings;
-    settings.strategies = render::Strategies::diffuse_ltc;
-    settings.mis = render::Mis::weighted_balance;
-    settings.samples = samples;
-    settings.sample_order = render::SampleOrder::sobol;
-    settings.pixel_position = render::PixelPosition::center;
-    return settings;
-}
+render::RenderSettings reference() { return sampled_tubes(512); }
 
-RenderSettings reference() { return sampled(512); }
-
-RenderSettings analytic() {
-    RenderSettings settings;
-    settings.technique = Technique::ltc_analytic;
-    settings.samples = 1;
-    settings.pixel_position = render::PixelPosition::center;
-    return settings;
-}
-
-const Variant kCylinder = {"cylinder without caps", sampled(64), {}, TubeModel::open};
-const Variant kSampledLine = {"line, sampled", sampled(64), {}, TubeModel::linear};
-const Variant kLine = {"line", analytic(), {}, TubeModel::open};
-const Variant kLineAndCaps = {"line and caps", analytic(), {}, TubeModel::solid};
+const Variant kCylinder = {"cylinder without caps", sampled_tubes(64), {}, TubeModel::open};
+const Variant kSampledLine = {"line, sampled", sampled_tubes(64), {}, TubeModel::linear};
+const Variant kLine = {"line", analytic_tubes(), {}, TubeModel::open};
+const Variant kLineAndCaps = {"line and caps", analytic_tubes(), {}, TubeModel::solid};
 
 /// The sampled line has no fitted lobe: its error is that of the line alone, which is of the order of radius over distance.
 /// That is a tenth where the tubes end above the floor.

@@ -2,8 +2,8 @@
 
 #include "apps/nusselt-lab/bench/bench_device.h"
 
-#include "lab/timing/sampler_timing_lights.h"
 #include "proof/median.h"
+#include "proof/quantile.h"
 
 #include <fmt/core.h>
 
@@ -15,7 +15,7 @@ using proof::median;
 
 /// Half the interquartile range over the median.
 double spread_of(const std::vector<double>& values) {
-    return (lab::quantile(values, 0.75) - lab::quantile(values, 0.25)) / 2 / median(values);
+    return proof::half_interquartile_range(values) / median(values);
 }
 
 /// The name is empty where a single technique leaves nothing to weigh.
