@@ -3,6 +3,7 @@
 #include "proof/techniques/registry.h"
 
 #include <nusselt/bsdf/frostbite.h>
+#include <nusselt/bsdf/phong.h>
 #include <nusselt/estimate/backward_error.h>
 #include <nusselt/line_samples/triangle_shadow.h>
 #include <nusselt/ltc/ltc.h>
@@ -113,7 +114,10 @@ struct TechniqueImages::Pixel {
         if (!(wi.z > 0)) return {0, 0, 0};
         const Vector albedo = vector(material->diffuse);
         if (material->model == scene::BrdfModel::lambert) return (wi.z / kPi<float>)*albedo;
-        return wi.z * Frostbite<float>(wo, albedo, vector(material->f0), material->roughness).eval(wi);
+        const Vector f0 = vector(material->f0);
+        if (material->model == scene::BrdfModel::phong)
+            return wi.z * LambertPhong<float>{{albedo}, {wo, f0, material->exponent}}.eval(wi);
+        return wi.z * Frostbite<float>(wo, albedo, f0, material->roughness).eval(wi);
     }
 };
 

@@ -80,7 +80,7 @@ list(JOIN rows "" rows)
 configure_file(parity/twins.h.in ${CMAKE_CURRENT_BINARY_DIR}/shaders/twins.h @ONLY)
 
 foreach(functions arithmetic brdf_direct_light bsdf clip engine_table frame light_random line line_direct_light
-    line_shading lobe ltc_table mis polygon polygon_brdf polygon_direct_light polygon_shading shading_frame trig
+    line_shading lobe ltc_table mis phong polygon polygon_brdf polygon_direct_light polygon_shading shading_frame trig
     visible_normals)
     foreach(variant "split 0" "fused 1")
         separate_arguments(variant)

@@ -24,6 +24,11 @@ const uint kNormalTexture = 8u;
 const uint kBumpTexture = 16u;
 const uint kAlphaTexture = 32u;
 
+// MaterialRecord::model
+const uint kModelLambert = 0u;
+const uint kModelFrostbite = 1u;
+const uint kModelPhong = 2u;
+
 struct VertexRecord {
     float position[3];
     float normal[3]; ///< zero: use the geometric normal
@@ -57,8 +62,9 @@ struct MaterialRecord {
     float diffuse[3];
     float f0[3];
     float roughness;
+    float exponent;
     float alpha; ///< probability that the surface is there
-    uint is_frostbite; ///< or Lambert
+    uint model;
     uint texture_kinds;
     TextureLookup diffuse_texture;
     TextureLookup f0_texture;
@@ -106,7 +112,9 @@ struct SceneRecord {
     uint first_light_drawn;    ///< number of the first triangle of lights that are no surfaces, among all that are drawn
     uint first_light_triangle; ///< the same triangle among all records
     LightRange lights[kLightKinds]; ///< by kind
-    int ltc_samples[3]; ///< of the table of lobes: f0, inclination, roughness
+    // Of tables of lobes, which follow each other: f0, inclination, roughness.
+    int frostbite_lobe_samples[3];
+    int phong_lobe_samples[3];
 };
 
 /// Data that changes from one camera ray per pixel to the next.

@@ -11,15 +11,16 @@ namespace nusselt::interface {
 const int kInstancesConstant = 0;
 const int kPartialConstant = 1;
 const int kFrostbiteConstant = 2;
-const int kTextureKindsConstant = 3;
+const int kPhongConstant = 3;
+const int kTextureKindsConstant = 4;
 // ... then settings, ...
-const int kTechniqueConstant = 4;
-const int kStrategiesConstant = 5;
-const int kMisConstant = 6;
-const int kSamplerConstant = 7;
-const int kBrdfConstant = 8;
+const int kTechniqueConstant = 5;
+const int kStrategiesConstant = 6;
+const int kMisConstant = 7;
+const int kSamplerConstant = 8;
+const int kBrdfConstant = 9;
 // ... then those of lights (shaders/interface/lights.h).
-const int kFirstLightConstant = 9;
+const int kFirstLightConstant = 10;
 
 // Values of one setting are numbered from 0 without gaps.
 const int kTechniqueArea = 0;

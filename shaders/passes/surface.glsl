@@ -24,10 +24,11 @@ struct Surface {
     float offset;          ///< how far along the geometric normal shadow rays start [m]
     int light;             ///< number of the light that the surface belongs to, -1 for none
     // From the material and its textures.
-    bool is_frostbite;
+    uint model;
     vec3 diffuse;
     vec3 f0;
     float roughness;
+    float exponent;
 };
 
 vec3 vertex_normal(uint vertex) { return to_vec(vertices[vertex].normal); }
@@ -128,10 +129,11 @@ vec3 times_texture(vec3 factor, TextureLookup lookup, vec2 uv) {
 }
 
 void look_up_material(inout Surface surface, MaterialRecord material, vec2 uv) {
-    surface.is_frostbite = material.is_frostbite != 0u;
+    surface.model = material.model;
     surface.diffuse = to_vec(material.diffuse);
     surface.f0 = to_vec(material.f0);
     surface.roughness = material.roughness;
+    surface.exponent = material.exponent;
     uint kinds = kTextureKinds & material.texture_kinds;
     if ((kinds & kDiffuseTexture) != 0u)
         surface.diffuse = times_texture(surface.diffuse, material.diffuse_texture, uv);

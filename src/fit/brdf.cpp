@@ -155,6 +155,9 @@ const std::vector<Brdf>& brdfs() {
         brdf<FrostbiteSpecular>("frostbite-specular", "GGX with height-correlated Smith and Schlick"),
         brdf<FrostbiteDiffuse>("frostbite-diffuse", "Disney diffuse, renormalised"),
         brdf<LambertTarget>("lambert", "the cosine itself"),
+        brdf<PhongSpecular>("phong",
+                            "a power of the cosine with the mirrored direction, by the roughness of a "
+                            "GGX lobe that is as wide"),
     };
     return list;
 }

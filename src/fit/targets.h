@@ -10,6 +10,8 @@
 #include <nusselt/bsdf/frostbite.h>
 #include <nusselt/bsdf/ggx_visible_normals.h>
 #include <nusselt/bsdf/lambert.h>
+#include <nusselt/bsdf/phong.h>
+#include <nusselt/simd/pack.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,6 +78,69 @@ public:
     Real eval(const Vec3<Real>& wi) const noexcept {
         return Lambert<Real>{{Real(1), Real(1), Real(1)}}.eval(wi).x * wi.z;
     }
+};
+
+/// The exponent whose lobe is as wide as that of GGX, see phong_alpha().
+inline double phong_exponent(double roughness) {
+    const double alpha = ggx_alpha(roughness);
+    return 0.5 * (1 / (alpha * alpha) - 1);
+}
+
+/// A lobe of albedo 1 at normal incidence. It is sampled as a whole, also where it is below the surface.
+template <class Real>
+class PhongSpecular {
+public:
+    explicit PhongSpecular(const Slice& slice)
+        : exponent_(phong_exponent(slice.roughness)), mirror_(mirrored(direction_to_eye<Real>(slice))) {}
+
+    Real eval(const Vec3<Real>& wi) const noexcept {
+        const Real lit = select(wi.z > Real(0), wi.z, Real(0));
+        return Real((exponent_ + 2) * 0.5 / kPi<double>) * lit * power(wi);
+    }
+
+    Vec3<Real> sample(const Real& cos_phi, const Real& sin_phi, const Real& u_y) const noexcept {
+        // The cosine is a root of 1 - u_y, whose logarithm is that of the cosine of another angle.
+        const SinCos<Real> root{sqrt(u_y * (Real(2) - u_y)), Real(1) - u_y};
+        const Real logarithm = negative_log_of_cosine(root) * Real(1 / (exponent_ + 1));
+        const Real cosine = exp_of_negative(logarithm);
+        const Real sine = sqrt(max(Real(1) - exp_of_negative(Real(2) * logarithm), Real(0)));
+        const Vec3<Real> tangent{mirror_.z, Real(0), -mirror_.x};
+        return sine * (cos_phi * tangent + sin_phi * Vec3<Real>{Real(0), Real(1), Real(0)}) +
+               cosine * mirror_;
+    }
+
+    Real pdf(const Vec3<Real>& wi) const noexcept {
+        return Real((exponent_ + 1) * 0.5 / kPi<double>) * power(wi);
+    }
+
+private:
+    /// In single precision, whose functions are vectors of polynomials: the fit needs no more, and calls this often.
+    Real power(const Vec3<Real>& wi) const noexcept {
+        using Single = Pack<float, RealTraits<Real>::kLanes>;
+        const SinCos<Single> angle{single(min(length(cross(mirror_, wi)), Real(1))),
+                                   single(dot(mirror_, wi))};
+        const Single value =
+            exp_of_negative(Single(static_cast<float>(exponent_)) * negative_log_of_cosine(angle));
+        return in_double(select(angle.cos > Single(0), value, Single(0)));
+    }
+
+    static Pack<float, RealTraits<Real>::kLanes> single(const Real& x) noexcept {
+        double from[RealTraits<Real>::kLanes];
+        float to[RealTraits<Real>::kLanes];
+        x.store(from);
+        for (int i = 0; i < RealTraits<Real>::kLanes; ++i) to[i] = static_cast<float>(from[i]);
+        return Pack<float, RealTraits<Real>::kLanes>::load(to);
+    }
+    static Real in_double(const Pack<float, RealTraits<Real>::kLanes>& x) noexcept {
+        float from[RealTraits<Real>::kLanes];
+        double to[RealTraits<Real>::kLanes];
+        x.store(from);
+        for (int i = 0; i < RealTraits<Real>::kLanes; ++i) to[i] = static_cast<double>(from[i]);
+        return Real::load(to);
+    }
+
+    double exponent_;
+    Vec3<Real> mirror_;
 };
 
 } // namespace nusselt::fit

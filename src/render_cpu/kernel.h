@@ -22,7 +22,8 @@ struct MaterialRow {
     float diffuse[3];
     float f0[3];
     float roughness;
-    float is_frostbite; ///< 1, or 0 for Lambert
+    float exponent;
+    float model; ///< the number of a scene::BrdfModel
 };
 
 struct TextureView {
@@ -87,7 +88,7 @@ struct LightSet {
     AddLight add[kMostShapes];
 };
 
-/// The LtcTableView of the specular Frostbite BRDF; without entries if the job does not use them.
+/// The LtcTableView of a specular component; without entries if the job does not use them.
 struct LtcTableRecord {
     const float* entries;
     std::int32_t roughnesses, inclinations, f0s;
@@ -127,7 +128,8 @@ struct KernelScene {
     std::int32_t light_count;           ///< of all sets
     const std::uint32_t* light_emitter; ///< of each of them
     std::uint32_t emitter_count;
-    LtcTableRecord ltc;
+    LtcTableRecord frostbite_lobes;
+    LtcTableRecord phong_lobes;
     scene::Camera camera;
     FilterAxis filter_x, filter_y;
     std::int32_t film_width, film_height;

@@ -17,7 +17,8 @@ MaterialRow make_row(const scene::Material& material) {
     return {{material.diffuse.x, material.diffuse.y, material.diffuse.z},
             {material.f0.x, material.f0.y, material.f0.z},
             material.roughness,
-            material.model == scene::BrdfModel::frostbite ? 1.0f : 0.0f};
+            material.exponent,
+            static_cast<float>(material.model)};
 }
 
 std::uint32_t texture_kinds(const MaterialTextures& textures) {
@@ -60,7 +61,7 @@ KernelArrays::KernelArrays(const scene::Scene& scene, std::span<const LightKerne
     for (const scene::Material& material : scene.materials) {
         materials_.push_back(make_row(material));
         lambert_materials_.push_back(materials_.back());
-        lambert_materials_.back().is_frostbite = 0;
+        lambert_materials_.back().model = static_cast<float>(scene::BrdfModel::lambert);
         const float is_bump_in_uv = material.bump_unit == scene::BumpUnit::texture_coordinate ? 1.0f : 0.0f;
         material_textures_.push_back({material.diffuse_texture, material.f0_texture,
                                       material.roughness_texture, material.normal_texture,

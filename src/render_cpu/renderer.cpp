@@ -227,8 +227,11 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     visibility::LineBvhView line_bvh{};
     job.scene = arrays_.view(settings.brdf);
     if (uses_lobes(settings)) {
-        const tables::LtcTable& ltc = tables::frostbite_ltc_table();
-        job.scene.ltc = {ltc.entries.data(), ltc.roughnesses, ltc.inclinations, ltc.f0s};
+        const auto record = [](const tables::LtcTable& table) -> LtcTableRecord {
+            return {table.entries.data(), table.roughnesses, table.inclinations, table.f0s};
+        };
+        job.scene.frostbite_lobes = record(tables::frostbite_ltc_table());
+        job.scene.phong_lobes = record(tables::phong_ltc_table());
     }
     job.tracer = tracer;
     job.light_samples = settings.light_samples;

@@ -14,10 +14,21 @@ namespace {
 
 SceneRecords make_records(const scene::Scene& scene) {
     SceneRecords records = make_scene_records(scene);
-    const tables::LtcTable& table = tables::frostbite_ltc_table();
-    const int samples[] = {table.f0s, table.inclinations, table.roughnesses};
-    std::copy(std::begin(samples), std::end(samples), records.scene.ltc_samples);
+    const auto copy_samples = [](const tables::LtcTable& table, int* to) {
+        const int samples[] = {table.f0s, table.inclinations, table.roughnesses};
+        std::copy(std::begin(samples), std::end(samples), to);
+    };
+    copy_samples(tables::frostbite_ltc_table(), records.scene.frostbite_lobe_samples);
+    copy_samples(tables::phong_ltc_table(), records.scene.phong_lobe_samples);
     return records;
+}
+
+/// The entries of the table of the Frostbite BRDF, then those of Phong lobes.
+std::vector<float> all_lobes() {
+    std::vector<float> all = tables::frostbite_ltc_table().entries;
+    const std::vector<float>& phong = tables::phong_ltc_table().entries;
+    all.insert(all.end(), phong.begin(), phong.end());
+    return all;
 }
 
 } // namespace
@@ -38,7 +49,7 @@ DeviceScene::DeviceScene(const gpu::Device& device, const scene::Scene& scene, S
       kinds_(records.kinds),
       buffers_(device, records),
       textures_(device, scene.textures, textures),
-      ltc_table_(upload(device, std::span(tables::frostbite_ltc_table().entries), "lobes")),
+      ltc_table_(upload(device, std::span<const float>(all_lobes()), "lobes")),
       blue_noise_(upload(device, std::span(tables::blue_noise().bytes, BlueNoiseView::kBytes), "blue noise")),
       shadows_(device, scene, shadow_rays) {}
 

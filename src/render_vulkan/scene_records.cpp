@@ -77,13 +77,18 @@ interface::TextureLookup make_lookup(const scene::TextureUse& use, std::uint32_t
         static_cast<std::uint32_t>(use.texture), {use.scale.x, use.scale.y}, {use.offset.x, use.offset.y}};
 }
 
+static_assert(static_cast<std::uint32_t>(scene::BrdfModel::lambert) == interface::kModelLambert &&
+              static_cast<std::uint32_t>(scene::BrdfModel::frostbite) == interface::kModelFrostbite &&
+              static_cast<std::uint32_t>(scene::BrdfModel::phong) == interface::kModelPhong);
+
 interface::MaterialRecord make_record(const scene::Material& material) {
     interface::MaterialRecord record {};
     copy(material.diffuse, record.diffuse);
     copy(material.f0, record.f0);
     record.roughness = material.roughness;
     record.alpha = material.alpha;
-    record.is_frostbite = material.model == scene::BrdfModel::frostbite ? 1 : 0;
+    record.exponent = material.exponent;
+    record.model = static_cast<std::uint32_t>(material.model);
     std::uint32_t& kinds = record.texture_kinds;
     record.diffuse_texture = make_lookup(material.diffuse_texture, interface::kDiffuseTexture, kinds);
     record.f0_texture = make_lookup(material.f0_texture, interface::kF0Texture, kinds);
@@ -165,6 +170,7 @@ std::vector<std::uint32_t> constants_of(const SceneKinds& kinds) {
     set(interface::kInstancesConstant, kinds.instances ? 1 : 0);
     set(interface::kPartialConstant, kinds.partial ? 1 : 0);
     set(interface::kFrostbiteConstant, kinds.frostbite ? 1 : 0);
+    set(interface::kPhongConstant, kinds.phong ? 1 : 0);
     set(interface::kTextureKindsConstant, kinds.textures);
     std::copy(kinds.lights.begin(), kinds.lights.end(), constants.begin() + interface::kFirstLightConstant);
     return constants;
@@ -184,6 +190,7 @@ SceneRecords make_scene_records(const scene::Scene& scene) {
         records.materials.push_back(make_record(material));
         records.kinds.partial |= visibility::presence_of(material) != visibility::Presence::full;
         records.kinds.frostbite |= material.model == scene::BrdfModel::frostbite;
+        records.kinds.phong |= material.model == scene::BrdfModel::phong;
         records.kinds.textures |= records.materials.back().texture_kinds;
     }
     records.lights = make_light_records(scene);

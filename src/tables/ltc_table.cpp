@@ -8,7 +8,7 @@
 #include <iterator>
 #include <stdexcept>
 
-// The linker includes the file: a C++ array of a million numbers would take a compiler a minute.
+// The assembler includes the files: a C++ array of a million numbers would take a compiler a minute.
 asm(".section .rodata\n"
     ".balign 16\n"
     ".global nusselt_ltc_frostbite_begin\n"
@@ -16,9 +16,16 @@ asm(".section .rodata\n"
     "nusselt_ltc_frostbite_begin:\n"
     ".incbin \"" NUSSELT_LTC_FROSTBITE "\"\n"
     "nusselt_ltc_frostbite_end:\n"
+    ".global nusselt_ltc_phong_begin\n"
+    ".global nusselt_ltc_phong_end\n"
+    "nusselt_ltc_phong_begin:\n"
+    ".incbin \"" NUSSELT_LTC_PHONG "\"\n"
+    "nusselt_ltc_phong_end:\n"
     ".previous\n");
 extern "C" const char nusselt_ltc_frostbite_begin[];
 extern "C" const char nusselt_ltc_frostbite_end[];
+extern "C" const char nusselt_ltc_phong_begin[];
+extern "C" const char nusselt_ltc_phong_end[];
 
 namespace nusselt::tables {
 
@@ -87,11 +94,23 @@ LtcTable load_ltc_table(const std::filesystem::path& path) {
     return decode(bytes, path.string());
 }
 
+namespace {
+
+LtcTable decode_compiled_in(const char* begin, const char* end, const std::string& name) {
+    return decode({begin, static_cast<std::size_t>(end - begin)}, name);
+}
+
+} // namespace
+
 const LtcTable& frostbite_ltc_table() {
-    static const LtcTable table =
-        decode({nusselt_ltc_frostbite_begin,
-                static_cast<std::size_t>(nusselt_ltc_frostbite_end - nusselt_ltc_frostbite_begin)},
-               "the table of the Frostbite BRDF that is compiled in");
+    static const LtcTable table = decode_compiled_in(nusselt_ltc_frostbite_begin, nusselt_ltc_frostbite_end,
+                                                     "the table of the Frostbite BRDF that is compiled in");
+    return table;
+}
+
+const LtcTable& phong_ltc_table() {
+    static const LtcTable table = decode_compiled_in(nusselt_ltc_phong_begin, nusselt_ltc_phong_end,
+                                                     "the table of Phong lobes that is compiled in");
     return table;
 }
 

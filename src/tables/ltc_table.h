@@ -37,4 +37,7 @@ LtcTable load_ltc_table(const std::filesystem::path& path);
 /// The table of the specular Frostbite BRDF (data/ltc-frostbite.bin) that is compiled in. Decoded on the first call.
 const LtcTable& frostbite_ltc_table();
 
+/// The table of Phong lobes (data/ltc-phong.bin) that is compiled in, for phong_fit_of(). Decoded on the first call.
+const LtcTable& phong_ltc_table();
+
 } // namespace nusselt::tables

@@ -56,6 +56,29 @@ TEST_F(Agreement, OfTextures_Instances_AndAllKindsOfLights) {
     }
 }
 
+TEST_F(Agreement, OfPhongSurfaces) {
+    scene::Scene scene = make_opaque_scene(kWidth, kHeight);
+    float exponent = 30;
+    for (scene::Material& material : scene.materials) {
+        if (material.model != scene::BrdfModel::frostbite) continue;
+        material.model = scene::BrdfModel::phong;
+        material.exponent = exponent;
+        exponent = 400;
+    }
+    ASSERT_EQ(exponent, 400);
+    VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
+    render::RenderSettings settings = centred(2);
+    for (const Strategies strategies :
+         {Strategies::diffuse, Strategies::diffuse_ltc, Strategies::diffuse_ggx}) {
+        SCOPED_TRACE(name_of(strategies));
+        settings.strategies = strategies;
+        settings.mis = render::Mis::balance;
+        expect_agreement(scene, renderer, settings);
+    }
+    settings.technique = Technique::ltc_analytic;
+    expect_agreement(scene, renderer, settings);
+}
+
 /// Camera rays have the same bits.
 TEST_F(Agreement, OfSurfacesThatArePartlyThere_SeenByTheCamera) {
     const scene::Scene scene = make_rich_scene(kWidth, kHeight);

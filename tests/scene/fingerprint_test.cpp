@@ -41,6 +41,7 @@ const std::function<void(Scene&)> kChanges[] = {
     [](Scene& s) { s.instances.push_back({}); },
     [](Scene& s) { s.materials[0].model = BrdfModel::frostbite; },
     [](Scene& s) { s.materials[0].roughness = 0.5f; },
+    [](Scene& s) { s.materials[0].exponent = 50; },
     [](Scene& s) { s.materials[0].diffuse_texture.texture = 0; },
     [](Scene& s) { s.materials[0].bump_unit = BumpUnit::texture_coordinate; },
     [](Scene& s) { s.textures[0].texels[1] = 0.25f; },

@@ -106,6 +106,53 @@ TEST_F(Materials, UberAndPlastic) {
     EXPECT_FLOAT_EQ(silently("Material \"uber\" \"rgb opacity\" [1 0.5 0]").alpha, 0.5f);
 }
 
+TEST_F(Materials, PhongInBothSyntaxes) {
+    for (const std::string text :
+         {"Material \"phong\" \"rgb Kd\" [0.1 0.2 0.3] \"rgb Ks\" [0.4 0.5 0.6] \"float exponent\" 40",
+          "Material \"phong\" \"color Kd\" [0.1 0.2 0.3] \"color Ks\" [0.4 0.5 0.6] \"float exponent\" 40",
+          "MakeNamedMaterial \"shiny\" \"string type\" \"phong\" \"rgb Kd\" [0.1 0.2 0.3] "
+          "\"rgb Ks\" [0.4 0.5 0.6] \"float exponent\" 40 NamedMaterial \"shiny\""}) {
+        const Material material = silently(text);
+        EXPECT_EQ(material.model, BrdfModel::phong);
+        expect_near(material.diffuse, {0.1f, 0.2f, 0.3f}, 0);
+        expect_near(material.f0, {0.4f, 0.5f, 0.6f}, 0);
+        EXPECT_EQ(material.exponent, 40);
+        EXPECT_FLOAT_EQ(material.roughness, 1 / 3.0f); // 81^(-1/4)
+    }
+    const Material plain = silently("Material \"phong\"");
+    expect_near(plain.diffuse, {0.25f, 0.25f, 0.25f}, 0);
+    expect_near(plain.f0, {0.25f, 0.25f, 0.25f}, 0);
+    EXPECT_EQ(plain.exponent, 100);
+    EXPECT_EQ(silently("Material \"phong\" \"float exponent\" 0").exponent, 0);
+    const std::string clamped = "\"phong\": exponents other than 0 and 1 to 1e6 are clamped";
+    EXPECT_EQ(warned("Material \"phong\" \"float exponent\" 0.5", clamped).exponent, 1);
+    EXPECT_EQ(warned("Material \"phong\" \"float exponent\" 1e9", clamped).exponent, 1e6f);
+    EXPECT_THROW(with("Material \"phong\" \"float exponent\" -1"), std::runtime_error);
+}
+
+TEST_F(Materials, MixturesWithPhong) {
+    const std::string shiny = "MakeNamedMaterial \"shiny\" \"string type\" \"phong\" \"rgb Kd\" [0 0 0] "
+                              "\"rgb Ks\" [1 1 1] \"float exponent\" 40\n";
+    const auto mixed_with = [&](const std::string& other) {
+        return with(shiny + "MakeNamedMaterial \"other\" " + other +
+                    "\nMaterial \"mix\" \"string materials\" [\"shiny\" \"other\"] \"float amount\" 0.25")
+            .materials.at(0);
+    };
+    const Material with_matte = mixed_with("\"string type\" \"diffuse\" \"rgb reflectance\" [0.8 0.8 0.8]");
+    EXPECT_EQ(with_matte.model, BrdfModel::phong);
+    expect_near(with_matte.diffuse, {0.2f, 0.2f, 0.2f}, 1e-6f);
+    expect_near(with_matte.f0, {0.75f, 0.75f, 0.75f}, 1e-6f);
+    EXPECT_EQ(with_matte.exponent, 40);
+    const Material with_phong =
+        mixed_with("\"string type\" \"phong\" \"rgb Ks\" [1 1 1] \"float exponent\" 80");
+    EXPECT_EQ(with_phong.model, BrdfModel::phong);
+    EXPECT_FLOAT_EQ(with_phong.exponent, 50);
+    const Material with_metal = mixed_with("\"string type\" \"conductor\" \"float roughness\" 1 "
+                                           "\"rgb reflectance\" [1 1 1]");
+    EXPECT_EQ(with_metal.model, BrdfModel::frostbite);
+    EXPECT_FLOAT_EQ(with_metal.roughness, 0.75f / 3 + 0.25f);
+}
+
 TEST_F(Materials, InvisibleSurfacesAreLeftOut) {
     const Scene uber = with("Material \"uber\" \"rgb opacity\" [0 0 0]");
     EXPECT_TRUE(uber.triangles.empty());

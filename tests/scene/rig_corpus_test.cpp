@@ -124,6 +124,8 @@ std::map<std::string, std::string> facts(const Scene& scene) {
         result["f0 " + material.name] = text(material.f0);
         result["roughness " + material.name] = text(material.roughness);
         result["lambert " + material.name] = material.model == BrdfModel::lambert ? "1" : "0";
+        result["phong " + material.name] = material.model == BrdfModel::phong ? "1" : "0";
+        result["exponent " + material.name] = text(material.exponent);
     }
     add_light_facts(scene, result);
     return result;

@@ -26,6 +26,18 @@ using scene::Float3;
 
 std::string text(const Float3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
+const char* name_of(scene::BrdfModel model) {
+    switch (model) {
+    case scene::BrdfModel::frostbite:
+        return "frostbite";
+    case scene::BrdfModel::phong:
+        return "phong";
+    case scene::BrdfModel::lambert:
+        break;
+    }
+    return "lambert";
+}
+
 void print_geometry(const scene::Scene& scene) {
     fmt::print("triangles    {}\nvertices     {}\n", scene.triangles.size(), scene.positions.size());
     if (!scene.objects.empty())
@@ -41,20 +53,21 @@ void print_geometry(const scene::Scene& scene) {
 void print_materials(const scene::Scene& scene) {
     fmt::print("\n{} materials\n", scene.materials.size());
     for (const scene::Material& material : scene.materials) {
-        const bool is_lambert = material.model == scene::BrdfModel::lambert;
-        fmt::print("  {}: {}, diffuse {}", material.name, is_lambert ? "lambert" : "frostbite",
-                   text(material.diffuse));
+        fmt::print("  {}: {}, diffuse {}", material.name, name_of(material.model), text(material.diffuse));
         const auto print_texture = [&](const char* format, const scene::TextureUse& use) {
             if (use.texture >= 0)
                 fmt::print(fmt::runtime(format), scene.textures[static_cast<std::size_t>(use.texture)].name);
         };
         print_texture(" times {}", material.diffuse_texture);
-        if (!is_lambert) {
+        if (material.model != scene::BrdfModel::lambert) {
             fmt::print(", f0 {}", text(material.f0));
             print_texture(" times {}", material.f0_texture);
+        }
+        if (material.model == scene::BrdfModel::frostbite) {
             fmt::print(", roughness {:.4g}", material.roughness);
             print_texture(" times {}", material.roughness_texture);
         }
+        if (material.model == scene::BrdfModel::phong) fmt::print(", exponent {:.6g}", material.exponent);
         if (material.alpha != 1 || material.alpha_texture.texture >= 0)
             fmt::print(", alpha {:.4g}", material.alpha);
         print_texture(" times {}", material.alpha_texture);

@@ -5,8 +5,8 @@
 /// P. Dutre 2016, Line Sampling for Direct Illumination, Eq. 9: albedo (n + 2) / (2 pi) (r.l)^n. The albedo is reached
 /// at normal incidence; elsewhere less is reflected.
 
+#include <nusselt/bsdf/lambert.h>
 #include <nusselt/core/exponential.h>
-#include <nusselt/core/vec.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -21,6 +21,15 @@ NUSSELT_HD constexpr Vec3<Real> mirrored(const Vec3<Real>& wo) noexcept {
 template <class Real>
 NUSSELT_HD constexpr Real phong_normalisation(const Real& exponent) noexcept {
     return (exponent + Real(2)) * Real(scalar_t<Real>(0.5) / kPi<scalar_t<Real>>);
+}
+
+/// The alpha of GGX whose reflections spread as widely, up to their tails. Half vectors turn by half as much as
+/// directions: about the mirrored direction, GGX falls like exp(-angle^2 / (4 alpha^2)), a power like exp(-n angle^2 / 2).
+/// The square root is the roughness by which tables of Phong lobes are sampled; exponent 0 is at roughness 1.
+/// \param exponent at least 0.
+template <class Real>
+NUSSELT_HD inline Real phong_alpha(const Real& exponent) noexcept {
+    return Real(1) / sqrt(fma(Real(2), exponent, Real(1)));
 }
 
 /// One surface point seen from one direction.
@@ -45,9 +54,32 @@ public:
         return select(lit, phong_normalisation(exponent_) * power, Real(0)) * albedo_;
     }
 
+    /// The direction to the eye, mirrored at the surface; the maximum of the lobe.
+    NUSSELT_HD const Vec3<Real>& mirror() const noexcept { return mirror_; }
+    NUSSELT_HD const Vec3<Real>& albedo() const noexcept { return albedo_; }
+    NUSSELT_HD const Real& exponent() const noexcept { return exponent_; }
+
 private:
     Vec3<Real> mirror_, albedo_;
     Real exponent_;
+};
+
+/// A Phong lobe above a Lambertian base, neither of which knows of the other: their albedos should not add up to more
+/// than 1.
+template <class Real>
+struct LambertPhong {
+    Lambert<Real> lambert;
+    Phong<Real> phong;
+
+    /// The BRDF, without the cosine [1/sr].
+    /// \param wi unit direction to the light in shading space; 0 where wi.z <= 0.
+    NUSSELT_HD Vec3<Real> eval(const Vec3<Real>& wi) const noexcept {
+        return lambert.eval(wi) + phong.eval(wi);
+    }
+
+    NUSSELT_HD BrdfComponents<Real> eval_components(const Vec3<Real>& wi) const noexcept {
+        return {lambert.eval(wi), phong.eval(wi)};
+    }
 };
 
 NUSSELT_NAMESPACE_END

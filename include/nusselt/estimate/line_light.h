@@ -9,11 +9,51 @@
 
 #include <nusselt/estimate/mis.h>
 #include <nusselt/estimate/surface.h>
+#include <nusselt/line_samples/phong.h>
 #include <nusselt/line_samples/shading.h>
 #include <nusselt/line_samples/visible_parts.h>
 #include <nusselt/sampling/cosine_arc.h>
 
 NUSSELT_NAMESPACE_BEGIN
+
+/// How LineLight::analytic() integrates the specular component of a BRDF along lines: by the lobe that was fitted to it.
+/// BRDFs whose specular component has a closed form along lines specialise this template.
+template <class Real, class Brdf>
+struct SpecularAlongLines {
+    using Surface = GlossySurface<Real, Brdf>;
+
+    /// Whether analytic() is exact for both components.
+    static constexpr bool kIsExact = std::is_same_v<Brdf, Lambert<Real>>;
+
+    /// The factor of integral().
+    NUSSELT_HD static Vec3<Real> albedo(const Surface& surface) noexcept { return surface.specular_albedo; }
+
+    /// The integral of the component over a part of a line [1/m], divided by albedo().
+    /// \param cosine the line in shading space.
+    /// \param lobe   the line in the cosine space of the fitted lobe.
+    /// \param part   above the surface, with finite ends [m].
+    NUSSELT_HD static Real integral(const Surface& /*surface*/, const LobeLine<Real>& /*cosine*/,
+                                    const LobeLine<Real>& lobe, const Interval<Real>& part) noexcept {
+        return lobe.integral(lobe.clipped(part));
+    }
+};
+
+/// Phong lobes by phong_part().
+template <class Real>
+struct SpecularAlongLines<Real, LambertPhong<Real>> {
+    using Surface = GlossySurface<Real, LambertPhong<Real>>;
+
+    static constexpr bool kIsExact = true;
+
+    NUSSELT_HD static Vec3<Real> albedo(const Surface& surface) noexcept {
+        return surface.brdf.phong.albedo();
+    }
+    NUSSELT_HD static Real integral(const Surface& surface, const LobeLine<Real>& cosine,
+                                    const LobeLine<Real>& /*lobe*/, const Interval<Real>& part) noexcept {
+        const Phong<Real>& phong = surface.brdf.phong;
+        return phong_part(cosine, part, phong.mirror(), phong.exponent());
+    }
+};
 
 /// One light and surface point, for many lines of the light. The light shines to both sides.
 ///
@@ -25,6 +65,7 @@ NUSSELT_NAMESPACE_BEGIN
 template <class Real, class Brdf = Frostbite<Real>>
 class LineLight {
     using Surface = GlossySurface<Real, Brdf>;
+    using AlongLines = SpecularAlongLines<Real, Brdf>;
 
 public:
     /// \param plane   of the light, in shading space with wo in the xz half-plane [m].
@@ -33,9 +74,9 @@ public:
     NUSSELT_HD LineLight(const LinePlane<Real>& plane, const Real& reach, const Surface& surface) noexcept
         : LineLight(ScaledPlane<Real>(plane, reach), surface) {}
 
-    /// The integrals of a Lambertian and of the fitted lobe above the horizon of the surface. They are exact for
-    /// Lambert and otherwise biased by the misfit. They are not negative, and those of disjoint parts add up to that of
-    /// the whole up to rounding.
+    /// The integrals of a Lambertian lobe and of the specular one above the horizon of the surface. They are exact for
+    /// Lambert and Phong, and otherwise biased by the misfit of the fitted lobe. They are not negative, and those of
+    /// disjoint parts add up to that of the whole up to rounding.
     /// \param offset of the line [m].
     /// \param parts  its visible parts.
     NUSSELT_HD BrdfComponents<Real> analytic(const Real& offset,
@@ -47,19 +88,20 @@ public:
             if (!any(parts[k].begin < parts[k].end)) continue;
             const Interval<Real> above = line.cosine.clipped(finite(parts[k]));
             diffuse = diffuse + line.cosine.integral(above);
-            if (any(is_glossy_)) specular = specular + line.lobe.integral(line.lobe.clipped(above));
+            if (any(is_glossy_))
+                specular = specular + AlongLines::integral(surface_, line.cosine, line.lobe, above);
         }
-        return components(diffuse, specular);
+        return {diffuse * diffuse_albedo_, specular * AlongLines::albedo(surface_)};
     }
 
-    /// An unbiased estimate from the same integrals and one point of the visible parts, where the BRDF is compared to
+    /// An unbiased estimate from the integrals of the cosine and of the fitted lobe, and one point of the visible parts, where the BRDF is compared to
     /// what they stand for. No shadow ray is needed. Can be negative.
     /// \param offset of the line [m].
     /// \param parts  its visible parts.
     /// \param u      random in [0, 1), stratified together with the offsets of other lines.
     NUSSELT_HD BrdfComponents<Real> unbiased(const Real& offset, const VisibleParts<Real>& parts,
                                              const Real& u) const noexcept {
-        if constexpr (std::is_same_v<Brdf, Lambert<Real>>) {
+        if constexpr (AlongLines::kIsExact) {
             return analytic(offset, parts);
         } else {
             const Line line = line_at(offset);
@@ -78,7 +120,8 @@ public:
                 specular = specular + by_lobe;
                 choice.offer(lobe_weight_ * by_lobe, lit, mask_t<Real>(true));
             }
-            const BrdfComponents<Real> expected = components(diffuse, specular);
+            const BrdfComponents<Real> expected{diffuse * diffuse_albedo_,
+                                                specular * surface_.specular_albedo};
             if (!any(choice.total > Real(0))) return expected;
             const Vec3<Real> wi = direction_to(line, choice);
             const Real cosine = max(wi.z, Real(0));
@@ -153,10 +196,6 @@ private:
     NUSSELT_HD static Interval<Real> finite(const Interval<Real>& part) noexcept {
         const auto lit = part.begin < part.end;
         return {select(lit, part.begin, Real(0)), select(lit, part.end, Real(0))};
-    }
-
-    NUSSELT_HD BrdfComponents<Real> components(const Real& diffuse, const Real& specular) const noexcept {
-        return {diffuse * diffuse_albedo_, specular * surface_.specular_albedo};
     }
 
     /// The direction to a point of the part, with a density by the lobe.

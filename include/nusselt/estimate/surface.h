@@ -3,13 +3,14 @@
 
 #include <nusselt/bsdf/frostbite.h>
 #include <nusselt/bsdf/lambert.h>
+#include <nusselt/bsdf/phong.h>
 #include <nusselt/ltc/ltc.h>
 #include <nusselt/ltc/table.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
 /// A point of a surface as seen from one direction, in shading space with wo in the xz half-plane (shading_frame()).
-/// \tparam Brdf with eval_components(wi), as Frostbite<Real> and Lambert<Real>.
+/// \tparam Brdf with eval_components(wi), as Frostbite<Real>, Lambert<Real> and LambertPhong<Real>.
 template <class Real, class Brdf = Frostbite<Real>>
 struct GlossySurface {
     Vec3<Real> wo; ///< unit direction to the eye
@@ -41,6 +42,18 @@ NUSSELT_HD inline SpecularFit<Real> fit_of(const LtcTableView& table, const Real
     return {Ltc<Real>(table.lookup(roughness, cos_o, mean_f0)), table.albedo(roughness, cos_o, f0)};
 }
 
+/// The same for Phong lobes.
+/// \param table    of Phong lobes of albedo 1 at normal incidence, by the root of phong_alpha() and the cosine.
+/// \param exponent see Phong.
+/// \param albedo   of the lobe at normal incidence, in [0, 1].
+template <class Real>
+NUSSELT_HD inline SpecularFit<Real> phong_fit_of(const LtcTableView& table, const Real& exponent,
+                                                 const Real& cos_o, const Vec3<Real>& albedo) noexcept {
+    // Phong lobes know no Fresnel term: all samples of f0 are the same.
+    const LtcCoefficients<Real> fit = table.lookup(sqrt(phong_alpha(exponent)), cos_o, Real(0));
+    return {Ltc<Real>(fit), fit.albedo * albedo};
+}
+
 /// A surface with the Frostbite BRDF.
 /// \param cos_o     cosine between the normal and the direction to the eye. Below the horizon the surface is black.
 /// \param albedo    of the diffuse part, in [0, 1].
@@ -56,6 +69,24 @@ NUSSELT_HD inline GlossySurface<Real> make_glossy_surface(const Real& cos_o, con
     const Frostbite<Real> brdf(wo, albedo, f0, roughness);
     const SpecularFit<Real> fit = fit_of(table, roughness, cos_o, f0);
     return {wo, ggx_alpha(roughness), brdf, fit.lobe, brdf.diffuse_albedo(), fit.albedo};
+}
+
+/// A Lambertian surface with a Phong lobe.
+/// \param cos_o    as for make_glossy_surface().
+/// \param albedo   of the Lambertian part, in [0, 1].
+/// \param specular albedo of the lobe at normal incidence, in [0, 1].
+/// \param exponent at least 0; any real number.
+/// \param table    see phong_fit_of().
+template <class Real>
+NUSSELT_HD inline GlossySurface<Real, LambertPhong<Real>>
+make_phong_surface(const Real& cos_o, const Vec3<Real>& albedo, const Vec3<Real>& specular,
+                   const Real& exponent, const LtcTableView& table) noexcept {
+    const Real sin_o = sqrt(max((Real(1) - cos_o) * (Real(1) + cos_o), Real(0)));
+    const Vec3<Real> wo{sin_o, Real(0), cos_o};
+    const SpecularFit<Real> fit = phong_fit_of(table, exponent, cos_o, specular);
+    return {
+        wo,        phong_alpha(exponent), {{albedo}, Phong<Real>(wo, specular, exponent)}, fit.lobe, albedo,
+        fit.albedo};
 }
 
 NUSSELT_NAMESPACE_END

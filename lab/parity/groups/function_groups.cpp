@@ -5,7 +5,7 @@ namespace nusselt::parity {
 void add_function_cases(std::vector<ParityCase>& cases) {
     for (const ParityCase& group :
          {group_case<Arithmetic>(), group_case<Trigonometry>(), group_case<Frames>(), group_case<Brdfs>(),
-          group_case<Polygons>(), group_case<Clipping>(), group_case<Lines>()})
+          group_case<PhongLobes>(), group_case<Polygons>(), group_case<Clipping>(), group_case<Lines>()})
         cases.push_back(group);
 }
 

@@ -12,6 +12,8 @@
 #include "shaders/frame_split.h"
 #include "shaders/line_fused.h"
 #include "shaders/line_split.h"
+#include "shaders/phong_fused.h"
+#include "shaders/phong_split.h"
 #include "shaders/polygon_fused.h"
 #include "shaders/polygon_split.h"
 #include "shaders/trig_fused.h"
@@ -19,6 +21,7 @@
 
 #include <nusselt/bsdf/frostbite.h>
 #include <nusselt/bsdf/lambert.h>
+#include <nusselt/bsdf/phong.h>
 #include <nusselt/geometry/clip_line.h>
 #include <nusselt/geometry/clip_polygon.h>
 #include <nusselt/geometry/polygon_measures.h>
@@ -198,6 +201,51 @@ struct Brdfs {
         put(results, 6, brdf.eval_specular(wi));
         put(results, 9, Lambert<Real>{albedo}.eval(wi));
         return results;
+    }
+};
+
+struct PhongLobes {
+    static constexpr const char* kName = "Phong lobes";
+    static constexpr std::span<const std::uint32_t> kSplit = shaders::kPhongSplit;
+    static constexpr std::span<const std::uint32_t> kFused = shaders::kPhongFused;
+    static constexpr std::size_t kInputs = 11;
+    static constexpr Output kOutputs[] = {{"red", Error::relative},
+                                          {"green", Error::relative},
+                                          {"blue", Error::relative},
+                                          {"alpha", Error::relative},
+                                          {"logarithm of the cosine", Error::relative},
+                                          {"cosine", Error::relative}};
+
+    static void draw(RandomSource& random, std::vector<float>& inputs) {
+        const Vec3<double> wo = is_degenerate(random) ? axis(random) : random.direction();
+        put(inputs, {wo.x, wo.y, std::fabs(wo.z)});
+        const double exponent = random.index(8) == 0 ? 0 : random.log_between(1, 1e6);
+        // Most directions are in the lobe, where the power is not next to 0.
+        Vec3<double> wi = random.direction();
+        if (random.index(4) > 0) {
+            const double width = 3 / std::sqrt(exponent + 1);
+            wi = normalize(Vec3<double>{-wo.x, -wo.y, std::fabs(wo.z)} + width * random.uniform() * wi);
+        }
+        put(inputs, is_degenerate(random) ? axis(random) : wi);
+        for (int i = 0; i < 3; ++i) inputs.push_back(static_cast<float>(random.uniform()));
+        inputs.push_back(static_cast<float>(exponent));
+        inputs.push_back(static_cast<float>(random.log_between(1e-4, 1.57)));
+    }
+    template <class Real>
+    static Results<Real> call(const float* inputs) {
+        const Real exponent = inputs[9];
+        const Phong<Real> phong(get<Real>(inputs), get<Real>(inputs + 6), exponent);
+        const Real logarithm = negative_log_of_cosine(sincos_quarter_turn(Real(inputs[10])));
+        Results<Real> results{};
+        put(results, 0, phong.eval(get<Real>(inputs + 3)));
+        results[3] = phong_alpha(exponent);
+        results[4] = logarithm;
+        results[5] = exp_of_negative(logarithm);
+        return results;
+    }
+    /// Far from the mirrored direction, single precision has no power left.
+    static bool is_defined(std::size_t output, const Results<long double>& exact) {
+        return output >= 3 || exact[output] == 0 || exact[output] > 1e-20L;
     }
 };
 

@@ -1,9 +1,10 @@
 #ifndef NUSSELT_ESTIMATE_SURFACE_GLSL
 #define NUSSELT_ESTIMATE_SURFACE_GLSL
-// Follows include/nusselt/estimate/surface.h @ 90a4d300ca43
+// Follows include/nusselt/estimate/surface.h @ ce851e791f49
 /// Data of a point of a surface that does not depend on the lights. Twin of include/nusselt/estimate/surface.h.
 
 #include "../bsdf/frostbite.glsl"
+#include "../bsdf/phong.glsl"
 #include "../ltc/ltc.glsl"
 #include "../ltc/table.glsl"
 
@@ -37,6 +38,14 @@ float mean_f0(vec3 f0) { return (f0.x + f0.y + f0.z) * (1.0 / 3.0); }
 /// \param of_black, of_white see ltc_table_albedo().
 SpecularFit fit_of(LtcTableEntry sum, float of_black, float of_white, vec3 f0) {
     return SpecularFit(ltc_prepare(ltc_table_coefficients(sum)), ltc_table_albedo(of_black, of_white, f0));
+}
+
+/// The same for a Phong lobe.
+/// \param sum    of the eight neighbours, looked up with sqrt(phong_alpha(exponent)) and f0 = 0.
+/// \param albedo of the lobe at normal incidence.
+SpecularFit phong_fit_of(LtcTableEntry sum, vec3 albedo) {
+    LtcCoefficients fit = ltc_table_coefficients(sum);
+    return SpecularFit(ltc_prepare(fit), fit.albedo * albedo);
 }
 
 /// A surface with the Frostbite BRDF.

@@ -13,7 +13,7 @@ struct ShadingPoint {
     Vec3<float> position;                     ///< world space [m]
     Vec3<float> geometric_normal;             ///< see Surface
     Vec3<float> apex;                         ///< where shadow rays start [m]
-    bool is_frostbite;                        ///< the BRDF; otherwise Lambert
+    bool is_closed_form;                      ///< whether integrals of the BRDF along lines are exact
     int lane;                                 ///< of the packet
 };
 
@@ -21,7 +21,9 @@ inline ShadingPoint shading_point(const Surface& surface, int lane) noexcept {
     const auto& glossy = surface.glossy;
     const bool is_frostbite = glossy.brdf.is_frostbite.lane(lane);
     const SurfaceBrdf brdf{broadcast_lane(glossy.brdf.lambert, lane),
-                           broadcast_lane(glossy.brdf.frostbite, lane), LaneMask(is_frostbite)};
+                           broadcast_lane(glossy.brdf.frostbite, lane),
+                           broadcast_lane(glossy.brdf.phong, lane), LaneMask(is_frostbite),
+                           LaneMask(glossy.brdf.is_phong.lane(lane))};
     const auto position = single_lane<Vec3<float>>(surface.position, lane);
     const auto normal = single_lane<Vec3<float>>(surface.geometric_normal, lane);
     const auto offset = single_lane<float>(surface.offset, lane);
@@ -32,7 +34,7 @@ inline ShadingPoint shading_point(const Surface& surface, int lane) noexcept {
             position,
             normal,
             position + offset * normal,
-            is_frostbite,
+            !is_frostbite,
             lane};
 }
 

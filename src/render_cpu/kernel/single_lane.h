@@ -43,6 +43,16 @@ T broadcast_lane(const T& object, int lane) noexcept {
     return __builtin_bit_cast(T, to);
 }
 
+/// One of two objects for each lane: a where the mask is set.
+template <class T>
+T select_lanes(LaneMask mask, const T& a, const T& b) noexcept {
+    constexpr int kCount = detail::PackArray<T>::kCount;
+    const auto from_a = __builtin_bit_cast(detail::Reals<kCount>, a);
+    auto result = __builtin_bit_cast(detail::Reals<kCount>, b);
+    for (int i = 0; i < kCount; ++i) result.value[i] = select(mask, from_a.value[i], result.value[i]);
+    return __builtin_bit_cast(T, result);
+}
+
 /// One lane as an object of floats.
 /// \tparam Single the type of the object with float in place of Real.
 template <class Single, class T>

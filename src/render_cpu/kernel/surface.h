@@ -4,30 +4,35 @@
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/instances.h"
 #include "render_cpu/kernel/lanes.h"
+#include "render_cpu/kernel/single_lane.h"
 #include "render_cpu/kernel/texture.h"
 
-#include <nusselt/estimate/surface.h>
+#include <nusselt/estimate/line_light.h>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 
 /// The BRDF of each lane.
 struct SurfaceBrdf {
-    Lambert<Real> lambert;
+    Lambert<Real> lambert; ///< also the diffuse component of Phong surfaces
     Frostbite<Real> frostbite;
-    LaneMask is_frostbite;
+    Phong<Real> phong; ///< the lobe, black for other surfaces
+    LaneMask is_frostbite, is_phong;
 
     Vector eval(const Vector& wi) const noexcept {
-        if (!any(is_frostbite)) return lambert.eval(wi);
-        return select(is_frostbite, frostbite.eval(wi), lambert.eval(wi));
+        Vector value = lambert.eval(wi);
+        if (any(is_phong)) value = value + phong.eval(wi);
+        if (any(is_frostbite)) value = select(is_frostbite, frostbite.eval(wi), value);
+        return value;
     }
 
     BrdfComponents<Real> eval_components(const Vector& wi) const noexcept {
-        const BrdfComponents<Real> of_lambert = lambert.eval_components(wi);
-        if (!any(is_frostbite)) return of_lambert;
+        BrdfComponents<Real> value = lambert.eval_components(wi);
+        if (any(is_phong)) value.specular = phong.eval(wi);
+        if (!any(is_frostbite)) return value;
         const BrdfComponents<Real> of_frostbite = frostbite.eval_components(wi);
-        return {select(is_frostbite, of_frostbite.diffuse, of_lambert.diffuse),
-                select(is_frostbite, of_frostbite.specular, of_lambert.specular)};
+        return {select(is_frostbite, of_frostbite.diffuse, value.diffuse),
+                select(is_frostbite, of_frostbite.specular, value.specular)};
     }
 };
 
@@ -209,7 +214,8 @@ struct MaterialLanes {
     Vector diffuse;
     Vector f0;
     Real roughness;
-    LaneMask is_frostbite;
+    Real exponent;
+    LaneMask is_frostbite, is_phong;
 };
 
 inline MaterialLanes look_up_materials(const render_cpu::KernelScene& scene, const Indices& material,
@@ -217,10 +223,14 @@ inline MaterialLanes look_up_materials(const render_cpu::KernelScene& scene, con
     using render_cpu::MaterialTextures;
     constexpr int kStride = sizeof(render_cpu::MaterialRow) / sizeof(float);
     const float* rows = scene.materials->diffuse;
+    const Real model = gather_column(rows, kStride, 8, material, active);
+    const auto has_model = [&](scene::BrdfModel m) { return model == Real(static_cast<float>(m)); };
     MaterialLanes result{gather_vector(rows, kStride, 0, material, active),
                          gather_vector(rows, kStride, 3, material, active),
                          gather_column(rows, kStride, 6, material, active),
-                         gather_column(rows, kStride, 7, material, active) > Real(0.5f)};
+                         gather_column(rows, kStride, 7, material, active),
+                         has_model(scene::BrdfModel::frostbite),
+                         has_model(scene::BrdfModel::phong)};
     const auto times_texture = [&](scene::TextureUse MaterialTextures::*purpose, const Vector& factor) {
         const TextureLanes lanes = texture_lanes(scene, material, purpose, uv, active);
         // Factors above 1 are useful for dark images, but reflectances must not exceed 1.
@@ -240,26 +250,45 @@ inline MaterialLanes look_up_materials(const render_cpu::KernelScene& scene, con
     return result;
 }
 
+inline LtcTableView view_of(const render_cpu::LtcTableRecord& table) noexcept {
+    return {table.entries, table.roughnesses, table.inclinations, table.f0s};
+}
+
+/// The fit of the specular component of each lane, with an albedo of 0 where there is none or the job uses no fits.
+inline SpecularFit<Real> fit_lobes(const render_cpu::KernelScene& scene, const MaterialLanes& material,
+                                   const Real& cos_o) noexcept {
+    const LtcCoefficients<Real> cosine{Real(1), Real(0), Real(1), Real(0), Real(1), Real(0)};
+    SpecularFit<Real> fit{Ltc<Real>(cosine), {Real(0), Real(0), Real(0)}};
+    if (scene.frostbite_lobes.entries != nullptr && any(material.is_frostbite))
+        fit =
+            select_lanes(material.is_frostbite,
+                         fit_of(view_of(scene.frostbite_lobes), material.roughness, cos_o, material.f0), fit);
+    if (scene.phong_lobes.entries != nullptr && any(material.is_phong))
+        fit = select_lanes(material.is_phong,
+                           phong_fit_of(view_of(scene.phong_lobes), material.exponent, cos_o, material.f0),
+                           fit);
+    return fit;
+}
+
 /// \param wo in shading space
-inline GlossySurface<Real, SurfaceBrdf> make_glossy(const render_cpu::LtcTableRecord& table,
-                                                    const MaterialLanes& material,
-                                                    const Vector& wo) noexcept {
+inline GlossySurface<Real, SurfaceBrdf>
+make_glossy(const render_cpu::KernelScene& scene, const MaterialLanes& material, const Vector& wo) noexcept {
+    const Vector zero{Real(0), Real(0), Real(0)};
     const SurfaceBrdf brdf{{material.diffuse},
                            Frostbite<Real>(wo, material.diffuse, material.f0, material.roughness),
-                           material.is_frostbite};
-    const Vector zero{Real(0), Real(0), Real(0)};
-    if (table.entries == nullptr || !any(material.is_frostbite)) {
-        const LtcCoefficients<Real> cosine{Real(1), Real(0), Real(1), Real(0), Real(1), Real(0)};
-        return {wo, ggx_alpha(material.roughness), brdf, Ltc<Real>(cosine), material.diffuse, zero};
-    }
-    const LtcTableView view{table.entries, table.roughnesses, table.inclinations, table.f0s};
-    const SpecularFit<Real> fit = fit_of(view, material.roughness, wo.z, material.f0);
+                           Phong<Real>(wo, select(material.is_phong, material.f0, zero), material.exponent),
+                           material.is_frostbite,
+                           material.is_phong};
+    const SpecularFit<Real> fit = fit_lobes(scene, material, wo.z);
+    const bool estimates_albedo = scene.frostbite_lobes.entries != nullptr && any(material.is_frostbite);
     return {wo,
-            ggx_alpha(material.roughness),
+            select(material.is_phong, phong_alpha(material.exponent), ggx_alpha(material.roughness)),
             brdf,
             fit.lobe,
-            select(material.is_frostbite, brdf.frostbite.diffuse_albedo(), material.diffuse),
-            select(material.is_frostbite, fit.albedo, zero)};
+            estimates_albedo
+                ? select(material.is_frostbite, brdf.frostbite.diffuse_albedo(), material.diffuse)
+                : material.diffuse,
+            fit.albedo};
 }
 
 /// Makes the shading points for the active lanes that hit a triangle.
@@ -312,8 +341,30 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
             frame,
             Real(kOffsetPerRadius) * Real(scene.radius) + Real(kOffsetPerCoordinate) * coordinate,
             light,
-            make_glossy(scene.ltc, lanes, frame.to_local(wo))};
+            make_glossy(scene, lanes, frame.to_local(wo))};
 }
 
 } // namespace kernel
+
+/// Phong lobes by phong_part(), others by the fit.
+template <>
+struct SpecularAlongLines<kernel::Real, kernel::SurfaceBrdf> {
+    using Real = kernel::Real;
+    using Surface = GlossySurface<Real, kernel::SurfaceBrdf>;
+
+    static constexpr bool kIsExact = false;
+
+    static Vec3<Real> albedo(const Surface& surface) noexcept {
+        return select(surface.brdf.is_phong, surface.brdf.phong.albedo(), surface.specular_albedo);
+    }
+    static Real integral(const Surface& surface, const LobeLine<Real>& cosine, const LobeLine<Real>& lobe,
+                         const Interval<Real>& part) noexcept {
+        const kernel::SurfaceBrdf& brdf = surface.brdf;
+        if (!any(brdf.is_phong)) return lobe.integral(lobe.clipped(part));
+        const Real of_phong = phong_part(cosine, part, brdf.phong.mirror(), brdf.phong.exponent());
+        if (all(brdf.is_phong)) return of_phong;
+        return select(brdf.is_phong, of_phong, lobe.integral(lobe.clipped(part)));
+    }
+};
+
 NUSSELT_NAMESPACE_END

@@ -61,9 +61,10 @@ public:
 
     void add(const Material& material) {
         const auto& [name, model, diffuse, diffuse_texture, f0, f0_texture, roughness, roughness_texture,
-                     alpha, alpha_texture, bump, bump_texture, bump_unit, normal_texture] = material;
-        add_all(model, diffuse, diffuse_texture, f0, f0_texture, roughness, roughness_texture, alpha,
-                alpha_texture, bump, bump_texture, bump_unit, normal_texture);
+                     exponent, alpha, alpha_texture, bump, bump_texture, bump_unit, normal_texture] =
+            material;
+        add_all(model, diffuse, diffuse_texture, f0, f0_texture, roughness, roughness_texture, exponent,
+                alpha, alpha_texture, bump, bump_texture, bump_unit, normal_texture);
     }
 
     void add(const Emitter& emitter) { [[maybe_unused]] const auto& [name] = emitter; }

@@ -10,6 +10,9 @@ inline constexpr int kMaxFilmSize = 65536; ///< pixels along an axis
 /// Of a light [W/(sr m^2)]. Sums over many samples of far brighter lights would overflow.
 inline constexpr double kMaxRadiance = 1e30;
 
+/// Of Phong lobes. Single precision does not resolve directions in much narrower ones.
+inline constexpr double kLargestPhongExponent = 1e6;
+
 // Indices have 32 bits with a few special values; those of triangles have a sign.
 inline constexpr std::size_t kMaxVertices = 0xfffffffe;
 inline constexpr std::size_t kMaxTriangles = 0x7fffffff;

@@ -45,8 +45,9 @@ struct TextureUse {
 };
 
 enum class BrdfModel : std::uint32_t {
-    lambert,   ///< diffuse / pi; f0 and roughness are unused
-    frostbite, ///< Disney diffuse (renormalised) plus GGX
+    lambert,   ///< diffuse / pi; f0, roughness and exponent are unused
+    frostbite, ///< Disney diffuse (renormalised) plus GGX; the exponent is unused
+    phong, ///< diffuse / pi plus f0 (n + 2) / (2 pi) times a power n of the cosine with the mirrored direction
 };
 
 /// The unit of the heights of bump maps.
@@ -68,7 +69,8 @@ struct Material {
     TextureUse f0_texture = {};
     float roughness = 1.0f; ///< perceptual roughness in [0, 1]; the GGX alpha is its square
     TextureUse roughness_texture = {};
-    float alpha = 1.0f; ///< probability that the surface is there
+    float exponent = 100.0f; ///< n of Phong lobes, 0 or from 1 to kLargestPhongExponent
+    float alpha = 1.0f;      ///< probability that the surface is there
     TextureUse alpha_texture = {};
     float bump = 1.0f; ///< height of texels of value 1 of the bump texture [bump_unit]
     TextureUse bump_texture = {};

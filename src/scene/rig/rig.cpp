@@ -153,16 +153,18 @@ private:
 void RigApplication::apply(const RigMaterial& entry) {
     for (const std::size_t i : select_materials(entry.where, entry.materials)) {
         Material& material = scene_.materials[i];
-        const bool becomes_glossy = material.model == BrdfModel::lambert &&
-                                    entry.model.value_or(material.model) == BrdfModel::frostbite;
-        if (becomes_glossy) {
+        const bool is_lambert = material.model == BrdfModel::lambert;
+        const BrdfModel kept = is_lambert && entry.f0 ? BrdfModel::frostbite : material.model;
+        const BrdfModel model = entry.model.value_or(kept);
+        if (is_lambert && model != BrdfModel::lambert) {
             replace(std::optional(kDefaultF0), material.f0, material.f0_texture);
             replace(std::optional(kDefaultRoughness), material.roughness, material.roughness_texture);
         }
-        if (entry.model) material.model = *entry.model;
+        material.model = model;
         replace(entry.diffuse, material.diffuse, material.diffuse_texture);
         replace(entry.f0, material.f0, material.f0_texture);
         replace(entry.roughness, material.roughness, material.roughness_texture);
+        if (entry.exponent) material.exponent = *entry.exponent;
     }
 }
 

@@ -64,6 +64,7 @@ struct RigMaterial {
     std::optional<Float3> diffuse;
     std::optional<Float3> f0;
     std::optional<float> roughness;
+    std::optional<float> exponent;
 };
 
 struct Rig {

@@ -272,25 +272,49 @@ BrdfModel read_model(const JsonNode& node) {
     const std::string name = node.text();
     if (name == "lambert") return BrdfModel::lambert;
     if (name == "frostbite") return BrdfModel::frostbite;
-    node.fail_type("\"lambert\" or \"frostbite\"");
+    if (name == "phong") return BrdfModel::phong;
+    node.fail_type("\"lambert\", \"frostbite\" or \"phong\"");
+}
+
+float read_exponent(const JsonNode& node) {
+    const double exponent = node.number(0, kLargestPhongExponent);
+    if (exponent > 0 && exponent < 1) node.fail("must not be between 0 and 1");
+    return static_cast<float>(exponent);
+}
+
+/// The model of a material without the field "model", if its parameters tell it.
+std::optional<BrdfModel> implied_model(const JsonNode& entry, const RigMaterial& material) {
+    if (material.roughness && material.exponent)
+        entry.fail("roughness belongs to the model \"frostbite\", exponent to \"phong\"; use one of them");
+    if (material.roughness) return BrdfModel::frostbite;
+    if (material.exponent) return BrdfModel::phong;
+    return std::nullopt;
 }
 
 RigMaterial read_material(const JsonNode& entry) {
-    entry.check_fields({"material", "comment", "model", "diffuse", "f0", "roughness"}, kMaterialSynonyms);
+    entry.check_fields({"material", "comment", "model", "diffuse", "f0", "roughness", "exponent"},
+                       kMaterialSynonyms);
     RigMaterial result;
     result.where = entry.where();
     result.materials = read_selector(entry.at("material"));
     if (const auto node = entry.find("diffuse")) result.diffuse = float3_of(node->triple_or_number(0, 1));
     if (const auto node = entry.find("f0")) result.f0 = float3_of(node->triple_or_number(0, 1));
     if (const auto node = entry.find("roughness")) result.roughness = static_cast<float>(node->number(0, 1));
-    const bool is_glossy = result.f0 || result.roughness;
-    if (const auto node = entry.find("model")) {
-        result.model = read_model(*node);
-        if (is_glossy && *result.model == BrdfModel::lambert)
-            node->fail("\"lambert\" does not support f0 and roughness");
-    } else if (is_glossy) {
-        result.model = BrdfModel::frostbite;
+    if (const auto node = entry.find("exponent")) result.exponent = read_exponent(*node);
+    const auto node = entry.find("model");
+    if (!node) {
+        result.model = implied_model(entry, result);
+        return result;
     }
+    const BrdfModel model = read_model(*node);
+    const auto require = [&](bool is_given, const char* field, bool is_supported) {
+        if (is_given && !is_supported)
+            node->fail("\"" + node->text() + "\" does not support " + std::string(field));
+    };
+    require(result.f0.has_value(), "f0", model != BrdfModel::lambert);
+    require(result.roughness.has_value(), "roughness", model == BrdfModel::frostbite);
+    require(result.exponent.has_value(), "exponent", model == BrdfModel::phong);
+    result.model = model;
     return result;
 }
 

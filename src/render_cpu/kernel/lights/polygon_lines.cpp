@@ -272,7 +272,7 @@ private:
                   const TracedLines<Real>& traced, LineSum& sum) noexcept {
         const VisibleParts<Real>& parts = traced.parts;
         for (int i = 0; i < parts.count(); ++i) sum.parts += count_lanes(parts[i].begin < parts[i].end);
-        const bool is_closed_form = settings_.shading == LineShading::analytic || !point.is_frostbite;
+        const bool is_closed_form = settings_.shading == LineShading::analytic || point.is_closed_form;
         const BrdfComponents<Real> light = is_closed_form ? estimator.analytic(traced.offset, parts)
                                                           : estimator.unbiased(traced.offset, parts, lines.u);
         const Real weight = Real(1) / select(lines.drawn, lines.pdf, Real(1));

@@ -17,6 +17,7 @@ Material make_material(const SurfaceFormula& surface, TexturePlanner& planner, c
     material.f0_texture = texture(surface.f0, 3);
     material.roughness = number(surface.roughness);
     material.roughness_texture = texture(surface.roughness, 1);
+    if (surface.model == BrdfModel::phong) material.exponent = static_cast<float>(surface.exponent);
     material.alpha = number(surface.alpha);
     material.alpha_texture = texture(surface.alpha, 1);
     material.bump = number(surface.bump);

@@ -10,7 +10,8 @@ struct SurfaceFormula {
     BrdfModel model = BrdfModel::lambert;
     TextureValue diffuse = grey_value(0);
     TextureValue f0 = grey_value(0);
-    TextureValue roughness = grey_value(1); ///< perceptual
+    TextureValue roughness = grey_value(1); ///< perceptual; of Phong lobes, that of an equally wide lobe
+    double exponent = 0;                    ///< of Phong lobes
     TextureValue alpha = grey_value(1);
     TextureValue bump = grey_value(0); ///< height [bump_unit]
     BumpUnit bump_unit = BumpUnit::metre;

@@ -67,5 +67,7 @@ using MaterialReduction = std::optional<SurfaceFormula> (*)(MaterialReader&);
 /// Null for materials that this version of pbrt does not have.
 MaterialReduction find_reduction_v3(std::string_view type);
 MaterialReduction find_reduction_v4(std::string_view type);
+/// Materials that no version of pbrt has. Both syntaxes may use them.
+MaterialReduction find_extension(std::string_view type);
 
 } // namespace nusselt::scene

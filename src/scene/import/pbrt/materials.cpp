@@ -24,14 +24,23 @@ TextureValue roughness_share(const SurfaceFormula& a, const SurfaceFormula& b, c
     return grey_value(weight_b / (weight_b + (1 - share) * reflectance_a));
 }
 
+/// The model of a mixture.
+BrdfModel mixed_model(const SurfaceFormula& a, const SurfaceFormula& b) {
+    if (a.model == BrdfModel::lambert) return b.model;
+    return b.model == BrdfModel::lambert || a.model == b.model ? a.model : BrdfModel::frostbite;
+}
+
 SurfaceFormula blended(TextureFormulas& formulas, const SurfaceFormula& a, const SurfaceFormula& b,
                        const TextureValue& amount) {
     SurfaceFormula result;
-    const bool is_lambert = a.model == BrdfModel::lambert && b.model == BrdfModel::lambert;
-    result.model = is_lambert ? BrdfModel::lambert : BrdfModel::frostbite;
+    result.model = mixed_model(a, b);
     result.diffuse = formulas.mix(a.diffuse, b.diffuse, amount);
     result.f0 = formulas.mix(a.f0, b.f0, amount);
-    result.roughness = formulas.mix(a.roughness, b.roughness, roughness_share(a, b, amount));
+    const TextureValue share = roughness_share(a, b, amount);
+    result.roughness = formulas.mix(a.roughness, b.roughness, share);
+    // Exponents cannot be images: an image of the share counts as a half.
+    const double share_of_b = share.node < 0 ? mean(share.factor) : 0.5;
+    result.exponent = (1 - share_of_b) * a.exponent + share_of_b * b.exponent;
     result.alpha = formulas.mix(a.alpha, b.alpha, amount);
     result.bump = formulas.mix(a.bump, b.bump, amount);
     result.bump_unit = a.bump.node >= 0 ? a.bump_unit : b.bump_unit;
@@ -49,6 +58,7 @@ public:
         if (directive.type == "mix") return mixture(m, mixture_depth);
         MaterialReduction reduce = find_reduction_v3(directive.type);
         if (reduce == nullptr) reduce = find_reduction_v4(directive.type);
+        if (reduce == nullptr) reduce = find_extension(directive.type);
         const bool is_known = reduce != nullptr;
         std::optional<SurfaceFormula> result = is_known ? reduce(m) : unknown(m);
         if (!result) return std::nullopt;
