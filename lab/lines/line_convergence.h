@@ -37,6 +37,23 @@ struct LessNoise {
     int exceptions = 0;
 };
 
+/// Expects a series to reach an error of another in less time, in all scenes but a few: the product of variance and time
+/// of this many samples is less. For independent samples it is the same for all numbers.
+struct LessTime {
+    std::string series;
+    std::string than;
+    int count;
+    int exceptions = 0;
+};
+
+/// Expects the orders of two series to differ by at most a tolerance, in all scenes but a few.
+struct SameOrder {
+    std::string series;
+    std::string as;
+    double tolerance;
+    int exceptions = 0;
+};
+
 struct LineConvergence {
     std::string name; ///< on the command line
     std::string source;
@@ -46,7 +63,10 @@ struct LineConvergence {
     std::string reference; ///< series against which biases are measured
     std::vector<OrderBetween> orders;
     std::vector<LessNoise> less_noise;
-    int seeds = 16; ///< at least; more for few samples, up to
+    std::vector<LessTime> less_time;
+    std::vector<SameOrder> same_orders;
+    std::string orders_item; ///< id of the published item with the orders
+    int seeds = 16;          ///< at least; more for few samples, up to
     int most_seeds = 128;
     int width = 64; ///< of the images in pixels
 };

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nusselt::lab {
 
@@ -131,6 +132,25 @@ Results numbers_of(const LineConvergenceResult& result) {
             {std::move(scenes), std::move(all), std::move(curves)}};
 }
 
+/// The orders that the paper lists.
+std::vector<Measured> measured(const LineConvergenceResult& result) {
+    const std::pair<const char*, const char*> names[] = {
+        {"points, independent", "points, random"},     {"points, stratified", "points, stratified"},
+        {"points, Sobol'", "points, low discrepancy"}, {"lines, independent", "lines, random"},
+        {"lines, stratified", "lines, stratified"},    {"lines, Sobol'", "lines, low discrepancy"}};
+    std::vector<Measured> all;
+    for (const SceneResult& scene : result.scenes) {
+        if (scene.is_skipped) continue;
+        for (std::size_t i = 0; i < scene.series.size(); ++i)
+            for (const auto& [ours, theirs] : names)
+                if (result.experiment->series[i].label == ours)
+                    all.push_back({result.experiment->orders_item,
+                                   fmt::format("{}: {}", published_name(scene.scene), theirs),
+                                   scene.series[i].order});
+    }
+    return all;
+}
+
 std::vector<Plot> plots(const LineConvergenceResult& result) {
     const LineConvergence& experiment = *result.experiment;
     std::vector<Plot> all;
@@ -150,6 +170,7 @@ Report report_of(const LineConvergenceResult& result) {
     Report report = {setting(result), tables(result), result.expectations};
     report.plots = plots(result);
     report.numbers = numbers_of(result);
+    report.measured = measured(result);
     for (const SceneResult& scene : result.scenes)
         report.inputs.insert(report.inputs.end(), scene.files.begin(), scene.files.end());
     return report;

@@ -5,6 +5,7 @@
 #include "scene/rig/rig_json.h"
 
 #include <cstdlib>
+#include <utility>
 
 namespace nusselt::lab {
 
@@ -25,6 +26,16 @@ std::vector<LineScene> scenes_with_large_lights() { return scenes_with("", "spon
 
 std::vector<LineScene> scenes_with_small_lights() {
     return scenes_with(kSmallLight, "sponza/sponza-small-light.pbrt");
+}
+
+std::string published_name(const std::string& scene) {
+    const std::pair<std::string, std::string> names[] = {{"grid-planes", "Grid planes"},
+                                                         {"logo", "Eurographics logo"},
+                                                         {"soup", "Triangle soup"},
+                                                         {"sponza", "Sponza"}};
+    for (const auto& [ours, theirs] : names)
+        if (scene.rfind(ours, 0) == 0) return theirs + scene.substr(ours.size());
+    return scene;
 }
 
 std::optional<scene::Scene> load_line_scene(const LineScene& line_scene, const RunSettings& settings,

@@ -28,6 +28,9 @@ std::vector<LineScene> scenes_with_large_lights();
 /// The same under lights a tenth as wide.
 std::vector<LineScene> scenes_with_small_lights();
 
+/// The name that the paper gives to a scene: "Grid planes, small" for "grid-planes, small".
+std::string published_name(const std::string& scene);
+
 /// Loads a scene with a film of this width, or of its own width if the width is 0.
 /// \returns nothing if the scene is a published one and NUSSELT_SCENES is not set
 /// \throws std::runtime_error if it cannot be loaded

@@ -3,6 +3,7 @@
 /// Dutre 2016, Line Sampling for Direct Illumination, Figure 5 and Table 1.
 
 #include "image/planes.h"
+#include "lab/lines/line_by_line.h"
 #include "lab/lines/line_scenes.h"
 #include "lab/report/report.h"
 #include "render_cpu/renderer.h"
@@ -35,6 +36,7 @@ struct LineVisibility {
     std::vector<MoreWork> expectations;
     int lines; ///< per shading point and light
     int width; ///< of the images in pixels
+    int step;  ///< lines are traced one by one in every pixel of so many, in both directions
 };
 
 const std::vector<LineVisibility>& all_line_visibilities();
@@ -50,6 +52,9 @@ struct LineVisibilityScene {
     image::Plane parts; ///< visible ones of each line, means over pixels
     render::RenderStatistics statistics;
     WorkPerLine work;
+    LineByLineWork one_by_one; ///< in some of the pixels
+    WorkPerLine work_one_by_one;
+    double parts_together = 0; ///< visible parts per line in the same pixels, by the renderer
 };
 
 struct LineVisibilityResult {

@@ -25,6 +25,11 @@ double largest_parts(const LineVisibilityResult& result) {
 /// Counts and rates in millions, as in the paper.
 std::string millions(double number) { return fmt::format("{:.3g} M", 1e-6 * number); }
 
+/// Of one thread.
+double visibility_seconds_per_line(const render::RenderStatistics& s) {
+    return s.lines.visibility_seconds / static_cast<double>(std::max<std::uint64_t>(s.lines.lines, 1));
+}
+
 Table work_table(const LineVisibilityResult& result) {
     Table table = {{"scene and light", "render time [s]", "of it visibility", "lines", "tests of boxes",
                     "of triangles", "boxes / s", "triangles / s", "lines / s"}};
@@ -61,9 +66,60 @@ Table line_table(const LineVisibilityResult& result) {
     return table;
 }
 
+/// Tests for one line, one thread.
+Table one_by_one_table(const LineVisibilityResult& result) {
+    Table table = {{"per line", "boxes, one by one", "boxes, together", "triangles, one by one",
+                    "triangles, together", "one by one [us]", "together [us]", "visible parts, one by one",
+                    "visible parts, together"}};
+    for (const LineVisibilityScene& scene : result.scenes) {
+        if (scene.is_skipped) continue;
+        const LineByLineWork& w = scene.one_by_one;
+        const render::RenderStatistics& s = scene.statistics;
+        const auto lines = static_cast<double>(std::max<std::uint64_t>(w.lines, 1));
+        table.push_back({scene.scene, fmt::format("{:.4g}", scene.work_one_by_one.box_tests),
+                         fmt::format("{:.3g}", scene.work.box_tests),
+                         fmt::format("{:.4g}", scene.work_one_by_one.triangle_tests),
+                         fmt::format("{:.3g}", scene.work.triangle_tests),
+                         fmt::format("{:.3g}", 1e6 * w.seconds / lines),
+                         fmt::format("{:.3g}", 1e6 * visibility_seconds_per_line(s)),
+                         fmt::format("{:.3f}", scene.work_one_by_one.parts),
+                         fmt::format("{:.3f}", scene.parts_together)});
+    }
+    return table;
+}
+
+/// The numbers of Table 1, for lines that are traced one by one in all pixels of our images.
+std::vector<Measured> measured(const LineVisibilityResult& result) {
+    const char* const item = "line-samples-table-1";
+    std::vector<Measured> all;
+    for (const LineVisibilityScene& scene : result.scenes) {
+        if (scene.is_skipped) continue;
+        const std::string name = published_name(scene.scene) + ": ";
+        const auto lines = static_cast<double>(scene.statistics.lines.lines);
+        const LineByLineWork& w = scene.one_by_one;
+        const WorkPerLine& per_line = scene.work_one_by_one;
+        all.push_back({item, name + "render time", scene.statistics.render_seconds});
+        all.push_back({item, name + "tests of boxes", 1e-6 * lines * per_line.box_tests});
+        all.push_back({item, name + "tests of triangles", 1e-6 * lines * per_line.triangle_tests});
+        all.push_back(
+            {item, name + "tests of boxes per second", 1e-6 * static_cast<double>(w.box_tests) / w.seconds});
+        all.push_back({item, name + "tests of triangles per second",
+                       1e-6 * static_cast<double>(w.triangle_tests) / w.seconds});
+    }
+    if (!all.empty())
+        all.push_back({item, "lines per shading point", static_cast<double>(result.experiment->lines)});
+    return all;
+}
+
 std::string setting(const LineVisibilityResult& result) {
-    return fmt::format("Images are {} pixels wide; {} stratified, parallel lines per shading point.",
-                       result.width, result.experiment->lines);
+    return fmt::format("Images are {} pixels wide; {} stratified, parallel lines per shading point. "
+                       "Together: all lines of a point "
+                       "traverse a hierarchy of width 8, most of whose boxes are tested against all lines at "
+                       "once. One by one: each "
+                       "line traverses a binary hierarchy, in every {}th pixel of every {}th row; times are "
+                       "those of one thread.",
+                       result.width, result.experiment->lines, result.experiment->step,
+                       result.experiment->step);
 }
 
 Results numbers_of(const LineVisibilityResult& result) {
@@ -79,6 +135,17 @@ Results numbers_of(const LineVisibilityResult& result) {
                            {"lines_per_second", "1/s"},
                            {"parts_per_line"},
                            {"most_parts"}}};
+    ResultTable one_by_one = {"one_by_one",
+                              {{"scene"},
+                               {"lines"},
+                               {"box_tests_per_line"},
+                               {"box_tests_per_line_together"},
+                               {"triangle_tests_per_line"},
+                               {"triangle_tests_per_line_together"},
+                               {"seconds_per_line", "s"},
+                               {"seconds_per_line_together", "s"},
+                               {"parts_per_line"},
+                               {"parts_per_line_together"}}};
     ResultTable skipped = {"skipped", {{"scene"}}};
     for (const LineVisibilityScene& scene : result.scenes) {
         if (scene.is_skipped) {
@@ -91,10 +158,16 @@ Results numbers_of(const LineVisibilityResult& result) {
             {scene.scene, s.render_seconds, s.lines.visibility_seconds / (s.render_seconds * s.threads),
              s.lines.lines, s.lines.box_tests, s.lines.triangle_tests, rate(s.lines.box_tests),
              rate(s.lines.triangle_tests), rate(s.lines.lines), scene.work.parts, largest(scene.parts)});
+        const LineByLineWork& w = scene.one_by_one;
+        one_by_one.rows.push_back(
+            {scene.scene, w.lines, scene.work_one_by_one.box_tests, scene.work.box_tests,
+             scene.work_one_by_one.triangle_tests, scene.work.triangle_tests,
+             w.seconds / static_cast<double>(std::max<std::uint64_t>(w.lines, 1)),
+             visibility_seconds_per_line(s), scene.work_one_by_one.parts, scene.parts_together});
     }
     return {result.experiment->name,
-            {{"width", result.width}, {"lines", result.experiment->lines}},
-            {std::move(scenes), std::move(skipped)}};
+            {{"width", result.width}, {"lines", result.experiment->lines}, {"step", result.experiment->step}},
+            {std::move(scenes), std::move(one_by_one), std::move(skipped)}};
 }
 
 /// Images, and the visible parts per line in false colours on one scale.
@@ -116,7 +189,10 @@ std::vector<ReportImage> images(const LineVisibilityResult& result) {
 } // namespace
 
 Report report_of(const LineVisibilityResult& result) {
-    Report report = {setting(result), {work_table(result), line_table(result)}, result.expectations};
+    Report report = {setting(result),
+                     {work_table(result), line_table(result), one_by_one_table(result)},
+                     result.expectations};
+    report.measured = measured(result);
     report.images = images(result);
     report.numbers = numbers_of(result);
     for (const LineVisibilityScene& scene : result.scenes)

@@ -7,6 +7,7 @@
 #include "lab/figures/run_image_comparison.h"
 #include "lab/fuzzing/worst_case_experiment.h"
 #include "lab/lines/line_convergence.h"
+#include "lab/lines/line_growth.h"
 #include "lab/lines/line_visibility.h"
 #include "lab/peers/peer_comparison.h"
 #include "lab/statements/statement_set.h"
@@ -52,6 +53,7 @@ const std::vector<Experiment>& all_experiments() {
         add(all_cost_tables(), run_cost_table, all);
         add(all_line_convergences(), run_line_convergence, all);
         add(all_line_visibilities(), run_line_visibility, all);
+        add(all_line_growths(), run_line_growth, all);
         add(all_light_grids(), run_light_grid, all);
         add(all_light_costs(), run_light_costs, all);
         add(all_peer_comparisons(), run_peer_comparison, all);

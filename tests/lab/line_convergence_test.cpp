@@ -39,6 +39,8 @@ TEST(LineConvergence, NamesAreUniqueAndExpectationsReferToSeries) {
             EXPECT_EQ(labels.count(l.series), 1u) << l.series;
             EXPECT_EQ(labels.count(l.than), 1u) << l.than;
         }
+        for (const LessTime& l : e.less_time) EXPECT_EQ(labels.count(l.series) + labels.count(l.than), 2u);
+        for (const SameOrder& o : e.same_orders) EXPECT_EQ(labels.count(o.series) + labels.count(o.as), 2u);
         for (const LineScene& s : e.scenes)
             if (s.origin == SceneOrigin::shipped) {
                 EXPECT_TRUE(std::filesystem::exists(kScenes / s.file)) << s.file;
@@ -76,6 +78,8 @@ TEST(LineConvergence, ExpectationsFailForImpostors) {
         one.reference = series;
         std::erase_if(one.orders, [&](const OrderBetween& e) { return e.series != series; });
         one.less_noise.clear();
+        one.less_time.clear();
+        one.same_orders.clear();
         const LineConvergenceResult result = run(one);
         ASSERT_EQ(result.expectations.size(), 1u) << series;
         EXPECT_EQ(result.expectations[0].verdict, Verdict::fails) << result.expectations[0].text;
@@ -93,6 +97,8 @@ SceneResult scene_of_order(const LineConvergence& experiment, double order) {
 TEST(LineConvergence, CountsExceptionsAndLeavesOutSkippedScenes) {
     LineConvergence experiment = all_line_convergences()[0];
     experiment.less_noise.clear();
+    experiment.less_time.clear();
+    experiment.same_orders.clear();
     experiment.orders = {{"lines, stratified", -2, -1.1, 1}};
     SceneResult skipped;
     skipped.is_skipped = true;
@@ -109,6 +115,26 @@ TEST(LineConvergence, CountsExceptionsAndLeavesOutSkippedScenes) {
     EXPECT_THROW(check_expectations(experiment, scenes), std::logic_error);
 }
 
+TEST(LineConvergence, ComparesTimesToTheSameError_AndOrders) {
+    LineConvergence experiment = all_line_convergences()[0];
+    experiment.orders.clear();
+    experiment.less_noise.clear();
+    const std::string first = experiment.series[0].label;
+    const std::string second = experiment.series[1].label;
+    experiment.less_time = {{first, second, 64}};
+    experiment.same_orders = {{first, second, 0.1}};
+    SceneResult scene = scene_of_order(experiment, -1);
+    scene.series[0].curve = {{64, 1, 3, 16, 0}};
+    scene.series[1].curve = {{64, 2, 2, 16, 0}};
+    scene.series[1].order = -1.05;
+    for (const ExpectationResult& e : check_expectations(experiment, {scene}))
+        EXPECT_EQ(e.verdict, Verdict::holds) << e.text;
+    scene.series[0].curve[0].seconds = 5;
+    scene.series[1].order = -0.85;
+    for (const ExpectationResult& e : check_expectations(experiment, {scene}))
+        EXPECT_EQ(e.verdict, Verdict::fails) << e.text;
+}
+
 TEST(LineConvergence, FewSamplesGetMoreSeeds) {
     const LineConvergence& experiment = all_line_convergences()[0];
     EXPECT_EQ(seeds_for(experiment, 1024), experiment.seeds);
@@ -123,6 +149,8 @@ TEST(LineReport, HasPlotsTablesAndAllNumbers) {
     experiment.series.resize(2);
     experiment.orders = {{experiment.series[0].label, -0.6, -0.4}};
     experiment.less_noise.clear();
+    experiment.less_time.clear();
+    experiment.same_orders.clear();
     const char* const published = std::getenv("NUSSELT_SCENES");
     const std::string before = published == nullptr ? "" : published;
     ::unsetenv("NUSSELT_SCENES");
@@ -150,6 +178,9 @@ TEST(LineReport, HasPlotsTablesAndAllNumbers) {
     const auto series = nusselt_test::records(numbers, "series");
     ASSERT_EQ(series.size(), 2u);
     EXPECT_EQ(series[1]["bias"], 0);
+    ASSERT_EQ(report.measured.size(), 2u);
+    EXPECT_EQ(report.measured[0].item, "line-samples-fig-9");
+    EXPECT_EQ(report.measured[0].quantity, "Grid planes: points, random");
     const auto curves = nusselt_test::records(numbers, "curves");
     ASSERT_EQ(curves.size(), 10u);
     EXPECT_EQ(curves[5]["series"], series[1]["series"]);

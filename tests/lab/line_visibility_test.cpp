@@ -28,6 +28,7 @@ LineVisibility shipped_only(const LineVisibility& full) {
         experiment.expectations.end());
     experiment.width = 48;
     experiment.lines = 8;
+    experiment.step = 2;
     return experiment;
 }
 
@@ -72,13 +73,20 @@ TEST(LineVisibility, ExpectationsCanFailAndAreNotEvaluatedWhereASceneWasSkipped)
     std::vector<LineVisibilityScene> scenes(2);
     scenes[0].scene = "a";
     scenes[1].scene = "b";
-    scenes[0].work.parts = 2;
-    scenes[1].work.parts = 1;
+    scenes[0].work.parts = scenes[0].work_one_by_one.parts = 2;
+    scenes[1].work.parts = scenes[1].work_one_by_one.parts = 1;
+    scenes[0].parts_together = 2.05;
+    scenes[1].parts_together = 1.1;
     const auto results = check_expectations(experiment, scenes);
-    ASSERT_EQ(results.size(), 2u);
+    ASSERT_EQ(results.size(), 4u);
     EXPECT_EQ(results[0].verdict, Verdict::holds);
     EXPECT_EQ(results[1].verdict, Verdict::fails);
-    scenes[1].is_skipped = true;
+    EXPECT_EQ(results[2].verdict, Verdict::holds) << "about as many parts";
+    EXPECT_EQ(results[3].verdict, Verdict::fails) << "fewer parts";
+    // Both ways to trace lines must agree about which scene is more work.
+    scenes[0].work_one_by_one.parts = 1;
+    EXPECT_EQ(check_expectations(experiment, scenes)[0].verdict, Verdict::fails);
+    scenes[0].is_skipped = scenes[1].is_skipped = true;
     for (const ExpectationResult& e : check_expectations(experiment, scenes))
         EXPECT_EQ(e.verdict, Verdict::not_evaluated) << e.text;
     scenes.pop_back();
