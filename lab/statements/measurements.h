@@ -26,6 +26,9 @@ Findings measure_warps(Effort effort);
 /// Starts and steps of iterations: quads in a sector, Arvo's polynomial and Newton's method, and orders of convergence.
 Findings measure_iterations(Effort effort);
 
+/// Maps to a polygon that is not convex, by azimuth as in Arvo 2001 and by convex parts.
+Findings measure_non_convex(Effort effort);
+
 /// The inverse distribution of lines: C. Peters 2021, BRDF Importance Sampling for Linear Lights, Fig. 3.
 Findings measure_inverse_distribution(Effort effort);
 

@@ -13,6 +13,9 @@ const std::vector<StatementSet>& all_statement_sets() {
          "Starts with quads and with Arvo's polynomial, and orders of convergence of Newton's method and of "
          "the published iterations.",
          measure_iterations},
+        {"non-convex", "Peters 2021, polygonal lights, Sec. 3.8",
+         "Jumps of the maps to a polygon that is not convex, by Arvo's construction and by convex parts.",
+         measure_non_convex},
         {"inverse-distribution", "Peters 2021, linear lights, Fig. 3",
          "The inverse of the distribution of lines, for five directions of the normal.",
          measure_inverse_distribution},

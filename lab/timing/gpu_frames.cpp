@@ -9,6 +9,7 @@
 #include <cassert>
 #include <cmath>
 #include <deque>
+#include <functional>
 #include <utility>
 
 namespace nusselt::lab {
@@ -44,11 +45,17 @@ render::RenderSettings settings_of(Technique technique, Strategies strategies, M
     return settings;
 }
 
-double median_ratio(const std::vector<double>& times, const std::vector<double>& others) {
+/// \param of of two numbers of the same round
+template <class Function>
+double median_of_rounds(const std::vector<double>& times, const std::vector<double>& others, Function of) {
     assert(!times.empty() && times.size() == others.size());
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / others[i]);
-    return proof::median(std::move(ratios));
+    std::vector<double> values;
+    for (std::size_t i = 0; i < times.size(); ++i) values.push_back(of(times[i], others[i]));
+    return proof::median(std::move(values));
+}
+
+double median_ratio(const std::vector<double>& times, const std::vector<double>& others) {
+    return median_of_rounds(times, others, std::divides());
 }
 
 /// Removes all lights but one, which gets another shape.
@@ -114,6 +121,10 @@ GpuFrameRatio ratio_of(const GpuFrameTimes& times, const GpuFrameTimes& others) 
     return ratio;
 }
 
+double additional_time(const GpuFrameTimes& times, const GpuFrameTimes& others) {
+    return median_of_rounds(times.whole(), others.whole(), std::minus());
+}
+
 std::vector<render::RenderSettings> timed_settings() {
     std::vector<render::RenderSettings> all;
     for (const auto& [strategies, mis] : {std::pair(Strategies::diffuse, Mis::clamped_optimal),
@@ -121,6 +132,7 @@ std::vector<render::RenderSettings> timed_settings() {
                                           std::pair(Strategies::diffuse_ggx, Mis::balance)})
         for (const Technique technique : render::kTechniques)
             if (allows(technique, strategies)) all.push_back(settings_of(technique, strategies, mis));
+    all.push_back(sample_pair().ours);
     return all;
 }
 
@@ -129,8 +141,17 @@ SettingsPair strategies_pair() {
             settings_of(Technique::solid_angle, Strategies::diffuse_ggx, Mis::balance)};
 }
 
+SettingsPair sample_pair() {
+    const render::RenderSettings baseline =
+        settings_of(Technique::projected_solid_angle, Strategies::diffuse, Mis::clamped_optimal);
+    SettingsPair pair{baseline, baseline};
+    ++pair.ours.samples;
+    return pair;
+}
+
 bool is_same(const render::RenderSettings& a, const render::RenderSettings& b) {
-    return a.technique == b.technique && a.strategies == b.strategies && a.mis == b.mis;
+    return a.technique == b.technique && a.strategies == b.strategies && a.mis == b.mis &&
+           a.samples == b.samples;
 }
 
 std::optional<LineAndQuad> line_and_quad(const scene::Scene& scene) {

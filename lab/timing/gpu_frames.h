@@ -47,8 +47,13 @@ struct GpuFrameRatio {
 /// \param times,others times of the same number of repetitions, at least one
 GpuFrameRatio ratio_of(const GpuFrameTimes& times, const GpuFrameTimes& others);
 
+/// [s], the median over the rounds of how much longer a frame takes
+/// \param times,others times of the same number of repetitions, at least one
+double additional_time(const GpuFrameTimes& times, const GpuFrameTimes& others);
+
 /// All techniques and strategies that make sense with two samples of each technique per pixel and frame: projected
-/// solid angles and lobes with the clamped optimal heuristic, and visible normals with the balance heuristic.
+/// solid angles and lobes with the clamped optimal heuristic, and visible normals with the balance heuristic. Besides, the
+/// longer frame of sample_pair().
 std::vector<render::RenderSettings> timed_settings();
 
 /// Two of timed_settings().
@@ -60,6 +65,11 @@ struct SettingsPair {
 /// polygonal lights. Both take as many samples, but visible normals that miss the light need no shadow ray.
 SettingsPair strategies_pair();
 inline constexpr double kPublishedStrategiesRatio = 1.47 / 0.74;
+
+/// Projected solid angles with three samples per pixel, and with two: Peters 2021, linear lights, Sec. 5.4.
+SettingsPair sample_pair();
+/// [s], at 1920 x 1080 on a Geforce RTX 2080 Ti
+inline constexpr double kPublishedSampleTime = 0.45e-3;
 
 bool is_same(const render::RenderSettings& a, const render::RenderSettings& b);
 

@@ -9,6 +9,7 @@
 #include "scene/import/importers.h"
 #include "scene/model/vector_math.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -38,20 +39,29 @@ TEST(GpuFrameRatios, AreMediansOfRounds) {
     EXPECT_EQ(ratio_of({{1}, {1}, 0}, {{1}, {1}, 0}).shadow_rays, std::nullopt);
 }
 
-TEST(TimedSettings, AreAllThatFitAndHoldThePair) {
+TEST(GpuFrameTimes, OfOneMoreSampleAreMediansOfDifferences) {
+    EXPECT_EQ(lab::additional_time({{1, 1, 1}, {5, 3, 7}, 30}, {{1, 1, 3}, {1, 2, 1}, 20}), 4)
+        << "of 4, 1 and 4; the difference of the medians is 3";
+}
+
+TEST(TimedSettings, AreAllThatFitAndHoldThePairs) {
     const auto all = lab::timed_settings();
-    EXPECT_EQ(all.size(), 10u) << "six alone, two with lobes, two with visible normals";
-    const auto pair = lab::strategies_pair();
-    int ours = 0, baseline = 0;
-    for (const render::RenderSettings& settings : all) {
-        EXPECT_NO_THROW(validate(settings));
-        EXPECT_EQ(settings.samples, 2);
-        EXPECT_EQ(camera_ray_count(settings), 1);
-        ours += is_same(settings, pair.ours);
-        baseline += is_same(settings, pair.baseline);
+    EXPECT_EQ(all.size(), 11u)
+        << "six alone, two with lobes, two with visible normals, one with more samples";
+    for (const lab::SettingsPair& pair : {lab::strategies_pair(), lab::sample_pair()}) {
+        int ours = 0, baseline = 0;
+        for (const render::RenderSettings& settings : all) {
+            EXPECT_NO_THROW(validate(settings));
+            EXPECT_EQ(camera_ray_count(settings), 1);
+            ours += is_same(settings, pair.ours);
+            baseline += is_same(settings, pair.baseline);
+        }
+        EXPECT_EQ(ours, 1);
+        EXPECT_EQ(baseline, 1);
     }
-    EXPECT_EQ(ours, 1);
-    EXPECT_EQ(baseline, 1);
+    EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const auto& s) { return s.samples == 2; }), 10);
+    const lab::SettingsPair pair = lab::sample_pair();
+    EXPECT_EQ(pair.ours.samples - pair.baseline.samples, 1);
 }
 
 TEST(LineAndQuad, HaveTheSamePlaceAndSize) {

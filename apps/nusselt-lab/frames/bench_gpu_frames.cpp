@@ -61,9 +61,11 @@ private:
         }
         const std::vector<GpuFrameTimes> times = lab::time_gpu_frames(frames, table_.rounds);
         for (std::size_t i = 0; i < frames.size(); ++i) add_row(name, frames[i], times[i]);
-        for (std::size_t i = 0; i < ways_.size(); ++i)
-            compare_strategies(name, ways_[i],
-                               std::span(times).subspan(i * settings_.size(), settings_.size()));
+        for (std::size_t i = 0; i < ways_.size(); ++i) {
+            const auto times_of_way = std::span(times).subspan(i * settings_.size(), settings_.size());
+            compare_strategies(name, ways_[i], times_of_way);
+            compare_samples(name, ways_[i], times_of_way);
+        }
     }
 
     /// \param times one for each of the settings
@@ -74,6 +76,15 @@ private:
         if (ours == nullptr || baseline == nullptr) return;
         table_.comparisons.push_back({name, way, text_of(pair.ours), text_of(pair.baseline),
                                       ratio_of(*ours, *baseline), lab::kPublishedStrategiesRatio});
+    }
+
+    /// \param times one for each of the settings
+    void compare_samples(const std::string& name, ShadowRays way, std::span<const GpuFrameTimes> times) {
+        const lab::SettingsPair pair = lab::sample_pair();
+        const GpuFrameTimes* const more = find(pair.ours, times);
+        const GpuFrameTimes* const fewer = find(pair.baseline, times);
+        if (more == nullptr || fewer == nullptr) return;
+        table_.sample_times.push_back({name, way, text_of(pair.baseline), additional_time(*more, *fewer)});
     }
 
     /// Both frames are shaded without samples, hence without shadow rays.
@@ -156,13 +167,14 @@ int run_bench_gpu_frames(const BenchGpuFramesOptions& options) {
 void setup_bench_gpu_frames(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchGpuFramesOptions>();
     CLI::App* command = bench.add_subcommand(
-        "gpu", "Cost of frames on a GPU. Prints the times of the visibility pass and of the shading pass "
-               "with each technique "
-               "and strategy, two samples of each per pixel in one frame; ratios between the two ways of "
-               "sampling materials "
-               "that Peters (2021, polygonal lights, Fig. 1) compares; and where a scene has a tube, the "
-               "ratio between "
-               "analytic shading of a line and of a quad in its place (Heitz and Hill 2017, Sec. 1.7).");
+        "gpu",
+        "Cost of frames on a GPU. Prints the times of the visibility pass and of the shading pass "
+        "with each technique "
+        "and strategy, two samples of each per pixel in one frame; the time of one more sample (Peters "
+        "2021, linear lights, Sec. 5.4); ratios between the two ways of sampling materials "
+        "that Peters (2021, polygonal lights, Fig. 1) compares; and where a scene has a tube, the "
+        "ratio between analytic shading of a line and of a quad in its place (Heitz and Hill 2017, "
+        "Sec. 1.7).");
     add_scenes_options(*command, options->scenes, options->scene_folder);
     add_resolution_option(*command, options->resolution);
     command->get_option("--resolution")->default_str(*options->resolution);

@@ -43,14 +43,15 @@ void print_rows(const std::vector<GpuFrameRow>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const GpuFrameRow& row = rows[i];
         if (begins_block(rows, i))
-            fmt::print("\n{}, {} x {}, shadow rays: {}\n{:<30}{:<14}{:<17}{:>13}{:>12}{:>10}{:>10}{:>8}\n",
-                       row.scene, row.width, row.height, name_of(row.shadow_rays), "technique", "strategies",
-                       "heuristic", "shadow rays", "visibility", "shading", "frame", "spread");
-        fmt::print("{:<30}{:<14}{:<17}{:>13}{:>12.3f}{:>10.3f}{:>10.3f}{:>7.0f}%\n",
+            fmt::print(
+                "\n{}, {} x {}, shadow rays: {}\n{:<30}{:<14}{:<17}{:>8}{:>13}{:>12}{:>10}{:>10}{:>8}\n",
+                row.scene, row.width, row.height, name_of(row.shadow_rays), "technique", "strategies",
+                "heuristic", "samples", "shadow rays", "visibility", "shading", "frame", "spread");
+        fmt::print("{:<30}{:<14}{:<17}{:>8}{:>13}{:>12.3f}{:>10.3f}{:>10.3f}{:>7.0f}%\n",
                    name_of(row.settings.technique), name_of(row.settings.strategies),
-                   heuristic_of(row.settings), row.times.shadow_rays, 1e3 * median(row.times.visibility),
-                   1e3 * median(row.times.shading), 1e3 * median(row.times.whole()),
-                   100 * spread_of(row.times.whole()));
+                   heuristic_of(row.settings), row.settings.samples, row.times.shadow_rays,
+                   1e3 * median(row.times.visibility), 1e3 * median(row.times.shading),
+                   1e3 * median(row.times.whole()), 100 * spread_of(row.times.whole()));
     }
 }
 
@@ -64,6 +65,15 @@ void print_comparisons(const std::vector<GpuFrameComparison>& comparisons) {
                    c.ratio.shadow_rays ? fmt::format("{:.2f}", *c.ratio.shadow_rays) : "-", c.published);
         fmt::print("{:<32}/ {}\n", "", c.baseline);
     }
+}
+
+void print_sample_times(const std::vector<GpuSampleTime>& times) {
+    if (times.empty()) return;
+    fmt::print("\n{:<24}{:<8}{:<56}{:>8}{:>26}\n", "one more sample [ms]", "shadows", "of", "frame",
+               "paper (1920 x 1080)");
+    for (const GpuSampleTime& time : times)
+        fmt::print("{:<24}{:<8}{:<56}{:>8.3f}{:>26.3f}\n", time.scene, name_of(time.shadow_rays),
+                   time.settings, 1e3 * time.seconds, 1e3 * lab::kPublishedSampleTime);
 }
 
 lab::ResultTable frame_table(const std::vector<GpuFrameRow>& rows) {
@@ -109,6 +119,16 @@ lab::ResultTable ratio_table(const std::vector<GpuFrameComparison>& comparisons)
     return table;
 }
 
+lab::ResultTable sample_table(const std::vector<GpuSampleTime>& times) {
+    lab::ResultTable table = {
+        "additional_samples",
+        {{"scene"}, {"shadow_ray_tracing"}, {"of"}, {"frame_ms", "ms"}, {"published_ms", "ms"}}};
+    for (const GpuSampleTime& time : times)
+        table.rows.push_back({time.scene, std::string(name_of(time.shadow_rays)), time.settings,
+                              1e3 * time.seconds, 1e3 * lab::kPublishedSampleTime});
+    return table;
+}
+
 lab::ResultTable failure_table(const std::vector<GpuFrameFailure>& failures) {
     lab::ResultTable table = {"failures", {{"scene"}, {"message"}}};
     for (const GpuFrameFailure& failure : failures) table.rows.push_back({failure.scene, failure.message});
@@ -126,11 +146,12 @@ std::string text_of(const render::RenderSettings& settings) {
 
 void print_table(const GpuFrameTable& table) {
     print_device(table.device, table.clock, remark_of(table), text_of_threads(table.llvmpipe_threads));
-    fmt::print("ms, medians of {} interleaved frames after {} to warm up; two samples of each technique per "
+    fmt::print("ms, medians of {} interleaved frames after {} to warm up; samples of each technique, per "
                "pixel and light in one frame\n",
                table.rounds.repetitions, table.rounds.warm_up);
     print_rows(table.rows);
     print_comparisons(table.comparisons);
+    print_sample_times(table.sample_times);
 }
 
 lab::Results results_of(const GpuFrameTable& table) {
@@ -138,7 +159,8 @@ lab::Results results_of(const GpuFrameTable& table) {
     results.settings.insert(results.settings.end(), {{"software", is_software(table)},
                                                      {"frames", table.rounds.repetitions},
                                                      {"warm_up", table.rounds.warm_up}});
-    results.tables = {frame_table(table.rows), ratio_table(table.comparisons), failure_table(table.failures)};
+    results.tables = {frame_table(table.rows), ratio_table(table.comparisons),
+                      sample_table(table.sample_times), failure_table(table.failures)};
     return results;
 }
 

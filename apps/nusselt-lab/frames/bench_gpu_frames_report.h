@@ -29,6 +29,14 @@ struct GpuFrameComparison {
     double published; ///< the ratio of the paper
 };
 
+/// What one more sample per pixel costs.
+struct GpuSampleTime {
+    std::string scene;
+    render_vulkan::ShadowRays shadow_rays;
+    std::string settings; ///< text_of()
+    double seconds;
+};
+
 /// A scene that could not be measured.
 struct GpuFrameFailure {
     std::string scene, message;
@@ -41,6 +49,7 @@ struct GpuFrameTable {
     lab::GpuFrameRounds rounds;
     std::vector<GpuFrameRow> rows;
     std::vector<GpuFrameComparison> comparisons;
+    std::vector<GpuSampleTime> sample_times;
     std::vector<GpuFrameFailure> failures;
 };
 
