@@ -1,5 +1,6 @@
 #include "lab/figures/technique_image.h"
 
+#include "lab/figures/pixel_centres.h"
 #include "proof/techniques/registry.h"
 
 #include <nusselt/bsdf/frostbite.h>
@@ -25,21 +26,6 @@ namespace {
 using Vector = Vec3<float>;
 using Quad = ConvexPolygon<float, 4>;
 using Line = LineSegment<float>;
-
-/// Fills the ray of lane 0.
-void put_ray(const Vector& origin, const Vector& direction, float t_far, visibility::RayPacket<4>& rays) {
-    const float o[] = {origin.x, origin.y, origin.z};
-    const float d[] = {direction.x, direction.y, direction.z};
-    for (int k = 0; k < 3; ++k) {
-        rays.origin[k][0] = o[k];
-        rays.direction[k][0] = d[k];
-    }
-    rays.t_far[0] = t_far;
-}
-
-// Where shadow rays start, as in src/render_cpu/kernel/surface.h, which belongs to units for one instruction set.
-constexpr float kOffsetPerRadius = 1e-5f;
-constexpr float kOffsetPerCoordinate = 1e-6f;
 
 Vector vector(const scene::Float3& v) { return {v.x, v.y, v.z}; }
 
@@ -105,7 +91,7 @@ struct TechniqueImages::Pixel {
     bool is_surface = false;
     Vector radiance = {0, 0, 0}; ///< of the light, or black
     Vector position = {0, 0, 0};
-    Vector normal = {0, 0, 0}; ///< on the side of the eye
+    Vector shadow_offset = {0, 0, 0}; ///< from there to where shadow rays start
     Frame<float> frame = {};
     Vector wo = {0, 0, 0}; ///< in shading space
     const scene::Material* material = nullptr;
@@ -133,41 +119,25 @@ TechniqueImages::TechniqueImages(const scene::Scene& scene, const render_cpu::Re
     if (!has_one_light(scene))
         throw std::invalid_argument(
             "images by any technique need a scene with a quadrilateral or a linear light alone");
-    const visibility::PacketTracer<4>& tracer = tracer_;
     const auto width = static_cast<std::size_t>(scene.film.width);
     const auto height = static_cast<std::size_t>(scene.film.height);
     pixels_.resize(width * height);
-    const scene::Camera& camera = scene.camera;
     tbb::parallel_for(std::size_t{0}, pixels_.size(), [&](std::size_t i) {
-        const float x = static_cast<float>(i % width) + 0.5f;
-        const float y = static_cast<float>(i / width) + 0.5f;
-        const Vector origin =
-            vector(camera.origin) + x * vector(camera.origin_right) + y * vector(camera.origin_down);
-        const Vector direction = vector(camera.corner) + x * vector(camera.right) + y * vector(camera.down);
-        visibility::RayPacket<4> rays = {};
-        visibility::HitPacket<4> hits = {};
-        put_ray(origin, direction, std::numeric_limits<float>::infinity(), rays);
-        tracer.intersect(tracer_.context, 1, rays, hits);
+        const PixelCentre seen =
+            see_centre(scene, tracer_, static_cast<int>(i % width), static_cast<int>(i / width));
         Pixel& pixel = pixels_[i];
-        if (hits.triangle[0] < 0) {
-            if (hits.light[0] >= 0) pixel.radiance = vector(scene.lights.of<scene::LineLight>()[0].radiance);
-            return;
-        }
-        const auto triangle = static_cast<std::size_t>(hits.triangle[0]);
-        const auto corner = [&](std::size_t k) {
-            return vector(scene.positions[scene.triangles[triangle].vertex[k]]);
-        };
-        pixel.position =
-            corner(0) + hits.u[0] * (corner(1) - corner(0)) + hits.v[0] * (corner(2) - corner(0));
+        if (seen.line >= 0) pixel.radiance = vector(scene.lights.of<scene::LineLight>()[0].radiance);
+        if (seen.triangle < 0) return;
+        const auto triangle = static_cast<std::size_t>(seen.triangle);
         if (scene.triangle_light[triangle] >= 0) {
-            pixel.radiance = emission(scene.lights.of<scene::PolygonLight>()[0], origin);
+            pixel.radiance = emission(scene.lights.of<scene::PolygonLight>()[0], seen.origin);
             return;
         }
-        const Vector normal = normalize(cross(corner(1) - corner(0), corner(2) - corner(0)));
-        const Vector wo = -normalize(direction);
+        const Vector wo = -normalize(seen.direction);
         pixel.is_surface = true;
-        pixel.normal = dot(normal, wo) < 0 ? -normal : normal;
-        pixel.frame = shading_frame(pixel.normal, wo);
+        pixel.position = seen.position;
+        pixel.shadow_offset = shadow_ray_offset(scene, seen);
+        pixel.frame = shading_frame(seen.normal, wo);
         pixel.wo = pixel.frame.to_local(wo);
         pixel.material = &scene.materials[scene.triangle_material[triangle]];
     });
@@ -211,13 +181,9 @@ image::Image TechniqueImages::render(const std::string& technique, std::uint32_t
     const visibility::PacketTracer<4>& tracer = tracer_;
     // The same rays as those of the renderer.
     const auto is_visible = [&](const Pixel& pixel, const Vector& to_light) {
-        const Vector& p = pixel.position;
-        const float coordinate = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-        const float distance =
-            kOffsetPerRadius * static_cast<float>(scene_.radius) + kOffsetPerCoordinate * coordinate;
-        const Vector offset = distance * pixel.normal;
+        const Vector& offset = pixel.shadow_offset;
         visibility::RayPacket<4> rays = {};
-        put_ray(p + offset, to_light - offset, kShadowEnd<float>, rays);
+        put_ray(pixel.position + offset, to_light - offset, kShadowEnd<float>, rays);
         return tracer.occluded(tracer_.context, 1, rays) == 0;
     };
 

@@ -2,6 +2,7 @@
 /// The baseline for the visibility of lines: each traverses a hierarchy by itself, as in N. Billen and P. Dutre 2016, Line
 /// Sampling for Direct Illumination, Sec. 5.2.
 
+#include "lab/lines/line_by_line_kernel.h"
 #include "render_cpu/renderer.h"
 #include "scene/model/scene.h"
 
@@ -12,11 +13,8 @@ namespace nusselt::lab {
 
 /// Work for lines that were traced one by one.
 struct LineByLineWork {
-    std::uint64_t lines = 0;
-    std::uint64_t parts = 0;          ///< visible ones
-    std::uint64_t box_tests = 0;      ///< of boxes of the hierarchy
-    std::uint64_t triangle_tests = 0; ///< of triangles in its leaves
-    double seconds = 0;               ///< of all threads together
+    LineCounts counts;
+    double seconds = 0; ///< of all threads together
 
     LineByLineWork& operator+=(const LineByLineWork& other);
 };
@@ -33,10 +31,11 @@ struct LinePoint {
 std::vector<LinePoint> line_points(const scene::Scene& scene, const render_cpu::Renderer& renderer, int step);
 
 /// Traces stratified, parallel lines, by length, of all polygonal lights for all points. The hierarchy is binary with up to
-/// four triangles per leaf, as that of pbrt, which the authors used.
+/// four triangles per leaf, as that of pbrt, which the authors used. The code is scalar, for the best instruction set of the
+/// processor. Surfaces that are partly there are left out: the renderer takes points for lights that they may hide.
 /// \param lines per point and light
 /// \returns the work of each point
-/// \throws std::runtime_error for scenes with instances, and if Embree fails to build a hierarchy
+/// \throws std::runtime_error for scenes with instances or with lights of more than eight vertices; if a line falls into more parts than there is room for; and if Embree fails to build a hierarchy
 std::vector<LineByLineWork> trace_line_by_line(const scene::Scene& scene,
                                                const std::vector<LinePoint>& points, int lines, int threads);
 

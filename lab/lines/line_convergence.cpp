@@ -110,7 +110,9 @@ std::vector<SameOrder> expected_same_orders() {
     return {{"lines, Sobol'", "lines, stratified", 0.1, 1}};
 }
 
-LineConvergence convergence(const std::string& name, const std::string& figures, const std::string& lights,
+/// \param orders_item id in published.json
+LineConvergence convergence(const std::string& name, const std::string& figures,
+                            const std::string& orders_item, const std::string& lights,
                             std::vector<LineScene> scenes) {
     return {name,
             "Billen and Dutre 2016, Figures " + figures,
@@ -122,7 +124,7 @@ LineConvergence convergence(const std::string& name, const std::string& figures,
             expected_less_noise(),
             expected_less_time(),
             expected_same_orders(),
-            "line-samples-fig-" + figures.substr(figures.rfind(' ') + 1)};
+            orders_item};
 }
 
 /// The mean over all seeds with the largest number of samples.
@@ -223,8 +225,9 @@ constexpr const char* kTooFewScenes = "too few scenes were rendered to allow exc
 
 const std::vector<LineConvergence>& all_line_convergences() {
     static const std::vector<LineConvergence> experiments = {
-        convergence("lines-large", "7, 8 and 9", "large", scenes_with_large_lights()),
-        convergence("lines-small", "11, 12 and 13", "small", scenes_with_small_lights())};
+        convergence("lines-large", "7, 8 and 9", "line-samples-fig-9", "large", scenes_with_large_lights()),
+        convergence("lines-small", "11, 12 and 13", "line-samples-fig-13", "small",
+                    scenes_with_small_lights())};
     return experiments;
 }
 

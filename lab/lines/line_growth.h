@@ -1,6 +1,7 @@
 #pragma once
 /// How the work for the visibility of lines grows with the scene: N. Billen and P. Dutre 2016, Line Sampling for Direct
-/// Illumination, Sec. 5.2, O(log n + m) for m occluders among n triangles.
+/// Illumination, Sec. 5.2, O(log n + m) for n triangles of which m overlap the triangle that a line spans with its point. Here
+/// m grows with the number of triangles between floor and light.
 
 #include "lab/lines/line_by_line.h"
 #include "lab/report/report.h"

@@ -37,7 +37,8 @@ LineVisibility visible_parts() {
             {{&WorkPerLine::parts, "soup", "sponza"}},
             64,
             256,
-            8};
+            8,
+            ""};
 }
 
 LineVisibility table() {
@@ -50,7 +51,8 @@ LineVisibility table() {
                                  {},
                                  1024,
                                  256,
-                                 8};
+                                 8,
+                                 "line-samples-table-1"};
     for (const LineScene& scene : scenes_with_large_lights())
         for (const auto work : {&WorkPerLine::box_tests, &WorkPerLine::triangle_tests})
             experiment.expectations.push_back({work, scene.name + ", large", scene.name + ", small"});
@@ -75,10 +77,10 @@ WorkPerLine work_of(const LineStatistics& statistics) {
             static_cast<double>(statistics.triangle_tests) / lines};
 }
 
-WorkPerLine work_of(const LineByLineWork& work) {
-    const auto lines = static_cast<double>(std::max<std::uint64_t>(work.lines, 1));
-    return {static_cast<double>(work.parts) / lines, static_cast<double>(work.box_tests) / lines,
-            static_cast<double>(work.triangle_tests) / lines};
+WorkPerLine work_of(const LineCounts& counts) {
+    const auto lines = static_cast<double>(std::max<std::uint64_t>(counts.lines, 1));
+    return {static_cast<double>(counts.parts) / lines, static_cast<double>(counts.box_tests) / lines,
+            static_cast<double>(counts.triangle_tests) / lines};
 }
 
 void trace_one_by_one(const LineVisibility& experiment, const scene::Scene& scene,
@@ -88,10 +90,11 @@ void trace_one_by_one(const LineVisibility& experiment, const scene::Scene& scen
     double parts = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         result.one_by_one += work[i];
-        parts += static_cast<double>(work[i].lines) * result.parts.values[points[i].pixel];
+        parts += static_cast<double>(work[i].counts.lines) * result.parts.values[points[i].pixel];
     }
-    result.work_one_by_one = work_of(result.one_by_one);
-    result.parts_together = parts / static_cast<double>(std::max<std::uint64_t>(result.one_by_one.lines, 1));
+    result.work_one_by_one = work_of(result.one_by_one.counts);
+    result.parts_together =
+        parts / static_cast<double>(std::max<std::uint64_t>(result.one_by_one.counts.lines, 1));
 }
 
 LineVisibilityScene run_scene(const LineVisibility& experiment, const std::string& name,

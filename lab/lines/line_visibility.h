@@ -37,6 +37,8 @@ struct LineVisibility {
     int lines; ///< per shading point and light
     int width; ///< of the images in pixels
     int step;  ///< lines are traced one by one in every pixel of so many, in both directions
+    std::string
+        table_item; ///< id of the published item with the numbers of Table 1; empty if it is another one
 };
 
 const std::vector<LineVisibility>& all_line_visibilities();

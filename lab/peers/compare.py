@@ -92,6 +92,13 @@ class Series:
                 error**0.5 / reference_mean, efficiency(error, time), middle(self.relative_errors)]
 
 
+def without_noise_of(reference_samples, samples, errors):
+    """Errors as they would be without the noise of a reference by the same renderer, which adds to them in proportion to
+    samples / reference_samples. References that converge faster than independent samples add less: then this favours the
+    renderer."""
+    return [error / (1 + samples / reference_samples) for error in errors]
+
+
 def middle(values):
     return median_and_spread(values)[0]
 
@@ -142,7 +149,8 @@ def measure(case, nusselt, cycles, options):
     for repetition in range(options.repetitions):
         seed = FIRST_SEED + repetition
         (image, times), = cycles.renders(case, [settings], options.samples, seed)
-        series[1].add(mean_squared_errors(image, theirs, mask), times)
+        errors = mean_squared_errors(image, theirs, mask)
+        series[1].add(without_noise_of(options.reference_samples, options.samples, errors), times)
         image, times = nusselt.render(case, options.samples, seed)
         series[0].add(mean_squared_errors(image, ours, mask), times)
         isa = times["isa"]

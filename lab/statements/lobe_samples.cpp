@@ -103,8 +103,8 @@ Findings measure_lobe_samples(Effort effort) {
     }
     const char* const kItem = "polygons-sec-4.1-below-horizon";
     return {{at_most(kItem, fmt::format("mean share of {} lobes below the surface", of_lobes.count),
-                     of_lobes.mean(), 0.05),
-             at_most(kItem, "largest share of a lobe below the surface", of_lobes.largest, 0.5),
+                     of_lobes.mean(), 0.02),
+             at_most(kItem, "largest share of a lobe below the surface", of_lobes.largest, 0.25),
              at_most(kItem,
                      fmt::format("mean share of samples below the surface, walls that stand in it, {} lobes",
                                  of_walls.count),

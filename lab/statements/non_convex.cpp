@@ -27,19 +27,16 @@ constexpr std::array kBracket = {Rectangle{-0.9, 0.9, 0.3, 0.7}, Rectangle{-0.9,
                                  Rectangle{0.5, 0.9, 0.7, 1.4}, Rectangle{-0.9, 0.9, 1.4, 1.8}};
 constexpr std::array kWhole = {Rectangle{-0.9, 0.9, 0.3, 1.8}};
 
-/// The projection of a direction to the disk in which areas are projected solid angles.
-Point projected(double x, double y) { return (1 / std::sqrt(x * x + y * y + 1)) * Point{x, y}; }
-
 /// Where a ray from the centre of the disk is in the light: squared radii, where it enters and where it leaves.
-struct Interval {
+struct RadialRange {
     double enter, leave;
 };
 
 template <std::size_t kCount>
-std::vector<Interval> intervals(const std::array<Rectangle, kCount>& light, double azimuth) {
+std::vector<RadialRange> intervals(const std::array<Rectangle, kCount>& light, double azimuth) {
     const double c = std::cos(azimuth), s = std::sin(azimuth);
     const auto squared_radius = [](double t) { return t * t / (t * t + 1); };
-    std::vector<Interval> all;
+    std::vector<RadialRange> all;
     for (const Rectangle& part : light) {
         const double x[] = {part.x0 / c, part.x1 / c};
         const double near = std::max({std::min(x[0], x[1]), part.y0 / s, 0.0});
@@ -50,9 +47,9 @@ std::vector<Interval> intervals(const std::array<Rectangle, kCount>& light, doub
     return all;
 }
 
-double density_of(const std::vector<Interval>& all) {
+double density_of(const std::vector<RadialRange>& all) {
     double sum = 0;
-    for (const Interval& one : all) sum += (one.leave - one.enter) / 2;
+    for (const RadialRange& one : all) sum += (one.leave - one.enter) / 2;
     return sum;
 }
 
@@ -79,9 +76,9 @@ public:
         const double rise = sums_[i] - sums_[i - 1];
         const double share = rise > 0 ? (wanted - sums_[i - 1]) / rise : 0;
         const double azimuth = azimuths_[i - 1] + share * (azimuths_[i] - azimuths_[i - 1]);
-        const std::vector<Interval> all = intervals(light_, azimuth);
+        const std::vector<RadialRange> all = intervals(light_, azimuth);
         double left = 2 * v * density_of(all), squared = 0;
-        for (const Interval& one : all) {
+        for (const RadialRange& one : all) {
             squared = one.enter + std::min(left, one.leave - one.enter);
             left -= one.leave - one.enter;
             if (left <= 0) break;

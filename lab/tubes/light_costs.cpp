@@ -135,7 +135,8 @@ Report report_of(const LightCostsResult& result) {
     const double caps = cost_of(result, kTube).ratio / cost_of(result, kOpenTube).ratio;
     report.expectations = {
         checked(fmt::format("a line is cheaper than a quad: {:.2f} of it", line), line < 1),
-        checked(fmt::format("a tube with caps is dearer than one without: {:.2f} times", caps), caps > 1)};
+        checked(fmt::format("a tube with caps costs more than one without: {:.2f} times as much", caps),
+                caps > 1)};
     report.measured = {{"ltc-lines-sec-1.7-cost", "line without caps, over quad", line}};
     report.numbers = {result.costs.name,
                       {{"lights", std::int64_t(result.costs.lights)},

@@ -111,12 +111,12 @@ void check_growth(const LightGridResult& result, std::vector<ExpectationResult>&
     expectations.push_back(
         checked("the error of lines grows with the width of the light " + times(wider.rising, wider.count),
                 wider.rising == wider.count));
-    expectations.push_back(
-        checked("it falls with the distance " + times(farther.count - farther.rising, farther.count),
-                farther.rising == 0));
-    expectations.push_back(
-        checked("it falls with the roughness " + times(rougher.count - rougher.rising, rougher.count),
-                rougher.rising == 0));
+    expectations.push_back(checked("the error of lines falls with the distance " +
+                                       times(farther.count - farther.rising, farther.count),
+                                   farther.rising == 0));
+    expectations.push_back(checked("the error of lines falls with the roughness " +
+                                       times(rougher.count - rougher.rising, rougher.count),
+                                   rougher.rising == 0));
     const GridIndex sizes = sizes_of(result.grid);
     const double best = error(cell(result, 0, sizes[1] - 1, sizes[2] - 1), Approximation::line);
     const double worst = error(cell(result, sizes[0] - 1, 0, 0), Approximation::line);

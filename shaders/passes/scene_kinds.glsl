@@ -7,8 +7,8 @@
 
 layout(constant_id = kInstancesConstant) const bool kHasInstances = true;
 layout(constant_id = kPartialConstant) const bool kHasPartial = true; ///< surfaces with an alpha below 1
-layout(constant_id = kFrostbiteConstant) const bool kHasFrostbite = true; ///< materials of this model
-layout(constant_id = kPhongConstant) const bool kHasPhong = true; ///< likewise
+layout(constant_id = kFrostbiteConstant) const bool kHasFrostbite = true; ///< materials of the Frostbite model
+layout(constant_id = kPhongConstant) const bool kHasPhong = true; ///< materials of the Phong model
 layout(constant_id = kTextureKindsConstant) const uint kTextureKinds = ~0u; ///< MaterialRecord::texture_kinds of all materials
 
 #endif

@@ -157,7 +157,7 @@ const std::vector<Brdf>& brdfs() {
         brdf<LambertTarget>("lambert", "the cosine itself"),
         brdf<PhongSpecular>("phong",
                             "a power of the cosine with the mirrored direction, by the roughness of a "
-                            "GGX lobe that is as wide"),
+                            "Beckmann lobe that is as wide"),
     };
     return list;
 }

@@ -80,7 +80,7 @@ public:
     }
 };
 
-/// The exponent whose lobe is as wide as that of GGX, see phong_alpha().
+/// The exponent whose lobe is as wide as that of a microfacet BRDF of a roughness, see phong_alpha().
 inline double phong_exponent(double roughness) {
     const double alpha = ggx_alpha(roughness);
     return 0.5 * (1 / (alpha * alpha) - 1);

@@ -14,8 +14,8 @@ namespace nusselt::render_vulkan {
 struct SceneKinds {
     bool instances = false;
     bool partial = false;       ///< surfaces with an alpha below 1
-    bool frostbite = false;     ///< materials of this model
-    bool phong = false;         ///< likewise
+    bool frostbite = false;     ///< materials of the Frostbite model
+    bool phong = false;         ///< materials of the Phong model
     std::uint32_t textures = 0; ///< interface::MaterialRecord::texture_kinds of all materials
     decltype(LightRecords::has_shape) lights = {};
 };

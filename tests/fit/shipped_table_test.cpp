@@ -52,8 +52,9 @@ TEST(ShippedLtcTable, HasTheAlbedoOfTheBrdfBetweenSamples) {
             for (const double f0 : {0.0, 0.05, 0.5, 0.93, 1.0}) expect_albedo(roughness, inclination, f0);
 }
 
-double mean_error(const LtcTable& table, const std::vector<Slice>& slices) {
-    return summary_of(fit_errors(specular_brdf(), table.view(), slices)).mean;
+double mean_error(const LtcTable& table, const std::vector<Slice>& slices,
+                  const Brdf& brdf = specular_brdf()) {
+    return summary_of(fit_errors(brdf, table.view(), slices)).mean;
 }
 
 /// Samples of the tables that Heitz et al. published for GGX, without those of roughness 0, which they fitted for a
@@ -92,6 +93,28 @@ TEST(ShippedLtcTable, InterpolatesWell) {
     LtcTable mutant = frostbite_ltc_table();
     for (std::size_t i = 2; i < mutant.entries.size(); i += LtcTableView::kStride) mutant.entries[i] *= 1.1f;
     EXPECT_GT(mean_error(mutant, samples), at_samples * 1.1);
+}
+
+/// Its error is far from that of the other table because powers of cosines have no tails.
+TEST(ShippedPhongTable, HasTheFitErrorOfItsSidecar) {
+    std::vector<Slice> samples;
+    for (int r = 1; r < 32; r += 3)
+        for (int i = 0; i < 60; i += 5) samples.push_back({r / 31.0, kPi<double> / 2 * i / 63, 0});
+    const Brdf& phong = find_brdf("phong");
+    const double error = mean_error(tables::phong_ltc_table(), samples, phong);
+    EXPECT_LT(error, 0.29);
+
+    // A peak that is turned by a degree, and a lobe that is wider by a tenth.
+    LtcTable turned = tables::phong_ltc_table(), wide = turned;
+    for (std::size_t i = 0; i < turned.entries.size(); i += LtcTableView::kStride) {
+        float* const e = &turned.entries[i];
+        const double angle = std::atan2(e[1], e[0]) + kPi<double> / 180;
+        e[0] = static_cast<float>(std::cos(angle));
+        e[1] = static_cast<float>(std::sin(angle));
+        wide.entries[i + 2] *= 1.1f;
+    }
+    EXPECT_GT(mean_error(turned, samples, phong), 1.05 * error);
+    EXPECT_GT(mean_error(wide, samples, phong), 1.005 * error);
 }
 
 /// With one lobe for all reflectances, errors grow, by at most 55 %.

@@ -32,6 +32,23 @@ TEST(LineGrowth, FasterGrowthIsNoticed) {
     EXPECT_EQ(verdicts(row(1 << 20, 64, 200, 40))[1].verdict, Verdict::fails);
 }
 
+TEST(LineGrowth, MoreTestsWithMoreOccludersAreNoticed) {
+    const auto row = [](int occluders, double boxes, double boxes_together) {
+        return GrowthRow{{1024, occluders}, boxes, 20, 1, boxes_together, 10, 1};
+    };
+    const std::vector<GrowthRow> by_around = {row(64, 100, 50), row(64, 100, 50)};
+    const auto verdicts = [&](const GrowthRow& dense) {
+        return check_expectations(by_around, {row(64, 100, 50), dense});
+    };
+    for (const ExpectationResult& e : verdicts(row(1024, 1600, 800)))
+        EXPECT_EQ(e.verdict, Verdict::holds) << e.text;
+    EXPECT_EQ(verdicts(row(1024, 1700, 800))[2].verdict, Verdict::fails) << "boxes, faster than occluders";
+    EXPECT_EQ(verdicts(row(1024, 1600, 1601))[3].verdict, Verdict::fails) << "more boxes together";
+    GrowthRow many_triangles = row(1024, 1600, 800);
+    many_triangles.triangle_tests = 20 * 16 * 1.3;
+    EXPECT_EQ(verdicts(many_triangles)[2].verdict, Verdict::fails) << "triangles, faster than occluders";
+}
+
 } // namespace
 
 } // namespace nusselt::lab

@@ -2,6 +2,7 @@
 #include "lab/lines/line_visibility.h"
 
 #include "common/results_json.h"
+#include "published_names.h"
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -91,6 +92,14 @@ TEST(LineVisibility, ExpectationsCanFailAndAreNotEvaluatedWhereASceneWasSkipped)
         EXPECT_EQ(e.verdict, Verdict::not_evaluated) << e.text;
     scenes.pop_back();
     EXPECT_THROW(check_expectations(experiment, scenes), std::logic_error);
+}
+
+TEST(LineVisibility, NumbersStandBesideThoseOfTheTable) {
+    const LineVisibility experiment = shipped_only(all_line_visibilities()[1]);
+    const Report report = report_of(run(experiment));
+    EXPECT_EQ(report.measured.size(), 5 * experiment.scenes.size() + 1);
+    expect_names_of_published_numbers(report);
+    EXPECT_TRUE(report_of(run(shipped_only(all_line_visibilities()[0]))).measured.empty());
 }
 
 TEST(LineVisibility, ReportHasAnImageOfPartsPerScene) {

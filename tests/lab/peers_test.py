@@ -5,6 +5,7 @@ import io
 import json
 import math
 import pathlib
+import random
 import struct
 import sys
 import tempfile
@@ -223,6 +224,19 @@ class Statistics(Case):
         self.assertRaises(ValueError, statistics.time_per_samples, 3, 16, 3)
         self.assertRaises(ValueError, statistics.time_per_samples, 4, 1, 3)
 
+    def test_noise_of_references_does_not_count(self):
+        source = random.Random(5)
+        samples, reference_samples, pixels = 4, 16, 4000
+
+        def image(count):
+            return [sum(source.gauss(0, 1) for _ in range(count)) / count for _ in range(pixels)]
+
+        reference, few = image(reference_samples), image(samples)
+        error = sum((a - b) ** 2 for a, b in zip(few, reference)) / pixels
+        corrected, = compare.without_noise_of(reference_samples, samples, [error])
+        self.assertAlmostEqual(corrected * samples, 1, delta=0.08)
+        self.assertGreater(error * samples, 1.12, "uncorrected")
+
     def test_efficiency_does_not_depend_on_the_number_of_independent_samples(self):
         self.assertEqual(statistics.efficiency(0.5, 2), statistics.efficiency(0.125, 8))
         self.assertRaises(ValueError, statistics.efficiency, 0, 1)
@@ -282,7 +296,7 @@ class ConstructedCycles(ConstructedRenderer):
 class Driver(Case):
     def measured(self, cycles_mean):
         case = next(case for case in compare.cases() if case.slug == "panel")
-        options = compare.options_of(["--repetitions", "3"])
+        options = compare.options_of(["--repetitions", "3", "--reference-samples", str(10**12)])
         nusselt, cycles = ConstructedNusselt(1.0, 0.125, 0.5), ConstructedCycles(cycles_mean, 0.5, 2)
         with contextlib.redirect_stderr(io.StringIO()):
             found = compare.measure(case, nusselt, cycles, options)

@@ -75,6 +75,7 @@ TEST_F(Agreement, OfPhongSurfaces) {
         settings.mis = render::Mis::balance;
         expect_agreement(scene, renderer, settings);
     }
+    settings.strategies = Strategies::diffuse;
     settings.technique = Technique::ltc_analytic;
     expect_agreement(scene, renderer, settings);
 }

@@ -143,6 +143,16 @@ TEST_F(Materials, MixturesWithPhong) {
     expect_near(with_matte.diffuse, {0.2f, 0.2f, 0.2f}, 1e-6f);
     expect_near(with_matte.f0, {0.75f, 0.75f, 0.75f}, 1e-6f);
     EXPECT_EQ(with_matte.exponent, 40);
+    const std::string wide = "\"string type\" \"phong\" \"rgb Ks\" [1 1 1] \"float exponent\" 0";
+    EXPECT_EQ(mixed_with(wide).exponent, 30);
+    EXPECT_EQ(
+        with("MakeNamedMaterial \"a\" " + wide +
+             "\nMakeNamedMaterial \"b\" \"string type\" \"phong\" \"rgb Ks\" [1 1 1] \"float exponent\" 2"
+             "\nMaterial \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" 0.25")
+            .materials.at(0)
+            .exponent,
+        1)
+        << "not a half, where line samples are not exact";
     const Material with_phong =
         mixed_with("\"string type\" \"phong\" \"rgb Ks\" [1 1 1] \"float exponent\" 80");
     EXPECT_EQ(with_phong.model, BrdfModel::phong);

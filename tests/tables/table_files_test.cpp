@@ -92,13 +92,26 @@ TEST(LtcTableFile, EveryDamageIsFound) {
     EXPECT_THROW(load_ltc_table(std::filesystem::path(kData).parent_path()), std::runtime_error);
 }
 
-TEST(LtcTableFile, TheCompiledTableIsTheShippedOne) {
-    const LtcTable file = load_ltc_table(kData + ".bin");
-    const LtcTable& compiled = frostbite_ltc_table();
-    EXPECT_EQ(file.entries, compiled.entries);
-    EXPECT_EQ(compiled.roughnesses, 64);
-    EXPECT_EQ(compiled.inclinations, 64);
-    EXPECT_EQ(compiled.f0s, 51);
+struct ShippedTable {
+    std::string path; ///< without extension
+    const LtcTable& compiled;
+    int roughnesses, inclinations, f0s;
+};
+
+std::vector<ShippedTable> shipped_tables() {
+    const std::filesystem::path folder = std::filesystem::path(nusselt_test::kSourceFolder) / "data";
+    return {{(folder / "ltc-frostbite").string(), frostbite_ltc_table(), 64, 64, 51},
+            {(folder / "ltc-phong").string(), phong_ltc_table(), 32, 64, 2}};
+}
+
+TEST(LtcTableFile, TheCompiledTablesAreTheShippedOnes) {
+    for (const ShippedTable& shipped : shipped_tables()) {
+        SCOPED_TRACE(shipped.path);
+        EXPECT_EQ(load_ltc_table(shipped.path + ".bin").entries, shipped.compiled.entries);
+        EXPECT_EQ(shipped.compiled.roughnesses, shipped.roughnesses);
+        EXPECT_EQ(shipped.compiled.inclinations, shipped.inclinations);
+        EXPECT_EQ(shipped.compiled.f0s, shipped.f0s);
+    }
 }
 
 TEST(BlueNoiseFile, TheCompiledOneIsTheShippedOne) {
@@ -107,27 +120,32 @@ TEST(BlueNoiseFile, TheCompiledOneIsTheShippedOne) {
     EXPECT_EQ(file, std::string(reinterpret_cast<const char*>(blue_noise().bytes), BlueNoiseView::kBytes));
 }
 
-TEST(LtcTableFile, TheSidecarIsOfThisFile) {
-    const std::string bytes = bytes_of(kData + ".bin");
-    const auto json = nlohmann::json::parse(bytes_of(kData + ".json"));
-    EXPECT_EQ(json.at("bytes"), bytes.size());
-    EXPECT_EQ(std::strtoull(json.at("fnv1a_64_of_bytes_from_40").get<std::string>().c_str(), nullptr, 16),
-              checksum_of(bytes));
-    EXPECT_EQ(json.at("commit").get<std::string>().size(), 40u);
-    EXPECT_EQ(json.at("axes").at(2).at("samples"), 51);
+TEST(LtcTableFile, TheSidecarsAreOfTheseFiles) {
+    for (const ShippedTable& shipped : shipped_tables()) {
+        SCOPED_TRACE(shipped.path);
+        const std::string bytes = bytes_of(shipped.path + ".bin");
+        const auto json = nlohmann::json::parse(bytes_of(shipped.path + ".json"));
+        EXPECT_EQ(json.at("bytes"), bytes.size());
+        EXPECT_EQ(std::strtoull(json.at("fnv1a_64_of_bytes_from_40").get<std::string>().c_str(), nullptr, 16),
+                  checksum_of(bytes));
+        EXPECT_EQ(json.at("commit").get<std::string>().size(), 40u);
+        EXPECT_EQ(json.at("axes").at(2).at("samples"), shipped.f0s);
+    }
 }
 
-TEST(LtcTableFile, EveryMatrixOfTheShippedTableIsRegular) {
-    const LtcTable& table = frostbite_ltc_table();
-    for (std::size_t i = 0; i < table.entries.size(); i += LtcTableView::kStride) {
-        const float* e = &table.entries[i];
-        ASSERT_GT(e[0], 0) << i;
-        ASSERT_GE(e[1], 0) << i;
-        ASSERT_GT(e[2], 0) << i;
-        ASSERT_GE(e[3], 0) << i;
-        ASSERT_GT(e[4], 0) << i;
-        ASSERT_GE(e[5], 0) << i;
-        ASSERT_LE(e[5], 1) << i;
+TEST(LtcTableFile, EveryMatrixOfTheShippedTablesIsRegular) {
+    for (const ShippedTable& shipped : shipped_tables()) {
+        SCOPED_TRACE(shipped.path);
+        for (std::size_t i = 0; i < shipped.compiled.entries.size(); i += LtcTableView::kStride) {
+            const float* e = &shipped.compiled.entries[i];
+            ASSERT_GT(e[0], 0) << i;
+            ASSERT_GE(e[1], 0) << i;
+            ASSERT_GT(e[2], 0) << i;
+            ASSERT_GE(e[3], 0) << i;
+            ASSERT_GT(e[4], 0) << i;
+            ASSERT_GE(e[5], 0) << i;
+            ASSERT_LE(e[5], 1) << i;
+        }
     }
 }
 

@@ -147,7 +147,7 @@ void setup_reproduce(CLI::App& app, int& exit_code) {
         "List the experiments and exit");
     CLI::Option* const full = command->add_flag_callback(
         "--full", [options] { options->effort = Effort::full; },
-        "Images and sample counts as the papers have them; takes hours");
+        "Image sizes and sample counts as each experiment defines them; takes hours");
     command
         ->add_flag_callback(
             "--quick", [options] { options->effort = Effort::quick; },

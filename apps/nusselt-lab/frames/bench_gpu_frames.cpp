@@ -64,7 +64,7 @@ private:
         for (std::size_t i = 0; i < ways_.size(); ++i) {
             const auto times_of_way = std::span(times).subspan(i * settings_.size(), settings_.size());
             compare_strategies(name, ways_[i], times_of_way);
-            compare_samples(name, ways_[i], times_of_way);
+            compare_samples(name, scene, ways_[i], times_of_way);
         }
     }
 
@@ -79,12 +79,14 @@ private:
     }
 
     /// \param times one for each of the settings
-    void compare_samples(const std::string& name, ShadowRays way, std::span<const GpuFrameTimes> times) {
+    void compare_samples(const std::string& name, const scene::Scene& scene, ShadowRays way,
+                         std::span<const GpuFrameTimes> times) {
         const lab::SettingsPair pair = lab::sample_pair();
         const GpuFrameTimes* const more = find(pair.ours, times);
         const GpuFrameTimes* const fewer = find(pair.baseline, times);
         if (more == nullptr || fewer == nullptr) return;
-        table_.sample_times.push_back({name, way, text_of(pair.baseline), additional_time(*more, *fewer)});
+        table_.sample_times.push_back({name, scene.film.width, scene.film.height, scene.lights.size(), way,
+                                       text_of(pair.baseline), additional_time(*more, *fewer)});
     }
 
     /// Both frames are shaded without samples, hence without shadow rays.
@@ -170,7 +172,8 @@ void setup_bench_gpu_frames(CLI::App& bench, int& exit_code) {
         "gpu",
         "Cost of frames on a GPU. Prints the times of the visibility pass and of the shading pass "
         "with each technique "
-        "and strategy, two samples of each per pixel in one frame; the time of one more sample (Peters "
+        "and strategy, two samples of each per pixel in one frame; the time of one more sample of each "
+        "light (Peters "
         "2021, linear lights, Sec. 5.4); ratios between the two ways of sampling materials "
         "that Peters (2021, polygonal lights, Fig. 1) compares; and where a scene has a tube, the "
         "ratio between analytic shading of a line and of a quad in its place (Heitz and Hill 2017, "

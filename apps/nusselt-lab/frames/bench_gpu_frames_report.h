@@ -29,12 +29,17 @@ struct GpuFrameComparison {
     double published; ///< the ratio of the paper
 };
 
-/// What one more sample per pixel costs.
+/// What one more sample per pixel and light costs.
 struct GpuSampleTime {
     std::string scene;
+    int width, height;
+    std::size_t lights;
     render_vulkan::ShadowRays shadow_rays;
     std::string settings; ///< text_of()
-    double seconds;
+    double seconds;       ///< for all lights of the frame
+
+    /// The paper has a frame of 1920 x 1080 pixels with one light.
+    bool is_like_the_published() const { return width == 1920 && height == 1080 && lights == 1; }
 };
 
 /// A scene that could not be measured.

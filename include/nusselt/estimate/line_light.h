@@ -75,8 +75,8 @@ public:
         : LineLight(ScaledPlane<Real>(plane, reach), surface) {}
 
     /// The integrals of a Lambertian lobe and of the specular one above the horizon of the surface. They are exact for
-    /// Lambert and Phong, and otherwise biased by the misfit of the fitted lobe. They are not negative, and those of
-    /// disjoint parts add up to that of the whole up to rounding.
+    /// Lambert and for Phong lobes of exponent 0 or at least 1, and otherwise biased by the misfit of the fitted lobe.
+    /// They are not negative, and those of disjoint parts add up to that of the whole up to rounding.
     /// \param offset of the line [m].
     /// \param parts  its visible parts.
     NUSSELT_HD BrdfComponents<Real> analytic(const Real& offset,
@@ -94,8 +94,8 @@ public:
         return {diffuse * diffuse_albedo_, specular * AlongLines::albedo(surface_)};
     }
 
-    /// An unbiased estimate from the integrals of the cosine and of the fitted lobe, and one point of the visible parts, where the BRDF is compared to
-    /// what they stand for. No shadow ray is needed. Can be negative.
+    /// An unbiased estimate: the integrals of the cosine and of the fitted lobe, corrected by one point of the visible
+    /// parts, where the BRDF is compared with both. No shadow ray is needed. Can be negative.
     /// \param offset of the line [m].
     /// \param parts  its visible parts.
     /// \param u      random in [0, 1), stratified together with the offsets of other lines.

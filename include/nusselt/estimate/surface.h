@@ -75,7 +75,8 @@ NUSSELT_HD inline GlossySurface<Real> make_glossy_surface(const Real& cos_o, con
 /// \param cos_o    as for make_glossy_surface().
 /// \param albedo   of the Lambertian part, in [0, 1].
 /// \param specular albedo of the lobe at normal incidence, in [0, 1].
-/// \param exponent at least 0; any real number.
+/// \param exponent 0 or at least 1; any real number. Between 0 and 1, integrals along lines lose up to 1e-3, see
+///                 phong_integral().
 /// \param table    see phong_fit_of().
 template <class Real>
 NUSSELT_HD inline GlossySurface<Real, LambertPhong<Real>>

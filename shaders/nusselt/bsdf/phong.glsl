@@ -9,7 +9,7 @@
 /// Factor of the lobe such that its cosine-weighted integral is 1 at normal incidence [1/sr].
 float phong_normalisation(float exponent) { return (exponent + 2.0) * (0.5 / kNusseltPi); }
 
-/// The alpha of GGX whose reflections spread as widely, up to their tails.
+/// The alpha of a Beckmann distribution whose reflections are as wide.
 float phong_alpha(float exponent) { return 1.0 / sqrt(nusselt_fma(2.0, exponent, 1.0)); }
 
 struct Phong {

@@ -1,6 +1,7 @@
 #pragma once
 /// Turns hits into shading points.
 
+#include "render/ray_offset.h"
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/instances.h"
 #include "render_cpu/kernel/lanes.h"
@@ -42,19 +43,14 @@ struct Surface {
     Vector position;         ///< world space [m]
     Vector geometric_normal; ///< unit, on the side of the eye
     Frame<Real> frame;       ///< shading_frame() of the shading normal, on the side of the eye as well
-    Real offset;             ///< how far along the geometric normal shadow rays start [m]
-    Indices light;           ///< number of the light with this surface in the scene, -1 for none
+    Real offset;   ///< how far along the geometric normal shadow rays start [m], see render/ray_offset.h
+    Indices light; ///< number of the light with this surface in the scene, -1 for none
     GlossySurface<Real, SurfaceBrdf> glossy;
 };
 
 /// Smallest cosine between the shading normal and the direction to the eye. Normals of a mesh that face away from the
 /// eye are bent towards it.
 inline constexpr float kSmallestEyeCosine = 1e-3f;
-
-/// The distance from the surface at which shadow rays start is this share of the scene's radius ...
-inline constexpr float kOffsetPerRadius = 1e-5f;
-/// ... plus this share of the largest coordinate, which bounds rounding errors of positions.
-inline constexpr float kOffsetPerCoordinate = 1e-6f;
 
 /// Interpolates vertex attributes over triangles.
 struct Interpolation {
@@ -339,7 +335,8 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
             position,
             geometric_normal,
             frame,
-            Real(kOffsetPerRadius) * Real(scene.radius) + Real(kOffsetPerCoordinate) * coordinate,
+            Real(render::kOffsetPerRadius) * Real(scene.radius) +
+                Real(render::kOffsetPerCoordinate) * coordinate,
             light,
             make_glossy(scene, lanes, frame.to_local(wo))};
 }

@@ -41,6 +41,8 @@ SurfaceFormula blended(TextureFormulas& formulas, const SurfaceFormula& a, const
     // Exponents cannot be images: an image of the share counts as a half.
     const double share_of_b = share.node < 0 ? mean(share.factor) : 0.5;
     result.exponent = (1 - share_of_b) * a.exponent + share_of_b * b.exponent;
+    // Integrals along lines are not exact between.
+    if (result.exponent > 0 && result.exponent < 1) result.exponent = 1;
     result.alpha = formulas.mix(a.alpha, b.alpha, amount);
     result.bump = formulas.mix(a.bump, b.bump, amount);
     result.bump_unit = a.bump.node >= 0 ? a.bump_unit : b.bump_unit;
