@@ -117,6 +117,8 @@ private:
     double measure_ = 0;
 };
 
+double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
 /// The largest distance of the images of neighbours in a square grid of random numbers.
 template <class Map>
 double largest_jump(const Map& map, int grid) {
@@ -126,8 +128,8 @@ double largest_jump(const Map& map, int grid) {
         row.clear();
         for (int j = 0; j < grid; ++j) {
             row.push_back(map((i + 0.5) / grid, (j + 0.5) / grid));
-            if (j > 0) largest = std::max(largest, length(row[j] - row[j - 1]));
-            if (i > 0) largest = std::max(largest, length(row[j] - previous[j]));
+            if (j > 0) largest = std::max(largest, distance(row[j], row[j - 1]));
+            if (i > 0) largest = std::max(largest, distance(row[j], previous[j]));
         }
         std::swap(previous, row);
     }
@@ -183,8 +185,10 @@ Findings measure_non_convex(Effort effort) {
         table.push_back({name, fmt::format("{:.4f}", before), fmt::format("{:.4f}", after)});
         return after / before;
     };
-    const MapByAzimuth bracket_by_azimuth(kBracket), whole_by_azimuth(kWhole);
-    const MapByParts bracket_by_parts(kBracket), whole_by_parts(kWhole);
+    const MapByAzimuth bracket_by_azimuth(kBracket);
+    const MapByAzimuth whole_by_azimuth(kWhole);
+    const MapByParts bracket_by_parts(kBracket);
+    const MapByParts whole_by_parts(kWhole);
     const std::string rest = ", largest distance of neighbours on the fine grid over that on the coarse one";
     findings.all.push_back(at_most(kItem, "rectangle by azimuth (Arvo)" + rest,
                                    add("rectangle by azimuth (Arvo)", whole_by_azimuth), 0.5));

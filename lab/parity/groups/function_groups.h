@@ -222,7 +222,7 @@ struct PhongLobes {
         const double exponent = random.index(8) == 0 ? 0 : random.log_between(1, 1e6);
         // Most directions are in the lobe, where the power is not next to 0.
         Vec3<double> wi = random.direction();
-        if (random.index(4) > 0) {
+        if (random.index(8) > 0) {
             const double width = 3 / std::sqrt(exponent + 1);
             wi = normalize(Vec3<double>{-wo.x, -wo.y, std::fabs(wo.z)} + width * random.uniform() * wi);
         }
@@ -245,7 +245,7 @@ struct PhongLobes {
     }
     /// Far from the mirrored direction, single precision has no power left.
     static bool is_defined(std::size_t output, const Results<long double>& exact) {
-        return output >= 3 || exact[output] == 0 || exact[output] > 1e-20L;
+        return output >= 3 || exact[output] == 0 || exact[output] > 1e-30L;
     }
 };
 

@@ -5,6 +5,7 @@
 
 #include "../bsdf/lambert.glsl"
 #include "../core/exponential.glsl"
+#include "../core/vec.glsl"
 
 /// Factor of the lobe such that its cosine-weighted integral is 1 at normal incidence [1/sr].
 float phong_normalisation(float exponent) { return (exponent + 2.0) * (0.5 / kNusseltPi); }
@@ -29,7 +30,7 @@ Phong phong_prepare(vec3 wo, vec3 albedo, float exponent) {
 /// \param wi unit direction to the light in shading space; 0 where wi.z <= 0 or wo.z <= 0.
 vec3 phong_eval(Phong self, vec3 wi) {
     // The cross product keeps the precision that the cosine loses for narrow lobes.
-    vec3 across = cross(self.mirror, wi);
+    vec3 across = nusselt_cross(self.mirror, wi);
     float cosine = dot(self.mirror, wi);
     if (!(wi.z > 0.0) || !(self.mirror.z > 0.0) || !(cosine > 0.0)) return vec3(0.0);
     SinCos angle = SinCos(nusselt_min(sqrt(dot(across, across)), 1.0), cosine);
