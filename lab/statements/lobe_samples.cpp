@@ -108,8 +108,8 @@ Findings measure_lobe_samples(Effort effort) {
              at_most(kItem,
                      fmt::format("mean share of samples below the surface, walls that stand in it, {} lobes",
                                  of_walls.count),
-                     of_walls.mean(), 0.1),
-             at_most(kItem, "largest share of these", of_walls.largest, 0.5)},
+                     of_walls.mean(), 0.03),
+             at_most(kItem, "largest share of these", of_walls.largest, 0.3)},
             {by_angle}};
 }
 
