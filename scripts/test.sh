@@ -6,6 +6,7 @@
 # With CI=true in the environment compiler warnings are errors.
 set -uo pipefail
 cd "$(dirname "$0")/.."
+export CCACHE_BASEDIR=$PWD # clones share what ccache keeps
 
 if [ "${CI:-}" = true ]; then warnings_as_errors=ON; else warnings_as_errors=OFF; fi
 case "${1:-all}" in

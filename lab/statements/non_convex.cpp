@@ -168,7 +168,7 @@ void draw(Picture& picture, int column, const char* title, const Map& map) {
         picture.path(path, false, kConstantY);
     }
     std::vector<Point> dots;
-    for (const Point& u : blue_noise_points(512)) dots.push_back(at(map(u.x, u.y)));
+    for (const Point& u : blue_noise_points(200)) dots.push_back(at(map(u.x, u.y)));
     picture.dots(dots, blended_colour(0));
 }
 
