@@ -137,8 +137,9 @@ TEST(Brdfs, AreFoundByName) {
         find_brdf("velvet");
         FAIL();
     } catch (const std::runtime_error& error) {
-        EXPECT_STREQ(error.what(),
-                     "unknown BRDF 'velvet'; use one of frostbite-specular, frostbite-diffuse, lambert");
+        EXPECT_STREQ(
+            error.what(),
+            "unknown BRDF 'velvet'; use one of frostbite-specular, frostbite-diffuse, lambert, phong");
     }
 }
 

