@@ -107,6 +107,7 @@ render::RenderSettings settings_of(const LineGrowth& experiment) {
     settings.light_samples = render::LightSamples::lines;
     settings.lines.count = experiment.lines;
     settings.lines.many_occluders = render::ManyOccluders::lines;
+    settings.lines.offsets = render::LineOffsets::length; // as lines one by one
     settings.sample_order = render::SampleOrder::stratified;
     settings.pixel_position = render::PixelPosition::center;
     return settings;

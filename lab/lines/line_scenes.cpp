@@ -4,7 +4,6 @@
 #include "scene/import/importers.h"
 #include "scene/rig/rig_json.h"
 
-#include <cstdlib>
 #include <utility>
 
 namespace nusselt::lab {
@@ -42,9 +41,12 @@ std::optional<scene::Scene> load_line_scene(const LineScene& line_scene, const R
                                             int width) {
     std::filesystem::path folder = settings.scenes;
     if (line_scene.origin == SceneOrigin::published) {
-        const char* const published = std::getenv("NUSSELT_SCENES");
-        if (published == nullptr) return std::nullopt;
-        folder = published;
+        const auto published = published_scenes();
+        if (!published) return std::nullopt;
+        folder = *published;
+        if (!std::filesystem::exists(folder / line_scene.file))
+            throw std::runtime_error("NUSSELT_SCENES names '" + folder.string() + "', which has no " +
+                                     line_scene.file);
     }
     scene::Scene scene = scene::load_scene(folder / line_scene.file);
     if (!line_scene.rig.empty()) {

@@ -65,6 +65,7 @@ RenderSettings settings_of(const LineVisibility& experiment) {
     settings.lines.count = experiment.lines;
     settings.lines.shading = render::LineShading::analytic;
     settings.lines.many_occluders = render::ManyOccluders::lines;
+    settings.lines.offsets = render::LineOffsets::length; // as lines one by one
     settings.sample_order = render::SampleOrder::stratified;
     settings.pixel_position = render::PixelPosition::center;
     settings.layers = {render::LayerKind::pieces};

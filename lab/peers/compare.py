@@ -217,9 +217,9 @@ def options_of(arguments):
     parser.add_argument("--blender", default="blender")
     parser.add_argument("--work", type=pathlib.Path, help="keeps all images in this folder")
     options = parser.parse_args(arguments)
-    names = options.scenes.split(",") if options.scenes else []
+    names = [] if options.scenes is None else options.scenes.split(",")
     if unknown := set(names) - {case.slug for case in cases()}:
-        parser.error(f"no scene {', '.join(sorted(unknown))}")
+        parser.error(f"no scene {', '.join(map(repr, sorted(unknown)))}")
     if len(set(names)) < len(names):
         parser.error("a scene is named twice")
     if options.json and not os.access(options.json if options.json.exists() else options.json.parent, os.W_OK):

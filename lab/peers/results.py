@@ -21,11 +21,16 @@ def rounded(value):
 
 def rows_of_other_scenes(file, scenes, settings):
     """The rows of each table of a file, without those of the given scenes. Scenes are in the first column."""
-    document = json.loads(file.read_text())
+    try:
+        document = json.loads(file.read_text())
+        old = document["settings"]
+        rows = {table["name"]: [row for row in table["rows"] if row[0] not in scenes] for table in document["tables"]}
+    except (AttributeError, KeyError, TypeError, json.JSONDecodeError):
+        raise ValueError(f"{file} has no results of this script; name another file, or remove it") from None
     for name, value in settings.items():
-        if document["settings"].get(name) != value:
+        if old.get(name) != value:
             raise ValueError(f"{file}: {name} is not {value}; its rows and new ones do not belong together")
-    return {table["name"]: [row for row in table["rows"] if row[0] not in scenes] for table in document["tables"]}
+    return rows
 
 
 def line_of(value):

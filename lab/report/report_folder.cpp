@@ -11,7 +11,6 @@
 #include <array>
 #include <cctype>
 #include <cstdint>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -42,13 +41,12 @@ std::string fingerprint(const std::filesystem::path& path) {
 
 /// Everything but the effort and files on which an experiment depends.
 std::string key_of(const std::string& program, const RunSettings& settings) {
-    const char* const published = std::getenv("NUSSELT_SCENES");
     const Json key = {program,
                       base::name_of(base::choose_isa()),
                       base::processor_name(),
                       thread_count(settings),
                       std::filesystem::absolute(settings.scenes).string(),
-                      published == nullptr ? "" : published};
+                      published_scenes().value_or("").string()};
     return key.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -128,6 +126,8 @@ std::optional<KeptReport> ReportFolder::kept_in(const std::filesystem::path& fol
         if (checked_section(contents(folder / kSectionFile)).empty()) return std::nullopt;
         for (const auto& [path, hash] : state.at("inputs").items())
             if (fingerprint(path) != hash) return std::nullopt;
+        for (const auto& [name, hash] : state.at("outputs").items())
+            if (fingerprint(folder / name) != hash) return std::nullopt;
         return KeptReport{state.at("date"), state.at("verdict").get<Verdict>()};
     } catch (const Json::exception&) {
         return std::nullopt; // nothing there, or damaged
@@ -153,10 +153,14 @@ void ReportFolder::write(const Experiment& experiment, const Report& report, con
     Json inputs = Json::object();
     for (const std::filesystem::path& path : report.inputs)
         inputs[std::filesystem::absolute(path).string()] = fingerprint(path);
+    Json outputs = Json::object();
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        outputs[entry.path().filename().string()] = fingerprint(entry.path());
     const Json state = {{"key", key_of(program_, settings)},
                         {"date", record.date},
                         {"verdict", verdict_of(report.expectations)},
-                        {"inputs", std::move(inputs)}};
+                        {"inputs", std::move(inputs)},
+                        {"outputs", std::move(outputs)}};
     // Last: an interrupted run leaves no state, and the experiment runs again.
     write_text(folder / kStateFile, state.dump(1, ' ', false, Json::error_handler_t::replace));
 }

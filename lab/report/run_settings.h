@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string_view>
 
 namespace nusselt::lab {
@@ -20,6 +21,9 @@ struct RunSettings {
 
 /// The number of threads in the settings, or one per hardware thread.
 int thread_count(const RunSettings& settings);
+
+/// The folder with published scenes that NUSSELT_SCENES names; none if the variable is unset or empty.
+std::optional<std::filesystem::path> published_scenes();
 
 /// Called with a line about each step before it is taken.
 using ProgressText = std::function<void(std::string_view)>;

@@ -15,9 +15,9 @@ namespace nusselt::lab {
 
 namespace {
 
-/// The experiment without the published scenes.
+/// The quick experiment without the published scenes.
 LineVisibility shipped_only(const LineVisibility& full) {
-    LineVisibility experiment = full;
+    LineVisibility experiment = quick(full);
     const auto is_published = [](const LineScene& s) { return s.origin == SceneOrigin::published; };
     experiment.scenes.erase(std::remove_if(experiment.scenes.begin(), experiment.scenes.end(), is_published),
                             experiment.scenes.end());
@@ -27,9 +27,6 @@ LineVisibility shipped_only(const LineVisibility& full) {
     experiment.expectations.erase(
         std::remove_if(experiment.expectations.begin(), experiment.expectations.end(), mentions_sponza),
         experiment.expectations.end());
-    experiment.width = 48;
-    experiment.lines = 8;
-    experiment.step = 2;
     return experiment;
 }
 

@@ -349,6 +349,14 @@ class Driver(Case):
                 tables(good, "--scenes", "tube", "--repetitions", "2")
             self.assertEqual(tables(good), (0, [*known], {}))
 
+    def test_files_without_results_are_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "other.json")
+            for text in ("{", "{}", "[]", '{"settings": {}, "tables": [1]}'):
+                file.write_text(text)
+                with self.assertRaisesRegex(ValueError, "other.json has no results"):
+                    results.rows_of_other_scenes(file, [], {})
+
     def test_missed_targets_are_reported(self):
         case = next(case for case in compare.cases() if case.slug == "panel")
         ours, theirs = compare.Series(16), compare.Series(16)
@@ -368,8 +376,8 @@ class Driver(Case):
             file.write_text("")
             for wrong, message in [(["--repetitions", "0"], "repetitions"), (["--samples", "1"], "at least 2"),
                                    (["--samples", "many"], "samples"), (["--reference-samples", "-1"], "at least 1"),
-                                   (["--shrink", "3"], "shrink"), (["--scenes", "panel,no-such"], "no scene no-such"),
-                                   (["--scenes", "tube,tube"], "twice"), (["--work", str(file)], "no folder"),
+                                   (["--shrink", "3"], "shrink"), (["--scenes", "panel,no-such"], "no scene 'no-such'"),
+                                   (["--scenes", ""], "no scene ''"), (["--scenes", "tube,tube"], "twice"), (["--work", str(file)], "no folder"),
                                    (["--json", f"{folder}/missing/peers.json"], "cannot write")]:
                 errors = io.StringIO()
                 with self.assertRaises(SystemExit) as caught, contextlib.redirect_stderr(errors):

@@ -230,8 +230,13 @@ TEST(ReportFolder, ForgetsReportsOfOtherInputsAndDamagedOnes) {
         const std::string page = contents(folder.write_page({sample.experiment}));
         EXPECT_NE(page.find("\"not_run\": [{\"name\":\"sample\""), std::string::npos) << section;
     }
+    for (const char* file : {"section.json", "numbers.json"}) {
+        write();
+        std::filesystem::remove(sample.out / "sample/quick" / file);
+        EXPECT_TRUE(forgot()) << file;
+    }
     write();
-    std::filesystem::remove(sample.out / "sample/quick/section.json");
+    std::ofstream(sample.out / "sample/quick/numbers.json") << "{";
     EXPECT_TRUE(forgot());
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -157,6 +158,30 @@ INSTANTIATE_TEST_SUITE_P(Exponents, PhongSurface, testing::Values(5.0f, 60.0f, 7
                          [](const auto& exponent) {
                              return std::to_string(static_cast<int>(exponent.param));
                          });
+
+/// Where the lobe is a millionth of the light, and its tails have no light at all, tables of offsets must not miss it.
+TEST(NarrowPhongSurface, ReflectsHugeLights) {
+    for (const float half : {90.0f, 150.0f, 900.0f}) {
+        scene::Scene scene;
+        scene.materials.push_back({.name = "mirror",
+                                   .model = scene::BrdfModel::phong,
+                                   .diffuse = {0, 0, 0},
+                                   .f0 = {1, 1, 1},
+                                   .exponent = 1e6f});
+        add_quad(scene, {Float3{-9, -9, 0}, Float3{9, -9, 0}, Float3{9, 9, 0}, Float3{-9, 9, 0}}, 0);
+        add_polygon_light(
+            scene,
+            {Float3{-half, -half, 1}, Float3{-half, half, 1}, Float3{half, half, 1}, Float3{half, -half, 1}},
+            {kRadiance, kRadiance, kRadiance}, true, 0);
+        set_camera(scene, {0, 0, 0.9f}, {0, 0, 0}, {0, 1, 0}, 0.05, 16, 16);
+        set_radius(scene);
+        const image::Image image =
+            render_cpu::Renderer(scene, 2).render(line_settings(128), base::choose_isa()).image;
+        const double sum = std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0);
+        EXPECT_NEAR(sum / static_cast<double>(image.pixels.size()), kRadiance, 0.05 * kRadiance) << half;
+        EXPECT_LT(*std::max_element(image.pixels.begin(), image.pixels.end()), 3 * kRadiance) << half;
+    }
+}
 
 } // namespace
 } // namespace nusselt::render_test

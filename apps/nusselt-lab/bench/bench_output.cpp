@@ -5,10 +5,10 @@
 #include "base/atomic_file.h"
 #include "base/file_checks.h"
 #include "base/json_output.h"
+#include "lab/report/run_settings.h"
 #include "scene/import/importers.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace nusselt::app {
 
@@ -59,8 +59,8 @@ std::vector<std::filesystem::path> shipped_scenes(const std::filesystem::path& f
     for (const auto& entry : std::filesystem::directory_iterator(folder))
         if (entry.path().extension() == ".pbrt") scenes.push_back(entry.path());
     std::sort(scenes.begin(), scenes.end());
-    if (const char* published = std::getenv("NUSSELT_SCENES"))
-        scenes.push_back(std::filesystem::path(published) / "bathroom" / "bathroom.pbrt");
+    if (const auto published = lab::published_scenes())
+        scenes.push_back(*published / "bathroom" / "bathroom.pbrt");
     return scenes;
 }
 

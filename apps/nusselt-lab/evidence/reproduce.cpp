@@ -16,6 +16,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <ctime>
 #include <memory>
 #include <stdexcept>
@@ -107,6 +108,7 @@ Verdict run(const Experiment& experiment, const ReproduceOptions& options, const
     folder.write(experiment, report, settings, record);
     fmt::print("\n{}: {}\n{}\n{}", experiment.name, experiment.source, experiment.description,
                lab::to_text(report));
+    std::fflush(stdout); // messages about the next steps go to standard error
     return verdict_of(report.expectations);
 }
 
@@ -120,6 +122,18 @@ Verdict run_or_fail(const Experiment& experiment, const ReproduceOptions& option
         print_message("nusselt-lab: error: {}: {}\n", experiment.name, error.what());
         return Verdict::fails;
     }
+}
+
+/// The experiments with expectations that fail or were not evaluated, which may be far above.
+void print_verdicts(const std::vector<Experiment>& experiments, const std::vector<Verdict>& verdicts) {
+    const auto print_those = [&](Verdict verdict, std::string_view heading) {
+        std::string names;
+        for (std::size_t i = 0; i < verdicts.size(); ++i)
+            if (verdicts[i] == verdict) names += " " + experiments[i].name;
+        if (!names.empty()) fmt::print("\n{}:{}", heading, names);
+    };
+    print_those(Verdict::fails, "fails");
+    print_those(Verdict::not_evaluated, "not evaluated, wholly or in part");
 }
 
 } // namespace
@@ -181,6 +195,7 @@ int run_reproduce(const ReproduceOptions& options) {
         // After each one, so that there is a page to look at while the others run.
         page = folder.write_page(lab::all_experiments());
     }
+    print_verdicts(experiments, verdicts);
     fmt::print("\n{}\n", page.string());
     const auto any = [&](Verdict verdict) {
         return std::find(verdicts.begin(), verdicts.end(), verdict) != verdicts.end();

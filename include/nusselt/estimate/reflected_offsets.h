@@ -68,9 +68,9 @@ private:
     /// length.
     static constexpr double kInset = 1e-3;
 
-    /// The narrowest highlight that gets nodes of its own, as a share of the light: single precision still
-    /// distinguishes them.
-    static constexpr double kNarrowest = 1e-4;
+    /// The narrowest highlight whose flanks get nodes, as a share of the light: single precision still distinguishes them. A
+    /// narrower one gets a node at its centre, or nodes on both sides would miss lobes without tails.
+    static constexpr double kNarrowest = 1e-5;
 
     /// Between two nodes.
     struct Cell {
@@ -96,6 +96,7 @@ private:
                 around[kPeakNodes / 2 - 1 - i] = centre - distance;
                 around[kPeakNodes / 2 + i] = centre + distance;
             }
+            if (width < Scalar(kNarrowest)) around[kPeakNodes / 2 - 1] = centre;
         }
         int next = has_peak ? 0 : kPeakNodes;
         while (next < kPeakNodes && !(around[next] > 0)) ++next;
