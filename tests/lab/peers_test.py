@@ -377,7 +377,8 @@ class Driver(Case):
             for wrong, message in [(["--repetitions", "0"], "repetitions"), (["--samples", "1"], "at least 2"),
                                    (["--samples", "many"], "samples"), (["--reference-samples", "-1"], "at least 1"),
                                    (["--shrink", "3"], "shrink"), (["--scenes", "panel,no-such"], "no scene 'no-such'"),
-                                   (["--scenes", ""], "no scene ''"), (["--scenes", "tube,tube"], "twice"), (["--work", str(file)], "no folder"),
+                                   (["--scenes", ""], "no scene ''"), (["--scenes", "tube,tube"], "twice"),
+                                   (["--work", str(file)], "no folder"),
                                    (["--json", f"{folder}/missing/peers.json"], "cannot write")]:
                 errors = io.StringIO()
                 with self.assertRaises(SystemExit) as caught, contextlib.redirect_stderr(errors):
