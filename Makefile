@@ -1,6 +1,6 @@
 # make demo, make check and make test need Debian 12 or 13, git and make; scripts/setup.sh installs the rest.
 
-.PHONY: build demo check test test-full archive gpu-kit single-header shaders clean help
+.PHONY: build demo lab check test test-full archive gpu-kit single-header shaders clean help
 
 build: ## the programs, optimised, in build/release
 	scripts/setup.sh build
@@ -8,6 +8,9 @@ build: ## the programs, optimised, in build/release
 
 demo: build ## a picture of a room: out/room.png and out/room.exr
 	scripts/demo.sh
+
+lab: build ## the program that repeats our measurements: build/release/apps/nusselt-lab/nusselt-lab
+	scripts/build.sh nusselt_lab_app
 
 check: ## the library and its tests, for this processor: the loop while editing
 	scripts/setup.sh check

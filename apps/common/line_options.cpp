@@ -29,7 +29,8 @@ void add_line_kind_options(CLI::App& command, LineKindOptions& options) {
         ->default_str(std::string(name_of(defaults.offsets)));
     add("--line-shading", options.shading,
         "How lines are shaded: unbiased (the integral of a linearly transformed cosine over the visible "
-        "parts of a line, plus one point for the difference from the BRDF) or analytic (the integral alone)")
+        "parts of a line, plus one point for the difference from the BRDF) or analytic (the integral alone). "
+        "Both are exact for matte and Phong surfaces")
         ->transform(to_one_of(names_of(render::kLineShadings)))
         ->default_str(std::string(name_of(defaults.shading)));
 }

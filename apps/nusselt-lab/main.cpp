@@ -17,8 +17,9 @@ int main(int argc, char** argv) {
          "  nusselt-lab bench rays scenes/room.pbrt --resolution 640x360\n"
          "\n"
          "`nusselt-lab COMMAND --help` explains a command.\n"
-         "Exit codes: 0 success, 1 error or broken expectation, 2 wrong usage; 130 stopped by Ctrl-C,\n"
-         "143 by SIGTERM, 129 by SIGHUP, 152 by SIGXCPU, 138 by SIGUSR1.",
+         "Exit codes: 0 success, 1 error or broken expectation, 2 wrong usage, 3 an expectation\n"
+         "was not evaluated; 130 stopped by Ctrl-C, 143 by SIGTERM, 129 by SIGHUP, 152 by SIGXCPU, 138 by "
+         "SIGUSR1.",
          {setup_reproduce, setup_bench, setup_gpu, setup_map, setup_fuzz, setup_fit_ltc, setup_blue_noise}},
         argc, argv);
 }

@@ -193,7 +193,8 @@ double variance_times_seconds(const NoiseCurve& curve, int count) {
 }
 
 std::string in_all_scenes_but(int exceptions) {
-    return exceptions > 0 ? fmt::format(" in all scenes but {}", exceptions) : " in all scenes";
+    return exceptions > 0 ? fmt::format(" in all rendered scenes but {}", exceptions)
+                          : " in all rendered scenes";
 }
 
 std::string to_text(const OrderBetween& e) {

@@ -180,11 +180,12 @@ std::vector<ExpectationResult> check_expectations(const LineVisibility& experime
         const std::string text =
             fmt::format("in '{}', both ways find as many visible parts per line, within {:.0f} %",
                         scene.scene, 100 * kLargestDifference);
+        const double one_by_one = scene.work_one_by_one.parts, together = scene.parts_together;
         if (scene.is_skipped)
             results.push_back(not_evaluated(text, "the scene was skipped"));
         else
-            results.push_back(checked(text, std::fabs(scene.work_one_by_one.parts - scene.parts_together) <=
-                                                kLargestDifference * scene.parts_together));
+            results.push_back(checked(fmt::format("{}: {:.3f} and {:.3f}", text, one_by_one, together),
+                                      std::fabs(one_by_one - together) <= kLargestDifference * together));
     }
     return results;
 }

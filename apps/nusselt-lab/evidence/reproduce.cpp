@@ -183,7 +183,8 @@ int run_reproduce(const ReproduceOptions& options) {
     static_cast<void>(base::choose_isa()); // reports a wrong one before anything is measured
     const std::vector<Experiment> experiments = chosen(options.experiments);
     const lab::ReportFolder folder(options.output);
-    for (const Experiment& e : experiments) folder.check_writable(e, options.effort);
+    for (const Experiment& e : experiments)
+        if (e.obstacle().empty()) folder.check_writable(e, options.effort);
     const lab::RunSettings settings = {options.scenes, options.effort,
                                        render_cpu::checked_thread_count(options.threads)};
     std::vector<Verdict> verdicts;

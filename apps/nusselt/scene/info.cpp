@@ -170,7 +170,7 @@ int run_info(const InfoOptions& options) {
     write_light_report(scene, std::cout);
     print_camera(scene);
     print_film(scene.film);
-    fmt::print("\n{} warnings\n", scene.warnings.size());
+    fmt::print("\n{} {}\n", scene.warnings.size(), scene.warnings.size() == 1 ? "warning" : "warnings");
     for (const std::string& warning : scene.warnings) fmt::print("  {}\n", warning);
     fmt::print("\nloaded in {:.3f} s\n", seconds);
     return 0;
