@@ -106,6 +106,21 @@ LineByLineWork& LineByLineWork::operator+=(const LineByLineWork& other) {
     return *this;
 }
 
+double LineByLineWork::seconds_per_line() const {
+    return seconds / static_cast<double>(std::max<std::uint64_t>(counts.lines, 1));
+}
+
+render::RenderSettings settings_of_lines_together(int lines) {
+    render::RenderSettings settings;
+    settings.light_samples = render::LightSamples::lines;
+    settings.lines.count = lines;
+    settings.lines.many_occluders = render::ManyOccluders::lines;
+    settings.lines.offsets = render::LineOffsets::length;
+    settings.sample_order = render::SampleOrder::stratified;
+    settings.pixel_position = render::PixelPosition::center;
+    return settings;
+}
+
 std::vector<LinePoint> line_points(const scene::Scene& scene, const render_cpu::Renderer& renderer,
                                    int step) {
     const visibility::RayTracer tracer = renderer.visibility().tracer();

@@ -16,6 +16,8 @@ struct LineByLineWork {
     LineCounts counts;
     double seconds = 0; ///< of all threads together
 
+    double seconds_per_line() const;
+
     LineByLineWork& operator+=(const LineByLineWork& other);
 };
 
@@ -25,6 +27,10 @@ struct LinePoint {
     float apex[3];     ///< where shadow rays start [m]
     float normal[3];   ///< geometric, unit, on the side of the eye
 };
+
+/// With these, the renderer takes lines of the same density as trace_line_by_line(), all of a point together.
+/// \param lines per point and light
+render::RenderSettings settings_of_lines_together(int lines);
 
 /// What the centres of every `step`-th pixel of every `step`-th row see; pixels that see no surface, or a light, are left
 /// out.

@@ -102,22 +102,11 @@ scene::Scene make_scene(const GrowthSize& size, int width) {
     return scene;
 }
 
-render::RenderSettings settings_of(const LineGrowth& experiment) {
-    render::RenderSettings settings;
-    settings.light_samples = render::LightSamples::lines;
-    settings.lines.count = experiment.lines;
-    settings.lines.many_occluders = render::ManyOccluders::lines;
-    settings.lines.offsets = render::LineOffsets::length; // as lines one by one
-    settings.sample_order = render::SampleOrder::stratified;
-    settings.pixel_position = render::PixelPosition::center;
-    return settings;
-}
-
 GrowthRow measure(const LineGrowth& experiment, const GrowthSize& size, int threads) {
     const scene::Scene scene = make_scene(size, experiment.width);
     const render_cpu::Renderer renderer(scene, threads);
     const render::LineStatistics together =
-        renderer.render(settings_of(experiment), base::choose_isa()).statistics.lines;
+        renderer.render(settings_of_lines_together(experiment.lines), base::choose_isa()).statistics.lines;
     LineByLineWork one_by_one;
     for (const LineByLineWork& work :
          trace_line_by_line(scene, line_points(scene, renderer, 1), experiment.lines, threads))
@@ -132,7 +121,7 @@ GrowthRow measure(const LineGrowth& experiment, const GrowthSize& size, int thre
     return {size,
             per_line(one_by_one.counts.box_tests),
             per_line(one_by_one.counts.triangle_tests),
-            per_line(one_by_one.seconds),
+            one_by_one.seconds_per_line(),
             per_line_together(together.box_tests),
             per_line_together(together.triangle_tests),
             per_line_together(together.visibility_seconds)};

@@ -60,14 +60,8 @@ LineVisibility table() {
 }
 
 RenderSettings settings_of(const LineVisibility& experiment) {
-    RenderSettings settings;
-    settings.light_samples = render::LightSamples::lines;
-    settings.lines.count = experiment.lines;
+    RenderSettings settings = settings_of_lines_together(experiment.lines);
     settings.lines.shading = render::LineShading::analytic;
-    settings.lines.many_occluders = render::ManyOccluders::lines;
-    settings.lines.offsets = render::LineOffsets::length; // as lines one by one
-    settings.sample_order = render::SampleOrder::stratified;
-    settings.pixel_position = render::PixelPosition::center;
     settings.layers = {render::LayerKind::pieces};
     return settings;
 }

@@ -29,9 +29,8 @@ std::string millions(double number) { return fmt::format("{:.3g} M", 1e-6 * numb
 double render_seconds_one_by_one(const LineVisibilityScene& scene) {
     const render::RenderStatistics& s = scene.statistics;
     const auto lines = static_cast<double>(s.lines.lines);
-    const double visibility = scene.one_by_one.seconds /
-                              static_cast<double>(std::max<std::uint64_t>(scene.one_by_one.counts.lines, 1));
-    return s.render_seconds + (lines * visibility - s.lines.visibility_seconds) / s.threads;
+    return s.render_seconds +
+           (lines * scene.one_by_one.seconds_per_line() - s.lines.visibility_seconds) / s.threads;
 }
 
 /// Of one thread.
@@ -84,12 +83,11 @@ Table one_by_one_table(const LineVisibilityResult& result) {
         if (scene.is_skipped) continue;
         const LineByLineWork& w = scene.one_by_one;
         const render::RenderStatistics& s = scene.statistics;
-        const auto lines = static_cast<double>(std::max<std::uint64_t>(w.counts.lines, 1));
         table.push_back({scene.scene, fmt::format("{:.4g}", scene.work_one_by_one.box_tests),
                          fmt::format("{:.3g}", scene.work.box_tests),
                          fmt::format("{:.4g}", scene.work_one_by_one.triangle_tests),
                          fmt::format("{:.3g}", scene.work.triangle_tests),
-                         fmt::format("{:.3g}", 1e6 * w.seconds / lines),
+                         fmt::format("{:.3g}", 1e6 * w.seconds_per_line()),
                          fmt::format("{:.3g}", 1e6 * visibility_seconds_per_line(s)),
                          fmt::format("{:.3f}", scene.work_one_by_one.parts),
                          fmt::format("{:.3f}", scene.parts_together)});
@@ -172,8 +170,7 @@ Results numbers_of(const LineVisibilityResult& result) {
         const LineByLineWork& w = scene.one_by_one;
         one_by_one.rows.push_back(
             {scene.scene, w.counts.lines, scene.work_one_by_one.box_tests, scene.work.box_tests,
-             scene.work_one_by_one.triangle_tests, scene.work.triangle_tests,
-             w.seconds / static_cast<double>(std::max<std::uint64_t>(w.counts.lines, 1)),
+             scene.work_one_by_one.triangle_tests, scene.work.triangle_tests, w.seconds_per_line(),
              visibility_seconds_per_line(s), scene.work_one_by_one.parts, scene.parts_together});
     }
     return {result.experiment->name,

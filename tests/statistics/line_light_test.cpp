@@ -196,7 +196,7 @@ private:
         return nusselt::make_polygon<4>(vertices, 4);
     }
     static Surface surface(double roughness, bool is_metal) {
-        static const ShippedTable table;
+        static const ShippedTable table("ltc-frostbite.bin");
         const Direction albedo = is_metal ? Direction{0, 0, 0} : Direction{0.5, 0.5, 0.5};
         const Direction f0 = is_metal ? Direction{1, 1, 1} : Direction{0.04, 0.04, 0.04};
         return nusselt::make_glossy_surface<double>(std::cos(0.9), albedo, f0, roughness, table.view());

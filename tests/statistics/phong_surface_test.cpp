@@ -1,13 +1,8 @@
 /// Phong surfaces with the shipped table of lobes: the light that lines and points find against quadrature of the textbook
 /// formula.
 
-#include "common/source_folder.h"
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -16,8 +11,9 @@
 #include <nusselt/estimate/direct_light.h>
 #include <nusselt/estimate/line_light.h>
 #include <nusselt/estimate/strategies.h>
-#include <nusselt/ltc/table_file.h>
 #include <nusselt/random/light_random.h>
+
+#include "shipped_table.h"
 
 namespace nusselt_test {
 namespace {
@@ -38,27 +34,8 @@ using Light = ConvexPolygon<double, 4>;
 constexpr double kDiffuse = 0.3;
 constexpr double kSpecular = 0.6;
 
-class PhongTable {
-public:
-    PhongTable() {
-        const auto path = std::filesystem::path(nusselt_test::kSourceFolder) / "data" / "ltc-phong.bin";
-        std::ifstream stream(path, std::ios::binary);
-        const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-        const auto file = nusselt::open_ltc_table(bytes.data(), bytes.size());
-        EXPECT_EQ(file.problem, nullptr);
-        entries_.resize(file.entries());
-        file.decode(entries_.data());
-        view_ = {entries_.data(), file.roughnesses, file.inclinations, file.f0s};
-    }
-    const nusselt::LtcTableView& view() const { return view_; }
-
-private:
-    std::vector<float> entries_;
-    nusselt::LtcTableView view_{};
-};
-
 Surface surface(double inclination, double exponent) {
-    static const PhongTable table;
+    static const ShippedTable table("ltc-phong.bin");
     return nusselt::make_phong_surface<double>(std::cos(inclination), {kDiffuse, kDiffuse, kDiffuse},
                                                {kSpecular, kSpecular, kSpecular}, exponent, table.view());
 }

@@ -2,45 +2,20 @@
 /// Partly shadowed lights over glossy surfaces, and the light that the surfaces reflect, by quadrature.
 
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <nusselt/estimate/direct_light.h>
-#include <nusselt/ltc/table_file.h>
 
-#include "common/source_folder.h"
 #include "geometry/adaptive_quadrature.h"
 #include "geometry/cylinder_reference.h"
 #include "sampling/lights.h"
+#include "shipped_table.h"
 
 namespace nusselt_test {
 
 using Direction = nusselt::Vec3<double>;
 using Surface = nusselt::GlossySurface<double>;
-
-/// The table that ships with the library.
-class ShippedTable {
-public:
-    ShippedTable() {
-        const auto path = std::filesystem::path(nusselt_test::kSourceFolder) / "data" / "ltc-frostbite.bin";
-        std::ifstream stream(path, std::ios::binary);
-        const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-        const auto file = nusselt::open_ltc_table(bytes.data(), bytes.size());
-        if (file.problem != nullptr) throw std::runtime_error(file.problem);
-        entries_.resize(file.entries());
-        file.decode(entries_.data());
-        view_ = {entries_.data(), file.roughnesses, file.inclinations, file.f0s};
-    }
-    const nusselt::LtcTableView& view() const { return view_; }
-
-private:
-    std::vector<float> entries_;
-    nusselt::LtcTableView view_{};
-};
 
 struct NamedSurface {
     std::string name;
@@ -49,7 +24,7 @@ struct NamedSurface {
 
 /// Plastic and metal, seen from the normal to almost the horizon.
 inline std::vector<NamedSurface> surfaces(const std::vector<double>& roughnesses) {
-    static const ShippedTable table;
+    static const ShippedTable table("ltc-frostbite.bin");
     std::vector<NamedSurface> list;
     for (const double roughness : roughnesses) {
         for (const double inclination : {0.0, 1.0, 1.5}) {

@@ -170,12 +170,10 @@ void setup_bench_gpu_frames(CLI::App& bench, int& exit_code) {
     const auto options = std::make_shared<BenchGpuFramesOptions>();
     CLI::App* command = bench.add_subcommand(
         "gpu",
-        "Cost of frames on a GPU. Prints the times of the visibility pass and of the shading pass "
-        "with each technique "
-        "and strategy, two samples of each per pixel in one frame; the time of one more sample of each "
-        "light (Peters "
-        "2021, linear lights, Sec. 5.4); ratios between the two ways of sampling materials "
-        "that Peters (2021, polygonal lights, Fig. 1) compares; and where a scene has a tube, the "
+        "Cost of frames on a GPU. Prints the times of the visibility pass and of the shading pass with each "
+        "technique and strategy, two samples of each per pixel in one frame; the time of one more sample of "
+        "each light (Peters 2021, linear lights, Sec. 5.4); ratios between the two ways of sampling "
+        "materials that Peters (2021, polygonal lights, Fig. 1) compares; and where a scene has a tube, the "
         "ratio between analytic shading of a line and of a quad in its place (Heitz and Hill 2017, "
         "Sec. 1.7).");
     add_scenes_options(*command, options->scenes, options->scene_folder);

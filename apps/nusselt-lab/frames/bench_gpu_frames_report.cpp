@@ -70,8 +70,7 @@ void print_comparisons(const std::vector<GpuFrameComparison>& comparisons) {
 void print_sample_times(const std::vector<GpuSampleTime>& times) {
     if (times.empty()) return;
     fmt::print("\nOne more sample per pixel and light takes this many ms more; in a frame of 1920 x 1080 "
-               "pixels with "
-               "one light of the paper, {}.\n{:<24}{:<8}{:<56}{:>8}{:>8}\n",
+               "pixels with one light of the paper, {}.\n{:<24}{:<8}{:<56}{:>8}{:>8}\n",
                1e3 * lab::kPublishedSampleTime, "scene", "shadows", "of", "lights", "frame");
     for (const GpuSampleTime& time : times)
         fmt::print("{:<24}{:<8}{:<56}{:>8}{:>8.3f}\n", time.scene, name_of(time.shadow_rays), time.settings,
