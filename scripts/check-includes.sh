@@ -22,6 +22,8 @@ BEGIN {
     allow("include/line_samples", below " include/sampling")
     allow("include/related", below " include/sampling include/line_samples")
     below = below " include/sampling include/line_samples include/related"
+    allow("include/emission", "include/core include/geometry include/ltc include/sampling include/simd")
+    below = below " include/emission"
     allow("include/estimate", below)
     allow("include/all", below " include/estimate")
 
