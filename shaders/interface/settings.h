@@ -37,6 +37,10 @@ const int kStrategiesDiffuseGgx = 2;
 const int kStrategiesDiffuseGgxBounded = 3;
 const int kStrategiesCount = 4;
 
+const int kEmissionSamplingProduct = 0;
+const int kEmissionSamplingMeasure = 1;
+const int kEmissionSamplingCount = 2;
+
 const int kMisBalance = 0;
 const int kMisPower = 1;
 const int kMisWeightedBalance = 2;

@@ -60,6 +60,7 @@ void check_values(const RenderSettings& settings) {
     check_value("choice for many occluders", settings.lines.many_occluders);
     check_value("technique", settings.technique);
     check_value("strategies", settings.strategies);
+    check_value("emission sampling", settings.emission_sampling);
     check_value("heuristic of multiple importance sampling", settings.mis);
     check_value("pixel position", settings.pixel_position);
     check_value("sampler", settings.sample_order);

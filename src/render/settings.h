@@ -58,6 +58,23 @@ inline constexpr auto kNames<Strategies> = std::to_array<Named<Strategies>>({
 inline constexpr auto kStrategies = values_of(kNames<Strategies>);
 static_assert(kStrategies.size() == interface::kStrategiesCount);
 
+/// What samples of lights whose radiance varies, such as those with a texture, are proportional to.
+enum class EmissionSampling : std::uint32_t {
+    /// Radiance times the measure of Technique::projected_solid_angle, and of linearly transformed cosines for the specular
+    /// component. Other techniques do not know the radiance.
+    product = interface::kEmissionSamplingProduct,
+    measure =
+        interface::kEmissionSamplingMeasure, ///< the measure alone (Peters 2021, polygonal lights, Sec. 6.5)
+};
+
+template <>
+inline constexpr auto kNames<EmissionSampling> = std::to_array<Named<EmissionSampling>>({
+    {EmissionSampling::product, "product"},
+    {EmissionSampling::measure, "measure"},
+});
+inline constexpr auto kEmissionSamplings = values_of(kNames<EmissionSampling>);
+static_assert(kEmissionSamplings.size() == interface::kEmissionSamplingCount);
+
 /// Heuristics that combine samples of several techniques; see nusselt/estimate/mis.h.
 enum class Mis : std::uint32_t {
     balance = interface::kMisBalance,
@@ -251,6 +268,7 @@ struct RenderSettings {
     LineSettings lines; ///< for LightSamples::lines
     Technique technique = Technique::projected_solid_angle;
     Strategies strategies = Strategies::diffuse;
+    EmissionSampling emission_sampling = EmissionSampling::product;
     Mis mis = Mis::clamped_optimal;
     float visibility_estimate = 0.5f; ///< for Mis::clamped_optimal and optimal, in [0, 1]
     int samples = 1;                  ///< per pixel, light and technique, 1 to kMaxSamples

@@ -66,7 +66,7 @@ struct LitPacket {};
 using AddLight = void (*)(LitPacket& packet, const LightSet& lights, std::int32_t index) noexcept;
 
 /// The largest number of shapes of one kind of light. Each shape has its own code.
-inline constexpr int kMostShapes = 2;
+inline constexpr int kMostShapes = 4;
 
 /// The code for a kind of light, compiled for one instruction set.
 struct LightCode {
@@ -160,6 +160,7 @@ struct RenderJob {
     std::uint32_t points_in_place_of_lines;
     Technique technique;
     Strategies strategies;
+    EmissionSampling emission_sampling;
     Mis mis;
     float visibility_estimate;
     SampleOrder sample_order;

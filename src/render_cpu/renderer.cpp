@@ -243,6 +243,7 @@ RenderStatistics Renderer::render_into(Frame& frame, const RenderSettings& setti
     job.most_occluders = most_occluders_for_lines(settings.lines.count);
     job.technique = settings.technique;
     job.strategies = settings.strategies;
+    job.emission_sampling = settings.emission_sampling;
     job.mis = settings.mis;
     job.visibility_estimate = settings.visibility_estimate;
     job.sample_order = settings.sample_order;

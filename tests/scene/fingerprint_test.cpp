@@ -24,7 +24,7 @@ Scene make_scene() {
     scene.materials = {{}};
     scene.textures = {{"wood.png", 1, 1, {0.1f, 0.2f, 0.3f}}};
     scene.emitters = {{"lamp"}, {"tube"}};
-    scene.lights.of<PolygonLight>() = {{0, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}, {1, 1, 1}, false}};
+    scene.lights.of<PolygonLight>() = {{0, -1, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}, {1, 1, 1}, false}};
     scene.lights.of<LineLight>() = {{1, {0, 0, 1}, {1, 0, 1}, 0.1f, {2, 2, 2}, TubeModel::solid}};
     return scene;
 }

@@ -23,6 +23,7 @@ struct RenderOptions {
     std::optional<int> samples;                  ///< default: what the scene asks for, or 1
     std::string technique = "projected_solid_angle";
     std::optional<std::string> strategies;
+    std::optional<std::string> emission_sampling;
     std::optional<std::string> mis;
     std::optional<float> visibility_estimate;
     std::string sampler = "sobol";

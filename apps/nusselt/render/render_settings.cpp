@@ -106,6 +106,13 @@ void add_sampling_options(CLI::App& command, RenderOptions& options) {
         ->group(kSamplingGroup);
     command
         .add_option(
+            "--emission-sampling", options.emission_sampling,
+            "What samples of lights with a texture are proportional to: product, radiance times cosine or "
+            "lobe; measure, that of --technique alone")
+        ->transform(to_one_of(names_of(render::kEmissionSamplings)))
+        ->group(kSamplingGroup);
+    command
+        .add_option(
             "--mis", options.mis,
             "How to combine the samples of two techniques: by a heuristic of multiple importance sampling, "
             "by one sample of either technique, or by separate estimates of the components")
@@ -147,6 +154,8 @@ render::RenderSettings make_settings(const RenderOptions& options) {
     settings.technique = from_name(render::kTechniques, options.technique);
     settings.brdf = from_name(render::kBrdfChoices, options.brdf);
     settings.strategies = strategies_of(options, settings.technique, settings.brdf);
+    if (options.emission_sampling)
+        settings.emission_sampling = from_name(render::kEmissionSamplings, *options.emission_sampling);
     settings.mis = mis_of(options, settings.strategies);
     if (options.visibility_estimate) settings.visibility_estimate = *options.visibility_estimate;
     settings.sample_order = from_name(render::kSampleOrders, options.sampler);

@@ -8,7 +8,7 @@
 
 namespace nusselt::app {
 
-/// Adds --technique, --strategies, --mis, --visibility-estimate, --sampler, --brdf and --seed.
+/// Adds --technique, --strategies, --emission-sampling, --mis, --visibility-estimate, --sampler, --brdf and --seed.
 void add_sampling_options(CLI::App& command, RenderOptions& options);
 
 /// \throws std::invalid_argument for values that the command line does not let through

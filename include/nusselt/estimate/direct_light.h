@@ -23,6 +23,42 @@ struct DirectLightSample {
     Vec3<Real> constant; ///< zero except for OptimalHeuristic
 };
 
+/// What heuristics need to know about a sample.
+/// \param pdf densities of the diffuse and the specular technique at the sample, counted where it was drawn.
+template <class Real, class Brdf>
+NUSSELT_HD inline MisSample<Real, 2> mis_sample(const GlossySurface<Real, Brdf>& surface,
+                                                const LightSample<Real>& s, const Vec2<Real>& pdf) noexcept {
+    // NaN, which no technique should return, counts as drawn, so that it is noticed.
+    const auto drawn = s.pdf != Real(0);
+    const auto above = drawn & (s.wi.z > Real(0));
+    const BrdfComponents<Real> brdf = surface.brdf.eval_components(s.wi);
+    const Real cosine = select(above, s.wi.z, Real(0));
+    const Vec3<Real> zero{Real(0), Real(0), Real(0)};
+    // Densities are those that samples really have, below the surface too: OptimalHeuristic counts on it.
+    return {{select(drawn, pdf.x, Real(0)), select(drawn & surface.is_glossy(), pdf.y, Real(0))},
+            {select(above, cosine * brdf.diffuse, zero), select(above, cosine * brdf.specular, zero)}};
+}
+
+/// A sample with the estimate of a heuristic.
+template <class Real>
+NUSSELT_HD inline DirectLightSample<Real> direct_light_sample(const LightSample<Real>& s,
+                                                              const MisEstimate<Real>& estimate) noexcept {
+    // At a line that almost meets the point this overflows, and infinity times no visibility is NaN.
+    const auto limited = [](const Real& x) {
+        const auto most = Real(std::numeric_limits<scalar_t<Real>>::max());
+        return select(x > most, Real(0), x);
+    };
+    const Vec3<Real>& f = estimate.shadowed;
+    return {s.wi, s.p, {limited(f.x), limited(f.y), limited(f.z)}, estimate.constant};
+}
+
+/// The diffuse albedo for coefficients of heuristics, see kSmallestDiffuseAlbedo.
+template <class Real>
+NUSSELT_HD inline Vec3<Real> albedo_for_mis(const Vec3<Real>& diffuse_albedo) noexcept {
+    const auto least = Real(scalar_t<Real>(kSmallestDiffuseAlbedo));
+    return max(diffuse_albedo, Vec3<Real>{least, least, least});
+}
+
 /// One light at one surface point: techniques for both components, whose samples any heuristic can combine.
 ///
 /// Estimates are unbiased for all heuristics, unless a technique of the pair is biased itself: the technique for the
@@ -48,10 +84,8 @@ public:
           diffuse_(Strategies::diffuse(light, surface)),
           specular_(Strategies::specular(light, surface)) {
         is_glossy_ = surface.is_glossy();
-        const auto least = Real(scalar_t<Real>(kSmallestDiffuseAlbedo));
-        const Vec3<Real> clamped = max(surface.diffuse_albedo, Vec3<Real>{least, least, least});
         techniques_ = {{diffuse_samples, specular_samples},
-                       {Strategies::diffuse_integral(diffuse_) * clamped,
+                       {Strategies::diffuse_integral(diffuse_) * albedo_for_mis(surface.diffuse_albedo),
                         Strategies::specular_integral(specular_) * surface.specular_albedo}};
     }
 
@@ -61,7 +95,7 @@ public:
     NUSSELT_HD DirectLightSample<Real> sample_diffuse(const Heuristic& heuristic,
                                                       const Vec2<Real>& u) const noexcept {
         const LightSample<Real> s = draw(diffuse_, u);
-        return combined(s, heuristic.template estimate<0>(techniques_, densities_at(s)));
+        return direct_light_sample(s, heuristic.template estimate<0>(techniques_, densities_at(s)));
     }
 
     /// A sample of the technique for the specular component; none where the surface is not glossy.
@@ -70,7 +104,7 @@ public:
     NUSSELT_HD DirectLightSample<Real> sample_specular(const Heuristic& heuristic,
                                                        const Vec2<Real>& u) const noexcept {
         const LightSample<Real> s = draw_specular(u);
-        return combined(s, heuristic.template estimate<1>(techniques_, densities_at(s)));
+        return direct_light_sample(s, heuristic.template estimate<1>(techniques_, densities_at(s)));
     }
 
     /// A sample of either technique, chosen at random: an estimate by itself.
@@ -87,7 +121,7 @@ public:
             s.p = select(decision.chosen[1], other.p, s.p);
             s.pdf = select(decision.chosen[1], other.pdf, s.pdf);
         }
-        return combined(s, choice.estimate(densities_at(s)));
+        return direct_light_sample(s, choice.estimate(densities_at(s)));
     }
 
 private:
@@ -97,29 +131,8 @@ private:
         return s;
     }
 
-    /// Densities and components at a sample.
     NUSSELT_HD MisSample<Real, 2> densities_at(const LightSample<Real>& s) const noexcept {
-        // NaN, which no technique should return, counts as drawn, so that it is noticed.
-        const auto drawn = s.pdf != Real(0);
-        const auto above = drawn & (s.wi.z > Real(0));
-        const BrdfComponents<Real> brdf = surface_.brdf.eval_components(s.wi);
-        const Real cosine = select(above, s.wi.z, Real(0));
-        const Vec3<Real> zero{Real(0), Real(0), Real(0)};
-        // Densities are those that samples really have, below the surface too: OptimalHeuristic counts on it.
-        return {{select(drawn, diffuse_.pdf(s.wi), Real(0)),
-                 select(drawn & is_glossy_, specular_.pdf(s.wi), Real(0))},
-                {select(above, cosine * brdf.diffuse, zero), select(above, cosine * brdf.specular, zero)}};
-    }
-
-    NUSSELT_HD static DirectLightSample<Real> combined(const LightSample<Real>& s,
-                                                       const MisEstimate<Real>& estimate) noexcept {
-        // At a line that almost meets the point this overflows, and infinity times no visibility is NaN.
-        const auto limited = [](const Real& x) {
-            const auto most = Real(std::numeric_limits<scalar_t<Real>>::max());
-            return select(x > most, Real(0), x);
-        };
-        const Vec3<Real>& f = estimate.shadowed;
-        return {s.wi, s.p, {limited(f.x), limited(f.y), limited(f.z)}, estimate.constant};
+        return mis_sample(surface_, s, {diffuse_.pdf(s.wi), specular_.pdf(s.wi)});
     }
 
     const Surface& surface_;

@@ -3,7 +3,7 @@
 ///
 /// A kind of light is described by a type `Light` for each of its shapes, with
 ///
-///     using Shape: the light in shading space; with a member is_dark(wi) if not all of it shines;
+///     using Shape: the light in shading space; with a member modulate(surface, sample) if its radiance varies;
 ///     static LocalLight<Shape> local(reflected, lights, index): one of the lights as a packet of shading points sees it;
 ///     static technique(TechniqueTag<...>, shape): the technique of each setting but the analytic one;
 /// static LobeIntegrals integrals(shape, lobe): in closed form. Kinds without this function are sampled.

@@ -29,14 +29,11 @@ struct LocalLight {
     std::uint32_t number; ///< among all lights of the scene
 };
 
-/// The lanes in which a direction meets a part of the light that does not shine. A shape with such parts tells by a member
-/// `is_dark`. Samples there count like those in shadow.
+/// Dims a sample to what the light emits at its point. A shape whose radiance is not the same everywhere does so by a member
+/// `modulate`; a sample that meets a dark part counts like one in shadow.
 template <class Shape>
-LaneMask is_dark(const Shape& shape, const Vector& wi) noexcept {
-    if constexpr (requires { shape.is_dark(wi); })
-        return shape.is_dark(wi);
-    else
-        return LaneMask(false);
+void modulate(const Shape& shape, const Surface& surface, DirectLightSample<Real>& sample) noexcept {
+    if constexpr (requires { shape.modulate(surface, sample); }) shape.modulate(surface, sample);
 }
 
 /// The sum of the samples of one light.
@@ -110,6 +107,9 @@ public:
         add_for(light, light.lit, scale * light.emission, {sum.all.sum, sum.diffuse.sum});
     }
 
+    /// The number after that of the last sample of add().
+    std::uint32_t sample_end() const noexcept { return (camera_ray_ + 1) * samples_per_light_; }
+
     /// Adds reflected radiance that is known without samples.
     /// \param reflected for an emission of 1
     template <class Shape>
@@ -152,8 +152,7 @@ public:
     template <class Shape>
     void add_sample(const Shape& shape, LaneMask drawn, DirectLightSample<Real> sample,
                     SampleSum& sum) noexcept {
-        const Vector zero{Real(0), Real(0), Real(0)};
-        sample.shadowed = select(is_dark(shape, sample.wi), zero, sample.shadowed);
+        modulate(shape, surface_, sample);
         add_sample(drawn, sample, sum);
     }
 

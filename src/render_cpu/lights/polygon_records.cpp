@@ -1,6 +1,7 @@
 #include "render_cpu/lights/polygon_records.h"
 
 #include "render_cpu/lights/float_count.h"
+#include "render_cpu/lights/polygon_textures.h"
 #include "scene/model/library_vector.h"
 #include "scene/model/scene.h"
 
@@ -20,6 +21,7 @@ std::int32_t slots_of(const scene::PolygonLight& light) { return light.vertices.
 struct PolygonArrays {
     std::vector<PolygonRecord> lights;
     std::vector<scene::Float3> corners;
+    PolygonTextures textures;
     PolygonRecords view{};
 };
 
@@ -50,6 +52,7 @@ PolygonRecord make_record(const scene::Scene& scene, const scene::PolygonLight& 
         add_corners<8>(light.vertices, record, all_corners);
     record.radiance = light.radiance;
     record.two_sided = light.two_sided ? 1 : 0;
+    record.texture = -1;
     return record;
 }
 
@@ -65,9 +68,11 @@ std::shared_ptr<const void> make_polygon_records(const scene::Scene& scene, cons
     const auto arrays = std::make_shared<PolygonArrays>();
     arrays->corners.reserve(corners);
     arrays->lights.reserve(polygons->lights.size());
-    for (const scene::PolygonLight& light : polygons->lights)
+    for (const scene::PolygonLight& light : polygons->lights) {
         arrays->lights.push_back(make_record(scene, light, arrays->corners));
-    arrays->view = {arrays->lights.data(), arrays->corners.data()};
+        if (light.texture >= 0) arrays->lights.back().texture = arrays->textures.add(scene, light);
+    }
+    arrays->view = {arrays->lights.data(), arrays->corners.data(), arrays->textures.records()};
     return {arrays, &arrays->view};
 }
 

@@ -8,6 +8,19 @@
 
 namespace nusselt::render_cpu {
 
+/// Columns and rows of the lattice of cells over a textured light.
+inline constexpr int kTextureCells = 16;
+
+/// The texture of a polygon.
+struct PolygonTexture {
+    // A TexturePlane<float> in world space.
+    scene::Float3 corner, side_x, side_y, normal;
+    const scene::Float3* radiance; ///< texels [W/(sr m^2)], as TextureView<float>
+    std::int32_t width, height;
+    scene::Float3 inverse_mean; ///< of the radiance; 0 for channels that are black everywhere
+    const void* cells;          ///< a TexturedLight<float, kTextureCells>
+};
+
 /// A polygon in the form of ConvexPolygon<float, 4> or <float, 8>. Its vertices and then its edges are in
 /// PolygonRecords::corners.
 struct PolygonRecord {
@@ -16,11 +29,13 @@ struct PolygonRecord {
     std::uint32_t first_corner;
     std::int32_t slots; ///< room for vertices, and for as many edges: 4 or 8
     std::int32_t two_sided;
+    std::int32_t texture; ///< index into PolygonRecords::textures, -1 for none
 };
 
 struct PolygonRecords {
     const PolygonRecord* lights;
     const scene::Float3* corners;
+    const PolygonTexture* textures;
 };
 
 /// Makes PolygonRecords, see LightKernel. Fails if a polygon has fewer than 3 vertices, or if the scene has more polygons

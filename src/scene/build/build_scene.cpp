@@ -159,6 +159,7 @@ void take_shapes(BuiltShape&& shapes, const std::filesystem::path& path, Scene& 
     scene.triangle_material = std::move(shapes.triangle_material);
     replace_missing_materials(scene.triangle_material, scene.materials);
     scene.lights.append(std::move(shapes.lights));
+    scene.emission_textures = std::move(shapes.emission_textures);
 }
 
 /// Adds the objects that have triangles, and their instances.

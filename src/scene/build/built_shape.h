@@ -23,7 +23,8 @@ struct BuiltShape : Mesh {
     /// Empty, or for each triangle the index of a SurfaceLight among those of these shapes, -1 for none.
     std::vector<std::int32_t> triangle_light;
     std::vector<std::uint32_t> triangle_material; ///< for each triangle ShapeDescription::material
-    Lights lights;                                ///< with indices into `emitters`
+    Lights lights;                                ///< with indices into `emitters` and `emission_textures`
+    std::vector<TexturedEmission> emission_textures;
     std::vector<EmitterOrigin> emitters;
     std::optional<Location> first_degenerate; ///< the first shape with degenerate triangles
     std::size_t round_shapes = 0;             ///< see is_round()

@@ -1,5 +1,7 @@
 #include "scene/build/emission.h"
 
+#include "scene/build/textures/emission_images.h"
+#include "scene/colour/colour_space.h"
 #include "scene/model/limits.h"
 #include "scene/model/vector_math.h"
 
@@ -22,6 +24,17 @@ Float3 radiance_of(const Emission& emission, double area, std::string_view subje
         to_float((*emission.power / (sides * std::numbers::pi * area)) * to_double(emission.radiance));
     check_radiance(radiance, subject, location);
     return radiance;
+}
+
+Emission without_texture(const Emission& emission) {
+    Emission result = emission;
+    result.texture = nullptr;
+    if (emission.texture == nullptr) return result;
+    const Float3 mean = mean_texel(*emission.texture);
+    result.radiance = product(emission.radiance, mean);
+    if (const double brightness = luminance(to_double(mean)); emission.power && brightness > 0)
+        result.power = *emission.power / brightness;
+    return result;
 }
 
 } // namespace nusselt::scene

@@ -4,16 +4,20 @@
 #include "scene/input/diagnostics.h"
 #include "scene/model/scene.h"
 
+#include <memory>
 #include <optional>
 #include <string_view>
 
 namespace nusselt::scene {
 
 struct Emission {
-    Float3 radiance = {0, 0, 0}; ///< to be scaled to `power`, if there is one
+    Float3 radiance = {
+        0, 0, 0}; ///< of a texel of 1 if there is a texture; to be scaled to `power`, if there is one
     bool two_sided = false;
-    /// The total power of each shape if the luminance of `radiance` were one [W].
-    std::optional<double> power;
+    /// The total power of each shape if the luminance of `radiance` were one [W]. With a texture, the total power whatever the
+    /// brightness of the texture.
+    std::optional<double> power = {};
+    std::shared_ptr<const EmissionTexture> texture = {}; ///< null for uniform radiance
 };
 
 /// Throws SceneError at `location` unless all channels are from 0 to kMaxRadiance.
@@ -22,7 +26,11 @@ void check_radiance(const Float3& radiance, std::string_view subject, const Loca
 
 /// The radiance of a shape of this area [m^2], which counts one side even if both emit. Throws SceneError at
 /// `location` if the radiance is above kMaxRadiance.
+/// \param area     with a texture, times the mean luminance of its texels
 /// \param subject  what the format calls the emission
 Float3 radiance_of(const Emission& emission, double area, std::string_view subject, const Location& location);
+
+/// The same emission with the mean of the texture everywhere.
+Emission without_texture(const Emission& emission);
 
 } // namespace nusselt::scene

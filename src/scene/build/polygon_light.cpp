@@ -1,6 +1,7 @@
 #include "scene/build/polygon_light.h"
 
 #include "scene/build/polygons/polygon_merge.h"
+#include "scene/build/textured_light.h"
 #include "scene/model/vector_math.h"
 
 #include <utility>
@@ -26,17 +27,30 @@ void orient_by_shading_normals(Mesh& mesh) {
     }
 }
 
-} // namespace
-
-void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words, BuiltShape& built) {
-    orient_by_shading_normals(built);
-    const Float3 radiance = radiance_of(shape.emission, area(built), words.emission, shape.origin);
-    PolygonPartition partition = merge_coplanar_triangles(built.positions, built.triangles);
+void add_uniform_polygons(const ShapeDescription& shape, const FormatWords& words,
+                          PolygonPartition&& partition, BuiltShape& built) {
+    if (shape.emission.texture != nullptr)
+        built.warnings.add(shape.origin, "image without texture coordinates",
+                           subject_of(shape) +
+                               ": without texture coordinates, the mean colour of the image is emitted");
+    const Emission emission = without_texture(shape.emission);
+    const Float3 radiance = radiance_of(emission, area(built), words.emission, shape.origin);
     built.triangle_light = std::move(partition.polygon_of_triangle);
     std::vector<PolygonLight>& lights = built.lights.of<PolygonLight>();
     lights.reserve(partition.polygons.size());
     for (PolygonVertices& polygon : partition.polygons)
-        lights.push_back({0, std::move(polygon), radiance, shape.emission.two_sided});
+        lights.push_back({0, -1, std::move(polygon), radiance, shape.emission.two_sided});
+}
+
+} // namespace
+
+void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words, BuiltShape& built) {
+    orient_by_shading_normals(built);
+    PolygonPartition partition = merge_coplanar_triangles(built.positions, built.triangles);
+    if (shape.emission.texture != nullptr && !built.uvs.empty())
+        add_textured_polygons(shape, words, std::move(partition), built);
+    else
+        add_uniform_polygons(shape, words, std::move(partition), built);
     if (!shape.is_invisible) return;
     built.positions = {};
     built.normals = {};

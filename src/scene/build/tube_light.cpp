@@ -93,8 +93,11 @@ BuiltShape build_tube(const PlacedShape& placed, const FormatWords& words) {
         built.warnings.add(shape.origin, subject_of(shape) + ": skipped because it does not emit light");
         return built;
     }
-    Emission outwards = shape.emission;
+    Emission outwards = without_texture(shape.emission);
     outwards.two_sided = false;
+    if (shape.emission.texture != nullptr)
+        built.warnings.add(shape.origin, "texture of tube",
+                           subject_of(shape) + ": the image is replaced by its mean colour on tubes");
     light.radiance = radiance_of(outwards, area(light), words.emission, shape.origin);
     built.lights.of<LineLight>() = {light};
     return built;

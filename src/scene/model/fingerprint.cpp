@@ -76,6 +76,13 @@ public:
         }
     }
 
+    void add(const TexturedEmission& emission) {
+        const auto& [texture, coordinates, mean] = emission;
+        const auto& [name, width, height, texels] = *texture;
+        add_all(width, height, texels, mean);
+        for (const Float2& at : coordinates) add(at);
+    }
+
     void add(const Object& object) {
         const auto& [name, first_triangle, triangle_count] = object;
         add_all(first_triangle, triangle_count);
@@ -108,10 +115,10 @@ public:
 
     void add(const Scene& scene) {
         const auto& [positions, normals, uvs, triangles, triangle_material, triangle_light, objects,
-                     instances, materials, textures, emitters, lights, camera, film, files, warnings,
-                     radius] = scene;
+                     instances, materials, textures, emitters, lights, emission_textures, camera, film, files,
+                     warnings, radius] = scene;
         add_all(positions, normals, uvs, triangles, triangle_material, triangle_light, objects, instances,
-                materials, textures, emitters, lights, camera, film, radius);
+                materials, textures, emitters, lights, emission_textures, camera, film, radius);
     }
 
 private:

@@ -5,6 +5,7 @@
 
 #include "scene/model/float3.h"
 #include "scene/model/lights/light_kinds.h"
+#include "scene/model/lights/textured_emission.h"
 
 #include <array>
 #include <cstddef>
@@ -165,7 +166,8 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Texture> textures;
     std::vector<Emitter> emitters;
-    Lights lights = no_lights_of_each_kind(); ///< lights of a kind are in the order of their emitters
+    Lights lights = no_lights_of_each_kind();        ///< lights of a kind are in the order of their emitters
+    std::vector<TexturedEmission> emission_textures; ///< of polygonal lights
     Camera camera;
     Film film;
 

@@ -32,6 +32,9 @@ inline Double3 normalized(const Double3& v) {
     return l > 0 ? (1 / l) * v : v;
 }
 
+/// Of two colours, per channel.
+inline Float3 product(const Float3& a, const Float3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
 inline bool is_black(const Float3& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
 /// The largest coordinate that ray tracing supports [m]. Embree asserts above 1.8e18.

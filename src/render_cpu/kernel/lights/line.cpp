@@ -72,8 +72,10 @@ struct LinearLight {
 struct Tube : Cylinder<Real> {
     scene::TubeModel model;
 
-    LaneMask is_dark(const Vector& wi) const noexcept {
-        return model == scene::TubeModel::open ? meets_cap(*this, wi) : LaneMask(false);
+    void modulate(const Surface& /*surface*/, DirectLightSample<Real>& sample) const noexcept {
+        if (model != scene::TubeModel::open) return;
+        const Vector zero{Real(0), Real(0), Real(0)};
+        sample.shadowed = select(meets_cap(*this, sample.wi), zero, sample.shadowed);
     }
 
     /// The integral over the tube as Heitz and Hill approximate it: its caps are small disks.

@@ -8,17 +8,33 @@ void choose(const render_cpu::RenderJob& job, render_cpu::AddLight (&add)[render
     const bool has_lines = job.light_samples == render::LightSamples::lines;
     add[0] = has_lines ? polygon_lines<4>() : polygon_points<4>(job);
     add[1] = has_lines ? polygon_lines<8>() : polygon_points<8>(job);
+    add[2] = textured_points<4>(job);
+    add[3] = textured_points<8>(job);
 }
 
 std::int32_t shape_of(const render_cpu::LightSet& lights, std::int32_t index) noexcept {
-    return polygon_record(lights, index).slots == 4 ? 0 : 1;
+    const render_cpu::PolygonRecord& record = polygon_record(lights, index);
+    return (record.slots == 4 ? 0 : 1) + (record.texture < 0 ? 0 : 2);
 }
 
-scene::Float3 emission(const render_cpu::LightSet& lights, std::int32_t index,
-                       const scene::Float3& /*origin*/, const scene::Float3& direction) noexcept {
+/// The radiance where a ray meets the plane of a texture.
+scene::Float3 radiance_along(const render_cpu::PolygonTexture& texture, const Vec3<float>& origin,
+                             const Vec3<float>& direction) noexcept {
+    TexturePlane<float> plane = plane_of(texture);
+    plane.corner = plane.corner - origin;
+    const float distance = dot(plane.normal, plane.corner) / dot(plane.normal, direction);
+    const Vec2<float> at = TextureCoordinates<float>(plane)(distance * direction);
+    const Vec3<float> radiance = radiance_at(texture, {at.x > 0 ? at.x : 0, at.y > 0 ? at.y : 0});
+    return {radiance.x, radiance.y, radiance.z};
+}
+
+scene::Float3 emission(const render_cpu::LightSet& lights, std::int32_t index, const scene::Float3& origin,
+                       const scene::Float3& direction) noexcept {
     const render_cpu::PolygonRecord& light = polygon_record(lights, index);
     const bool is_seen = light.two_sided != 0 || dot(to_vec(light.normal), to_vec(direction)) < 0;
-    return is_seen ? light.radiance : scene::Float3{0, 0, 0};
+    if (!is_seen) return {0, 0, 0};
+    const render_cpu::PolygonTexture* const texture = texture_of(lights, index);
+    return texture == nullptr ? light.radiance : radiance_along(*texture, to_vec(origin), to_vec(direction));
 }
 
 } // namespace

@@ -6,6 +6,8 @@
 #include "render_cpu/kernel/single_technique.h"
 #include "render_cpu/lights/polygon_records.h"
 
+#include <nusselt/emission/texture.h>
+#include <nusselt/emission/texture_plane.h>
 #include <nusselt/geometry/convex_polygon.h>
 #include <nusselt/ltc/polygon_shading.h>
 #include <nusselt/sampling/polygon_area.h>
@@ -20,10 +22,64 @@ inline const render_cpu::PolygonRecord& polygon_record(const render_cpu::LightSe
     return static_cast<const render_cpu::PolygonRecords*>(lights.records)->lights[index];
 }
 
+/// The texture of a light, null for uniform radiance.
+inline const render_cpu::PolygonTexture* texture_of(const render_cpu::LightSet& lights,
+                                                    std::int32_t index) noexcept {
+    const std::int32_t texture = polygon_record(lights, index).texture;
+    return texture < 0 ? nullptr
+                       : static_cast<const render_cpu::PolygonRecords*>(lights.records)->textures + texture;
+}
+
+inline TexturePlane<float> plane_of(const render_cpu::PolygonTexture& texture) noexcept {
+    return {to_vec(texture.corner), to_vec(texture.side_x), to_vec(texture.side_y), to_vec(texture.normal)};
+}
+
+/// The plane of a texture in shading space.
+inline TexturePlane<Real> local_plane(const render_cpu::PolygonTexture& texture,
+                                      const Surface& surface) noexcept {
+    const TexturePlane<float> plane = plane_of(texture);
+    const TexturePlane<Real> world{broadcast<Real>(plane.corner), broadcast<Real>(plane.side_x),
+                                   broadcast<Real>(plane.side_y), broadcast<Real>(plane.normal)};
+    return to_shading_space(world, surface.position, surface.frame);
+}
+
+/// Radiance at texture coordinates [W/(sr m^2)].
+inline Vec3<float> radiance_at(const render_cpu::PolygonTexture& texture, const Vec2<float>& at) noexcept {
+    static_assert(sizeof(Vec3<float>) == sizeof(scene::Float3));
+    const TextureView<float> view{reinterpret_cast<const Vec3<float>*>(texture.radiance), texture.width,
+                                  texture.height};
+    return BilinearFilter::lookup(view, at);
+}
+
+/// A polygon in shading space.
+template <int N>
+struct LocalPolygon : ConvexPolygon<Real, N> {
+    const render_cpu::PolygonTexture* texture; ///< null for uniform radiance
+
+    /// Multiplies a sample by the radiance at its point over the mean.
+    void modulate(const Surface& surface, DirectLightSample<Real>& sample) const noexcept {
+        if (texture == nullptr) return;
+        const Vec2<Real> at = TextureCoordinates<Real>(local_plane(*texture, surface))(sample.p);
+        Lanes radiance;
+        float x[kLanes];
+        float y[kLanes];
+        // Comparisons with NaN are false.
+        select(at.x > Real(0), at.x, Real(0)).store(x);
+        select(at.y > Real(0), at.y, Real(0)).store(y);
+        for (int i = 0; i < kLanes; ++i) {
+            const Vec3<float> value = radiance_at(*texture, {x[i], y[i]});
+            radiance.x[i] = value.x;
+            radiance.y[i] = value.y;
+            radiance.z[i] = value.z;
+        }
+        sample.shadowed = (broadcast<Real>(to_vec(texture->inverse_mean)) * load(radiance)) * sample.shadowed;
+    }
+};
+
 /// A kind of light as point_samples.h describes it.
 template <int N>
 struct PolygonLight {
-    using Shape = ConvexPolygon<Real, N>;
+    using Shape = LocalPolygon<N>;
     using Technique = render::Technique;
 
     /// In world space.
@@ -54,7 +110,10 @@ struct PolygonLight {
         Real highest = local.vertex[0].z;
         for (int j = 1; j < N; ++j) highest = max(highest, local.vertex[j].z);
         lit &= !(highest <= Real(0));
-        return {local, lit, broadcast<Real>(to_vec(record.radiance)), static_cast<std::uint32_t>(number)};
+        return {{local, texture_of(lights, index)},
+                lit,
+                broadcast<Real>(to_vec(record.radiance)),
+                static_cast<std::uint32_t>(number)};
     }
 
     static auto technique(TechniqueTag<Technique::area>, const Shape& shape) noexcept {
@@ -85,11 +144,18 @@ render_cpu::AddLight polygon_points(const render_cpu::RenderJob& job) noexcept;
 /// The function that takes lines in place of points.
 template <int N>
 render_cpu::AddLight polygon_lines() noexcept;
+/// The function that takes points of polygons with a texture as a job demands.
+template <int N>
+render_cpu::AddLight textured_points(const render_cpu::RenderJob& job) noexcept;
 
 template <>
 render_cpu::AddLight polygon_points<4>(const render_cpu::RenderJob& job) noexcept;
 template <>
 render_cpu::AddLight polygon_points<8>(const render_cpu::RenderJob& job) noexcept;
+template <>
+render_cpu::AddLight textured_points<4>(const render_cpu::RenderJob& job) noexcept;
+template <>
+render_cpu::AddLight textured_points<8>(const render_cpu::RenderJob& job) noexcept;
 template <>
 render_cpu::AddLight polygon_lines<4>() noexcept;
 template <>

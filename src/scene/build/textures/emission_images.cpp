@@ -2,27 +2,47 @@
 
 #include "scene/model/vector_math.h"
 
+#include <string>
+#include <utility>
+
 namespace nusselt::scene {
 
 namespace {
 
-Float3 mean_texel(const Texture& texture) {
-    Double3 sum;
+EmissionTexture take_texels(Texture texture) {
+    EmissionTexture result;
+    result.name = std::move(texture.name);
+    result.width = texture.width;
+    result.height = texture.height;
     const auto channels = static_cast<std::size_t>(texture.channels);
     const std::size_t green = channels > 1 ? 1 : 0;
+    result.texels.reserve(texture.texels.size() / channels);
     for (std::size_t i = 0; i + channels <= texture.texels.size(); i += channels)
-        sum = sum + Double3{texture.texels[i], texture.texels[i + green], texture.texels[i + 2 * green]};
-    return to_float((static_cast<double>(channels) / static_cast<double>(texture.texels.size())) * sum);
+        result.texels.push_back(
+            {texture.texels[i], texture.texels[i + green], texture.texels[i + 2 * green]});
+    return result;
 }
 
 } // namespace
 
-Float3 EmissionImages::mean_colour(const ImageRequest& request, SceneBudget& budget, Warnings& warnings) {
-    const auto known = mean_colours_.find(request.path);
-    if (known != mean_colours_.end()) return known->second;
-    const Float3 mean = mean_texel(decode_image(request, budget, warnings));
-    mean_colours_.emplace(request.path, mean);
-    return mean;
+std::shared_ptr<const EmissionTexture> EmissionImages::read(const ImageRequest& request, SceneBudget& budget,
+                                                            Warnings& warnings) {
+    std::shared_ptr<const EmissionTexture>& image = images_[request.path];
+    if (image != nullptr) return image;
+    Texture texture = decode_image(request, budget, warnings);
+    if (texture.width > kMaxEmissionTextureSize || texture.height > kMaxEmissionTextureSize)
+        throw SceneError(request.location,
+                         "texture file '" + request.path.string() + "': images of lights must have at most " +
+                             std::to_string(kMaxEmissionTextureSize) + " pixels per side, found " +
+                             std::to_string(texture.width) + " x " + std::to_string(texture.height));
+    image = std::make_shared<const EmissionTexture>(take_texels(std::move(texture)));
+    return image;
+}
+
+Float3 mean_texel(const EmissionTexture& texture) {
+    Double3 sum;
+    for (const Float3& texel : texture.texels) sum = sum + to_double(texel);
+    return to_float((1 / static_cast<double>(texture.texels.size())) * sum);
 }
 
 } // namespace nusselt::scene

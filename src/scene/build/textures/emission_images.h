@@ -1,21 +1,27 @@
 #pragma once
-/// Replaces images that lights emit by their mean colours.
+/// Reads the images that lights emit.
 
 #include "scene/build/textures/texture_image.h"
+#include "scene/model/lights/textured_emission.h"
 
 #include <filesystem>
 #include <map>
+#include <memory>
 
 namespace nusselt::scene {
 
-/// The mean colours of images that lights emit. Each image is decoded once.
+/// The images that lights of one scene emit. Each file is decoded once.
 class EmissionImages {
 public:
-    /// Throws SceneError at the location of the request if the image cannot be read.
-    Float3 mean_colour(const ImageRequest& request, SceneBudget& budget, Warnings& warnings);
+    /// Throws SceneError at the location of the request if the image cannot be read, or is too large.
+    std::shared_ptr<const EmissionTexture> read(const ImageRequest& request, SceneBudget& budget,
+                                                Warnings& warnings);
 
 private:
-    std::map<std::filesystem::path, Float3> mean_colours_;
+    std::map<std::filesystem::path, std::shared_ptr<const EmissionTexture>> images_;
 };
+
+/// The mean of all texels.
+Float3 mean_texel(const EmissionTexture& texture);
 
 } // namespace nusselt::scene

@@ -127,6 +127,8 @@ Geometry read_polygon(ShapeDirective& shape, Warnings&) {
     for (const Float3& p : mesh.positions) vertices.push_back(to_double(p));
     if (const auto defect = find_polygon_defect(vertices))
         throw SceneError(shape.parameters.location_of("P"), "shape \"polygon\": " + *defect);
+    mesh.uvs = shape.parameters.pairs("uv");
+    check_length(shape, "uv", mesh.uvs.size(), mesh.positions.size());
     mesh.triangles = fan(mesh.positions.size());
     return mesh;
 }

@@ -53,8 +53,8 @@ void Kind::add_to(const PolygonLight& light, Bounds& bounds) {
 
 // A new member does not compile until it is listed here.
 void Kind::hash(const PolygonLight& light, ContentHash& hash) {
-    const auto& [emitter, vertices, radiance, two_sided] = light;
-    hash.add(emitter);
+    const auto& [emitter, texture, vertices, radiance, two_sided] = light;
+    hash.add(emitter, texture);
     hash.add(vertices.size());
     for (const Float3& vertex : vertices) hash.add(vertex);
     hash.add(radiance, two_sided);
@@ -118,9 +118,9 @@ std::string Kind::describe(std::span<const PolygonLight> lights) {
     const PolygonLight& first = lights.front();
     const double sides = first.two_sided ? 2 : 1;
     return (lights.size() > 1 ? std::to_string(lights.size()) + " polygons, " : "") +
-           std::to_string(vertices) + " vertices, " + report_text(sum) + " m^2, radiance " +
-           report_text(first.radiance) + " W/(sr m^2), " + (first.two_sided ? "two-sided, " : "") +
-           power_text(sides * sum, first.radiance);
+           std::to_string(vertices) + " vertices, " + report_text(sum) + " m^2, " +
+           (first.texture >= 0 ? "textured, mean radiance " : "radiance ") + report_text(first.radiance) +
+           " W/(sr m^2), " + (first.two_sided ? "two-sided, " : "") + power_text(sides * sum, first.radiance);
 }
 
 std::string Kind::rig_field(const PolygonLight& light) {

@@ -56,8 +56,9 @@ private:
 /// counter-clockwise, or to both sides.
 struct PolygonLight {
     std::uint32_t emitter = 0; ///< index into Scene::emitters
+    std::int32_t texture = -1; ///< index into Scene::emission_textures, -1 for uniform radiance
     PolygonVertices vertices = {};
-    Float3 radiance = {0, 0, 0};
+    Float3 radiance = {0, 0, 0}; ///< with a texture the mean over the area
     bool two_sided = false;
 };
 

@@ -6,12 +6,6 @@ namespace nusselt::scene {
 
 namespace {
 
-/// Black stays black.
-Float3 with_unit_luminance(const Float3& colour) {
-    const double brightness = luminance(to_double(colour));
-    return brightness > 0 ? to_float((1 / brightness) * to_double(colour)) : colour;
-}
-
 std::optional<double> read_power(ParameterList& parameters) {
     const std::optional<double> power = parameters.optional_real("power");
     // In pbrt negative values, -1 by default, stand for none.
@@ -36,11 +30,8 @@ Emission read_emission(const std::string& type, ParameterList& parameters,
         request.path = image_path;
         request.location = parameters.location_of("filename");
         if (parameters.named_files().note(request.location, "texture file", request.path))
-            colour = images.mean_colour(request, parameters.budget(), warnings);
-        warnings.add(request.location,
-                     "AreaLightSource: the image of the emission is replaced by its mean colour");
-        // The power is that of the image, whatever its brightness.
-        if (emission.power) colour = with_unit_luminance(colour);
+            emission.texture = images.read(request, parameters.budget(), warnings);
+        colour = {1, 1, 1};
     }
     // v3 also scales by a colour.
     const auto scale = static_cast<float>(parameters.real("scale", 1));
