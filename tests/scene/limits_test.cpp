@@ -139,7 +139,8 @@ TEST_F(Limits, ImagesOfLightsAreDecodedOnce) {
     SceneBudget budget{{0, "no files"}, {32, "too many texels"}};
     EmissionImages images;
     for (int i = 0; i < 3; ++i)
-        expect_near(images.mean_colour(request("image.pfm"), budget, warnings_), {0.25f, 0.5f, 1}, 1e-6f);
+        expect_near(mean_texel(*images.read(request("image.pfm"), budget, warnings_)), {0.25f, 0.5f, 1},
+                    1e-6f);
 }
 
 TEST_F(Limits, CountsThatIndicesTellApart) {

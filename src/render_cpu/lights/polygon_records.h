@@ -9,7 +9,7 @@
 namespace nusselt::render_cpu {
 
 /// Columns and rows of the lattice of cells over a textured light.
-inline constexpr int kTextureCells = 16;
+inline constexpr int kTextureCells = 8;
 
 /// The texture of a polygon.
 struct PolygonTexture {

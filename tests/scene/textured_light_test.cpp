@@ -1,0 +1,202 @@
+// Shapes that emit an image: which part of it each light has, and when it is replaced by a mean.
+
+#include "scene_fixture.h"
+
+#include "image/io.h"
+
+#include <algorithm>
+
+namespace nusselt::scene {
+namespace {
+
+class ImageEmission : public SceneTest {
+protected:
+    ImageEmission() { write_ramp("ramp.pfm", 8, 4); }
+
+    /// An image whose texels are (column, row, 1), with row 0 at the bottom.
+    void write_ramp(const std::string& name, int width, int height) const {
+        image::Image image = image::make_image(width, height);
+        for (int j = 0; j < height; ++j) {
+            for (int i = 0; i < width; ++i) {
+                float* const pixel = &image.pixels[3 * static_cast<std::size_t>(j * width + i)];
+                pixel[0] = static_cast<float>(i);
+                pixel[1] = static_cast<float>(height - 1 - j);
+                pixel[2] = 1;
+            }
+        }
+        image::write_image(folder_ / name, image);
+    }
+
+    Scene light(const std::string& shape, const std::string& emission = "") const {
+        return load("Camera \"perspective\"\nWorldBegin\nAreaLightSource \"diffuse\" \"string filename\" "
+                    "\"ramp.pfm\" " +
+                    emission + "\n" + shape);
+    }
+};
+
+const std::vector<PolygonLight>& polygons(const Scene& scene) { return scene.lights.of<PolygonLight>(); }
+
+constexpr const char* kQuad = "Shape \"quad\" \"point o\" [0 0 0] \"vector u\" [2 0 0] \"vector v\" [0 1 0]";
+
+std::string mesh(const std::string& uv) {
+    return "Shape \"trianglemesh\" \"point3 P\" [0 0 0 2 0 0 2 1 0 0 1 0] \"integer indices\" [0 1 2 0 2 "
+           "3] " +
+           (uv.empty() ? "" : "\"point2 uv\" [" + uv + "]");
+}
+
+TEST_F(ImageEmission, ARectangleHasTheWholeImage) {
+    const Scene scene = light(kQuad, "\"float scale\" 2");
+    EXPECT_TRUE(scene.warnings.empty());
+    ASSERT_EQ(polygons(scene).size(), 1u);
+    ASSERT_EQ(scene.emission_textures.size(), 1u);
+    EXPECT_EQ(polygons(scene)[0].texture, 0);
+    const TexturedEmission& emission = scene.emission_textures[0];
+    EXPECT_EQ(emission.texture->width, 8);
+    EXPECT_EQ(emission.texture->height, 4);
+    expect_near(emission.texture->texels[8 + 3], {3, 1, 1}, 0);
+    expect_near(emission.mean, {3.5f, 1.5f, 1}, 1e-5f);
+    expect_near(polygons(scene)[0].radiance, {7, 3, 2}, 1e-5f);
+    expect_near(texel_scale(polygons(scene)[0], emission), {2, 2, 2}, 1e-6f);
+    const TexturePlacement placement = place_texture(polygons(scene)[0], emission);
+    expect_near(placement.corner, {0, 0, 0}, 1e-6f);
+    expect_near(placement.side_x, {2, 0, 0}, 1e-6f);
+    expect_near(placement.side_y, {0, 1, 0}, 1e-6f);
+}
+
+TEST_F(ImageEmission, TwoTrianglesWithOneMapAreOneLight) {
+    const Scene scene = light(mesh("0 0 1 0 1 1 0 1"));
+    ASSERT_EQ(polygons(scene).size(), 1u);
+    EXPECT_EQ(polygons(scene)[0].vertices.size(), 4u);
+    expect_near(polygons(scene)[0].radiance, {3.5f, 1.5f, 1}, 1e-5f);
+}
+
+TEST_F(ImageEmission, TrianglesWithMapsOfTheirOwnAreApart) {
+    const Scene scene = light(mesh("0 0 1 0 1 1 0 0.5"));
+    ASSERT_EQ(polygons(scene).size(), 2u);
+    EXPECT_EQ(scene.triangle_light[0], 0);
+    EXPECT_EQ(scene.triangle_light[1], 1);
+    EXPECT_EQ(polygons(scene)[1].texture, 1);
+}
+
+/// Texels that interpolation on the light reads, and no others.
+TEST_F(ImageEmission, ALightHasTheTexelsThatItShows) {
+    const Scene scene = light(mesh("0.25 0.5 0.5 0.5 0.5 1 0.25 1"));
+    const TexturedEmission& emission = scene.emission_textures.at(0);
+    EXPECT_EQ(emission.texture->width, 4);
+    EXPECT_EQ(emission.texture->height, 3);
+    expect_near(emission.texture->texels[0], {1, 1, 1}, 0);
+    // The ramp is linear but for the last half row of texels.
+    EXPECT_NEAR(emission.mean.x, 2.5f, 1e-5f);
+    EXPECT_NEAR(emission.coordinates[0].x, 0.25f, 1e-6f);
+    const TexturePlacement placement = place_texture(polygons(scene)[0], emission);
+    // The texels from 1 to 5 take twice the width of the light.
+    expect_near(placement.corner, {-1, -0.5f, 0}, 1e-5f);
+    expect_near(placement.side_x, {4, 0, 0}, 1e-5f);
+}
+
+TEST_F(ImageEmission, BeyondTheImageItsEdgeGoesOn) {
+    const Scene scene = light(mesh("-1 0 1 0 1 1 -1 1"));
+    const TexturedEmission& emission = scene.emission_textures.at(0);
+    EXPECT_EQ(emission.texture->width, 16);
+    expect_near(emission.texture->texels[7], {0, 0, 1}, 0);
+    expect_near(emission.texture->texels[9], {1, 0, 1}, 0);
+    EXPECT_NEAR(emission.mean.x, 3.5f / 2, 1e-5f);
+}
+
+TEST_F(ImageEmission, FarOutsideTheMeanIsEmitted) {
+    const Scene scene = light(mesh("-1e5 0 1 0 1 1 -1e5 1"));
+    EXPECT_TRUE(scene.emission_textures.empty());
+    expect_near(polygons(scene).at(0).radiance, {3.5f, 1.5f, 1}, 1e-5f);
+    EXPECT_EQ(warning(scene),
+              "scene.pbrt:4: shape \"trianglemesh\": texture coordinates are so far outside of the image "
+              "that its mean colour is emitted");
+}
+
+TEST_F(ImageEmission, WithoutCoordinatesTheMeanIsEmitted) {
+    const Scene scene = light(mesh(""));
+    EXPECT_TRUE(scene.emission_textures.empty());
+    expect_near(polygons(scene).at(0).radiance, {3.5f, 1.5f, 1}, 1e-5f);
+    EXPECT_EQ(warning(scene),
+              "scene.pbrt:4: shape \"trianglemesh\": without texture coordinates, the mean colour of the "
+              "image is emitted");
+}
+
+TEST_F(ImageEmission, CoordinatesWithoutAreaGiveOneColour) {
+    const Scene scene = light(mesh("0.5 0.5 0.5 0.5 0.5 0.5 0.5 0.5"));
+    EXPECT_TRUE(scene.emission_textures.empty());
+    expect_near(polygons(scene).at(0).radiance, {3.5f, 1.5f, 1}, 1e-5f);
+}
+
+TEST_F(ImageEmission, ThePowerIsThatOfTheWholeShape) {
+    const Scene scene = light(mesh("0 0 1 0 1 1 0 0.5"), "\"float power\" 10");
+    double sum = 0;
+    for (const PolygonLight& polygon : polygons(scene))
+        sum += 3.14159265 * area(polygon) *
+               (0.2126 * polygon.radiance.x + 0.7152 * polygon.radiance.y + 0.0722 * polygon.radiance.z);
+    EXPECT_NEAR(sum, 10, 1e-3);
+}
+
+TEST_F(ImageEmission, MirroredShapesKeepTheirImage) {
+    const Scene scene = light("Scale -1 1 1\n" + std::string(kQuad));
+    const TexturePlacement placement = place_texture(polygons(scene).at(0), scene.emission_textures.at(0));
+    expect_near(placement.side_x, {-2, 0, 0}, 1e-6f);
+    expect_near(placement.side_y, {0, 1, 0}, 1e-6f);
+    EXPECT_EQ(emitting_normal(polygons(scene)[0]).z, 1);
+}
+
+TEST_F(ImageEmission, TubesHaveTheMeanColour) {
+    const Scene scene = light("Shape \"line\" \"point3 P\" [0 0 0 1 0 0] \"float radius\" 0.1");
+    expect_near(scene.lights.of<LineLight>().at(0).radiance, {3.5f, 1.5f, 1}, 1e-5f);
+    EXPECT_EQ(warning(scene),
+              "scene.pbrt:4: shape \"line\": the image is replaced by its mean colour on tubes");
+}
+
+TEST_F(ImageEmission, ManyPolygonsAreTexturedUpToALimit) {
+    // Strips along x in different heights: none is the neighbour of another one.
+    std::string shape = "Shape \"trianglemesh\" \"point3 P\" [";
+    std::string uv = "] \"point2 uv\" [";
+    std::string indices = "] \"integer indices\" [";
+    const std::size_t count = 1025;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string z = std::to_string(i);
+        shape += "0 0 " + z + " 1 0 " + z + " 0 1 " + z + " ";
+        uv += "0 0 1 0 0 1 ";
+        indices +=
+            std::to_string(3 * i) + " " + std::to_string(3 * i + 1) + " " + std::to_string(3 * i + 2) + " ";
+    }
+    const Scene scene = light(shape + uv + indices + "]");
+    EXPECT_EQ(polygons(scene).size(), count);
+    EXPECT_EQ(scene.emission_textures.size(), 1024u);
+    EXPECT_EQ(polygons(scene).back().texture, -1);
+    expect_near(polygons(scene).back().radiance, polygons(scene).front().radiance, 1e-6f);
+    EXPECT_EQ(warning(scene),
+              "scene.pbrt:4: shape \"trianglemesh\": of 1025 polygons that emit an image, those after the "
+              "first 1024 emit the mean of their part of it");
+}
+
+TEST_F(ImageEmission, HostileImages) {
+    EXPECT_EQ(error("Camera \"perspective\"\nWorldBegin\nAreaLightSource \"diffuse\" \"string filename\" "
+                    "\"none.png\"\n" +
+                    std::string(kQuad)),
+              "scene.pbrt:3: texture file 'none.png': no such file");
+    write("broken.png", "\x89PNG no");
+    EXPECT_TRUE(error("Camera \"perspective\"\nWorldBegin\nAreaLightSource \"diffuse\" \"string filename\" "
+                      "\"broken.png\"\n" +
+                      std::string(kQuad))
+                    .starts_with("scene.pbrt:3: texture file 'broken.png': "));
+    EXPECT_TRUE(error("Camera \"perspective\"\nWorldBegin\nAreaLightSource \"diffuse\" \"string filename\" "
+                      "\"ramp.pfm\" \"float scale\" 9e29\n" +
+                      std::string(kQuad))
+                    .starts_with("scene.pbrt:4: AreaLightSource: radiance must be from 0 to 1e+30, found "));
+    // Negative and infinite texels are black, which one warning says.
+    image::Image image = image::make_image(2, 1);
+    image.pixels = {-1, 2, std::numeric_limits<float>::infinity(), 1, 2, 3};
+    image::write_image(folder_ / "ramp.pfm", image);
+    const Scene scene = light(kQuad);
+    expect_near(polygons(scene).at(0).radiance, {0.5f, 2, 1.5f}, 1e-6f);
+    EXPECT_EQ(warning(scene),
+              "scene.pbrt:3: texture file 'ramp.pfm': 2 negative or non-finite numbers are replaced by 0");
+}
+
+} // namespace
+} // namespace nusselt::scene
