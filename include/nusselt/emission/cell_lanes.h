@@ -30,6 +30,13 @@ struct CellLanes {
         else
             *target = x;
     }
+    NUSSELT_INLINE static T sum(const Type& x) noexcept {
+        T each[kCount];
+        store(each, x);
+        T total = T(0);
+        for (const T& value : each) total += value;
+        return total;
+    }
     /// first, first + 1, ...
     NUSSELT_INLINE static Type count_from(int first) noexcept {
         return Type(static_cast<T>(first)) + load(kSteps);

@@ -104,7 +104,7 @@ public:
                                        : plane_distance(rectangle_in<T>(plane_, {T(0), T(0)}, {T(1), T(1)})));
         sums_.finish();
         if (!(image_area_ > T(0)) || !(distance_ > T(0))) sums_.clear();
-        unshadowed_ = {sum_of(expected.x), sum_of(expected.y), sum_of(expected.z)};
+        unshadowed_ = {Lanes::sum(expected.x), Lanes::sum(expected.y), Lanes::sum(expected.z)};
     }
 
     /// \param u in [0, 1)^2; x chooses along the x axis of the texture, y along its y axis: stratification survives in part.
@@ -194,15 +194,6 @@ private:
     NUSSELT_HD static TexturedSample<T> none() noexcept {
         const Vec3<T> up{T(0), T(0), T(1)};
         return {{up, T(0), up}, {T(0), T(0)}};
-    }
-
-    template <class L>
-    NUSSELT_HD static T sum_of(const L& lanes) noexcept {
-        T each[detail::CellLanes<T>::kCount];
-        detail::CellLanes<T>::store(each, lanes);
-        T sum = T(0);
-        for (const T x : each) sum += x;
-        return sum;
     }
 
     NUSSELT_HD static Vec2<T> clamped(const Vec2<T>& at, const Vec2<T>& low, const Vec2<T>& high) noexcept {
