@@ -120,16 +120,13 @@ public:
         : map_(&map), frame_(frame), factor_(factor), in_map_(factor, frame) {
         using Lanes = detail::CellLanes<T>;
         using L = typename Lanes::Type;
-        const PyramidShape& shape = map.pyramid.shape;
-        const T* const weights = map.pyramid.weight + shape.index(shape.levels - 1, 0, 0);
-        const T* const x = map.direction_at(shape.levels - 1, 0, 0);
-        const int stride = map.stride();
         Vec3<L> expected{L(T(0)), L(T(0)), L(T(0))};
         for (int cell = 0; cell < Map::kCells; cell += Lanes::kCount) {
-            const Vec3<L> direction{Lanes::load(x + cell), Lanes::load(x + stride + cell),
-                                    Lanes::load(x + 2 * stride + cell)};
+            const Vec3<L> direction{Lanes::load(map.direction[0] + cell),
+                                    Lanes::load(map.direction[1] + cell),
+                                    Lanes::load(map.direction[2] + cell)};
             const L mean = in_map_.mean(direction, map.variance_of(direction));
-            sums_.add(cell, Lanes::load(weights + cell) * mean);
+            sums_.add(cell, Lanes::load(map.weight + cell) * mean);
             const auto radiance = [&](int channel) { return Lanes::load(map.mean[channel] + cell); };
             expected.x = multiply_add(radiance(0), mean, expected.x);
             expected.y = multiply_add(radiance(1), mean, expected.y);
@@ -144,9 +141,8 @@ public:
     NUSSELT_HD TexturedSample<T> sample(const Vec2<T>& u) const noexcept {
         if (!(sums_.total() > T(0))) return none();
         const CellChoice<T> cell = sums_.choose(u);
-        const PyramidShape& shape = map_->pyramid.shape;
         const TexelChoice<T> texel =
-            detail::descend(shape, cell.column, cell.row, cell.u,
+            detail::descend(map_->shape, cell.column, cell.row, cell.u,
                             [&](int level, int i, int j) { return parts_of(level, i, j); });
         const detail::BilinearTexel<T> interpolant = map_->texel_at(texel.i, texel.j);
         const Vec2<T> inside = interpolant.sample(texel.u);
@@ -196,21 +192,23 @@ private:
         return {{up, T(0), up}, {T(0), T(0)}};
     }
 
-    /// The parts of an element with the weights to choose from. In the finest grid, neighbours have nearly the same factor.
+    /// The parts of an element with the weights to choose from. Neighbouring texels have nearly the same factor.
     NUSSELT_HD detail::ElementParts<T> parts_of(int level, int i, int j) const noexcept {
-        detail::ElementParts<T> parts = detail::emitting_parts(map_->pyramid, level, i, j);
-        if (level == 1) return parts;
-        const int stride = map_->stride();
+        if (level == 1) {
+            const T* const weight = map_->texel_weights + map_->texel_index(i, j);
+            return {2, 2, {weight[0], weight[1], weight[2], weight[3]}};
+        }
+        const T* const part = map_->elements + map_->element_index(level, i, j);
+        detail::ElementParts<T> parts{2, 2, {}};
         for (int k = 0; k < 4; ++k) {
-            const T* const x = map_->direction_at(level - 1, 2 * i + k % 2, 2 * j + k / 2);
-            const Vec3<T> direction{x[0], x[stride], x[2 * stride]};
-            parts.weight[k] *= in_map_.mean(direction, map_->variance_of(direction));
+            const Vec3<T> direction{part[4 + k], part[8 + k], part[12 + k]};
+            parts.weight[k] = part[k] * in_map_.mean(direction, map_->variance_of(direction));
         }
         return parts;
     }
 
     NUSSELT_HD TexelChoice<T> ascend(const TexelChoice<T>& texel) const noexcept {
-        return detail::ascend(map_->pyramid.shape, texel,
+        return detail::ascend(map_->shape, texel,
                               [&](int level, int i, int j) { return parts_of(level, i, j); });
     }
 
@@ -237,7 +235,7 @@ private:
         if (!(sums_.total() > T(0))) return T(0);
         const CellChoice<T> cell = sums_.at(at);
         const TexelChoice<T> texel = texel_at(at);
-        if (!(cell.probability > T(0)) || !(map_->pyramid.at(0, texel.i, texel.j) > T(0))) return T(0);
+        if (!(cell.probability > T(0)) || !(map_->texel_weight(texel.i, texel.j) > T(0))) return T(0);
         return density(cell.probability * ascend(texel).probability, texel, map_->texel_at(texel.i, texel.j),
                        at, wi);
     }
@@ -246,7 +244,7 @@ private:
     NUSSELT_HD T density(const T& probability, const TexelChoice<T>& texel,
                          const detail::BilinearTexel<T>& interpolant, const Vec2<T>& at,
                          const Vec3<T>& wi) const noexcept {
-        const T mean = map_->pyramid.at(0, texel.i, texel.j);
+        const T mean = map_->texel_weight(texel.i, texel.j);
         if (!(mean > T(0)) || !factor_.counts(wi)) return T(0);
         const auto size = static_cast<T>(map_->radiance.size);
         const T share = map_->scale * interpolant.at(inside_of(texel, at)) / mean;

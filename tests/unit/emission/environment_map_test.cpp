@@ -38,7 +38,7 @@ TEST(EnvironmentMap, WeightsAreMeansOfLookups) {
             for (int k = 0; k < 4; ++k)
                 mean += 0.25 * texels.view().lookup(Vec2<double>{(i + 0.25 + 0.5 * (k % 2)) / kSize,
                                                                  (j + 0.25 + 0.5 * (k / 2)) / kSize});
-            ASSERT_NEAR(map.pyramid.at(0, i, j), map.scale * mean_of_channels(mean), 1e-14);
+            ASSERT_NEAR(map.texel_weight(i, j), map.scale * mean_of_channels(mean), 1e-14);
             ASSERT_NEAR(map.texel_at(i, j).mean(), mean_of_channels(mean), 1e-14);
             cells[static_cast<std::size_t>(j / 4 * 8 + i / 4)] += mean / 16.0;
         }
@@ -49,13 +49,13 @@ TEST(EnvironmentMap, WeightsAreMeansOfLookups) {
         EXPECT_NEAR(map.mean[0][cell], expected.x, 1e-14);
         EXPECT_NEAR(map.mean[1][cell], expected.y, 1e-14);
         EXPECT_NEAR(map.mean[2][cell], expected.z, 1e-14);
-        EXPECT_NEAR(map.pyramid.at(2, cell % 8, cell / 8), map.scale * mean_of_channels(expected), 1e-14);
+        EXPECT_NEAR(map.weight[cell], map.scale * mean_of_channels(expected), 1e-14);
         total += expected / 64.0;
     }
     EXPECT_LT(length(map.mean_radiance() - total), 1e-14);
     // No texel that lights something has the weight 0, also if it is black itself.
     for (int j = 0; j < kSize; ++j)
-        for (int i = 0; i < kSize; ++i) EXPECT_GT(map.pyramid.at(0, i, j), 0);
+        for (int i = 0; i < kSize; ++i) EXPECT_GT(map.texel_weight(i, j), 0);
 }
 
 TEST(EnvironmentMap, DirectionsAreWeightedByRadiance) {
@@ -63,8 +63,8 @@ TEST(EnvironmentMap, DirectionsAreWeightedByRadiance) {
     const MapTexels<double> texels = rough_texels(kSize);
     const StoredMap<double, 8> stored(texels.view());
     const auto& map = stored.map;
-    for (int level = 1; level < map.pyramid.shape.levels; ++level) {
-        const int width = map.pyramid.shape.width_of(level);
+    for (int level = 1; level < map.shape.levels; ++level) {
+        const int width = map.shape.width_of(level);
         const int part = kSize / width;
         for (int j = 0; j < width; ++j) {
             for (int i = 0; i < width; ++i) {
@@ -72,12 +72,21 @@ TEST(EnvironmentMap, DirectionsAreWeightedByRadiance) {
                 double weight = 0;
                 for (int y = j * part; y < (j + 1) * part; ++y) {
                     for (int x = i * part; x < (i + 1) * part; ++x) {
-                        sum += map.pyramid.at(0, x, y) * texel_centre<double>(kSize, x, y);
-                        weight += map.pyramid.at(0, x, y);
+                        sum += map.texel_weight(x, y) * texel_centre<double>(kSize, x, y);
+                        weight += map.texel_weight(x, y);
                     }
                 }
-                const double* const x = map.direction_at(level, i, j);
-                const Vec3<double> found{x[0], x[map.stride()], x[2 * map.stride()]};
+                // The lattice has arrays of its own.
+                const bool is_cell = width == 8;
+                const double* const numbers =
+                    is_cell ? map.weight + j * 8 + i
+                            : map.elements + map.element_index(level + 1, i / 2, j / 2) + map.part_of(i, j);
+                const int stride = is_cell ? 0 : 4;
+                const Vec3<double> found =
+                    is_cell ? Vec3<double>{map.direction[0][j * 8 + i], map.direction[1][j * 8 + i],
+                                           map.direction[2][j * 8 + i]}
+                            : Vec3<double>{numbers[stride], numbers[2 * stride], numbers[3 * stride]};
+                ASSERT_NEAR(numbers[0], weight / (part * part), 1e-15);
                 ASSERT_LT(length(found - sum / weight), 1e-13);
             }
         }
@@ -91,8 +100,8 @@ TEST(EnvironmentMap, VariancesAreThoseOfDirections) {
     const StoredMap<double, 16> stored(texels.view());
     const auto& map = stored.map;
     for (int cell = 0; cell < 256; ++cell) {
-        const double* const x = map.direction_at(2, cell % 16, cell / 16);
-        const double variance = map.variance_of(Vec3<double>{x[0], x[map.stride()], x[2 * map.stride()]});
+        const double variance = map.variance_of(
+            Vec3<double>{map.direction[0][cell], map.direction[1][cell], map.direction[2][cell]});
         // Cells where the map shears are longer.
         EXPECT_GT(variance, 0.95 * 2 / 3 * map.kCellAngle / 12);
         EXPECT_LT(variance, 2.2 * 2 / 3 * map.kCellAngle / 12);
@@ -102,13 +111,14 @@ TEST(EnvironmentMap, VariancesAreThoseOfDirections) {
 
 /// The storage is filled to its end, and not beyond.
 TEST(EnvironmentMap, UsesItsStorage) {
-    constexpr int kSize = 32;
+    constexpr int kSize = 64;
     const int count = nusselt::EnvironmentMap<float, 16>::storage_size(kSize);
-    EXPECT_EQ(count, 1024 + 256 + 3 * 256);
+    EXPECT_EQ(count, 4096 + 16 * 256);
+    EXPECT_EQ((nusselt::EnvironmentMap<float, 16>::storage_size(32)), 1024);
     const auto texels = texels_of<float>(kSize, [](const auto& w) { return grey<float>(sky(w)); });
     std::vector<float> storage(static_cast<std::size_t>(count) + 1, -7.0f);
     const auto map = nusselt::make_environment_map<16>(texels.view(), storage.data());
-    EXPECT_EQ(map.pyramid.weight, storage.data());
+    EXPECT_EQ(map.texel_weights, storage.data());
     for (int k = 0; k < count; ++k) EXPECT_NE(storage[static_cast<std::size_t>(k)], -7) << k;
     EXPECT_EQ(storage.back(), -7);
 }
