@@ -58,8 +58,8 @@ struct Lobe {
     }
 };
 
-/// Tests the points of the map that sample() finds against the density of a technique. The density at the centre of a bin is
-/// its mean, unless the horizon cuts the bin: such bins count for neither side.
+/// Tests the points of the map that sample() finds against the density of a technique. The density at the centre of a
+/// bin is its mean, unless the horizon cuts the bin: such bins count for neither side.
 template <class Technique, class Sample>
 double p_value(const Technique& technique, const Frame<double>& frame, const Sample& sample) {
     std::vector<double> expected;

@@ -7,8 +7,8 @@ NUSSELT_NAMESPACE_BEGIN
 
 namespace detail {
 
-/// A density on [0, 1] that is linear from the lower edge of a texel to its centre, and from there to the upper edge: the
-/// interpolation between the texel and its two neighbours.
+/// A density on [0, 1] that is linear from the lower edge of a texel to its centre, and from there to the upper edge:
+/// the interpolation between the texel and its two neighbours.
 template <class T>
 struct TexelTent {
     T before, middle, after; ///< at the centres of texels, not negative; not normalised

@@ -9,10 +9,10 @@ NUSSELT_NAMESPACE_BEGIN
 /// Light from all directions, infinitely far away, in a space of its own. It refers to the texels and to the storage,
 /// which the caller owns; its own size does not depend on that of the map. One map serves all shading points.
 ///
-/// Elements have a weight, and a direction: the mean over the element, weighted by radiance, shorter than one. Weights are
-/// mean radiance, averaged over channels, times scale; exact for interpolated lookups. They are 0 only where the map is
-/// black, or darker than 1e-38 (float) of its brightest texel. The four parts of an element, in the order (0, 0), (1, 0),
-/// (0, 1), (1, 1), are next to each other in the storage, so that a step of a descent reads one line of the cache.
+/// Elements have a weight, and a direction: the mean over the element, weighted by radiance, shorter than one. Weights
+/// are mean radiance, averaged over channels, times scale; exact for interpolated lookups. They are 0 only where the
+/// map is black, or darker than 1e-38 (float) of its brightest texel. The four parts of an element are next to each
+/// other in the storage, so that a step of a descent reads one line of the cache.
 /// \tparam T float, double or long double.
 /// \tparam n columns and rows of the lattice: 8 or 16. Cell (i, j) has the index j * n + i.
 template <class T, int n>
@@ -21,7 +21,8 @@ struct EnvironmentMap {
     static constexpr int kCells = n * n;
     /// Solid angle of a cell [sr].
     static constexpr T kCellAngle = 4 * kPi<T> / kCells;
-    /// Numbers per element in the storage: weights, x, y and z coordinates of the directions of its parts.
+    /// Numbers per element in the storage: weights of its parts (0, 0), (1, 0), (0, 1), (1, 1), then the x, y and z
+    /// coordinates of their directions.
     static constexpr int kPerElement = 16;
 
     OctahedralMap<T> radiance;
@@ -161,8 +162,8 @@ NUSSELT_HD inline void fill_elements(EnvironmentMap<T, n>& map, T* elements) noe
 } // namespace detail
 
 /// \tparam n        columns and rows of the lattice, 8 or 16.
-/// \param  radiance of a size that is a power of two from 2 n to 2^14. Texels are finite and not negative, and at most a
-///                  hundredth of the largest number; others are errors of the caller.
+/// \param  radiance of a size that is a power of two from 2 n to 2^14. Texels are finite and not negative, and at most
+///                  a hundredth of the largest number; others are errors of the caller.
 /// \param  storage  EnvironmentMap<T, n>::storage_size(radiance.size) numbers, which the map refers to: first those of
 ///                  grid 1, then those of grids 2 and above.
 template <int n, class T>

@@ -1,9 +1,10 @@
 #pragma once
 /// Sampling of environment maps in proportion to radiance times the cosine at the surface, or times a glossy lobe.
 ///
-/// A lattice of cells is chosen from in proportion to mean radiance times the mean cosine or lobe, which is estimated from the
-/// mean and the variance of the directions that the radiance of a cell comes from. Samples descend grids with the same
-/// product, and take a point in a texel in proportion to interpolated radiance. docs/techniques/environment_map.md derives it.
+/// A lattice of cells is chosen from in proportion to mean radiance times the mean cosine or lobe, which is estimated
+/// from the mean and the variance of the directions that the radiance of a cell comes from. Samples descend grids with
+/// the same product, and take a point in a texel in proportion to interpolated radiance.
+/// docs/techniques/environment_map.md derives it.
 
 #include <nusselt/core/frame.h>
 #include <nusselt/emission/cell_sums.h>
@@ -66,8 +67,8 @@ struct LobeFactor {
             growth_ = max(spread_ / max(shortest, kTiny<T>) - T(3), T(0));
         }
 
-        /// The density of the lobe in the mean direction, widened by the variance, with the same integral: the area of a narrow
-        /// lobe grows with the variance, and a Lambertian lobe remains.
+        /// The density of the lobe in the mean direction, widened by the variance, with the same integral: the area of
+        /// a narrow lobe grows with the variance, and a Lambertian lobe remains.
         template <class Real>
         NUSSELT_INLINE Real mean(const Vec3<Real>& direction, const Real& variance) const noexcept {
             const auto row = [&](const T& x, const T& y, const T& z) {
@@ -102,9 +103,9 @@ struct LobeFactor {
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr].
 /// Space: shading space; the normal is +z. For a lobe, wo is in the xz half-plane.
-/// Edge cases: black maps: pdf = 0, measure 0. Each direction that the map lights and that counts has a positive density, unless
-/// its radiance is below 1e-38 (float) of the largest. Few samples end below the horizon, with pdf = 0; densities above it
-/// integrate to the share of the others.
+/// Edge cases: black maps: pdf = 0, measure 0. Each direction that the map lights and that counts has a positive
+/// density, unless its radiance is below 1e-38 (float) of the largest. Few samples end below the horizon, with pdf = 0;
+/// densities above it integrate to the share of the others.
 /// Cost: preparing takes a root and two divisions per cell; a sample takes four roots per grid.
 template <class T, int n = 16, class Factor = CosineFactor<T>>
 class EnvironmentSampler {
@@ -136,7 +137,7 @@ public:
         unshadowed_ = {Lanes::sum(expected.x), Lanes::sum(expected.y), Lanes::sum(expected.z)};
     }
 
-    /// \param u in [0, 1)^2; x chooses along the x axis of the map, y along its y axis: stratification survives in part.
+    /// \param u in [0, 1)^2; x chooses along the x axis of the map, y along its y axis: some stratification survives.
     /// \return p is wi times kDistance, `at` the point of the map: look up the radiance there.
     NUSSELT_HD TexturedSample<T> sample(const Vec2<T>& u) const noexcept {
         if (!(sums_.total() > T(0))) return none();
@@ -174,14 +175,14 @@ public:
         return sums_.unite(cell.column, cell.row, ascend(texel).u);
     }
 
-    /// An estimate of the integral of radiance, averaged over channels, times the cosine [W/m^2] or the density of the lobe
-    /// [W/(sr m^2)]: the sum over cells of mean radiance times solid angle times the estimated mean of the factor. Of the cosine,
-    /// cells well above the horizon have the exact mean, those at the horizon up to 12 % more, and something remains of those
-    /// below it. Lobes narrower than a cell may be off by a third.
+    /// An estimate of the integral of radiance, averaged over channels, times the cosine [W/m^2] or the density of the
+    /// lobe [W/(sr m^2)]: the sum over cells of mean radiance times solid angle times the estimated mean of the factor.
+    /// Of the cosine, cells well above the horizon have the exact mean, those at the horizon up to 12 % more, and
+    /// something remains of those below it. Lobes narrower than a cell may be off by a factor of two.
     NUSSELT_HD T measure() const noexcept { return Map::kCellAngle * (sums_.total() / map_->scale); }
 
-    /// The radiance that is reflected without shadows per albedo of the component, per channel [W/(sr m^2)]: the coefficient
-    /// of heuristics for multiple importance sampling (estimate/mis.h), an estimate as measure().
+    /// The radiance that is reflected without shadows per albedo of the component, per channel [W/(sr m^2)]: the
+    /// coefficient of heuristics for multiple importance sampling (estimate/mis.h), an estimate as measure().
     NUSSELT_HD Vec3<T> unshadowed() const noexcept {
         return (Factor::kPerAlbedo * Map::kCellAngle) * unshadowed_;
     }

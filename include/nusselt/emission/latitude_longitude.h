@@ -6,9 +6,9 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// The unit direction at a point of the image: (0, 0) to (1, 0) is the zenith +z, the lower edge is -z. Azimuths begin at +x
-/// and turn towards +y. An image of m rows has the solid angle 2 pi / columns (cos(pi j / m) - cos(pi (j + 1) / m)) in each texel
-/// of row j.
+/// The unit direction at a point of the image: the upper edge is the zenith +z, the lower edge is -z. Azimuths begin at
+/// +x and turn towards +y. In an image of m rows, each texel of row j has the solid angle
+/// 2 pi / columns (cos(pi j / m) - cos(pi (j + 1) / m)).
 /// \param at in [0, 1]^2.
 template <class Real>
 NUSSELT_HD inline Vec3<Real> latitude_longitude_direction(const Vec2<Real>& at) noexcept {
@@ -22,7 +22,7 @@ NUSSELT_HD inline Vec3<Real> latitude_longitude_direction(const Vec2<Real>& at) 
     return {across * azimuth.cos, across * azimuth.sin, polar.cos};
 }
 
-/// The point of the image for a direction, in [0, 1)^2. At the poles, any column will do: it is the first or the middle one.
+/// The point of the image for a direction, in [0, 1)^2. At the poles, the column is the first or the middle one.
 /// \param w unit.
 template <class Real>
 NUSSELT_HD inline Vec2<Real> latitude_longitude_coordinates(const Vec3<Real>& w) noexcept {

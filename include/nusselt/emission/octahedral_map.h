@@ -2,9 +2,9 @@
 /// Radiance of all directions as a square of texels of equal solid angle.
 ///
 /// P. Clarberg 2008, Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD, Journal of Graphics Tools 13(3),
-/// doi:10.1080/2151237X.2008.10129263. As in pbrt-v4, the centre of the square is +z, its corners are -z, and the midpoints
-/// of its edges are +-x and +-y. There are no poles where texels crowd together, and all coordinates are found without
-/// subtracting numbers that are nearly equal.
+/// doi:10.1080/2151237X.2008.10129263. As in pbrt-v4, the centre of the square is +z, its corners are -z, and the
+/// midpoints of its edges are +-x and +-y. There are no poles where texels crowd together, and all coordinates are
+/// found without subtracting numbers that are nearly equal.
 
 #include <nusselt/core/trig.h>
 #include <nusselt/emission/texture.h>
@@ -66,8 +66,8 @@ NUSSELT_HD constexpr Vec2<int> wrap_octahedral(int i, int j, int size) noexcept 
     return {i, j};
 }
 
-/// Radiance of all directions. It is interpolated between the centres of texels, also across the edges of the square, and
-/// is continuous on the sphere.
+/// Radiance of all directions. It is interpolated between the centres of texels, also across the edges of the square,
+/// and is continuous on the sphere.
 template <class T>
 struct OctahedralMap {
     const Vec3<T>* texel; ///< radiance per channel [W/(sr m^2)] at index j * size + i. The caller owns it.

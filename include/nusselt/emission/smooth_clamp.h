@@ -5,8 +5,9 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// About the mean of max(0, X) for a normal X: (mean + sqrt(mean^2 + 2 variance / pi)) / 2. Exact if the mean or the variance
-/// is 0, at most 12 % too large for means above minus half of the deviation, and too large below. Positive if the variance is.
+/// About the mean of max(0, X) for a normal X: (mean + sqrt(mean^2 + 2 variance / pi)) / 2. Exact if the mean or the
+/// variance is 0, at most 12 % too large for means above minus half of the deviation, and too large below. Positive if
+/// the variance is.
 template <class Real>
 NUSSELT_INLINE Real smooth_clamp(const Real& mean, const Real& variance) noexcept {
     using T = scalar_t<Real>;

@@ -93,8 +93,8 @@ TEST(EnvironmentMap, DirectionsAreWeightedByRadiance) {
     }
 }
 
-/// Where radiance is constant, a third of the trace of the covariance of directions in a cell, which is about a twelfth of
-/// its solid angle in two of three directions.
+/// Where radiance is constant, a third of the trace of the covariance of directions in a cell, which is about a twelfth
+/// of its solid angle in two of three directions.
 TEST(EnvironmentMap, VariancesAreThoseOfDirections) {
     const auto texels = texels_of<double>(64, [](const auto&) { return grey<double>(1); });
     const StoredMap<double, 16> stored(texels.view());

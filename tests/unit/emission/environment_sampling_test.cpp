@@ -93,8 +93,8 @@ void for_each_case(const Function& f) {
     }
 }
 
-/// Densities are bilinear in each quarter of a texel, so their values at the centres have the right sum. Samples that end
-/// below the horizon have no density: what is missing is their share.
+/// Densities are bilinear in each quarter of a texel, so their values at the centres have the right sum. Samples that
+/// end below the horizon have no density: what is missing is their share.
 TYPED_TEST(EnvironmentTest, DensityIntegratesToOne) {
     for_each_case<TypeParam::n>([&](const MapTexels<double>& texels, const auto& map,
                                     const Frame<double>& frame) {

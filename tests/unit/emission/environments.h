@@ -96,8 +96,8 @@ nusselt::Frame<To> converted(const nusselt::Frame<From>& frame) {
     return nusselt::broadcast<To>(frame);
 }
 
-/// Directions and radiance of a map at the centres of the quarters of texels, each of which has the same solid angle. There,
-/// interpolation is a polynomial.
+/// Directions and radiance of a map at the centres of the quarters of texels, each of which has the same solid angle.
+/// There, interpolation is a polynomial.
 struct MapPoint {
     nusselt::Vec2<double> at;
     nusselt::Vec3<double> direction;
