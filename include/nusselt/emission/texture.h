@@ -1,7 +1,7 @@
 #pragma once
 /// Textures of radiance in the plane of a light, and how their texels become a function of the position.
 
-#include <nusselt/core/vec.h>
+#include <nusselt/core/light_sample.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -11,6 +11,14 @@ template <class T>
 struct TextureView {
     const Vec3<T>* texel; ///< radiance per channel [W/(sr m^2)]: finite and not negative. The caller owns it.
     int width, height;    ///< at least 1
+};
+
+/// A sample on a light with a texture.
+template <class Real>
+struct TexturedSample : LightSample<Real> {
+    /// Texture coordinates of p. Look up the radiance there: those of the rounded p may lie in another texel, for which the
+    /// density is wrong.
+    Vec2<Real> at;
 };
 
 /// The part that a texel takes of an interval of the texture.

@@ -6,19 +6,11 @@
 /// per area, and else go to single texels (cell_descent.h). Where the texture is constant in each cell, the density is that
 /// of the product. docs/techniques/textured_polygon.md derives all of it.
 
-#include <nusselt/core/light_sample.h>
 #include <nusselt/emission/cell_descent.h>
+#include <nusselt/emission/cell_sums.h>
 #include <nusselt/sampling/polygon_ltc.h>
 
 NUSSELT_NAMESPACE_BEGIN
-
-/// A sample on a light with a texture.
-template <class Real>
-struct TexturedSample : LightSample<Real> {
-    /// Texture coordinates of p. Look up the radiance there: those of the rounded p may lie in another texel, for which the
-    /// density is wrong.
-    Vec2<Real> at;
-};
 
 /// The measure of cells for diffuse surfaces: projected solid angle. Samples are above the horizon.
 template <class T>
@@ -101,8 +93,7 @@ public:
         for (int cell = 0; cell < Light::kCells; cell += Lanes::kCount) {
             const L angle = Lanes::load(angles + cell);
             const L weight = Lanes::load(light.weight + cell) * angle;
-            const L before = cell >= n ? Lanes::load(sum_ + cell - n) : L(T(0));
-            Lanes::store(sum_ + cell, before + weight);
+            sums_.add(cell, weight);
             const auto mean = [&](int channel) { return Lanes::load(light.mean[channel] + cell); };
             expected.x = multiply_add(mean(0), angle, expected.x);
             expected.y = multiply_add(mean(1), angle, expected.y);
@@ -111,20 +102,15 @@ public:
         distance_ =
             abs(Measure::kImageIsLight ? lattice.signed_distance()
                                        : plane_distance(rectangle_in<T>(plane_, {T(0), T(0)}, {T(1), T(1)})));
-        T total = T(0);
-        for (int i = 0; i < n; ++i) {
-            total += sum_[(n - 1) * n + i];
-            column_sum_[i] = total;
-        }
-        const bool lit = total > T(0) && is_finite(total) && image_area_ > T(0) && distance_ > T(0);
-        total_ = lit ? total : T(0);
-        unshadowed_ = {sum_of(expected.x), sum_of(expected.y), sum_of(expected.z)};
+        sums_.finish();
+        if (!(image_area_ > T(0)) || !(distance_ > T(0))) sums_.clear();
+        unshadowed_ = {Lanes::sum(expected.x), Lanes::sum(expected.y), Lanes::sum(expected.z)};
     }
 
     /// \param u in [0, 1)^2; x chooses along the x axis of the texture, y along its y axis: stratification survives in part.
     NUSSELT_HD TexturedSample<T> sample(const Vec2<T>& u) const noexcept {
-        if (!(total_ > T(0))) return none();
-        const Cell cell = choose_cell(u);
+        if (!(sums_.total() > T(0))) return none();
+        const Cell cell = make_cell(sums_.choose(u));
         if (is_smooth(cell)) {
             return with_technique(cell, [&](const auto& technique) -> TexturedSample<T> {
                 const LightSample<T> s = technique.sample(cell.u);
@@ -155,18 +141,20 @@ public:
     }
 
     /// \param wi a unit direction towards the light.
-    NUSSELT_HD T pdf(const Vec3<T>& wi) const noexcept { return total_ > T(0) ? density(wi, hit(wi)) : T(0); }
+    NUSSELT_HD T pdf(const Vec3<T>& wi) const noexcept {
+        return sums_.total() > T(0) ? density(wi, hit(wi)) : T(0);
+    }
 
     /// The density of the direction to the point with these texture coordinates [1/sr].
     NUSSELT_HD T pdf_at(const Vec2<T>& at) const noexcept {
-        return total_ > T(0) ? density(normalize(plane_.point_at(at)), at) : T(0);
+        return sums_.total() > T(0) ? density(normalize(plane_.point_at(at)), at) : T(0);
     }
 
     /// The random numbers for which sample() returns wi, a unit direction on the light.
     NUSSELT_HD Vec2<T> invert(const Vec3<T>& wi) const noexcept {
-        if (!(total_ > T(0))) return {T(0), T(0)};
+        if (!(sums_.total() > T(0))) return {T(0), T(0)};
         const Vec2<T> at = hit(wi);
-        const Cell cell = cell_at(at);
+        const Cell cell = make_cell(sums_.at(at));
         Vec2<T> u;
         if (is_smooth(cell)) {
             u = with_technique(cell, [&](const auto& technique) { return technique.invert(wi); });
@@ -180,45 +168,27 @@ public:
                 texel.u = detail::invert_part(light_->outline.part_in(area.low, area.high), at);
             u = Descent::invert(light_->pyramid, image_, texel);
         }
-        const Step x = column_step(cell.column);
-        const Step y = cell_step(cell.column, cell.row);
-        return {x.united(u.x), y.united(u.y)};
+        return sums_.unite(cell.column, cell.row, u);
     }
 
     /// The sum over cells of mean radiance, averaged over channels, times projected solid angle, or times the integral of
     /// the lobe [W/m^2, W/(sr m^2)].
-    NUSSELT_HD T measure() const noexcept { return Measure::kUnit * total_; }
+    NUSSELT_HD T measure() const noexcept { return Measure::kUnit * sums_.total(); }
 
     /// The radiance that is reflected without shadows per albedo of the component, per channel [W/(sr m^2)]: the coefficient
     /// of heuristics for multiple importance sampling (estimate/mis.h). Exact where the texture is constant in each cell.
     NUSSELT_HD Vec3<T> unshadowed() const noexcept {
-        return total_ > T(0) ? T(1 / kPi<T>) * unshadowed_ : Vec3<T>{T(0), T(0), T(0)};
+        return sums_.total() > T(0) ? T(1 / kPi<T>) * unshadowed_ : Vec3<T>{T(0), T(0), T(0)};
     }
 
 private:
     struct Rectangle {
         Vec2<T> low, high;
     };
-    struct Cell {
-        int column, row;
-        T probability;
-        Vec2<T> u; ///< random numbers that are left
+    struct Cell : CellChoice<T> {
         Vec2<T> low, high;
 
-        NUSSELT_HD int index() const noexcept { return row * n + column; }
-    };
-
-    /// One step of running sums.
-    struct Step {
-        T before, after, total;
-
-        NUSSELT_HD T probability() const noexcept { return total > T(0) ? (after - before) / total : T(0); }
-        NUSSELT_HD T rest(const T& target) const noexcept {
-            return below_one((target - before) / max(after - before, std::numeric_limits<T>::min()));
-        }
-        NUSSELT_HD T united(const T& u) const noexcept {
-            return total > T(0) ? below_one((before + u * (after - before)) / total) : T(0);
-        }
+        NUSSELT_HD int index() const noexcept { return CellChoice<T>::index(n); }
     };
 
     NUSSELT_HD static TexturedSample<T> none() noexcept {
@@ -226,56 +196,15 @@ private:
         return {{up, T(0), up}, {T(0), T(0)}};
     }
 
-    template <class L>
-    NUSSELT_HD static T sum_of(const L& lanes) noexcept {
-        T each[detail::CellLanes<T>::kCount];
-        detail::CellLanes<T>::store(each, lanes);
-        T sum = T(0);
-        for (const T x : each) sum += x;
-        return sum;
-    }
-
     NUSSELT_HD static Vec2<T> clamped(const Vec2<T>& at, const Vec2<T>& low, const Vec2<T>& high) noexcept {
         constexpr T kBelowOne = 1 - std::numeric_limits<T>::epsilon() / 2;
         return {max(min(at.x, kBelowOne * high.x), low.x), max(min(at.y, kBelowOne * high.y), low.y)};
     }
 
-    NUSSELT_HD Step column_step(int column) const noexcept {
-        return {column > 0 ? column_sum_[column - 1] : T(0), column_sum_[column], total_};
-    }
-    NUSSELT_HD Step cell_step(int column, int row) const noexcept {
-        return {row > 0 ? sum_[(row - 1) * n + column] : T(0), sum_[row * n + column],
-                sum_[(n - 1) * n + column]};
-    }
-
-    /// The first of n running sums above a target that is below the last one.
-    NUSSELT_HD static int first_above(const T* sums, int stride, const T& target) noexcept {
-        int found = 0;
-        for (int step = n / 2; step > 0; step /= 2)
-            found += sums[(found + step - 1) * stride] <= target ? step : 0;
-        return found;
-    }
-
-    NUSSELT_HD Cell make_cell(int column, int row, const Vec2<T>& u) const noexcept {
-        return {column,
-                row,
-                column_step(column).probability() * cell_step(column, row).probability(),
-                u,
-                {Light::line(column), Light::line(row)},
-                {Light::line(column + 1), Light::line(row + 1)}};
-    }
-    NUSSELT_HD Cell choose_cell(const Vec2<T>& u) const noexcept {
-        constexpr T kBelowOne = 1 - std::numeric_limits<T>::epsilon() / 2;
-        const T target_x = min(u.x, kBelowOne) * total_;
-        const int column = first_above(column_sum_, 1, target_x);
-        const T target_y = min(u.y, kBelowOne) * sum_[(n - 1) * n + column];
-        const int row = first_above(sum_ + column, n, target_y);
-        return make_cell(column, row,
-                         {column_step(column).rest(target_x), cell_step(column, row).rest(target_y)});
-    }
-    NUSSELT_HD Cell cell_at(const Vec2<T>& at) const noexcept {
-        return make_cell(detail::clamp_index(static_cast<int>(at.x * T(n)), n),
-                         detail::clamp_index(static_cast<int>(at.y * T(n)), n), {T(0), T(0)});
+    NUSSELT_HD static Cell make_cell(const CellChoice<T>& choice) noexcept {
+        return {choice,
+                {Light::line(choice.column), Light::line(choice.row)},
+                {Light::line(choice.column + 1), Light::line(choice.row + 1)}};
     }
 
     NUSSELT_HD TexelChoice<T> texel_at(const Vec2<T>& at) const noexcept {
@@ -349,7 +278,7 @@ private:
     }
 
     NUSSELT_HD T density(const Vec3<T>& wi, const Vec2<T>& at) const noexcept {
-        const Cell cell = cell_at(at);
+        const Cell cell = make_cell(sums_.at(at));
         if (!(cell.probability > T(0))) return T(0);
         if (is_smooth(cell))
             return with_technique(
@@ -376,13 +305,11 @@ private:
     TexturePlane<T> plane_; ///< scaled to coordinates of order one
     TexturePlane<T> image_; ///< in the space where the measure is the projected solid angle
     T image_area_;
-    T area_;               ///< of the texture
-    T distance_;           ///< of its plane
-    T inverse_scale_;      ///< a power of two
-    T sum_[Light::kCells]; ///< of weights of a column, up to each row
-    T column_sum_[n];      ///< of columns
-    T total_;              ///< 0 without light
-    Vec3<T> unshadowed_;   ///< sum of mean radiance times projected solid angle
+    T area_;          ///< of the texture
+    T distance_;      ///< of its plane
+    T inverse_scale_; ///< a power of two
+    CellSums<T, n> sums_;
+    Vec3<T> unshadowed_; ///< sum of mean radiance times projected solid angle
 };
 
 /// For glossy surfaces.
