@@ -121,7 +121,15 @@ struct RectifiedGrid {
         return slope(j, height, low.y, high.y, angle_low.y, texel_size().y);
     }
 
-    NUSSELT_HD T solid_angle() const noexcept { return difference(low, high); }
+    /// The solid angle of all texels [sr].
+    NUSSELT_HD T solid_angle() const noexcept {
+        const T exact = difference(low, high);
+        if (exact > T(1e-6)) return exact;
+        T sum = T(0);
+        for (int j = 0; j < height; ++j)
+            for (int i = 0; i < width; ++i) sum += solid_angle(i, j);
+        return sum;
+    }
 
     /// The solid angle of a texel [sr].
     NUSSELT_HD T solid_angle(int column, int row) const noexcept {
