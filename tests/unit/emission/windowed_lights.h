@@ -120,10 +120,10 @@ struct Estimates {
     }
     double mean() const { return sum / count; }
     double relative_variance() const { return mean() > 0 ? squares / count / (mean() * mean()) - 1 : 0; }
-    /// Standard deviations of the mean that it is away from a value.
-    double deviation_from(double expected) const {
-        const double variance = std::max(relative_variance(), 1e-12) * mean() * mean() / count;
-        return std::fabs(mean() - expected) / std::sqrt(variance);
+    /// Whether the mean is that of a value known to a relative error, up to five standard deviations.
+    bool agrees_with(double expected, double error) const {
+        const double deviation = std::sqrt(std::max(relative_variance(), 0.0) / count) * mean();
+        return std::fabs(mean() - expected) < 5 * deviation + error * expected;
     }
 };
 
