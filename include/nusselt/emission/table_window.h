@@ -214,31 +214,35 @@ struct TableWindow {
         TexelRectangle lit{{columns.first, rows.first}, {columns.last + 1, rows.last + 1}};
         if (weight_of(lit) == 0) return {{0, 0}, {0, 0}};
         for (int axis = 0; axis < 2; ++axis) {
-            // Move each end by bisection as long as what is left out is black.
-            int black = lit.begin[axis], beyond = lit.end[axis];
-            while (beyond - black > 1) {
-                const int middle = (black + beyond) / 2;
+            lit.begin[axis] = last_where(lit.begin[axis], lit.end[axis] - 1, [&](int i) {
                 TexelRectangle left_out = lit;
-                left_out.end[axis] = middle;
-                (weight_of(left_out) == 0 ? black : beyond) = middle;
-            }
-            lit.begin[axis] = black;
-            black = lit.end[axis];
-            while (black - beyond > 0) {
-                const int middle = (black + beyond) / 2;
+                left_out.end[axis] = i;
+                return weight_of(left_out) == 0;
+            });
+            lit.end[axis] = -last_where(-lit.end[axis], -(lit.begin[axis] + 1), [&](int i) {
                 TexelRectangle left_out = lit;
-                left_out.begin[axis] = middle;
-                if (weight_of(left_out) == 0)
-                    black = middle;
-                else
-                    beyond = middle + 1;
-            }
-            lit.end[axis] = black;
+                left_out.begin[axis] = -i;
+                return weight_of(left_out) == 0;
+            });
         }
         return lit;
     }
 
 private:
+    /// The last number up to `last` for which a condition holds that holds for the first one, and for none beyond those for
+    /// which it holds. That is mostly the first one.
+    template <class Condition>
+    NUSSELT_HD static int last_where(int first, int last, const Condition& holds) noexcept {
+        if (first < last && !holds(first + 1)) return first;
+        while (first < last) {
+            const int middle = last - (last - first) / 2;
+            if (holds(middle))
+                first = middle;
+            else
+                last = middle - 1;
+        }
+        return first;
+    }
     NUSSELT_HD std::int64_t weight_of(const TexelRectangle& r) const noexcept {
         return table.sum(r.begin[0], r.end[0], r.begin[1], r.end[1]).weight;
     }

@@ -44,8 +44,10 @@ template <class T, int n>
 struct WindowLines {
     SlopeInterval<T> slopes;
     TableAxis<T> axis;
-    T offset[n + 1];   ///< of slopes
-    T position[n + 1]; ///< in texels
+    T offset[n + 1];       ///< of slopes
+    T position[n + 1];     ///< in texels
+    int texel[n + 1];      ///< of the position
+    T share_before[n + 1]; ///< the share of this texel before the position
 
     /// Uninitialised: to be assigned to before it is used.
     WindowLines() = default;
@@ -63,6 +65,8 @@ struct WindowLines {
             const T before = i > 0 ? offset[i - 1] : slopes.low;
             offset[i] = i == 0 ? slopes.low : i == n ? slopes.high : max(slopes.offset_at(angle), before);
             position[i] = inverse * (i == n ? high : angle);
+            texel[i] = axis.texel_at(position[i]);
+            share_before[i] = axis.before(texel[i], position[i]);
         }
     }
 

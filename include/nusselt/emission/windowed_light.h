@@ -2,6 +2,7 @@
 /// Polygons whose radiance depends on the direction and not on the point: portals of environment maps, and lights with a
 /// profile.
 
+#include <nusselt/core/frame.h>
 #include <nusselt/emission/rectified_table.h>
 #include <nusselt/emission/textured_light.h>
 

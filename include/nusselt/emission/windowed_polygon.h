@@ -72,8 +72,9 @@ public:
 
     /// \param wi a unit direction; the density is 0 where nothing of the light is, or where it is black.
     NUSSELT_HD T pdf(const Vec3<T>& wi) const noexcept {
+        if (!(total_ > T(0))) return T(0);
         const Hit where = hit(wi);
-        if (!(total_ > T(0)) || !where.is_inside) return T(0);
+        if (!where.is_inside) return T(0);
         const Vec2<T> at = where.offset;
         const Cell cell = cell_at(at);
         if (!(cell.probability > T(0))) return T(0);
@@ -87,8 +88,9 @@ public:
 
     /// The random numbers for which sample() returns wi, a unit direction with a density.
     NUSSELT_HD Vec2<T> invert(const Vec3<T>& wi) const noexcept {
+        if (!(total_ > T(0))) return {T(0), T(0)};
         const Hit where = hit(wi);
-        if (!(total_ > T(0)) || !where.is_inside) return {T(0), T(0)};
+        if (!where.is_inside) return {T(0), T(0)};
         const Vec2<T> at = where.offset;
         const Cell cell = cell_at(at);
         const TableWindow<T> window = window_of(cell);
@@ -238,12 +240,9 @@ private:
         using Below = detail::SumsBelow<T>;
         Below line[2][n + 1];
         const auto find_line = [&](int i, Below(&below)[n + 1]) {
-            const int texel = columns_.axis.texel_at(columns_.position[i]);
-            const T right = columns_.axis.before(texel, columns_.position[i]);
-            for (int j = 0; j <= n; ++j) {
-                const int row = rows_.axis.texel_at(rows_.position[j]);
-                below[j] = Below(*table_, texel, row, right, rows_.axis.before(row, rows_.position[j]));
-            }
+            for (int j = 0; j <= n; ++j)
+                below[j] = Below(*table_, columns_.texel[i], rows_.texel[j], columns_.share_before[i],
+                                 rows_.share_before[j]);
         };
         find_line(0, line[0]);
         T total = T(0);

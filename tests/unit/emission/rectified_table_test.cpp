@@ -71,7 +71,8 @@ TEST(RectifiedTable, DomainsOfAllSizesAreCovered) {
         EXPECT_NEAR(stored.table.mean, 2, 1e-5) << size;
         if (size > 0.1) continue;
         const auto texel = stored.table.sum(3, 4, 5, 6);
-        EXPECT_NEAR(static_cast<double>(texel.solid_angle) * 256 / kWhole, 1, size < 1e-2 ? 2e-3 : 0.3) << size;
+        EXPECT_NEAR(static_cast<double>(texel.solid_angle) * 256 / kWhole, 1, size < 1e-2 ? 2e-3 : 0.3)
+            << size;
         EXPECT_NEAR(static_cast<double>(texel.weight) / static_cast<double>(texel.solid_angle) * all, 1,
                     1e-4);
     }
