@@ -19,6 +19,8 @@ using nusselt::Frame;
 using nusselt::Vec2;
 using nusselt::WindowedPolygon;
 using Vector = nusselt::Vec3<double>;
+using Cells8 = WindowedPolygon<float, 8>;
+using Cells4 = WindowedPolygon<float, 4>;
 
 double sky(const Vector& w) {
     const double alpha = std::atan2(w.x, w.z), beta = std::atan2(w.y, w.z);
@@ -29,6 +31,27 @@ double sky_and_sun(const Vector& w) {
     const bool is_sun = dot(w, normalize(Vector{0.35, 0.45, 1})) > std::cos(nusselt::kPi<double> / 180);
     return sky(w) + (is_sun ? 3000 : 0);
 }
+
+/// Sampling of a rectangle that knows nothing of its radiance.
+class CosineOnly {
+public:
+    CosineOnly(const nusselt::WindowPlane<float>& plane, const nusselt::WindowedLight<float>& light)
+        : frame_(plane.frame),
+          technique_(
+              nusselt::rectangle_in<float>({plane.corner, frame_.t, frame_.b, cross(frame_.t, frame_.b)},
+                                           light.outline.vertex[0], light.outline.vertex[2])) {}
+
+    nusselt::WindowSample<float> sample(const Vec2<float>& u) const {
+        const auto s = technique_.sample(u);
+        const auto w = frame_.to_local(s.wi);
+        const auto at = [&](float x) { return std::atan(x / w.z) / nusselt::kPi<float> + 0.5f; };
+        return {s, {at(w.x), at(w.y)}};
+    }
+
+private:
+    Frame<float> frame_;
+    nusselt::PolygonProjectedSolidAngle<float, 4> technique_;
+};
 
 /// Root mean square over views of the relative standard deviation.
 struct Noise {
@@ -62,7 +85,7 @@ Estimates estimates_of(const Technique& technique, const Frame<float>& frame, in
 void report(const std::string& what, double noise) { std::printf("%s: noise %.4f\n", what.c_str(), noise); }
 
 /// A portal of 2 x 2, from points 0.5 to 3 behind it that see all of it above their horizon.
-template <int n, class Radiance>
+template <class Technique, class Radiance>
 double portal_noise(const nusselt::RectifiedTable<float>& table, const Radiance& radiance) {
     const auto vertices = rectangle_at<float>(0, -1, 1, -1, 1);
     const auto light = portal_of(vertices, table);
@@ -79,7 +102,7 @@ double portal_noise(const nusselt::RectifiedTable<float>& table, const Radiance&
         bool is_above = true;
         for (const auto& v : vertices) is_above = is_above && dot(frame.n, v - point) > 0;
         if (!is_above) continue;
-        const WindowedPolygon<float, n> technique(to_shading_space(light.plane, point, frame), light);
+        const Technique technique(to_shading_space(light.plane, point, frame), light);
         noise.add(estimates_of(technique, frame, 400, radiance));
     }
     return noise.value();
@@ -93,11 +116,14 @@ TEST(WindowedNoise, OfPortals) {
         const auto interpolated = [&](const auto&, const auto& w) { return map.interpolated(w); };
         const StoredTable<float> means([&](const auto& w) { return grey<float>(map.interpolated(w)); },
                                        nusselt::RectifiedDomain<float>::hemisphere(), map.size, map.size, 2);
-        const double of_texels = portal_noise<8>(texels.table, at_texel);
-        const double of_means = portal_noise<8>(means.table, interpolated);
+        const double of_texels = portal_noise<Cells8>(texels.table, at_texel);
+        const double of_means = portal_noise<Cells8>(means.table, interpolated);
         const std::string name = has_sun ? "sky and sun" : "sky";
+        const double of_cosine = portal_noise<CosineOnly>(texels.table, at_texel);
+        report(name + ", projected solid angle", of_cosine);
+        EXPECT_GT(of_cosine, 3 * of_texels);
         report(name + ", texels, 8 x 8", of_texels);
-        report(name + ", texels, 4 x 4", portal_noise<4>(texels.table, at_texel));
+        report(name + ", texels, 4 x 4", portal_noise<Cells4>(texels.table, at_texel));
         report(name + ", bilinear, 8 x 8", of_means);
         EXPECT_LE(of_texels, has_sun ? 0.05 : 0.06);
         EXPECT_LE(of_means, has_sun ? 0.3 : 0.06);
@@ -105,7 +131,7 @@ TEST(WindowedNoise, OfPortals) {
 }
 
 /// A light of 1 x 1 from points around its axis.
-template <int n, class Radiance>
+template <class Technique, class Radiance>
 double profile_noise(const nusselt::RectifiedTable<float>& table, double distance,
                      const std::vector<Vector>& directions, const Radiance& radiance) {
     const auto vertices = rectangle_at<float>(0, 0, 1, 0, 1);
@@ -115,8 +141,8 @@ double profile_noise(const nusselt::RectifiedTable<float>& table, double distanc
         const Vector point = Vector{0.5, 0.5, 0} + distance * normalize(d);
         const auto frame = Frame<float>::from_normal(
             nusselt::broadcast<float>(-normalize(Vector{0.3 * d.x, 0.3 * d.y, d.z})));
-        const WindowedPolygon<float, n> technique(
-            to_shading_space(light.plane, nusselt::broadcast<float>(point), frame), light);
+        const Technique technique(to_shading_space(light.plane, nusselt::broadcast<float>(point), frame),
+                                  light);
         const Estimates estimates = estimates_of(technique, frame, 1500, radiance);
         if (estimates.mean() > 0) noise.add(estimates);
     }
@@ -149,8 +175,16 @@ TEST(WindowedNoise, OfProfiles) {
         const auto stored = table_of<float>(row.map);
         const auto at_texel = [&](const auto& s, const auto&) { return row.map.at_position(s.at); };
         for (std::size_t k = 0; k < row.distances.size(); ++k) {
-            const double noise = profile_noise<8>(stored.table, row.distances[k], row.directions, at_texel);
-            const double coarse = profile_noise<4>(stored.table, row.distances[k], row.directions, at_texel);
+            const double noise =
+                profile_noise<Cells8>(stored.table, row.distances[k], row.directions, at_texel);
+            const double coarse =
+                profile_noise<Cells4>(stored.table, row.distances[k], row.directions, at_texel);
+            const double of_cosine =
+                profile_noise<CosineOnly>(stored.table, row.distances[k], row.directions, at_texel);
+            report(row.name + std::string(" at ") + std::to_string(row.distances[k]) +
+                       ", projected solid angle",
+                   of_cosine);
+            EXPECT_GT(of_cosine, 3 * noise);
             report(row.name + std::string(" at ") + std::to_string(row.distances[k]) + ", 8 x 8", noise);
             report(row.name + std::string(" at ") + std::to_string(row.distances[k]) + ", 4 x 4", coarse);
             EXPECT_LE(noise, row.budgets[k]) << row.name;
@@ -169,10 +203,10 @@ TEST(WindowedNoise, OfSpread) {
             const StoredTable<float> stored([&](const auto& w) { return grey<float>(spread.share(w)); },
                                             spread.domain(), 128, 128, 2);
             for (const double distance : {0.5, 1.0, 3.0}) {
-                const double noise = profile_noise<8>(stored.table, distance, directions,
-                                                      [&](const auto&, const nusselt::Vec3<float>& w) {
-                                                          return static_cast<double>(spread.share(-w));
-                                                      });
+                const double noise = profile_noise<Cells8>(stored.table, distance, directions,
+                                                           [&](const auto&, const nusselt::Vec3<float>& w) {
+                                                               return static_cast<double>(spread.share(-w));
+                                                           });
                 report(std::string(name) + " " + std::to_string(degrees) + " at " + std::to_string(distance),
                        noise);
                 // The wider the grid, the more of the noise is that of 8 x 8 cells close to the light.

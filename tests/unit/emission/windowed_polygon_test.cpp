@@ -328,6 +328,55 @@ TEST(WindowedPolygon, ProfiledLightsEmitInTheirFrame) {
     EXPECT_EQ(behind.measure(), 0);
 }
 
+/// Down to a degree, the light is cut to what shines on the point, and nothing of it is lost.
+TEST(WindowedPolygon, GridsAreUnbiased) {
+    const std::vector<Vector> vertices = rectangle_at<double>(1, -0.5, 0.5, -0.5, 0.5);
+    const Frame<double> down{{0, 1, 0}, {1, 0, 0}, {0, 0, -1}};
+    const auto surface = Frame<double>::from_normal(normalize(Vector{0.3, -0.2, 1}));
+    const auto check = [&](const auto& spread, const Vector& point) {
+        const StoredTable<double> stored([&](const Vector& w) { return grey<double>(spread.share(w)); },
+                                         spread.domain(), 64, 64, 2);
+        const auto light = nusselt::make_profiled_light(down, vertices.data(), 4, stored.table);
+        const WindowedPolygon<double, 8> technique(to_shading_space(light.plane, point, surface), light);
+        Estimates right, level;
+        std::mt19937 random(3);
+        std::uniform_real_distribution<double> uniform(0, 1);
+        for (int k = 0; k < 4000; ++k) {
+            const double x = uniform(random);
+            const auto s = technique.sample({x, uniform(random)});
+            const Vector w = surface.to_world(s.wi);
+            const double value = s.pdf > 0 ? spread.share(down.to_local(-w)) / s.pdf : 0;
+            right.add(value * std::max(s.wi.z, 0.0));
+            level.add(value * w.z);
+        }
+        // Over the part of the light around the foot of the point.
+        const double reach = spread.domain().high.x * (1 - point.z);
+        const Vec2<double> low{std::max(point.x - reach, -0.5), std::max(point.y - reach, -0.5)};
+        const Vec2<double> high{std::min(point.x + reach, 0.5), std::min(point.y + reach, 0.5)};
+        constexpr int kSteps = 200;
+        double expected = 0;
+        for (int j = 0; j < kSteps; ++j)
+            for (int i = 0; i < kSteps; ++i) {
+                const Vector p = Vector{low.x + (i + 0.5) / kSteps * (high.x - low.x),
+                                        low.y + (j + 0.5) / kSteps * (high.y - low.y), 1} -
+                                 point;
+                const double squared = dot(p, p);
+                expected += spread.share(down.to_local(-normalize(p))) * dot(p, surface.n) * p.z /
+                            (squared * squared);
+            }
+        expected *= (high.x - low.x) * (high.y - low.y) / (kSteps * kSteps);
+        EXPECT_TRUE(right.agrees_with(expected, 1e-3)) << right.mean() / expected;
+        EXPECT_FALSE(level.agrees_with(expected, 1e-3));
+    };
+    for (const double degrees : {1.0, 10.0, 50.0}) {
+        const double slope = std::tan(degrees * nusselt::kPi<double> / 180);
+        for (const Vector& point : {Vector{0.1, 0.2, 0.4}, Vector{0.5, -0.499, -1}}) {
+            check(nusselt::Honeycomb<double>{{slope, slope}}, point);
+            check(nusselt::RadialSpread<double>{slope}, point);
+        }
+    }
+}
+
 /// In a window that holds a black half, and in busy cells.
 TEST(WindowedPolygon, OnlyWhatIsLitIsChosen) {
     const nusselt::Honeycomb<float> honeycomb{{0.1f, 0.2f}};
