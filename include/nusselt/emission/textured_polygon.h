@@ -25,6 +25,8 @@ struct ProjectedCells {
         return PolygonProjectedSolidAngle<T, N>(cell);
     }
     NUSSELT_HD bool counts(const Vec3<T>& wi) const noexcept { return wi.z > T(0); }
+    /// What the measure of a cell is the integral of, over solid angle.
+    NUSSELT_HD T integrand(const Vec3<T>& wi) const noexcept { return max(wi.z, T(0)); }
 };
 
 /// The measure of cells for glossy surfaces: the integral of a lobe, which is the projected solid angle of the image of the
@@ -44,6 +46,8 @@ struct LobeCells {
         return PolygonLtc<T, N>(cell, ltc);
     }
     NUSSELT_HD bool counts(const Vec3<T>&) const noexcept { return true; }
+    /// \copydoc ProjectedCells::integrand
+    NUSSELT_HD T integrand(const Vec3<T>& wi) const noexcept { return ltc.density(wi); }
 };
 
 /// \tparam T       float, double or long double. One light and shading point at a time: cells are lanes.
