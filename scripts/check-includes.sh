@@ -37,7 +37,7 @@ BEGIN {
     allow("src/scene/input", "src/base")
     allow("src/scene/model", "library src/scene/input")
     allow("src/scene/colour", "src/scene/input src/scene/model")
-    allow("src/scene/build", "library src/image src/scene/input src/scene/model")
+    allow("src/scene/build", "library src/image src/scene/input src/scene/model src/scene/colour")
     allow("src/scene/rig", "src/scene/input src/scene/model src/scene/colour")
     below = "src/scene/input src/scene/model src/scene/colour src/scene/build"
     allow("src/scene/import/ply", below)
