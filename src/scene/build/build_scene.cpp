@@ -224,6 +224,7 @@ Scene build_scene(SceneDescription description) {
     for (BakedTexture& texture : textures) scene.textures.push_back(std::move(texture.texture));
     const std::vector<std::size_t> triangle_counts = sizes_of(built, &BuiltShape::triangles);
     BuiltShape shapes = join(std::move(built), description.words.instance);
+    add_light_sources(description.light_sources, scene.textures, shapes);
     collect_warnings(shapes, description.warnings);
     take_shapes(std::move(shapes), description.sources.front().path, scene);
     add_instances(description, placed.objects, triangle_counts, scene);

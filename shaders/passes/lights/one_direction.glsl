@@ -1,0 +1,34 @@
+#ifndef NUSSELT_PASSES_LIGHTS_ONE_DIRECTION_GLSL
+#define NUSSELT_PASSES_LIGHTS_ONE_DIRECTION_GLSL
+/// Lights without extent, as in src/render_cpu/kernel/lights/one_direction.h: each shading point receives their light from one
+/// direction.
+
+#include "passes/lights/light_role.glsl"
+
+/// Irradiance is bounded like the radiance of other lights, as points next to a light would overflow.
+const float kMaxIrradiance = 1e30;
+
+struct OneDirection {
+    vec3 wi; ///< unit direction to the light, in shading space
+    vec3 p;  ///< where shadow rays end, in shading space
+    LightRole role; ///< with the irradiance normal to the direction
+};
+
+/// \param to_light unit direction in world space
+/// \param way      to the point where shadow rays end, in world space
+/// \param usable   whether the light has a direction
+OneDirection light_in_direction(Surface surface, vec3 to_light, vec3 way, bool usable, vec3 irradiance, uint number) {
+    OneDirection light;
+    light.wi = frame_to_local(surface.shading, to_light);
+    light.p = frame_to_local(surface.shading, way);
+    irradiance = nusselt_min(irradiance, vec3(kMaxIrradiance));
+    bool is_black = max(max(irradiance.x, irradiance.y), irradiance.z) <= 0.0;
+    // Comparisons with NaN are false: negated they keep it, so that it is counted.
+    light.role = LightRole(usable && !(light.wi.z <= 0.0) && !is_black, irradiance, number);
+    return light;
+}
+
+/// No ray meets such lights.
+vec3 no_emission(uint index, Ray ray) { return vec3(0.0); }
+
+#endif
