@@ -1,4 +1,5 @@
 #include "render_cpu/lights/distant_records.h"
+#include "render_cpu/lights/environment_records.h"
 #include "render_cpu/lights/light_kernel.h"
 #include "render_cpu/lights/line_records.h"
 #include "render_cpu/lights/point_records.h"
@@ -16,6 +17,10 @@ std::span<const LightKernel> light_kernels() {
          false},
         {make_point_records,
          {point_code(LaneCount<4>()), point_code(LaneCount<8>()), point_code(LaneCount<16>())},
+         false},
+        {make_environment_records,
+         {environment_code(LaneCount<4>()), environment_code(LaneCount<8>()),
+          environment_code(LaneCount<16>())},
          false},
         {make_distant_records,
          {distant_code(LaneCount<4>()), distant_code(LaneCount<8>()), distant_code(LaneCount<16>())},

@@ -160,6 +160,7 @@ void take_shapes(BuiltShape&& shapes, const std::filesystem::path& path, Scene& 
     replace_missing_materials(scene.triangle_material, scene.materials);
     scene.lights.append(std::move(shapes.lights));
     scene.emission_textures = std::move(shapes.emission_textures);
+    scene.environment_maps = std::move(shapes.environment_maps);
 }
 
 /// Adds the objects that have triangles, and their instances.

@@ -1,11 +1,13 @@
 #include "scene/build/light_source.h"
 
 #include "scene/build/emission.h"
+#include "scene/build/environment.h"
 #include "scene/colour/colour_space.h"
 #include "scene/model/vector_math.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 
@@ -83,7 +85,8 @@ void fit_image(const LightSourceDescription& source, const Texture* texture, Poi
 }
 
 /// Whether the light shines.
-bool finish(const LightSourceDescription& source, const std::vector<Texture>& textures, PointLight& light) {
+bool finish(const LightSourceDescription& source, const std::vector<Texture>& textures, PointLight& light,
+            BuiltShape& /*shapes*/) {
     if (is_image(light.distribution))
         fit_image(source, light.texture < 0 ? nullptr : &textures[static_cast<std::size_t>(light.texture)],
                   light);
@@ -96,7 +99,39 @@ bool finish(const LightSourceDescription& source, const std::vector<Texture>& te
 }
 
 bool finish(const LightSourceDescription& /*source*/, const std::vector<Texture>& /*textures*/,
-            const DistantLight& /*light*/) {
+            const DistantLight& /*light*/, BuiltShape& /*shapes*/) {
+    return true;
+}
+
+/// The kind of an image by its proportions. pbrt v4 has square ones, and other programs write images in latitudes.
+EnvironmentImage image_kind(const LightSourceDescription& source, const Texture& image, Warnings& warnings) {
+    if (image.width == image.height) return EnvironmentImage::octahedral;
+    if (image.width != 2 * image.height)
+        warnings.add(source.origin,
+                     subject_of(source) + ": the image '" + image.name +
+                         "' is neither square nor twice as wide as high; it is taken for one in "
+                         "latitudes and longitudes");
+    return EnvironmentImage::latitude;
+}
+
+bool finish(const LightSourceDescription& source, const std::vector<Texture>& textures,
+            EnvironmentLight& light, BuiltShape& shapes) {
+    Double3 irradiance = {std::numbers::pi, std::numbers::pi, std::numbers::pi};
+    if (light.map >= 0) {
+        const Texture& image = textures[static_cast<std::size_t>(light.map)];
+        auto map = std::make_shared<EnvironmentMapTexels>(
+            make_environment_map_texels(image, image_kind(source, image, shapes.warnings)));
+        irradiance = irradiance_of(*map);
+        for (const Float3& texel : map->texels)
+            check_emission(product(light.radiance, texel), kRadiance, subject_of(source), source.origin);
+        light.radiance = product(light.radiance, map->mean);
+        light.map = static_cast<std::int32_t>(shapes.environment_maps.size());
+        shapes.environment_maps.push_back(std::move(map));
+    }
+    if (is_black(light.radiance)) return false;
+    if (const double brightness = luminance(irradiance); source.irradiance && brightness > 0)
+        light.radiance = to_float((*source.irradiance / brightness) * to_double(light.radiance));
+    check_emission(light.radiance, kRadiance, subject_of(source), source.origin);
     return true;
 }
 
@@ -128,7 +163,7 @@ void add_light_sources(const std::vector<LightSourceDescription>& sources,
                        const std::vector<Texture>& textures, BuiltShape& shapes) {
     for (const LightSourceDescription& source : sources) {
         const auto add = [&](auto light) {
-            if (!finish(source, textures, light)) {
+            if (!finish(source, textures, light, shapes)) {
                 shapes.warnings.add(source.origin,
                                     subject_of(source) + ": left out because its image is black");
                 return;

@@ -1,5 +1,5 @@
 #pragma once
-/// Lights without extent, as importers describe them.
+/// Lights that are no shapes, as importers describe them.
 
 #include "scene/build/built_shape.h"
 #include "scene/model/transform.h"
@@ -11,16 +11,19 @@
 
 namespace nusselt::scene {
 
-/// A light without extent in world space.
+/// A light that is no shape, in world space.
 struct LightSourceDescription {
     /// Its name in the names of lights, such as "spot light"; a constant of the importer.
     std::string_view kind;
     Location origin;
     /// The emission is to be scaled to `power`, if there is one. The texture of a point light is the index of a request;
-    /// half_extent is that of the shorter side of its image on both axes.
-    std::variant<PointLight, DistantLight> light;
+    /// half_extent is that of the shorter side of its image on both axes. The map of an environment is the index of a request;
+    /// its radiance is that of a texel of 1.
+    std::variant<PointLight, DistantLight, EnvironmentLight> light;
     /// The power if the luminance of the emission were one [W].
     std::optional<double> power = {};
+    /// Of environments: what a surface with their axis z as its normal receives, likewise [W/m^2].
+    std::optional<double> irradiance = {};
 };
 
 /// The axes of the space of a light in world space.

@@ -26,6 +26,7 @@ public:
     PointLight goniometric();
     PointLight projection();
     DistantLight distant();
+    EnvironmentLight environment();
 
     std::string subject() const { return "LightSource \"" + directive_.type + '"'; }
 
@@ -197,7 +198,23 @@ DistantLight LightSourceReader::distant() {
     return light;
 }
 
-using AnyLight = std::variant<PointLight, DistantLight>;
+EnvironmentLight LightSourceReader::environment() {
+    EnvironmentLight light;
+    light.radiance = emission("L", kRadiance);
+    const LightFrame axes = frame();
+    warn_of_skew(axes);
+    light.x_axis = axes.x;
+    light.y_axis = axes.y;
+    light.z_axis = axes.z;
+    light.map = image(3, TextureWrap::repeat);
+    if (!parameters_.points("portal").empty())
+        warnings_.add(parameters_.location_of("portal"),
+                      subject() +
+                          ": the portal is not used; the light is the same where the scene encloses it");
+    return light;
+}
+
+using AnyLight = std::variant<PointLight, DistantLight, EnvironmentLight>;
 
 struct LightSourceType {
     std::string_view type;
@@ -213,6 +230,7 @@ constexpr LightSourceType kTypes[] = {
      [](LightSourceReader& reader) -> AnyLight { return reader.goniometric(); }},
     {"projection", "projection light",
      [](LightSourceReader& reader) -> AnyLight { return reader.projection(); }},
+    {"infinite", "environment", [](LightSourceReader& reader) -> AnyLight { return reader.environment(); }},
 };
 
 const LightSourceType* find_type(std::string_view type) {
@@ -222,8 +240,9 @@ const LightSourceType* find_type(std::string_view type) {
 }
 
 bool is_dark(const AnyLight& light) {
-    if (const auto* const point = std::get_if<PointLight>(&light)) return is_black(point->intensity);
-    return is_black(std::get<DistantLight>(light).irradiance);
+    return std::visit(
+        [](const auto& any) { return is_black(any.*LightKind<std::decay_t<decltype(any)>>::kEmission); },
+        light);
 }
 
 } // namespace
@@ -243,6 +262,10 @@ std::optional<LightSourceDescription> read_light_source(LightSourceDirective& di
     if (std::holds_alternative<PointLight>(source.light)) {
         const std::optional<double> power = parameters.optional_real("power");
         if (power && *power > 0) source.power = power;
+    }
+    if (std::holds_alternative<EnvironmentLight>(source.light)) {
+        const std::optional<double> illuminance = parameters.optional_real("illuminance");
+        if (illuminance && *illuminance > 0) source.irradiance = illuminance;
     }
     // v3 took samples of lights of any kind.
     parameters.ignore({"samples", "nsamples"});
