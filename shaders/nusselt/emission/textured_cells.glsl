@@ -188,13 +188,51 @@ bool textured_view_is_smooth(TexturedView self, TexturedCell cell) {
     return !(variation > spread) || !(mean > 0.0);
 }
 
-/// The part of a cell inside of the outline.
-ConvexPolygon textured_view_cell_polygon(TexturedView self, TexturedCell cell) {
-    TextureRectangle rectangle = textured_cell_rectangle(cell);
-    TexturePart part = texture_part_of(rectangle);
-    if (textured_light_cover(self.light, textured_cell_index(cell)) != 1.0)
-        part = textured_light_part_in(self.light, rectangle);
-    return polygon_in(self.plane, part);
+/// Where samples of a cell are: anywhere in a smooth cell, in one texel of a busy one.
+struct TexturedSpot {
+    TexturedCell cell;
+    bool is_smooth;
+    TexelChoice texel;          ///< busy cells only
+    TextureRectangle rectangle; ///< the cell or the texel
+    bool is_whole;              ///< whether all of the rectangle is inside of the outline
+    TexturePart part;           ///< the part of the rectangle inside of the outline
+};
+
+/// \param texel any, if the cell is smooth.
+TexturedSpot textured_view_spot(TexturedView self, TexturedCell cell, bool is_smooth, TexelChoice texel) {
+    TexturedSpot spot;
+    spot.cell = cell;
+    spot.is_smooth = is_smooth;
+    spot.texel = texel;
+    spot.rectangle = textured_cell_rectangle(cell);
+    if (!is_smooth) {
+        vec2 size = 1.0 / vec2(pyramid_size_of(textured_light_shape(self.light), 0));
+        spot.rectangle = TextureRectangle(vec2(texel.at) * size, vec2(texel.at + 1) * size);
+    }
+    spot.is_whole = textured_light_cover(self.light, textured_cell_index(cell)) == 1.0 ||
+                    textured_light_contains(self.light, spot.rectangle);
+    spot.part = texture_part_of(spot.rectangle);
+    if (!spot.is_whole) spot.part = textured_light_part_in(self.light, spot.rectangle);
+    return spot;
+}
+
+/// The spot that random numbers choose, with the random numbers that are left.
+TexturedSpot textured_cells_spot_of(TexturedCells self, vec2 u) {
+    TexturedCell cell = textured_cells_choose(self, u);
+    bool is_smooth = textured_view_is_smooth(self.view, cell);
+    TexelChoice texel = TexelChoice(ivec2(0), 0.0, vec2(0.0));
+    if (!is_smooth) texel = choose_texel(self.view.light, self.view.image, cell.at, cell.u);
+    return textured_view_spot(self.view, cell, is_smooth, texel);
+}
+
+/// The spot where a point is.
+/// \param at texture coordinates.
+TexturedSpot textured_cells_spot_at(TexturedCells self, vec2 at) {
+    TexturedCell cell = textured_cells_at(self, at);
+    ivec2 size = pyramid_size_of(textured_light_shape(self.view.light), 0);
+    ivec2 texel = clamp(ivec2(at * vec2(size)), ivec2(0), size - 1);
+    return textured_view_spot(self.view, cell, textured_view_is_smooth(self.view, cell),
+                              TexelChoice(texel, 1.0, vec2(0.0)));
 }
 
 vec2 clamped(vec2 at, TextureRectangle r) {
@@ -204,10 +242,17 @@ vec2 clamped(vec2 at, TextureRectangle r) {
 }
 
 /// The sample of the technique in a smooth cell.
-TexturedSample textured_view_smooth_sample(TexturedView self, TexturedCell cell, LightSample s) {
-    vec2 at = clamped(texture_plane_coordinates(self.plane, s.p), textured_cell_rectangle(cell));
+TexturedSample textured_view_smooth_sample(TexturedView self, TexturedSpot spot, LightSample s) {
+    vec2 at = clamped(texture_plane_coordinates(self.plane, s.p), spot.rectangle);
     // The same point up to rounding, but in the plane in any case.
-    return TexturedSample(s.wi, cell.probability * s.pdf, self.inverse_scale * texture_plane_point_at(self.plane, at), at);
+    return TexturedSample(s.wi, spot.cell.probability * s.pdf,
+                          self.inverse_scale * texture_plane_point_at(self.plane, at), at);
+}
+
+/// The share of the texture that a texel has.
+float textured_spot_size(TexturedSpot self) {
+    vec2 extent = self.rectangle.high - self.rectangle.low;
+    return self.is_whole ? extent.x * extent.y : texture_part_area(self.part);
 }
 
 /// The density of a direction to a point that is uniform in a part of the texture.
@@ -219,69 +264,34 @@ float textured_view_texel_density(TexturedView self, float probability, float si
     return area_density(distance, projected);
 }
 
-/// The texel of a point.
-ivec2 textured_view_texel_at(TexturedView self, vec2 at) {
-    ivec2 size = pyramid_size_of(textured_light_shape(self.light), 0);
-    return clamp(ivec2(at * vec2(size)), ivec2(0), size - 1);
-}
-
-TextureRectangle textured_view_texel_rectangle(TexturedView self, ivec2 texel) {
-    vec2 size = 1.0 / vec2(pyramid_size_of(textured_light_shape(self.light), 0));
-    return TextureRectangle(vec2(texel) * size, vec2(texel + 1) * size);
-}
-
-/// Whether all of a texel is inside of the outline.
-bool textured_view_is_whole(TexturedView self, TexturedCell cell, TextureRectangle texel) {
-    return textured_light_cover(self.light, textured_cell_index(cell)) == 1.0 ||
-           textured_light_contains(self.light, texel);
-}
-
 /// The sample of a texel in a busy cell.
-TexturedSample textured_view_busy_sample(TexturedView self, TexturedCell cell) {
-    TexelChoice texel = choose_texel(self.light, self.image, cell.at, cell.u);
-    TextureRectangle r = textured_view_texel_rectangle(self, texel.at);
-    vec2 at;
-    float size;
-    if (textured_view_is_whole(self, cell, r)) {
-        at = r.low + texel.u * (r.high - r.low);
-        size = (r.high.x - r.low.x) * (r.high.y - r.low.y);
-    } else {
-        TexturePart part = textured_light_part_in(self.light, r);
-        at = texture_part_sample(part, texel.u);
-        size = texture_part_area(part);
-    }
-    at = clamped(at, r);
+TexturedSample textured_view_busy_sample(TexturedView self, TexturedSpot spot) {
+    vec2 at = spot.rectangle.low + spot.texel.u * (spot.rectangle.high - spot.rectangle.low);
+    if (!spot.is_whole) at = texture_part_sample(spot.part, spot.texel.u);
+    at = clamped(at, spot.rectangle);
     vec3 p = texture_plane_point_at(self.plane, at);
     vec3 wi = nusselt_normalize(p);
-    float density = textured_view_texel_density(self, cell.probability * texel.probability, size, wi, p);
+    float density = textured_view_texel_density(self, spot.cell.probability * spot.texel.probability,
+                                                textured_spot_size(spot), wi, p);
     return TexturedSample(wi, density, self.inverse_scale * p, at);
 }
 
 /// The density of a point in a busy cell.
 /// \param wi its direction.
 /// \param at its texture coordinates.
-float textured_view_busy_density(TexturedView self, TexturedCell cell, vec3 wi, vec2 at) {
-    ivec2 texel = textured_view_texel_at(self, at);
-    TextureRectangle r = textured_view_texel_rectangle(self, texel);
-    float size = (r.high.x - r.low.x) * (r.high.y - r.low.y);
-    if (!textured_view_is_whole(self, cell, r)) size = texture_part_area(textured_light_part_in(self.light, r));
-    float probability = ascend_from_texel(self.light, self.image, TexelChoice(texel, 1.0, vec2(0.0))).probability;
-    return textured_view_texel_density(self, cell.probability * probability, size, wi,
+float textured_view_busy_density(TexturedView self, TexturedSpot spot, vec3 wi, vec2 at) {
+    float probability = ascend_from_texel(self.light, self.image, spot.texel).probability;
+    return textured_view_texel_density(self, spot.cell.probability * probability, textured_spot_size(spot), wi,
                                        texture_plane_point_at(self.plane, at));
 }
 
 /// The random numbers inside of a busy cell for a point.
-vec2 textured_view_busy_invert(TexturedView self, TexturedCell cell, vec2 at) {
-    ivec2 texel = textured_view_texel_at(self, at);
-    TextureRectangle r = textured_view_texel_rectangle(self, texel);
-    vec2 u;
-    if (textured_view_is_whole(self, cell, r)) {
-        vec2 inside = (at - r.low) / (r.high - r.low);
-        u = vec2(below_one(inside.x), below_one(inside.y));
-    } else {
-        u = texture_part_invert(textured_light_part_in(self.light, r), at);
-    }
-    return ascend_from_texel(self.light, self.image, TexelChoice(texel, 1.0, u)).u;
+vec2 textured_view_busy_invert(TexturedView self, TexturedSpot spot, vec2 at) {
+    vec2 inside = (at - spot.rectangle.low) / (spot.rectangle.high - spot.rectangle.low);
+    TexelChoice texel = spot.texel;
+    texel.u = vec2(below_one(inside.x), below_one(inside.y));
+    if (!spot.is_whole) texel.u = texture_part_invert(spot.part, at);
+    return ascend_from_texel(self.light, self.image, texel).u;
 }
 
 /// The random numbers for a cell and those that are left in it.

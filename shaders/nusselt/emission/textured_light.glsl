@@ -160,10 +160,13 @@ TexturePart textured_light_part_in(uint light, TextureRectangle rectangle) {
     part.count = textured_light_vertices(light);
     for (int k = 0; k < kNusseltMostCorners; ++k)
         part.corner[k] = textured_light_vertex(light, k < part.count ? k : 0);
-    part = texture_part_cut(part, 0, 1.0, rectangle.low.x);
-    part = texture_part_cut(part, 0, -1.0, rectangle.high.x);
-    part = texture_part_cut(part, 1, 1.0, rectangle.low.y);
-    return texture_part_cut(part, 1, -1.0, rectangle.high.y);
+    for (int side = 0; side < 4; ++side) {
+        int axis = side >> 1;
+        bool is_low = (side & 1) == 0;
+        vec2 limit = is_low ? rectangle.low : rectangle.high;
+        part = texture_part_cut(part, axis, is_low ? 1.0 : -1.0, axis == 0 ? limit.x : limit.y);
+    }
+    return part;
 }
 
 /// A uniform point of a part: the triangle of a fan by u.x, as in PolygonArea.

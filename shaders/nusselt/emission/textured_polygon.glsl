@@ -32,28 +32,29 @@ float textured_polygon_measure(TexturedPolygon self) { return self.cells.total; 
 /// multiple importance sampling. Exact where the texture is constant in each cell.
 vec3 textured_polygon_unshadowed(TexturedPolygon self) { return textured_cells_unshadowed(self.cells); }
 
-PolygonProjectedSolidAngle textured_polygon_technique(TexturedView view, TexturedCell cell) {
-    return polygon_projected_solid_angle_prepare(textured_view_cell_polygon(view, cell));
+/// The technique inside of a smooth cell.
+PolygonProjectedSolidAngle textured_polygon_technique(TexturedView view, TexturedSpot spot) {
+    return polygon_projected_solid_angle_prepare(polygon_in(view.plane, spot.part));
 }
 
 /// \param u in [0, 1)^2; x chooses along the x axis of the texture, y along its y axis: stratification survives in part.
 TexturedSample textured_polygon_sample(TexturedPolygon self, vec2 u) {
     if (!(self.cells.total > 0.0)) return no_textured_sample();
     TexturedView view = self.cells.view;
-    TexturedCell cell = textured_cells_choose(self.cells, u);
-    if (!textured_view_is_smooth(view, cell)) return textured_view_busy_sample(view, cell);
+    TexturedSpot spot = textured_cells_spot_of(self.cells, u);
+    if (!spot.is_smooth) return textured_view_busy_sample(view, spot);
     return textured_view_smooth_sample(
-        view, cell, polygon_projected_solid_angle_sample(textured_polygon_technique(view, cell), cell.u));
+        view, spot, polygon_projected_solid_angle_sample(textured_polygon_technique(view, spot), spot.cell.u));
 }
 
 /// \param wi a unit direction towards the light.
 /// \param at texture coordinates of the point there.
 float textured_polygon_density(TexturedPolygon self, vec3 wi, vec2 at) {
     TexturedView view = self.cells.view;
-    TexturedCell cell = textured_cells_at(self.cells, at);
-    if (!(cell.probability > 0.0)) return 0.0;
-    if (!textured_view_is_smooth(view, cell)) return textured_view_busy_density(view, cell, wi, at);
-    return cell.probability * polygon_projected_solid_angle_pdf(textured_polygon_technique(view, cell), wi);
+    TexturedSpot spot = textured_cells_spot_at(self.cells, at);
+    if (!(spot.cell.probability > 0.0)) return 0.0;
+    if (!spot.is_smooth) return textured_view_busy_density(view, spot, wi, at);
+    return spot.cell.probability * polygon_projected_solid_angle_pdf(textured_polygon_technique(view, spot), wi);
 }
 
 /// \param wi a unit direction towards the light.
@@ -73,14 +74,14 @@ vec2 textured_polygon_invert(TexturedPolygon self, vec3 wi) {
     if (!(self.cells.total > 0.0)) return vec2(0.0);
     TexturedView view = self.cells.view;
     vec2 at = textured_view_hit(view, wi);
-    TexturedCell cell = textured_cells_at(self.cells, at);
+    TexturedSpot spot = textured_cells_spot_at(self.cells, at);
     vec2 u;
-    if (textured_view_is_smooth(view, cell)) {
-        u = polygon_projected_solid_angle_invert(textured_polygon_technique(view, cell), wi);
+    if (spot.is_smooth) {
+        u = polygon_projected_solid_angle_invert(textured_polygon_technique(view, spot), wi);
     } else {
-        u = textured_view_busy_invert(view, cell, at);
+        u = textured_view_busy_invert(view, spot, at);
     }
-    return textured_cell_united(cell, u);
+    return textured_cell_united(spot.cell, u);
 }
 
 #endif

@@ -36,28 +36,29 @@ float textured_polygon_ltc_measure(TexturedPolygonLtc self) { return (1.0 / kNus
 /// See textured_polygon_unshadowed().
 vec3 textured_polygon_ltc_unshadowed(TexturedPolygonLtc self) { return textured_cells_unshadowed(self.cells); }
 
-PolygonLtc textured_polygon_ltc_technique(TexturedPolygonLtc self, TexturedCell cell) {
-    return polygon_ltc_prepare(textured_view_cell_polygon(self.cells.view, cell), self.ltc);
+/// The technique inside of a smooth cell.
+PolygonLtc textured_polygon_ltc_technique(TexturedPolygonLtc self, TexturedSpot spot) {
+    return polygon_ltc_prepare(polygon_in(self.cells.view.plane, spot.part), self.ltc);
 }
 
 /// \param u in [0, 1)^2; see textured_polygon_sample().
 TexturedSample textured_polygon_ltc_sample(TexturedPolygonLtc self, vec2 u) {
     if (!(self.cells.total > 0.0)) return no_textured_sample();
     TexturedView view = self.cells.view;
-    TexturedCell cell = textured_cells_choose(self.cells, u);
-    if (!textured_view_is_smooth(view, cell)) return textured_view_busy_sample(view, cell);
-    return textured_view_smooth_sample(view, cell,
-                                       polygon_ltc_sample(textured_polygon_ltc_technique(self, cell), cell.u));
+    TexturedSpot spot = textured_cells_spot_of(self.cells, u);
+    if (!spot.is_smooth) return textured_view_busy_sample(view, spot);
+    return textured_view_smooth_sample(view, spot,
+                                       polygon_ltc_sample(textured_polygon_ltc_technique(self, spot), spot.cell.u));
 }
 
 /// \param wi a unit direction towards the light.
 /// \param at texture coordinates of the point there.
 float textured_polygon_ltc_density(TexturedPolygonLtc self, vec3 wi, vec2 at) {
     TexturedView view = self.cells.view;
-    TexturedCell cell = textured_cells_at(self.cells, at);
-    if (!(cell.probability > 0.0)) return 0.0;
-    if (!textured_view_is_smooth(view, cell)) return textured_view_busy_density(view, cell, wi, at);
-    return cell.probability * polygon_ltc_pdf(textured_polygon_ltc_technique(self, cell), wi);
+    TexturedSpot spot = textured_cells_spot_at(self.cells, at);
+    if (!(spot.cell.probability > 0.0)) return 0.0;
+    if (!spot.is_smooth) return textured_view_busy_density(view, spot, wi, at);
+    return spot.cell.probability * polygon_ltc_pdf(textured_polygon_ltc_technique(self, spot), wi);
 }
 
 /// \param wi a unit direction towards the light.
@@ -77,14 +78,14 @@ vec2 textured_polygon_ltc_invert(TexturedPolygonLtc self, vec3 wi) {
     if (!(self.cells.total > 0.0)) return vec2(0.0);
     TexturedView view = self.cells.view;
     vec2 at = textured_view_hit(view, wi);
-    TexturedCell cell = textured_cells_at(self.cells, at);
+    TexturedSpot spot = textured_cells_spot_at(self.cells, at);
     vec2 u;
-    if (textured_view_is_smooth(view, cell)) {
-        u = polygon_ltc_invert(textured_polygon_ltc_technique(self, cell), wi);
+    if (spot.is_smooth) {
+        u = polygon_ltc_invert(textured_polygon_ltc_technique(self, spot), wi);
     } else {
-        u = textured_view_busy_invert(view, cell, at);
+        u = textured_view_busy_invert(view, spot, at);
     }
-    return textured_cell_united(cell, u);
+    return textured_cell_united(spot.cell, u);
 }
 
 #endif
