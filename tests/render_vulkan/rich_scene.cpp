@@ -139,9 +139,20 @@ scene::Scene make_opaque_scene(int width, int height) {
     return scene;
 }
 
+scene::Scene make_plain_scene(int width, int height) {
+    scene::Scene scene = make_opaque_scene(width, height);
+    scene.instances.clear();
+    for (scene::Material& material : scene.materials)
+        for (scene::TextureUse* use :
+             {&material.diffuse_texture, &material.f0_texture, &material.roughness_texture,
+              &material.alpha_texture, &material.bump_texture, &material.normal_texture})
+            *use = {};
+    return scene;
+}
+
 scene::Scene make_scene_of_light_sources(int width, int height) {
     using scene::PointDistribution;
-    scene::Scene scene = make_opaque_scene(width, height);
+    scene::Scene scene = make_plain_scene(width, height);
     // Drivers take the longer for each kind of light.
     scene.lights.clear();
     scene.emitters.clear();
@@ -170,17 +181,6 @@ scene::Scene make_scene_of_light_sources(int width, int height) {
         add(light);
     }
     add(scene::DistantLight{.direction = {0.48f, 0.64f, -0.6f}, .irradiance = {2, 1, 3}});
-    return scene;
-}
-
-scene::Scene make_plain_scene(int width, int height) {
-    scene::Scene scene = make_opaque_scene(width, height);
-    scene.instances.clear();
-    for (scene::Material& material : scene.materials)
-        for (scene::TextureUse* use :
-             {&material.diffuse_texture, &material.f0_texture, &material.roughness_texture,
-              &material.alpha_texture, &material.bump_texture, &material.normal_texture})
-            *use = {};
     return scene;
 }
 

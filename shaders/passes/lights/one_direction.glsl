@@ -5,8 +5,9 @@
 
 #include "passes/lights/light_role.glsl"
 
-/// Irradiance is bounded like the radiance of other lights, as points next to a light would overflow.
-const float kMaxIrradiance = 1e30;
+/// Emission and irradiance are bounded like the radiance of other lights: bright texels, and points next to a light, would
+/// overflow.
+vec3 bounded(vec3 light) { return nusselt_min(light, vec3(1e30)); }
 
 struct OneDirection {
     vec3 wi; ///< unit direction to the light, in shading space
@@ -21,7 +22,7 @@ OneDirection light_in_direction(Surface surface, vec3 to_light, vec3 way, bool u
     OneDirection light;
     light.wi = frame_to_local(surface.shading, to_light);
     light.p = frame_to_local(surface.shading, way);
-    irradiance = nusselt_min(irradiance, vec3(kMaxIrradiance));
+    irradiance = bounded(irradiance);
     bool is_black = max(max(irradiance.x, irradiance.y), irradiance.z) <= 0.0;
     // Comparisons with NaN are false: negated they keep it, so that it is counted.
     light.role = LightRole(usable && !(light.wi.z <= 0.0) && !is_black, irradiance, number);

@@ -72,8 +72,9 @@ OneDirection local_point(Surface surface, uint index) {
     bool usable = !(squared <= 1.17549435e-38);
     float inverse = usable ? 1.0 / sqrt(squared) : 1.0;
     vec3 to_light = inverse * way;
-    vec3 irradiance = to_vec(record.intensity) * ((inverse * inverse) * point_share(record, -to_light));
-    return light_in_direction(surface, to_light, way, usable, irradiance, light_number(kPointKind, index));
+    vec3 intensity = bounded(to_vec(record.intensity) * point_share(record, -to_light));
+    return light_in_direction(surface, to_light, way, usable, (inverse * inverse) * intensity,
+                              light_number(kPointKind, index));
 }
 
 #endif

@@ -3,6 +3,7 @@
 #include "scene/build/emission.h"
 #include "scene/build/environment.h"
 #include "scene/colour/colour_space.h"
+#include "scene/model/limits.h"
 #include "scene/model/vector_math.h"
 
 #include <algorithm>
@@ -81,7 +82,14 @@ void fit_image(const LightSourceDescription& source, const Texture* texture, Poi
         light.half_extent.x = static_cast<float>(light.half_extent.x * std::max(aspect, 1.0));
         light.half_extent.y = static_cast<float>(light.half_extent.y * std::max(1 / aspect, 1.0));
     }
-    light.image_integral = to_float(image_integral(light, texture));
+    const Double3 integral = image_integral(light, texture);
+    const double largest = std::max({integral.x, integral.y, integral.z});
+    if (!(largest <= kMaxRadiance))
+        throw SceneError(source.origin,
+                         subject_of(source) + ": the image '" + texture->name +
+                             "' is too bright; its integral over all directions must be at most " +
+                             to_text(kMaxRadiance) + " sr, found " + to_text(largest));
+    light.image_integral = to_float(integral);
 }
 
 /// Whether the light shines.

@@ -256,7 +256,7 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
         if (const LightList* const list = find_part(light, has_one_side))
             fail(entry.where, "two_sided",
                  "light " + in_quotes(light.name) + " is " + with_article(list->noun()) +
-                     ", which has only one side");
+                     ", which has no second side");
         for (LightList& list : light.parts)
             for (std::size_t i = 0; i < list.size(); ++i) *list.two_sided(i) = *changes.two_sided;
     }

@@ -357,7 +357,7 @@ TEST(LightSources, GiveFiniteImagesAtAnyPlace) {
                                  .distribution = static_cast<PointDistribution>(distribution),
                                  .cone_angle = 180,
                                  .full_angle = 180};
-                if (is_image(light.distribution)) light.texture = add_image(scene, 1, 1, {1, 0, 3e38f});
+                if (is_image(light.distribution)) light.texture = add_image(scene, 1, 1, {1, 3e38f, 3e38f});
                 const render::RenderResult result = render_floor(with_light(scene, light), centred());
                 EXPECT_EQ(result.statistics.rejected_samples, 0u) << z;
                 for (const float value : result.image.pixels) {

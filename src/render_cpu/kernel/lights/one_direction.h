@@ -14,19 +14,23 @@ struct OneDirection {
     Vector p;  ///< where shadow rays end [m]
 };
 
-/// Irradiance is bounded like the radiance of other lights, as points next to a light would overflow.
-inline constexpr float kMaxIrradiance = 1e30f;
+/// Emission and irradiance are bounded like the radiance of other lights: bright texels, and points next to a light, would
+/// overflow.
+inline Vector bounded(const Vector& light) noexcept {
+    const Real most(1e30f);
+    return {min(light.x, most), min(light.y, most), min(light.z, most)};
+}
 
 /// A light as a packet of shading points sees it.
 /// \param to_light   unit direction in world space
 /// \param way        to the point where shadow rays end, in world space
 /// \param usable     lanes in which the light has a direction
-/// \param irradiance normal to the direction
+/// \param normal_irradiance of surfaces normal to the direction
 inline LocalLight<OneDirection> light_in_direction(const ReflectedLight& reflected, const Vector& to_light,
-                                                   const Vector& way, LaneMask usable, Vector irradiance,
+                                                   const Vector& way, LaneMask usable,
+                                                   const Vector& normal_irradiance,
                                                    std::int32_t number) noexcept {
-    const Real most(kMaxIrradiance);
-    irradiance = {min(irradiance.x, most), min(irradiance.y, most), min(irradiance.z, most)};
+    const Vector irradiance = bounded(normal_irradiance);
     const Frame<Real>& frame = reflected.surface().frame;
     const Vector wi = frame.to_local(to_light);
     // Comparisons with NaN are false. Negated, they keep NaN, so that it is counted.

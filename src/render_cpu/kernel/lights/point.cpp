@@ -100,10 +100,11 @@ struct PointLight {
         const LaneMask usable = !(squared <= Real(std::numeric_limits<float>::min()));
         const Real inverse = Real(1) / sqrt(select(usable, squared, Real(1)));
         const Vector to_light = inverse * way;
-        const Vector falloff =
-            (inverse * inverse) * share(reflected.job().scene, record, -to_light, reflected.lanes() & usable);
-        return light_in_direction(reflected, to_light, way, usable,
-                                  broadcast<Real>(to_vec(record.intensity)) * falloff, lights.first + index);
+        const Vector intensity =
+            bounded(broadcast<Real>(to_vec(record.intensity)) *
+                    share(reflected.job().scene, record, -to_light, reflected.lanes() & usable));
+        return light_in_direction(reflected, to_light, way, usable, (inverse * inverse) * intensity,
+                                  lights.first + index);
     }
 
     static LobeIntegrals integrals(const Shape& shape, const Ltc<Real>& lobe) noexcept {
