@@ -7,6 +7,7 @@
 #include "apps/nusselt-lab/frames/bench_scale.h"
 #include "apps/nusselt-lab/frames/bench_strategies.h"
 #include "apps/nusselt-lab/samplers/bench_accuracy.h"
+#include "apps/nusselt-lab/samplers/bench_emission.h"
 #include "apps/nusselt-lab/samplers/bench_gpu_samplers.h"
 #include "apps/nusselt-lab/samplers/bench_instructions.h"
 #include "apps/nusselt-lab/samplers/bench_phong_lines.h"
@@ -33,6 +34,7 @@ void setup_bench(CLI::App& app, int& exit_code) {
     setup_bench_gpu_samplers(*command, exit_code);
     setup_bench_gpu_frames(*command, exit_code);
     setup_bench_accuracy(*command, exit_code);
+    setup_bench_emission(*command, exit_code);
     setup_bench_worst_case(*command, exit_code);
     setup_bench_shadows(*command, exit_code);
     setup_bench_tubes(*command, exit_code);
