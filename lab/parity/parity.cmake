@@ -9,6 +9,7 @@ add_library(nusselt_lab_parity STATIC
     parity/parity_check.cpp
     parity/shader_runner.cpp
     parity/techniques.cpp
+    parity/textured_parity.cpp
     parity/twin_shader.cpp
     parity/vertex_bounds.cpp)
 # Most of the time is spent on reading headers and instantiating templates.
@@ -46,6 +47,8 @@ endfunction()
 set(bounds_of_polygon 3 4 5 6 7 8)
 set(bounds_of_polygon_on_lobe 4 8)
 set(bounds_of_rectangle 4)
+set(bounds_of_textured_polygon 8)
+set(bounds_of_textured_polygon_on_lobe 8)
 foreach(light line line_on_lobe cylinder cylinder_on_lobe)
     set(bounds_of_${light} 2)
 endforeach()

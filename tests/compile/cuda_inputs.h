@@ -74,3 +74,26 @@ template <class Technique>
 __device__ void use_cylinder_on_lobe(const Inputs& inputs, float* result) {
     use_cylinder<OnLobe<Technique>>(inputs, result);
 }
+
+/// A light that the kernel prepares, too: renderers do that once.
+template <class Technique, class... Lobe>
+__device__ void use_texture(const Inputs& inputs, float* result, const Lobe&... lobe) {
+    const int i = thread_index();
+    float storage[256];
+    const auto light =
+        nusselt::make_textured_rectangle<nusselt::BilinearFilter, 16>({inputs.corners, 4, 4}, storage);
+    const auto plane = nusselt::make_texture_plane(inputs.corners[0], inputs.corners[1], inputs.corners[2]);
+    const auto frame = nusselt::Frame<float>::from_normal(inputs.normals[i]);
+    const Technique technique(nusselt::to_shading_space(plane, inputs.points[i], frame), light, {lobe...});
+    const auto sample = technique.sample(inputs.u[i]);
+    result[i] = technique.pdf(sample.wi) - sample.pdf + technique.invert(sample.wi).x + sample.at.x +
+                technique.measure() + technique.unshadowed().x + light.flux(plane.area()).x;
+}
+template <class Technique>
+__device__ void use_textured_polygon(const Inputs& inputs, float* result) {
+    use_texture<Technique>(inputs, result);
+}
+template <class Technique>
+__device__ void use_textured_polygon_on_lobe(const Inputs& inputs, float* result) {
+    use_texture<Technique>(inputs, result, nusselt::Ltc<float>({1, 0.2f, 0.9f, 0, 0.4f, 1}));
+}

@@ -30,17 +30,19 @@ for file in $files; do
     # A flattened file has all that it includes, so it tells whether the capacity matters beyond its default.
     bounds=(4)
     if grep NUSSELT_MAX_VERTICES "$flat" | grep -qvxF "$defaults"; then bounds=(3 4 7); fi
+    # What programs have to define.
+    program=$(sed -n 's/^\(uint textured_light_word(uint at)\);$/\1 { return at; }/p' "$flat")
     for vertices in "${bounds[@]}"; do
         for fused in 0 1; do
             options=("#define NUSSELT_MAX_VERTICES $vertices" "#define NUSSELT_FUSED_FMA $fused")
             printf '%s\n' '#version 450' '#extension GL_GOOGLE_include_directive : require' "${options[@]}" \
-                "#include \"$file\"" "#include \"$file\"" 'void main() {}' >"$work/source.comp"
+                "#include \"$file\"" "#include \"$file\"" "$program" 'void main() {}' >"$work/source.comp"
             compile "$work/source.comp" "$file, $vertices vertices, fused $fused" -V -I"$shaders" -o "$work/source.spv"
         done
-        { printf '%s\n' '#version 450' "#define NUSSELT_MAX_VERTICES $vertices"; cat "$flat"; echo 'void main() {}'; } \
+        { printf '%s\n' '#version 450' "#define NUSSELT_MAX_VERTICES $vertices"; cat "$flat"; printf '%s\n' "$program" 'void main() {}'; } \
             >"$work/flat.comp"
         compile "$work/flat.comp" "$file flattened, $vertices vertices" -V -o "$work/flat.spv"
-        { printf '%s\n' '#version 300 es' "#define NUSSELT_MAX_VERTICES $vertices"; cat "$flat"; echo 'void main() {}'; } \
+        { printf '%s\n' '#version 300 es' "#define NUSSELT_MAX_VERTICES $vertices"; cat "$flat"; printf '%s\n' "$program" 'void main() {}'; } \
             >"$work/flat.frag"
         compile "$work/flat.frag" "$file as GLSL ES, $vertices vertices"
     done

@@ -19,7 +19,7 @@ constexpr const char* kFormat = "{:<34}{:<11}{:<51}{:<54}{}\n";
 std::string light_of(const TechniqueRow& row) {
     const std::string_view light = row.light;
     const std::string_view kind = light.substr(0, light.find('_'));
-    return kind == "cylinder" ? "tube" : std::string(kind);
+    return kind == "cylinder" ? "tube" : kind == "textured" ? "polygon" : std::string(kind);
 }
 
 bool renders(const TechniqueRow& row, std::string_view technique) {

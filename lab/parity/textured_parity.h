@@ -1,0 +1,21 @@
+#pragma once
+/// Parity of techniques for polygons with textures. Their lights are made here: those of the other techniques show nothing.
+
+#include "gpu/device.h"
+#include "lab/parity/parity_check.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nusselt::parity {
+
+/// The techniques of nusselt/emission/textured_polygon.h for shaders.
+enum class TexturedTechnique { diffuse, on_lobe };
+
+/// Judges shaders of one technique on all classes of lights, with about `count` lights in total.
+/// \return a verdict for each shader
+std::vector<Verdict> judge_textured(const gpu::Device& device, TexturedTechnique technique,
+                                    const std::vector<std::span<const std::uint32_t>>& shaders, int count);
+
+} // namespace nusselt::parity

@@ -1,0 +1,112 @@
+#ifndef NUSSELT_EMISSION_CELL_DESCENT_GLSL
+#define NUSSELT_EMISSION_CELL_DESCENT_GLSL
+// Follows include/nusselt/emission/cell_descent.h @ c40f31f62291
+/// How samples descend from a cell of the lattice to a texel: DescentByProduct of include/nusselt/emission/cell_descent.h,
+/// in proportion to what texels emit times the cosine over the squared distance.
+
+#include "../emission/textured_light.glsl"
+
+/// Whether a sampler finds a texel, and how likely it was.
+struct TexelChoice {
+    ivec2 at;          ///< column and row in the finest grid
+    float probability; ///< given the cell; 0 if there is no texel to choose
+    vec2 u;            ///< random numbers that are left, in [0, 1)^2
+};
+
+/// The integrand of projected solid angles over a texture, up to a factor: zero below the horizon.
+float relative_cosine(TexturePlane plane, float x, float y) {
+    vec3 p = nusselt_fma(x, plane.side_x, nusselt_fma(y, plane.side_y, plane.corner));
+    float squared = nusselt_max(dot(p, p), kNusseltTiny);
+    return (nusselt_max(p.z, 0.0) / squared) / squared;
+}
+
+/// Whether the second of two weights is chosen, and what is left of u.
+bool choose_of_two(float first, float second, inout float u) {
+    float target = u * (first + second);
+    bool chosen = second > 0.0 && target >= first;
+    float rest = target - (chosen ? first : 0.0);
+    u = below_one(rest / (chosen ? second : nusselt_max(first, kNusseltSmallestNormal)));
+    return chosen;
+}
+
+/// What choose_of_two() undoes.
+float unite_of_two(float first, float second, bool chosen, float u) {
+    float total = first + second;
+    return total > 0.0 ? below_one((chosen ? first + u * second : u * first) / total) : 0.0;
+}
+
+/// The weights of the parts of element (i, j) of a grid, in the order (0, 0), (1, 0), (0, 1), (1, 1). Those that do not
+/// exist weigh nothing.
+/// \param parts pyramid_parts_of()
+vec4 lit_parts(uint light, PyramidShape shape, TexturePlane plane, int level, ivec2 at, ivec2 parts) {
+    uint below = light + textured_light_word(light + kNusseltGrids + uint(level - 1));
+    uint stride = uint(pyramid_size_of(shape, level - 1).x);
+    uint first = below + uint(parts.y * at.y) * stride + uint(parts.x * at.x);
+    uint second = first + (parts.y == 2 ? stride : 0u);
+    uint right = uint(parts.x - 1);
+    vec4 weight = vec4(textured_light_float(first), textured_light_float(first + right), textured_light_float(second),
+                       textured_light_float(second + right));
+    if (parts.x == 1) weight.yw = vec2(0.0);
+    if (parts.y == 1) weight.zw = vec2(0.0);
+
+    // The rule for the mean of a quadratic function: centres count 2/3, corners 1/12 each. Corners are at multiples of two
+    // steps.
+    vec2 size = 1.0 / vec2(pyramid_size_of(shape, level));
+    vec2 low = vec2(at) * size;
+    vec2 width = size / vec2(2 * parts);
+    vec3 x = nusselt_fma(width.x, vec3(0.0, 2.0, 4.0), vec3(low.x));
+    vec3 y = nusselt_fma(width.y, vec3(0.0, 2.0, 4.0), vec3(low.y));
+    vec2 middle_x = vec2(low.x + width.x, low.x + 3.0 * width.x);
+    vec2 middle_y = vec2(low.y + width.y, low.y + 3.0 * width.y);
+    vec3 bottom = vec3(relative_cosine(plane, x.x, y.x), relative_cosine(plane, x.y, y.x),
+                       relative_cosine(plane, x.z, y.x));
+    vec3 middle = vec3(relative_cosine(plane, x.x, y.y), relative_cosine(plane, x.y, y.y),
+                       relative_cosine(plane, x.z, y.y));
+    vec3 top = vec3(relative_cosine(plane, x.x, y.z), relative_cosine(plane, x.y, y.z),
+                    relative_cosine(plane, x.z, y.z));
+    vec4 centres = vec4(relative_cosine(plane, middle_x.x, middle_y.x), relative_cosine(plane, middle_x.y, middle_y.x),
+                        relative_cosine(plane, middle_x.x, middle_y.y), relative_cosine(plane, middle_x.y, middle_y.y));
+    vec4 corners = vec4((bottom.xy + bottom.yz) + (middle.xy + middle.yz), (middle.xy + middle.yz) + (top.xy + top.yz));
+    return weight * (2.0 / 3.0 * centres + 1.0 / 12.0 * corners);
+}
+
+/// Descends from a cell to a texel. With one random number per direction, the order of texels in each direction is kept.
+TexelChoice choose_texel(uint light, TexturePlane plane, ivec2 cell, vec2 u) {
+    PyramidShape shape = textured_light_shape(light);
+    TexelChoice choice = TexelChoice(cell, 1.0, u);
+    for (int level = shape.levels - 1; level > 0; --level) {
+        ivec2 parts = pyramid_parts_of(shape, level);
+        vec4 weight = lit_parts(light, shape, plane, level, choice.at, parts);
+        vec2 columns = weight.xy + weight.zw;
+        bool right = choose_of_two(columns.x, columns.y, choice.u.x);
+        vec2 column = right ? weight.yw : weight.xz;
+        bool upper = choose_of_two(column.x, column.y, choice.u.y);
+        float total = columns.x + columns.y;
+        choice.probability = total > 0.0 ? choice.probability * (upper ? column.y : column.x) / total : 0.0;
+        choice.at = parts * choice.at + ivec2(right ? 1 : 0, upper ? 1 : 0);
+    }
+    return choice;
+}
+
+/// The probability of a texel given its cell, and the random numbers that lead there.
+/// \param choice with the texel, and with the random numbers inside of it.
+TexelChoice ascend_from_texel(uint light, TexturePlane plane, TexelChoice choice) {
+    PyramidShape shape = textured_light_shape(light);
+    choice.probability = 1.0;
+    for (int level = 1; level < shape.levels; ++level) {
+        ivec2 parts = pyramid_parts_of(shape, level);
+        ivec2 part = choice.at & (parts - 1);
+        choice.at = choice.at >> (parts - 1);
+        vec4 weight = lit_parts(light, shape, plane, level, choice.at, parts);
+        vec2 columns = weight.xy + weight.zw;
+        vec2 column = part.x == 1 ? weight.yw : weight.xz;
+        choice.u.x = unite_of_two(columns.x, columns.y, part.x == 1, choice.u.x);
+        choice.u.y = unite_of_two(column.x, column.y, part.y == 1, choice.u.y);
+        float total = columns.x + columns.y;
+        choice.probability =
+            total > 0.0 ? choice.probability * (part.y == 1 ? column.y : column.x) / total : 0.0;
+    }
+    return choice;
+}
+
+#endif

@@ -1,0 +1,20 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// A mutant that the comparison must reject: samples find their texel as if all of the cell were seen alike. Densities and
+// inverses know the right probability.
+#include "nusselt/emission/cell_descent.glsl"
+
+TexelChoice choose_flat(uint light, TexturePlane plane, ivec2 cell, vec2 u) {
+    const vec3 up = vec3(0.0, 0.0, 1.0);
+    return choose_texel(light, TexturePlane(up, vec3(0.0), vec3(0.0), up), cell, u);
+}
+#define choose_texel choose_flat
+#include "nusselt/emission/textured_polygon.glsl"
+
+#define Technique TexturedPolygon
+#define technique_prepare textured_polygon_prepare
+#define technique_sample textured_polygon_sample
+#define technique_pdf textured_polygon_pdf
+#define technique_invert textured_polygon_invert
+#define technique_measure textured_polygon_measure
+#include "parity/textured_polygon.glsl"

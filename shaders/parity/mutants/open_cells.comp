@@ -1,0 +1,16 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// A mutant that the comparison must reject: the outline does not close the cells that it cuts.
+#include "nusselt/emission/textured_light.glsl"
+
+int no_pieces(uint light) { return 0; }
+#define textured_light_pieces no_pieces
+#include "nusselt/emission/textured_polygon.glsl"
+
+#define Technique TexturedPolygon
+#define technique_prepare textured_polygon_prepare
+#define technique_sample textured_polygon_sample
+#define technique_pdf textured_polygon_pdf
+#define technique_invert textured_polygon_invert
+#define technique_measure textured_polygon_measure
+#include "parity/textured_polygon.glsl"

@@ -1,0 +1,43 @@
+// The parity tests must reject wrong techniques for polygons with textures.
+
+#include "gpu_test.h"
+#include "lab/parity/textured_parity.h"
+#include "shaders/flat_descent.h"
+#include "shaders/open_cells.h"
+
+#include <algorithm>
+
+namespace nusselt::parity {
+
+namespace {
+
+class TexturedMutants : public GpuTest {
+protected:
+    /// No more lights than the quick effort draws.
+    std::vector<std::string> excesses_of(std::span<const std::uint32_t> shader) const {
+        return judge_textured(device(), TexturedTechnique::diffuse, {shader}, 12'000).front().excesses;
+    }
+};
+
+auto count_of(const std::vector<std::string>& excesses, const std::string& begin) {
+    return std::count_if(excesses.begin(), excesses.end(),
+                         [&](const std::string& excess) { return excess.rfind(begin, 0) == 0; });
+}
+
+TEST_F(TexturedMutants, CellsThatTheOutlineDoesNotCloseAreFound) {
+    const auto excesses = excesses_of(shaders::kOpenCells);
+    EXPECT_GT(count_of(excesses, "above the horizon, smooth: measure"), 0);
+    EXPECT_GT(count_of(excesses, "close, busy: density of the sample"), 0);
+    EXPECT_EQ(count_of(excesses, "black:"), 0);
+}
+
+TEST_F(TexturedMutants, DescentWithoutTheCosineIsFound) {
+    const auto excesses = excesses_of(shaders::kFlatDescent);
+    EXPECT_GT(count_of(excesses, "above the horizon, busy: density of the sample"), 0);
+    EXPECT_EQ(count_of(excesses, "above the horizon, busy: density,"), 0) << "pdf() is correct";
+    EXPECT_EQ(count_of(excesses, "close, smooth:"), 0) << "smooth cells have no descent";
+}
+
+} // namespace
+
+} // namespace nusselt::parity
